@@ -1,0 +1,139 @@
+//! Torque laws: what the actuators do.
+//!
+//! The given laws treat each joint by itself, with one gain for each, and subtract coordinates from coordinates: they are
+//! for revolute and prismatic joints. Torques are N m (N for a prismatic joint), proportional gains N m/rad (N/m),
+//! derivative gains N m s/rad (N s/m), unless said otherwise. One gain for all joints is written `[50.0; Kr5::NV]`, or
+//! for any mechanism [`uniform`]. A gain or a target that a `Vec` lacks counts as NaN, which integrators report.
+
+use crate::vector::entry;
+use crate::{InverseDynamics, Mechanism, Real, Scalar, Trajectory, Vector};
+
+/// What the actuators do. Every closure `FnMut(S, &Coordinates, &Velocities) -> Velocities` is one.
+///
+/// Integrators ask at points of their own choice, also at points of steps that they then reject: a law that remembers
+/// should remember by time, not by call.
+pub trait TorqueLaw<S: Scalar, M: Mechanism<S>> {
+    /// The joint forces at time `t` (s) for coordinates `q` and velocities `v`.
+    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities;
+}
+
+impl<S, M, F> TorqueLaw<S, M> for F
+where
+    S: Scalar,
+    M: Mechanism<S>,
+    F: FnMut(S, &M::Coordinates, &M::Velocities) -> M::Velocities,
+{
+    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        self(t, q, v)
+    }
+}
+
+/// The same gain, or whatever else belongs to a joint, for all joints of a mechanism.
+pub fn uniform<S: Scalar, M: Mechanism<S>>(mechanism: &M, gain: S) -> M::Velocities {
+    M::Velocities::from_fn(mechanism.nv(), |_| gain)
+}
+
+/// No torque at all: τ = 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Free;
+
+impl<S: Scalar, M: Mechanism<S>> TorqueLaw<S, M> for Free {
+    fn torque(&mut self, _t: S, _q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        M::Velocities::from_fn(v.as_ref().len(), |_| S::zero())
+    }
+}
+
+/// A spring to a set point: τ = Kp (q_d − q).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proportional<Q, V> {
+    /// The set point q_d.
+    pub target: Q,
+    /// Kp, one for each joint.
+    pub kp: V,
+}
+
+impl<S: Real, M: Mechanism<S>> TorqueLaw<S, M> for Proportional<M::Coordinates, M::Velocities> {
+    fn torque(&mut self, _t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        M::Velocities::from_fn(v.as_ref().len(), |i| entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)))
+    }
+}
+
+/// A spring and a damper to a set point: τ = Kp (q_d − q) − Kd q̇.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProportionalDerivative<Q, V> {
+    /// The set point q_d.
+    pub target: Q,
+    /// Kp, one for each joint.
+    pub kp: V,
+    /// Kd, one for each joint.
+    pub kd: V,
+}
+
+impl<S: Real, M: Mechanism<S>> TorqueLaw<S, M> for ProportionalDerivative<M::Coordinates, M::Velocities> {
+    fn torque(&mut self, _t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        M::Velocities::from_fn(v.as_ref().len(), |i| {
+            entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)) - entry(&self.kd, i) * entry(v, i)
+        })
+    }
+}
+
+/// A spring and a damper to a moving target: τ = Kp (q_d(t) − q) + Kd (q̇_d(t) − q̇).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrackingPd<T, V> {
+    /// The motion to follow.
+    pub trajectory: T,
+    /// Kp, one for each joint.
+    pub kp: V,
+    /// Kd, one for each joint.
+    pub kd: V,
+}
+
+impl<S, M, T> TorqueLaw<S, M> for TrackingPd<T, M::Velocities>
+where
+    S: Real,
+    M: Mechanism<S>,
+    T: Trajectory<S, M::Coordinates, M::Velocities>,
+{
+    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        let desired = self.trajectory.at(t);
+        M::Velocities::from_fn(v.as_ref().len(), |i| {
+            entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, i))
+                + entry(&self.kd, i) * (entry(&desired.v, i) - entry(v, i))
+        })
+    }
+}
+
+/// Computed torque: τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), with the error e = q_d(t) − q.
+///
+/// For a model that is right it leaves the linear error dynamics ë + Kd ė + Kp e = 0, the same for every joint and every
+/// pose. It takes one inverse dynamics; no matrix is formed. The gains multiply accelerations: Kp 1/s², Kd 1/s. Kd = 2√Kp
+/// is critically damped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ComputedTorque<'m, M, T, V> {
+    /// The mechanism as the controller knows it.
+    pub mechanism: &'m M,
+    /// The motion to follow.
+    pub trajectory: T,
+    /// Kp, one for each joint, 1/s².
+    pub kp: V,
+    /// Kd, one for each joint, 1/s.
+    pub kd: V,
+}
+
+impl<S, M, N, T> TorqueLaw<S, M> for ComputedTorque<'_, N, T, M::Velocities>
+where
+    S: Real,
+    M: Mechanism<S>,
+    N: InverseDynamics<S, Coordinates = M::Coordinates, Velocities = M::Velocities>,
+    T: Trajectory<S, M::Coordinates, M::Velocities>,
+{
+    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        let desired = self.trajectory.at(t);
+        let a = M::Velocities::from_fn(v.as_ref().len(), |i| {
+            entry(&desired.a, i)
+                + entry(&self.kd, i) * (entry(&desired.v, i) - entry(v, i))
+                + entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, i))
+        });
+        self.mechanism.inverse_dynamics(q, v, &a)
+    }
+}

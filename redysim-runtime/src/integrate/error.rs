@@ -1,0 +1,157 @@
+//! Why an integration failed.
+
+use core::fmt;
+
+/// Why an integration was not begun, or could not go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum IntegrationError<S> {
+    /// The interval is empty, infinite, or has an end that is not a number.
+    BadInterval {
+        /// The given first time.
+        from: S,
+        /// The given last time.
+        to: S,
+    },
+    /// The relative tolerance is not a number or below what arithmetic can keep.
+    BadRelativeTolerance {
+        /// The given tolerance.
+        value: S,
+        /// The smallest that is accepted.
+        smallest: S,
+    },
+    /// An absolute tolerance is zero, negative or not a number.
+    BadAbsoluteTolerance {
+        /// The component it belongs to; `None` for the tolerance of all.
+        component: Option<usize>,
+        /// The given tolerance.
+        value: S,
+    },
+    /// There is not one absolute tolerance for each component.
+    WrongToleranceCount {
+        /// How many tolerances were given.
+        given: usize,
+        /// How many components the state has.
+        needed: usize,
+    },
+    /// A given step size is zero, negative, infinite or not a number.
+    BadStep {
+        /// Which one: "step", "initial step" or "maximum step".
+        option: &'static str,
+        /// The given size.
+        value: S,
+    },
+    /// An asked time lies outside the interval of integration or is not a number.
+    AskedTimeOutside {
+        /// The asked time.
+        t: S,
+        /// The first time of the interval.
+        from: S,
+        /// The last time of the interval.
+        to: S,
+    },
+    /// An asked time lies before the one asked for last, seen in the direction of integration.
+    AskedTimesOutOfOrder {
+        /// The asked time.
+        t: S,
+        /// The one asked for before it.
+        previous: S,
+    },
+    /// The state is infinite or not a number: the one given as start, or the one a step arrived at.
+    NonFiniteState {
+        /// The time.
+        t: S,
+        /// The first such component.
+        component: usize,
+    },
+    /// The derivative is infinite or not a number.
+    NonFiniteDerivative {
+        /// The time.
+        t: S,
+        /// The first such component.
+        component: usize,
+    },
+    /// The tolerances ask for a step below the spacing of floating-point times, or a given step is below it.
+    StepTooSmall {
+        /// The time that was reached.
+        t: S,
+        /// The size of the step that was to follow.
+        step: S,
+    },
+    /// The end is not reached, or with steps of one size will not be reached, within the largest number of steps.
+    TooManySteps {
+        /// The time that was reached.
+        t: S,
+        /// The largest number of steps.
+        limit: u64,
+    },
+}
+
+impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::BadInterval { from, to } => write!(
+                f,
+                "the interval of integration must have two finite, different ends, but it runs from t = {from:?} to \
+                 {to:?}; give it a length, forward or backward in time"
+            ),
+            Self::BadRelativeTolerance { value, smallest } => write!(
+                f,
+                "the relative tolerance must be finite and at least {smallest:?} (100 roundoff units), but it is \
+                 {value:?}; give a larger one, or a scalar of higher precision"
+            ),
+            Self::BadAbsoluteTolerance { component: None, value } => write!(
+                f,
+                "the absolute tolerance must be positive and finite, but it is {value:?}; give the size below which a \
+                 component no longer matters"
+            ),
+            Self::BadAbsoluteTolerance { component: Some(component), value } => write!(
+                f,
+                "every absolute tolerance must be positive and finite, but the one of component {component} is \
+                 {value:?}; give the size below which that component no longer matters"
+            ),
+            Self::WrongToleranceCount { given, needed } => write!(
+                f,
+                "the state has {needed} components, but {given} absolute tolerances are given; give one for each \
+                 component, or a single one for all"
+            ),
+            Self::BadStep { option, value } => write!(
+                f,
+                "the {option} must be positive and finite, but it is {value:?}; the direction in time comes from the \
+                 interval, not from the sign"
+            ),
+            Self::AskedTimeOutside { t, from, to } => write!(
+                f,
+                "the solution is asked for at t = {t:?}, outside the interval from {from:?} to {to:?}; extend the \
+                 interval or drop that time"
+            ),
+            Self::AskedTimesOutOfOrder { t, previous } => write!(
+                f,
+                "the solution is asked for at t = {t:?} after it was asked for at {previous:?}; sort the times in the \
+                 direction of integration"
+            ),
+            Self::NonFiniteState { t, component } => write!(
+                f,
+                "component {component} of the state is infinite or not a number at t = {t:?}; look at the start if \
+                 that is its time, else the solution grows without bound"
+            ),
+            Self::NonFiniteDerivative { t, component } => write!(
+                f,
+                "component {component} of the derivative is infinite or not a number at t = {t:?}; look for a division \
+                 by zero, a singular mass matrix or a bad force there"
+            ),
+            Self::StepTooSmall { t, step } => write!(
+                f,
+                "at t = {t:?} a step of {step:?} is too small for the precision of time; the solution may have a \
+                 singularity there, or the tolerance or the step is too small"
+            ),
+            Self::TooManySteps { t, limit } => write!(
+                f,
+                "the end is not within {limit} steps of t = {t:?}; loosen the tolerance, take larger steps, or raise \
+                 max_steps"
+            ),
+        }
+    }
+}
+
+impl<S: fmt::Debug> core::error::Error for IntegrationError<S> {}

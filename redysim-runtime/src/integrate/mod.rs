@@ -1,0 +1,162 @@
+//! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
+//!
+//! [`Ode5`] takes steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45` does. Both
+//! are an [`Integrator`], and both give the solution between their steps, too. What is integrated is an [`Ode`]: a
+//! closure, or a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism.
+//!
+//! A reader finds the method in five steps: the coefficients in [`tableau`], one step in `explicit`, the solution within
+//! a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and `tolerance`. Another
+//! explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau).
+
+mod adaptive;
+mod asked;
+mod error;
+mod explicit;
+mod fixed;
+mod interval;
+mod ode45;
+mod ode5;
+mod step;
+pub mod tableau;
+mod tolerance;
+
+use core::ops::ControlFlow;
+
+pub use error::IntegrationError;
+pub use ode5::Ode5;
+pub use ode45::Ode45;
+pub use step::Step;
+
+use crate::{Real, Vector};
+use asked::AskedTimes;
+use interval::Interval;
+
+/// The right-hand side of an ordinary differential equation, ẏ = f(t, y).
+///
+/// Every closure `FnMut(S, &Y, &mut Y)` is one. An integrator calls it at points of its own choice, also at points of
+/// steps that it then rejects, and not always in the order of time.
+pub trait Ode<S, Y> {
+    /// Writes f(t, y) to `dydt`, which has the length of `y` and holds anything.
+    fn derivative(&mut self, t: S, y: &Y, dydt: &mut Y);
+}
+
+impl<S, Y, F: FnMut(S, &Y, &mut Y)> Ode<S, Y> for F {
+    fn derivative(&mut self, t: S, y: &Y, dydt: &mut Y) {
+        self(t, y, dydt);
+    }
+}
+
+/// A method that solves initial value problems.
+///
+/// The three ways to receive a solution differ only in what they report on the way; the steps are the same.
+///
+/// ```
+/// use redysim_runtime::{Integrator, Ode45};
+///
+/// let mut oscillator = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[1], -y[0]];
+/// let method = Ode45::new().rtol(1e-10).atol(1e-12);
+///
+/// let end = method.integrate(&mut oscillator, (0.0, 2.0), [1.0, 0.0])?;
+/// assert!((end.y[0] - 2.0_f64.cos()).abs() < 1e-9);
+///
+/// method.solve(&mut oscillator, (0.0, 2.0), [1.0, 0.0], [0.5, 1.0, 2.0], |t, y| {
+///     assert!((y[0] - t.cos()).abs() < 1e-9);
+/// })?;
+/// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
+/// ```
+pub trait Integrator<S: Real> {
+    /// Integrates from `start` at the first time of `interval` to the second, earlier or later, and shows every accepted
+    /// step to `on_step`, which may ask it for the solution at any time within. [`ControlFlow::Break`] ends the
+    /// integration after that step.
+    ///
+    /// # Errors
+    /// What [`IntegrationError`] lists; the number of evaluations is bounded in every case.
+    fn each_step_until<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        on_step: impl FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
+    ) -> Result<Solution<S, Y>, IntegrationError<S>>;
+
+    /// As [`each_step_until`](Self::each_step_until), always to the end of the interval.
+    ///
+    /// # Errors
+    /// As [`each_step_until`](Self::each_step_until).
+    fn each_step<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        mut on_step: impl FnMut(&Step<'_, S, Y>),
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        self.each_step_until(ode, interval, start, |step| {
+            on_step(step);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// Integrates over `interval` and calls `output` with every one of the asked `times` and the solution there. The
+    /// times follow the direction of integration, lie within the interval, both ends allowed, and do not change the
+    /// steps.
+    ///
+    /// # Errors
+    /// As [`each_step_until`](Self::each_step_until), and for a time outside the interval or out of order, as soon as
+    /// the iterator yields it.
+    fn solve<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        times: impl IntoIterator<Item = S>,
+        mut output: impl FnMut(S, &Y),
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        let mut asked = AskedTimes::new(times.into_iter(), Interval::new(interval)?)?;
+        let mut y = start.clone();
+        let mut fault = None;
+        let solution =
+            self.each_step_until(ode, interval, start, |step| match asked.answer(step, &mut y, &mut output) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    fault = Some(error);
+                    ControlFlow::Break(())
+                }
+            })?;
+        fault.map_or(Ok(solution), Err)
+    }
+
+    /// Integrates over `interval`, for the end alone.
+    ///
+    /// # Errors
+    /// As [`each_step_until`](Self::each_step_until).
+    fn integrate<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        self.each_step(ode, interval, start, |_| {})
+    }
+}
+
+/// Where an integration ended, and what it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution<S, Y> {
+    /// The end of the interval, or of the step after which the integration was told to break.
+    pub t: S,
+    /// The state at `t`.
+    pub y: Y,
+    /// What it took.
+    pub statistics: Statistics,
+}
+
+/// What an integration took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Attempted steps that were rejected and tried again with a smaller size.
+    pub rejected: u64,
+    /// Evaluations of the right-hand side.
+    pub evaluations: u64,
+}

@@ -1,0 +1,69 @@
+//! The solution within one step.
+
+use crate::{Real, Vector};
+
+/// An accepted step, and the solution at every time within.
+///
+/// The solution between the ends is the method's continuous extension: for [`Ode5`](crate::Ode5) and
+/// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, which agrees with the neighbouring
+/// steps in value and in derivative. It costs no evaluations.
+pub struct Step<'a, S, Y> {
+    pub(super) t: S,
+    pub(super) y: &'a Y,
+    pub(super) t_new: S,
+    pub(super) y_new: &'a Y,
+    pub(super) stages: &'a [Y],
+    pub(super) dense: &'a [&'static [f64]],
+}
+
+impl<S: Real, Y: Vector<S>> Step<'_, S, Y> {
+    /// Time and state at which the step began.
+    pub fn start(&self) -> (S, &Y) {
+        (self.t, self.y)
+    }
+
+    /// Time and state at which the step ended.
+    pub fn end(&self) -> (S, &Y) {
+        (self.t_new, self.y_new)
+    }
+
+    /// The solution at `t`, which should lie within the step: outside, the polynomial soon goes astray.
+    pub fn at(&self, t: S) -> Y {
+        let mut y = self.y.clone();
+        self.write_at(t, &mut y);
+        y
+    }
+
+    /// Writes the solution at `t` to `y`, which has the length of the state. At the ends of the step it is exactly the
+    /// state there.
+    pub fn write_at(&self, t: S, y: &mut Y) {
+        if t == self.t_new {
+            return y.clone_from(self.y_new);
+        }
+        let h = self.t_new - self.t;
+        let theta = (t - self.t) / h;
+        let weights = self.dense.iter().map(|polynomial| without_constant(polynomial, theta));
+        weighted_sum(weights, self.stages, y);
+        for (value, &start) in y.as_mut().iter_mut().zip(self.y.as_ref()) {
+            *value = start + h * *value;
+        }
+    }
+}
+
+/// c₁ x + c₂ x² + …
+fn without_constant<S: Real>(coefficients: &[f64], x: S) -> S {
+    coefficients.iter().rfold(S::zero(), |sum, &coefficient| x * (S::from_f64(coefficient) + sum))
+}
+
+/// sum = Σ weight_k · stage_k, over as many stages as there are weights.
+pub(super) fn weighted_sum<S: Real, Y: Vector<S>>(weights: impl Iterator<Item = S>, stages: &[Y], sum: &mut Y) {
+    sum.as_mut().fill(S::zero());
+    for (weight, stage) in weights.zip(stages) {
+        // Many coefficients are zero; a stage that has no weight must not cost time.
+        if weight != S::zero() {
+            for (sum, &value) in sum.as_mut().iter_mut().zip(stage.as_ref()) {
+                *sum += weight * value;
+            }
+        }
+    }
+}

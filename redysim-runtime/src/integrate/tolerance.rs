@@ -1,0 +1,61 @@
+//! What tolerances mean.
+
+use super::IntegrationError;
+use crate::{Real, Vector};
+
+/// |e_i| ≤ max(rtol |y_i|, atol_i).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tolerances<'a, S> {
+    pub relative: S,
+    pub absolute: Absolute<'a, S>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Absolute<'a, S> {
+    All(S),
+    Each(&'a [S]),
+}
+
+impl<S: Real> Tolerances<'_, S> {
+    /// Checks the tolerances for a state of `len` components.
+    pub fn check(&self, len: usize) -> Result<(), IntegrationError<S>> {
+        let smallest = S::from_f64(100.0) * S::EPSILON;
+        if !(self.relative >= smallest && self.relative.is_finite()) {
+            return Err(IntegrationError::BadRelativeTolerance { value: self.relative, smallest });
+        }
+        let bad = |value: S| !(value > S::zero() && value.is_finite());
+        match self.absolute {
+            Absolute::All(value) if bad(value) => {
+                Err(IntegrationError::BadAbsoluteTolerance { component: None, value })
+            }
+            Absolute::Each(values) if values.len() != len => {
+                Err(IntegrationError::WrongToleranceCount { given: values.len(), needed: len })
+            }
+            Absolute::Each(values) => match values.iter().position(|&value| bad(value)) {
+                Some(component) => {
+                    Err(IntegrationError::BadAbsoluteTolerance { component: Some(component), value: values[component] })
+                }
+                None => Ok(()),
+            },
+            Absolute::All(_) => Ok(()),
+        }
+    }
+
+    /// max_i |x_i| / max(|y_i|, |z_i|, atol_i / rtol): as large as rtol where x just meets the tolerance. Infinite if
+    /// any part of it is not a finite number.
+    pub fn norm<Y: Vector<S>>(&self, x: &Y, y: &Y, z: &Y) -> S {
+        let sizes = y.as_ref().iter().zip(z.as_ref()).map(|(y, z)| y.abs().maximum(z.abs()));
+        let norm = x.as_ref().iter().zip(sizes).enumerate().fold(S::zero(), |norm, (component, (x, size))| {
+            norm.maximum(x.abs() / size.maximum(self.threshold(component)))
+        });
+        if norm.is_finite() { norm } else { S::from_f64(f64::INFINITY) }
+    }
+
+    /// The size below which the absolute tolerance of a component is the larger one.
+    fn threshold(&self, component: usize) -> S {
+        match self.absolute {
+            Absolute::All(value) => value / self.relative,
+            Absolute::Each(values) => values.get(component).map_or(S::zero(), |&value| value / self.relative),
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! What compiled mechanisms stand on: scalars and their maths, the traits a mechanism implements,
+//! integrators, trajectories and torque laws.
+//!
+//! The crate is `no_std` and allocates nothing. Vectors are arrays whose length comes from the type; with the
+//! feature `alloc`, `Vec` may stand in for them where sizes are known only at run time (the generic path).
+#![no_std]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+pub mod control;
+pub mod integrate;
+pub mod mechanism;
+pub mod operations;
+pub mod scalar;
+pub mod simulate;
+pub mod trajectory;
+mod trigonometry;
+pub mod vector;
+
+pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
+pub use integrate::{IntegrationError, Integrator, Ode, Ode5, Ode45, Solution, Statistics, Step};
+pub use mechanism::{
+    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, MassMatrix,
+    MechanicalEnergy, Mechanism, TreeDynamics,
+};
+pub use operations::{OperationCount, Operations};
+pub use scalar::{Real, Scalar};
+pub use simulate::{ForwardSimulation, SimulationState};
+pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError};
+pub use vector::Vector;

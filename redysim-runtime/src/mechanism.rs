@@ -1,0 +1,132 @@
+//! The traits a mechanism implements, one for each function, so that a program asks for what it uses and a compiled
+//! type offers what it has. Compiled types and the generic path implement the same traits and can be swapped.
+
+use crate::{Scalar, Vector};
+
+/// Sizes, names and coordinates of a mechanism. The types of vectors carry their lengths: arrays for compiled types,
+/// `Vec` for the generic path.
+pub trait Mechanism<S: Scalar> {
+    /// Joint coordinates q, in the model's order: `[S; NQ]`. Radians or metres.
+    type Coordinates: Vector<S>;
+    /// Joint velocities, accelerations or forces, in the model's order: `[S; NV]`.
+    type Velocities: Vector<S>;
+    /// The state of a simulation, [q, q̇, E_act]: `[S; NQ + NV + 1]`.
+    type State: Vector<S>;
+    /// A square matrix over the velocities, by rows: `[[S; NV]; NV]`.
+    type Matrix: AsRef<[Self::Velocities]>;
+    /// One [`LinkState`] for each link, in the model's order: `[LinkState<S>; NL]`.
+    type Links: AsRef<[LinkState<S>]>;
+
+    /// The model's name.
+    fn name(&self) -> &str;
+    /// Number of coordinates, NQ.
+    fn nq(&self) -> usize;
+    /// Number of velocities, NV.
+    fn nv(&self) -> usize;
+    /// Number of links, NL.
+    fn nl(&self) -> usize;
+    /// Name of link `index` in the model's order; `None` past the last.
+    fn link_name(&self, index: usize) -> Option<&str>;
+    /// Name of the moving joint `index` in the model's order; `None` past the last.
+    fn joint_name(&self, index: usize) -> Option<&str>;
+
+    /// The time derivative of the coordinates, q̇ = N(q) v; v itself for revolute and prismatic joints.
+    fn coordinate_rates(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Coordinates;
+}
+
+/// Joint forces from motion.
+pub trait InverseDynamics<S: Scalar>: Mechanism<S> {
+    /// τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.
+    fn inverse_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, a: &Self::Velocities) -> Self::Velocities;
+}
+
+/// Accelerations from joint forces.
+pub trait ForwardDynamics<S: Scalar>: Mechanism<S> {
+    /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree (loops, if any, open).
+    fn forward_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, tau: &Self::Velocities)
+    -> Self::Velocities;
+}
+
+/// The generalised inertia matrix.
+pub trait MassMatrix<S: Scalar>: Mechanism<S> {
+    /// M(q), symmetric and positive definite: kg m², kg m or kg.
+    fn mass_matrix(&self, q: &Self::Coordinates) -> Self::Matrix;
+}
+
+/// Forces that do not depend on accelerations.
+pub trait BiasForces<S: Scalar>: Mechanism<S> {
+    /// C(q, v) v + g(q), N m or N.
+    fn bias_forces(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Velocities;
+}
+
+/// Forces that hold the mechanism against gravity.
+pub trait GravityForces<S: Scalar>: Mechanism<S> {
+    /// g(q), N m or N.
+    fn gravity_forces(&self, q: &Self::Coordinates) -> Self::Velocities;
+}
+
+/// Kinetic and potential energy.
+pub trait MechanicalEnergy<S: Scalar>: Mechanism<S> {
+    /// Both energies of the tree, J; the potential is zero at the origin of the base frame.
+    fn energy(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Energy<S>;
+}
+
+/// Where every link is and how it moves.
+pub trait LinkKinematics<S: Scalar>: Mechanism<S> {
+    /// Position and velocity of every link, in the base frame, in the model's order.
+    fn link_kinematics(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Links;
+}
+
+/// All functions of a tree-type mechanism at once; every type that has them all has this.
+pub trait TreeDynamics<S: Scalar>:
+    InverseDynamics<S>
+    + ForwardDynamics<S>
+    + MassMatrix<S>
+    + BiasForces<S>
+    + GravityForces<S>
+    + MechanicalEnergy<S>
+    + LinkKinematics<S>
+{
+}
+
+impl<S: Scalar, M> TreeDynamics<S> for M where
+    M: InverseDynamics<S>
+        + ForwardDynamics<S>
+        + MassMatrix<S>
+        + BiasForces<S>
+        + GravityForces<S>
+        + MechanicalEnergy<S>
+        + LinkKinematics<S>
+{
+}
+
+/// Energy of a mechanism, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy<S> {
+    /// ½ q̇ᵀ M q̇.
+    pub kinetic: S,
+    /// −Σ m g·c, zero at the origin of the base frame.
+    pub potential: S,
+}
+
+impl<S: Scalar> Energy<S> {
+    /// Kinetic and potential energy together, J.
+    pub fn total(&self) -> S {
+        self.kinetic + self.potential
+    }
+}
+
+/// Position and velocity of one link, in the base frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinkState<S> {
+    /// The link's axes, as columns, in the base frame; `rotation[row][column]`.
+    pub rotation: [[S; 3]; 3],
+    /// Origin of the link's frame, m.
+    pub origin: [S; 3],
+    /// Centre of mass, m.
+    pub com: [S; 3],
+    /// Velocity of the origin, m/s.
+    pub velocity: [S; 3],
+    /// Angular velocity, rad/s.
+    pub angular_velocity: [S; 3],
+}

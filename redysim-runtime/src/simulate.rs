@@ -1,0 +1,102 @@
+//! Forward simulation: a mechanism and a torque law as an ordinary differential equation.
+
+use core::iter::once;
+
+use crate::vector::entry;
+use crate::{ForwardDynamics, Mechanism, Ode, Real, TorqueLaw, Vector};
+
+/// A mechanism moved by a torque law, as an [`Ode`] in the state y = [q, q̇, E_act]:
+///
+/// dq/dt = N(q) q̇, dq̇/dt = M(q)⁻¹ (τ − C(q, q̇) q̇ − g(q)), dE_act/dt = τ·q̇.
+///
+/// E_act, J, is the work that the actuators have done; with no other forces at work it is the change of kinetic plus
+/// potential energy, a check of the whole simulation.
+///
+/// ```
+/// # #[allow(dead_code)]
+/// # mod mechanisms { include!("../tests/mechanisms/mod.rs"); }
+/// # use mechanisms::Pendulum;
+/// use redysim_runtime::{ForwardSimulation, Free, Integrator, Ode45};
+///
+/// let pendulum = Pendulum { mass: 2.0, length: 0.5 };
+/// let mut simulation = ForwardSimulation::new(&pendulum, Free);
+/// let start = simulation.state(&[0.3], &[0.0]);
+/// let times = [0.0, 0.5, 1.0];
+/// Ode45::new().rtol(1e-10).atol(1e-12).solve(&mut simulation, (0.0, 1.0), start, times, |t, y| {
+///     println!("{t} s: {} rad, {} rad/s", y[0], y[1]);
+/// })?;
+/// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ForwardSimulation<'m, M, L> {
+    mechanism: &'m M,
+    law: L,
+}
+
+/// The parts of a simulation's state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SimulationState<S, Q, V> {
+    /// Joint coordinates, rad or m.
+    pub q: Q,
+    /// Joint velocities, rad/s or m/s.
+    pub v: V,
+    /// Work done by the actuators since the start, J.
+    pub actuator_energy: S,
+}
+
+impl<'m, M, L> ForwardSimulation<'m, M, L> {
+    /// The simulation of `mechanism` under `law`.
+    pub fn new(mechanism: &'m M, law: L) -> Self {
+        Self { mechanism, law }
+    }
+
+    /// The mechanism that is simulated.
+    pub fn mechanism(&self) -> &'m M {
+        self.mechanism
+    }
+
+    /// The state [q, v, 0] to start from: the actuators have done no work yet.
+    pub fn state<S: Real>(&self, q: &M::Coordinates, v: &M::Velocities) -> M::State
+    where
+        M: Mechanism<S>,
+    {
+        let (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
+        M::State::from_fn(nq + nv + 1, |i| match i.checked_sub(nq) {
+            None => entry(q, i),
+            Some(i) if i < nv => entry(v, i),
+            Some(_) => S::zero(),
+        })
+    }
+
+    /// The parts of a state. What a `Vec` lacks is NaN.
+    pub fn split<S: Real>(&self, state: &M::State) -> SimulationState<S, M::Coordinates, M::Velocities>
+    where
+        M: Mechanism<S>,
+    {
+        let (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
+        SimulationState {
+            q: M::Coordinates::from_fn(nq, |i| entry(state, i)),
+            v: M::Velocities::from_fn(nv, |i| entry(state, nq + i)),
+            actuator_energy: entry(state, nq + nv),
+        }
+    }
+}
+
+impl<S, M, L> Ode<S, M::State> for ForwardSimulation<'_, M, L>
+where
+    S: Real,
+    M: ForwardDynamics<S>,
+    L: TorqueLaw<S, M>,
+{
+    fn derivative(&mut self, t: S, state: &M::State, rate: &mut M::State) {
+        let SimulationState { q, v, .. } = self.split(state);
+        let tau = self.law.torque(t, &q, &v);
+        let rates = self.mechanism.coordinate_rates(&q, &v);
+        let accelerations = self.mechanism.forward_dynamics(&q, &v, &tau);
+        let power = tau.as_ref().iter().zip(v.as_ref()).fold(S::zero(), |sum, (&tau, &v)| sum + tau * v);
+        let values = rates.as_ref().iter().chain(accelerations.as_ref()).chain(once(&power));
+        for (rate, &value) in rate.as_mut().iter_mut().zip(values) {
+            *rate = value;
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! `Vec` in place of arrays: the same bits, and no panic where lengths are wrong.
+#![cfg(feature = "alloc")]
+
+#[allow(dead_code)]
+mod mechanisms;
+
+use mechanisms::Arm;
+use redysim_runtime::{
+    ForwardDynamics, ForwardSimulation, Free, IntegrationError, Integrator, LinkState, Mechanism, Ode5, Ode45,
+    Proportional, ProportionalDerivative, TorqueLaw,
+};
+
+/// The arm with sizes known only at run time.
+struct DynamicArm;
+
+impl Mechanism<f64> for DynamicArm {
+    type Coordinates = Vec<f64>;
+    type Velocities = Vec<f64>;
+    type State = Vec<f64>;
+    type Matrix = Vec<Vec<f64>>;
+    type Links = Vec<LinkState<f64>>;
+
+    fn name(&self) -> &str {
+        "arm"
+    }
+    fn nq(&self) -> usize {
+        2
+    }
+    fn nv(&self) -> usize {
+        2
+    }
+    fn nl(&self) -> usize {
+        2
+    }
+    fn link_name(&self, _: usize) -> Option<&str> {
+        None
+    }
+    fn joint_name(&self, _: usize) -> Option<&str> {
+        None
+    }
+    fn coordinate_rates(&self, _: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
+        v.clone()
+    }
+}
+
+impl ForwardDynamics<f64> for DynamicArm {
+    fn forward_dynamics(&self, q: &Vec<f64>, v: &Vec<f64>, tau: &Vec<f64>) -> Vec<f64> {
+        Arm.forward_dynamics(&[q[0], q[1]], &[v[0], v[1]], &[tau[0], tau[1]]).to_vec()
+    }
+}
+
+const Q: [f64; 2] = [0.5, -0.25];
+const V: [f64; 2] = [2.0, 3.0];
+
+/// Everything both paths produce: asked answers and the end.
+fn answers<S: AsRef<[f64]>>(solve: impl FnOnce(&mut dyn FnMut(f64, &S)) -> S) -> Vec<Vec<f64>> {
+    let mut answers = vec![];
+    let end = solve(&mut |t, y| answers.push([&[t], y.as_ref()].concat()));
+    answers.push(end.as_ref().to_vec());
+    answers
+}
+
+fn compare(method: impl Integrator<f64>) {
+    let times = [0.0, 0.3, 0.7, 1.0];
+    let (kp, kd, target) = ([10.0, 20.0], [1.0, 2.0], [1.0, 1.0]);
+    let mut fixed = ForwardSimulation::new(&Arm, ProportionalDerivative { target, kp, kd });
+    let law = ProportionalDerivative { target: target.to_vec(), kp: kp.to_vec(), kd: kd.to_vec() };
+    let mut dynamic = ForwardSimulation::new(&DynamicArm, law);
+
+    let array = answers(|output: &mut dyn FnMut(f64, &[f64; 5])| {
+        let start = fixed.state(&Q, &V);
+        method.solve(&mut fixed, (0.0, 1.0), start, times, output).unwrap().y
+    });
+    let vec = answers(|output: &mut dyn FnMut(f64, &Vec<f64>)| {
+        let start = dynamic.state(&Q.to_vec(), &V.to_vec());
+        method.solve(&mut dynamic, (0.0, 1.0), start, times, output).unwrap().y
+    });
+    assert_eq!(array.len(), 5);
+    assert_eq!(array, vec);
+}
+
+#[test]
+fn vectors_give_the_same_bits_as_arrays() {
+    compare(Ode5::new(0.01));
+    compare(Ode45::new());
+}
+
+#[test]
+fn a_missing_gain_or_target_counts_as_not_a_number() {
+    let mut short_gain = Proportional { target: vec![0.0; 2], kp: vec![1.0] };
+    let torque = TorqueLaw::<f64, DynamicArm>::torque(&mut short_gain, 0.0, &Q.to_vec(), &V.to_vec());
+    assert!(torque.len() == 2 && torque[0] == -0.5 && torque[1].is_nan());
+
+    let mut simulation = ForwardSimulation::new(&DynamicArm, short_gain);
+    let start = simulation.state(&Q.to_vec(), &V.to_vec());
+    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
+    assert!(matches!(error, IntegrationError::NonFiniteDerivative { t: 0.0, .. }), "{error}");
+}
+
+#[test]
+fn a_start_of_the_wrong_length_is_reported() {
+    let mut simulation = ForwardSimulation::new(&DynamicArm, Free);
+    let start = simulation.state(&vec![0.1], &V.to_vec());
+    assert_eq!(start.len(), 5);
+    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
+    assert_eq!(error, IntegrationError::NonFiniteState { t: 0.0, component: 1 });
+    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), vec![0.1; 3]).unwrap_err();
+    assert!(matches!(error, IntegrationError::NonFiniteDerivative { t: 0.0, .. }), "{error}");
+}
+
+#[test]
+fn a_state_without_components_is_no_trouble() {
+    let mut nothing = |_t: f64, _y: &Vec<f64>, _dydt: &mut Vec<f64>| {};
+    let end = Ode45::new().integrate(&mut nothing, (0.0, 1.0), vec![]).unwrap();
+    assert_eq!((end.t, end.y.len()), (1.0, 0));
+}

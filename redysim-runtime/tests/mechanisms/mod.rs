@@ -1,0 +1,169 @@
+// Two mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
+
+use redysim_runtime::{
+    Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar, Vector,
+};
+
+pub const GRAVITY: f64 = 9.81;
+
+/// A point mass on a massless rod; q = 0 hangs down.
+#[derive(Clone, Copy)]
+pub struct Pendulum {
+    pub mass: f64,
+    pub length: f64,
+}
+
+impl Pendulum {
+    fn inertia<S: Scalar>(&self) -> S {
+        S::from_f64(self.mass * self.length * self.length)
+    }
+
+    fn weight<S: Scalar>(&self) -> S {
+        S::from_f64(self.mass * GRAVITY * self.length)
+    }
+
+    /// The exact period for swings of amplitude `amplitude`, by the arithmetic-geometric mean.
+    pub fn period(&self, amplitude: f64) -> f64 {
+        let (mut a, mut b) = (1.0, (amplitude / 2.0).cos());
+        for _ in 0..10 {
+            (a, b) = ((a + b) / 2.0, (a * b).sqrt());
+        }
+        std::f64::consts::TAU * (self.length / GRAVITY).sqrt() / a
+    }
+}
+
+impl<S: Scalar> Mechanism<S> for Pendulum {
+    type Coordinates = [S; 1];
+    type Velocities = [S; 1];
+    type State = [S; 3];
+    type Matrix = [[S; 1]; 1];
+    type Links = [LinkState<S>; 1];
+
+    fn name(&self) -> &str {
+        "pendulum"
+    }
+    fn nq(&self) -> usize {
+        1
+    }
+    fn nv(&self) -> usize {
+        1
+    }
+    fn nl(&self) -> usize {
+        1
+    }
+    fn link_name(&self, _: usize) -> Option<&str> {
+        None
+    }
+    fn joint_name(&self, _: usize) -> Option<&str> {
+        None
+    }
+    fn coordinate_rates(&self, _: &[S; 1], v: &[S; 1]) -> [S; 1] {
+        *v
+    }
+}
+
+impl<S: Scalar> InverseDynamics<S> for Pendulum {
+    fn inverse_dynamics(&self, q: &[S; 1], _: &[S; 1], a: &[S; 1]) -> [S; 1] {
+        [self.inertia::<S>() * a[0] + self.weight::<S>() * q[0].sin_cos().0]
+    }
+}
+
+impl<S: Scalar> ForwardDynamics<S> for Pendulum {
+    fn forward_dynamics(&self, q: &[S; 1], _: &[S; 1], tau: &[S; 1]) -> [S; 1] {
+        [(tau[0] - self.weight::<S>() * q[0].sin_cos().0) / self.inertia()]
+    }
+}
+
+impl<S: Scalar> MechanicalEnergy<S> for Pendulum {
+    fn energy(&self, q: &[S; 1], v: &[S; 1]) -> Energy<S> {
+        Energy {
+            kinetic: S::from_f64(0.5) * self.inertia() * v[0] * v[0],
+            potential: -(self.weight::<S>() * q[0].sin_cos().1),
+        }
+    }
+}
+
+/// Two point masses of 1 kg on massless rods of 1 m and 0.5 m, the second hinged at the end of the first; q = 0 hangs
+/// down, q₂ is relative.
+#[derive(Clone, Copy)]
+pub struct Arm;
+
+impl Arm {
+    const L1: f64 = 1.0;
+    const L2: f64 = 0.5;
+
+    /// [M₁₁, M₁₂, M₂₂]
+    fn mass_matrix<S: Scalar>(q: &[S; 2]) -> [S; 3] {
+        let coupling = S::from_f64(Self::L1 * Self::L2) * q[1].sin_cos().1;
+        let outer = S::from_f64(Self::L2 * Self::L2);
+        [S::from_f64(2.0 * Self::L1 * Self::L1) + outer + coupling + coupling, outer + coupling, outer]
+    }
+
+    fn bias<S: Scalar>(q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+        let coupling = S::from_f64(Self::L1 * Self::L2) * q[1].sin_cos().0;
+        let inner_weight = S::from_f64(2.0 * GRAVITY * Self::L1) * q[0].sin_cos().0;
+        let outer_weight = S::from_f64(GRAVITY * Self::L2) * (q[0] + q[1]).sin_cos().0;
+        [inner_weight + outer_weight - coupling * v[1] * (v[0] + v[0] + v[1]), outer_weight + coupling * v[0] * v[0]]
+    }
+}
+
+impl<S: Scalar> Mechanism<S> for Arm {
+    type Coordinates = [S; 2];
+    type Velocities = [S; 2];
+    type State = [S; 5];
+    type Matrix = [[S; 2]; 2];
+    type Links = [LinkState<S>; 2];
+
+    fn name(&self) -> &str {
+        "arm"
+    }
+    fn nq(&self) -> usize {
+        2
+    }
+    fn nv(&self) -> usize {
+        2
+    }
+    fn nl(&self) -> usize {
+        2
+    }
+    fn link_name(&self, _: usize) -> Option<&str> {
+        None
+    }
+    fn joint_name(&self, _: usize) -> Option<&str> {
+        None
+    }
+    fn coordinate_rates(&self, _: &[S; 2], v: &[S; 2]) -> [S; 2] {
+        *v
+    }
+}
+
+impl<S: Scalar> InverseDynamics<S> for Arm {
+    fn inverse_dynamics(&self, q: &[S; 2], v: &[S; 2], a: &[S; 2]) -> [S; 2] {
+        let ([m11, m12, m22], bias) = (Self::mass_matrix(q), Self::bias(q, v));
+        [m11 * a[0] + m12 * a[1] + bias[0], m12 * a[0] + m22 * a[1] + bias[1]]
+    }
+}
+
+impl<S: Scalar> ForwardDynamics<S> for Arm {
+    fn forward_dynamics(&self, q: &[S; 2], v: &[S; 2], tau: &[S; 2]) -> [S; 2] {
+        let ([m11, m12, m22], bias) = (Self::mass_matrix(q), Self::bias(q, v));
+        let (f1, f2) = (tau[0] - bias[0], tau[1] - bias[1]);
+        let determinant = m11 * m22 - m12 * m12;
+        [(m22 * f1 - m12 * f2) / determinant, (m11 * f2 - m12 * f1) / determinant]
+    }
+}
+
+impl<S: Scalar> MechanicalEnergy<S> for Arm {
+    fn energy(&self, q: &[S; 2], v: &[S; 2]) -> Energy<S> {
+        let [m11, m12, m22] = Self::mass_matrix(q);
+        let twice_kinetic = m11 * v[0] * v[0] + S::from_f64(2.0) * m12 * v[0] * v[1] + m22 * v[1] * v[1];
+        let height =
+            -(S::from_f64(2.0 * Self::L1) * q[0].sin_cos().1 + S::from_f64(Self::L2) * (q[0] + q[1]).sin_cos().1);
+        Energy { kinetic: S::from_f64(0.5) * twice_kinetic, potential: S::from_f64(GRAVITY) * height }
+    }
+}
+
+/// The largest distance between components.
+pub fn distance<S: Real, V: Vector<S>>(a: &V, b: &V) -> f64 {
+    a.as_ref().iter().zip(b.as_ref()).map(|(&a, &b)| (a - b).to_f64().abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,135 @@
+//! The coefficients against the order conditions, one for each rooted tree (Butcher's theory).
+
+use std::collections::BTreeSet;
+
+use redysim_runtime::integrate::tableau::DORMAND_PRINCE;
+
+const STAGES: usize = 7;
+const ROUNDOFF: f64 = 1e-14;
+
+/// A rooted tree: its branches, sorted, so that equal trees are equal.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Tree(Vec<Tree>);
+
+impl Tree {
+    fn order(&self) -> usize {
+        1 + self.0.iter().map(Tree::order).sum::<usize>()
+    }
+
+    /// γ: the product of the orders of all subtrees.
+    fn density(&self) -> f64 {
+        self.order() as f64 * self.0.iter().map(Tree::density).product::<f64>()
+    }
+
+    /// Φ_k, one for each stage: Π over branches of Σ_j a_kj Φ_j(branch).
+    fn elementary_weights(&self) -> [f64; STAGES] {
+        self.0.iter().fold([1.0; STAGES], |weights, branch| {
+            let inner = branch.elementary_weights();
+            std::array::from_fn(|k| weights[k] * dot(DORMAND_PRINCE.rows[k], &inner))
+        })
+    }
+
+    /// All trees with one more leaf.
+    fn grown(&self) -> Vec<Tree> {
+        let mut grown = vec![self.with_branches(|branches| branches.push(Tree(vec![])))];
+        for (i, branch) in self.0.iter().enumerate() {
+            grown.extend(branch.grown().into_iter().map(|new| self.with_branches(|branches| branches[i] = new)));
+        }
+        grown
+    }
+
+    fn with_branches(&self, change: impl FnOnce(&mut Vec<Tree>)) -> Tree {
+        let mut branches = self.0.clone();
+        change(&mut branches);
+        branches.sort();
+        Tree(branches)
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn trees(order: usize) -> BTreeSet<Tree> {
+    if order == 1 { [Tree(vec![])].into() } else { trees(order - 1).iter().flat_map(Tree::grown).collect() }
+}
+
+/// The largest violation of b·Φ(t) = θ^order / γ(t) over all trees of one order.
+fn defect(order: usize, b: &[f64], theta: f64) -> f64 {
+    let exact = |tree: &Tree| theta.powi(order as i32) / tree.density();
+    trees(order).iter().map(|tree| (dot(b, &tree.elementary_weights()) - exact(tree)).abs()).fold(0.0, f64::max)
+}
+
+fn solution_weights() -> [f64; STAGES] {
+    std::array::from_fn(|k| DORMAND_PRINCE.rows[STAGES - 1].get(k).copied().unwrap_or(0.0))
+}
+
+fn embedded_weights() -> [f64; STAGES] {
+    std::array::from_fn(|k| solution_weights()[k] - DORMAND_PRINCE.error[k])
+}
+
+fn dense_weights(theta: f64) -> [f64; STAGES] {
+    DORMAND_PRINCE.dense.map(|polynomial| (1..).zip(polynomial).map(|(power, c)| c * theta.powi(power)).sum())
+}
+
+fn dense_rates(theta: f64) -> [f64; STAGES] {
+    DORMAND_PRINCE
+        .dense
+        .map(|polynomial| (1..).zip(polynomial).map(|(power, c)| f64::from(power) * c * theta.powi(power - 1)).sum())
+}
+
+fn assert_near(found: [f64; STAGES], expected: [f64; STAGES]) {
+    for (found, expected) in found.into_iter().zip(expected) {
+        assert!((found - expected).abs() < ROUNDOFF, "{found} instead of {expected}");
+    }
+}
+
+fn unit(stage: usize) -> [f64; STAGES] {
+    std::array::from_fn(|k| f64::from(k == stage))
+}
+
+#[test]
+fn there_are_as_many_rooted_trees_as_cayley_counted() {
+    assert_eq!([1, 2, 3, 4, 5, 6].map(|order| trees(order).len()), [1, 1, 2, 4, 9, 20]);
+}
+
+#[test]
+fn every_row_has_as_many_entries_as_there_are_stages_before_it_and_sums_to_its_node() {
+    for (k, row) in DORMAND_PRINCE.rows.iter().enumerate() {
+        assert_eq!(row.len(), k);
+        assert!((row.iter().sum::<f64>() - DORMAND_PRINCE.nodes[k]).abs() < ROUNDOFF, "row {k}");
+    }
+}
+
+#[test]
+fn dormand_prince_satisfies_every_order_condition_up_to_five_and_not_six() {
+    for order in 1..=5 {
+        assert!(defect(order, &solution_weights(), 1.0) < ROUNDOFF, "order {order}");
+    }
+    assert!(defect(6, &solution_weights(), 1.0) > 1e-4);
+}
+
+#[test]
+fn the_embedded_formula_satisfies_every_order_condition_up_to_four_and_not_five() {
+    assert_eq!(DORMAND_PRINCE.error_order, 4);
+    for order in 1..=4 {
+        assert!(defect(order, &embedded_weights(), 1.0) < ROUNDOFF, "order {order}");
+    }
+    assert!(defect(5, &embedded_weights(), 1.0) > 1e-4);
+}
+
+#[test]
+fn the_continuous_extension_satisfies_every_order_condition_up_to_four_within_the_whole_step() {
+    for order in 1..=4 {
+        for theta in [0.0, 0.1, 0.25, 0.5, 0.7, 0.9, 1.0] {
+            assert!(defect(order, &dense_weights(theta), theta) < ROUNDOFF, "order {order}, θ = {theta}");
+        }
+    }
+}
+
+#[test]
+fn the_continuous_extension_meets_its_neighbours_in_value_and_in_derivative() {
+    assert_near(dense_weights(1.0), solution_weights());
+    assert_near(dense_rates(0.0), unit(0));
+    assert_near(dense_rates(1.0), unit(STAGES - 1));
+}

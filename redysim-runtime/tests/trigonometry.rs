@@ -1,0 +1,52 @@
+//! Sine and cosine are right to the last place for every finite angle.
+
+use redysim_runtime::Scalar;
+
+/// Angle, sine and cosine as bits: 1,400-bit arithmetic (mpmath), rounded to `f64`. Angles of all magnitudes, the nearest
+/// numbers to multiples of π/4, and the number nearest to a multiple of π/2 of all (6381956970095103 · 2⁷⁹⁷).
+const REFERENCE: &str = include_str!("reference/sin_cos.txt");
+
+fn places_between(a: f64, b: f64) -> u64 {
+    if a == b { 0 } else { a.to_bits().abs_diff(b.to_bits()) }
+}
+
+#[test]
+fn angles_of_all_magnitudes_agree_with_multiprecision_to_one_place() {
+    for line in REFERENCE.lines() {
+        let bits: Vec<u64> = line.split(' ').map(|word| u64::from_str_radix(word, 16).unwrap()).collect();
+        let [angle, sin, cos] = [0, 1, 2].map(|index| f64::from_bits(bits[index]));
+        let found = Scalar::sin_cos(angle);
+        assert!(places_between(found.0, sin) <= 1, "sin({angle:e}) = {sin:e}, found {:e}", found.0);
+        assert!(places_between(found.1, cos) <= 1, "cos({angle:e}) = {cos:e}, found {:e}", found.1);
+    }
+}
+
+#[test]
+fn a_million_angles_agree_with_the_platform_to_one_place() {
+    let mut state = 1_u64;
+    for index in 0..1_000_000_u32 {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        let unit = (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+        let angle = unit * [2.0, 20.0, 2e3, 4e6, 1e10][index as usize % 5];
+        let (found, platform) = (Scalar::sin_cos(angle), f64::sin_cos(angle));
+        assert!(places_between(found.0, platform.0) <= 1, "sin({angle:e}): {:e} {:e}", found.0, platform.0);
+        assert!(places_between(found.1, platform.1) <= 1, "cos({angle:e}): {:e} {:e}", found.1, platform.1);
+    }
+}
+
+#[test]
+fn single_precision_is_rounded_from_double() {
+    for k in -2000..2000_i16 {
+        let angle = f32::from(k) * 0.37;
+        let exact = f64::sin_cos(f64::from(angle));
+        assert_eq!(Scalar::sin_cos(angle), (exact.0 as f32, exact.1 as f32), "{angle}");
+    }
+}
+
+#[test]
+fn angles_that_are_not_finite_give_nan() {
+    for angle in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (sin, cos) = Scalar::sin_cos(angle);
+        assert!(sin.is_nan() && cos.is_nan());
+    }
+}
