@@ -1,0 +1,81 @@
+//! Loops: cut joints between two bodies of the tree.
+
+use super::placement::unit_axis;
+use super::tree;
+use crate::diagnostic::{Findings, messages};
+use crate::model::{CutKind, CutSide, JointKind, Loop};
+use crate::schema::{CutSideTable, Document, LoopTable};
+use crate::spatial::Vec3;
+
+/// The loops, if none has a fault. `parents` is there if the tree has none.
+pub(super) fn loops(
+    document: &Document,
+    parents: Option<&[Option<usize>]>,
+    findings: &mut Findings,
+) -> Option<Vec<Loop>> {
+    // Collected in two steps, so that every loop is checked.
+    let loops: Vec<_> = document.loops.iter().map(|table| one_loop(document, table, parents, findings)).collect();
+    loops.into_iter().collect()
+}
+
+fn one_loop(
+    document: &Document,
+    table: &LoopTable,
+    parents: Option<&[Option<usize>]>,
+    findings: &mut Findings,
+) -> Option<Loop> {
+    let a = side(document, table, &table.a, findings);
+    let b = side(document, table, &table.b, findings);
+    let (a, b) = (a?, b?);
+    if let Some(parents) = parents {
+        joins_two_bodies(document, table, [a.link, b.link], parents, findings);
+    }
+    Some(Loop { name: table.name.value()?.clone(), joint: *table.joint.value()?, a, b })
+}
+
+fn side(document: &Document, table: &LoopTable, side: &CutSideTable, findings: &mut Findings) -> Option<CutSide> {
+    let link = side.link.spanned().and_then(|name| {
+        let link = tree::find(document, name.get_ref());
+        if link.is_none() {
+            tree::unknown(document, &table.item, side.link_key, name, findings);
+        }
+        link
+    });
+    let axis_allowed = axis_allowed(table, side, findings);
+    let axis = unit_axis(&table.item, side.axis_key, &side.axis, axis_allowed, findings);
+    Some(CutSide { link: link?, point: Vec3(side.point.value_or([0.0; 3])?), axis: axis? })
+}
+
+/// Only a revolute cut has an axis.
+fn axis_allowed(table: &LoopTable, side: &CutSideTable, findings: &mut Findings) -> bool {
+    let other = CutKind::ALL.iter().find(|(_, kind)| table.joint.value() == Some(kind) && *kind != CutKind::Revolute);
+    if let (Some((kind, _)), Some(axis)) = (other, side.axis.spanned()) {
+        findings.error(axis.span(), messages::axis_on_cut(&table.item, side.axis_key, kind));
+    }
+    other.is_none()
+}
+
+fn joins_two_bodies(
+    document: &Document,
+    table: &LoopTable,
+    [a, b]: [Option<usize>; 2],
+    parents: &[Option<usize>],
+    findings: &mut Findings,
+) {
+    if body(document, a, parents) != body(document, b, parents) {
+        return;
+    }
+    if let (Some(link_a), Some(link_b)) = (table.a.link.spanned(), table.b.link.spanned()) {
+        let message = messages::loop_within_body(&table.item, link_a.get_ref(), link_b.get_ref());
+        findings.error(link_b.span(), message);
+    }
+}
+
+/// The link that fixed joints make this one a part of; `None` is the ground.
+fn body(document: &Document, link: Option<usize>, parents: &[Option<usize>]) -> Option<usize> {
+    let mut at = link;
+    while let Some(link) = at.filter(|&link| document.links[link].joint.value() == Some(&JointKind::Fixed)) {
+        at = parents[link];
+    }
+    at
+}

@@ -1,0 +1,71 @@
+//! Mass and inertia that a body can have.
+
+use crate::diagnostic::{Findings, messages};
+use crate::model::Inertia;
+use crate::schema::LinkTable;
+use nalgebra::{Matrix3, SymmetricEigen};
+
+/// Roundoff allowed below zero, relative to the largest principal moment.
+const DEFINITE: f64 = 1e-12;
+
+/// Excess allowed over the triangle inequality, relative to the largest principal moment: rods lie on its edge.
+const TRIANGLE: f64 = 1e-9;
+
+pub(super) fn check(link: &LinkTable, findings: &mut Findings) {
+    if let Some(mass) = link.mass.spanned().filter(|mass| *mass.get_ref() < 0.0) {
+        findings.error(mass.span(), messages::negative_mass(&link.item, *mass.get_ref()));
+    }
+    let Some(inertia) = link.inertia.spanned() else { return };
+    let Some([smallest, middle, largest]) = principal_moments(inertia.get_ref()) else {
+        return;
+    };
+    let excess = largest - (smallest + middle);
+    if smallest < -DEFINITE * largest.abs().max(smallest.abs()) {
+        findings.error(inertia.span(), messages::indefinite_inertia(&link.item, smallest));
+    } else if excess > TRIANGLE * largest {
+        findings.warning(inertia.span(), messages::triangle(&link.item, largest, excess));
+    }
+}
+
+/// The eigenvalues of the tensor, from smallest to largest; `None` for the zero tensor.
+fn principal_moments(inertia: &Inertia) -> Option<[f64; 3]> {
+    let Inertia { xx, yy, zz, xy, yz, xz } = *inertia;
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    // Scaled, so that the iteration works on numbers near one.
+    let scale = tensor.amax();
+    if scale == 0.0 {
+        return None;
+    }
+    let eigen = SymmetricEigen::try_new(tensor / scale, f64::EPSILON, 1000)?;
+    let mut moments: [f64; 3] = eigen.eigenvalues.into();
+    moments.sort_by(f64::total_cmp);
+    Some(moments.map(|moment| moment * scale))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moments(xx: f64, yy: f64, zz: f64, xy: f64, yz: f64, xz: f64) -> [f64; 3] {
+        principal_moments(&Inertia { xx, yy, zz, xy, yz, xz }).unwrap()
+    }
+
+    #[test]
+    fn principal_moments_are_eigenvalues() {
+        assert_eq!(moments(3.0, 1.0, 2.0, 0.0, 0.0, 0.0), [1.0, 2.0, 3.0]);
+        let expected = [1.0, 2.0, 3.0]; // of [[2,1],[1,2]] and 2
+        for (found, expected) in moments(2.0, 2.0, 2.0, 1.0, 0.0, 0.0).iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15);
+        }
+        assert_eq!(principal_moments(&Inertia::default()), None);
+    }
+
+    #[test]
+    fn extreme_sizes_are_no_trouble() {
+        for scale in [1e-300, 1e300] {
+            let [a, _, c] = moments(2.0 * scale, 2.0 * scale, 2.0 * scale, scale, 0.0, 0.0);
+            assert!((a / scale - 1.0).abs() < 1e-15 && (c / scale - 3.0).abs() < 1e-14);
+        }
+        assert!(principal_moments(&Inertia { xx: f64::MAX, xy: f64::MAX, ..Default::default() }).is_some());
+    }
+}

@@ -1,0 +1,76 @@
+//! What a model file says, checked rule by rule. Every rule reports all it finds; none stops another.
+
+mod cut;
+mod inertia;
+mod massless;
+mod names;
+mod placement;
+mod singular;
+mod tree;
+
+use crate::diagnostic::{Findings, messages};
+use crate::model::{JointKind, Link, Model};
+use crate::schema::{Document, LinkTable};
+use crate::spatial::Vec3;
+use toml::Spanned;
+
+/// The model, unless an error is found, or was found while reading.
+pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Model> {
+    names::check(document, findings);
+    something_moves(document, findings);
+    let parents = tree::parents(document, findings);
+    let links: Vec<_> = document.links.iter().map(|table| link(table, findings)).collect();
+    let loops = cut::loops(document, parents.as_deref(), findings);
+    let parents = parents?;
+    massless::check(document, &parents, findings);
+
+    let mut links = links.into_iter().collect::<Option<Vec<_>>>()?;
+    for (link, parent) in links.iter_mut().zip(parents) {
+        link.parent = parent;
+    }
+    let gravity = Vec3(*document.gravity.value()?);
+    let model = Model { name: document.name.value()?.clone(), gravity, links, loops: loops? };
+    if findings.errors() > 0 {
+        return None;
+    }
+    for (link, message) in singular::check(&model) {
+        findings.error(document.links.get(link).map_or(document.place.clone(), LinkTable::place), message);
+    }
+    (findings.errors() == 0).then_some(model)
+}
+
+/// One link by itself, still without its parent.
+fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
+    inertia::check(table, findings);
+    let placed = placement::place(table, findings);
+    let (placement, axis, offset) = placed?;
+    Some(Link {
+        name: table.name.value()?.clone(),
+        joint_name: table.joint_name()?.get_ref().clone(),
+        parent: None,
+        joint: *table.joint.value()?,
+        placement,
+        axis,
+        offset,
+        mass: *table.mass.value()?,
+        com: Vec3(table.com.value_or([0.0; 3])?),
+        inertia: table.inertia.value_or(Default::default())?,
+        actuated: table.actuated.value_or(true)?,
+    })
+}
+
+/// There are links, and at least one joint that moves.
+fn something_moves(document: &Document, findings: &mut Findings) {
+    if !document.links_complete {
+        return;
+    }
+    let Some(first) = document.links.first() else {
+        findings.error(document.place.clone(), messages::no_links(&document.item));
+        return;
+    };
+    let fixed = |link: &LinkTable| link.joint.value() == Some(&JointKind::Fixed);
+    if document.links.iter().all(fixed) {
+        let place = first.joint.spanned().map_or(first.place(), Spanned::span);
+        findings.error(place, messages::nothing_moves(&document.item));
+    }
+}

@@ -1,0 +1,72 @@
+//! The numerical test for a singular mass matrix: joints that move mass, yet are met by no inertia at any position.
+
+use crate::denoc::mass_matrix;
+use crate::diagnostic::{Message, messages};
+use crate::model::Model;
+use crate::tree::{Body, Joint, Tree};
+
+/// Positions that are looked at; a joint is reported if it is met by no inertia at all of them.
+const POSITIONS: usize = 3;
+
+/// A pivot this much smaller than its diagonal element is roundoff.
+const ROUNDOFF: f64 = 1e-12;
+
+/// The links whose joints make the mass matrix singular, each with its message. Called for a model without errors.
+pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
+    let tree = Tree::new(model);
+    // A joint meets at least the inertia of its own body, so only bodies without any about their axis are in question.
+    let mut suspects: Vec<usize> = (0..tree.dof()).filter(|&body| !meets_own_inertia(&tree.bodies[body])).collect();
+    for position in 0..POSITIONS {
+        if suspects.is_empty() {
+            return Vec::new();
+        }
+        let free = without_pivot(&tree, &sample(tree.dof(), position));
+        suspects.retain(|body| free.contains(body));
+    }
+    let moving: Vec<usize> = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0).collect();
+    let report = |body: usize| {
+        let link = moving[tree.bodies[body].coordinate];
+        let Body { joint, .. } = tree.bodies[body];
+        (link, messages::singular_mass_matrix(&model.links[link].name, &model.links[link].joint_name, joint))
+    };
+    suspects.into_iter().map(report).collect()
+}
+
+fn meets_own_inertia(body: &Body) -> bool {
+    match body.joint {
+        Joint::Revolute => {
+            let tensor = body.inertia.tensor;
+            tensor.zz > ROUNDOFF * (tensor.xx + tensor.yy)
+        }
+        Joint::Prismatic => body.inertia.mass > 0.0,
+    }
+}
+
+/// Coordinates spread over ±π by a fixed rule.
+fn sample(dof: usize, position: usize) -> Vec<f64> {
+    let golden = 0.618_033_988_749_895;
+    (0..dof).map(|joint| (golden * (position * dof + joint + 1) as f64).fract() * 6.0 - 3.0).collect()
+}
+
+/// The bodies whose pivot in the elimination of M(q), from the tips to the ground, is nothing but roundoff.
+fn without_pivot(tree: &Tree, q: &[f64]) -> Vec<usize> {
+    let matrix = mass_matrix(tree, q);
+    let at: Vec<usize> = tree.bodies.iter().map(|body| body.coordinate).collect();
+    let mut reduced: Vec<Vec<f64>> = at.iter().map(|&i| at.iter().map(|&j| matrix[i][j]).collect()).collect();
+    let mut without = Vec::new();
+    for k in (0..tree.dof()).rev() {
+        let pivot = reduced[k][k];
+        if pivot <= ROUNDOFF * matrix[at[k]][at[k]] {
+            without.push(k);
+            continue;
+        }
+        for i in 0..k {
+            let factor = reduced[i][k] / pivot;
+            for j in 0..=i {
+                reduced[i][j] -= factor * reduced[j][k];
+                reduced[j][i] = reduced[i][j];
+            }
+        }
+    }
+    without
+}

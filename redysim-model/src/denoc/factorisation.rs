@@ -1,0 +1,72 @@
+//! The factorisation M = U D Uᵀ of the generalised inertia matrix (DeNOC's reverse Gaussian elimination).
+
+use crate::tree::Tree;
+use redysim_runtime::Scalar;
+
+/// M = U D Uᵀ with U unit upper triangular in the order of bodies and D diagonal.
+///
+/// Elimination runs from the tips to the ground, so an element of U is zero wherever one joint does not carry the
+/// other, as in M itself: nothing is filled in, and nothing is computed for such pairs.
+#[derive(Clone, Debug)]
+pub struct Factorisation<S> {
+    /// Row by row in the order of bodies; only entries (ancestor, body) are used.
+    upper: Vec<Vec<S>>,
+    /// 1/D.
+    inverse_pivots: Vec<S>,
+    parents: Vec<Option<usize>>,
+    coordinates: Vec<usize>,
+}
+
+impl<S: Scalar> Factorisation<S> {
+    /// Factorises the mass matrix of `tree`, given by rows in the model's order.
+    pub fn new(tree: &Tree, matrix: &[Vec<S>]) -> Self {
+        let coordinates: Vec<usize> = tree.bodies.iter().map(|body| body.coordinate).collect();
+        let parents: Vec<Option<usize>> = tree.bodies.iter().map(|body| body.parent).collect();
+        let mut upper: Vec<Vec<S>> =
+            coordinates.iter().map(|&i| coordinates.iter().map(|&j| matrix[i][j]).collect()).collect();
+        let mut inverse_pivots = vec![S::zero(); tree.dof()];
+        for k in (0..tree.dof()).rev() {
+            let inverse = (S::one() / upper[k][k].named("D", k, "")).named("inv_D", k, "");
+            inverse_pivots[k] = inverse;
+            for i in ancestors(&parents, k) {
+                let factor = inverse * upper[i][k];
+                for j in std::iter::once(i).chain(ancestors(&parents, i)) {
+                    let update = factor * upper[j][k];
+                    upper[j][i] -= update;
+                }
+                upper[i][k] = factor;
+            }
+        }
+        Factorisation { upper, inverse_pivots, parents, coordinates }
+    }
+
+    /// M⁻¹ b, with b and the result in the model's order.
+    pub fn solve(&self, b: &[S]) -> Vec<S> {
+        let mut x: Vec<S> = self.coordinates.iter().map(|&i| b[i]).collect();
+        for k in (0..x.len()).rev() {
+            for i in ancestors(&self.parents, k) {
+                let update = self.upper[i][k] * x[k];
+                x[i] -= update;
+            }
+        }
+        for (value, &inverse) in x.iter_mut().zip(&self.inverse_pivots) {
+            *value = *value * inverse;
+        }
+        for k in 0..x.len() {
+            for i in ancestors(&self.parents, k) {
+                let update = self.upper[i][k] * x[i];
+                x[k] -= update;
+            }
+        }
+        let mut result = vec![S::zero(); x.len()];
+        for (&coordinate, value) in self.coordinates.iter().zip(x) {
+            result[coordinate] = value;
+        }
+        result
+    }
+}
+
+/// The bodies on the way from `body` to the ground, without itself.
+fn ancestors(parents: &[Option<usize>], body: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(parents[body], |&at| parents[at])
+}

@@ -1,0 +1,27 @@
+//! The recursions of the decoupled natural orthogonal complement (DeNOC), written once for every scalar.
+//!
+//! With `f64` they are the generic path; with a symbolic scalar the same code leaves behind the expressions from which
+//! specialised code is made. All of them walk the bodies of a [`Tree`](crate::tree::Tree): outwards (parents first) for
+//! motion, inwards for forces and inertias. Vectors are in the body's own frame, moments about its origin.
+//!
+//! Inputs and outputs are in the model's order of joints; every function expects slices of length
+//! [`Tree::dof`](crate::tree::Tree::dof).
+//!
+//! Source: Shah, Saha, Dutt, *Dynamics of Tree-Type Robotic Systems*, Springer 2013; Featherstone, *Rigid Body Dynamics
+//! Algorithms*, Springer 2008.
+
+mod articulated;
+mod energy;
+mod factorisation;
+mod forward;
+mod inverse;
+mod joint;
+mod kinematics;
+mod mass_matrix;
+
+pub use energy::energy;
+pub use factorisation::Factorisation;
+pub use forward::{Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion};
+pub use inverse::{bias_forces, gravity_forces, inverse_dynamics};
+pub use kinematics::link_kinematics;
+pub use mass_matrix::mass_matrix;

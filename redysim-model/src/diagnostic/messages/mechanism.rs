@@ -1,0 +1,177 @@
+//! Messages about the mechanism that the file describes.
+
+use super::super::Message;
+use super::{did_you_mean, message, nearest, quoted, rounded};
+use crate::tree::Joint;
+
+pub(crate) fn blank_name(item: &str, key: &str) -> Message {
+    message(format!("{item}: `{key}` is blank"), "blank", "give it a name: messages and generated code use it")
+}
+
+pub(crate) fn reserved_name() -> Message {
+    message(
+        "a link cannot be named `base`".into(),
+        "stands for the ground",
+        "`base` is the ground, which every mechanism has: give the link another name",
+    )
+}
+
+/// `what` is "link", "joint" or "loop".
+pub(crate) fn duplicate_name(what: &str, name: &str, first_line: usize) -> Message {
+    let name = quoted(name);
+    message(
+        format!("{what} {name}: the name is used twice"),
+        format!("also on line {first_line}"),
+        format!("the {what} on line {first_line} is {name} too: give one of them another name"),
+    )
+}
+
+pub(crate) fn unknown_link<'a>(
+    item: &str,
+    key: &str,
+    name: &str,
+    links: impl Iterator<Item = &'a str> + Clone,
+) -> Message {
+    const MOST: usize = 20;
+    let mut all = std::iter::once("base").chain(links);
+    let meant = did_you_mean(nearest(name, all.clone()));
+    let shown: Vec<_> = all.by_ref().take(MOST).collect();
+    let more = if all.next().is_some() { ", …" } else { "" };
+    message(
+        format!("{item}: `{key}` names {}, but there is no such link", quoted(name)),
+        "no such link",
+        format!("{meant}The links are: {}{more}", shown.join(", ")),
+    )
+}
+
+pub(crate) fn own_parent(item: &str) -> Message {
+    message(
+        format!("{item}: it is its own parent"),
+        "its own parent",
+        "name the link that carries it, or \"base\" for the ground",
+    )
+}
+
+/// `names` are the links of the cycle, each the child of the next, the last the child of the first.
+pub(crate) fn cycle(names: &[&str]) -> Message {
+    let first = names.first().copied().unwrap_or_default();
+    let path: Vec<_> = names.iter().chain([&first]).map(|name| quoted(name)).collect();
+    message(
+        format!("link {}: its parents lead back to itself: {}", quoted(first), path.join(" -> ")),
+        "leads back to this link",
+        "one of these links must have the parent \"base\" or another link; close loops with [[loop]]",
+    )
+}
+
+pub(crate) fn two_placements(item: &str, second: &str) -> Message {
+    message(
+        format!("{item}: its joint is placed twice, by `dh` and by `{second}`"),
+        "`dh` says this already",
+        "keep either `dh` or `origin` and `axis`",
+    )
+}
+
+pub(crate) fn no_placement(item: &str) -> Message {
+    message(
+        format!("{item}: its joint has no place"),
+        "no `dh`, `origin` or `axis`",
+        "give `dh = { a = .., alpha = .., b = .., theta = .. }`, or `origin = { xyz = [..], rpy = [..] }` and `axis = [..]`; \
+         `origin = {}` is the parent's frame",
+    )
+}
+
+pub(crate) fn axis_on_fixed(item: &str) -> Message {
+    message(format!("{item}: a fixed joint has no axis"), "no axis", "delete `axis`, or make the joint move")
+}
+
+pub(crate) fn axis_on_cut(item: &str, key: &str, kind: &str) -> Message {
+    message(
+        format!("{item}: a {kind} cut has no `{key}`"),
+        "no axis",
+        format!("delete `{key}`, or make the loop's joint revolute"),
+    )
+}
+
+pub(crate) fn zero_axis(item: &str, key: &str, length: f64) -> Message {
+    message(
+        format!("{item}: `{key}` has the length {}, so it has no direction", rounded(length)),
+        "no direction",
+        "give a vector along the joint's axis, as in [0.0, 0.0, 1.0]; it need not have unit length",
+    )
+}
+
+pub(crate) fn negative_mass(item: &str, mass: f64) -> Message {
+    message(
+        format!("{item}: `mass` is {mass:?} kg, which is negative"),
+        "negative",
+        "give the mass in kg; 0 is allowed where a link further out has mass",
+    )
+}
+
+pub(crate) fn indefinite_inertia(item: &str, smallest: f64) -> Message {
+    message(
+        format!("{item}: `inertia` has a negative principal moment, {} kg m²", rounded(smallest)),
+        "not an inertia",
+        "give the inertia about the centre of mass; xy, yz, xz are the tensor's elements, such as xy = -∫ x y dm",
+    )
+}
+
+/// `largest` exceeds the sum of the other two principal moments by `excess`.
+pub(crate) fn triangle(item: &str, largest: f64, excess: f64) -> Message {
+    message(
+        format!(
+            "{item}: no body has this `inertia`: its largest principal moment, {} kg m², exceeds the sum of the other \
+             two by {} kg m²",
+            rounded(largest),
+            rounded(excess)
+        ),
+        "violates the triangle inequality",
+        "Ixx <= Iyy + Izz, and so for each axis: check units and digits; the model is used as it stands",
+    )
+}
+
+pub(crate) fn massless(item: &str, joint: &str) -> Message {
+    message(
+        format!("{item}: its joint {} moves no mass", quoted(joint)),
+        "neither it nor any link further out has mass or inertia",
+        "the mass matrix would be singular at every position: give the link, or one that it carries, a mass, or make \
+         the joint fixed",
+    )
+}
+
+/// The joint moves mass, but no motion of it alone needs a force.
+pub(crate) fn singular_mass_matrix(link: &str, joint_name: &str, joint: Joint) -> Message {
+    let why = match joint {
+        Joint::Revolute => "all mass that it could turn lies on its axis, or on another free axis that takes its place",
+        Joint::Prismatic => "all mass that it could push is as free along another joint",
+    };
+    message(
+        format!("link {}: its joint {} meets no inertia at any position", quoted(link), quoted(joint_name)),
+        why,
+        "the mass matrix would be singular at every position: give the link an inertia about its axis, move its `com` \
+         off the axis, or make one of the joints fixed",
+    )
+}
+
+pub(crate) fn no_links(item: &str) -> Message {
+    message(format!("{item}: it has no links"), "no links", "add a [[link]] table for each link")
+}
+
+pub(crate) fn nothing_moves(item: &str) -> Message {
+    message(
+        format!("{item}: every joint is fixed, so nothing moves"),
+        "the first of the fixed joints",
+        "make at least one joint revolute or prismatic",
+    )
+}
+
+/// `link_a` and `link_b` are one link, or fixed to each other.
+pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str) -> Message {
+    let title = match link_a == link_b {
+        true => format!("{item}: it joins {} to itself", quoted(link_a)),
+        false => {
+            format!("{item}: it joins {} and {}, which fixed joints make one body", quoted(link_a), quoted(link_b))
+        }
+    };
+    message(title, "the same body", "a loop must join two bodies that move against each other")
+}

@@ -1,0 +1,72 @@
+//! Every text the reader of a faulty model file sees. One function is one message.
+//!
+//! Form: the title names the item, the rule and the value found; the label repeats the fault in a few words beside the
+//! caret; the help says what to do. `item` is "link `arm`", "loop `crank`" or "model `kr5`".
+
+mod mechanism;
+mod reading;
+
+pub(crate) use mechanism::*;
+pub(crate) use reading::*;
+
+use super::Message;
+
+fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> Message {
+    Message { title, label: label.into(), help: help.into() }
+}
+
+/// A name or value of the file between backticks; long ones are cut, odd characters escaped.
+pub(crate) fn quoted(text: &str) -> String {
+    const MOST: usize = 60;
+    let shown: String = text.chars().take(MOST).flat_map(char::escape_debug).collect();
+    let more = if text.chars().nth(MOST).is_some() { "…" } else { "" };
+    format!("`{}{more}`", shown.replace("\\\"", "\"").replace("\\'", "'"))
+}
+
+/// The name that `text` was probably meant to be.
+pub(crate) fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let near = |name: &&str| {
+        let longer = text.chars().count().max(name.chars().count());
+        Some(strsim::damerau_levenshtein(text, name)).filter(|distance| *distance <= (longer / 3).max(1))
+    };
+    let candidates = names.into_iter().filter_map(|name| Some((near(&name)?, name)));
+    candidates.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
+}
+
+/// "did you mean `x`? ", or nothing.
+fn did_you_mean(name: Option<&str>) -> String {
+    name.map_or(String::new(), |name| format!("did you mean {}? ", quoted(name)))
+}
+
+/// A computed value with as many digits as one reads.
+fn rounded(value: f64) -> String {
+    let short: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    format!("{short:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_near_names_are_near() {
+        let keys = ["mass", "com", "name"];
+        assert_eq!(nearest("mas", keys), Some("mass"));
+        assert_eq!(nearest("nmae", keys), Some("name"));
+        assert_eq!(nearest("colour", keys), None);
+        assert_eq!(nearest("link1", ["arm", "link2"]), Some("link2"));
+    }
+
+    #[test]
+    fn computed_values_are_short() {
+        assert_eq!(rounded(1.0000000000000002e-6), "1e-6");
+        assert_eq!(rounded(-0.1), "-0.1");
+        assert_eq!(rounded(2.0 / 3.0), "0.666667");
+    }
+
+    #[test]
+    fn quoted_texts_stay_on_one_line() {
+        assert_eq!(quoted("two\nlines"), "`two\\nlines`");
+        assert_eq!(quoted(&"x".repeat(100)).chars().count(), 63);
+    }
+}

@@ -1,0 +1,156 @@
+//! Messages about the file as text: syntax, keys, types, numbers.
+
+use super::super::Message;
+use super::{did_you_mean, message, nearest, quoted};
+
+/// For every key an example that may be copied, and what it means. `dh.a` is `a` in the table `dh`.
+const EXAMPLES: &[(&str, &str, &str)] = &[
+    ("name", "name = \"arm\"", ""),
+    ("gravity", "gravity = [0.0, 0.0, -9.81]", "m/s², in the base frame"),
+    ("link", "[[link]]", "one such table for each link"),
+    ("loop", "[[loop]]", "one such table for each cut joint"),
+    ("joint_name", "joint_name = \"elbow\"", ""),
+    ("parent", "parent = \"base\"", "the link that carries this one; `base` is the ground"),
+    ("joint", "joint = \"revolute\"", ""),
+    ("dh", "dh = { a = 0.18, alpha = \"90 deg\", b = 0.4, theta = \"0 deg\" }", "m and angles; missing = 0"),
+    ("dh.a", "a = 0.18", "m"),
+    ("dh.b", "b = 0.4", "m"),
+    ("dh.alpha", "alpha = \"90 deg\"", "without a unit in rad"),
+    ("dh.theta", "theta = \"90 deg\"", "without a unit in rad"),
+    ("origin", "origin = { xyz = [0.0, 0.0, 0.4], rpy = [\"90 deg\", 0, 0] }", "m and angles; missing = 0"),
+    ("origin.xyz", "xyz = [0.0, 0.0, 0.4]", "m, in the parent's frame"),
+    ("origin.rpy", "rpy = [\"90 deg\", 0, 0]", "roll, pitch, yaw; without a unit in rad"),
+    ("axis", "axis = [0.0, 0.0, 1.0]", "in the link's frame"),
+    ("mass", "mass = 1.5", "kg"),
+    ("com", "com = [0.0, 0.0, 0.1]", "m, in the link's frame"),
+    ("inertia", "inertia = { xx = 0.1, yy = 0.1, zz = 0.02 }", "kg m², about the centre of mass; missing = 0"),
+    ("inertia.xx", "xx = 0.1", "kg m²"),
+    ("inertia.yy", "yy = 0.1", "kg m²"),
+    ("inertia.zz", "zz = 0.1", "kg m²"),
+    ("inertia.xy", "xy = 0.001", "kg m²"),
+    ("inertia.yz", "yz = 0.001", "kg m²"),
+    ("inertia.xz", "xz = 0.001", "kg m²"),
+    ("actuated", "actuated = false", ""),
+    ("link_a", "link_a = \"crank\"", "a link, or `base`"),
+    ("link_b", "link_b = \"base\"", "a link, or `base`"),
+    ("point_a", "point_a = [0.1, 0.0, 0.0]", "m, in the frame of link a"),
+    ("point_b", "point_b = [0.1, 0.0, 0.0]", "m, in the frame of link b"),
+    ("axis_a", "axis_a = [0.0, 0.0, 1.0]", "in the frame of link a"),
+    ("axis_b", "axis_b = [0.0, 0.0, 1.0]", "in the frame of link b"),
+];
+
+/// "write for example …" for a key, or for an element of it such as `com[1]`.
+fn example(path: &str) -> String {
+    let key = path.split('[').next().unwrap_or(path);
+    match EXAMPLES.iter().find(|(known, ..)| *known == key) {
+        Some((_, example, "")) => format!("write for example `{example}`"),
+        Some((_, example, meaning)) => format!("write for example `{example}` ({meaning})"),
+        None => format!("see `{key}` in the description of the model file"),
+    }
+}
+
+pub(crate) fn unreadable(reason: &str) -> Message {
+    message(format!("cannot read the model file: {reason}"), "", "the path must name a TOML file in UTF-8")
+}
+
+pub(crate) fn not_utf8(byte: usize) -> Message {
+    message(
+        format!("the model file is not UTF-8 (byte {byte})"),
+        "",
+        "save the file as UTF-8; TOML allows no other encoding",
+    )
+}
+
+pub(crate) fn syntax(reason: &str) -> Message {
+    let help = match reason {
+        "duplicate key" => "a key may stand only once in its table: delete one of the two, or rename it",
+        _ => "correct the TOML first; what the file says is checked after that",
+    };
+    message(format!("TOML: {reason}"), reason, help)
+}
+
+/// `owner` has the keys `keys`; `meant` is the one that was probably meant.
+pub(crate) fn unknown_key(item: &str, path: &str, meant: Option<&str>, owner: &str, keys: &[&str]) -> Message {
+    let help = format!("{}{owner} has: {}", did_you_mean(meant), keys.join(", "));
+    message(format!("{item}: unknown key {}", quoted(path)), "unknown key", help)
+}
+
+pub(crate) fn missing_key(item: &str, path: &str) -> Message {
+    message(format!("{item}: `{path}` is missing"), format!("`{path}` is missing"), example(path))
+}
+
+/// `wanted` and `found` are nouns with their article.
+pub(crate) fn wrong_type(item: &str, path: &str, wanted: &str, found: &str) -> Message {
+    let help = match (wanted, found.starts_with("the string")) {
+        ("a number", true) => format!("{}, without quotes: only angles may have a unit", example(path)),
+        _ => example(path),
+    };
+    message(format!("{item}: `{path}` must be {wanted}, found {found}"), format!("not {wanted}"), help)
+}
+
+pub(crate) fn wrong_length(item: &str, path: &str, wanted: &str, found: usize) -> Message {
+    message(
+        format!("{item}: `{path}` must have {wanted}, found {found}"),
+        format!("{found} instead of {wanted}"),
+        example(path),
+    )
+}
+
+pub(crate) fn not_finite(item: &str, path: &str, found: &str) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, which is not a finite number", quoted(found)),
+        "not a finite number",
+        example(path),
+    )
+}
+
+pub(crate) fn not_an_angle(item: &str, path: &str, found: &str) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, which is not a number with a unit", quoted(found)),
+        "not an angle",
+        "write a number and a unit, as in \"90 deg\" or \"1.5 rad\", or a plain number of radians",
+    )
+}
+
+pub(crate) fn bad_unit(item: &str, path: &str, found: &str, unit: &str) -> Message {
+    let (title, label) = match unit {
+        "" => (format!("{item}: `{path}` is \"{found}\", which has no unit"), "no unit".into()),
+        _ => (
+            format!("{item}: `{path}` has the unit {}, which is not an angle's", quoted(unit)),
+            format!("{} is not a unit of angle", quoted(unit)),
+        ),
+    };
+    message(title, label, "the units of angle are deg and rad, as in \"90 deg\"; a plain number is in rad")
+}
+
+pub(crate) fn unknown_choice(item: &str, path: &str, found: &str, choices: &[&str]) -> Message {
+    let meant = did_you_mean(nearest(found, choices.iter().copied()));
+    let help = format!("{meant}It must be one of: {}", choices.join(", "));
+    message(format!("{item}: `{path}` cannot be {}", quoted(found)), "not one of the kinds", help)
+}
+
+pub(crate) fn unsupported_joint(item: &str, found: &str, choices: &[&str]) -> Message {
+    message(
+        format!("{item}: joints of the kind `{found}` are not supported yet"),
+        "not supported yet",
+        format!("supported are: {}; chain several, with massless links in between", choices.join(", ")),
+    )
+}
+
+pub(crate) fn large_angle(item: &str, path: &str, radians: f64) -> Message {
+    message(
+        format!("{item}: `{path}` is {radians:?} rad, more than a whole turn"),
+        "more than a whole turn",
+        format!("if degrees are meant, write \"{radians:?} deg\"; otherwise \"{radians:?} rad\" ends this warning"),
+    )
+}
+
+pub(crate) fn nearly_quarter_turn(item: &str, path: &str, radians: f64, degrees: f64) -> Message {
+    message(
+        format!("{item}: `{path}` is {radians:?} rad, nearly but not exactly {degrees} deg"),
+        format!("nearly {degrees} deg"),
+        format!(
+            "write \"{degrees} deg\": it is exact, and its zeros leave the generated code; \"{radians:?} rad\" ends this warning"
+        ),
+    )
+}

@@ -1,0 +1,130 @@
+//! The generic path: the recursions at `f64` (or any other scalar), driven by a model that is read at run time.
+
+use crate::denoc::{self, Method};
+use crate::model::Model;
+use crate::tree::Tree;
+use redysim_runtime::{
+    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, MassMatrix,
+    MechanicalEnergy, Mechanism, Scalar,
+};
+
+/// A mechanism whose model is known only at run time.
+///
+/// It implements the traits of [`redysim_runtime`] as compiled types do, with `Vec` for arrays, and is the oracle that
+/// specialised code is tested against. The lengths of the vectors are known only at run time, too: a vector that has not
+/// one element for each joint is a fault of the program and panics, with a message that names it.
+#[derive(Clone, Debug)]
+pub struct GenericMechanism {
+    model: Model,
+    tree: Tree,
+}
+
+impl GenericMechanism {
+    /// The mechanism of a checked model.
+    pub fn new(model: Model) -> Self {
+        let tree = Tree::new(&model);
+        GenericMechanism { model, tree }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The tree of moving bodies, on which the functions of [`denoc`] run.
+    pub fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    fn check<S>(&self, vectors: &[(&str, &[S])]) {
+        let dof = self.tree.dof();
+        for (name, vector) in vectors {
+            assert!(
+                vector.len() == dof,
+                "`{name}` must have one element for each of the {dof} moving joints of `{}`, but it has {}",
+                self.model.name,
+                vector.len()
+            );
+        }
+    }
+}
+
+impl<S: Scalar> Mechanism<S> for GenericMechanism {
+    type Coordinates = Vec<S>;
+    type Velocities = Vec<S>;
+    type State = Vec<S>;
+    type Matrix = Vec<Vec<S>>;
+    type Links = Vec<LinkState<S>>;
+
+    fn name(&self) -> &str {
+        &self.model.name
+    }
+    fn nq(&self) -> usize {
+        self.tree.dof()
+    }
+    fn nv(&self) -> usize {
+        self.tree.dof()
+    }
+    fn nl(&self) -> usize {
+        self.model.links.len()
+    }
+    fn link_name(&self, index: usize) -> Option<&str> {
+        self.model.links.get(index).map(|link| link.name.as_str())
+    }
+    fn joint_name(&self, index: usize) -> Option<&str> {
+        self.model.moving_links().nth(index).map(|link| link.joint_name.as_str())
+    }
+    fn coordinate_rates(&self, _q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
+        v.clone()
+    }
+}
+
+impl<S: Scalar> InverseDynamics<S> for GenericMechanism {
+    fn inverse_dynamics(&self, q: &Vec<S>, v: &Vec<S>, a: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q), ("v", v), ("a", a)]);
+        denoc::inverse_dynamics(&self.tree, q, v, a)
+    }
+}
+
+impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
+    /// By the O(n) recursion, which stays accurate for chains of any length.
+    fn forward_dynamics(&self, q: &Vec<S>, v: &Vec<S>, tau: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q), ("v", v), ("tau", tau)]);
+        denoc::forward_dynamics(Method::Recursion, &self.tree, q, v, tau)
+    }
+}
+
+impl<S: Scalar> MassMatrix<S> for GenericMechanism {
+    fn mass_matrix(&self, q: &Vec<S>) -> Vec<Vec<S>> {
+        self.check(&[("q", q)]);
+        denoc::mass_matrix(&self.tree, q)
+    }
+}
+
+impl<S: Scalar> BiasForces<S> for GenericMechanism {
+    fn bias_forces(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q), ("v", v)]);
+        denoc::bias_forces(&self.tree, q, v)
+    }
+}
+
+impl<S: Scalar> GravityForces<S> for GenericMechanism {
+    fn gravity_forces(&self, q: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q)]);
+        denoc::gravity_forces(&self.tree, q)
+    }
+}
+
+impl<S: Scalar> MechanicalEnergy<S> for GenericMechanism {
+    fn energy(&self, q: &Vec<S>, v: &Vec<S>) -> Energy<S> {
+        self.check(&[("q", q), ("v", v)]);
+        denoc::energy(&self.tree, q, v)
+    }
+}
+
+impl<S: Scalar> LinkKinematics<S> for GenericMechanism {
+    fn link_kinematics(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<LinkState<S>> {
+        self.check(&[("q", q), ("v", v)]);
+        denoc::link_kinematics(&self.tree, q, v)
+    }
+}

@@ -1,0 +1,21 @@
+//! The model of a mechanism: read from TOML, checked, and driven through the DeNOC recursions.
+
+mod check;
+pub mod denoc;
+mod diagnostic;
+pub mod generic;
+pub mod inertia;
+mod load;
+pub mod model;
+pub mod regroup;
+pub mod rotation;
+mod schema;
+pub mod spatial;
+pub mod tree;
+mod units;
+
+pub use diagnostic::{Diagnostic, Faults, Severity};
+pub use generic::GenericMechanism;
+pub use load::Loaded;
+pub use model::{CutKind, CutSide, Inertia, JointKind, Link, Loop, Model, Outline};
+pub use tree::Tree;

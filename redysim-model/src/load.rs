@@ -1,0 +1,110 @@
+//! From a file to a checked model.
+
+use crate::check;
+use crate::diagnostic::{Diagnostic, Faults, Findings, Message, Severity, Source, messages};
+use crate::model::{Model, Outline};
+use crate::schema::Document;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+use toml::de::{DeTable, Error};
+
+/// A model, and what seems odd about its file.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The model.
+    pub model: Model,
+    /// Warnings, in the file's order.
+    pub warnings: Vec<Diagnostic>,
+}
+
+impl Model {
+    /// Reads and checks a model file.
+    ///
+    /// # Errors
+    ///
+    /// Every fault in the file, each shown where it stands; or why the file could not be read.
+    pub fn load(path: impl AsRef<Path>) -> Result<Loaded, Faults> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        let bytes = match std::fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(_) if path.is_dir() => return Err(unreadable(name, messages::unreadable("it is a directory"))),
+            Err(error) => return Err(unreadable(name, messages::unreadable(&error.to_string()))),
+        };
+        match String::from_utf8(bytes) {
+            Ok(text) => Model::from_toml(text, name),
+            Err(error) => Err(unreadable(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1))),
+        }
+    }
+
+    /// Checks the text of a model file. Messages call the file `file_name`.
+    ///
+    /// What the file may leave out: `joint_name` is the link's name; `com`, `point_a`, `point_b` and the entries of
+    /// `dh`, `origin` and `inertia` are zero; `actuated` is true; of `origin` and `axis` (used where there is no `dh`)
+    /// one may be missing, and is then the parent's frame or z; `axis_a` and `axis_b` of a revolute cut are z.
+    ///
+    /// # Errors
+    ///
+    /// Every fault in the text, each shown where it stands.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// use redysim_model::Model;
+    ///
+    /// let pendulum = r#"
+    ///     name = "pendulum"
+    ///     gravity = [0.0, 0.0, -9.81]
+    ///
+    ///     [[link]]
+    ///     name = "rod"
+    ///     parent = "base"
+    ///     joint = "revolute"
+    ///     axis = [0, 1, 0]
+    ///     mass = 1.0
+    ///     com = [0.5, 0.0, 0.0]
+    /// "#;
+    /// let loaded = Model::from_toml(pendulum, "pendulum.toml").unwrap();
+    /// assert_eq!(loaded.model.dof(), 1);
+    ///
+    /// let faults = Model::from_toml(pendulum.replace("mass", "mas"), "pendulum.toml").unwrap_err();
+    /// println!("{faults}"); // shows line 10 with a caret below `mas`, and asks: did you mean `mass`?
+    /// assert_eq!(faults.errors().next().unwrap().position(), Some((10, 5)));
+    /// ```
+    pub fn from_toml(text: impl Into<String>, file_name: impl Into<String>) -> Result<Loaded, Faults> {
+        let source = Arc::new(Source { name: file_name.into(), text: text.into() });
+        let mut findings = Findings::new(Arc::clone(&source));
+        let (root, errors) = DeTable::parse_recoverable(&source.text);
+        if !errors.is_empty() {
+            // What a broken file says is read for its outline only: its faults would be echoes of the syntax errors.
+            let outline = Document::read(root.get_ref(), &mut Findings::new(Arc::clone(&source))).outline();
+            report_syntax(&errors, &source, &mut findings);
+            return Err(Faults { diagnostics: findings.into_sorted(), outline });
+        }
+        let document = Document::read(root.get_ref(), &mut findings);
+        match check::check(&document, &mut findings) {
+            Some(model) => Ok(Loaded { model, warnings: findings.into_sorted() }),
+            None => Err(Faults { diagnostics: findings.into_sorted(), outline: document.outline() }),
+        }
+    }
+}
+
+/// Reports the first syntax error of each line; the parser stumbles on over the rest of a broken line.
+fn report_syntax(errors: &[Error], source: &Source, findings: &mut Findings) {
+    let mut lines = Vec::new();
+    for error in errors {
+        let span = error.span().unwrap_or(Range::default());
+        let line = source.place(&span).line;
+        if !lines.contains(&line) {
+            lines.push(line);
+            findings.error(span, messages::syntax(error.message()));
+        }
+    }
+}
+
+fn unreadable(name: String, message: Message) -> Faults {
+    let source = Arc::new(Source { name, text: String::new() });
+    let diagnostics = vec![Diagnostic::new(Severity::Error, message, source, None)];
+    Faults { diagnostics, outline: Outline::default() }
+}

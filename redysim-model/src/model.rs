@@ -1,0 +1,167 @@
+//! The checked model: what a model file says, with every name resolved and every joint placed in one way.
+
+use crate::spatial::{Pose, Vec3};
+
+/// A mechanism whose file passed every check. Links and loops stand in the file's order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Name of the mechanism.
+    pub name: String,
+    /// Acceleration of gravity in the base frame, m/s².
+    pub gravity: Vec3<f64>,
+    /// The links, in the file's order; parents may stand after their children.
+    pub links: Vec<Link>,
+    /// The cut joints, in the file's order.
+    pub loops: Vec<Loop>,
+}
+
+/// One rigid body and the joint that carries it.
+///
+/// A joint variable q moves the link's frame to `placement · motion(offset + q)`, where the motion is a rotation about
+/// `axis` (revolute), a translation along it (prismatic), or nothing (fixed).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Name of the link.
+    pub name: String,
+    /// Name of its joint; the link's own name unless the file gives one.
+    pub joint_name: String,
+    /// Index of the parent in [`Model::links`]; `None` is the ground.
+    pub parent: Option<usize>,
+    /// What the joint lets the link do.
+    pub joint: JointKind,
+    /// The link's frame in the parent's where the joint's motion is zero.
+    pub placement: Pose<f64>,
+    /// Unit vector of the joint axis, in the link's frame.
+    pub axis: Vec3<f64>,
+    /// What is added to the joint variable: rad (revolute) or m (prismatic).
+    pub offset: f64,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass from the link's frame, in it, m.
+    pub com: Vec3<f64>,
+    /// Inertia about the centre of mass, in the link's axes.
+    pub inertia: Inertia,
+    /// Whether the joint has an actuator.
+    pub actuated: bool,
+}
+
+/// The kinds of joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointKind {
+    /// Rotation about the axis.
+    Revolute,
+    /// Translation along the axis.
+    Prismatic,
+    /// No motion: the link is part of its parent.
+    Fixed,
+}
+
+impl JointKind {
+    /// Every kind with its name in a model file.
+    pub const ALL: [(&'static str, JointKind); 3] =
+        [("revolute", JointKind::Revolute), ("prismatic", JointKind::Prismatic), ("fixed", JointKind::Fixed)];
+
+    /// Number of joint velocities.
+    pub fn dof(self) -> usize {
+        match self {
+            JointKind::Revolute | JointKind::Prismatic => 1,
+            JointKind::Fixed => 0,
+        }
+    }
+}
+
+/// A symmetric inertia tensor, kg m².
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inertia {
+    /// Moment about x.
+    pub xx: f64,
+    /// Moment about y.
+    pub yy: f64,
+    /// Moment about z.
+    pub zz: f64,
+    /// Element xy of the tensor (the negative of ∫xy dm).
+    pub xy: f64,
+    /// Element yz of the tensor.
+    pub yz: f64,
+    /// Element xz of the tensor.
+    pub xz: f64,
+}
+
+/// A cut joint: `point_a` on link a and `point_b` on link b coincide.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loop {
+    /// Name of the loop.
+    pub name: String,
+    /// What the cut joint holds together.
+    pub joint: CutKind,
+    /// The side a of the cut.
+    pub a: CutSide,
+    /// The side b of the cut.
+    pub b: CutSide,
+}
+
+/// One side of a cut joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutSide {
+    /// Index of the link in [`Model::links`]; `None` is the ground.
+    pub link: Option<usize>,
+    /// The point that meets the other side's, in the link's frame, m.
+    pub point: Vec3<f64>,
+    /// Unit vector of the axis that meets the other side's (revolute cuts), in the link's frame.
+    pub axis: Vec3<f64>,
+}
+
+/// The kinds of cut joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CutKind {
+    /// Points coincide and axes align.
+    Revolute,
+    /// Points coincide.
+    Spherical,
+    /// Points coincide and frames align.
+    Weld,
+}
+
+impl CutKind {
+    /// Every kind with its name in a model file.
+    pub const ALL: [(&'static str, CutKind); 3] =
+        [("revolute", CutKind::Revolute), ("spherical", CutKind::Spherical), ("weld", CutKind::Weld)];
+}
+
+impl Model {
+    /// Number of joint velocities, NV: the sum of the joints' freedoms.
+    pub fn dof(&self) -> usize {
+        self.links.iter().map(|link| link.joint.dof()).sum()
+    }
+
+    /// The links whose joints move, in the file's order: entry `i` carries joint variable `i`.
+    pub fn moving_links(&self) -> impl Iterator<Item = &Link> {
+        self.links.iter().filter(|link| link.joint.dof() > 0)
+    }
+}
+
+/// What the outside of a mechanism's type depends on. A model whose file has faults still has one, as far as the file
+/// can be read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Outline {
+    /// Name of the mechanism; empty if it cannot be read.
+    pub name: String,
+    /// Names of the links; "link #2" stands for one that cannot be read.
+    pub links: Vec<String>,
+    /// Names of the joints that move. A joint of unreadable kind is taken for one.
+    pub joints: Vec<String>,
+    /// Whether each of these has an actuator.
+    pub actuated: Vec<bool>,
+}
+
+impl Outline {
+    /// The outline of a checked model.
+    pub fn new(model: &Model) -> Self {
+        Outline {
+            name: model.name.clone(),
+            links: model.links.iter().map(|link| link.name.clone()).collect(),
+            joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
+            actuated: model.moving_links().map(|link| link.actuated).collect(),
+        }
+    }
+}

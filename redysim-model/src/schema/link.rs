@@ -1,0 +1,122 @@
+//! A `[[link]]` table.
+
+use super::reader::{Reader, Shape};
+use super::{Field, Table, item};
+use crate::diagnostic::Findings;
+use crate::model::{Inertia, JointKind};
+use std::ops::Range;
+use toml::Spanned;
+
+/// What a `[[link]]` table says.
+#[derive(Debug)]
+pub(crate) struct LinkTable {
+    /// What messages call the link.
+    pub(crate) item: String,
+    /// The place of `[[link]]`.
+    pub(crate) header: Range<usize>,
+    pub(crate) name: Field<String>,
+    pub(crate) joint_name: Field<String>,
+    pub(crate) parent: Field<String>,
+    pub(crate) joint: Field<JointKind>,
+    pub(crate) dh: Field<Dh>,
+    pub(crate) origin: Field<Origin>,
+    pub(crate) axis: Field<[f64; 3]>,
+    pub(crate) mass: Field<f64>,
+    pub(crate) com: Field<[f64; 3]>,
+    pub(crate) inertia: Field<Inertia>,
+    pub(crate) actuated: Field<bool>,
+}
+
+/// Khalil-Kleinfinger parameters: the link's frame stands in its parent's at Rx(alpha) Tx(a) Rz(theta) Tz(b).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Dh {
+    pub(crate) a: f64,
+    pub(crate) alpha: f64,
+    pub(crate) b: f64,
+    pub(crate) theta: f64,
+}
+
+/// Place of the link's frame in its parent's, as URDF has it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Origin {
+    pub(crate) xyz: [f64; 3],
+    pub(crate) rpy: [f64; 3],
+}
+
+const LINK: Shape = Shape {
+    owner: "A link",
+    keys: &["name", "joint_name", "parent", "joint", "dh", "origin", "axis", "mass", "com", "inertia", "actuated"],
+};
+const DH: Shape = Shape { owner: "`dh`", keys: &["a", "alpha", "b", "theta"] };
+const ORIGIN: Shape = Shape { owner: "`origin`", keys: &["xyz", "rpy"] };
+const INERTIA: Shape = Shape { owner: "`inertia`", keys: &["xx", "yy", "zz", "xy", "yz", "xz"] };
+
+/// Kinds of joint that are planned.
+const UNSUPPORTED: &[&str] = &["universal", "spherical", "free"];
+
+impl LinkTable {
+    /// Reads the `number`-th link of the file.
+    pub(super) fn read((table, header): Table<'_>, number: usize, findings: &mut Findings) -> LinkTable {
+        let item = item("link", table, number);
+        let mut reader = Reader::new(table, header.clone(), &item, &LINK, findings);
+        let name = reader.text("name");
+        let parent = reader.text("parent");
+        let joint = reader.choice("joint", &JointKind::ALL, UNSUPPORTED);
+        let mass = reader.number("mass");
+        LinkTable {
+            name: reader.required("name", name),
+            joint_name: reader.text("joint_name"),
+            parent: reader.required("parent", parent),
+            joint: reader.required("joint", joint),
+            dh: reader.table("dh", &DH, dh),
+            origin: reader.table("origin", &ORIGIN, origin),
+            axis: reader.vector("axis"),
+            mass: reader.required("mass", mass),
+            com: reader.vector("com"),
+            inertia: reader.table("inertia", &INERTIA, inertia),
+            actuated: reader.flag("actuated"),
+            item,
+            header,
+        }
+    }
+
+    /// Where faults of the link as a whole are shown.
+    pub(crate) fn place(&self) -> Range<usize> {
+        self.name.spanned().map_or(self.header.clone(), Spanned::span)
+    }
+
+    /// The joint's name: the link's unless the file gives one.
+    pub(crate) fn joint_name(&self) -> Option<&Spanned<String>> {
+        if self.joint_name.is_missing() { self.name.spanned() } else { self.joint_name.spanned() }
+    }
+}
+
+// Faulty entries become zero here; the fault that was reported makes the whole table faulty.
+
+fn dh(mut reader: Reader<'_, '_>) -> Dh {
+    Dh {
+        a: reader.number("a").value_or(0.0).unwrap_or_default(),
+        alpha: reader.angle("alpha").value_or(0.0).unwrap_or_default(),
+        b: reader.number("b").value_or(0.0).unwrap_or_default(),
+        theta: reader.angle("theta").value_or(0.0).unwrap_or_default(),
+    }
+}
+
+fn origin(mut reader: Reader<'_, '_>) -> Origin {
+    Origin {
+        xyz: reader.vector("xyz").value_or([0.0; 3]).unwrap_or_default(),
+        rpy: reader.angles("rpy").value_or([0.0; 3]).unwrap_or_default(),
+    }
+}
+
+fn inertia(mut reader: Reader<'_, '_>) -> Inertia {
+    let mut element = |key| reader.number(key).value_or(0.0).unwrap_or_default();
+    Inertia {
+        xx: element("xx"),
+        yy: element("yy"),
+        zz: element("zz"),
+        xy: element("xy"),
+        yz: element("yz"),
+        xz: element("xz"),
+    }
+}

@@ -1,0 +1,265 @@
+//! Reads the keys of one table, reporting what is not as it should be.
+
+use super::{Field, Table};
+use crate::diagnostic::{Findings, Message, messages};
+use crate::units::{self, NotAnAngle};
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeInteger, DeTable, DeValue};
+
+/// The keys that a kind of table may have.
+pub(super) struct Shape {
+    /// What has the keys, with its article.
+    pub(super) owner: &'static str,
+    pub(super) keys: &'static [&'static str],
+}
+
+/// One table, and whose it is.
+pub(super) struct Reader<'a, 'f> {
+    table: &'a DeTable<'a>,
+    /// A place for what the table lacks.
+    place: Range<usize>,
+    /// What messages call the item that the table describes.
+    item: &'f str,
+    /// Valid keys that unknown ones were probably meant to be: their absence is no second fault.
+    misspelt: Vec<&'static str>,
+    /// Stands before a key in messages: empty, or `dh.` in the table `dh`.
+    prefix: String,
+    findings: &'f mut Findings,
+}
+
+type Value<'a> = Spanned<DeValue<'a>>;
+
+/// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1416.
+const NEARLY: f64 = 1e-5;
+
+impl<'a, 'f> Reader<'a, 'f> {
+    /// Opens a table and reports its unknown keys.
+    pub(super) fn new(
+        table: &'a DeTable<'a>,
+        place: Range<usize>,
+        item: &'f str,
+        shape: &Shape,
+        findings: &'f mut Findings,
+    ) -> Self {
+        Self { table, place, item, misspelt: Vec::new(), prefix: String::new(), findings }.without_unknown_keys(shape)
+    }
+
+    fn without_unknown_keys(mut self, shape: &Shape) -> Self {
+        for key in self.table.keys().filter(|key| !shape.keys.contains(&key.get_ref().as_ref())) {
+            let absent = shape.keys.iter().copied().filter(|key| !self.table.contains_key(*key));
+            let meant = messages::nearest(key.get_ref(), absent);
+            let path = self.path(key.get_ref());
+            self.findings.error(key.span(), messages::unknown_key(self.item, &path, meant, shape.owner, shape.keys));
+            self.misspelt.extend(meant);
+        }
+        self
+    }
+
+    /// What to make of a key that is not there.
+    fn absent<T>(&self, key: &str) -> Field<T> {
+        if self.misspelt.contains(&key) { Field::Faulty } else { Field::Missing }
+    }
+
+    /// Reports a key that must be there and is not.
+    pub(super) fn required<T>(&mut self, key: &str, field: Field<T>) -> Field<T> {
+        if field.is_missing() {
+            self.findings.error(self.place.clone(), messages::missing_key(self.item, &self.path(key)));
+        }
+        field
+    }
+
+    pub(super) fn text(&mut self, key: &str) -> Field<String> {
+        self.field(key, |reader, path, value| match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            _ => reader.wrong_type(path, value, "a string"),
+        })
+    }
+
+    pub(super) fn flag(&mut self, key: &str) -> Field<bool> {
+        self.field(key, |reader, path, value| match value.get_ref() {
+            DeValue::Boolean(flag) => Some(*flag),
+            _ => reader.wrong_type(path, value, "true or false"),
+        })
+    }
+
+    pub(super) fn number(&mut self, key: &str) -> Field<f64> {
+        self.field(key, Self::a_number)
+    }
+
+    /// In radians.
+    pub(super) fn angle(&mut self, key: &str) -> Field<f64> {
+        self.field(key, Self::an_angle)
+    }
+
+    pub(super) fn vector(&mut self, key: &str) -> Field<[f64; 3]> {
+        self.field(key, |reader, path, value| reader.three(path, value, "3 numbers", Self::a_number))
+    }
+
+    /// In radians.
+    pub(super) fn angles(&mut self, key: &str) -> Field<[f64; 3]> {
+        self.field(key, |reader, path, value| reader.three(path, value, "3 angles", Self::an_angle))
+    }
+
+    /// One of the names in `choices`. Those in `planned` are known, but not supported.
+    pub(super) fn choice<T: Copy>(&mut self, key: &str, choices: &[(&str, T)], planned: &[&str]) -> Field<T> {
+        self.field(key, |reader, path, value| {
+            let DeValue::String(text) = value.get_ref() else {
+                return reader.wrong_type(path, value, "a string");
+            };
+            let chosen = choices.iter().find(|(name, _)| name == text).map(|(_, choice)| *choice);
+            let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+            chosen.or_else(|| match planned.contains(&text.as_ref()) {
+                true => reader.fault(value, messages::unsupported_joint(reader.item, text, &names)),
+                false => reader.fault(value, messages::unknown_choice(reader.item, path, text, &names)),
+            })
+        })
+    }
+
+    /// A table within this one.
+    pub(super) fn table<T>(&mut self, key: &str, shape: &Shape, read: impl FnOnce(Reader<'_, '_>) -> T) -> Field<T> {
+        self.field(key, |reader, path, value| {
+            let DeValue::Table(table) = value.get_ref() else {
+                return reader.wrong_type(path, value, "a table");
+            };
+            let inner = Reader {
+                table,
+                place: value.span(),
+                item: reader.item,
+                misspelt: Vec::new(),
+                prefix: format!("{path}."),
+                findings: reader.findings,
+            };
+            Some(read(inner.without_unknown_keys(shape)))
+        })
+    }
+
+    /// The tables of an array of tables; `None` stands for what is no table, or no array.
+    pub(super) fn tables(&mut self, key: &str) -> Option<Vec<Option<Table<'a>>>> {
+        let (table, path) = (self.table, self.path(key));
+        let Some(value) = table.get(key) else {
+            return (!self.misspelt.contains(&key)).then(Vec::new);
+        };
+        let DeValue::Array(array) = value.get_ref() else {
+            return self.wrong_type(&path, value, &format!("an array of tables, each headed `[[{key}]]`"));
+        };
+        let entry = |entry: &'a Value<'a>| match entry.get_ref() {
+            DeValue::Table(table) => Some((table, entry.span())),
+            _ => self.wrong_type(&path, entry, &format!("an array of tables, each headed `[[{key}]]`")),
+        };
+        Some(array.iter().map(entry).collect())
+    }
+
+    /// What `read` makes of the value under `key`; faulty if it reports any error.
+    fn field<T>(&mut self, key: &str, read: impl FnOnce(&mut Self, &str, &'a Value<'a>) -> Option<T>) -> Field<T> {
+        let table = self.table;
+        let Some(value) = table.get(key) else {
+            return self.absent(key);
+        };
+        let (path, errors_before) = (self.path(key), self.findings.errors());
+        match read(self, &path, value) {
+            Some(read) if self.findings.errors() == errors_before => Field::Value(Spanned::new(value.span(), read)),
+            _ => Field::Faulty,
+        }
+    }
+
+    fn three(
+        &mut self,
+        path: &str,
+        value: &'a Value<'a>,
+        wanted: &str,
+        element: impl Fn(&mut Self, &str, &'a Value<'a>) -> Option<f64>,
+    ) -> Option<[f64; 3]> {
+        let DeValue::Array(array) = value.get_ref() else {
+            return self.wrong_type(path, value, &format!("an array of {wanted}"));
+        };
+        // Every element is read, so that each fault among them is reported.
+        let read = array.iter().enumerate().map(|(i, value)| element(self, &format!("{path}[{i}]"), value));
+        let elements: Vec<_> = read.collect();
+        match elements.as_slice() {
+            [x, y, z] => Some([(*x)?, (*y)?, (*z)?]),
+            _ => self.fault(value, messages::wrong_length(self.item, path, wanted, elements.len())),
+        }
+    }
+
+    fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+        let (number, text) = match value.get_ref() {
+            DeValue::Float(float) => (float.as_str().parse().unwrap_or(f64::NAN), float.as_str()),
+            DeValue::Integer(integer) => (integer_value(integer), integer.as_str()),
+            _ => return self.wrong_type(path, value, "a number"),
+        };
+        self.finite(path, value, number, text)
+    }
+
+    fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+        let DeValue::String(text) = value.get_ref() else {
+            if !matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_)) {
+                return self.wrong_type(path, value, "an angle");
+            }
+            let radians = self.a_number(path, value)?;
+            self.doubt(path, value, radians);
+            return Some(radians);
+        };
+        match units::angle(text) {
+            Ok(radians) => self.finite(path, value, radians, text),
+            Err(NotAnAngle::Number) => self.fault(value, messages::not_an_angle(self.item, path, text)),
+            Err(NotAnAngle::Unit(unit)) => self.fault(value, messages::bad_unit(self.item, path, text, unit)),
+        }
+    }
+
+    /// Warns of plain numbers that look like degrees, or like quarter turns rounded by hand.
+    fn doubt(&mut self, path: &str, value: &Value<'_>, radians: f64) {
+        let quarters = (radians / FRAC_PI_2).round();
+        let (sin_twice, _) = crate::rotation::sin_cos(2.0 * radians);
+        if radians.abs() > TAU * (1.0 + NEARLY) {
+            self.findings.warning(value.span(), messages::large_angle(self.item, path, radians));
+        } else if quarters != 0.0 && sin_twice != 0.0 && (radians - quarters * FRAC_PI_2).abs() < NEARLY {
+            let message = messages::nearly_quarter_turn(self.item, path, radians, 90.0 * quarters);
+            self.findings.warning(value.span(), message);
+        }
+    }
+
+    fn finite(&mut self, path: &str, value: &Value<'_>, number: f64, text: &str) -> Option<f64> {
+        match number.is_finite() {
+            true => Some(number),
+            false => self.fault(value, messages::not_finite(self.item, path, text)),
+        }
+    }
+
+    fn wrong_type<T>(&mut self, path: &str, value: &Value<'_>, wanted: &str) -> Option<T> {
+        self.fault(value, messages::wrong_type(self.item, path, wanted, &described(value.get_ref())))
+    }
+
+    fn fault<T>(&mut self, value: &Value<'_>, message: Message) -> Option<T> {
+        self.findings.error(value.span(), message);
+        None
+    }
+
+    fn path(&self, key: &str) -> String {
+        format!("{}{key}", self.prefix)
+    }
+}
+
+/// TOML's integers are exact; as coordinates they are rounded to the nearest `f64`.
+fn integer_value(integer: &DeInteger<'_>) -> f64 {
+    match (integer.radix(), i128::from_str_radix(integer.as_str(), integer.radix())) {
+        (_, Ok(value)) => value as f64,
+        (10, Err(_)) => integer.as_str().parse().unwrap_or(f64::INFINITY),
+        (_, Err(_)) => f64::INFINITY,
+    }
+}
+
+/// A value in a few words, with its article.
+fn described(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) if text.chars().count() > 40 => "a long string".into(),
+        DeValue::String(text) => format!("the string \"{}\"", text.escape_debug()),
+        DeValue::Integer(integer) => format!("the number {integer}"),
+        DeValue::Float(float) => format!("the number {float}"),
+        DeValue::Boolean(flag) => flag.to_string(),
+        DeValue::Datetime(_) => "a date or time".into(),
+        DeValue::Array(_) => "an array".into(),
+        DeValue::Table(_) => "a table".into(),
+    }
+}

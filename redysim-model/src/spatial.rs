@@ -1,0 +1,179 @@
+//! Vectors, rotations and poses in three dimensions, over any scalar.
+
+use redysim_runtime::Scalar;
+use std::ops::{Add, Index, IndexMut, Mul, Neg, Sub};
+
+/// Three components in some frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vec3<S>(pub [S; 3]);
+
+/// A 3×3 matrix, by rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mat3<S>(pub [[S; 3]; 3]);
+
+/// Where a frame stands in another: `rotation` has the frame's axes as columns, `position` is its origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<S> {
+    /// The frame's axes, as columns.
+    pub rotation: Mat3<S>,
+    /// The frame's origin, m.
+    pub position: Vec3<S>,
+}
+
+impl<S: Scalar> Vec3<S> {
+    /// The zero vector.
+    pub fn zero() -> Self {
+        Vec3([S::zero(); 3])
+    }
+
+    /// The vector whose component `i` is `component(i)`.
+    pub fn from_fn(component: impl FnMut(usize) -> S) -> Self {
+        Vec3(std::array::from_fn(component))
+    }
+
+    /// Constants of the model as scalars.
+    pub fn constant(value: Vec3<f64>) -> Self {
+        Self::from_fn(|i| S::from_f64(value[i]))
+    }
+
+    /// aᵀ b.
+    pub fn dot(self, b: Self) -> S {
+        self[0] * b[0] + self[1] * b[1] + self[2] * b[2]
+    }
+
+    /// a × b.
+    pub fn cross(self, b: Self) -> Self {
+        let a = self;
+        Vec3([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    }
+
+    /// The vector times a scalar.
+    pub fn scale(self, factor: S) -> Self {
+        Self::from_fn(|i| factor * self[i])
+    }
+
+    /// The skew-symmetric matrix a× with (a×) b = a × b.
+    pub fn skew(self) -> Mat3<S> {
+        let (zero, [x, y, z]) = (S::zero(), self.0);
+        Mat3([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
+    }
+
+    /// Names the three components for a symbolic scalar (see [`Scalar::named`]).
+    pub fn named(self, quantity: &'static str, body: usize) -> Self {
+        Self::from_fn(|i| self[i].named(quantity, body, ["x", "y", "z"][i]))
+    }
+}
+
+impl<S: Scalar> Mat3<S> {
+    /// The unit matrix.
+    pub fn identity() -> Self {
+        Self::from_fn(|i, j| if i == j { S::one() } else { S::zero() })
+    }
+
+    /// The matrix whose element in row `i` and column `j` is `element(i, j)`.
+    pub fn from_fn(mut element: impl FnMut(usize, usize) -> S) -> Self {
+        Mat3(std::array::from_fn(|i| std::array::from_fn(|j| element(i, j))))
+    }
+
+    /// Constants of the model as scalars.
+    pub fn constant(value: Mat3<f64>) -> Self {
+        Self::from_fn(|i, j| S::from_f64(value.0[i][j]))
+    }
+
+    /// Aᵀ.
+    pub fn transpose(self) -> Self {
+        Self::from_fn(|i, j| self.0[j][i])
+    }
+
+    /// Column `j`.
+    pub fn column(self, j: usize) -> Vec3<S> {
+        Vec3::from_fn(|i| self.0[i][j])
+    }
+}
+
+impl<S: Scalar> Pose<S> {
+    /// The pose of a frame that coincides with its reference.
+    pub fn identity() -> Self {
+        Pose { rotation: Mat3::identity(), position: Vec3::zero() }
+    }
+
+    /// Constants of the model as scalars.
+    pub fn constant(value: Pose<f64>) -> Self {
+        Pose { rotation: Mat3::constant(value.rotation), position: Vec3::constant(value.position) }
+    }
+
+    /// The point with coordinates `point` in the frame, in the reference.
+    pub fn transform(self, point: Vec3<S>) -> Vec3<S> {
+        self.rotation * point + self.position
+    }
+}
+
+impl<S: Scalar> Mul for Pose<S> {
+    type Output = Pose<S>;
+    /// The pose of a frame that stands at `inner` in the frame that stands at `self`.
+    fn mul(self, inner: Self) -> Self {
+        Pose { rotation: self.rotation * inner.rotation, position: self.transform(inner.position) }
+    }
+}
+
+impl<S> Index<usize> for Vec3<S> {
+    type Output = S;
+    fn index(&self, i: usize) -> &S {
+        &self.0[i]
+    }
+}
+
+impl<S> IndexMut<usize> for Vec3<S> {
+    fn index_mut(&mut self, i: usize) -> &mut S {
+        &mut self.0[i]
+    }
+}
+
+impl<S: Scalar> Add for Vec3<S> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Self::from_fn(|i| self[i] + b[i])
+    }
+}
+
+impl<S: Scalar> Sub for Vec3<S> {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        Self::from_fn(|i| self[i] - b[i])
+    }
+}
+
+impl<S: Scalar> Neg for Vec3<S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::from_fn(|i| -self[i])
+    }
+}
+
+impl<S: Scalar> Add for Mat3<S> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Self::from_fn(|i, j| self.0[i][j] + b.0[i][j])
+    }
+}
+
+impl<S: Scalar> Sub for Mat3<S> {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        Self::from_fn(|i, j| self.0[i][j] - b.0[i][j])
+    }
+}
+
+impl<S: Scalar> Mul<Vec3<S>> for Mat3<S> {
+    type Output = Vec3<S>;
+    fn mul(self, b: Vec3<S>) -> Vec3<S> {
+        Vec3::from_fn(|i| Vec3(self.0[i]).dot(b))
+    }
+}
+
+impl<S: Scalar> Mul for Mat3<S> {
+    type Output = Self;
+    fn mul(self, b: Self) -> Self {
+        Self::from_fn(|i, j| Vec3(self.0[i]).dot(b.column(j)))
+    }
+}

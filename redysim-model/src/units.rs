@@ -1,0 +1,47 @@
+//! Angles written with a unit: `"90 deg"`, `"1.5 rad"`.
+
+use std::f64::consts::FRAC_PI_2;
+
+/// Why a text is not an angle.
+#[derive(Debug, PartialEq)]
+pub(crate) enum NotAnAngle<'a> {
+    /// There is no number in front.
+    Number,
+    /// The number is followed by this instead of a unit; empty if nothing follows.
+    Unit(&'a str),
+}
+
+/// Reads an angle with a unit, in radians. Multiples of 90 deg become k · π/2, which [`crate::rotation`] knows.
+pub(crate) fn angle(text: &str) -> Result<f64, NotAnAngle<'_>> {
+    let text = text.trim();
+    let digits = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c))).unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let number: f64 = number.parse().map_err(|_| NotAnAngle::Number)?;
+    match unit.trim_start() {
+        "deg" if number % 90.0 == 0.0 => Ok(number / 90.0 * FRAC_PI_2),
+        "deg" => Ok(number.to_radians()),
+        "rad" => Ok(number),
+        unit => Err(NotAnAngle::Unit(unit)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn angles_have_a_unit() {
+        assert_eq!(angle("90 deg"), Ok(FRAC_PI_2));
+        assert_eq!(angle(" -270deg "), Ok(-3.0 * FRAC_PI_2));
+        assert_eq!(angle("1.8e2 deg"), Ok(PI));
+        assert_eq!(angle("30 deg"), Ok(30_f64.to_radians()));
+        assert_eq!(angle("1.5 rad"), Ok(1.5));
+        assert_eq!(angle("90 °"), Err(NotAnAngle::Unit("°")));
+        assert_eq!(angle("90 grad"), Err(NotAnAngle::Unit("grad")));
+        assert_eq!(angle("90"), Err(NotAnAngle::Unit("")));
+        for text in ["", "deg", "nan deg", "ninety deg", "1.2.3 deg", "π rad"] {
+            assert_eq!(angle(text), Err(NotAnAngle::Number), "{text}");
+        }
+    }
+}

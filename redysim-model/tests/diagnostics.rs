@@ -1,0 +1,109 @@
+//! Each file in `models/fail` has faults, each in `models/warn` only odd values. Beside it stands the text that a user
+//! sees. After a deliberate change, `BLESS=1 cargo test -p redysim-model --test diagnostics` writes the texts anew.
+
+use redysim_model::{Diagnostic, Loaded, Model};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn models() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("models")
+}
+
+/// The stems of the files in `folder` with this extension.
+fn stems(folder: &str, extension: &str) -> BTreeSet<String> {
+    let entries = fs::read_dir(models().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    let wanted = entries.filter(|path| path.extension().is_some_and(|found| found == extension));
+    wanted.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned()).collect()
+}
+
+/// Compares what `shown` makes of each TOML file in `folder` with the text beside it.
+fn compare(folder: &str, shown: impl Fn(String, &str) -> String) {
+    let bless = std::env::var_os("BLESS").is_some();
+    let mut differences = Vec::new();
+    for stem in stems(folder, "toml") {
+        let name = format!("models/{folder}/{stem}.toml");
+        let text = fs::read_to_string(models().join(folder).join(format!("{stem}.toml"))).unwrap();
+        let shown = shown(text, &name) + "\n";
+        let expected_path = models().join(folder).join(format!("{stem}.txt"));
+        if bless {
+            fs::write(expected_path, shown).unwrap();
+        } else {
+            let expected = fs::read_to_string(&expected_path).unwrap_or("(no text beside the file)".into());
+            if shown != expected {
+                differences.push(format!("{name}\n--- expected\n{expected}\n--- found\n{shown}"));
+            }
+        }
+    }
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+    assert_eq!(stems(folder, "txt"), stems(folder, "toml"), "each text belongs to a file");
+}
+
+fn all(diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().map(Diagnostic::to_string).collect::<Vec<_>>().join("\n\n")
+}
+
+#[test]
+fn every_fault_is_shown_where_it_stands() {
+    compare("fail", |text, name| Model::from_toml(text, name).expect_err(name).to_string());
+}
+
+#[test]
+fn warnings_let_a_model_pass() {
+    compare("warn", |text, name| {
+        all(&Model::from_toml(text, name).unwrap_or_else(|faults| panic!("{faults}")).warnings)
+    });
+}
+
+#[test]
+fn good_models_load_without_a_word() {
+    for name in ["kr5", "gripper"] {
+        let Loaded { model, warnings } = Model::load(models().join(format!("{name}.toml"))).unwrap();
+        assert_eq!(all(&warnings), "");
+        assert_eq!(model.name, name);
+    }
+}
+
+#[test]
+fn table_2_has_an_impossible_last_link() {
+    let loaded = Model::load(models().join("kr5_table2.toml")).unwrap();
+    let [warning] = loaded.warnings.as_slice() else { panic!("{}", all(&loaded.warnings)) };
+    assert!(warning.title().contains("link `link6`") && warning.title().contains("by 1e-6 kg m²"), "{warning}");
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_a_diagnostic() {
+    let shown = |path: PathBuf| {
+        let faults = Model::load(&path).unwrap_err();
+        let [fault] = faults.diagnostics.as_slice() else { panic!("{faults}") };
+        assert_eq!((fault.position(), fault.file()), (None, path.to_str().unwrap()));
+        assert!(faults.to_string().contains(fault.file()), "{faults}");
+        fault.title().to_owned()
+    };
+    assert!(shown(models().join("nowhere.toml")).starts_with("cannot read the model file: "));
+    assert_eq!(shown(models()), "cannot read the model file: it is a directory");
+    let binary = std::env::temp_dir().join(format!("redysim-not-utf8-{}.toml", std::process::id()));
+    fs::write(&binary, b"name = \"\xff\"").unwrap();
+    assert_eq!(shown(binary.clone()), "the model file is not UTF-8 (byte 9)");
+    fs::remove_file(binary).unwrap();
+}
+
+#[test]
+fn faulty_files_still_have_an_outline() {
+    for (name, links, joints) in [
+        ("duplicate_key", ["upper", "fore"], ["upper", "fore"]),
+        ("many_faults", ["upper", "fore"], ["upper", "fore"]),
+        ("missing_key", ["link #1", "fore"], ["link #1", "fore"]),
+        ("duplicate_joint", ["upper", "fore"], ["upper", "upper"]),
+    ] {
+        let outline = Model::load(models().join(format!("fail/{name}.toml"))).unwrap_err().outline;
+        assert_eq!(outline.name, "arm", "{name}");
+        assert_eq!(
+            (outline.links, outline.joints),
+            (links.map(String::from).into(), joints.map(String::from).into()),
+            "{name}"
+        );
+    }
+    let fixed = Model::load(models().join("fail/axis_on_fixed.toml")).unwrap_err().outline;
+    assert_eq!(fixed.joints, ["upper"]);
+}
