@@ -1,0 +1,223 @@
+//! Expressions as Rust: one `let` for each value that has a name or more than one use.
+
+mod blocks;
+mod names;
+
+use crate::expressions::Expressions;
+use crate::graph::{Edge, Graph, Node};
+use blocks::{Statement, in_blocks};
+use names::Identifiers;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+use std::collections::HashSet;
+
+/// Operations that one `let` may hold before it is cut in two, for the reader's sake.
+const OPERATIONS_PER_LINE: usize = 6;
+
+/// What the expressions of a function are called in its code.
+pub struct Vocabulary<'a> {
+    /// The function's arguments, in the order in which the graph numbers them.
+    pub arguments: &'a [&'a str],
+    /// The name of each body of the tree.
+    pub bodies: &'a [String],
+}
+
+/// The body of a function over `S: Scalar`: statements, then the result that `result` makes of the outputs.
+pub fn function_body(
+    expressions: &Expressions,
+    vocabulary: &Vocabulary,
+    result: impl FnOnce(&[TokenStream]) -> TokenStream,
+) -> TokenStream {
+    let mut emitter = Emitter::new(expressions, vocabulary);
+    let statements = emitter.statements();
+    let mut needed = Vec::new();
+    let outputs: Vec<TokenStream> =
+        expressions.outputs.iter().map(|&output| emitter.render(output, Binding::Lowest, &mut needed)).collect();
+    let statements = in_blocks(statements, &needed);
+    let result = result(&outputs);
+    quote! {
+        let k = S::from_f64;
+        #statements
+        #result
+    }
+}
+
+/// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Lowest,
+    Sum,
+    Product,
+    Unary,
+}
+
+struct Emitter<'a> {
+    graph: &'a Graph,
+    vocabulary: &'a Vocabulary<'a>,
+    uses: Vec<usize>,
+    /// Nodes that are subtractions written the other way round, since their negative is what is wanted.
+    flipped: Vec<bool>,
+    /// The identifier of each value that has a `let`.
+    idents: Vec<Option<Ident>>,
+}
+
+impl<'a> Emitter<'a> {
+    fn new(expressions: &'a Expressions, vocabulary: &'a Vocabulary<'a>) -> Self {
+        let graph = &expressions.graph;
+        let uses = expressions.uses();
+        let flipped = flipped(expressions, &uses);
+        let mut idents = vec![None; graph.len()];
+        let mut reserved = vocabulary.arguments.to_vec();
+        reserved.push("k");
+        let mut identifiers = Identifiers::new(vocabulary.bodies, &reserved);
+        let mut sizes = vec![0; graph.len()];
+        for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
+            let node = graph.node(index);
+            if matches!(node, Node::Input { .. } | Node::Constant(_)) {
+                continue;
+            }
+            sizes[index] = 1 + node.operands().map(|operand| sizes[operand.node()]).sum::<usize>();
+            let inline = uses[index] == 1 && graph.name(index).is_none() && sizes[index] <= OPERATIONS_PER_LINE;
+            if !inline || matches!(node, Node::Sin(_) | Node::Cos(_)) {
+                idents[index] = Some(identifiers.make(graph.name(index), flipped[index]));
+                sizes[index] = 0;
+            }
+        }
+        Emitter { graph, vocabulary, uses, flipped, idents }
+    }
+
+    /// One statement for each value with a `let`, operands first.
+    fn statements(&mut self) -> Vec<Statement> {
+        let mut statements = Vec::new();
+        let mut angles = HashSet::new();
+        for index in (0..self.graph.len()).filter(|&index| self.uses[index] > 0) {
+            let Some(ident) = &self.idents[index] else { continue };
+            let mut needs = Vec::new();
+            let node = self.graph.node(index);
+            match node {
+                Node::Sin(angle) | Node::Cos(angle) => {
+                    if !angles.insert(angle) {
+                        continue;
+                    }
+                    let (sin, cos) = self.sine_and_cosine(angle);
+                    let pair = [sin, cos].map(|node| Some((node?, self.idents[node?].clone()?)));
+                    let pattern = pair.iter().map(|one| one.as_ref().map_or(quote!(_), |(_, ident)| quote!(#ident)));
+                    let pattern = quote!((#(#pattern),*));
+                    let value = self.render(angle, Binding::Lowest, &mut needs);
+                    statements.push(Statement {
+                        defines: pair.into_iter().flatten().collect(),
+                        tokens: quote!(let #pattern = S::sin_cos(#value);),
+                        needs,
+                    });
+                }
+                _ => {
+                    let value = self.operation(node, self.flipped[index], Binding::Lowest, &mut needs);
+                    statements.push(Statement {
+                        defines: vec![(index, ident.clone())],
+                        tokens: quote!(let #ident = #value;),
+                        needs,
+                    });
+                }
+            }
+        }
+        statements
+    }
+
+    /// The nodes that are the sine and the cosine of an angle, where they are used.
+    fn sine_and_cosine(&self, angle: Edge) -> (Option<usize>, Option<usize>) {
+        let find = |node| self.graph.index_of(node).filter(|&index| self.uses[index] > 0);
+        (find(Node::Sin(angle)), find(Node::Cos(angle)))
+    }
+
+    /// A value as an expression; `needs` collects the nodes with a `let` that it reads.
+    fn render(&self, edge: Edge, binding: Binding, needs: &mut Vec<usize>) -> TokenStream {
+        let index = edge.node();
+        let negative = edge.is_negative() != self.flipped[index];
+        if let Some(value) = self.graph.constant_value(edge) {
+            let value = constant(value);
+            return quote!(k(#value));
+        }
+        if let Some(ident) = &self.idents[index] {
+            needs.push(index);
+            return if negative { quote!(-#ident) } else { quote!(#ident) };
+        }
+        match self.graph.node(index) {
+            Node::Input { argument, index } => {
+                let argument = Ident::new(self.vocabulary.arguments[usize::from(argument)], Span::call_site());
+                let index = Literal::u32_unsuffixed(index);
+                if negative { quote!(-#argument[#index]) } else { quote!(#argument[#index]) }
+            }
+            node @ Node::Subtract(..) => self.operation(node, edge.is_negative(), binding, needs),
+            node if negative => {
+                let value = self.operation(node, false, Binding::Unary, needs);
+                quote!(-#value)
+            }
+            node => self.operation(node, false, binding, needs),
+        }
+    }
+
+    /// a + b, with a minus sign between them where one of them has it.
+    fn sum(&self, a: Edge, b: Edge, needs: &mut Vec<usize>) -> TokenStream {
+        let (a, b) = if self.has_minus(a) && !self.has_minus(b) { (b, a) } else { (a, b) };
+        let left = self.render(a, Binding::Lowest, needs);
+        if self.has_minus(b) {
+            let right = self.render(-b, Binding::Sum, needs);
+            quote!(#left - #right)
+        } else {
+            let right = self.render(b, Binding::Sum, needs);
+            quote!(#left + #right)
+        }
+    }
+
+    /// Whether the value is written with a minus sign in front.
+    fn has_minus(&self, edge: Edge) -> bool {
+        let turned = self.idents[edge.node()].is_none() && matches!(self.graph.node(edge.node()), Node::Subtract(..));
+        !turned && edge.is_negative() != self.flipped[edge.node()]
+    }
+
+    /// The operation of a node; of a subtraction, the other way round if `flip`.
+    fn operation(&self, node: Node, flip: bool, binding: Binding, needs: &mut Vec<usize>) -> TokenStream {
+        let (own, tokens) = match node {
+            Node::Add(a, b) => (Binding::Sum, self.sum(a, b, needs)),
+            Node::Subtract(a, b) => (Binding::Sum, self.sum(a.flipped_if(flip), b.flipped_if(!flip), needs)),
+            Node::Multiply(a, b) => {
+                let (a, b) = (self.render(a, Binding::Sum, needs), self.render(b, Binding::Product, needs));
+                (Binding::Product, quote!(#a * #b))
+            }
+            Node::Divide(a, b) => {
+                let (a, b) = (self.render(a, Binding::Sum, needs), self.render(b, Binding::Product, needs));
+                (Binding::Product, quote!(#a / #b))
+            }
+            Node::Sqrt(a) => {
+                let a = self.render(a, Binding::Lowest, needs);
+                (Binding::Unary, quote!(S::sqrt(#a)))
+            }
+            Node::Sin(_) | Node::Cos(_) | Node::Input { .. } | Node::Constant(_) => {
+                unreachable!("sines and cosines have a `let`, inputs and constants are no operations")
+            }
+        };
+        if own <= binding && binding != Binding::Lowest { quote!((#tokens)) } else { tokens }
+    }
+}
+
+/// Which subtractions are wanted the other way round: those named so, and those mostly used with a minus.
+fn flipped(expressions: &Expressions, uses: &[usize]) -> Vec<bool> {
+    let graph = &expressions.graph;
+    let mut minus = vec![0; graph.len()];
+    let operands = (0..graph.len()).filter(|&index| uses[index] > 0).flat_map(|index| graph.node(index).operands());
+    for edge in operands.chain(expressions.outputs.iter().copied()) {
+        minus[edge.node()] += usize::from(edge.is_negative());
+    }
+    (0..graph.len())
+        .map(|index| {
+            matches!(graph.node(index), Node::Subtract(..))
+                && graph.name(index).map_or(2 * minus[index] > uses[index], |name| name.negative)
+        })
+        .collect()
+}
+
+/// A number in full precision: the shortest digits that give the same `f64`.
+fn constant(value: f64) -> TokenStream {
+    let digits: Literal = format!("{:?}", value.abs()).parse().unwrap_or(Literal::f64_unsuffixed(0.0));
+    if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
+}

@@ -1,0 +1,80 @@
+//! The body of one function: a graph and the values it returns.
+
+use crate::graph::{Edge, Graph, Node};
+use redysim_runtime::{OperationCount, Scalar};
+use std::collections::HashSet;
+
+/// A graph with its outputs.
+#[derive(Clone, Debug)]
+pub struct Expressions {
+    /// The graph.
+    pub graph: Graph,
+    /// The values returned, in order.
+    pub outputs: Vec<Edge>,
+}
+
+impl Expressions {
+    /// How often each node is used: by nodes that an output needs, and by outputs. Zero means dead.
+    pub fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.graph.len()];
+        for output in &self.outputs {
+            uses[output.node()] += 1;
+        }
+        for index in (0..self.graph.len()).rev() {
+            if uses[index] > 0 {
+                for operand in self.graph.node(index).operands() {
+                    uses[operand.node()] += 1;
+                }
+            }
+        }
+        uses
+    }
+
+    /// Operations of what the outputs need. A sine and a cosine of one angle are a pair; unary minus is free.
+    pub fn count(&self) -> OperationCount {
+        let mut count = OperationCount::default();
+        let mut angles = HashSet::new();
+        for (index, uses) in self.uses().into_iter().enumerate() {
+            if uses == 0 {
+                continue;
+            }
+            match self.graph.node(index) {
+                Node::Input { .. } | Node::Constant(_) => {}
+                Node::Add(..) | Node::Subtract(..) => count.additions += 1,
+                Node::Multiply(..) => count.multiplications += 1,
+                // A square root takes about as long as a division.
+                Node::Divide(..) | Node::Sqrt(_) => count.divisions += 1,
+                Node::Sin(angle) | Node::Cos(angle) => {
+                    if angles.insert(angle) {
+                        count.trig += 1;
+                    }
+                }
+            }
+        }
+        count
+    }
+
+    /// The outputs for the given arguments, computed with any scalar.
+    pub fn evaluate<S: Scalar>(&self, arguments: &[&[S]]) -> Vec<S> {
+        let mut values: Vec<S> = Vec::with_capacity(self.graph.len());
+        for index in 0..self.graph.len() {
+            let at = |edge: Edge| {
+                let value = values[edge.node()];
+                if edge.is_negative() { -value } else { value }
+            };
+            values.push(match self.graph.node(index) {
+                Node::Input { argument, index } => arguments[usize::from(argument)][index as usize],
+                Node::Constant(bits) => S::from_f64(f64::from_bits(bits)),
+                Node::Add(a, b) => at(a) + at(b),
+                Node::Subtract(a, b) => at(a) - at(b),
+                Node::Multiply(a, b) => at(a) * at(b),
+                Node::Divide(a, b) => at(a) / at(b),
+                Node::Sin(a) => at(a).sin_cos().0,
+                Node::Cos(a) => at(a).sin_cos().1,
+                Node::Sqrt(a) => at(a).sqrt(),
+            });
+        }
+        let at = |edge: &Edge| if edge.is_negative() { -values[edge.node()] } else { values[edge.node()] };
+        self.outputs.iter().map(at).collect()
+    }
+}

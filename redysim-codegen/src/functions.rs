@@ -1,0 +1,177 @@
+//! The functions of a compiled mechanism: what each computes, and how it is traced.
+
+use crate::expressions::Expressions;
+use crate::passes;
+use crate::symbol::{Symbol, Tracer};
+use redysim_model::Tree;
+use redysim_model::denoc::{self, Method};
+use redysim_model::regroup::base_parameters;
+
+/// What a function is called, takes and returns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signature {
+    /// Its name in the contract.
+    pub name: &'static str,
+    /// The runtime's trait that has it.
+    pub trait_name: &'static str,
+    /// What it computes, with formula and units.
+    pub summary: &'static str,
+    /// Names of its arguments, all `&[S; NV]`.
+    pub arguments: &'static [&'static str],
+    /// What it returns.
+    pub shape: Shape,
+}
+
+/// What a function returns, and so in what order its expressions stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// `[S; NV]`.
+    Vector,
+    /// `[[S; NV]; NV]`, by rows.
+    Matrix,
+    /// `Energy<S>`: kinetic, potential.
+    Energy,
+    /// `[LinkState<S>; NL]`: rotation by rows, origin, centre of mass, velocity, angular velocity.
+    Links,
+}
+
+const INVERSE_DYNAMICS: Signature = Signature {
+    name: "inverse_dynamics",
+    trait_name: "InverseDynamics",
+    summary: "τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.",
+    arguments: &["q", "v", "a"],
+    shape: Shape::Vector,
+};
+
+const FORWARD_DYNAMICS: Signature = Signature {
+    name: "forward_dynamics",
+    trait_name: "ForwardDynamics",
+    summary: "a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree.",
+    arguments: &["q", "v", "tau"],
+    shape: Shape::Vector,
+};
+
+const MASS_MATRIX: Signature = Signature {
+    name: "mass_matrix",
+    trait_name: "MassMatrix",
+    summary: "M(q), the generalised inertia matrix, symmetric: kg m², kg m or kg.",
+    arguments: &["q"],
+    shape: Shape::Matrix,
+};
+
+const BIAS_FORCES: Signature = Signature {
+    name: "bias_forces",
+    trait_name: "BiasForces",
+    summary: "C(q, v) v + g(q), N m or N: the joint forces at zero acceleration.",
+    arguments: &["q", "v"],
+    shape: Shape::Vector,
+};
+
+const GRAVITY_FORCES: Signature = Signature {
+    name: "gravity_forces",
+    trait_name: "GravityForces",
+    summary: "g(q), N m or N: the joint forces at rest.",
+    arguments: &["q"],
+    shape: Shape::Vector,
+};
+
+const ENERGY: Signature = Signature {
+    name: "energy",
+    trait_name: "MechanicalEnergy",
+    summary: "Kinetic and potential energy, J; the potential is zero at the base frame's origin.",
+    arguments: &["q", "v"],
+    shape: Shape::Energy,
+};
+
+const LINK_KINEMATICS: Signature = Signature {
+    name: "link_kinematics",
+    trait_name: "LinkKinematics",
+    summary: "Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every \
+              link, in the base frame.",
+    arguments: &["q", "v"],
+    shape: Shape::Links,
+};
+
+/// Every function of a tree-type mechanism, in the order of the contract.
+pub const SIGNATURES: [Signature; 7] =
+    [INVERSE_DYNAMICS, FORWARD_DYNAMICS, MASS_MATRIX, BIAS_FORCES, GRAVITY_FORCES, ENERGY, LINK_KINEMATICS];
+
+/// One traced function.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// What it is called, takes and returns.
+    pub signature: Signature,
+    /// How it is computed, where there is a choice.
+    pub remark: Option<&'static str>,
+    /// Its expressions.
+    pub expressions: Expressions,
+}
+
+/// Traces and simplifies every function of [`SIGNATURES`].
+pub fn trace(tree: &Tree) -> Vec<Function> {
+    // Joint forces, the mass matrix and the energies of the whole mechanism are the same for base parameters.
+    let base = base_parameters(tree);
+    let function = |signature, expressions| Function { signature, remark: None, expressions };
+    vec![
+        function(INVERSE_DYNAMICS, traced(&base, 3, |x| denoc::inverse_dynamics(&base, x[0], x[1], x[2]))),
+        forward_dynamics(tree, &base),
+        function(MASS_MATRIX, traced(&base, 1, |x| denoc::mass_matrix(&base, x[0]).concat())),
+        function(BIAS_FORCES, traced(&base, 2, |x| denoc::bias_forces(&base, x[0], x[1]))),
+        function(GRAVITY_FORCES, traced(&base, 1, |x| denoc::gravity_forces(&base, x[0]))),
+        function(ENERGY, traced(&base, 2, |x| energy(&base, x[0], x[1]))),
+        function(LINK_KINEMATICS, traced(tree, 2, |x| link_kinematics(tree, x[0], x[1]))),
+    ]
+}
+
+/// The longest chain whose accelerations are still taken from the explicit mass matrix, whatever the operation count:
+/// beyond, the condition of the matrix costs digits.
+const LONGEST_CHAIN_BY_FACTORISATION: usize = 25;
+
+/// Forward dynamics by the cheaper of the two ways, or by the recursion where a chain is long.
+fn forward_dynamics(tree: &Tree, base: &Tree) -> Function {
+    let (method, expressions) = cheaper_forward_dynamics(tree, base);
+    let remark = match method {
+        Method::Factorisation => "By the factorisation M = U D Uᵀ of the generalised inertia matrix.",
+        Method::Recursion => "By the O(n) recursion over articulated bodies.",
+    };
+    Function { signature: FORWARD_DYNAMICS, remark: Some(remark), expressions }
+}
+
+fn cheaper_forward_dynamics(tree: &Tree, base: &Tree) -> (Method, Expressions) {
+    // The recursion takes the inertias as they are: moved towards the ground they would pile up there, and what is
+    // subtracted from them on the way would cost the digits for which the recursion is chosen.
+    let recursion = traced(tree, 3, |x| denoc::forward_dynamics(Method::Recursion, tree, x[0], x[1], x[2]));
+    if tree.depth() > LONGEST_CHAIN_BY_FACTORISATION {
+        return (Method::Recursion, recursion);
+    }
+    let explicit = traced(base, 3, |x| denoc::forward_dynamics(Method::Factorisation, base, x[0], x[1], x[2]));
+    if recursion.count().flops() < explicit.count().flops() {
+        (Method::Recursion, recursion)
+    } else {
+        (Method::Factorisation, explicit)
+    }
+}
+
+fn energy<'g>(tree: &Tree, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<Symbol<'g>> {
+    let energy = denoc::energy(tree, q, v);
+    vec![energy.kinetic, energy.potential]
+}
+
+fn link_kinematics<'g>(tree: &Tree, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<Symbol<'g>> {
+    let links = denoc::link_kinematics(tree, q, v);
+    let vectors = links.into_iter().flat_map(|link| {
+        link.rotation.into_iter().chain([link.origin, link.com, link.velocity, link.angular_velocity])
+    });
+    vectors.flatten().collect()
+}
+
+/// The expressions of a function of `arguments` vectors of length NV, simplified.
+fn traced(tree: &Tree, arguments: u8, function: impl for<'g> Fn(&[&[Symbol<'g>]]) -> Vec<Symbol<'g>>) -> Expressions {
+    let tracer = Tracer::default();
+    let outputs = {
+        let symbols: Vec<Vec<Symbol>> = (0..arguments).map(|argument| tracer.argument(argument, tree.dof())).collect();
+        let symbols: Vec<&[Symbol]> = symbols.iter().map(Vec::as_slice).collect();
+        tracer.edges(&function(&symbols))
+    };
+    passes::simplified(Expressions { graph: tracer.into_graph(), outputs })
+}

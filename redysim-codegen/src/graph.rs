@@ -1,0 +1,282 @@
+//! Expressions as a graph in which equal values are one node.
+//!
+//! A value is an [`Edge`]: a node and a sign. Since the sign sits on the edge, negation costs nothing, −x and x share
+//! one node, and a − b is b − a seen from the other side. Operands always have smaller indices than the node that
+//! uses them, so every walk over the graph is a loop over indices.
+
+use std::collections::HashMap;
+
+/// A value: a node, or its negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Edge {
+    node: u32,
+    negative: bool,
+}
+
+impl Edge {
+    /// The index of the node.
+    pub fn node(self) -> usize {
+        self.node as usize
+    }
+
+    /// Whether the value is the negative of the node's.
+    pub fn is_negative(self) -> bool {
+        self.negative
+    }
+
+    /// The value with the sign of the node.
+    pub fn abs(self) -> Edge {
+        Edge { negative: false, ..self }
+    }
+
+    /// The negative of the value if `flip`, else the value.
+    pub fn flipped_if(self, flip: bool) -> Edge {
+        Edge { negative: self.negative != flip, ..self }
+    }
+}
+
+impl std::ops::Neg for Edge {
+    type Output = Edge;
+    fn neg(self) -> Edge {
+        self.flipped_if(true)
+    }
+}
+
+/// One operation. Operands of products and sums are ordered and carry no sign that could stand outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// Element `index` of argument `argument` of the function.
+    Input {
+        /// Position in the function's list of arguments.
+        argument: u8,
+        /// Index in the array.
+        index: u32,
+    },
+    /// A positive constant, by its bits.
+    Constant(u64),
+    /// a + b.
+    Add(Edge, Edge),
+    /// a − b.
+    Subtract(Edge, Edge),
+    /// a · b; a constant comes first.
+    Multiply(Edge, Edge),
+    /// a / b.
+    Divide(Edge, Edge),
+    /// sin a.
+    Sin(Edge),
+    /// cos a.
+    Cos(Edge),
+    /// The square root of a.
+    Sqrt(Edge),
+}
+
+impl Node {
+    /// The operands.
+    pub fn operands(self) -> impl Iterator<Item = Edge> {
+        let (a, b) = match self {
+            Node::Input { .. } | Node::Constant(_) => (None, None),
+            Node::Add(a, b) | Node::Subtract(a, b) | Node::Multiply(a, b) | Node::Divide(a, b) => (Some(a), Some(b)),
+            Node::Sin(a) | Node::Cos(a) | Node::Sqrt(a) => (Some(a), None),
+        };
+        a.into_iter().chain(b)
+    }
+}
+
+/// What a value holds, for the reader of the generated code: a component of a quantity of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The quantity, as the recursions call it.
+    pub quantity: &'static str,
+    /// Index of the body in the tree.
+    pub body: usize,
+    /// The component; empty for a scalar.
+    pub component: &'static str,
+    /// Whether the name is that of the node's negative.
+    pub negative: bool,
+}
+
+/// A hash-consed expression graph. Every constructor folds what can be folded without looking further than the
+/// operands: constants, zeros and ones, equal terms, products with two constants.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    names: Vec<Option<Name>>,
+    indices: HashMap<Node, u32>,
+}
+
+impl Graph {
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there are no nodes.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The node with the given index.
+    pub fn node(&self, index: usize) -> Node {
+        self.nodes[index]
+    }
+
+    /// The index of a node, if the graph has it.
+    pub fn index_of(&self, node: Node) -> Option<usize> {
+        self.indices.get(&node).map(|&index| index as usize)
+    }
+
+    /// The name of the node with the given index.
+    pub fn name(&self, index: usize) -> Option<Name> {
+        self.names[index]
+    }
+
+    /// Names a value; the first name stays.
+    pub fn set_name(&mut self, edge: Edge, name: Name) {
+        let negative = name.negative != edge.negative;
+        self.names[edge.node()].get_or_insert(Name { negative, ..name });
+    }
+
+    /// The value of a constant edge.
+    pub fn constant_value(&self, edge: Edge) -> Option<f64> {
+        match self.nodes[edge.node()] {
+            Node::Constant(bits) => Some(if edge.negative { -f64::from_bits(bits) } else { f64::from_bits(bits) }),
+            _ => None,
+        }
+    }
+
+    /// Element `index` of argument `argument`.
+    pub fn input(&mut self, argument: u8, index: u32) -> Edge {
+        self.intern(Node::Input { argument, index })
+    }
+
+    /// A constant.
+    pub fn constant(&mut self, value: f64) -> Edge {
+        self.intern(Node::Constant(value.abs().to_bits())).flipped_if(value < 0.0)
+    }
+
+    /// a + b.
+    pub fn add(&mut self, a: Edge, b: Edge) -> Edge {
+        if let (Some(x), Some(y)) = (self.constant_value(a), self.constant_value(b)) {
+            return self.constant(x + y);
+        }
+        if self.constant_value(a) == Some(0.0) {
+            return b;
+        }
+        if self.constant_value(b) == Some(0.0) {
+            return a;
+        }
+        let ((x, a_base), (y, b_base)) = (self.coefficient(a), self.coefficient(b));
+        if a_base == b_base {
+            let factor = self.constant(sum_without_noise(x, y));
+            return self.multiply(factor, a_base);
+        }
+        let (a, b) = if a.node < b.node { (a, b) } else { (b, a) };
+        let (first, second) = (a.abs(), b.abs());
+        let node = if a.negative == b.negative { Node::Add(first, second) } else { Node::Subtract(first, second) };
+        self.intern(node).flipped_if(a.negative)
+    }
+
+    /// a · b.
+    pub fn multiply(&mut self, a: Edge, b: Edge) -> Edge {
+        let (a, b) = match (self.constant_value(a), self.constant_value(b)) {
+            (Some(x), Some(y)) => return self.constant(x * y),
+            (None, Some(_)) => (b, a),
+            (None, None) if b.node < a.node => (b, a),
+            _ => (a, b),
+        };
+        if let Some(x) = self.constant_value(a) {
+            if x == 0.0 {
+                return a.abs();
+            }
+            if x.abs() == 1.0 {
+                return b.flipped_if(x < 0.0);
+            }
+            let (y, base) = self.coefficient(b);
+            if y.abs() != 1.0 {
+                let factor = self.constant(x * y);
+                return self.multiply(factor, base);
+            }
+        }
+        self.intern(Node::Multiply(a.abs(), b.abs())).flipped_if(a.negative != b.negative)
+    }
+
+    /// a / b. Division by a constant is multiplication by its reciprocal.
+    pub fn divide(&mut self, a: Edge, b: Edge) -> Edge {
+        if self.constant_value(a) == Some(0.0) {
+            return a.abs();
+        }
+        if let Some(y) = self.constant_value(b) {
+            let reciprocal = self.constant(1.0 / y);
+            return self.multiply(a, reciprocal);
+        }
+        if a.abs() == b.abs() {
+            return self.constant(if a == b { 1.0 } else { -1.0 });
+        }
+        self.intern(Node::Divide(a.abs(), b.abs())).flipped_if(a.negative != b.negative)
+    }
+
+    /// sin a; an odd function.
+    pub fn sin(&mut self, a: Edge) -> Edge {
+        match self.constant_value(a) {
+            Some(x) => self.constant(redysim_model::rotation::sin_cos(x).0),
+            None => self.intern(Node::Sin(a.abs())).flipped_if(a.negative),
+        }
+    }
+
+    /// cos a; an even function.
+    pub fn cos(&mut self, a: Edge) -> Edge {
+        match self.constant_value(a) {
+            Some(x) => self.constant(redysim_model::rotation::sin_cos(x).1),
+            None => self.intern(Node::Cos(a.abs())),
+        }
+    }
+
+    /// The square root of a.
+    pub fn sqrt(&mut self, a: Edge) -> Edge {
+        match self.constant_value(a) {
+            Some(x) => self.constant(x.sqrt()),
+            None => self.intern(Node::Sqrt(a)),
+        }
+    }
+
+    /// The value as a constant times a node that is not such a product itself.
+    pub fn coefficient(&self, edge: Edge) -> (f64, Edge) {
+        let sign = if edge.negative { -1.0 } else { 1.0 };
+        if let Node::Multiply(factor, base) = self.nodes[edge.node()]
+            && let Some(value) = self.constant_value(factor)
+        {
+            return (sign * value, base);
+        }
+        (sign, edge.abs())
+    }
+
+    /// Makes a node of another graph again in this one, from operands already made here.
+    pub fn rebuild(&mut self, node: Node, map: impl Fn(Edge) -> Edge) -> Edge {
+        match node {
+            Node::Input { argument, index } => self.input(argument, index),
+            Node::Constant(bits) => self.constant(f64::from_bits(bits)),
+            Node::Add(a, b) => self.add(map(a), map(b)),
+            Node::Subtract(a, b) => self.add(map(a), -map(b)),
+            Node::Multiply(a, b) => self.multiply(map(a), map(b)),
+            Node::Divide(a, b) => self.divide(map(a), map(b)),
+            Node::Sin(a) => self.sin(map(a)),
+            Node::Cos(a) => self.cos(map(a)),
+            Node::Sqrt(a) => self.sqrt(map(a)),
+        }
+    }
+
+    fn intern(&mut self, node: Node) -> Edge {
+        let index = *self.indices.entry(node).or_insert_with(|| {
+            self.nodes.push(node);
+            self.names.push(None);
+            (self.nodes.len() - 1) as u32
+        });
+        Edge { node: index, negative: false }
+    }
+}
+
+/// x + y, or zero where nothing but the roundoff of the two is left.
+pub fn sum_without_noise(x: f64, y: f64) -> f64 {
+    let sum = x + y;
+    if sum.abs() <= 4.0 * f64::EPSILON * x.abs().max(y.abs()) { 0.0 } else { sum }
+}

@@ -1,0 +1,42 @@
+//! From a checked model to Rust code made for it.
+//!
+//! The recursions of [`redysim_model::denoc`] run once with a [symbol](symbol::Symbol) for a scalar. What they leave
+//! behind is a [graph](graph::Graph) of the operations that this one mechanism needs: zeros, ones and constants are
+//! folded as they arise, equal values are one node, and [passes] over the graph collect what is left. The graph is then
+//! written out as Rust over `S: Scalar`, in blocks that a compiler can take.
+//!
+//! ```
+//! use redysim_codegen::source_file;
+//! use redysim_model::Model;
+//!
+//! let pendulum = r#"
+//!     name = "pendulum"
+//!     gravity = [0.0, -9.81, 0.0]
+//!
+//!     [[link]]
+//!     name = "rod"
+//!     parent = "base"
+//!     joint = "revolute"
+//!     axis = [0.0, 0.0, 1.0]
+//!     mass = 2.0
+//!     com = [0.5, 0.0, 0.0]
+//! "#;
+//! let model = Model::from_toml(pendulum, "pendulum.toml")?.model;
+//! let source = source_file(&model, "Pendulum")?;
+//! assert!(source.contains("let (_, cos_rod) = S::sin_cos(q[0]);"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod expressions;
+pub mod functions;
+pub mod graph;
+pub mod passes;
+pub mod symbol;
+
+mod emit;
+mod mechanism;
+mod shape;
+mod source;
+
+pub use mechanism::{Generated, implementation, stub};
+pub use source::{InvalidName, source_file};

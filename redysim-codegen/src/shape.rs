@@ -1,0 +1,56 @@
+//! What a generated function returns: its type, and its value from the outputs of a graph.
+
+use crate::functions::Shape;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use redysim_model::Outline;
+
+/// The return type.
+pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+    let nv = Literal::usize_unsuffixed(outline.joints.len());
+    let nl = Literal::usize_unsuffixed(outline.links.len());
+    match shape {
+        Shape::Vector => quote!([S; #nv]),
+        Shape::Matrix => quote!([[S; #nv]; #nv]),
+        Shape::Energy => quote!(#runtime::Energy<S>),
+        Shape::Links => quote!([#runtime::LinkState<S>; #nl]),
+    }
+}
+
+/// The value returned, made of the outputs in the order in which they were traced.
+pub fn value(shape: Shape, outline: &Outline, outputs: &[TokenStream], runtime: &TokenStream) -> TokenStream {
+    match shape {
+        Shape::Vector => array(outputs),
+        Shape::Matrix => array(&rows(outputs, outline.joints.len())),
+        Shape::Energy => {
+            let [kinetic, potential] = [&outputs[0], &outputs[1]];
+            quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })
+        }
+        Shape::Links => {
+            let vectors = rows(outputs, 3);
+            let links: Vec<TokenStream> = vectors.chunks(7).map(|link| link_state(link, runtime)).collect();
+            array(&links)
+        }
+    }
+}
+
+/// The seven vectors of a link: three rows of its rotation, then the others in the order of the fields.
+fn link_state(vectors: &[TokenStream], runtime: &TokenStream) -> TokenStream {
+    let rotation = array(&vectors[..3]);
+    let [origin, com, velocity, angular_velocity] = [3, 4, 5, 6].map(|index| &vectors[index]);
+    quote!(#runtime::LinkState {
+        rotation: #rotation,
+        origin: #origin,
+        com: #com,
+        velocity: #velocity,
+        angular_velocity: #angular_velocity,
+    })
+}
+
+fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
+    elements.chunks(length).map(array).collect()
+}
+
+fn array(elements: &[TokenStream]) -> TokenStream {
+    quote!([#(#elements),*])
+}

@@ -1,0 +1,146 @@
+//! The symbolic scalar: run through the recursions, it leaves their expressions behind.
+
+use crate::graph::{Edge, Graph, Name};
+use redysim_runtime::Scalar;
+use std::cell::RefCell;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A graph that symbols write to while a recursion runs.
+#[derive(Debug, Default)]
+pub struct Tracer(RefCell<Graph>);
+
+/// A number known now, or a value of the generated function.
+#[derive(Clone, Copy, Debug)]
+pub enum Symbol<'g> {
+    /// A constant.
+    Constant(f64),
+    /// A value in a graph.
+    Value(&'g Tracer, Edge),
+}
+
+impl Tracer {
+    /// Symbols for the elements of argument number `argument`, an array of `len` elements.
+    pub fn argument(&self, argument: u8, len: usize) -> Vec<Symbol<'_>> {
+        (0..len).map(|index| Symbol::Value(self, self.0.borrow_mut().input(argument, index as u32))).collect()
+    }
+
+    /// The graph, and the edges of `outputs` in it.
+    pub fn edges(&self, outputs: &[Symbol<'_>]) -> Vec<Edge> {
+        outputs.iter().map(|output| output.edge(self)).collect()
+    }
+
+    /// The graph traced so far.
+    pub fn into_graph(self) -> Graph {
+        self.0.into_inner()
+    }
+}
+
+impl<'g> Symbol<'g> {
+    fn edge(self, tracer: &Tracer) -> Edge {
+        match self {
+            Symbol::Constant(value) => tracer.0.borrow_mut().constant(value),
+            Symbol::Value(_, edge) => edge,
+        }
+    }
+
+    fn binary(
+        self,
+        other: Self,
+        numbers: impl Fn(f64, f64) -> f64,
+        symbols: impl Fn(&mut Graph, Edge, Edge) -> Edge,
+    ) -> Self {
+        let tracer = match (self, other) {
+            (Symbol::Constant(a), Symbol::Constant(b)) => return Symbol::Constant(numbers(a, b)),
+            (Symbol::Value(tracer, _), _) | (_, Symbol::Value(tracer, _)) => tracer,
+        };
+        let (a, b) = (self.edge(tracer), other.edge(tracer));
+        let result = symbols(&mut tracer.0.borrow_mut(), a, b);
+        Self::folded(tracer, result)
+    }
+
+    fn unary(self, number: impl Fn(f64) -> f64, symbol: impl Fn(&mut Graph, Edge) -> Edge) -> Self {
+        match self {
+            Symbol::Constant(value) => Symbol::Constant(number(value)),
+            Symbol::Value(tracer, edge) => {
+                let result = symbol(&mut tracer.0.borrow_mut(), edge);
+                Self::folded(tracer, result)
+            }
+        }
+    }
+
+    fn folded(tracer: &'g Tracer, edge: Edge) -> Self {
+        let constant = tracer.0.borrow().constant_value(edge);
+        constant.map_or(Symbol::Value(tracer, edge), Symbol::Constant)
+    }
+}
+
+impl Scalar for Symbol<'_> {
+    fn from_f64(value: f64) -> Self {
+        Symbol::Constant(value)
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        (
+            self.unary(|x| redysim_model::rotation::sin_cos(x).0, Graph::sin),
+            self.unary(|x| redysim_model::rotation::sin_cos(x).1, Graph::cos),
+        )
+    }
+
+    fn sqrt(self) -> Self {
+        self.unary(f64::sqrt, Graph::sqrt)
+    }
+
+    fn named(self, quantity: &'static str, body: usize, component: &'static str) -> Self {
+        if let Symbol::Value(tracer, edge) = self {
+            tracer.0.borrow_mut().set_name(edge, Name { quantity, body, component, negative: false });
+        }
+        self
+    }
+}
+
+impl Add for Symbol<'_> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.binary(other, |a, b| a + b, Graph::add)
+    }
+}
+
+impl Sub for Symbol<'_> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self.binary(other, |a, b| a - b, |graph, a, b| graph.add(a, -b))
+    }
+}
+
+impl Mul for Symbol<'_> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        self.binary(other, |a, b| a * b, Graph::multiply)
+    }
+}
+
+impl Div for Symbol<'_> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        self.binary(other, |a, b| a / b, Graph::divide)
+    }
+}
+
+impl Neg for Symbol<'_> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.unary(|a| -a, |_, a| -a)
+    }
+}
+
+impl AddAssign for Symbol<'_> {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Symbol<'_> {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}

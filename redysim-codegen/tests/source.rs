@@ -1,0 +1,61 @@
+//! The generated code as people see it: the same every time, whole, and readable.
+
+use redysim_codegen::{implementation, source_file};
+use redysim_model::Model;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn model(name: &str) -> Model {
+    Model::load(root().join("models").join(name)).unwrap_or_else(|faults| panic!("{faults}")).model
+}
+
+/// `tests/generated/gripper.rs` is compiled by a test of the root package. After a change that is meant, write it anew
+/// with `BLESS=1 cargo test -p redysim-codegen --test source`, and look at the difference.
+#[test]
+fn the_source_file_of_the_gripper_is_the_one_in_the_repository() {
+    let path = root().join("tests/generated/gripper.rs");
+    let source = source_file(&model("gripper.toml"), "Gripper").unwrap();
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&path, &source).unwrap();
+    }
+    assert!(source == std::fs::read_to_string(&path).unwrap(), "{} is out of date", path.display());
+}
+
+#[test]
+fn the_same_model_gives_the_same_bytes() {
+    for name in ["kr5.toml", "gripper.toml"] {
+        let model = model(name);
+        assert_eq!(source_file(&model, "Robot").unwrap(), source_file(&model, "Robot").unwrap());
+    }
+}
+
+#[test]
+fn temporaries_are_named_for_what_they_hold_and_the_link() {
+    let source = source_file(&model("kr5.toml"), "Kr5").unwrap();
+    for line in [
+        "let (sin_link2, cos_link2) = S::sin_cos(q[1]);",
+        "let w_link2_x = v[0] * sin_link2;",
+        "let w_link3_z = v[1] + v[2];",
+    ] {
+        assert!(source.contains(line), "{line}");
+    }
+}
+
+#[test]
+fn functions_say_what_they_cost() {
+    let source = source_file(&model("kr5.toml"), "Kr5").unwrap();
+    let generated = implementation(&model("kr5.toml"), &quote::format_ident!("Kr5"), &quote::quote!(::redysim_runtime));
+    for (function, count) in generated.operations {
+        let cost = format!("/// {} flops: {} additions", count.flops(), count.additions);
+        assert!(source.contains(&cost), "{function}: {cost}");
+    }
+}
+
+#[test]
+fn a_name_that_is_no_type_is_refused() {
+    let error = source_file(&model("gripper.toml"), "6-axis robot").unwrap_err();
+    assert_eq!(error.to_string(), "`6-axis robot` is not a name for a Rust type; write for example `Robot`");
+}

@@ -1,0 +1,47 @@
+//! The macros of redysim. They are documented where they are re-exported, in the crate `redysim`.
+
+mod declaration;
+mod expand;
+mod locate;
+
+use proc_macro::TokenStream;
+
+/// Declares a unit struct and makes it the mechanism of a model file.
+///
+/// ```text
+/// redysim! {
+///     /// The KUKA KR5 of the ReDySim paper.
+///     pub struct Kr5("models/kr5.toml");
+/// }
+/// ```
+///
+/// The path `"models/kr5.toml"` is found from the package's manifest; `"./kr5.toml"` and `"../kr5.toml"` from the file
+/// that calls the macro. An edited model is compiled again.
+///
+/// The type has the constants `NAME`, `NQ`, `NV`, `NL`, `NC`, `LINK_NAMES`, `JOINT_NAMES`, `ACTUATED` and `OPS`, the
+/// functions `inverse_dynamics`, `forward_dynamics`, `mass_matrix`, `bias_forces`, `gravity_forces`, `energy` and
+/// `link_kinematics`, all over any `S: Scalar`, and the traits of the same names. Unless the declaration derives
+/// traits itself, the type is `Clone`, `Copy`, `Debug` and `Default`.
+///
+/// Faults of the model are compile errors that show the model file's own lines. Warnings of the model are warnings of
+/// the kind `deprecated`, the only one a macro can give; `#[allow(deprecated)]` on the struct accepts them.
+#[proc_macro]
+pub fn redysim(input: TokenStream) -> TokenStream {
+    match syn::parse(input) {
+        Ok(declaration::Macro(declaration)) => expand::declared(&declaration),
+        Err(error) => error.into_compile_error(),
+    }
+    .into()
+}
+
+/// Makes a unit struct the mechanism of a model file: `#[derive(Mechanism)] #[mechanism("models/kr5.toml")]`.
+///
+/// The same code as [`redysim!`], for a type whose declaration stands outside the macro.
+#[proc_macro_derive(Mechanism, attributes(mechanism))]
+pub fn mechanism(input: TokenStream) -> TokenStream {
+    match syn::parse(input) {
+        Ok(declaration::Derive(declaration)) => expand::derived(&declaration),
+        Err(error) => error.into_compile_error(),
+    }
+    .into()
+}
