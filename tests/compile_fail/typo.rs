@@ -1,0 +1,11 @@
+//! One typo in the model is one error, though the type is used.
+
+redysim::redysim! {
+    pub struct Robot("../../models/fail/unknown_key.toml");
+}
+
+fn main() {
+    let _: [f64; 2] = Robot::inverse_dynamics(&[0.0; 2], &[0.0; 2], &[0.0; 2]);
+    let _ = Robot::link_kinematics(&[0.0_f64; 2], &[0.0; 2]);
+    println!("{} {} {}", Robot::NAME, Robot::NV, Robot::OPS.inverse_dynamics.flops());
+}

@@ -1,0 +1,13 @@
+//! A warning of the model reaches the person who compiles, as a lint that can be denied or allowed.
+#![deny(deprecated)]
+
+redysim::redysim! {
+    pub struct Shown("../../models/kr5_table2.toml");
+}
+
+redysim::redysim! {
+    #[allow(deprecated)]
+    pub struct Accepted("../../models/kr5_table2.toml");
+}
+
+fn main() {}
