@@ -52,7 +52,7 @@ fn type_impls(
     let mechanism = mechanism_trait(outline, name, runtime);
     let traits = SIGNATURES.iter().map(|signature| trait_impl(signature, outline, name, runtime));
     quote! {
-        #[allow(unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
+        #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
         impl #name {
             #constants
             #(#definitions)*

@@ -36,7 +36,7 @@ fn the_same_model_gives_the_same_bytes() {
 fn temporaries_are_named_for_what_they_hold_and_the_link() {
     let source = source_file(&model("kr5.toml"), "Kr5").unwrap();
     for line in [
-        "let (sin_link2, cos_link2) = S::sin_cos(q[1]);",
+        ") = S::sin_cos_all([q[1], q[2], q[3], q[4], q[5]]);",
         "let w_link2_x = v[0] * sin_link2;",
         "let w_link3_z = v[1] + v[2];",
     ] {

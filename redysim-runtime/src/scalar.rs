@@ -25,6 +25,13 @@ pub trait Scalar:
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 
+    /// Sines and cosines of several angles, at once where that is faster.
+    #[inline]
+    fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+        let pairs = angles.map(Self::sin_cos);
+        (pairs.map(|(sin, _)| sin), pairs.map(|(_, cos)| cos))
+    }
+
     /// The non-negative square root.
     fn sqrt(self) -> Self;
 
@@ -88,6 +95,11 @@ macro_rules! real {
             fn sin_cos(self) -> (Self, Self) {
                 let (sin, cos) = trigonometry::sin_cos(self.into());
                 (sin as $float, cos as $float)
+            }
+            #[inline(always)]
+            fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+                let (sines, cosines) = trigonometry::sin_cos_all(angles.map(f64::from));
+                (sines.map(|sin| sin as $float), cosines.map(|cos| cos as $float))
             }
             #[inline]
             fn sqrt(self) -> Self {

@@ -50,3 +50,26 @@ fn angles_that_are_not_finite_give_nan() {
         assert!(sin.is_nan() && cos.is_nan());
     }
 }
+
+#[test]
+fn several_at_once_give_the_same_bits_as_one_by_one() {
+    let angles = [0.0, -0.0, 0.3, -std::f64::consts::FRAC_PI_2, 3.0, 1e4, -7.3e5, 3.4e200, 1e-310, f64::INFINITY, 2.5];
+    fn same<const N: usize>(angles: [f64; N]) {
+        let (sines, cosines) = Scalar::sin_cos_all(angles);
+        for (index, angle) in angles.into_iter().enumerate() {
+            let (sin, cos) = Scalar::sin_cos(angle);
+            assert_eq!(sines[index].to_bits(), sin.to_bits(), "sin({angle:e}), one of {N}");
+            assert_eq!(cosines[index].to_bits(), cos.to_bits(), "cos({angle:e}), one of {N}");
+        }
+    }
+    same(angles);
+    same::<0>([]);
+    for window in angles.windows(5) {
+        let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|index| window[index]);
+        same([a]);
+        same([a, b]);
+        same([a, b, c]);
+        same([a, b, c, d]);
+        same([a, b, c, d, e]);
+    }
+}

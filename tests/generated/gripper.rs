@@ -11,7 +11,7 @@
 /// The mechanism `gripper`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Gripper;
-#[allow(unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
+#[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
 impl Gripper {
     /// Name of the model.
     pub const NAME: &'static str = "gripper";
@@ -84,10 +84,18 @@ impl Gripper {
         a: &[S; 4],
     ) -> [S; 4] {
         let k = S::from_f64;
-        let (sin_link1, cos_link1) = S::sin_cos(q[0]);
-        let (sin_link2, cos_link2) = S::sin_cos(q[1]);
-        let (sin_link3, cos_link3) = S::sin_cos(q[2]);
-        let (sin_link4, cos_link4) = S::sin_cos(q[3]);
+        let (
+            [sin_link1,
+            sin_link2,
+            sin_link3,
+            sin_link4,
+            ],
+            [cos_link1,
+            cos_link2,
+            cos_link3,
+            cos_link4,
+            ],
+        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
         let t1 = v[0] * v[0];
@@ -98,7 +106,7 @@ impl Gripper {
         let w_link2_z = v[0] + v[1];
         let t4 = w_link2_z * w_link2_z;
         let acc_link3_y = cos_link3 * (acc_link2_y + k(0.05) * dw_link2_z)
-            - sin_link3 * (cos_link2 * t2 + (sin_link2 * t3 - k(0.05) * t4));
+            - sin_link3 * (sin_link2 * t3 + (cos_link2 * t2 - k(0.05) * t4));
         let dw_link3_z = a[2] + dw_link2_z;
         let w_link3_z = v[2] + w_link2_z;
         let acc_link4_y = cos_link4 * (acc_link1_y + k(0.05) * a[0])
@@ -139,10 +147,18 @@ impl Gripper {
         tau: &[S; 4],
     ) -> [S; 4] {
         let k = S::from_f64;
-        let (sin_link1, cos_link1) = S::sin_cos(q[0]);
-        let (sin_link2, cos_link2) = S::sin_cos(q[1]);
-        let (sin_link3, cos_link3) = S::sin_cos(q[2]);
-        let (sin_link4, cos_link4) = S::sin_cos(q[3]);
+        let (
+            [sin_link1,
+            sin_link2,
+            sin_link3,
+            sin_link4,
+            ],
+            [cos_link1,
+            cos_link2,
+            cos_link3,
+            cos_link4,
+            ],
+        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
         let t1 = v[0] * v[0];
@@ -179,27 +195,33 @@ impl Gripper {
         let t12 = k(5999.999999999999) * t6;
         let t13 = k(5999.999999999999) * t8;
         let D_link2 = J_link2_zz - t8 * t13;
-        let t14 = J_link2_zz - (k(0.1) * t11 + t10 * t13);
+        let t14 = t10 * t13 + (k(0.1) * t11 - J_link2_zz);
         let t15 = k(5999.999999999999) * t10;
         let inv_D_link2 = k(1.0) / D_link2;
         let t16 = t14 * inv_D_link2;
-        let t17 = k(0.0005000000000000001) * cos_link4
-            - (t6 * t12 + (t10 * t15 + (t14 * t16 - k(0.006000000000000001))));
-        let D_link1 = J_link2_zz + (t17 - k(0.2) * t11);
-        let inv_D_link1 = k(1.0) / D_link1;
-        let t18 = tau[1] - (moment_link2_z + t4 * t13);
-        let t19 = k(0.6867000000000001) * cos_link1
-            + (t5 * t12 + (t4 * t15 + t16 * t18) - tau[0]);
-        let t20 = k(0.1)
-            * (sin_link2 * minus_force_link2_x + cos_link2 * minus_force_link2_y)
-            + (k(0.05) * (sin_link4 * minus_force_link4_x) - t19 - moment_link4_z);
-        let t21 = inv_D_link1 * (moment_link2_z - t20);
-        let t22 = inv_D_link2 * t18 + t16 * t21;
+        let t17 = k(0.2) * t11
+            + (t6 * t12
+                - (J_link2_zz
+                    + (k(0.0005000000000000001) * cos_link4 + k(0.006000000000000001))));
+        let minus_D_link1 = t14 * t16 + (t10 * t15 + t17);
+        let minus_inv_D_link1 = k(1.0) / minus_D_link1;
+        let t18 = t4 * t13 + (moment_link2_z - tau[1]);
+        let t19 = t5 * t12
+            + (moment_link4_z
+                - (k(0.05) * (sin_link4 * minus_force_link4_x)
+                    + (tau[0] - k(0.6867000000000001) * cos_link1)));
+        let t20 = moment_link2_z + t19
+            + (t4 * t15
+                - k(0.1)
+                    * (sin_link2 * minus_force_link2_x
+                        + cos_link2 * minus_force_link2_y));
+        let t21 = minus_inv_D_link1 * (t16 * t18 + t20);
+        let t22 = inv_D_link2 * t18 - t16 * t21;
         [
-            -t21,
-            t22,
-            k(5999.999999999999) * t4 + (t15 * t21 - t13 * t22),
-            k(5999.999999999999) * t5 + t12 * t21,
+            t21,
+            -t22,
+            t13 * t22 + (k(5999.999999999999) * t4 - t15 * t21),
+            k(5999.999999999999) * t5 - t12 * t21,
         ]
     }
     /// M(q), the generalised inertia matrix, symmetric: kg m², kg m or kg.
@@ -207,9 +229,11 @@ impl Gripper {
     /// 23 flops: 11 additions, 12 multiplications, 0 divisions; 3 sine-cosine pairs.
     pub fn mass_matrix<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [[S; 4]; 4] {
         let k = S::from_f64;
-        let (sin_link2, cos_link2) = S::sin_cos(q[1]);
-        let (sin_link3, cos_link3) = S::sin_cos(q[2]);
-        let (_, cos_link4) = S::sin_cos(q[3]);
+        let ([sin_link2, sin_link3, _], [cos_link2, cos_link3, cos_link4]) = S::sin_cos_all([
+            q[1],
+            q[2],
+            q[3],
+        ]);
         let t1 = k(0.0001666666666666667) + k(0.00025000000000000006) * cos_link4;
         let t2 = k(0.005000000000000001) * cos_link3;
         let h_link2_y = k(0.005000000000000001) * sin_link3;
@@ -220,8 +244,8 @@ impl Gripper {
         let t5 = t3 - k(0.1) * (t4 - cos_link2 * t2);
         let t6 = t4 - cos_link2 * h_link2_x;
         let J_link1_zz = J_link2_zz
-            + (k(0.0005000000000000001) * cos_link4 + k(0.006000000000000001)
-                - k(0.2) * t6);
+            + (k(0.0005000000000000001) * cos_link4 + k(0.006000000000000001))
+            - k(0.2) * t6;
         let t7 = J_link2_zz - k(0.1) * t6;
         [
             [J_link1_zz, t7, t5, t1],
@@ -235,10 +259,18 @@ impl Gripper {
     /// 50 flops: 18 additions, 32 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn bias_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 4] {
         let k = S::from_f64;
-        let (sin_link1, cos_link1) = S::sin_cos(q[0]);
-        let (sin_link2, cos_link2) = S::sin_cos(q[1]);
-        let (sin_link3, cos_link3) = S::sin_cos(q[2]);
-        let (sin_link4, cos_link4) = S::sin_cos(q[3]);
+        let (
+            [sin_link1,
+            sin_link2,
+            sin_link3,
+            sin_link4,
+            ],
+            [cos_link1,
+            cos_link2,
+            cos_link3,
+            cos_link4,
+            ],
+        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
         let t1 = v[0] * v[0];
@@ -261,12 +293,12 @@ impl Gripper {
             + cos_link3 * minus_force_link3_x;
         let moment_link2_z = moment_link3_z
             + (k(0.015000000000000003) * acc_link2_y - k(0.05) * minus_force_link2_y);
-        let t4 = k(0.1)
-            * (sin_link2 * minus_force_link2_x + cos_link2 * minus_force_link2_y)
-            - (moment_link4_z
+        let moment_link1_z = moment_link2_z
+            + (moment_link4_z
                 + (k(0.6867000000000001) * cos_link1
-                    - k(0.05) * (sin_link4 * minus_force_link4_x)));
-        let moment_link1_z = moment_link2_z - t4;
+                    - k(0.05) * (sin_link4 * minus_force_link4_x)))
+            - k(0.1)
+                * (sin_link2 * minus_force_link2_x + cos_link2 * minus_force_link2_y);
         [moment_link1_z, moment_link2_z, moment_link3_z, moment_link4_z]
     }
     /// g(q), N m or N: the joint forces at rest.
@@ -274,10 +306,18 @@ impl Gripper {
     /// 21 flops: 7 additions, 14 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn gravity_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 4] {
         let k = S::from_f64;
-        let (sin_link1, cos_link1) = S::sin_cos(q[0]);
-        let (sin_link2, cos_link2) = S::sin_cos(q[1]);
-        let (sin_link3, cos_link3) = S::sin_cos(q[2]);
-        let (sin_link4, cos_link4) = S::sin_cos(q[3]);
+        let (
+            [sin_link1,
+            sin_link2,
+            sin_link3,
+            sin_link4,
+            ],
+            [cos_link1,
+            cos_link2,
+            cos_link3,
+            cos_link4,
+            ],
+        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
         let acc_link2_x = cos_link2 * acc_link1_x + sin_link2 * acc_link1_y;
@@ -287,8 +327,8 @@ impl Gripper {
         let moment_link3_z = k(0.005000000000000001) * acc_link3_y;
         let moment_link4_z = k(0.005000000000000001) * acc_link4_y;
         let moment_link2_z = k(0.015000000000000003) * acc_link2_y + moment_link3_z;
-        let moment_link1_z = k(0.6867000000000001) * cos_link1
-            + (moment_link4_z + moment_link2_z);
+        let moment_link1_z = moment_link2_z
+            + (k(0.6867000000000001) * cos_link1 + moment_link4_z);
         [moment_link1_z, moment_link2_z, moment_link3_z, moment_link4_z]
     }
     /// Kinetic and potential energy, J; the potential is zero at the base frame's origin.
@@ -299,10 +339,18 @@ impl Gripper {
         v: &[S; 4],
     ) -> ::redysim_runtime::Energy<S> {
         let k = S::from_f64;
-        let (sin_link1, cos_link1) = S::sin_cos(q[0]);
-        let (sin_link2, cos_link2) = S::sin_cos(q[1]);
-        let (sin_link3, cos_link3) = S::sin_cos(q[2]);
-        let (sin_link4, cos_link4) = S::sin_cos(q[3]);
+        let (
+            [sin_link1,
+            sin_link2,
+            sin_link3,
+            sin_link4,
+            ],
+            [cos_link1,
+            cos_link2,
+            cos_link3,
+            cos_link4,
+            ],
+        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
         let t1 = k(0.1) * v[0];
         let vel_link2_x = sin_link2 * t1;
         let vel_link2_y = cos_link2 * t1;
@@ -312,12 +360,12 @@ impl Gripper {
         let w_link3_z = v[2] + w_link2_z;
         let vel_link4_y = cos_link4 * (k(0.05) * v[0]);
         let w_link4_z = v[0] + v[3];
-        let t2 = vel_link2_y * (k(0.030000000000000006) * w_link2_z)
+        let t2 = w_link2_z * (k(0.0006666666666666668) * w_link2_z)
+            + (vel_link2_y * (k(0.030000000000000006) * w_link2_z)
+                + w_link4_z * (k(0.0001666666666666667) * w_link4_z));
+        let t3 = w_link3_z * (k(0.0001666666666666667) * w_link3_z)
             + (v[0] * (k(0.0058333333333333345) * v[0])
-                + w_link2_z * (k(0.0006666666666666668) * w_link2_z));
-        let t3 = w_link4_z * (k(0.0001666666666666667) * w_link4_z)
-            + (vel_link3_y * (k(0.010000000000000002) * w_link3_z)
-                + (w_link3_z * (k(0.0001666666666666667) * w_link3_z) + t2));
+                + vel_link4_y * (k(0.010000000000000002) * w_link4_z));
         let t4 = k(0.005000000000000001) * sin_link3;
         let t5 = k(0.005000000000000001) * cos_link3 + k(0.015000000000000003);
         let t6 = sin_link1
@@ -328,7 +376,8 @@ impl Gripper {
                 * (sin_link2 * t5
                     + (k(0.005000000000000001) * sin_link4 + cos_link2 * t4));
         ::redysim_runtime::Energy {
-            kinetic: k(0.5) * (vel_link4_y * (k(0.010000000000000002) * w_link4_z) + t3),
+            kinetic: k(0.5)
+                * (vel_link3_y * (k(0.010000000000000002) * w_link3_z) + (t2 + t3)),
             potential: k(9.81) * t7,
         }
     }
@@ -340,10 +389,18 @@ impl Gripper {
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
         let k = S::from_f64;
-        let (sin_link1, cos_link1) = S::sin_cos(q[0]);
-        let (sin_link2, cos_link2) = S::sin_cos(q[1]);
-        let (sin_link3, cos_link3) = S::sin_cos(q[2]);
-        let (sin_link4, cos_link4) = S::sin_cos(q[3]);
+        let (
+            [sin_link1,
+            sin_link2,
+            sin_link3,
+            sin_link4,
+            ],
+            [cos_link1,
+            cos_link2,
+            cos_link3,
+            cos_link4,
+            ],
+        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
         let t1 = k(0.1) * cos_link1;
         let t2 = k(0.1) * sin_link1;
         let t3 = v[0] * t2;

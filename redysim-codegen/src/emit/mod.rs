@@ -89,44 +89,55 @@ impl<'a> Emitter<'a> {
     /// One statement for each value with a `let`, operands first.
     fn statements(&mut self) -> Vec<Statement> {
         let mut statements = Vec::new();
-        let mut angles = HashSet::new();
+        let mut defined = HashSet::new();
         for index in (0..self.graph.len()).filter(|&index| self.uses[index] > 0) {
-            let Some(ident) = &self.idents[index] else { continue };
-            let mut needs = Vec::new();
+            let Some(ident) = self.idents[index].as_ref().filter(|_| !defined.contains(&index)) else { continue };
             let node = self.graph.node(index);
-            match node {
-                Node::Sin(angle) | Node::Cos(angle) => {
-                    if !angles.insert(angle) {
-                        continue;
-                    }
-                    let (sin, cos) = self.sine_and_cosine(angle);
-                    let pair = [sin, cos].map(|node| Some((node?, self.idents[node?].clone()?)));
-                    let pattern = pair.iter().map(|one| one.as_ref().map_or(quote!(_), |(_, ident)| quote!(#ident)));
-                    let pattern = quote!((#(#pattern),*));
-                    let value = self.render(angle, Binding::Lowest, &mut needs);
-                    statements.push(Statement {
-                        defines: pair.into_iter().flatten().collect(),
-                        tokens: quote!(let #pattern = S::sin_cos(#value);),
-                        needs,
-                    });
-                }
-                _ => {
-                    let value = self.operation(node, self.flipped[index], Binding::Lowest, &mut needs);
-                    statements.push(Statement {
-                        defines: vec![(index, ident.clone())],
-                        tokens: quote!(let #ident = #value;),
-                        needs,
-                    });
-                }
+            if let Node::Sin(_) | Node::Cos(_) = node {
+                let statement = self.sines_and_cosines(index);
+                defined.extend(statement.defines.iter().map(|(node, _)| *node));
+                statements.push(statement);
+                continue;
             }
+            let mut needs = Vec::new();
+            let value = self.operation(node, self.flipped[index], Binding::Lowest, &mut needs);
+            statements.push(Statement {
+                defines: vec![(index, ident.clone())],
+                tokens: quote!(let #ident = #value;),
+                needs,
+            });
         }
         statements
     }
 
-    /// The nodes that are the sine and the cosine of an angle, where they are used.
-    fn sine_and_cosine(&self, angle: Edge) -> (Option<usize>, Option<usize>) {
-        let find = |node| self.graph.index_of(node).filter(|&index| self.uses[index] > 0);
-        (find(Node::Sin(angle)), find(Node::Cos(angle)))
+    /// The sines and cosines of all angles that are known before node `index`, in one call, which costs less than one for
+    /// each. The angles of joints are known from the start, so that one call is all there is.
+    fn sines_and_cosines(&self, index: usize) -> Statement {
+        let (mut angles, mut values, mut needs) = (Vec::new(), Vec::new(), Vec::new());
+        for node in (index..self.graph.len()).filter(|&node| self.uses[node] > 0) {
+            let (Node::Sin(angle) | Node::Cos(angle)) = self.graph.node(node) else { continue };
+            let mut reads = Vec::new();
+            let value = self.render(angle, Binding::Lowest, &mut reads);
+            if !angles.contains(&angle) && reads.iter().all(|&read| read < index) {
+                angles.push(angle);
+                values.push(value);
+                needs.extend(reads);
+            }
+        }
+        let defined = |function: fn(Edge) -> Node| -> Vec<Option<(usize, Ident)>> {
+            let node = |angle| self.graph.index_of(function(angle)).filter(|&node| self.uses[node] > 0);
+            angles.iter().map(|&angle| node(angle).and_then(|node| Some((node, self.idents[node].clone()?)))).collect()
+        };
+        let (sines, cosines) = (defined(Node::Sin), defined(Node::Cos));
+        let [sin, cos] = [&sines, &cosines].map(|functions| {
+            let names = functions.iter().map(|one| one.as_ref().map_or(quote!(_), |(_, ident)| quote!(#ident)));
+            names.collect::<Vec<_>>()
+        });
+        let tokens = match &values[..] {
+            [value] => quote!(let (#(#sin)*, #(#cos)*) = S::sin_cos(#value);),
+            _ => quote!(let ([#(#sin),*], [#(#cos),*]) = S::sin_cos_all([#(#values),*]);),
+        };
+        Statement { defines: sines.into_iter().chain(cosines).flatten().collect(), tokens, needs }
     }
 
     /// A value as an expression; `needs` collects the nodes with a `let` that it reads.

@@ -5,7 +5,8 @@
 
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node, sum_without_noise};
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
 
 /// The expressions with like terms collected.
 pub fn collected(expressions: &Expressions) -> Expressions {
@@ -14,10 +15,11 @@ pub fn collected(expressions: &Expressions) -> Expressions {
     let inner = inner_sums(old, &uses);
     let mut graph = Graph::default();
     let mut made: Vec<Option<Edge>> = vec![None; old.len()];
+    let mut depths = Depths::default();
     for index in (0..old.len()).filter(|&index| uses[index] > 0 && !inner[index]) {
         let node = old.node(index);
         let edge = match node {
-            Node::Add(..) | Node::Subtract(..) => rebuilt_sum(old, index, &inner, &mut graph, &made),
+            Node::Add(..) | Node::Subtract(..) => rebuilt_sum(old, index, &inner, &mut graph, &made, &mut depths),
             _ => graph.rebuild(node, |edge| mapped(&made, edge)),
         };
         if let Some(name) = old.name(index) {
@@ -46,16 +48,35 @@ fn inner_sums(graph: &Graph, uses: &[usize]) -> Vec<bool> {
     inner
 }
 
-fn rebuilt_sum(old: &Graph, root: usize, inner: &[bool], graph: &mut Graph, made: &[Option<Edge>]) -> Edge {
-    let mut order: Vec<Edge> = Vec::new();
-    let mut coefficients: HashMap<Edge, f64> = HashMap::new();
+/// The terms of the sum at `root`, like ones collected, added up again so that the result is ready soonest.
+fn rebuilt_sum(
+    old: &Graph,
+    root: usize,
+    inner: &[bool],
+    graph: &mut Graph,
+    made: &[Option<Edge>],
+    depths: &mut Depths,
+) -> Edge {
+    let (constant, coefficients) = collect(old, root, inner, graph, made);
+    let mut terms = vec![graph.constant(constant)];
+    for (base, factor) in coefficients {
+        let factor = graph.constant(factor);
+        terms.push(graph.multiply(factor, base));
+    }
+    terms.retain(|&term| graph.constant_value(term) != Some(0.0));
+    depths.add_up(graph, terms)
+}
+
+/// The constant and, in the order in which they are met, the coefficients of all other terms of the sum at `root`.
+fn collect(old: &Graph, root: usize, inner: &[bool], graph: &Graph, made: &[Option<Edge>]) -> (f64, Vec<(Edge, f64)>) {
     let mut constant = 0.0;
+    let mut terms: Vec<(Edge, f64)> = Vec::new();
+    let mut places: HashMap<Edge, usize> = HashMap::new();
     let mut open = vec![(root, false)];
     while let Some((index, negative)) = open.pop() {
         let (Node::Add(a, b) | Node::Subtract(a, b)) = old.node(index) else { continue };
         let second = matches!(old.node(index), Node::Subtract(..)) != negative;
-        // The second operand waits on the stack, so that terms come in the order in which they were added.
-        for (operand, negative) in [(b, second), (a, negative)] {
+        for (operand, negative) in [(a, negative), (b, second)] {
             if inner[operand.node()] {
                 open.push((operand.node(), operand.is_negative() != negative));
                 continue;
@@ -66,20 +87,48 @@ fn rebuilt_sum(old: &Graph, root: usize, inner: &[bool], graph: &mut Graph, made
                 continue;
             }
             let (factor, base) = graph.coefficient(edge);
-            let known = coefficients.entry(base).or_insert_with(|| {
-                order.push(base);
-                0.0
-            });
-            *known = sum_without_noise(*known, factor);
+            let place = *places.entry(base).or_insert(terms.len());
+            if place == terms.len() {
+                terms.push((base, 0.0));
+            }
+            terms[place].1 = sum_without_noise(terms[place].1, factor);
         }
     }
-    let mut sum = graph.constant(constant);
-    for base in order {
-        let factor = graph.constant(coefficients[&base]);
-        let term = graph.multiply(factor, base);
-        sum = graph.add(sum, term);
+    (constant, terms)
+}
+
+/// How many operations, one after the other, it takes until each node of a graph is ready.
+#[derive(Default)]
+struct Depths(Vec<u32>);
+
+impl Depths {
+    fn of(&mut self, graph: &Graph, edge: Edge) -> u32 {
+        for index in self.0.len()..graph.len() {
+            // In units of an addition: a division takes several times as long, and sines come before all else.
+            let own = match graph.node(index) {
+                Node::Input { .. } | Node::Constant(_) => 0,
+                Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
+                Node::Divide(..) | Node::Sqrt(_) => 4,
+            };
+            let operands = graph.node(index).operands().map(|operand| self.0[operand.node()]);
+            self.0.push(own + operands.max().unwrap_or(0));
+        }
+        self.0[edge.node()]
     }
-    sum
+
+    /// The sum of all terms: always of the two that are ready first, so that none waits for what it does not need.
+    fn add_up(&mut self, graph: &mut Graph, terms: Vec<Edge>) -> Edge {
+        let mut ready: BinaryHeap<Reverse<(u32, usize, Edge)>> = BinaryHeap::new();
+        for (order, term) in terms.into_iter().enumerate() {
+            ready.push(Reverse((self.of(graph, term), order, term)));
+        }
+        loop {
+            let Some(Reverse((_, order, first))) = ready.pop() else { return graph.constant(0.0) };
+            let Some(Reverse((_, _, second))) = ready.pop() else { return first };
+            let sum = graph.add(first, second);
+            ready.push(Reverse((self.of(graph, sum), order, sum)));
+        }
+    }
 }
 
 fn mapped(made: &[Option<Edge>], edge: Edge) -> Edge {

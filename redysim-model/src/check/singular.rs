@@ -60,11 +60,10 @@ fn without_pivot(tree: &Tree, q: &[f64]) -> Vec<usize> {
             without.push(k);
             continue;
         }
-        for i in 0..k {
-            let factor = reduced[i][k] / pivot;
-            for j in 0..=i {
-                reduced[i][j] -= factor * reduced[j][k];
-                reduced[j][i] = reduced[i][j];
+        let column: Vec<f64> = reduced.iter().map(|row| row[k]).collect();
+        for (row, factor) in reduced.iter_mut().zip(&column).take(k) {
+            for (element, other) in row.iter_mut().zip(&column).take(k) {
+                *element -= factor * other / pivot;
             }
         }
     }

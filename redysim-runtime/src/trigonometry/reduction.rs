@@ -1,40 +1,33 @@
-//! Sine and cosine of one angle, without panics, tables in memory that could be missed, or a library's rounding.
+//! The reduction of angles for which subtracting π/2 in a few parts is not enough.
 //!
-//! The angle is reduced to |r| ≤ π/4 with a tail that carries what a `f64` cannot, so that the result is right to the
-//! last place even beside a multiple of π/2: up to 2²⁰ quarter turns by subtracting π/2 in four parts, beyond by the
-//! digits of 2/π that the exponent asks for (Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM
-//! Newsletter 18, 1983). Then two polynomials, of least relative error over the interval (found by Remez exchange:
-//! 2⁻⁵⁷ for the sine, 2⁻⁵⁹ for the cosine), are evaluated in r².
-//!
-//! Errors stay below 1 unit in the last place for every finite angle; non-finite angles give NaN.
+//! Up to 2²⁰ quarter turns π/2 is subtracted in four parts, with the roundoff of every difference kept; beyond, the
+//! digits of 2/π are multiplied that make the fraction of a quarter turn (M. H. Payne and R. N. Hanek, *Radian reduction
+//! for trigonometric functions*, SIGNUM Newsletter 18, 1983).
 
-/// Sine and cosine of `x` radians.
-#[inline]
-pub fn sin_cos(x: f64) -> (f64, f64) {
-    let angle = if libm::fabs(x) <= MANY_TURNS { by_parts(x) } else { by_digits(x) };
-    let (sin, cos) = kernel(angle.rest, angle.tail);
-    let (sin, cos) = if angle.quarters & 1 == 0 { (sin, cos) } else { (cos, -sin) };
-    if angle.quarters & 2 == 0 { (sin, cos) } else { (-sin, -cos) }
-}
+use super::ROUNDER;
 
-/// x = quarters · π/2 + rest + tail, with |rest| ≤ π/4 and the quarters modulo 4.
-struct Reduced {
-    quarters: u64,
-    rest: f64,
-    tail: f64,
+/// x = quarters · π/2 + rest + tail, with |rest| ≤ π/4.
+pub struct Reduced {
+    /// The quarters in its last bits.
+    pub rounded: f64,
+    pub rest: f64,
+    pub tail: f64,
 }
 
 /// 2²⁰ quarter turns.
-const MANY_TURNS: f64 = 1_647_099.0;
-const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
+const MOST_BY_PARTS: f64 = 1_647_099.0;
+
+/// The reduction of any angle; NaN where it is not finite.
+#[cold]
+pub fn reduced(x: f64) -> Reduced {
+    if libm::fabs(x) <= MOST_BY_PARTS { by_parts(x) } else { by_digits(x) }
+}
+
 /// π/2 in three parts of 33 bits, of which multiples up to 2²⁰ are exact, and a fourth of 53.
 const HALF_PI: [f64; 4] = [1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-21, 8.4784276603689e-32];
-/// Added to a number below 2⁵¹ and taken away again, it leaves the nearest integer, and shows its bits in between.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-#[inline]
 fn by_parts(x: f64) -> Reduced {
-    let rounded = x * TWO_OVER_PI + ROUNDER;
+    let rounded = x * core::f64::consts::FRAC_2_PI + ROUNDER;
     let n = rounded - ROUNDER;
     // The first difference is exact; the others leave their roundoff in the tail.
     let first = x - n * HALF_PI[0];
@@ -42,11 +35,10 @@ fn by_parts(x: f64) -> Reduced {
     let (third, tail_3) = two_difference(second, n * HALF_PI[2]);
     let tail = (tail_2 + tail_3) - n * HALF_PI[3];
     let rest = third + tail;
-    Reduced { quarters: rounded.to_bits(), rest, tail: (third - rest) + tail }
+    Reduced { rounded, rest, tail: (third - rest) + tail }
 }
 
 /// a − b, and the roundoff of the difference (Knuth).
-#[inline]
 fn two_difference(a: f64, b: f64) -> (f64, f64) {
     let difference = a - b;
     let virtual_b = a - difference;
@@ -83,12 +75,11 @@ const TWO_OVER_PI_DIGITS: [u64; 22] = [
 const HALF_PI_DIGITS: u128 = 0xc90f_daa2_2168_c234;
 
 /// The reduction of a number so large that its quarter turns are only known from far down in 2/π.
-#[cold]
 fn by_digits(x: f64) -> Reduced {
     let bits = x.to_bits();
     let exponent = (bits >> 52) & 0x7ff;
     if exponent == 0x7ff {
-        return Reduced { quarters: 0, rest: f64::NAN, tail: f64::NAN };
+        return Reduced { rounded: f64::NAN, rest: f64::NAN, tail: f64::NAN };
     }
     // |x| = mantissa · 2^(exponent − 1075). Digits of 2/π that this takes to 4 and more only add whole turns; the
     // product with the 256 digits that follow them is the number of quarter turns, with the point after two digits.
@@ -115,46 +106,10 @@ fn by_digits(x: f64) -> Reduced {
     let scale = power_of_two(-127 - zeros as i32).copysign(if up { -x } else { x });
     let quarters = (first >> 62).wrapping_add(u64::from(up));
     let quarters = if x < 0.0 { quarters.wrapping_neg() } else { quarters };
-    Reduced { quarters, rest: rounded * scale, tail: tail * scale }
+    Reduced { rounded: f64::from_bits(quarters & 3), rest: rounded * scale, tail: tail * scale }
 }
 
 /// 2ⁿ, for a result that is a normal number.
 fn power_of_two(n: i32) -> f64 {
     f64::from_bits(((1023 + n) as u64) << 52)
-}
-
-/// (sin r − r) / r³ as a polynomial in r².
-const SINE: [f64; 6] = [
-    -0.16666666666666632,
-    0.008333333333322418,
-    -0.0001984126982981238,
-    2.755731369357263e-6,
-    -2.5050758384371987e-8,
-    1.5896811798732654e-10,
-];
-
-/// (cos r − 1 + r²/2) / r⁴ as a polynomial in r².
-const COSINE: [f64; 6] = [
-    0.0416666666666666,
-    -0.0013888888888874131,
-    2.4801587289487012e-5,
-    -2.755731435378898e-7,
-    2.087572347902117e-9,
-    -1.1359658844005114e-11,
-];
-
-/// Sine and cosine of r + tail, |r| ≤ π/4.
-#[inline]
-fn kernel(r: f64, tail: f64) -> (f64, f64) {
-    let z = r * r;
-    let half = 0.5 * z;
-    let sin = r + (r * (z * polynomial(&SINE, z)) + tail * (1.0 - half));
-    let near_one = 1.0 - half;
-    let cos = near_one + (((1.0 - near_one) - half) + (z * (z * polynomial(&COSINE, z)) - r * tail));
-    (sin, cos)
-}
-
-#[inline]
-fn polynomial([a, b, c, d, e, f]: &[f64; 6], z: f64) -> f64 {
-    a + z * (b + z * (c + z * (d + z * (e + z * f))))
 }

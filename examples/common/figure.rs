@@ -1,0 +1,136 @@
+//! What a picture shows, before it is drawn: panels with curves over time.
+
+use super::{Series, column, peak};
+
+/// A picture: panels in rows, over the same time.
+pub struct Figure {
+    /// How many panels stand beside each other.
+    pub columns: usize,
+    /// The panels, by rows.
+    pub panels: Vec<Panel>,
+    /// Whether all panels show the same curves, so that one legend at the top serves all.
+    pub shared_legend: bool,
+}
+
+/// One coordinate system.
+pub struct Panel {
+    pub title: String,
+    /// What the vertical axis measures.
+    pub quantity: String,
+    pub unit: String,
+    /// Whether the vertical axis is logarithmic.
+    pub logarithmic: bool,
+    pub curves: Vec<Curve>,
+}
+
+/// Values over time.
+pub struct Curve {
+    /// As the legend shows it; a curve without a name needs none.
+    pub name: String,
+    pub points: Vec<(f64, f64)>,
+    /// Number in the palette.
+    pub colour: usize,
+    pub mark: Mark,
+}
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    Line,
+    /// Hollow circles at a few points, so that a line below can be seen.
+    Circles,
+}
+
+/// Circles along one curve.
+const CIRCLES: usize = 20;
+
+/// A panel for each joint, two beside each other: the runs as lines, references as circles, values times `factor`.
+pub fn joint_grid(quantity: &str, unit: &str, factor: f64, lines: &[Series<'_>], circles: &[Series<'_>]) -> Figure {
+    let panel = |joint: usize| {
+        let values =
+            |series: &Series<'_>| column(series.rows, joint).iter().map(|value| factor * value).collect::<Vec<_>>();
+        let panel = Panel::new(format!("joint {}", joint + 1), quantity, unit);
+        let draw =
+            |panel: Panel, (index, run): (usize, &Series<'_>)| panel.line(run.name, index + 1, run.t, &values(run));
+        let panel = lines.iter().enumerate().fold(panel, draw);
+        circles.iter().fold(panel, |panel, run| panel.circles(run.name, run.t, &values(run)))
+    };
+    let joints = lines.first().map_or(0, |run| run.rows[0].len());
+    Figure { columns: 2, panels: (0..joints).map(panel).collect(), shared_legend: true }
+}
+
+impl Panel {
+    /// An empty panel whose vertical axis shows `quantity` in `unit`.
+    pub fn new(title: impl Into<String>, quantity: &str, unit: &str) -> Self {
+        let (title, quantity, unit) = (title.into(), quantity.to_owned(), unit.to_owned());
+        Panel { title, quantity, unit, logarithmic: false, curves: Vec::new() }
+    }
+
+    /// Makes the vertical axis logarithmic.
+    pub fn logarithmic(mut self) -> Self {
+        self.logarithmic = true;
+        self
+    }
+
+    /// Adds a line in colour number `colour`.
+    pub fn line(mut self, name: &str, colour: usize, t: &[f64], values: &[f64]) -> Self {
+        let points = t.iter().copied().zip(values.iter().copied()).collect();
+        self.curves.push(Curve { name: name.to_owned(), points, colour, mark: Mark::Line });
+        self
+    }
+
+    /// Adds circles at about twenty of the points, in the palette's black.
+    pub fn circles(mut self, name: &str, t: &[f64], values: &[f64]) -> Self {
+        let every = ((t.len() - 1) / CIRCLES).max(1);
+        let points = t.iter().copied().zip(values.iter().copied()).step_by(every).collect();
+        self.curves.push(Curve { name: name.to_owned(), points, colour: 0, mark: Mark::Circles });
+        self
+    }
+
+    /// Adds a line for each joint, in the joint's own colour. Lines that coincide would hide each other: they become
+    /// one, which names all its joints.
+    pub fn joints(mut self, t: &[f64], rows: &[Vec<f64>]) -> Self {
+        let mut groups: Vec<(Vec<usize>, Vec<f64>)> = Vec::new();
+        for joint in 0..rows[0].len() {
+            let values = column(rows, joint);
+            match groups.iter_mut().find(|(_, others)| coincide(others, &values)) {
+                Some((joints, _)) => joints.push(joint + 1),
+                None => groups.push((vec![joint + 1], values)),
+            }
+        }
+        for (joints, values) in groups {
+            self = self.line(&joint_names(&joints), joints[0], t, &values);
+        }
+        self
+    }
+
+    /// Measures the vertical axis in thousandths, millionths, … of the unit where the values are that small.
+    pub fn prefixed(mut self) -> Self {
+        let values = self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.1);
+        let size = peak(values);
+        let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| size * factor >= 0.5).unwrap_or((1.0, ""));
+        for point in self.curves.iter_mut().flat_map(|curve| &mut curve.points) {
+            point.1 *= factor;
+        }
+        self.unit.insert_str(0, prefix);
+        self
+    }
+}
+
+const PREFIXES: [(f64, &str); 6] = [(1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"), (1e12, "p"), (1e15, "f")];
+
+fn coincide(a: &[f64], b: &[f64]) -> bool {
+    peak(a.iter().zip(b).map(|(a, b)| a - b)) <= 1e-9 * peak(a.iter().copied())
+}
+
+/// "joint 1", "joints 2, 3", "joints 1–6".
+fn joint_names(joints: &[usize]) -> String {
+    let (first, last) = (joints[0], joints[joints.len() - 1]);
+    if joints.len() == 1 {
+        format!("joint {first}")
+    } else if joints.len() > 2 && last - first + 1 == joints.len() {
+        format!("joints {first}–{last}")
+    } else {
+        format!("joints {}", joints.iter().map(usize::to_string).collect::<Vec<_>>().join(", "))
+    }
+}

@@ -1,0 +1,74 @@
+//! Reference results, which none of this project's code computed. `tests/reference/README.md` tells where they are from.
+
+use super::{Context, Failure, Rows, Series};
+
+/// A reference run: values at instants.
+pub struct Reference {
+    /// Whose results these are.
+    pub by: &'static str,
+    /// The instants, s.
+    pub t: Vec<f64>,
+    /// Joint coordinates, rad.
+    pub q: Rows,
+    /// Joint velocities, rad/s.
+    pub v: Rows,
+    /// Joint forces, N m; empty for a free motion.
+    pub tau: Rows,
+}
+
+impl Reference {
+    /// Reads a file of joint forces: t, q, q̇, q̈, τ.
+    pub fn joint_forces(by: &'static str, text: &str, joints: usize) -> Result<Self, Failure> {
+        let rows = read(by, text, 1 + 4 * joints)?;
+        let tau = block(&rows, 3, joints);
+        Ok(Reference { by, q: block(&rows, 0, joints), v: block(&rows, 1, joints), tau, t: times(&rows) })
+    }
+
+    /// Reads a file of a free motion: t, q, q̇, work of the actuators, kinetic energy, potential energy.
+    pub fn motion(by: &'static str, text: &str, joints: usize) -> Result<Self, Failure> {
+        let rows = read(by, text, 1 + 2 * joints + 3)?;
+        let (q, v) = (block(&rows, 0, joints), block(&rows, 1, joints));
+        Ok(Reference { by, q, v, tau: Vec::new(), t: times(&rows) })
+    }
+
+    /// The instants up to `end` alone, s.
+    pub fn until(mut self, end: f64) -> Self {
+        let kept = self.t.partition_point(|&t| t <= end);
+        self.t.truncate(kept);
+        for rows in [&mut self.q, &mut self.v, &mut self.tau] {
+            rows.truncate(kept);
+        }
+        self
+    }
+
+    /// Some of its rows, under its name.
+    pub fn series<'a>(&'a self, rows: &'a Rows) -> Series<'a> {
+        Series { name: self.by, t: &self.t, rows }
+    }
+}
+
+/// Lines of numbers with commas between them, and comments behind `#`.
+fn read(by: &str, text: &str, columns: usize) -> Result<Rows, Failure> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.starts_with('#'));
+    let row = |(index, line): (usize, &str)| {
+        let place =
+            || format!("results by {by}, line {} of their file in tests/reference; restore the file", index + 1);
+        let numbers = line.split(',').map(|number| number.trim().parse::<f64>().context(place));
+        let numbers = numbers.collect::<Result<Vec<_>, _>>()?;
+        if numbers.len() == columns {
+            Ok(numbers)
+        } else {
+            Err(Failure(format!("{}: {} numbers where {columns} should be", place(), numbers.len())))
+        }
+    };
+    lines.map(row).collect()
+}
+
+fn block(rows: &Rows, index: usize, joints: usize) -> Rows {
+    let columns = 1 + index * joints..1 + (index + 1) * joints;
+    rows.iter().map(|row| row[columns.clone()].to_vec()).collect()
+}
+
+fn times(rows: &Rows) -> Vec<f64> {
+    rows.iter().map(|row| row[0]).collect()
+}

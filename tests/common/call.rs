@@ -1,0 +1,44 @@
+//! The functions of a mechanism on slices, whatever its own vectors are made of.
+
+use redysim::{
+    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, MassMatrix,
+    MechanicalEnergy, Scalar, Vector,
+};
+
+fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
+    V::from_fn(values.len(), |i| values[i])
+}
+
+/// Constants as scalars.
+pub fn constants<S: Scalar>(values: &[f64]) -> Vec<S> {
+    values.iter().map(|&value| S::from_f64(value)).collect()
+}
+
+pub fn inverse_dynamics<S: Scalar>(m: &impl InverseDynamics<S>, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
+    m.inverse_dynamics(&vector(q), &vector(v), &vector(a)).as_ref().to_vec()
+}
+
+pub fn forward_dynamics<S: Scalar>(m: &impl ForwardDynamics<S>, q: &[S], v: &[S], tau: &[S]) -> Vec<S> {
+    m.forward_dynamics(&vector(q), &vector(v), &vector(tau)).as_ref().to_vec()
+}
+
+/// By rows.
+pub fn mass_matrix<S: Scalar>(m: &impl MassMatrix<S>, q: &[S]) -> Vec<Vec<S>> {
+    m.mass_matrix(&vector(q)).as_ref().iter().map(|row| row.as_ref().to_vec()).collect()
+}
+
+pub fn bias_forces<S: Scalar>(m: &impl BiasForces<S>, q: &[S], v: &[S]) -> Vec<S> {
+    m.bias_forces(&vector(q), &vector(v)).as_ref().to_vec()
+}
+
+pub fn gravity_forces<S: Scalar>(m: &impl GravityForces<S>, q: &[S]) -> Vec<S> {
+    m.gravity_forces(&vector(q)).as_ref().to_vec()
+}
+
+pub fn energy<S: Scalar>(m: &impl MechanicalEnergy<S>, q: &[S], v: &[S]) -> Energy<S> {
+    m.energy(&vector(q), &vector(v))
+}
+
+pub fn link_kinematics<S: Scalar>(m: &impl LinkKinematics<S>, q: &[S], v: &[S]) -> Vec<LinkState<S>> {
+    m.link_kinematics(&vector(q), &vector(v)).as_ref().to_vec()
+}

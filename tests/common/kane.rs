@@ -1,0 +1,162 @@
+//! The dynamics of a model by another way: Jacobians of the centres of mass in the base frame and Kane's equations.
+//!
+//! Nothing of the recursions is used here: no tree, no spatial vectors, no frames turned to joint axes, no fused links.
+//! For each link with Jacobians J_v (of the centre of mass) and J_ω,
+//!
+//! M = Σ m J_vᵀ J_v + J_ωᵀ I J_ω, h = Σ m J_vᵀ (a − g) + J_ωᵀ (I α + ω × I ω),
+//!
+//! where a and α are the accelerations at zero joint accelerations. Source: Kane and Levinson, *Dynamics: Theory and
+//! Applications*, McGraw-Hill 1985.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
+use redysim_model::{JointKind, Link, Model};
+
+/// Everything the tests compare, at one state.
+pub struct Kane {
+    pub matrix: DMatrix<f64>,
+    pub bias: DVector<f64>,
+    pub gravity: DVector<f64>,
+    pub kinetic: f64,
+    pub potential: f64,
+    /// In the model's order.
+    pub links: Vec<Body>,
+}
+
+/// A link in the base frame.
+#[derive(Clone)]
+pub struct Body {
+    pub rotation: Matrix3<f64>,
+    pub origin: Vector3<f64>,
+    pub com: Vector3<f64>,
+    pub velocity: Vector3<f64>,
+    pub angular_velocity: Vector3<f64>,
+    /// Accelerations at zero joint accelerations, of the origin and of the axes.
+    acceleration: Vector3<f64>,
+    angular_acceleration: Vector3<f64>,
+    /// Joints between the ground and the link: coordinate, kind, axis, a point on it.
+    joints: Vec<(usize, JointKind, Vector3<f64>, Vector3<f64>)>,
+}
+
+impl Body {
+    fn ground() -> Self {
+        let zero = Vector3::zeros();
+        Body {
+            rotation: Matrix3::identity(),
+            origin: zero,
+            com: zero,
+            velocity: zero,
+            angular_velocity: zero,
+            acceleration: zero,
+            angular_acceleration: zero,
+            joints: Vec::new(),
+        }
+    }
+
+    /// The link that a joint with coordinate number `coordinate` carries on this one.
+    fn carry(&self, link: &Link, coordinate: usize, q: f64, v: f64) -> Body {
+        let placement = Matrix3::from_fn(|i, j| link.placement.rotation.0[i][j]);
+        let axis = Vector3::from(link.axis.0);
+        let at_zero = self.rotation * placement;
+        let z = at_zero * axis;
+        let arm = self.rotation * Vector3::from(link.placement.position.0);
+        let (w, dw) = (self.angular_velocity, self.angular_acceleration);
+        let mut body = Body {
+            rotation: at_zero,
+            origin: self.origin + arm,
+            com: Vector3::zeros(),
+            velocity: self.velocity + w.cross(&arm),
+            angular_velocity: w,
+            acceleration: self.acceleration + dw.cross(&arm) + w.cross(&w.cross(&arm)),
+            angular_acceleration: dw,
+            joints: self.joints.clone(),
+        };
+        match link.joint {
+            JointKind::Revolute => {
+                body.rotation = at_zero * Rotation3::from_axis_angle(&Unit::new_normalize(axis), link.offset + q);
+                body.angular_velocity += z * v;
+                body.angular_acceleration += w.cross(&z) * v;
+            }
+            JointKind::Prismatic => {
+                let stroke = z * (link.offset + q);
+                body.origin += stroke;
+                body.velocity += w.cross(&stroke) + z * v;
+                body.acceleration += dw.cross(&stroke) + w.cross(&w.cross(&stroke)) + 2.0 * w.cross(&z) * v;
+            }
+            JointKind::Fixed => {}
+        }
+        body.com = body.origin + body.rotation * Vector3::from(link.com.0);
+        if link.joint != JointKind::Fixed {
+            body.joints.push((coordinate, link.joint, z, body.origin));
+        }
+        body
+    }
+
+    /// Jacobians of the centre of mass and of the axes, a column for each of `dof` velocities.
+    fn jacobians(&self, dof: usize) -> (DMatrix<f64>, DMatrix<f64>) {
+        let (mut linear, mut angular) = (DMatrix::zeros(3, dof), DMatrix::zeros(3, dof));
+        for &(coordinate, kind, z, point) in &self.joints {
+            if kind == JointKind::Revolute {
+                linear.set_column(coordinate, &z.cross(&(self.com - point)));
+                angular.set_column(coordinate, &z);
+            } else {
+                linear.set_column(coordinate, &z);
+            }
+        }
+        (linear, angular)
+    }
+}
+
+/// Evaluates the model at coordinates `q` and velocities `v`.
+pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
+    let dof = q.len();
+    let links = bodies(model, q, v);
+    let g = Vector3::from(model.gravity.0);
+    let mut sums = Kane {
+        matrix: DMatrix::zeros(dof, dof),
+        bias: DVector::zeros(dof),
+        gravity: DVector::zeros(dof),
+        kinetic: 0.0,
+        potential: 0.0,
+        links: Vec::new(),
+    };
+    for (link, body) in model.links.iter().zip(&links) {
+        let i = link.inertia;
+        let central = Matrix3::new(i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz);
+        let inertia = body.rotation * central * body.rotation.transpose();
+        let (linear, angular) = body.jacobians(dof);
+        let (w, dw, arm) = (body.angular_velocity, body.angular_acceleration, body.com - body.origin);
+        let acceleration = body.acceleration + dw.cross(&arm) + w.cross(&w.cross(&arm));
+        let moment = inertia * dw + w.cross(&(inertia * w));
+        let speed = body.velocity + w.cross(&arm);
+        sums.matrix += link.mass * linear.transpose() * &linear + angular.transpose() * inertia * &angular;
+        sums.bias += link.mass * linear.transpose() * (acceleration - g) + angular.transpose() * moment;
+        sums.gravity -= link.mass * linear.transpose() * g;
+        sums.kinetic += 0.5 * (link.mass * speed.dot(&speed) + w.dot(&(inertia * w)));
+        sums.potential -= link.mass * g.dot(&body.com);
+    }
+    Kane { links, ..sums }
+}
+
+/// All links, whatever their order: a link is placed as soon as its parent is.
+fn bodies(model: &Model, q: &[f64], v: &[f64]) -> Vec<Body> {
+    let mut coordinates = Vec::new();
+    let mut next = 0;
+    for link in &model.links {
+        coordinates.push(next);
+        next += usize::from(link.joint != JointKind::Fixed);
+    }
+    let mut placed: Vec<Option<Body>> = vec![None; model.links.len()];
+    while placed.iter().any(Option::is_none) {
+        for (index, link) in model.links.iter().enumerate() {
+            let parent = match link.parent {
+                None => Some(Body::ground()),
+                Some(parent) => placed[parent].clone(),
+            };
+            let at = |values: &[f64]| values.get(coordinates[index]).copied().unwrap_or(0.0);
+            if let Some(parent) = parent.filter(|_| placed[index].is_none()) {
+                placed[index] = Some(parent.carry(link, coordinates[index], at(q), at(v)));
+            }
+        }
+    }
+    placed.into_iter().flatten().collect()
+}

@@ -1,0 +1,11 @@
+//! What the tests share.
+#![allow(dead_code, reason = "each test uses a part")]
+
+pub mod call;
+pub mod comparison;
+pub mod double_double;
+pub mod dual;
+pub mod kane;
+#[cfg(feature = "generic")]
+pub mod models;
+pub mod random;

@@ -1,0 +1,208 @@
+//! On random trees the recursions, the base parameters and the traced expressions agree with Kane's equations.
+//!
+//! Two hundred trees of up to twelve joints: revolute, prismatic and fixed, branching, oblique, links in scrambled order.
+
+mod common;
+
+use common::kane::{Kane, kane};
+use common::random::{Random, State};
+use nalgebra::{DVector, Matrix3, Rotation3, Unit, Vector3};
+use redysim_codegen::functions::{Function, trace};
+use redysim_model::denoc::{self, Method};
+use redysim_model::regroup::base_parameters;
+use redysim_model::spatial::{Mat3, Pose, Vec3};
+use redysim_model::{Inertia, JointKind, Link, Model, Tree};
+use std::collections::BTreeMap;
+
+const TREES: u64 = 200;
+const STATES: usize = 3;
+
+/// The largest error of each quantity.
+#[derive(Default)]
+struct Errors(BTreeMap<String, f64>);
+
+impl Errors {
+    /// |computed − expected| / |expected| in the norm of the largest component. The terms of a component are as large as
+    /// the largest component, and so are their roundings; one component alone may be their small difference.
+    fn add(&mut self, what: &str, computed: &[f64], expected: &[f64], tolerance: f64) {
+        assert_eq!(computed.len(), expected.len(), "{what}");
+        let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        let difference = computed.iter().zip(expected).map(|(x, y)| (x - y).abs());
+        let difference = difference.fold(0.0_f64, |most, x| if most.is_nan() || x <= most { most } else { x });
+        let error = if difference == 0.0 { 0.0 } else { difference / size };
+        assert!(error <= tolerance, "{what}: error {error:.1e}\n{computed:?}\n{expected:?}");
+        let worst = self.0.entry(what.to_string()).or_default();
+        *worst = worst.max(error);
+    }
+}
+
+fn rotation(random: &mut Random) -> Matrix3<f64> {
+    // A third of all rotations are quarter turns, as in most machines.
+    let angle = if random.below(3) == 0 { std::f64::consts::FRAC_PI_2 } else { random.within(3.0) };
+    *Rotation3::from_axis_angle(&Unit::new_normalize(axis(random)), angle).matrix()
+}
+
+fn axis(random: &mut Random) -> Vector3<f64> {
+    match random.below(4) {
+        0 => Vector3::z(),
+        1 => [Vector3::x(), Vector3::y(), -Vector3::x(), -Vector3::y()][random.below(4)],
+        _ => Vector3::from_fn(|_, _| random.within(1.0)).normalize(),
+    }
+}
+
+/// A body of a few kilogrammes and decimetres: R diag(b + c, a + c, a + b) Rᵀ is a possible inertia for positive a, b, c.
+fn inertia(random: &mut Random) -> Inertia {
+    let [a, b, c] = [0; 3].map(|_| 0.01 + random.within(0.009));
+    let turned = rotation(random);
+    let i = turned * Matrix3::from_diagonal(&Vector3::new(b + c, a + c, a + b)) * turned.transpose();
+    Inertia { xx: i[(0, 0)], yy: i[(1, 1)], zz: i[(2, 2)], xy: i[(0, 1)], yz: i[(1, 2)], xz: i[(0, 2)] }
+}
+
+/// A tree that grows from the ground, its links then put in any order.
+fn random_model(random: &mut Random) -> Model {
+    let count = 1 + random.below(12);
+    let mut order: Vec<usize> = (0..count).collect();
+    for index in (1..count).rev() {
+        order.swap(index, random.below(index + 1));
+    }
+    let mut links: Vec<Option<Link>> = vec![None; count];
+    for grown in 0..count {
+        // Mostly the link before, so that chains get long; else any link, or the ground.
+        let parent = if random.below(3) > 0 { grown.checked_sub(1) } else { random.below(grown + 1).checked_sub(1) };
+        let joint = match random.below(5) {
+            0 if grown > 0 => JointKind::Fixed,
+            1 => JointKind::Prismatic,
+            _ => JointKind::Revolute,
+        };
+        let name = format!("link{grown}");
+        let turned = rotation(random);
+        links[order[grown]] = Some(Link {
+            joint_name: name.clone(),
+            name,
+            parent: parent.map(|parent| order[parent]),
+            joint,
+            placement: Pose {
+                rotation: Mat3::from_fn(|i, j| turned[(i, j)]),
+                position: Vec3::from_fn(|_| random.within(0.5)),
+            },
+            axis: Vec3(axis(random).into()),
+            offset: if random.below(2) == 0 { 0.0 } else { random.within(1.0) },
+            mass: 1.5 + random.within(1.0),
+            com: Vec3::from_fn(|_| random.within(0.2)),
+            inertia: inertia(random),
+            actuated: true,
+        });
+    }
+    let links = links.into_iter().flatten().collect();
+    Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops: Vec::new() }
+}
+
+/// Calls `check` with each tree and Kane's answer at a few states.
+fn on_random_trees(mut check: impl FnMut(&Model, &Tree, &State, &Kane)) {
+    for seed in 0..TREES {
+        let mut random = Random::new(seed);
+        let model = random_model(&mut random);
+        let tree = Tree::new(&model);
+        for _ in 0..STATES {
+            let state = random.state(model.dof());
+            let expected = kane(&model, &state.q, &state.v);
+            check(&model, &tree, &state, &expected);
+        }
+    }
+}
+
+/// The accelerations that Kane's equations give, and how many roundings the condition of M makes of one.
+fn accelerations(expected: &Kane, tau: &DVector<f64>) -> (DVector<f64>, f64) {
+    let eigenvalues = expected.matrix.clone().symmetric_eigenvalues();
+    let accelerations = expected.matrix.clone().cholesky().expect("positive definite").solve(&(tau - &expected.bias));
+    (accelerations, eigenvalues.max() / eigenvalues.min())
+}
+
+fn forces(expected: &Kane, a: &[f64]) -> DVector<f64> {
+    &expected.matrix * DVector::from_row_slice(a) + &expected.bias
+}
+
+#[test]
+fn recursions_agree_with_kanes_equations() {
+    let mut errors = Errors::default();
+    on_random_trees(|_, tree, State { q, v, a }, expected| {
+        for (path, tree) in [("tree", tree), ("base parameters", &base_parameters(tree))] {
+            let mut add = |what: &str, computed: &[f64], expected: &[f64], tolerance| {
+                errors.add(&format!("{path}: {what}"), computed, expected, tolerance);
+            };
+            let tau = forces(expected, a);
+            add("inverse", &denoc::inverse_dynamics(tree, q, v, a), tau.as_slice(), 1e-12);
+            add("matrix", &denoc::mass_matrix(tree, q).concat(), expected.matrix.as_slice(), 1e-12);
+            add("bias", &denoc::bias_forces(tree, q, v), expected.bias.as_slice(), 1e-12);
+            add("gravity", &denoc::gravity_forces(tree, q), expected.gravity.as_slice(), 1e-12);
+            let energy = denoc::energy(tree, q, v);
+            add("kinetic", &[energy.kinetic], &[expected.kinetic], 1e-12);
+            add("potential", &[energy.potential - expected.potential + 1.0], &[1.0], 1e-12);
+            let (wanted, condition) = accelerations(expected, &tau);
+            for method in [Method::Factorisation, Method::Recursion] {
+                let found = denoc::forward_dynamics(method, tree, q, v, tau.as_slice());
+                add(&format!("{method:?}"), &found, wanted.as_slice(), 1e-15 * condition.max(1e3));
+            }
+        }
+    });
+    println!("{:?}", errors.0);
+}
+
+#[test]
+fn link_kinematics_agree_with_jacobians() {
+    let mut errors = Errors::default();
+    on_random_trees(|_, tree, State { q, v, .. }, expected| {
+        for (link, body) in denoc::link_kinematics(tree, q, v).iter().zip(&expected.links) {
+            // One is added, so that vectors which happen to vanish are held against numbers of size one.
+            let mut add = |what: &str, computed: &[f64], expected: &[f64]| {
+                let from_one = |values: &[f64]| values.iter().map(|x| x + 1.0).collect::<Vec<_>>();
+                errors.add(what, &from_one(computed), &from_one(expected), 1e-13);
+            };
+            add("rotation", &link.rotation.concat(), body.rotation.transpose().as_slice());
+            add("origin", &link.origin, body.origin.as_slice());
+            add("com", &link.com, body.com.as_slice());
+            add("velocity", &link.velocity, body.velocity.as_slice());
+            add("angular velocity", &link.angular_velocity, body.angular_velocity.as_slice());
+        }
+    });
+    println!("{:?}", errors.0);
+}
+
+/// The outputs of a traced function.
+fn evaluated(functions: &[Function], name: &str, arguments: &[&[f64]]) -> Vec<f64> {
+    let function = functions.iter().find(|function| function.signature.name == name).expect("a function");
+    function.expressions.evaluate(arguments)
+}
+
+#[test]
+fn traced_expressions_agree_with_kanes_equations() {
+    let mut errors = Errors::default();
+    let mut traced: Option<(Tree, Vec<Function>)> = None;
+    on_random_trees(|_, tree, State { q, v, a }, expected| {
+        if traced.as_ref().is_none_or(|(of, _)| of != tree) {
+            traced = Some((tree.clone(), trace(tree)));
+        }
+        let functions = &traced.as_ref().expect("just traced").1;
+        let tau = forces(expected, a);
+        let mut add = |name: &str, arguments: &[&[f64]], expected: &[f64], tolerance| {
+            errors.add(name, &evaluated(functions, name, arguments), expected, tolerance);
+        };
+        add("inverse_dynamics", &[q, v, a], tau.as_slice(), 1e-12);
+        add("mass_matrix", &[q], expected.matrix.as_slice(), 1e-12);
+        add("bias_forces", &[q, v], expected.bias.as_slice(), 1e-12);
+        add("gravity_forces", &[q], expected.gravity.as_slice(), 1e-12);
+        let (wanted, condition) = accelerations(expected, &tau);
+        add("forward_dynamics", &[q, v, tau.as_slice()], wanted.as_slice(), 1e-15 * condition.max(1e3));
+        let energies = evaluated(functions, "energy", &[q, v]);
+        errors.add("kinetic", &energies[..1], &[expected.kinetic], 1e-12);
+        errors.add("potential", &[energies[1] - expected.potential + 1.0], &[1.0], 1e-12);
+        let links = evaluated(functions, "link_kinematics", &[q, v]);
+        let wanted = expected.links.iter().flat_map(|body| {
+            let vectors = [&body.origin, &body.com, &body.velocity, &body.angular_velocity];
+            let rotation = body.rotation.transpose();
+            rotation.iter().copied().chain(vectors.into_iter().flatten().copied()).collect::<Vec<_>>()
+        });
+        errors.add("link_kinematics", &links, &wanted.collect::<Vec<_>>(), 1e-13);
+    });
+    println!("{:?}", errors.0);
+}
