@@ -1,6 +1,50 @@
-//! # redysim
-//!
 //! The dynamics of serial and tree-type mechanisms, made at compile time for the one mechanism you have.
+//!
+//! A model in TOML becomes a type by [`redysim!`] (or `#[derive(Mechanism)]`), checked while the program compiles. Its
+//! functions are the DeNOC recursions unrolled for that topology: no `std`, no allocation, no panics.
+//!
+//! ```
+//! use redysim::redysim;
+//!
+//! redysim! {
+//!     /// The KUKA KR5 of the ReDySim paper.
+//!     pub struct Kr5("models/kr5.toml");
+//! }
+//!
+//! let (q, v) = ([0.1, 0.2, 0.3, 0.4, 0.5, 0.6], [1.0; Kr5::NV]);
+//! let torques = Kr5::bias_forces(&q, &v);
+//! let accelerations: [f64; 6] = Kr5::forward_dynamics(&q, &v, &torques);
+//! assert!(accelerations.iter().all(|acceleration| acceleration.abs() < 1e-9));
+//! assert!(Kr5::OPS.inverse_dynamics.flops() <= 450);
+//! ```
+//!
+//! A program over the traits takes compiled types and, with the feature `generic`, models read at run time alike:
+//!
+//! ```
+//! # #[cfg(feature = "generic")] {
+//! use redysim::generic::{GenericMechanism, Model};
+//! use redysim::{GravityForces, Mechanism, redysim};
+//!
+//! redysim! { struct Gripper("models/gripper.toml"); }
+//!
+//! /// The largest joint force that gravity asks for at this pose.
+//! fn largest<M: GravityForces<f64>>(mechanism: &M, q: &M::Coordinates) -> f64 {
+//!     mechanism.gravity_forces(q).as_ref().iter().fold(0.0, |largest, force| force.abs().max(largest))
+//! }
+//!
+//! let model = Model::load(concat!(env!("CARGO_MANIFEST_DIR"), "/models/gripper.toml"))?.model;
+//! let (compiled, generic) = (largest(&Gripper, &[0.3; 4]), largest(&GenericMechanism::new(model), &vec![0.3; 4]));
+//! assert!((compiled - generic).abs() < 1e-15);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Where to look: [`Mechanism`](trait@Mechanism) and the traits beside it for what a mechanism can do; [`Ode45`] and [`Ode5`] with
+//! [`ForwardSimulation`] for motion in time; [`TorqueLaw`] and [`Trajectory`] for what drives it.
+//!
+//! # Features
+//!
+//! `generic` (on by default): [`generic`], which needs `std`. Without it the crate is `no_std`.
 #![no_std]
 
 /// The runtime that compiled mechanisms stand on: scalars, traits, integrators, trajectories, torque laws.
@@ -14,3 +58,8 @@ pub use redysim_runtime::*;
 pub mod generic {
     pub use redysim_model::{Diagnostic, Faults, GenericMechanism, Loaded, Model, Severity};
 }
+
+/// The README's program, so that it is known to run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
