@@ -13,6 +13,12 @@ redysim! {
 #[mechanism("models/gripper.toml")]
 struct ByDerive;
 
+redysim! {
+    /// Of a feature that is off: the struct and all that belongs to it are left out.
+    #[cfg(any())]
+    struct LeftOut("models/there_is_no_such_model.toml");
+}
+
 #[test]
 fn the_derive_gives_what_the_macro_gives() {
     let (q, v, a) = ([0.3, -0.8, 1.1, 2.0], [1.0, -2.0, 0.5, 3.0], [0.7, 0.1, -4.0, 2.0]);

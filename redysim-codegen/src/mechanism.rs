@@ -1,6 +1,6 @@
 //! The compiled type: constants, functions and traits of one mechanism.
 
-use crate::emit::{Vocabulary, function_body};
+use crate::emit::{Vocabulary, function_body, local};
 use crate::functions::{Function, SIGNATURES, Signature, trace};
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -122,7 +122,7 @@ fn definition(function: &Function, bodies: &[String], outline: &Outline, runtime
 /// Name, arguments and result of a function.
 fn head(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> TokenStream {
     let name = format_ident!("{}", signature.name);
-    let arguments = signature.arguments.iter().map(|argument| format_ident!("{argument}"));
+    let arguments = signature.arguments.iter().map(|argument| local(argument));
     let nv = Literal::usize_unsuffixed(outline.joints.len());
     let output = shape::output_type(signature.shape, outline, runtime);
     quote!(fn #name<S: #runtime::Scalar>(#(#arguments: &[S; #nv]),*) -> #output)
@@ -131,7 +131,7 @@ fn head(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> Toke
 fn trait_impl(signature: &Signature, outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let trait_name = format_ident!("{}", signature.trait_name);
     let function = format_ident!("{}", signature.name);
-    let arguments: Vec<Ident> = signature.arguments.iter().map(|argument| format_ident!("{argument}")).collect();
+    let arguments: Vec<Ident> = signature.arguments.iter().map(|argument| local(argument)).collect();
     let nv = Literal::usize_unsuffixed(outline.joints.len());
     let output = shape::output_type(signature.shape, outline, runtime);
     quote! {

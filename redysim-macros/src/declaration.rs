@@ -32,7 +32,7 @@ impl Parse for Macro {
             let rest = if content.is_empty() { input.span() } else { content.span() };
             return Err(Error::new(rest, "expected `struct Name(\"path/of/model.toml\");` and nothing else"));
         }
-        Ok(Macro(Declaration { attributes, visibility, name, model }))
+        Ok(Macro(Declaration { attributes, visibility, name: usable(name)?, model }))
     }
 }
 
@@ -52,6 +52,14 @@ impl Parse for Derive {
             return Err(Error::new_spanned(more, "a mechanism has one model; remove this attribute"));
         }
         let model = model.parse_args()?;
-        Ok(Derive(Declaration { attributes: attrs, visibility: vis, name: ident, model }))
+        Ok(Derive(Declaration { attributes: attrs, visibility: vis, name: usable(ident)?, model }))
     }
+}
+
+/// A name for a mechanism. Generated functions are over a scalar type `S`, which would hide a struct of that name.
+fn usable(name: Ident) -> Result<Ident> {
+    if name == "S" {
+        return Err(Error::new(name.span(), "a mechanism cannot be called `S`: generated code means the scalar by it"));
+    }
+    Ok(name)
 }

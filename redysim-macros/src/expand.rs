@@ -5,7 +5,7 @@ use crate::locate::{model_file, shown};
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 use redysim_codegen::{implementation, stub};
-use redysim_model::{Diagnostic, Model, Outline};
+use redysim_model::{Diagnostic, Model, Severity};
 use syn::Attribute;
 
 /// The struct and its `impl`s.
@@ -36,32 +36,35 @@ pub fn derived(declaration: &Declaration) -> TokenStream {
             const _: &[u8] = ::core::include_bytes!(#path);
         )
     });
-    let text = match std::fs::read_to_string(&file) {
-        Ok(text) => text,
-        Err(error) => {
-            let message = format!("cannot read the model `{}`: {error}", file.display());
-            let error = quote_spanned!(model.span()=> ::core::compile_error!(#message););
-            let stub = stub(&Outline::default(), name, &runtime);
-            return quote!(#registered #error #stub);
-        }
+    let (diagnostics, implementation) = match Model::load_as(&file, shown(&file)) {
+        Ok(loaded) => (loaded.warnings, implementation(&loaded.model, name, &runtime).tokens),
+        Err(faults) => (faults.diagnostics, stub(&faults.outline, name, &runtime)),
     };
-    let implementation = match Model::from_toml(text, shown(&file)) {
-        Ok(loaded) => {
-            let warnings = loaded.warnings.iter().map(|warning| compile_warning(declaration, warning));
-            let code = implementation(&loaded.model, name, &runtime).tokens;
-            quote!(#(#warnings)* #code)
-        }
-        Err(faults) => {
-            let errors = faults.diagnostics.iter().map(|fault| {
-                let message = fault.to_string();
-                let message = message.strip_prefix("error: ").unwrap_or(&message);
-                quote_spanned!(model.span()=> ::core::compile_error!(#message);)
-            });
-            let stub = stub(&faults.outline, name, &runtime);
-            quote!(#(#errors)* #stub)
-        }
-    };
-    quote!(#registered #implementation)
+    let messages = diagnostics.iter().map(|diagnostic| match diagnostic.severity() {
+        Severity::Error => compile_error(declaration, diagnostic),
+        Severity::Warning => compile_warning(declaration, diagnostic),
+    });
+    let cfgs = cfgs(declaration);
+    quote! {
+        #(#messages)*
+        #(#cfgs)*
+        const _: () = {
+            #registered
+            #implementation
+        };
+    }
+}
+
+/// What the existence of the struct, and so of all that belongs to it, depends on.
+fn cfgs(declaration: &Declaration) -> impl Iterator<Item = &Attribute> {
+    declaration.attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"))
+}
+
+fn compile_error(declaration: &Declaration, error: &Diagnostic) -> TokenStream {
+    let message = error.to_string();
+    let message = message.strip_prefix("error: ").unwrap_or(&message);
+    let cfgs = cfgs(declaration);
+    quote_spanned!(declaration.model.span()=> #(#cfgs)* ::core::compile_error!(#message);)
 }
 
 /// A compiler warning: the use of a constant that is deprecated for what the warning says.
@@ -69,7 +72,9 @@ fn compile_warning(declaration: &Declaration, warning: &Diagnostic) -> TokenStre
     let lints = declaration.attributes.iter().filter(is_lint_level);
     let note = warning.to_string();
     let note = note.strip_prefix("warning: ").unwrap_or(&note);
+    let cfgs = cfgs(declaration);
     quote_spanned! {declaration.model.span()=>
+        #(#cfgs)*
         #(#lints)*
         const _: () = {
             #[deprecated(note = #note)]
@@ -80,5 +85,5 @@ fn compile_warning(declaration: &Declaration, warning: &Diagnostic) -> TokenStre
 }
 
 fn is_lint_level(attribute: &&Attribute) -> bool {
-    ["allow", "expect", "warn", "deny", "forbid"].iter().any(|level| attribute.path().is_ident(level))
+    ["allow", "warn", "deny", "forbid"].iter().any(|level| attribute.path().is_ident(level))
 }

@@ -25,8 +25,17 @@ impl Model {
     ///
     /// Every fault in the file, each shown where it stands; or why the file could not be read.
     pub fn load(path: impl AsRef<Path>) -> Result<Loaded, Faults> {
-        let path = path.as_ref();
-        let name = path.display().to_string();
+        let name = path.as_ref().display().to_string();
+        Model::load_as(path, name)
+    }
+
+    /// Reads and checks a model file as [`load`](Model::load) does; messages call it `file_name`.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`](Model::load).
+    pub fn load_as(path: impl AsRef<Path>, file_name: impl Into<String>) -> Result<Loaded, Faults> {
+        let (path, name) = (path.as_ref(), file_name.into());
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
             Err(_) if path.is_dir() => return Err(unreadable(name, messages::unreadable("it is a directory"))),

@@ -59,7 +59,8 @@ impl<S: Real, V: Vector<S>> Cycloid<S, V> {
     /// # Errors
     /// [`TrajectoryError`], for a duration that is not positive and finite, or ends of different length.
     pub fn new(from: V, to: V, duration: S) -> Result<Self, TrajectoryError<S>> {
-        if !(duration > S::zero() && duration.is_finite()) {
+        // Of a duration too small, the rate 2π/T is infinite.
+        if !(duration > S::zero() && duration.is_finite() && (S::from_f64(TAU) / duration).is_finite()) {
             return Err(TrajectoryError::BadDuration { duration });
         }
         let (from_len, to_len) = (from.as_ref().len(), to.as_ref().len());

@@ -35,12 +35,21 @@ pub fn function_body(
         expressions.outputs.iter().map(|&output| emitter.render(output, Binding::Lowest, &mut needed)).collect();
     let statements = in_blocks(statements, &needed);
     let result = result(&outputs);
+    let k = local(FROM_F64);
     quote! {
-        let k = S::from_f64;
+        let #k = S::from_f64;
         #statements
         #result
     }
 }
+
+/// The name of an argument or a local value.
+pub fn local(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// The local name of `S::from_f64`.
+const FROM_F64: &str = "k";
 
 /// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -68,7 +77,7 @@ impl<'a> Emitter<'a> {
         let flipped = flipped(expressions, &uses);
         let mut idents = vec![None; graph.len()];
         let mut reserved = vocabulary.arguments.to_vec();
-        reserved.push("k");
+        reserved.push(FROM_F64);
         let mut identifiers = Identifiers::new(vocabulary.bodies, &reserved);
         let mut sizes = vec![0; graph.len()];
         for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
@@ -145,8 +154,8 @@ impl<'a> Emitter<'a> {
         let index = edge.node();
         let negative = edge.is_negative() != self.flipped[index];
         if let Some(value) = self.graph.constant_value(edge) {
-            let value = constant(value);
-            return quote!(k(#value));
+            let (k, value) = (local(FROM_F64), constant(value));
+            return quote!(#k(#value));
         }
         if let Some(ident) = &self.idents[index] {
             needs.push(index);
@@ -154,7 +163,7 @@ impl<'a> Emitter<'a> {
         }
         match self.graph.node(index) {
             Node::Input { argument, index } => {
-                let argument = Ident::new(self.vocabulary.arguments[usize::from(argument)], Span::call_site());
+                let argument = local(self.vocabulary.arguments[usize::from(argument)]);
                 let index = Literal::u32_unsuffixed(index);
                 if negative { quote!(-#argument[#index]) } else { quote!(#argument[#index]) }
             }
@@ -229,6 +238,10 @@ fn flipped(expressions: &Expressions, uses: &[usize]) -> Vec<bool> {
 
 /// A number in full precision: the shortest digits that give the same `f64`.
 fn constant(value: f64) -> TokenStream {
-    let digits: Literal = format!("{:?}", value.abs()).parse().unwrap_or(Literal::f64_unsuffixed(0.0));
+    if !value.is_finite() {
+        // No checked model has one; should it come to that, the result is to show it.
+        return quote!(f64::NAN);
+    }
+    let digits: Literal = format!("{:?}", value.abs()).parse().expect("a finite number is a literal");
     if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
 }

@@ -1,7 +1,8 @@
 //! Identifiers of the generated code.
 
+use super::local;
 use crate::graph::Name;
-use proc_macro2::{Ident, Span};
+use proc_macro2::Ident;
 use std::collections::HashSet;
 
 /// Hands out identifiers, each once.
@@ -37,7 +38,7 @@ impl<'a> Identifiers<'a> {
             copies += 1;
             unique = format!("{text}_{copies}");
         }
-        Ident::new(&unique, Span::call_site())
+        local(&unique)
     }
 }
 

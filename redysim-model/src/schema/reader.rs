@@ -4,7 +4,7 @@ use super::{Field, Table};
 use crate::diagnostic::{Findings, Message, messages};
 use crate::units::{self, NotAnAngle};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
@@ -30,6 +30,9 @@ pub(super) struct Reader<'a, 'f> {
 }
 
 type Value<'a> = Spanned<DeValue<'a>>;
+
+/// What a number other than zero may be, so that products of a mass and two lengths, and their reciprocals, are finite.
+const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1416.
 const NEARLY: f64 = 1e-5;
@@ -221,10 +224,13 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 
     fn finite(&mut self, path: &str, value: &Value<'_>, number: f64, text: &str) -> Option<f64> {
-        match number.is_finite() {
-            true => Some(number),
-            false => self.fault(value, messages::not_finite(self.item, path, text)),
+        if !number.is_finite() {
+            return self.fault(value, messages::not_finite(self.item, path, text));
         }
+        if number != 0.0 && !MAGNITUDES.contains(&number.abs()) {
+            return self.fault(value, messages::out_of_range(self.item, path, text, &MAGNITUDES));
+        }
+        Some(number)
     }
 
     fn wrong_type<T>(&mut self, path: &str, value: &Value<'_>, wanted: &str) -> Option<T> {

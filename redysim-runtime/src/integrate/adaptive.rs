@@ -80,6 +80,9 @@ pub(super) fn integrate<S: Real, Y: Vector<S>, const STAGES: usize>(
             if last {
                 size = rest;
             }
+            if t == state.t {
+                return Err(IntegrationError::StepTooSmall { t, step: size });
+            }
             let (error, fault) = match state.attempt(ode, t) {
                 Ok(()) => (state.error(&options.tolerances), IntegrationError::StepTooSmall { t: state.t, step: size }),
                 Err(fault) => (S::from_f64(f64::INFINITY), fault),

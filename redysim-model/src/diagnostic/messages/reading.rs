@@ -2,6 +2,7 @@
 
 use super::super::Message;
 use super::{did_you_mean, message, nearest, quoted};
+use std::ops::RangeInclusive;
 
 /// For every key an example that may be copied, and what it means. `dh.a` is `a` in the table `dh`.
 const EXAMPLES: &[(&str, &str, &str)] = &[
@@ -101,6 +102,14 @@ pub(crate) fn not_finite(item: &str, path: &str, found: &str) -> Message {
         format!("{item}: `{path}` is {}, which is not a finite number", quoted(found)),
         "not a finite number",
         example(path),
+    )
+}
+
+pub(crate) fn out_of_range(item: &str, path: &str, found: &str, allowed: &RangeInclusive<f64>) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, with which nothing can be computed", quoted(found)),
+        "too large or too small",
+        format!("a number is 0 or from {:e} to {:e} in size", allowed.start(), allowed.end()),
     )
 }
 
