@@ -1,0 +1,60 @@
+//! Which of the two ways to accelerations the generator takes.
+
+use redysim_codegen::functions::trace;
+use redysim_codegen::source_file;
+use redysim_model::denoc::{Method, forward_dynamics};
+use redysim_model::{Model, Tree};
+use std::fmt::Write;
+
+const BY_RECURSION: &str = "By the O(n) recursion over articulated bodies.";
+const BY_FACTORISATION: &str = "By the factorisation M = U D Uᵀ of the generalised inertia matrix.";
+
+/// Rods in the plane, `arms` chains of `links` each.
+fn rods(arms: usize, links: usize) -> Model {
+    let mut text = String::from("name = \"rods\"\ngravity = [0.0, -9.81, 0.0]\n");
+    for (arm, link) in (0..arms).flat_map(|arm| (0..links).map(move |link| (arm, link))) {
+        let parent = if link == 0 { "base".to_string() } else { format!("rod_{arm}_{}", link - 1) };
+        write!(
+            text,
+            "[[link]]\nname = \"rod_{arm}_{link}\"\nparent = \"{parent}\"\njoint = \"revolute\"\ndh = {{ a = 0.5 }}\n\
+             mass = 1.0\ncom = [0.25, 0.0, 0.0]\ninertia = {{ zz = 0.02 }}\n"
+        )
+        .unwrap();
+    }
+    Model::from_toml(text, "rods.toml").unwrap_or_else(|faults| panic!("{faults}")).model
+}
+
+fn remark(model: &Model) -> &'static str {
+    let functions = trace(&Tree::new(model));
+    let forward = functions.iter().find(|function| function.signature.name == "forward_dynamics");
+    forward.and_then(|function| function.remark).expect("forward dynamics says how")
+}
+
+#[test]
+fn a_few_joints_go_by_the_factorisation_since_it_is_cheaper() {
+    assert_eq!(remark(&rods(1, 3)), BY_FACTORISATION);
+    assert!(source_file(&rods(1, 3), "Rods").unwrap().contains(BY_FACTORISATION));
+}
+
+#[test]
+fn chains_longer_than_25_joints_go_by_the_recursion_whatever_the_count() {
+    assert_eq!(remark(&rods(1, 26)), BY_RECURSION);
+    assert_eq!(remark(&rods(2, 26)), BY_RECURSION);
+}
+
+#[test]
+fn many_short_arms_are_no_long_chain() {
+    assert_eq!(remark(&rods(14, 2)), BY_FACTORISATION);
+}
+
+#[test]
+fn both_ways_agree() {
+    let tree = Tree::new(&rods(2, 4));
+    let [q, v, tau] =
+        [0.3_f64, 0.7, 1.1].map(|rate| (0..8).map(|i| (rate * f64::from(i + 1)).sin()).collect::<Vec<_>>());
+    let recursion = forward_dynamics(Method::Recursion, &tree, &q, &v, &tau);
+    let explicit = forward_dynamics(Method::Factorisation, &tree, &q, &v, &tau);
+    for (a, b) in recursion.iter().zip(&explicit) {
+        assert!((a - b).abs() <= 1e-10 * (1.0 + a.abs()), "{a} {b}");
+    }
+}
