@@ -8,6 +8,7 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+pub mod closed_loop;
 pub mod control;
 pub mod integrate;
 pub mod mechanism;
@@ -18,11 +19,12 @@ pub mod trajectory;
 mod trigonometry;
 pub mod vector;
 
+pub use closed_loop::{ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, LoopError, Stabilisation};
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
-pub use integrate::{IntegrationError, Integrator, Ode, Ode5, Ode45, Solution, Statistics, Step};
+pub use integrate::{IntegrationError, Integrator, Ode, Ode4, Ode5, Ode45, Solution, Statistics, Step};
 pub use mechanism::{
-    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, MassMatrix,
-    MechanicalEnergy, Mechanism, TreeDynamics,
+    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
+    MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
 };
 pub use operations::{OperationCount, Operations};
 pub use scalar::{Real, Scalar};

@@ -13,7 +13,7 @@ pub trait Mechanism<S: Scalar> {
     /// The state of a simulation, [q, q̇, E_act]: `[S; NQ + NV + 1]`.
     type State: Vector<S>;
     /// A square matrix over the velocities, by rows: `[[S; NV]; NV]`.
-    type Matrix: AsRef<[Self::Velocities]>;
+    type Matrix: Vector<Self::Velocities>;
     /// One [`LinkState`] for each link, in the model's order: `[LinkState<S>; NL]`.
     type Links: AsRef<[LinkState<S>]>;
 
@@ -75,6 +75,34 @@ pub trait MechanicalEnergy<S: Scalar>: Mechanism<S> {
 pub trait LinkKinematics<S: Scalar>: Mechanism<S> {
     /// Position and velocity of every link, in the base frame, in the model's order.
     fn link_kinematics(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Links;
+}
+
+/// The closure of the loops of a mechanism `M`: conditions on its coordinates that the cut joints set.
+///
+/// A compiled type is its own closure; who knows a better one (a closed form, or conditions that no cut joint describes)
+/// implements this for a type of their own.
+pub trait LoopClosure<S: Scalar, M: Mechanism<S>> {
+    /// One value for each row: `[S; NC]`.
+    type Rows: Vector<S>;
+    /// The Jacobian, by rows: `[[S; NV]; NC]`.
+    type Jacobian: Vector<M::Velocities>;
+    /// A square matrix over the rows: `[[S; NC]; NC]`.
+    type Gram: Vector<Self::Rows>;
+
+    /// Number of rows, NC.
+    fn nc(&self) -> usize;
+    /// How far the loops are from closed: the point of side b minus the point of side a of each cut, in the base frame,
+    /// m; then what aligns directions, sines.
+    fn loop_residual(&self, q: &M::Coordinates) -> Self::Rows;
+    /// J(q) with d/dt residual = J v.
+    fn loop_jacobian(&self, q: &M::Coordinates) -> Self::Jacobian;
+    /// J̇ v, the second derivative of the residual at zero joint accelerations.
+    fn loop_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> Self::Rows;
+    /// Name of the loop that row `row` belongs to; `None` past the last, and where loops have no names.
+    fn loop_name(&self, row: usize) -> Option<&str> {
+        let _ = row;
+        None
+    }
 }
 
 /// All functions of a tree-type mechanism at once; every type that has them all has this.

@@ -79,14 +79,14 @@ fn every_step_costs_six_evaluations_and_the_start_one() {
     };
     let start = [1.0, 0.0, 1.0, 0.0];
     let end = Ode45::new().initial_step(0.5).integrate(&mut counted, (0.0, 3.0), start).unwrap();
-    let Statistics { steps, rejected, evaluations } = end.statistics;
+    let Statistics { steps, rejected, evaluations, .. } = end.statistics;
     println!("{:?}", end.statistics);
     assert!(rejected > 0, "a test without rejected steps tests too little");
     assert_eq!(evaluations, 6 * (steps + rejected) + 1);
     assert_eq!(evaluations, calls);
 
     let end = Ode5::new(0.01).integrate(&mut oscillators, (0.0, 3.0), start).unwrap();
-    assert_eq!(end.statistics, Statistics { steps: 300, rejected: 0, evaluations: 1801 });
+    assert_eq!(end.statistics, Statistics { steps: 300, rejected: 0, evaluations: 1801, corrections: 0 });
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn asked_times_cost_no_evaluations_and_change_no_step() {
 fn without_reason_for_smaller_ones_steps_are_a_tenth_of_the_interval() {
     let mut parabola = |t: f64, _y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = 2.0 * t;
     let end = Ode45::new().integrate(&mut parabola, (0.0, 5.0), [0.0]).unwrap();
-    assert_eq!(end.statistics, Statistics { steps: 10, rejected: 0, evaluations: 61 });
+    assert_eq!(end.statistics, Statistics { steps: 10, rejected: 0, evaluations: 61, corrections: 0 });
     assert!((end.y[0] - 25.0).abs() < 1e-14);
     let end = Ode45::new().max_step(0.1).integrate(&mut parabola, (0.0, 5.0), [0.0]).unwrap();
     assert_eq!(end.statistics.steps, 50);

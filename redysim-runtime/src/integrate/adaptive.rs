@@ -7,7 +7,7 @@ use super::explicit::Explicit;
 use super::interval::Interval;
 use super::tableau::Tableau;
 use super::tolerance::Tolerances;
-use super::{IntegrationError, Ode, Solution, Statistics, Step};
+use super::{IntegrationError, Ode, Solution, Step};
 use crate::{Real, Vector};
 
 /// A new step aims at an error of 0.8⁵ of the tolerance, so that it rarely has to be tried again.
@@ -65,13 +65,13 @@ pub(super) fn integrate<S: Real, Y: Vector<S>, const STAGES: usize>(
         let rate = options.tolerances.norm(state.derivative(), &state.y, &state.y);
         S::from_f64(SAFETY) * rtol.powf(exponent) / rate
     });
-    let mut statistics = Statistics::default();
+    let (mut steps, mut rejected) = (0, 0);
     loop {
         let smallest = interval.smallest_step(state.t);
         size = size.minimum(largest).maximum(smallest);
         let mut failed = false;
         let error = loop {
-            if statistics.steps + statistics.rejected >= options.max_steps {
+            if steps + rejected >= options.max_steps {
                 return Err(IntegrationError::TooManySteps { t: state.t, limit: options.max_steps });
             }
             let rest = (interval.to - state.t).abs();
@@ -93,7 +93,7 @@ pub(super) fn integrate<S: Real, Y: Vector<S>, const STAGES: usize>(
             if size <= smallest {
                 return Err(fault);
             }
-            statistics.rejected += 1;
+            rejected += 1;
             let shrinkage = if failed {
                 S::from_f64(0.5)
             } else {
@@ -102,13 +102,15 @@ pub(super) fn integrate<S: Real, Y: Vector<S>, const STAGES: usize>(
             size = smallest.maximum(shrinkage * size);
             failed = true;
         };
-        statistics.steps += 1;
-        statistics.evaluations = state.evaluations;
+        steps += 1;
+        state.finish(ode)?;
         let flow = on_step(&state.step());
         state.accept();
         if flow.is_break() || state.t == interval.to {
+            let statistics = state.statistics(steps, rejected);
             return Ok(Solution { t: state.t, y: state.y, statistics });
         }
+        state.renew(ode)?;
         if !failed {
             let growth = S::from_f64(SAFETY) * (rtol / error).powf(exponent);
             size = growth.minimum(S::from_f64(LARGEST_GROWTH)) * size;

@@ -71,6 +71,11 @@ pub enum IntegrationError<S> {
         /// The first such component.
         component: usize,
     },
+    /// The equation refused the state at the end of a step (see [`Ode::accepted`](crate::Ode::accepted)).
+    Refused {
+        /// The time.
+        t: S,
+    },
     /// The tolerances ask for a step below the spacing of floating-point times, or a given step is below it.
     StepTooSmall {
         /// The time that was reached.
@@ -139,6 +144,10 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 f,
                 "component {component} of the derivative is infinite or not a number at t = {t:?}; look for a division \
                  by zero, a singular mass matrix or a bad force there"
+            ),
+            Self::Refused { t } => write!(
+                f,
+                "the equation refused the state at t = {t:?}; a closed-loop simulation has the reason in `last_error`"
             ),
             Self::StepTooSmall { t, step } => write!(
                 f,

@@ -5,7 +5,7 @@ use core::mem::swap;
 use super::step::{Step, weighted_sum};
 use super::tableau::Tableau;
 use super::tolerance::Tolerances;
-use super::{IntegrationError, Ode};
+use super::{Accepted, IntegrationError, Ode, Statistics};
 use crate::{Real, Vector};
 
 /// The state of an integration, and one attempted step from it.
@@ -22,6 +22,9 @@ pub(super) struct Explicit<'a, S, Y, const STAGES: usize> {
     carry: Y,
     error: Y,
     pub evaluations: u64,
+    pub corrections: u64,
+    /// Whether the last stage is not the derivative at `y_new`.
+    corrected: bool,
 }
 
 impl<'a, S: Real, Y: Vector<S>, const STAGES: usize> Explicit<'a, S, Y, STAGES> {
@@ -47,6 +50,8 @@ impl<'a, S: Real, Y: Vector<S>, const STAGES: usize> Explicit<'a, S, Y, STAGES> 
             carry: zero.clone(),
             error: zero,
             evaluations: 0,
+            corrections: 0,
+            corrected: false,
             y,
         };
         this.evaluate(ode, 0, t)?;
@@ -90,7 +95,31 @@ impl<'a, S: Real, Y: Vector<S>, const STAGES: usize> Explicit<'a, S, Y, STAGES> 
         tolerances.norm(&self.error, &self.y, &self.y_new)
     }
 
-    /// The attempted step.
+    /// Takes the attempted step as good, and lets the equation correct its end.
+    pub fn finish(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
+        let states = self.y_new.as_ref().iter().zip(self.y.as_ref());
+        let increments = self.increment.as_ref().iter().zip(self.carry.as_mut());
+        for ((&new, &old), (&increment, carry)) in states.zip(increments) {
+            // Compensated summation (Kahan): the difference is what `old + increment` has rounded away. A correction
+            // that follows moves the rounded state and leaves the difference as it is.
+            *carry = increment - (new - old);
+        }
+        let accepted = ode.accepted(self.t_new, (self.t_new - self.t).abs(), &mut self.y_new);
+        self.corrected = accepted == Accepted::Corrected;
+        match accepted {
+            Accepted::AsItIs => Ok(()),
+            Accepted::Refused => Err(IntegrationError::Refused { t: self.t_new }),
+            Accepted::Corrected => {
+                self.corrections += 1;
+                match first_non_finite(&self.y_new) {
+                    None => Ok(()),
+                    Some(component) => Err(IntegrationError::NonFiniteState { t: self.t_new, component }),
+                }
+            }
+        }
+    }
+
+    /// The finished step.
     pub fn step(&self) -> Step<'_, S, Y> {
         Step {
             t: self.t,
@@ -102,17 +131,25 @@ impl<'a, S: Real, Y: Vector<S>, const STAGES: usize> Explicit<'a, S, Y, STAGES> 
         }
     }
 
-    /// Goes on from the end of the attempted step.
+    /// Makes the end of the finished step the state.
     pub fn accept(&mut self) {
-        let states = self.y_new.as_ref().iter().zip(self.y.as_ref());
-        let increments = self.increment.as_ref().iter().zip(self.carry.as_mut());
-        for ((&new, &old), (&increment, carry)) in states.zip(increments) {
-            // Compensated summation (Kahan): the difference is what `old + increment` has rounded away.
-            *carry = increment - (new - old);
-        }
         self.t = self.t_new;
         swap(&mut self.y, &mut self.y_new);
         self.stages.swap(0, STAGES - 1);
+    }
+
+    /// Makes sure, before another step, that the derivative is that of the state, which a correction has changed.
+    pub fn renew(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
+        if !self.corrected {
+            return Ok(());
+        }
+        self.y_new.clone_from(&self.y);
+        self.evaluate(ode, 0, self.t)
+    }
+
+    /// What it took so far, in `steps` accepted and `rejected` attempts.
+    pub fn statistics(&self, steps: u64, rejected: u64) -> Statistics {
+        Statistics { steps, rejected, evaluations: self.evaluations, corrections: self.corrections }
     }
 
     fn evaluate(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), stage: usize, t: S) -> Result<(), IntegrationError<S>> {

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::explicit::Explicit;
 use super::interval::Interval;
 use super::tableau::Tableau;
-use super::{IntegrationError, Ode, Solution, Statistics, Step};
+use super::{IntegrationError, Ode, Solution, Step};
 use crate::{Real, Vector};
 
 /// Integrates with steps of size `size`, of which the last ends exactly at the end of the interval.
@@ -31,13 +31,17 @@ pub(super) fn integrate<S: Real, Y: Vector<S>, const STAGES: usize>(
         }
         state.attempt(ode, t)?;
         steps += 1;
+        state.finish(ode)?;
         let flow = on_step(&state.step());
         state.accept();
         if flow.is_break() {
             break;
         }
+        if steps < count {
+            state.renew(ode)?;
+        }
     }
-    let statistics = Statistics { steps, rejected: 0, evaluations: state.evaluations };
+    let statistics = state.statistics(steps, 0);
     Ok(Solution { t: state.t, y: state.y, statistics })
 }
 

@@ -1,8 +1,9 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
-//! [`Ode5`] takes steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45` does. Both
-//! are an [`Integrator`], and both give the solution between their steps, too. What is integrated is an [`Ode`]: a
-//! closure, or a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism.
+//! [`Ode4`] and [`Ode5`] take steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45`
+//! does. Each is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
+//! closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
+//! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
 //! A reader finds the method in five steps: the coefficients in [`tableau`], one step in `explicit`, the solution within
 //! a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and `tolerance`. Another
@@ -14,6 +15,7 @@ mod error;
 mod explicit;
 mod fixed;
 mod interval;
+mod ode4;
 mod ode45;
 mod ode5;
 mod step;
@@ -23,6 +25,7 @@ mod tolerance;
 use core::ops::ControlFlow;
 
 pub use error::IntegrationError;
+pub use ode4::Ode4;
 pub use ode5::Ode5;
 pub use ode45::Ode45;
 pub use step::Step;
@@ -38,6 +41,26 @@ use interval::Interval;
 pub trait Ode<S, Y> {
     /// Writes f(t, y) to `dydt`, which has the length of `y` and holds anything.
     fn derivative(&mut self, t: S, y: &Y, dydt: &mut Y);
+
+    /// Called once for each accepted step, with its end `t`, its size `step` > 0 and the state `y` there, which may be
+    /// corrected in place: brought back to what an invariant of the equation demands. What an integration shows as the
+    /// end of the step is the corrected state, and from there it goes on; within the step the solution is that of the
+    /// method. Unless told, nothing happens.
+    fn accepted(&mut self, t: S, step: S, y: &mut Y) -> Accepted {
+        let _ = (t, step, y);
+        Accepted::AsItIs
+    }
+}
+
+/// What an [`Ode`] makes of the state at the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accepted {
+    /// It stays.
+    AsItIs,
+    /// It was changed, so that the derivative there must be evaluated again.
+    Corrected,
+    /// It cannot be accepted: the integration ends with [`IntegrationError::Refused`].
+    Refused,
 }
 
 impl<S, Y, F: FnMut(S, &Y, &mut Y)> Ode<S, Y> for F {
@@ -157,6 +180,8 @@ pub struct Statistics {
     pub steps: u64,
     /// Attempted steps that were rejected and tried again with a smaller size.
     pub rejected: u64,
-    /// Evaluations of the right-hand side.
+    /// Evaluations of the right-hand side, those after corrections included.
     pub evaluations: u64,
+    /// Accepted steps whose end was corrected by [`Ode::accepted`].
+    pub corrections: u64,
 }

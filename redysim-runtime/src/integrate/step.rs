@@ -5,8 +5,9 @@ use crate::{Real, Vector};
 /// An accepted step, and the solution at every time within.
 ///
 /// The solution between the ends is the method's continuous extension: for [`Ode5`](crate::Ode5) and
-/// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, which agrees with the neighbouring
-/// steps in value and in derivative. It costs no evaluations.
+/// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, for [`Ode4`](crate::Ode4) the cubic
+/// through values and derivatives at both ends. It agrees with the neighbouring steps in value and in derivative (where
+/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations.
 pub struct Step<'a, S, Y> {
     pub(super) t: S,
     pub(super) y: &'a Y,

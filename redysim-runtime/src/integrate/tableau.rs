@@ -45,3 +45,20 @@ pub const DORMAND_PRINCE: Tableau<7> = Tableau {
         &[0.0, 3.0 / 2.0, -4.0, 5.0 / 2.0],
     ],
 };
+
+/// The classical method of order 4 of W. Kutta, *Beitrag zur näherungsweisen Integration totaler Differentialgleichungen*,
+/// Z. Math. Phys. 46 (1901), with the derivative at the end of the step as fifth stage. The continuous extension is the
+/// cubic Hermite polynomial through both ends; there is no estimate of the error.
+pub const RUNGE_KUTTA_4: Tableau<5> = Tableau {
+    rows: [&[], &[1.0 / 2.0], &[0.0, 1.0 / 2.0], &[0.0, 0.0, 1.0], &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0]],
+    nodes: [0.0, 1.0 / 2.0, 1.0 / 2.0, 1.0, 1.0],
+    error: [0.0; 5],
+    error_order: 3,
+    dense: [
+        &[1.0, -3.0 / 2.0, 2.0 / 3.0],
+        &[0.0, 1.0, -2.0 / 3.0],
+        &[0.0, 1.0, -2.0 / 3.0],
+        &[0.0, 1.0 / 2.0, -1.0 / 3.0],
+        &[0.0, -1.0, 1.0],
+    ],
+};

@@ -1,0 +1,87 @@
+//! From a guess to closed loops.
+
+use super::closing::Ending;
+use super::linear::{difference, largest, norm, product};
+use super::{ClosedLoop, LoopError};
+use crate::{LoopClosure, MassMatrix, Real};
+
+/// Enough to cross several turns by the largest step.
+const ITERATIONS: usize = 200;
+/// A velocity that pulls the loops apart by less than this part of the largest speed at the cuts is rounding.
+const SLOW: f64 = 1e-10;
+
+/// A closed position near a guess, and a velocity that keeps it closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assembly<S, Q, V> {
+    /// Joint coordinates.
+    pub q: Q,
+    /// Joint velocities.
+    pub v: V,
+    /// How far the coordinate moved that moved farthest, rad or m.
+    pub farthest: S,
+    /// Which one that is.
+    pub coordinate: usize,
+    /// The length of the whole way, √Σ Δqᵢ².
+    pub distance: S,
+    /// The largest component of the residual that is left, m (or a sine).
+    pub gap: S,
+    /// Its row.
+    pub row: usize,
+    /// How many rows are independent there.
+    pub rank: usize,
+}
+
+impl<M, C> ClosedLoop<'_, M, C> {
+    /// Closes the loops from the guess `q` and fits the velocities to the guess `v`, with the coordinates `held` (and
+    /// their velocities) as they are; the others move as little as they can, in the metric of M.
+    ///
+    /// It stays on the branch of the guess: no coordinate moves by more than 0.2 rad (or m) in one iteration, and none
+    /// of them widens the gap. The result is closed to 10⁻¹⁴ of the mechanism's size.
+    ///
+    /// # Errors
+    /// [`LoopError::BadCoordinate`], [`LoopError::CannotClose`], [`LoopError::NoConvergence`],
+    /// [`LoopError::PullsApart`] if held velocities cannot be met, [`LoopError::SingularInertia`] and
+    /// [`LoopError::NotFinite`].
+    pub fn assemble<S: Real>(
+        &self,
+        q: &M::Coordinates,
+        v: &M::Velocities,
+        held: &[usize],
+    ) -> Result<Assembly<S, M::Coordinates, M::Velocities>, LoopError<S>>
+    where
+        M: MassMatrix<S>,
+        C: LoopClosure<S, M>,
+    {
+        let count = self.mechanism.nv();
+        if let Some(&coordinate) = held.iter().find(|&&coordinate| coordinate >= count) {
+            return Err(LoopError::BadCoordinate { coordinate, count });
+        }
+        let closing = self.close(q.clone(), held, ITERATIONS)?;
+        let (gap, row) = (closing.gap, closing.row);
+        match closing.ending {
+            Ending::Closed => {}
+            Ending::Stalled => return Err(LoopError::CannotClose { gap, row }),
+            Ending::Exhausted => return Err(LoopError::NoConvergence { gap, row }),
+        }
+        let mut v = v.clone();
+        // The second time takes away what rounding left of the first.
+        for _ in 0..2 {
+            let rates: C::Rows = product(closing.at.jacobian.as_ref(), v.as_ref());
+            v = difference(&v, &closing.at.shortest(&rates));
+        }
+        let rates: C::Rows = product(closing.at.jacobian.as_ref(), v.as_ref());
+        let (rate, at_row) = largest(rates.as_ref().iter().copied());
+        let (fastest, _) = largest(v.as_ref().iter().copied());
+        if !fastest.is_finite() {
+            return Err(LoopError::NotFinite);
+        }
+        let slow = S::from_f64(SLOW).maximum(S::from_f64(100.0) * S::EPSILON);
+        if rate > slow * closing.at.scale() * fastest {
+            return Err(LoopError::PullsApart { rate, row: at_row });
+        }
+        let way = difference(&closing.q, q);
+        let (farthest, coordinate) = largest(way.as_ref().iter().copied());
+        let distance = norm(way.as_ref());
+        Ok(Assembly { q: closing.q, v, farthest, coordinate, distance, gap, row, rank: closing.at.space.rank() })
+    }
+}

@@ -1,0 +1,73 @@
+//! Accelerations of closed loops, and the forces that keep them closed.
+
+use super::linear::{difference, largest};
+use super::linearised::Linearised;
+use super::{ClosedLoop, LoopError};
+use crate::vector::entry;
+use crate::{BiasForces, LoopClosure, MassMatrix, Real, Vector};
+
+/// Accelerations and constraint forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstrainedMotion<V, R> {
+    /// Joint accelerations, rad/s² or m/s².
+    pub accelerations: V,
+    /// λ, one for each row: the force at the cut, in the base frame, that side a exerts on side b (N; N m for a row
+    /// that aligns directions). Of all that have the same effect, the shortest.
+    pub multipliers: R,
+    /// How many rows are independent at this position.
+    pub rank: usize,
+}
+
+impl<M, C> ClosedLoop<'_, M, C> {
+    /// The accelerations a and the multipliers λ with M a + h = τ + Jᵀ λ and J a = −J̇ q̇, for joint forces `tau`.
+    ///
+    /// Redundant rows share the constraint force so that |λ| is least. In a singular position, the rows that say
+    /// nothing new there are left out: the answer is finite and the rank is lower.
+    ///
+    /// # Errors
+    /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    pub fn dynamics<S: Real>(
+        &self,
+        q: &M::Coordinates,
+        v: &M::Velocities,
+        tau: &M::Velocities,
+    ) -> Result<ConstrainedMotion<M::Velocities, C::Rows>, LoopError<S>>
+    where
+        M: MassMatrix<S> + BiasForces<S>,
+        C: LoopClosure<S, M>,
+    {
+        self.dynamics_at(&self.linearise(q, &[])?, q, v, tau, |_| S::zero())
+    }
+
+    /// As [`dynamics`](Self::dynamics), with the loops at `q` given and J a = −J̇ q̇ − feedback(row).
+    pub(super) fn dynamics_at<S: Real>(
+        &self,
+        at: &Linearised<S, M, C>,
+        q: &M::Coordinates,
+        v: &M::Velocities,
+        tau: &M::Velocities,
+        feedback: impl Fn(usize) -> S,
+    ) -> Result<ConstrainedMotion<M::Velocities, C::Rows>, LoopError<S>>
+    where
+        M: MassMatrix<S> + BiasForces<S>,
+        C: LoopClosure<S, M>,
+    {
+        let bias = self.closure.loop_bias(q, v);
+        let wanted = C::Rows::from_fn(self.closure.nc(), |row| -entry(&bias, row) - feedback(row));
+        // In scaled coordinates: s = s₀ + Wᵀ λ with W s = b, so that Q s = R⁻¹ Tᵀ b.
+        let mut scaled = difference(tau, &self.mechanism.bias_forces(q, v));
+        at.metric.scale(&mut scaled);
+        let change = difference(&at.space.solve(&wanted), &at.space.coordinates(&scaled));
+        let by_loops = at.space.combination(&change);
+        for (scaled, &by_loops) in scaled.as_mut().iter_mut().zip(by_loops.as_ref()) {
+            *scaled += by_loops;
+        }
+        at.metric.unscale(&mut scaled);
+        let multipliers = at.space.multipliers(&change);
+        let finite = |values: &[S]| largest(values.iter().copied()).0.is_finite();
+        if !(finite(scaled.as_ref()) && finite(multipliers.as_ref())) {
+            return Err(LoopError::NotFinite);
+        }
+        Ok(ConstrainedMotion { accelerations: scaled, multipliers, rank: at.space.rank() })
+    }
+}

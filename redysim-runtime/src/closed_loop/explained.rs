@@ -1,0 +1,47 @@
+//! Errors of loops with the names of the loops and joints that they are about.
+
+use core::fmt;
+
+use super::{ClosedLoop, LoopError};
+use crate::{LoopClosure, Mechanism, Scalar};
+
+/// A [`LoopError`] that names its loop and its joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Explained<'a, S> {
+    /// The error.
+    pub error: LoopError<S>,
+    /// The loop that its row belongs to.
+    pub loop_name: Option<&'a str>,
+    /// The joint that its coordinate belongs to.
+    pub joint_name: Option<&'a str>,
+}
+
+impl<M, C> ClosedLoop<'_, M, C> {
+    /// The error with the names of the loop and the joint that it is about.
+    pub fn explain<S: Scalar>(&self, error: LoopError<S>) -> Explained<'_, S>
+    where
+        M: Mechanism<S>,
+        C: LoopClosure<S, M>,
+    {
+        Explained {
+            loop_name: error.row().and_then(|row| self.closure.loop_name(row)),
+            joint_name: error.coordinate().and_then(|coordinate| self.mechanism.joint_name(coordinate)),
+            error,
+        }
+    }
+}
+
+impl<S: fmt::Debug> fmt::Display for Explained<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(f)?;
+        if let (Some(row), Some(name)) = (self.error.row(), self.loop_name) {
+            write!(f, "; row {row} belongs to the loop `{name}`")?;
+        }
+        if let (Some(coordinate), Some(name)) = (self.error.coordinate(), self.joint_name) {
+            write!(f, "; coordinate {coordinate} is that of the joint `{name}`")?;
+        }
+        Ok(())
+    }
+}
+
+impl<S: fmt::Debug> core::error::Error for Explained<'_, S> {}

@@ -1,0 +1,84 @@
+//! The loops at one position, ready to be solved.
+
+use super::linear::largest;
+use super::mass_metric::MassMetric;
+use super::row_space::RowSpace;
+use super::{ClosedLoop, LoopError};
+use crate::{LoopClosure, MassMatrix, Mechanism, Real, Vector};
+
+/// J(q) and the decomposition of W = J U⁻ᵀ D^−½.
+pub(super) struct Linearised<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+    pub jacobian: C::Jacobian,
+    pub metric: MassMetric<M::Matrix>,
+    pub space: RowSpace<S, M, C>,
+}
+
+impl<M, C> ClosedLoop<'_, M, C> {
+    /// The loops at `q`; the coordinates `held` do not move in what is solved.
+    pub(super) fn linearise<S: Real>(
+        &self,
+        q: &M::Coordinates,
+        held: &[usize],
+    ) -> Result<Linearised<S, M, C>, LoopError<S>>
+    where
+        M: MassMatrix<S>,
+        C: LoopClosure<S, M>,
+    {
+        let jacobian = self.closure.loop_jacobian(q);
+        let mut rows = jacobian.clone();
+        let mut matrix = self.mechanism.mass_matrix(q);
+        // A coordinate that is held is a block of M by itself, and no row of J knows it.
+        for (i, row) in matrix.as_mut().iter_mut().enumerate() {
+            for (j, element) in row.as_mut().iter_mut().enumerate() {
+                if held.contains(&i) || held.contains(&j) {
+                    *element = if i == j { S::one() } else { S::zero() };
+                }
+            }
+        }
+        let metric = MassMetric::new(matrix)?;
+        for row in rows.as_mut() {
+            without(row, held);
+            metric.scale(row);
+        }
+        Ok(Linearised { jacobian, metric, space: RowSpace::new(rows)? })
+    }
+}
+
+/// The size of a mechanism as its loops see it, m: the largest element of J, the longest lever.
+pub(super) fn size<S: Real, V: Vector<S>>(jacobian: &[V]) -> S {
+    let (size, _) = largest(jacobian.iter().map(|row| largest(row.as_ref().iter().copied()).0));
+    if size == S::zero() { S::one() } else { size }
+}
+
+/// Makes the elements at `held` zero.
+pub(super) fn without<S: Real, V: Vector<S>>(row: &mut V, held: &[usize]) {
+    for &held in held {
+        if let Some(element) = row.as_mut().get_mut(held) {
+            *element = S::zero();
+        }
+    }
+}
+
+impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> Linearised<S, M, C> {
+    /// The size of the mechanism, m.
+    pub fn scale(&self) -> S {
+        size(self.jacobian.as_ref())
+    }
+
+    /// The displacement δ, shortest in the metric of M, with J δ = b: U⁻ᵀ D^−½ W⁺ b.
+    pub fn shortest(&self, b: &C::Rows) -> M::Velocities {
+        let mut displacement = self.space.combination(&self.space.solve(b));
+        self.metric.unscale(&mut displacement);
+        displacement
+    }
+
+    /// The part of the velocity `v` that pulls the loops apart: v − part is the velocity nearest to v, in the metric of
+    /// M, that keeps them closed. It takes no division by what may be singular.
+    pub fn pulling_apart(&self, v: &M::Velocities) -> M::Velocities {
+        let mut scaled = v.clone();
+        self.metric.scale_velocity(&mut scaled);
+        let mut part = self.space.combination(&self.space.coordinates(&scaled));
+        self.metric.unscale(&mut part);
+        part
+    }
+}

@@ -1,0 +1,73 @@
+//! Closed loops: cut joints kept together while the mechanism moves.
+//!
+//! The tree of a mechanism is what [`MassMatrix`](crate::MassMatrix) and [`BiasForces`](crate::BiasForces) describe;
+//! [`LoopClosure`](crate::LoopClosure) says how far its cut joints are apart. [`ClosedLoop`] puts both together:
+//! [`assemble`](ClosedLoop::assemble) closes the loops from a guess, [`dynamics`](ClosedLoop::dynamics) gives
+//! accelerations and constraint forces, [`project`](ClosedLoop::project) takes away drift, [`ClosedLoopSimulation`]
+//! moves the mechanism in time with any integrator, and [`ClosedLoopInverse`] finds the joint forces for a trajectory of
+//! the independent coordinates.
+//!
+//! Everything stands on one decomposition: the rows of J in the metric of M, split into a part
+//! that is independent and a part that is not. So redundant rows and singular positions are ordinary cases.
+
+mod assembly;
+mod closing;
+mod dynamics;
+mod error;
+mod explained;
+mod inverse;
+mod linear;
+mod linearised;
+mod mass_metric;
+mod projection;
+mod row_space;
+mod simulation;
+mod stabilisation;
+
+pub use assembly::Assembly;
+pub use dynamics::ConstrainedMotion;
+pub use error::LoopError;
+pub use explained::Explained;
+pub use inverse::{ClosedLoopInverse, LoopForces};
+pub use projection::Projection;
+pub use simulation::ClosedLoopSimulation;
+pub use stabilisation::Stabilisation;
+
+/// A mechanism and the closure of its loops.
+#[derive(Debug)]
+pub struct ClosedLoop<'m, M, C = M> {
+    mechanism: &'m M,
+    closure: &'m C,
+}
+
+impl<M, C> Clone for ClosedLoop<'_, M, C> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M, C> Copy for ClosedLoop<'_, M, C> {}
+
+impl<'m, M> ClosedLoop<'m, M> {
+    /// The loops of a mechanism whose model has cut joints.
+    pub fn new(mechanism: &'m M) -> Self {
+        Self { mechanism, closure: mechanism }
+    }
+}
+
+impl<'m, M, C> ClosedLoop<'m, M, C> {
+    /// The loops of `mechanism` as `closure` describes them.
+    pub fn with_closure(mechanism: &'m M, closure: &'m C) -> Self {
+        Self { mechanism, closure }
+    }
+
+    /// The mechanism.
+    pub fn mechanism(&self) -> &'m M {
+        self.mechanism
+    }
+
+    /// The closure of its loops.
+    pub fn closure(&self) -> &'m C {
+        self.closure
+    }
+}
