@@ -33,6 +33,10 @@ pub enum Shape {
     Energy,
     /// `[LinkState<S>; NL]`: rotation by rows, origin, centre of mass, velocity, angular velocity.
     Links,
+    /// `[S; NC]`.
+    LoopRows,
+    /// `[[S; NV]; NC]`, by rows.
+    LoopJacobian,
 }
 
 const INVERSE_DYNAMICS: Signature = Signature {
@@ -92,9 +96,44 @@ const LINK_KINEMATICS: Signature = Signature {
     shape: Shape::Links,
 };
 
-/// Every function of a tree-type mechanism, in the order of the contract.
-pub const SIGNATURES: [Signature; 7] =
-    [INVERSE_DYNAMICS, FORWARD_DYNAMICS, MASS_MATRIX, BIAS_FORCES, GRAVITY_FORCES, ENERGY, LINK_KINEMATICS];
+const LOOP_RESIDUAL: Signature = Signature {
+    name: "loop_residual",
+    trait_name: "LoopClosure",
+    summary: "How far the loops are from closed: of each cut, the point of side b minus the point of side a in the base \
+              frame, m, then what aligns directions, sines.",
+    arguments: &["q"],
+    shape: Shape::LoopRows,
+};
+
+const LOOP_JACOBIAN: Signature = Signature {
+    name: "loop_jacobian",
+    trait_name: "LoopClosure",
+    summary: "J(q), by rows: the residual of the loops changes at the rates J v.",
+    arguments: &["q"],
+    shape: Shape::LoopJacobian,
+};
+
+const LOOP_BIAS: Signature = Signature {
+    name: "loop_bias",
+    trait_name: "LoopClosure",
+    summary: "J̇ v: the second derivative of the residual of the loops at zero joint accelerations.",
+    arguments: &["q", "v"],
+    shape: Shape::LoopRows,
+};
+
+/// Every function of a mechanism, in the order of the contract.
+pub const SIGNATURES: [Signature; 10] = [
+    INVERSE_DYNAMICS,
+    FORWARD_DYNAMICS,
+    MASS_MATRIX,
+    BIAS_FORCES,
+    GRAVITY_FORCES,
+    ENERGY,
+    LINK_KINEMATICS,
+    LOOP_RESIDUAL,
+    LOOP_JACOBIAN,
+    LOOP_BIAS,
+];
 
 /// One traced function.
 #[derive(Clone, Debug)]
@@ -120,6 +159,9 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
         function(GRAVITY_FORCES, traced(&base, 1, |x| denoc::gravity_forces(&base, x[0]))),
         function(ENERGY, traced(&base, 2, |x| energy(&base, x[0], x[1]))),
         function(LINK_KINEMATICS, traced(tree, 2, |x| link_kinematics(tree, x[0], x[1]))),
+        function(LOOP_RESIDUAL, traced(tree, 1, |x| denoc::loop_residual(tree, x[0]))),
+        function(LOOP_JACOBIAN, traced(tree, 1, |x| denoc::loop_jacobian(tree, x[0]).concat())),
+        function(LOOP_BIAS, traced(tree, 2, |x| denoc::loop_bias(tree, x[0], x[1]))),
     ]
 }
 

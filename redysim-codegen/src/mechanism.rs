@@ -50,7 +50,9 @@ fn type_impls(
 ) -> TokenStream {
     let constants = constants(outline, operations, runtime);
     let mechanism = mechanism_trait(outline, name, runtime);
-    let traits = SIGNATURES.iter().map(|signature| trait_impl(signature, outline, name, runtime));
+    let closure = closure_trait(outline, name, runtime);
+    let own_trait = SIGNATURES.iter().filter(|signature| signature.trait_name != "LoopClosure");
+    let traits = own_trait.map(|signature| trait_impl(signature, outline, name, runtime));
     quote! {
         #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
         impl #name {
@@ -59,12 +61,14 @@ fn type_impls(
         }
         #mechanism
         #(#traits)*
+        #closure
     }
 }
 
 fn constants(outline: &Outline, operations: &[(&str, OperationCount)], runtime: &TokenStream) -> TokenStream {
-    let Outline { name, links, joints, actuated } = outline;
+    let Outline { name, links, joints, actuated, loop_rows } = outline;
     let (nv, nl) = (Literal::usize_unsuffixed(joints.len()), Literal::usize_unsuffixed(links.len()));
+    let nc = Literal::usize_unsuffixed(loop_rows.len());
     let counts = operations.iter().map(|(field, count)| {
         let field = format_ident!("{field}");
         let [additions, multiplications, divisions, trig] =
@@ -83,11 +87,13 @@ fn constants(outline: &Outline, operations: &[(&str, OperationCount)], runtime: 
         /// Number of links.
         pub const NL: usize = #nl;
         /// Number of rows of the loop constraints.
-        pub const NC: usize = 0;
+        pub const NC: usize = #nc;
         /// Names of the links, in the model's order.
         pub const LINK_NAMES: [&'static str; #nl] = [#(#links),*];
         /// Names of the joints that move, in the model's order.
         pub const JOINT_NAMES: [&'static str; #nv] = [#(#joints),*];
+        /// Name of the loop to which each row of the loop constraints belongs.
+        pub const LOOP_NAMES: [&'static str; #nc] = [#(#loop_rows),*];
         /// Whether each moving joint has an actuator.
         pub const ACTUATED: [bool; #nv] = [#(#actuated),*];
         /// Operations of each function.
@@ -130,16 +136,45 @@ fn head(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> Toke
 
 fn trait_impl(signature: &Signature, outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let trait_name = format_ident!("{}", signature.trait_name);
+    let method = method(signature, outline, runtime);
+    quote! {
+        impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
+            #method
+        }
+    }
+}
+
+/// The method of a trait that is one of the type's own functions.
+fn method(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> TokenStream {
     let function = format_ident!("{}", signature.name);
     let arguments: Vec<Ident> = signature.arguments.iter().map(|argument| local(argument)).collect();
     let nv = Literal::usize_unsuffixed(outline.joints.len());
     let output = shape::output_type(signature.shape, outline, runtime);
     quote! {
-        impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
-            #[inline]
-            fn #function(&self, #(#arguments: &[S; #nv]),*) -> #output {
-                Self::#function(#(#arguments),*)
+        #[inline]
+        fn #function(&self, #(#arguments: &[S; #nv]),*) -> #output {
+            Self::#function(#(#arguments),*)
+        }
+    }
+}
+
+fn closure_trait(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let nv = Literal::usize_unsuffixed(outline.joints.len());
+    let nc = Literal::usize_unsuffixed(outline.loop_rows.len());
+    let own = SIGNATURES.iter().filter(|signature| signature.trait_name == "LoopClosure");
+    let methods = own.map(|signature| method(signature, outline, runtime));
+    quote! {
+        impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {
+            type Rows = [S; #nc];
+            type Jacobian = [[S; #nv]; #nc];
+            type Gram = [[S; #nc]; #nc];
+            fn nc(&self) -> usize {
+                Self::NC
             }
+            fn loop_name(&self, row: usize) -> ::core::option::Option<&str> {
+                Self::LOOP_NAMES.get(row).copied()
+            }
+            #(#methods)*
         }
     }
 }

@@ -9,19 +9,22 @@ use redysim_model::Outline;
 pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> TokenStream {
     let nv = Literal::usize_unsuffixed(outline.joints.len());
     let nl = Literal::usize_unsuffixed(outline.links.len());
+    let nc = Literal::usize_unsuffixed(outline.loop_rows.len());
     match shape {
         Shape::Vector => quote!([S; #nv]),
         Shape::Matrix => quote!([[S; #nv]; #nv]),
         Shape::Energy => quote!(#runtime::Energy<S>),
         Shape::Links => quote!([#runtime::LinkState<S>; #nl]),
+        Shape::LoopRows => quote!([S; #nc]),
+        Shape::LoopJacobian => quote!([[S; #nv]; #nc]),
     }
 }
 
 /// The value returned, made of the outputs in the order in which they were traced.
 pub fn value(shape: Shape, outline: &Outline, outputs: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     match shape {
-        Shape::Vector => array(outputs),
-        Shape::Matrix => array(&rows(outputs, outline.joints.len())),
+        Shape::Vector | Shape::LoopRows => array(outputs),
+        Shape::Matrix | Shape::LoopJacobian => array(&rows(outputs, outline.joints.len())),
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
             quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })

@@ -4,8 +4,8 @@ use crate::denoc::{self, Method};
 use crate::model::Model;
 use crate::tree::Tree;
 use redysim_runtime::{
-    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, MassMatrix,
-    MechanicalEnergy, Mechanism, Scalar,
+    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
+    MassMatrix, MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -126,5 +126,30 @@ impl<S: Scalar> LinkKinematics<S> for GenericMechanism {
     fn link_kinematics(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<LinkState<S>> {
         self.check(&[("q", q), ("v", v)]);
         denoc::link_kinematics(&self.tree, q, v)
+    }
+}
+
+impl<S: Scalar> LoopClosure<S, GenericMechanism> for GenericMechanism {
+    type Rows = Vec<S>;
+    type Jacobian = Vec<Vec<S>>;
+    type Gram = Vec<Vec<S>>;
+
+    fn nc(&self) -> usize {
+        self.tree.loops_of_rows().count()
+    }
+    fn loop_residual(&self, q: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q)]);
+        denoc::loop_residual(&self.tree, q)
+    }
+    fn loop_jacobian(&self, q: &Vec<S>) -> Vec<Vec<S>> {
+        self.check(&[("q", q)]);
+        denoc::loop_jacobian(&self.tree, q)
+    }
+    fn loop_bias(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q), ("v", v)]);
+        denoc::loop_bias(&self.tree, q, v)
+    }
+    fn loop_name(&self, row: usize) -> Option<&str> {
+        self.tree.loops_of_rows().nth(row).map(|index| self.model.loops[index].name.as_str())
     }
 }

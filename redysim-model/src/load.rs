@@ -2,7 +2,7 @@
 
 use crate::check;
 use crate::diagnostic::{Diagnostic, Faults, Findings, Message, Severity, Source, messages};
-use crate::model::{Model, Outline};
+use crate::model::Model;
 use crate::schema::Document;
 use std::ops::Range;
 use std::path::Path;
@@ -89,12 +89,12 @@ impl Model {
             // What a broken file says is read for its outline only: its faults would be echoes of the syntax errors.
             let outline = Document::read(root.get_ref(), &mut Findings::new(Arc::clone(&source))).outline();
             report_syntax(&errors, &source, &mut findings);
-            return Err(Faults { diagnostics: findings.into_sorted(), outline });
+            return Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(outline) });
         }
         let document = Document::read(root.get_ref(), &mut findings);
         match check::check(&document, &mut findings) {
             Some(model) => Ok(Loaded { model, warnings: findings.into_sorted() }),
-            None => Err(Faults { diagnostics: findings.into_sorted(), outline: document.outline() }),
+            None => Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(document.outline()) }),
         }
     }
 }
@@ -115,5 +115,5 @@ fn report_syntax(errors: &[Error], source: &Source, findings: &mut Findings) {
 fn unreadable(name: String, message: Message) -> Faults {
     let source = Arc::new(Source { name, text: String::new() });
     let diagnostics = vec![Diagnostic::new(Severity::Error, message, source, None)];
-    Faults { diagnostics, outline: Outline::default() }
+    Faults { diagnostics, outline: Box::default() }
 }

@@ -1,6 +1,7 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
 use crate::spatial::{Pose, Vec3};
+use crate::tree::Tree;
 
 /// A mechanism whose file passed every check. Links and loops stand in the file's order.
 #[derive(Clone, Debug, PartialEq)]
@@ -152,6 +153,8 @@ pub struct Outline {
     pub joints: Vec<String>,
     /// Whether each of these has an actuator.
     pub actuated: Vec<bool>,
+    /// For each row of the loops, the name of its loop.
+    pub loop_rows: Vec<String>,
 }
 
 impl Outline {
@@ -162,6 +165,7 @@ impl Outline {
             links: model.links.iter().map(|link| link.name.clone()).collect(),
             joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
             actuated: model.moving_links().map(|link| link.actuated).collect(),
+            loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
         }
     }
 }

@@ -3,8 +3,9 @@
 //! Links joined rigidly become one body, parents stand before their children, and each body's frame is turned so that
 //! its joint axis is z. All of this happens in numbers, before any recursion runs, so it costs the recursions nothing.
 
+use crate::denoc;
 use crate::inertia::{RigidInertia, Sym3};
-use crate::model::{JointKind, Link, Model};
+use crate::model::{CutKind, CutSide, JointKind, Link, Model};
 use crate::rotation;
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -19,6 +20,8 @@ pub struct Tree {
     pub bodies: Vec<Body>,
     /// Where each of [`Model::links`] stands, in the model's order.
     pub links: Vec<Attachment>,
+    /// The cut joints, in the model's order.
+    pub cuts: Vec<Cut>,
 }
 
 /// A moving body with one joint about or along its z axis.
@@ -58,6 +61,32 @@ pub struct Attachment {
     pub com: Vec3<f64>,
 }
 
+/// A cut joint between two bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cut {
+    /// What the cut joint holds together.
+    pub joint: CutKind,
+    /// Side a.
+    pub a: CutEnd,
+    /// Side b.
+    pub b: CutEnd,
+    /// Which of its rows are kept: three for the point, then those of [`CutKind::alignments`]. The others vanish at
+    /// every position.
+    pub rows: Vec<bool>,
+}
+
+/// One side of a cut joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutEnd {
+    /// The body in [`Tree::bodies`]; `None` is the ground.
+    pub body: Option<usize>,
+    /// The point, in the body's frame, m.
+    pub point: Vec3<f64>,
+    /// What is to be aligned with the other side, as columns in the body's frame: the cut's axis is z for a revolute
+    /// cut; the axes are the link's for a weld.
+    pub axes: Mat3<f64>,
+}
+
 impl Tree {
     /// The tree of a checked model.
     pub fn new(model: &Model) -> Tree {
@@ -70,6 +99,7 @@ impl Tree {
                 .iter()
                 .map(|link| Attachment { body: None, pose: Pose::identity(), com: link.com })
                 .collect(),
+            cuts: Vec::new(),
         };
         let coordinates = coordinates(model);
         for index in parents_first(model) {
@@ -94,7 +124,32 @@ impl Tree {
             };
             *carrier = *carrier + inertia;
         }
+        tree.cut(model);
         tree
+    }
+
+    /// Adds the cut joints, with the rows that do not vanish at every position.
+    fn cut(&mut self, model: &Model) {
+        for each in &model.loops {
+            let rows = vec![true; 3 + each.joint.alignments().len()];
+            let (a, b) = (self.cut_end(each.joint, &each.a), self.cut_end(each.joint, &each.b));
+            self.cuts.push(Cut { joint: each.joint, a, b, rows });
+        }
+        let mut kept = denoc::rows_that_vary(self).into_iter();
+        for row in self.cuts.iter_mut().flat_map(|cut| &mut cut.rows) {
+            *row = kept.next().unwrap_or(true);
+        }
+    }
+
+    fn cut_end(&self, joint: CutKind, side: &CutSide) -> CutEnd {
+        let (body, pose) =
+            side.link.map_or((None, Pose::identity()), |link| (self.links[link].body, self.links[link].pose));
+        let axes = match joint {
+            CutKind::Weld => Mat3::identity(),
+            CutKind::Revolute | CutKind::Spherical => align_z(side.axis),
+        };
+        let end = (pose * Pose { rotation: axes, position: side.point }).without_roundoff();
+        CutEnd { body, point: end.position, axes: end.rotation }
     }
 
     /// Adds a body for a moving link; returns its index and the link's frame on it.
@@ -139,6 +194,11 @@ impl Tree {
         self.bodies.len()
     }
 
+    /// For each row of the loops, the index of its cut; NC of them.
+    pub fn loops_of_rows(&self) -> impl Iterator<Item = usize> {
+        self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
+    }
+
     /// The largest number of joints between the ground and a body.
     pub fn depth(&self) -> usize {
         let mut depths = vec![0; self.bodies.len()];
@@ -146,6 +206,13 @@ impl Tree {
             depths[index] = body.parent.map_or(0, |parent| depths[parent]) + 1;
         }
         depths.into_iter().max().unwrap_or(0)
+    }
+
+    /// Coordinates spread over ±3 by a fixed rule, the same for every `position`: what holds at a few of them holds, but
+    /// for freak coincidences, at all.
+    pub fn sample(&self, position: usize) -> Vec<f64> {
+        let golden = 0.618_033_988_749_895;
+        (0..self.dof()).map(|joint| (golden * (position * self.dof() + joint + 1) as f64).fract() * 6.0 - 3.0).collect()
     }
 
     /// The index of the body whose joint has coordinate `coordinate`, for every coordinate in order.

@@ -7,6 +7,9 @@
 // gravity_forces        21 flops,   4 sine-cosine pairs
 // energy                52 flops,   4 sine-cosine pairs
 // link_kinematics       49 flops,   4 sine-cosine pairs
+// loop_residual          0 flops,   0 sine-cosine pairs
+// loop_jacobian          0 flops,   0 sine-cosine pairs
+// loop_bias              0 flops,   0 sine-cosine pairs
 
 /// The mechanism `gripper`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,6 +30,8 @@ impl Gripper {
     pub const LINK_NAMES: [&'static str; 4] = ["link1", "link2", "link3", "link4"];
     /// Names of the joints that move, in the model's order.
     pub const JOINT_NAMES: [&'static str; 4] = ["joint1", "joint2", "joint3", "joint4"];
+    /// Name of the loop to which each row of the loop constraints belongs.
+    pub const LOOP_NAMES: [&'static str; 0] = [];
     /// Whether each moving joint has an actuator.
     pub const ACTUATED: [bool; 4] = [true, true, true, true];
     /// Operations of each function.
@@ -72,6 +77,24 @@ impl Gripper {
             multiplications: 30,
             divisions: 0,
             trig: 4,
+        },
+        loop_residual: ::redysim_runtime::OperationCount {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
+        loop_jacobian: ::redysim_runtime::OperationCount {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
+        loop_bias: ::redysim_runtime::OperationCount {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
         },
         ..::redysim_runtime::Operations::NONE
     };
@@ -465,6 +488,27 @@ impl Gripper {
             },
         ]
     }
+    /// How far the loops are from closed: of each cut, the point of side b minus the point of side a in the base frame, m, then what aligns directions, sines.
+    ///
+    /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
+    pub fn loop_residual<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 0] {
+        let k = S::from_f64;
+        []
+    }
+    /// J(q), by rows: the residual of the loops changes at the rates J v.
+    ///
+    /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
+    pub fn loop_jacobian<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [[S; 4]; 0] {
+        let k = S::from_f64;
+        []
+    }
+    /// J̇ v: the second derivative of the residual of the loops at zero joint accelerations.
+    ///
+    /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
+    pub fn loop_bias<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 0] {
+        let k = S::from_f64;
+        []
+    }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::Mechanism<S> for Gripper {
     type Coordinates = [S; 4];
@@ -538,5 +582,29 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LinkKinematics<S> for Grip
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
         Self::link_kinematics(q, v)
+    }
+}
+impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LoopClosure<S, Gripper>
+for Gripper {
+    type Rows = [S; 0];
+    type Jacobian = [[S; 4]; 0];
+    type Gram = [[S; 0]; 0];
+    fn nc(&self) -> usize {
+        Self::NC
+    }
+    fn loop_name(&self, row: usize) -> ::core::option::Option<&str> {
+        Self::LOOP_NAMES.get(row).copied()
+    }
+    #[inline]
+    fn loop_residual(&self, q: &[S; 4]) -> [S; 0] {
+        Self::loop_residual(q)
+    }
+    #[inline]
+    fn loop_jacobian(&self, q: &[S; 4]) -> [[S; 4]; 0] {
+        Self::loop_jacobian(q)
+    }
+    #[inline]
+    fn loop_bias(&self, q: &[S; 4], v: &[S; 4]) -> [S; 0] {
+        Self::loop_bias(q, v)
     }
 }

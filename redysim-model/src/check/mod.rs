@@ -3,6 +3,7 @@
 mod cut;
 mod inertia;
 mod massless;
+mod mobility;
 mod names;
 mod placement;
 mod singular;
@@ -36,7 +37,14 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Mode
     for (link, message) in singular::check(&model) {
         findings.error(document.links.get(link).map_or(document.place.clone(), LinkTable::place), message);
     }
-    (findings.errors() == 0).then_some(model)
+    if findings.errors() > 0 {
+        return None;
+    }
+    for (cut, message) in mobility::check(&model) {
+        let table = cut.and_then(|cut| document.loops.get(cut)).and_then(|table| table.name.spanned());
+        findings.warning(table.map_or(document.place.clone(), Spanned::span), message);
+    }
+    Some(model)
 }
 
 /// One link by itself, still without its parent.

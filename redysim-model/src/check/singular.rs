@@ -20,7 +20,7 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
         if suspects.is_empty() {
             return Vec::new();
         }
-        let free = without_pivot(&tree, &sample(tree.dof(), position));
+        let free = without_pivot(&tree, &tree.sample(position));
         suspects.retain(|body| free.contains(body));
     }
     let moving: Vec<usize> = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0).collect();
@@ -40,12 +40,6 @@ fn meets_own_inertia(body: &Body) -> bool {
         }
         Joint::Prismatic => body.inertia.mass > 0.0,
     }
-}
-
-/// Coordinates spread over ±π by a fixed rule.
-fn sample(dof: usize, position: usize) -> Vec<f64> {
-    let golden = 0.618_033_988_749_895;
-    (0..dof).map(|joint| (golden * (position * dof + joint + 1) as f64).fract() * 6.0 - 3.0).collect()
 }
 
 /// The bodies whose pivot in the elimination of M(q), from the tips to the ground, is nothing but roundoff.

@@ -17,6 +17,7 @@ mod forward;
 mod inverse;
 mod joint;
 mod kinematics;
+mod loops;
 mod mass_matrix;
 
 pub use energy::energy;
@@ -24,4 +25,6 @@ pub use factorisation::Factorisation;
 pub use forward::{Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion};
 pub use inverse::{bias_forces, gravity_forces, inverse_dynamics};
 pub use kinematics::link_kinematics;
+pub(crate) use loops::rows_that_vary;
+pub use loops::{loop_bias, loop_jacobian, loop_residual};
 pub use mass_matrix::mass_matrix;

@@ -102,7 +102,7 @@ pub struct Faults {
     /// Errors (at least one) and warnings.
     pub diagnostics: Vec<Diagnostic>,
     /// What could be read nevertheless: enough for a stub that lets the code around the model compile.
-    pub outline: Outline,
+    pub outline: Box<Outline>,
 }
 
 impl Faults {

@@ -109,6 +109,7 @@ impl Document {
             links: self.links.iter().map(|link| name(link.name.spanned(), link)).collect(),
             joints: moving.iter().map(|link| name(link.joint_name(), link)).collect(),
             actuated: moving.iter().map(|link| link.actuated.value_or(true).unwrap_or(true)).collect(),
+            loop_rows: Vec::new(),
         }
     }
 }

@@ -175,3 +175,44 @@ pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str) -> Messag
     };
     message(title, "the same body", "a loop must join two bodies that move against each other")
 }
+
+/// Newton's method did not close the loops from any start.
+pub(crate) fn loops_stay_open(model: &str, starts: usize, gap: f64) -> Message {
+    message(
+        format!(
+            "model {}: its loops could not be closed from any of {starts} starts; a gap of {} m was left",
+            quoted(model),
+            rounded(gap)
+        ),
+        "the loops stay open",
+        "check lengths, points and axes at the cuts; if the mechanism closes only near one position, close it from there \
+         with `assemble`",
+    )
+}
+
+pub(crate) fn redundant_rows(name: &str, dependent: usize, rows: usize, rank: usize) -> Message {
+    let follow = if dependent == 1 { "follows" } else { "follow" };
+    message(
+        format!("loop {}: {dependent} of its conditions {follow} from the others", quoted(name)),
+        format!("the loops set {rows} conditions, of which {rank} are independent"),
+        "the motion is not affected; of the constraint forces those of least norm are given. A cut of another kind \
+         (spherical instead of revolute) may leave them out",
+    )
+}
+
+pub(crate) fn no_mobility(model: &str, dof: usize, rank: usize) -> Message {
+    message(
+        format!("model {}: its loops leave nothing that moves", quoted(model)),
+        format!("{dof} joint velocities, {rank} independent conditions"),
+        "check the cuts: each joint between two links is either in the tree or cut, not both",
+    )
+}
+
+pub(crate) fn over_actuated(model: &str, actuated: usize, mobility: usize) -> Message {
+    message(
+        format!("model {}: {actuated} actuated joints, but a mobility of {mobility}", quoted(model)),
+        "more actuators than freedom",
+        "write `actuated = false` for joints without an actuator; if all are meant, inverse dynamics gives the joint forces \
+         of least norm",
+    )
+}
