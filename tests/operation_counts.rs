@@ -21,6 +21,41 @@ redysim! {
     pub struct Gripper("models/gripper.toml");
 }
 
+redysim! {
+    /// One loop in the plane.
+    pub struct Fourbar("models/fourbar.toml");
+}
+
+redysim! {
+    /// Another.
+    pub struct FourbarGui("models/fourbar_gui.toml");
+}
+
+redysim! {
+    /// A loop with a slider.
+    pub struct SliderCrank("models/slider_crank.toml");
+}
+
+redysim! {
+    /// Three legs and a platform.
+    pub struct ThreeRrr("models/three_rrr.toml");
+}
+
+redysim! {
+    /// Three loops.
+    pub struct Leg("models/leg.toml");
+}
+
+redysim! {
+    /// Three loops at one point.
+    pub struct Andrews("models/andrews.toml");
+}
+
+redysim! {
+    /// Two windows.
+    pub struct NFourbar2("models/n_fourbar_2.toml");
+}
+
 /// A row for each function that the mechanism has.
 fn table(operations: &Operations) -> String {
     let Operations {
@@ -75,4 +110,39 @@ fn gripper() {
 fn inverse_dynamics_of_kr5_takes_at_most_450_operations() {
     const { assert!(Kr5::OPS.inverse_dynamics.flops() <= 450) }
     const { assert!(Kr5Table2::OPS.inverse_dynamics.flops() <= 450) }
+}
+
+#[test]
+fn fourbar() {
+    insta::assert_snapshot!(table(&Fourbar::OPS));
+}
+
+#[test]
+fn fourbar_gui() {
+    insta::assert_snapshot!(table(&FourbarGui::OPS));
+}
+
+#[test]
+fn slider_crank() {
+    insta::assert_snapshot!(table(&SliderCrank::OPS));
+}
+
+#[test]
+fn three_rrr() {
+    insta::assert_snapshot!(table(&ThreeRrr::OPS));
+}
+
+#[test]
+fn leg() {
+    insta::assert_snapshot!(table(&Leg::OPS));
+}
+
+#[test]
+fn andrews() {
+    insta::assert_snapshot!(table(&Andrews::OPS));
+}
+
+#[test]
+fn n_fourbar_2() {
+    insta::assert_snapshot!(table(&NFourbar2::OPS));
 }

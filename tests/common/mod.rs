@@ -1,6 +1,7 @@
 //! What the tests share.
 #![allow(dead_code, reason = "each test uses a part")]
 
+pub mod andrews;
 pub mod call;
 pub mod comparison;
 pub mod double_double;

@@ -3,11 +3,19 @@
 #![no_std]
 #![no_main]
 
-use redysim::{ForwardSimulation, Free, Integrator, Ode5, Ode45, redysim};
+use redysim::{
+    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, ForwardSimulation, Free, Integrator, Motion, Ode5, Ode45,
+    redysim,
+};
 
 redysim! {
     /// The KUKA KR5 of the ReDySim paper.
     struct Kr5("../../../models/kr5.toml");
+}
+
+redysim! {
+    /// The four-bar of the ReDySim paper.
+    struct Fourbar("../../../models/fourbar.toml");
 }
 
 unsafe extern "C" {
@@ -27,7 +35,8 @@ unsafe extern "C" {}
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> i32 {
-    i32::from(!(is_held_by_gravity_forces() && keeps_its_energy_when_it_falls().is_some_and(|kept| kept)))
+    let kept = keeps_its_energy_when_it_falls().is_some_and(|kept| kept);
+    i32::from(!(is_held_by_gravity_forces() && kept && stays_closed_when_it_turns().is_some_and(|closed| closed)))
 }
 
 fn is_held_by_gravity_forces() -> bool {
@@ -49,4 +58,19 @@ fn keeps_its_energy_when_it_falls() -> Option<bool> {
         -1e-5 < gained && gained < 1e-5
     });
     Some(kept)
+}
+
+fn stays_closed_when_it_turns() -> Option<bool> {
+    let loops = ClosedLoop::new(&Fourbar);
+    let assembly = loops.assemble(&[0.0_f64, 0.9844, 4.3144], &[4.7124, 1.4045, 0.0], &[0]).ok()?;
+    let mut turn = ClosedLoopSimulation::new(loops, Free);
+    let start = turn.start(&assembly.q, &assembly.v).ok()?;
+    let adaptive = Ode45::new().rtol(1e-9).atol(1e-9).integrate(&mut turn, (0.0, 0.5), start).ok()?;
+    let fixed = Ode5::new(1e-3).integrate(&mut turn, (0.0, 0.5), start).ok()?;
+    let closed = [adaptive.y, fixed.y]
+        .iter()
+        .all(|state| Fourbar::loop_residual(&turn.split(state).q).iter().all(|gap| -1e-12 < *gap && *gap < 1e-12));
+    let crank = |t: f64| Motion { q: [t], v: [1.0], a: [0.0] };
+    let forces = ClosedLoopInverse::new(loops, &[0], assembly.q).at(0.1, &crank).ok()?;
+    Some(closed && forces.redundancy == 0 && forces.rank == 2)
 }

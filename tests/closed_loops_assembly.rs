@@ -1,0 +1,123 @@
+//! Closing loops from a guess, and saying why not.
+#![cfg(feature = "generic")]
+
+mod common;
+
+use common::models::generic;
+use redysim::{
+    ClosedLoop, ClosedLoopSimulation, Free, IntegrationError, Integrator, LoopError, Ode4, Stabilisation, redysim,
+};
+
+redysim! { struct Fourbar("models/fourbar.toml"); }
+redysim! { struct Windows("models/n_fourbar_2.toml"); }
+
+const START: [f64; 3] = [0.0, 0.984_373_060_839_76, 4.314_439_185_500_066];
+
+#[test]
+fn the_shipped_start_closes_with_the_crank_held_and_tells_how_far_it_moved() {
+    let assembly = ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &[4.7124, 1.4045, 0.0], &[0]);
+    let assembly = assembly.expect("it closes");
+    println!("{assembly:?}");
+    assert_eq!((assembly.q[0], assembly.v[0]), (0.0, 4.7124));
+    assert!(assembly.gap < 1e-14 * 0.2);
+    assert!(assembly.q.iter().zip(START).all(|(q, exact)| (q - exact).abs() < 1e-14), "{:?}", assembly.q);
+    assert!((assembly.v[1] - 1.40448).abs() < 1e-5 && assembly.v[2].abs() < 1e-12);
+    assert!((assembly.farthest - (4.3144 - START[2]).abs()).abs() < 1e-12 && assembly.coordinate == 2);
+    assert!(assembly.distance > assembly.farthest && assembly.distance < 1e-4);
+    assert_eq!(assembly.rank, 2);
+}
+
+#[test]
+fn the_branch_of_the_guess_is_kept() {
+    let loops = ClosedLoop::new(&Fourbar);
+    let (one, other) = ([0.3, 1.1, 4.2], [0.3, -1.1, -4.2]);
+    let one = loops.assemble(&one, &[0.0; 3], &[0]).expect("it closes").q;
+    let other = loops.assemble(&other, &[0.0; 3], &[0]).expect("it closes").q;
+    assert!(one[1] > 0.5 && other[1] < -0.5, "{one:?} {other:?}");
+}
+
+#[test]
+fn the_starts_that_ship_open_are_mended() {
+    let rrr = generic("three_rrr");
+    let q = vec![1.0467, 5.4206, -2.5357, 4.1883, -2.0939, 5.7637, -0.9869];
+    let assembly = ClosedLoop::new(&rrr).assemble(&q, &vec![0.0; 7], &[0, 3, 5]).expect("it closes");
+    println!("3-RRR: {:e} rad at {}, gap {:e}", assembly.farthest, assembly.coordinate, assembly.gap);
+    assert!(assembly.gap < 1e-14 && assembly.farthest > 1e-3 && assembly.farthest < 0.05);
+}
+
+#[test]
+fn a_loop_that_cannot_close_is_refused_with_its_gap() {
+    // The rocker held where the crank and the coupler do not reach its tip.
+    let error = ClosedLoop::new(&Fourbar).assemble(&[0.0, 3.0, 4.0], &[0.0; 3], &[1]).unwrap_err();
+    println!("{error}");
+    let distance = |angle: f64| (0.0895 - 0.1152 * angle.cos()).hypot(0.1152 * angle.sin()) - 0.1152 - 0.038;
+    match error {
+        LoopError::CannotClose { gap, .. } => {
+            assert!(gap > 0.3 * distance(3.0) && gap < 1.1 * distance(3.0), "{gap} of {}", distance(3.0));
+        }
+        other => panic!("{other}"),
+    }
+    assert!(error.to_string().contains(" m remains"), "{error}");
+}
+
+#[test]
+fn held_velocities_that_pull_the_loop_apart_are_refused() {
+    let loops = ClosedLoop::new(&Fourbar);
+    let error = loops.assemble(&START, &[1.0, -1.0, 0.0], &[0, 1]).unwrap_err();
+    assert!(matches!(error, LoopError::PullsApart { rate, .. } if rate > 1e-3), "{error}");
+    assert_eq!(
+        loops.assemble(&START, &[0.0; 3], &[7]).unwrap_err(),
+        LoopError::BadCoordinate { coordinate: 7, count: 3 }
+    );
+    assert_eq!(loops.assemble(&[f64::NAN; 3], &[0.0; 3], &[]).unwrap_err(), LoopError::NotFinite);
+    assert_eq!(loops.assemble(&START, &[f64::NAN; 3], &[]).unwrap_err(), LoopError::NotFinite);
+}
+
+/// All links in line and open: no first-order motion closes it, which must be said, or it must close.
+#[test]
+fn a_guess_with_all_links_in_line_ends_in_an_answer() {
+    match ClosedLoop::new(&Windows).assemble(&[-1.569_f64, 1.5, -1.572, 1.6, -1.573], &[0.0; 5], &[]) {
+        Ok(assembly) => assert!(assembly.gap < 1e-13 && assembly.q.iter().all(|q: &f64| q.is_finite()), "{assembly:?}"),
+        Err(error) => assert!(error.to_string().contains("gap"), "{error}"),
+    }
+}
+
+#[test]
+fn a_start_that_is_open_or_pulls_apart_is_refused() {
+    let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+    let error = simulation.start(&[0.0, 0.9844, 4.3144], &[0.0; 3]).unwrap_err();
+    assert!(matches!(error, LoopError::Open { gap, .. } if 1e-6 < gap && gap < 1e-4), "{error}");
+    let error = simulation.start(&START, &[4.7124, 1.0, 0.0]).unwrap_err();
+    assert!(matches!(error, LoopError::PullsApart { .. }), "{error}");
+    assert_eq!(simulation.start(&START, &[f64::NAN, 0.0, 0.0]), Err(LoopError::NotFinite));
+}
+
+#[test]
+fn baumgarte_with_steps_known_to_blow_up_is_refused() {
+    let baumgarte = |alpha| {
+        ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(Stabilisation::Baumgarte { alpha })
+    };
+    let mut simulation = baumgarte(1300.0);
+    let start = simulation.start(&START, &[0.0; 3]).expect("a closed start");
+    let error = Ode4::new(1e-3).integrate(&mut simulation, (0.0, 0.01), start).unwrap_err();
+    assert_eq!(error, IntegrationError::Refused { t: 1e-3 });
+    let reason = simulation.last_error().expect("a reason");
+    assert_eq!(reason, LoopError::UnstableBaumgarte { alpha: 1300.0, step: 1e-3 });
+    assert!(reason.to_string().contains("below 1.3"), "{reason}");
+    Ode4::new(9.9e-4).integrate(&mut simulation, (0.0, 0.0099), start).expect("just below");
+    assert_eq!(Stabilisation::Baumgarte { alpha: 0.0 }.check(0.1), Err(LoopError::BadAlpha { alpha: 0.0 }));
+    assert_eq!(
+        Stabilisation::Baumgarte { alpha: 13.0 }.check(0.1),
+        Err(LoopError::UnstableBaumgarte { alpha: 13.0, step: 0.1 })
+    );
+}
+
+#[test]
+fn a_torque_that_is_not_a_number_comes_out_with_the_reason() {
+    let law = |t: f64, _: &[f64; 3], _: &[f64; 3]| [if t > 0.005 { f64::NAN } else { 0.0 }, 0.0, 0.0];
+    let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), law);
+    let start = simulation.start(&START, &[0.0; 3]).expect("a closed start");
+    let error = Ode4::new(1e-3).integrate(&mut simulation, (0.0, 0.01), start).unwrap_err();
+    assert!(matches!(error, IntegrationError::NonFiniteDerivative { .. }), "{error}");
+    assert_eq!(simulation.last_error(), Some(LoopError::NotFinite));
+}

@@ -1,0 +1,96 @@
+//! Benchmark problems of the IFToMM library with closed loops: Andrews' squeezing mechanism (A03), and forty windows in a
+//! row (A02), which fold flat and open again.
+#![cfg(feature = "generic")]
+
+mod common;
+
+use common::andrews;
+use common::models::generic;
+use redysim::{ClosedLoop, ClosedLoopSimulation, Free, Integrator, LoopClosure, Ode4, Ode45, redysim};
+
+redysim! { struct Andrews("models/andrews.toml"); }
+
+/// Digits of `computed` that are right, of a published number other than zero.
+fn digits(computed: f64, published: f64) -> f64 {
+    -((computed - published).abs() / published.abs()).max(1e-16).log10()
+}
+
+#[test]
+fn andrews_mechanism_is_where_it_was_published_to_be() {
+    let loops = ClosedLoop::new(&Andrews);
+    let law = |_t: f64, q: &[f64; 7], _v: &[f64; 7]| andrews::torques(q);
+    let mut squeezing = ClosedLoopSimulation::new(loops, law);
+    let start = squeezing.start(&andrews::START, &[0.0; 7]).expect("the published start closes");
+    let mut gap = 0.0_f64;
+    let end = Ode45::new()
+        .rtol(1e-12)
+        .atol(1e-12)
+        .each_step(&mut squeezing, (0.0, 0.03), start, |step| {
+            let q: [f64; 7] = core::array::from_fn(|i| step.end().1[i]);
+            gap = Andrews::loop_residual(&q).iter().fold(gap, |gap, residual| gap.max(residual.abs()));
+        })
+        .expect("it reaches the end");
+    assert!(gap <= 1e-13, "{gap:e} m");
+    for i in 0..7 {
+        let (q, v) = (digits(end.y[i], andrews::END[i]), digits(end.y[7 + i], andrews::END_VELOCITIES[i]));
+        println!("{i}: {q:.1} digits of the position, {v:.1} of the velocity");
+        assert!(q >= 9.0, "coordinate {i}: {q:.1} digits");
+        assert!(v >= 7.0, "velocity {i}: {v:.1} digits");
+    }
+}
+
+/// Where the tip of the first crank is: exact, by elliptic functions.
+const TIP_AT_10: [f64; 2] = [0.180_512_226_686_790_1, 0.983_572_740_582_311_6];
+
+/// The motion of the windows while the cranks stay parallel: α̈ = c sin α for the angle from upright.
+fn exact_angle(windows: f64, duration: f64) -> f64 {
+    let c = 9.81 * ((windows + 1.0) / 2.0 + windows) / ((windows + 1.0) / 3.0 + windows);
+    let mut pendulum = |_t: f64, y: &[f64; 2], rate: &mut [f64; 2]| *rate = [y[1], c * y[0].sin()];
+    Ode45::new().rtol(1e-13).atol(1e-13).integrate(&mut pendulum, (0.0, duration), [0.0, 1.0]).expect("it turns").y[0]
+}
+
+/// 81 links and 80 conditions. A debug build has time for the first fold only: release builds take all of 10 s.
+#[test]
+fn forty_windows_fold_and_open_again() {
+    let duration = if cfg!(debug_assertions) { 0.7 } else { 10.0 };
+    let windows = generic("n_fourbar_40");
+    let dof = windows.tree().dof();
+    let alternating: Vec<f64> =
+        (0..dof).map(|i| if windows.model().links[i].name.starts_with("crank") { -1.0 } else { 1.0 }).collect();
+    let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&windows), Free);
+    let start = turn.start(&vec![0.0; dof], &alternating).expect("the start is closed");
+    let mut gap = 0.0_f64;
+    let end = Ode4::new(1e-2)
+        .each_step(&mut turn, (0.0, duration), start, |step| {
+            let q = step.end().1[..dof].to_vec();
+            gap = windows.loop_residual(&q).iter().fold(gap, |gap: f64, residual: &f64| gap.max(residual.abs()));
+        })
+        .expect("it passes the folded positions");
+    let angle = exact_angle(40.0, duration);
+    let error = (-end.y[0].sin() - angle.sin()).hypot(end.y[0].cos() - angle.cos());
+    println!("error of the tip {error:.1e} m, gap {gap:.1e} m");
+    assert!(error <= 1e-3, "{error:e} m");
+    // Forty metres from the base, ten units in the last place are 7e-14 m.
+    assert!(gap <= 1e-12, "{gap:e} m");
+}
+
+#[test]
+fn the_exact_motion_of_the_windows_is_the_published_one() {
+    let angle = exact_angle(40.0, 10.0);
+    assert!((angle.sin() - TIP_AT_10[0]).hypot(angle.cos() - TIP_AT_10[1]) < 1e-9);
+}
+
+#[test]
+fn errors_name_the_loop_and_the_joint() {
+    let loops = ClosedLoop::new(&Andrews);
+    let mut open = andrews::START;
+    open[2] += 0.01;
+    let error = ClosedLoopSimulation::new(loops, Free).start(&open, &[0.0; 7]).expect_err("an open start");
+    let told = loops.explain(error).to_string();
+    assert!(told.contains(" m; close it with `assemble`"), "{told}");
+    assert!(told.contains(&format!("belongs to the loop `{}`", Andrews::LOOP_NAMES[0])), "{told}");
+    let error = loops.assemble(&andrews::START, &[0.0; 7], &[9]).expect_err("there are seven");
+    assert!(loops.explain(error).to_string().ends_with("are counted from 0"));
+    let lost = redysim::LoopError::Unsupported { coordinate: 1, force: 2.0 };
+    assert!(loops.explain(lost).to_string().ends_with(&format!("that of the joint `{}`", Andrews::JOINT_NAMES[1])));
+}

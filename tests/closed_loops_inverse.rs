@@ -1,0 +1,132 @@
+//! Inverse dynamics of closed loops against ReDySim's own.
+//!
+//! Where the files come from: `tests/reference/README.md`.
+#![cfg(feature = "generic")]
+
+mod common;
+
+use common::comparison::Comparison;
+use redysim::{ClosedLoop, ClosedLoopInverse, LoopClosure, LoopError, Motion, redysim};
+use spatial::FourbarSpatial;
+
+#[allow(deprecated, reason = "the compiler warns of its redundant row")]
+mod spatial {
+    redysim::redysim! { pub struct FourbarSpatial("models/test/fourbar_spatial.toml"); }
+}
+
+redysim! { struct Fourbar("models/fourbar.toml"); }
+redysim! { struct ThreeRrr("models/three_rrr.toml"); }
+
+const GUESS: [f64; 3] = [0.0, 0.9844, 4.3144];
+/// 45 turns a minute.
+const SPEED: f64 = 4.712_388_980_384_69;
+
+fn turning(t: f64) -> Motion<[f64; 1], [f64; 1]> {
+    Motion { q: [SPEED * t], v: [SPEED], a: [0.0] }
+}
+
+fn rows(text: &str) -> impl Iterator<Item = Vec<f64>> + '_ {
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| line.split(',').map(|number| number.parse().expect("a number")).collect())
+}
+
+#[test]
+fn the_four_bar_needs_the_torque_of_redysim_along_the_whole_turn() {
+    let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS);
+    let mut forces = Comparison::new("crank torque and multipliers");
+    let mut motion = Comparison::new("motion");
+    for row in rows(include_str!("reference/golden_octave_ID_Hoken_Fourbar.csv")) {
+        let found = inverse.at(row[0], &turning).expect("the crank turns freely");
+        let Motion { q, v, a } = found.motion;
+        motion.add(&[q, v, a].concat(), &row[1..10]);
+        forces.add(&[found.forces[0], found.multipliers[0], found.multipliers[1]], &row[10..13]);
+        assert_eq!((found.rank, found.redundancy), (2, 0));
+        assert_eq!(found.forces[1..], [0.0, 0.0]);
+    }
+    motion.assert_within(1e-10);
+    forces.assert_within(1e-10);
+}
+
+#[test]
+fn no_assembly_mode_is_left_over_many_turns_and_far_instants() {
+    let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS);
+    let turn = std::f64::consts::TAU / SPEED;
+    let start = inverse.at(0.0, &turning).expect("it closes").motion.q;
+    let later = inverse.at(3.0 * turn, &turning).expect("it closes").motion.q;
+    for (i, way) in [6.0 * std::f64::consts::PI, 0.0, 0.0].into_iter().enumerate() {
+        assert!((later[i] - start[i] - way).abs() < 1e-12, "{later:?}");
+    }
+}
+
+#[test]
+fn the_three_legs_need_the_torques_of_redysim() {
+    let text = include_str!("reference/golden_octave_ID_3-RRR_Parallel_robot.csv");
+    let first: Vec<f64> = rows(text).next().expect("a row");
+    let guess: [f64; 7] = core::array::from_fn(|i| first[1 + i] + 1e-3);
+    let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&ThreeRrr), &[0, 3, 5], guess);
+    let mut motion = Comparison::new("motion");
+    let mut forces = Comparison::new("torques and multipliers");
+    for row in rows(text) {
+        let pick = |from: usize| [row[from], row[from + 3], row[from + 5]];
+        let prescribed = |_: f64| Motion { q: pick(1), v: pick(8), a: pick(15) };
+        let found = inverse.at(row[0], &prescribed).expect("it closes");
+        let Motion { q, v, a } = found.motion;
+        motion.add(&[q, v, a].concat(), &row[1..22]);
+        let torques = [0, 3, 5].map(|i| found.forces[i]);
+        forces.add(&[&torques[..], &found.multipliers[..]].concat(), &row[22..29]);
+        assert_eq!((found.rank, found.redundancy), (4, 0));
+    }
+    println!("{:?} {:?}", motion.worst(), forces.worst());
+    motion.assert_within(1e-9);
+    forces.assert_within(1e-9);
+}
+
+#[test]
+fn redundant_actuators_share_the_load_by_the_least_norm_and_it_is_said() {
+    let one = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).at(0.2, &turning).expect("it closes");
+    let mut both = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).actuated(&[0, 1]);
+    let found = both.at(0.2, &turning).expect("it closes");
+    assert_eq!((found.rank, found.redundancy), (2, 1));
+    let norm = |forces: &[f64], lambda: &[f64]| forces.iter().chain(lambda).map(|x| x * x).sum::<f64>();
+    assert!(norm(&found.forces, &found.multipliers) < 0.99 * norm(&one.forces, &one.multipliers));
+    // Both balance the tree; the least norm is orthogonal to their difference.
+    let jacobian = Fourbar::loop_jacobian(&found.motion.q);
+    let Motion { q, v, a } = found.motion;
+    let needed = Fourbar::inverse_dynamics(&q, &v, &a);
+    for i in 0..3 {
+        let by_loop: f64 = (0..2).map(|row| jacobian[row][i] * found.multipliers[row]).sum();
+        assert!((found.forces[i] + by_loop - needed[i]).abs() < 1e-12);
+    }
+    let pairs = found.forces.iter().chain(&found.multipliers).zip(one.forces.iter().chain(&one.multipliers));
+    let along: f64 = pairs.map(|(x, y)| x * (x - y)).sum();
+    assert!(along.abs() < 1e-10, "{along:e}");
+}
+
+#[test]
+fn redundant_rows_are_no_redundant_actuators() {
+    let planar = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).at(0.3, &turning).expect("it closes");
+    let mut spatial = ClosedLoopInverse::new(ClosedLoop::new(&FourbarSpatial), &[0], GUESS);
+    let found = spatial.at(0.3, &turning).expect("it closes");
+    assert!(LoopClosure::<f64, FourbarSpatial>::nc(&FourbarSpatial) > 2);
+    assert_eq!((found.rank, found.redundancy), (2, 0));
+    assert!((found.forces[0] - planar.forces[0]).abs() < 1e-10, "{found:?}");
+}
+
+#[test]
+fn what_cannot_be_followed_or_held_is_said() {
+    // The rocker swings, it does not turn: coordinate 1 cannot go round.
+    let swing = |t: f64| Motion { q: [GUESS[1] + t], v: [1.0], a: [0.0] };
+    let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[1], GUESS);
+    inverse.at(0.1, &swing).expect("within reach");
+    let error = inverse.at(3.0, &swing).unwrap_err();
+    assert!(matches!(error, LoopError::Unreachable { t: 3.0, coordinate: 1, gap } if gap > 1e-6), "{error}");
+
+    let nothing = |_: f64| Motion { q: [0.0; 0], v: [0.0; 0], a: [0.0; 0] };
+    let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[], GUESS).at(0.0, &nothing).unwrap_err();
+    assert_eq!(error, LoopError::LostRank { rank: 2, needed: 3, row: None });
+
+    let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).actuated(&[]).at(0.0, &turning);
+    assert!(matches!(error, Err(LoopError::Unsupported { .. })), "{error:?}");
+    let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[3], GUESS).at(0.0, &turning).unwrap_err();
+    assert_eq!(error, LoopError::BadCoordinate { coordinate: 3, count: 3 });
+}
