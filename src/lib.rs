@@ -1,4 +1,4 @@
-//! The dynamics of serial and tree-type mechanisms, made at compile time for the one mechanism you have.
+//! The dynamics of serial, tree-type and closed-loop mechanisms, made at compile time for the one mechanism you have.
 //!
 //! A model in TOML becomes a type by [`redysim!`] (or `#[derive(Mechanism)]`), checked while the program compiles. Its
 //! functions are the DeNOC recursions unrolled for that topology: no `std`, no allocation, no panics.
@@ -40,7 +40,8 @@
 //! ```
 //!
 //! Where to look: [`Mechanism`](trait@Mechanism) and the traits beside it for what a mechanism can do; [`Ode45`] and [`Ode5`] with
-//! [`ForwardSimulation`] for motion in time; [`TorqueLaw`] and [`Trajectory`] for what drives it.
+//! [`ForwardSimulation`] for motion in time; [`TorqueLaw`] and [`Trajectory`] for what drives it; [`closed_loop`] for
+//! mechanisms with loops.
 //!
 //! # Features
 //!

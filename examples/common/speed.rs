@@ -9,7 +9,7 @@ use super::progress::Progress;
 use super::table::{Table, headline, remark};
 
 /// States that calls go through, so that no result can be kept; few enough to stay in the innermost cache.
-const STATES: usize = 128;
+pub const STATES: usize = 128;
 /// A batch goes so many times through the states.
 const PASSES: usize = 16;
 const BATCHES: usize = 31;
@@ -55,6 +55,11 @@ where
     drop(progress);
     table.print();
     remark(&format!("Medians of {BATCHES} batches of {} calls, in turns, at changing states.", STATES * PASSES));
+    remark_debug();
+}
+
+/// Says so if times are those of a debug build.
+pub fn remark_debug() {
     if cfg!(debug_assertions) {
         remark("This is a debug build, whose times say nothing: run with --release.");
     }
@@ -107,6 +112,25 @@ where
 fn nanoseconds_per_call(batch: &dyn Fn()) -> f64 {
     let begun = Instant::now();
     batch();
+    begun.elapsed().as_nanos() as f64 / (STATES * PASSES) as f64
+}
+
+/// Time per call of two calls, ns: the medians of batches in turns. A call is given the number of the state, below
+/// [`STATES`], that it takes.
+pub fn side_by_side(mut one: impl FnMut(usize), mut other: impl FnMut(usize)) -> (f64, f64) {
+    let (mut times_of_one, mut times_of_other) = (Vec::new(), Vec::new());
+    for _ in 0..BATCHES {
+        times_of_one.push(nanoseconds_per_state(&mut one));
+        times_of_other.push(nanoseconds_per_state(&mut other));
+    }
+    (median(times_of_one), median(times_of_other))
+}
+
+fn nanoseconds_per_state(call: &mut impl FnMut(usize)) -> f64 {
+    let begun = Instant::now();
+    for _ in 0..PASSES {
+        (0..STATES).for_each(&mut *call);
+    }
     begun.elapsed().as_nanos() as f64 / (STATES * PASSES) as f64
 }
 
