@@ -121,3 +121,25 @@ fn a_torque_that_is_not_a_number_comes_out_with_the_reason() {
     assert!(matches!(error, IntegrationError::NonFiniteDerivative { .. }), "{error}");
     assert_eq!(simulation.last_error(), Some(LoopError::NotFinite));
 }
+
+#[test]
+fn the_four_bar_of_the_gui_is_mended_from_its_open_start() {
+    let fourbar = generic("fourbar_gui");
+    let shipped = vec![0.0, 145.54_f64.to_radians(), 130.54_f64.to_radians()];
+    let open = redysim::LoopClosure::loop_residual(&fourbar, &shipped);
+    assert!((open[0] - 3.4e-3).abs() < 1e-4 && (open[1] + 25.9e-3).abs() < 1e-4, "{open:?} m");
+    let assembly = ClosedLoop::new(&fourbar).assemble(&shipped, &vec![0.0; 3], &[0]).expect("it closes");
+    // At the consistent start both angles are the same, 130.54 degrees.
+    assert!(assembly.q[1..].iter().all(|angle| (angle - 2.278_380_763_520_252).abs() < 1e-9), "{:?}", assembly.q);
+    assert!((assembly.farthest.to_degrees() - 15.0).abs() < 0.01 && assembly.coordinate == 1);
+}
+
+#[test]
+fn a_mechanism_without_loops_is_closed_as_it_stands() {
+    let kr5 = generic("kr5");
+    let loops = ClosedLoop::new(&kr5);
+    let (q, v) = (vec![0.3; 6], vec![1.0; 6]);
+    let assembly = loops.assemble(&q, &v, &[]).expect("nothing is open");
+    assert_eq!((assembly.q, assembly.v, assembly.rank), (q.clone(), v.clone(), 0));
+    assert_eq!(loops.project(&q, &v).expect("nothing drifts").v, v);
+}

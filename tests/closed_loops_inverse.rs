@@ -130,3 +130,23 @@ fn what_cannot_be_followed_or_held_is_said() {
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[3], GUESS).at(0.0, &turning).unwrap_err();
     assert_eq!(error, LoopError::BadCoordinate { coordinate: 3, count: 3 });
 }
+
+#[test]
+fn accelerations_that_contradict_each_other_are_refused() {
+    let loops = ClosedLoop::new(&Fourbar);
+    let closed = loops.assemble(&[0.3, 1.1, 4.2], &[1.0, 0.0, 0.0], &[0]).expect("it closes");
+    let (q, v) = ([closed.q[0], closed.q[1]], [closed.v[0], closed.v[1]]);
+    let trajectory = |_t: f64| redysim::Motion { q, v, a: [0.0, 50.0] };
+    let error = ClosedLoopInverse::new(loops, &[0, 1], closed.q).at(0.0, &trajectory).unwrap_err();
+    assert!(matches!(error, LoopError::PullsApart { .. }), "{error}");
+}
+
+#[test]
+fn each_independent_coordinate_has_one_component_of_the_trajectory() {
+    let loops = ClosedLoop::new(&Fourbar);
+    let rest = |_t: f64| redysim::Motion { q: [0.0; 2], v: [0.0; 2], a: [0.0; 2] };
+    let error = ClosedLoopInverse::new(loops, &[0, 0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
+    assert_eq!(error, LoopError::RepeatedCoordinate { coordinate: 0 });
+    let error = ClosedLoopInverse::new(loops, &[0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
+    assert_eq!(error, LoopError::WrongTrajectory { given: 2, wanted: 1 });
+}

@@ -19,7 +19,10 @@ pub mod trajectory;
 mod trigonometry;
 pub mod vector;
 
-pub use closed_loop::{ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, LoopError, Stabilisation};
+pub use closed_loop::{
+    Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, ConstrainedMotion, Explained, LoopError, LoopForces,
+    Projection, Stabilisation,
+};
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
 pub use integrate::{IntegrationError, Integrator, Ode, Ode4, Ode5, Ode45, Solution, Statistics, Step};
 pub use mechanism::{

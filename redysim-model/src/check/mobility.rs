@@ -17,16 +17,21 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
         return Vec::new();
     }
     let mechanism = GenericMechanism::new(model.clone());
+    let empty = (0..model.loops.len()).filter(|&cut| mechanism.tree().loops_of_rows().all(|other| other != cut));
+    let mut findings: Vec<_> =
+        empty.map(|cut| (Some(cut), messages::loop_without_conditions(&model.loops[cut].name))).collect();
     let closed = match closed_positions(&mechanism) {
         Ok(closed) => closed,
-        Err(gap) => return vec![(None, messages::loops_stay_open(&model.name, STARTS, gap))],
+        Err(gap) => {
+            findings.push((None, messages::loops_stay_open(&model.name, STARTS, gap)));
+            return findings;
+        }
     };
     // A position may be singular; the rank of the mechanism is the largest.
-    let Some((q, rank)) = closed.into_iter().max_by_key(|(_, rank)| *rank) else { return Vec::new() };
+    let Some((q, rank)) = closed.into_iter().max_by_key(|(_, rank)| *rank) else { return findings };
     let rows = LoopClosure::<f64, _>::nc(&mechanism);
     let mobility = model.dof() - rank;
     let actuated = model.moving_links().filter(|link| link.actuated).count();
-    let mut findings = Vec::new();
     if rank < rows {
         let (loop_index, dependent) = first_redundant_loop(model, &q);
         let name = &model.loops[loop_index].name;

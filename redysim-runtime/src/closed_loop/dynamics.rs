@@ -55,7 +55,8 @@ impl<M, C> ClosedLoop<'_, M, C> {
         let bias = self.closure.loop_bias(q, v);
         let wanted = C::Rows::from_fn(self.closure.nc(), |row| -entry(&bias, row) - feedback(row));
         // In scaled coordinates: s = s₀ + Wᵀ λ with W s = b, so that Q s = R⁻¹ Tᵀ b.
-        let mut scaled = difference(tau, &self.mechanism.bias_forces(q, v));
+        let of_tree = self.mechanism.bias_forces(q, v);
+        let mut scaled = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(tau, i) - entry(&of_tree, i));
         at.metric.scale(&mut scaled);
         let change = difference(&at.space.solve(&wanted), &at.space.coordinates(&scaled));
         let by_loops = at.space.combination(&change);

@@ -59,6 +59,18 @@ pub enum LoopError<S> {
         /// How many coordinates there are.
         count: usize,
     },
+    /// A coordinate is prescribed twice.
+    RepeatedCoordinate {
+        /// The number that is given again.
+        coordinate: usize,
+    },
+    /// The trajectory has not one component for each independent coordinate.
+    WrongTrajectory {
+        /// How many components it has.
+        given: usize,
+        /// How many independent coordinates there are.
+        wanted: usize,
+    },
     /// A joint needs a force that neither its actuator nor the loops can give.
     Unsupported {
         /// The joint's coordinate.
@@ -105,6 +117,7 @@ impl<S> LoopError<S> {
         match self {
             Self::Unreachable { coordinate, .. }
             | Self::BadCoordinate { coordinate, .. }
+            | Self::RepeatedCoordinate { coordinate }
             | Self::Unsupported { coordinate, .. }
             | Self::SingularInertia { coordinate } => Some(*coordinate),
             _ => None,
@@ -149,12 +162,20 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             }
             Self::Unreachable { t, coordinate, gap } => write!(
                 f,
-                "the mechanism cannot follow its trajectory beyond t = {t:?} s: with coordinate {coordinate} moved on, \
+                "the mechanism cannot follow its trajectory to t = {t:?} s: with coordinate {coordinate} moved on, \
                  a gap of {gap:?} m remains; stay within the reach of the links, or ask for nearer instants"
             ),
             Self::BadCoordinate { coordinate, count } => write!(
                 f,
                 "there is no coordinate {coordinate}; the mechanism's {count} coordinates are counted from 0"
+            ),
+            Self::RepeatedCoordinate { coordinate } => {
+                write!(f, "coordinate {coordinate} is prescribed twice; name each independent coordinate once")
+            }
+            Self::WrongTrajectory { given, wanted } => write!(
+                f,
+                "the trajectory has {given} components for {wanted} independent coordinates; give one for each, in \
+                 positions, velocities and accelerations"
             ),
             Self::Unsupported { coordinate, force } => write!(
                 f,

@@ -9,7 +9,7 @@ use crate::vector::entry;
 use crate::{InverseDynamics, LoopClosure, MassMatrix, Motion, Real, Trajectory, Vector};
 
 /// An independent coordinate moves by no more than this from one closed position to the next, rad or m, so that the
-/// branch is kept between instants far apart.
+/// branch is kept between instants far apart. Where that takes more than `MOST_MOVES`, the moves are longer.
 const LARGEST_MOVE: f64 = 0.1;
 const MOST_MOVES: usize = 10_000;
 const ITERATIONS: usize = 100;
@@ -60,7 +60,7 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     /// # Errors
     /// [`LoopError::Unreachable`], [`LoopError::LostRank`] if the independent coordinates do not determine the others,
     /// [`LoopError::PullsApart`] if they contradict each other, [`LoopError::Unsupported`] if there are too few
-    /// actuators, [`LoopError::BadCoordinate`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    /// actuators, [`LoopError::WrongTrajectory`], [`LoopError::RepeatedCoordinate`], [`LoopError::BadCoordinate`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn at<S: Real, I: Vector<S>>(
         &mut self,
@@ -77,11 +77,19 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         if let Some(&coordinate) = self.independent.iter().chain(self.actuated).find(|&&index| index >= count) {
             return Err(LoopError::BadCoordinate { coordinate, count });
         }
+        if let Some(&coordinate) = repeated(self.independent) {
+            return Err(LoopError::RepeatedCoordinate { coordinate });
+        }
         let wanted = trajectory.at(t);
+        for given in [&wanted.q, &wanted.v, &wanted.a].map(|part| part.as_ref().len()) {
+            if given != self.independent.len() {
+                return Err(LoopError::WrongTrajectory { given, wanted: self.independent.len() });
+            }
+        }
         let q = self.follow(t, &wanted.q)?;
         let jacobian = closure.loop_jacobian(&q);
         let dependent = self.dependent(&jacobian, self.independent)?;
-        let needed = count - distinct(self.independent);
+        let needed = count - self.independent.len();
         if dependent.rank() < needed {
             return Err(LoopError::LostRank { rank: dependent.rank(), needed, row: dependent.dependent() });
         }
@@ -103,7 +111,14 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         if rate > small * (S::one() + largest(v.as_ref().iter().copied()).0) {
             return Err(LoopError::PullsApart { rate, row });
         }
-        let a = complete(&wanted.a, &closure.loop_bias(&q, &v));
+        let bias = closure.loop_bias(&q, &v);
+        let a = complete(&wanted.a, &bias);
+        let rates: C::Rows = product(jacobian.as_ref(), a.as_ref());
+        let misses = (0..closure.nc()).map(|row| entry(&rates, row) + entry(&bias, row));
+        let (rate, row) = largest(misses);
+        if rate > small * (S::one() + largest(a.as_ref().iter().chain(bias.as_ref()).copied()).0) {
+            return Err(LoopError::PullsApart { rate, row });
+        }
         let of_tree = mechanism.inverse_dynamics(&q, &v, &a);
         if !largest(of_tree.as_ref().iter().copied()).0.is_finite() {
             return Err(LoopError::NotFinite);
@@ -217,7 +232,7 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         for row in rows.as_mut() {
             without(row, known);
         }
-        RowSpace::new(rows)
+        RowSpace::new(rows, self.loops.mechanism.nv())
     }
 
     fn prescribe<S: Real, V: Vector<S>, I: Vector<S>>(&self, x: &mut V, given: &I) {
@@ -229,7 +244,7 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     }
 }
 
-/// How many different numbers there are.
-fn distinct(indices: &[usize]) -> usize {
-    indices.iter().enumerate().filter(|(i, a)| !indices.iter().take(*i).any(|b| b == *a)).count()
+/// The first number that stands there before.
+fn repeated(indices: &[usize]) -> Option<&usize> {
+    indices.iter().enumerate().find(|(i, a)| indices.iter().take(*i).any(|b| b == *a)).map(|(_, a)| a)
 }

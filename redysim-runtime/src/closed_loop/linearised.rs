@@ -40,7 +40,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
             without(row, held);
             metric.scale(row);
         }
-        Ok(Linearised { jacobian, metric, space: RowSpace::new(rows)? })
+        Ok(Linearised { jacobian, metric, space: RowSpace::new(rows, self.mechanism.nv())? })
     }
 }
 

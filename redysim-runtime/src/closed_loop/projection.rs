@@ -1,9 +1,10 @@
 //! Back to closed loops after a step of integration.
 
 use super::closing::Closing;
-use super::linear::{difference, largest};
+use super::linear::largest;
 use super::{ClosedLoop, LoopError};
-use crate::{LoopClosure, MassMatrix, Real};
+use crate::vector::entry;
+use crate::{LoopClosure, MassMatrix, Real, Vector};
 
 /// A handful of iterations are enough from near; where the mechanism is singular, each only halves the error.
 const ITERATIONS: usize = 20;
@@ -29,7 +30,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
     /// singular position does not determine.
     ///
     /// # Errors
-    /// [`LoopError::NoConvergence`] if more than 10⁻⁶ of the mechanism's size stays open; [`LoopError::SingularInertia`]
+    /// [`LoopError::NoConvergence`] if more than 10⁻⁶ of the mechanism's size (3·10⁻³ in `f32`) stays open; [`LoopError::SingularInertia`]
     /// and [`LoopError::NotFinite`].
     pub fn project<S: Real>(
         &self,
@@ -56,10 +57,13 @@ impl<M, C> ClosedLoop<'_, M, C> {
         C: LoopClosure<S, M>,
     {
         let closing = self.close(q.clone(), &[], ITERATIONS)?;
-        if closing.gap > S::from_f64(1e-6) * closing.at.scale() {
+        let open = S::from_f64(1e-6).maximum(S::from_f64(10.0) * S::EPSILON.sqrt());
+        if closing.gap > open * closing.at.scale() {
             return Err(LoopError::NoConvergence { gap: closing.gap, row: closing.row });
         }
-        let v = difference(v, &closing.at.pulling_apart(v));
+        // A velocity that a `Vec` lacks is NaN, and seen to be.
+        let apart = closing.at.pulling_apart(v);
+        let v = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(v, i) - entry(&apart, i));
         if !largest(v.as_ref().iter().copied()).0.is_finite() {
             return Err(LoopError::NotFinite);
         }

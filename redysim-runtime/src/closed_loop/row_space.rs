@@ -35,14 +35,16 @@ pub(super) struct RowSpace<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
     /// The rows of R.
     triangle: C::Gram,
     rank: usize,
+    /// The length of a row.
+    count: usize,
     nearly_singular: bool,
     dependent: Option<usize>,
     scalar: PhantomData<fn() -> (S, M)>,
 }
 
 impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
-    /// Decomposes the matrix with the given rows.
-    pub fn new(mut rows: C::Jacobian) -> Result<Self, LoopError<S>> {
+    /// Decomposes the matrix with the given rows, each of length `count`.
+    pub fn new(mut rows: C::Jacobian, count: usize) -> Result<Self, LoopError<S>> {
         let nc = rows.as_ref().len();
         let mut basis = rows.clone();
         let mut columns = C::Gram::from_fn(nc, |_| zeros(nc));
@@ -86,7 +88,7 @@ impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
         }
         let dependent = used.as_ref().iter().position(|&used| used == S::zero());
         let triangle = orthonormalise(&mut columns, rank);
-        Ok(Self { basis, columns, triangle, rank, nearly_singular, dependent, scalar: PhantomData })
+        Ok(Self { basis, columns, triangle, rank, count, nearly_singular, dependent, scalar: PhantomData })
     }
 
     /// How many rows are independent at this position.
@@ -115,8 +117,7 @@ impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
 
     /// Qᵀ c.
     pub fn combination(&self, coordinates: &C::Rows) -> M::Velocities {
-        let mut sum =
-            M::Velocities::from_fn(self.basis.as_ref().first().map_or(0, |row| row.as_ref().len()), |_| S::zero());
+        let mut sum = M::Velocities::from_fn(self.count, |_| S::zero());
         for (base, &coordinate) in self.basis.as_ref().iter().zip(coordinates.as_ref()).take(self.rank) {
             add_scaled(sum.as_mut(), coordinate, base.as_ref());
         }

@@ -117,8 +117,8 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     }
 
     /// The parts of a state at which the derivative is taken, and the loops there: the state itself, or, with the
-    /// projection near a singular position, the nearest one that keeps the loops closed. There the accelerations of a
-    /// state that is slightly open have nothing to do with those of one that is closed.
+    /// projection near a singular position or with redundant rows, the nearest one that keeps the loops closed: in a state
+    /// that is slightly open rows contradict each other, and the rank may be another.
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     fn taken_at(&self, state: &M::State) -> Result<(M::Coordinates, M::Velocities, Linearised<S, M, C>), LoopError<S>>
     where
@@ -128,7 +128,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         let SimulationState { q, v, .. } = self.split(state);
         let at = self.loops.linearise(&q, &[])?;
         if self.stabilisation == Stabilisation::Projection
-            && at.space.nearly_singular()
+            && (at.space.nearly_singular() || at.space.rank() < self.loops.closure.nc())
             && let Ok((closing, v)) = self.loops.nearest(&q, &v)
         {
             return Ok((closing.q, v, closing.at));

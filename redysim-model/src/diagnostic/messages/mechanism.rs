@@ -190,6 +190,14 @@ pub(crate) fn loops_stay_open(model: &str, starts: usize, gap: f64) -> Message {
     )
 }
 
+pub(crate) fn loop_without_conditions(name: &str) -> Message {
+    message(
+        format!("loop {}: what it asks for holds at every position", quoted(name)),
+        "no conditions",
+        "remove it, or check its links and points: the two sides may be held together by the tree already",
+    )
+}
+
 pub(crate) fn redundant_rows(name: &str, dependent: usize, rows: usize, rank: usize) -> Message {
     let follow = if dependent == 1 { "follows" } else { "follow" };
     message(
