@@ -6,7 +6,9 @@ mod common;
 
 use common::andrews;
 use common::models::generic;
-use redysim::{ClosedLoop, ClosedLoopSimulation, Free, Integrator, LoopClosure, Ode4, Ode45, redysim};
+use redysim::{
+    ClosedLoop, ClosedLoopSimulation, Free, Integrator, LoopClosure, MechanicalEnergy, Ode4, Ode45, redysim,
+};
 
 redysim! { struct Andrews("models/andrews.toml"); }
 
@@ -93,4 +95,31 @@ fn errors_name_the_loop_and_the_joint() {
     assert!(loops.explain(error).to_string().ends_with("are counted from 0"));
     let lost = redysim::LoopError::Unsupported { coordinate: 1, force: 2.0 };
     assert!(loops.explain(lost).to_string().ends_with(&format!("that of the joint `{}`", Andrews::JOINT_NAMES[1])));
+}
+
+#[test]
+fn the_other_linkages_keep_their_energy_and_stay_closed() {
+    let starts: [(&str, Vec<f64>); 3] = [
+        ("slider_crank", vec![-core::f64::consts::FRAC_PI_2, core::f64::consts::TAU, 2.0]),
+        ("three_rrr", vec![1.0467, 5.4206, -2.5357, 4.1883, -2.0939, 5.7637, -0.9869]),
+        ("leg", vec![0.0, 4.511, -2.7389, -0.8764, -1.4604, -1.4604, -1.6812]),
+    ];
+    for (name, guess) in starts {
+        let mechanism = generic(name);
+        let loops = ClosedLoop::new(&mechanism);
+        let dof = guess.len();
+        let assembly = loops.assemble(&guess, &vec![0.0; dof], &[]).expect("it closes");
+        assert!(assembly.farthest < 0.05, "{name} moved by {} rad", assembly.farthest);
+        let before = mechanism.energy(&assembly.q, &assembly.v).total();
+        let mut fall = ClosedLoopSimulation::new(loops, Free);
+        let start = fall.assembled(&assembly);
+        let end = Ode45::new().rtol(1e-9).atol(1e-9).integrate(&mut fall, (0.0, 0.2), start).expect("it falls");
+        let state = fall.split(&end.y);
+        let drift = (mechanism.energy(&state.q, &state.v).total() - before).abs();
+        let gap =
+            mechanism.loop_residual(&state.q).iter().fold(0.0, |gap: f64, residual: &f64| gap.max(residual.abs()));
+        let moved = state.q.iter().zip(&assembly.q).fold(0.0, |most: f64, (to, from)| most.max((to - from).abs()));
+        println!("{name}: energy off by {drift:.1e} J, open by {gap:.1e} m, moved by {moved:.1} rad");
+        assert!(drift < 1e-7 && gap < 1e-13 && moved > 0.01, "{name}: {drift:e} J, {gap:e} m, {moved} rad");
+    }
 }

@@ -77,8 +77,8 @@ fn the_three_legs_need_the_torques_of_redysim() {
         assert_eq!((found.rank, found.redundancy), (4, 0));
     }
     println!("{:?} {:?}", motion.worst(), forces.worst());
-    motion.assert_within(1e-9);
-    forces.assert_within(1e-9);
+    motion.assert_within(1e-10);
+    forces.assert_within(1e-10);
 }
 
 #[test]

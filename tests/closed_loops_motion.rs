@@ -305,3 +305,28 @@ fn a_torque_law_of_the_wrong_length_is_no_motion() {
     assert!(Ode4::new(1e-3).integrate(&mut fall, (0.0, 0.1), start).is_err());
     assert_eq!(fall.last_error(), Some(redysim::LoopError::NotFinite));
 }
+
+/// The four-bar can be put together in two ways, told apart by the side on which rocker and coupler bend.
+#[test]
+fn turning_all_the_way_round_never_changes_the_assembly_mode() {
+    let law = |_t: f64, _q: &[f64; 3], v: &[f64; 3]| [20.0 * (30.0 - v[0]), 0.0, 0.0];
+    let loops = ClosedLoop::new(&Fourbar);
+    for guess in [[0.3, 1.1, 4.2], [0.3, -1.1, -4.2]] {
+        let assembly = loops.assemble(&guess, &[30.0, 0.0, 0.0], &[0]).expect("it closes");
+        let mut turn = ClosedLoopSimulation::new(loops, law);
+        let start = turn.assembled(&assembly);
+        let side = f64::sin(start[2]).signum();
+        let mut last = start;
+        let end = Ode45::new()
+            .rtol(1e-7)
+            .atol(1e-7)
+            .each_step(&mut turn, (0.0, 1.0), start, |step| {
+                let y = step.end().1;
+                assert_eq!(y[2].sin().signum(), side, "the other mode at {y:?}");
+                assert!(difference(&y[..3], &last[..3]) < 0.5, "a jump from {last:?} to {y:?}");
+                last = *y;
+            })
+            .expect("it turns");
+        assert!(end.y[0] - start[0] > 2.0 * core::f64::consts::TAU, "full turns, not {}", end.y[0] - start[0]);
+    }
+}
