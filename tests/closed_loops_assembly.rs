@@ -143,3 +143,21 @@ fn a_mechanism_without_loops_is_closed_as_it_stands() {
     assert_eq!((assembly.q, assembly.v, assembly.rank), (q.clone(), v.clone(), 0));
     assert_eq!(loops.project(&q, &v).expect("nothing drifts").v, v);
 }
+
+#[test]
+fn a_link_that_weighs_next_to_nothing_closes_as_any_other() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/slider_crank.toml");
+    let mut model = redysim::generic::Model::load(path).expect("a good model").model;
+    for (link, factor) in model.links.iter_mut().zip([100.0, 1e-9, 10.0]) {
+        link.mass *= factor;
+        for moment in [&mut link.inertia.xx, &mut link.inertia.yy, &mut link.inertia.zz] {
+            *moment *= factor;
+        }
+    }
+    let light = redysim::generic::GenericMechanism::new(model);
+    let assembly = ClosedLoop::new(&light).assemble(&vec![-1.0, 0.4, 1.5], &vec![0.0; 3], &[0]).expect("it closes");
+    let heavy = generic("slider_crank");
+    let same = ClosedLoop::new(&heavy).assemble(&vec![-1.0, 0.4, 1.5], &vec![0.0; 3], &[0]).expect("it closes");
+    assert!(assembly.q.iter().zip(&same.q).all(|(a, b)| f64::abs(a - b) < 1e-12), "{:?} {:?}", assembly.q, same.q);
+    assert_eq!(assembly.rank, 2);
+}

@@ -2,6 +2,7 @@
 
 use super::closing::Ending;
 use super::linear::{difference, largest, norm, product};
+use super::linearised::Metric;
 use super::{ClosedLoop, LoopError};
 use crate::{LoopClosure, MassMatrix, Real};
 
@@ -33,7 +34,8 @@ pub struct Assembly<S, Q, V> {
 
 impl<M, C> ClosedLoop<'_, M, C> {
     /// Closes the loops from the guess `q` and fits the velocities to the guess `v`, with the coordinates `held` (and
-    /// their velocities) as they are; the others move as little as they can, in the metric of M.
+    /// their velocities) as they are; the others move as little as they can, in the metric of M (or, where that does not close them, of the
+    /// coordinates themselves).
     ///
     /// It stays on the branch of the guess: no coordinate moves by more than 0.2 rad (or m) in one iteration, and none
     /// of them widens the gap. The result is closed to 10⁻¹⁴ of the mechanism's size.
@@ -56,7 +58,11 @@ impl<M, C> ClosedLoop<'_, M, C> {
         if let Some(&coordinate) = held.iter().find(|&&coordinate| coordinate >= count) {
             return Err(LoopError::BadCoordinate { coordinate, count });
         }
-        let closing = self.close(q.clone(), held, ITERATIONS)?;
+        let mut closing = self.close(Metric::Mass, q.clone(), held, ITERATIONS)?;
+        if closing.ending != Ending::Closed {
+            // In the metric of M, a loop of links that weigh next to nothing seems to say nothing.
+            closing = self.close(Metric::Unit, q.clone(), held, ITERATIONS)?;
+        }
         let (gap, row) = (closing.gap, closing.row);
         match closing.ending {
             Ending::Closed => {}

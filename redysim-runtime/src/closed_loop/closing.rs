@@ -1,7 +1,7 @@
 //! Newton's method for the closure, on the branch of its guess.
 
 use super::linear::{largest, norm};
-use super::linearised::Linearised;
+use super::linearised::{Linearised, Metric};
 use super::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{LoopClosure, MassMatrix, Mechanism, Real, Vector};
@@ -38,10 +38,11 @@ pub(super) enum Ending {
 }
 
 impl<M, C> ClosedLoop<'_, M, C> {
-    /// Moves the coordinates that are not held, by steps that are shortest in the metric of M, until the loops are
+    /// Moves the coordinates that are not held, by steps that are shortest in the given metric, until the loops are
     /// closed to 10⁻¹⁴ of the mechanism's size (45 roundoff units) or the residual shrinks no more.
     pub(super) fn close<S: Real>(
         &self,
+        metric: Metric,
         mut q: M::Coordinates,
         held: &[usize],
         iterations: usize,
@@ -57,7 +58,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
             if !gap.is_finite() {
                 return Err(LoopError::NotFinite);
             }
-            let at = self.linearise(&q, held)?;
+            let at = self.linearise_in(metric, &q, held)?;
             if gap <= S::from_f64(45.0) * S::EPSILON * at.scale() {
                 return Ok(Closing { q, at, gap, row, ending: Ending::Closed });
             }

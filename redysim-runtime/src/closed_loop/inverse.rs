@@ -2,7 +2,7 @@
 
 use super::closing::Ending;
 use super::linear::{add_scaled, difference, dot, largest, product, zeros};
-use super::linearised::without;
+use super::linearised::{Metric, without};
 use super::row_space::RowSpace;
 use super::{ClosedLoop, LoopError};
 use crate::vector::entry;
@@ -167,7 +167,7 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
                     *element = if left == 0 { target } else { *element + part * (target - *element) };
                 }
             }
-            let closing = self.loops.close(q, self.independent, ITERATIONS)?;
+            let closing = self.loops.close(Metric::Mass, q, self.independent, ITERATIONS)?;
             if closing.ending != Ending::Closed {
                 let coordinate = self.independent.get(at).copied().unwrap_or(0);
                 return Err(LoopError::Unreachable { t, coordinate, gap: closing.gap });

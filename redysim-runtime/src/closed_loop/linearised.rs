@@ -13,10 +13,33 @@ pub(super) struct Linearised<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
     pub space: RowSpace<S, M, C>,
 }
 
+/// What the length of a displacement is measured by.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Metric {
+    /// The mass matrix, as dynamics asks for.
+    Mass,
+    /// One for every coordinate: the rank does not depend on masses.
+    Unit,
+}
+
 impl<M, C> ClosedLoop<'_, M, C> {
-    /// The loops at `q`; the coordinates `held` do not move in what is solved.
+    /// The loops at `q`, in the metric of M; the coordinates `held` do not move in what is solved.
     pub(super) fn linearise<S: Real>(
         &self,
+        q: &M::Coordinates,
+        held: &[usize],
+    ) -> Result<Linearised<S, M, C>, LoopError<S>>
+    where
+        M: MassMatrix<S>,
+        C: LoopClosure<S, M>,
+    {
+        self.linearise_in(Metric::Mass, q, held)
+    }
+
+    /// As [`linearise`](Self::linearise), in the given metric.
+    pub(super) fn linearise_in<S: Real>(
+        &self,
+        metric: Metric,
         q: &M::Coordinates,
         held: &[usize],
     ) -> Result<Linearised<S, M, C>, LoopError<S>>
@@ -30,7 +53,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
         // A coordinate that is held is a block of M by itself, and no row of J knows it.
         for (i, row) in matrix.as_mut().iter_mut().enumerate() {
             for (j, element) in row.as_mut().iter_mut().enumerate() {
-                if held.contains(&i) || held.contains(&j) {
+                if metric == Metric::Unit || held.contains(&i) || held.contains(&j) {
                     *element = if i == j { S::one() } else { S::zero() };
                 }
             }

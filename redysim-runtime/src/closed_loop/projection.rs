@@ -2,6 +2,7 @@
 
 use super::closing::Closing;
 use super::linear::largest;
+use super::linearised::Metric;
 use super::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{LoopClosure, MassMatrix, Real, Vector};
@@ -56,7 +57,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        let closing = self.close(q.clone(), &[], ITERATIONS)?;
+        let closing = self.close(Metric::Mass, q.clone(), &[], ITERATIONS)?;
         let open = S::from_f64(1e-6).maximum(S::from_f64(10.0) * S::EPSILON.sqrt());
         if closing.gap > open * closing.at.scale() {
             return Err(LoopError::NoConvergence { gap: closing.gap, row: closing.row });
