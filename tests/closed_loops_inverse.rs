@@ -123,7 +123,7 @@ fn what_cannot_be_followed_or_held_is_said() {
 
     let nothing = |_: f64| Motion { q: [0.0; 0], v: [0.0; 0], a: [0.0; 0] };
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[], GUESS).at(0.0, &nothing).unwrap_err();
-    assert_eq!(error, LoopError::LostRank { rank: 2, needed: 3, row: None });
+    assert_eq!(error, LoopError::LostRank { rank: 2, needed: 3, rows: redysim::Rows::default() });
 
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).actuated(&[]).at(0.0, &turning);
     assert!(matches!(error, Err(LoopError::Unsupported { .. })), "{error:?}");
@@ -149,4 +149,18 @@ fn each_independent_coordinate_has_one_component_of_the_trajectory() {
     assert_eq!(error, LoopError::RepeatedCoordinate { coordinate: 0 });
     let error = ClosedLoopInverse::new(loops, &[0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
     assert_eq!(error, LoopError::WrongTrajectory { given: 2, wanted: 1 });
+}
+
+redysim! { struct SliderCrank("models/slider_crank.toml"); }
+
+#[test]
+fn lost_rank_names_the_rows_that_say_nothing_new() {
+    let loops = ClosedLoop::new(&SliderCrank);
+    // Crank and coupler point opposite ways: the slider is at the crank's pivot, and the crank turns freely about it.
+    let closed = loops.assemble(&[0.0, core::f64::consts::PI, 0.0], &[0.0; 3], &[0, 2]).expect("it closes");
+    let rest = |_t: f64| Motion { q: [0.0], v: [0.0], a: [0.0] };
+    let error = ClosedLoopInverse::new(loops, &[2], closed.q).at(0.0, &rest).unwrap_err();
+    let LoopError::LostRank { rank: 1, needed: 2, rows } = error else { panic!("{error}") };
+    assert_eq!(rows.iter().count(), 1, "{error}");
+    assert!(loops.explain(error).to_string().contains(SliderCrank::LOOP_NAMES[0]), "{}", loops.explain(error));
 }

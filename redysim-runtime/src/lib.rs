@@ -21,7 +21,7 @@ pub mod vector;
 
 pub use closed_loop::{
     Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, ConstrainedMotion, Explained, LoopError, LoopForces,
-    Projection, Stabilisation,
+    Projection, Rows, Stabilisation,
 };
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
 pub use integrate::{IntegrationError, Integrator, Ode, Ode4, Ode5, Ode45, Solution, Statistics, Step};

@@ -35,7 +35,7 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     if rank < rows {
         let (loop_index, dependent) = first_redundant_loop(model, &q);
         let name = &model.loops[loop_index].name;
-        findings.push((Some(loop_index), messages::redundant_rows(name, dependent, rows, rank)));
+        findings.push((Some(loop_index), messages::redundant_rows(name, dependent, [model.dof(), rows, rank])));
     }
     if mobility == 0 {
         findings.push((None, messages::no_mobility(&model.name, model.dof(), rank)));

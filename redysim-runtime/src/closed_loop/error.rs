@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use super::Rows;
+
 /// What is wrong with a closed loop. Rows are counted from 0 in the order of `loop_residual`, coordinates in the model's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -40,8 +42,8 @@ pub enum LoopError<S> {
         rank: usize,
         /// How many they must determine.
         needed: usize,
-        /// The first row that says nothing new at this position; `None` if the loops have too few rows at any.
-        row: Option<usize>,
+        /// The rows that say nothing new at this position; none if the loops have too few rows at any.
+        rows: Rows,
     },
     /// The trajectory leaves what the mechanism can reach.
     Unreachable {
@@ -107,7 +109,7 @@ impl<S> LoopError<S> {
             | Self::PullsApart { row, .. }
             | Self::CannotClose { row, .. }
             | Self::NoConvergence { row, .. } => Some(*row),
-            Self::LostRank { row, .. } => *row,
+            Self::LostRank { rows, .. } => rows.iter().next(),
             _ => None,
         }
     }
@@ -149,16 +151,16 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
                 "closing the loop did not converge: the smallest gap reached is {gap:?} m, in row {row} of the loop \
                  residual; begin nearer to a closed position, or take smaller steps"
             ),
-            Self::LostRank { rank, needed, row } => {
+            Self::LostRank { rank, needed, rows } => {
                 write!(
                     f,
                     "the loops determine {rank} of the {needed} coordinates that are not prescribed; prescribe others, \
                      or keep away from this position"
                 )?;
-                match row {
-                    Some(row) => write!(f, ", where row {row} of the loop residual says nothing new"),
-                    None => Ok(()),
+                if rows.is_empty() {
+                    return Ok(());
                 }
+                write!(f, ", where these rows of the loop residual say nothing new: {rows}")
             }
             Self::Unreachable { t, coordinate, gap } => write!(
                 f,

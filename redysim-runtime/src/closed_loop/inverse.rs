@@ -88,10 +88,10 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         }
         let q = self.follow(t, &wanted.q)?;
         let jacobian = closure.loop_jacobian(&q);
-        let dependent = self.dependent(&jacobian, self.independent)?;
+        let dependent = self.without_columns(&jacobian, self.independent)?;
         let needed = count - self.independent.len();
         if dependent.rank() < needed {
-            return Err(LoopError::LostRank { rank: dependent.rank(), needed, row: dependent.dependent() });
+            return Err(LoopError::LostRank { rank: dependent.rank(), needed, rows: dependent.dependent_rows() });
         }
         // J_d x_d = b − J_i x_i.
         let complete = |given: &I, bias: &C::Rows| {
@@ -123,8 +123,8 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         if !largest(of_tree.as_ref().iter().copied()).0.is_finite() {
             return Err(LoopError::NotFinite);
         }
-        let rank = self.dependent(&jacobian, &[])?.rank();
-        let unactuated = self.dependent(&jacobian, self.actuated)?;
+        let rank = self.without_columns(&jacobian, &[])?.rank();
+        let unactuated = self.without_columns(&jacobian, self.actuated)?;
         let multipliers = self.multipliers(&jacobian, &unactuated, &of_tree);
         let mut forces = of_tree.clone();
         for (row, &multiplier) in jacobian.as_ref().iter().zip(multipliers.as_ref()) {
@@ -223,7 +223,11 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     }
 
     /// The rows of J without the columns of the coordinates `known`.
-    fn dependent<S: Real>(&self, jacobian: &C::Jacobian, known: &[usize]) -> Result<RowSpace<S, M, C>, LoopError<S>>
+    fn without_columns<S: Real>(
+        &self,
+        jacobian: &C::Jacobian,
+        known: &[usize],
+    ) -> Result<RowSpace<S, M, C>, LoopError<S>>
     where
         M: InverseDynamics<S>,
         C: LoopClosure<S, M>,

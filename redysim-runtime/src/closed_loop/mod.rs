@@ -21,6 +21,7 @@ mod linearised;
 mod mass_metric;
 mod projection;
 mod row_space;
+mod rows;
 mod simulation;
 mod stabilisation;
 
@@ -30,6 +31,7 @@ pub use error::LoopError;
 pub use explained::Explained;
 pub use inverse::{ClosedLoopInverse, LoopForces};
 pub use projection::Projection;
+pub use rows::Rows;
 pub use simulation::ClosedLoopSimulation;
 pub use stabilisation::Stabilisation;
 

@@ -8,8 +8,8 @@
 
 use core::marker::PhantomData;
 
-use super::LoopError;
 use super::linear::{add_scaled, dot, largest, norm, zeros};
+use super::{LoopError, Rows};
 use crate::{LoopClosure, Mechanism, Real, Vector};
 
 /// A row counts as dependent when what remains of it is at most this part of the longest row.
@@ -38,7 +38,7 @@ pub(super) struct RowSpace<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
     /// The length of a row.
     count: usize,
     nearly_singular: bool,
-    dependent: Option<usize>,
+    dependent: Rows,
     scalar: PhantomData<fn() -> (S, M)>,
 }
 
@@ -86,7 +86,8 @@ impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
             }
             rank = step + 1;
         }
-        let dependent = used.as_ref().iter().position(|&used| used == S::zero());
+        let unused = used.as_ref().iter().enumerate().filter(|(_, used)| **used == S::zero());
+        let dependent = unused.fold(Rows::default(), |rows, (row, _)| rows.with(row));
         let triangle = orthonormalise(&mut columns, rank);
         Ok(Self { basis, columns, triangle, rank, count, nearly_singular, dependent, scalar: PhantomData })
     }
@@ -101,8 +102,8 @@ impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
         self.nearly_singular
     }
 
-    /// The first row that says nothing new at this position.
-    pub fn dependent(&self) -> Option<usize> {
+    /// The rows that say nothing new at this position.
+    pub fn dependent_rows(&self) -> Rows {
         self.dependent
     }
 

@@ -1,0 +1,36 @@
+//! A set of rows of the loop residual.
+
+use core::fmt;
+
+/// Some of the first 128 rows of the loop residual; rows beyond are not recorded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rows(u128);
+
+impl Rows {
+    /// The set with one more row.
+    #[must_use]
+    pub fn with(self, row: usize) -> Self {
+        let bit = u32::try_from(row).ok().and_then(|row| 1_u128.checked_shl(row)).unwrap_or(0);
+        Rows(self.0 | bit)
+    }
+
+    /// Whether there are no rows in it.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The rows, in order.
+    pub fn iter(self) -> impl Iterator<Item = usize> {
+        (0..128).filter(move |row| self.0 >> row & 1 == 1)
+    }
+}
+
+/// The rows, with commas between them.
+impl fmt::Display for Rows {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, row) in self.iter().enumerate() {
+            write!(f, "{}{row}", if index == 0 { "" } else { ", " })?;
+        }
+        Ok(())
+    }
+}
