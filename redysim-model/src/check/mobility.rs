@@ -9,6 +9,8 @@ use redysim_runtime::closed_loop::{ClosedLoop, LoopError};
 /// Positions from which the loops are closed, and how many of them have to succeed.
 const STARTS: usize = 6;
 const SUCCESSES: usize = 2;
+/// A smaller element of the Jacobian is none.
+const ROUNDOFF: f64 = 1e-12;
 
 /// What is odd about the loops of a model without errors: each with the index of the loop, or of none where it is the
 /// mechanism as a whole.
@@ -20,29 +22,54 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     let empty = (0..model.loops.len()).filter(|&cut| mechanism.tree().loops_of_rows().all(|other| other != cut));
     let mut findings: Vec<_> =
         empty.map(|cut| (Some(cut), messages::loop_without_conditions(&model.loops[cut].name))).collect();
-    let closed = match closed_positions(&mechanism) {
-        Ok(closed) => closed,
+    let rows = LoopClosure::<f64, _>::nc(&mechanism);
+    let rank = match closed_positions(&mechanism) {
+        // Without a closed position, the structure alone says what the conditions could determine.
         Err(gap) => {
             findings.push((None, messages::loops_stay_open(&model.name, STARTS, gap)));
-            return findings;
+            structural_rank(&mechanism.loop_jacobian(&mechanism.tree().sample(1)))
+        }
+        Ok(closed) => {
+            // A position may be singular; the rank of the mechanism is the largest.
+            let Some((q, rank)) = closed.into_iter().max_by_key(|(_, rank)| *rank) else { return findings };
+            if rank < rows {
+                let structural = structural_rank(&mechanism.loop_jacobian(&q));
+                let (loop_index, dependent) = first_redundant_loop(model, &q);
+                let counts = [rows, model.dof() - structural, model.dof() - rank];
+                let message = messages::redundant_rows(&model.loops[loop_index].name, dependent, counts);
+                findings.push((Some(loop_index), message));
+            }
+            rank
         }
     };
-    // A position may be singular; the rank of the mechanism is the largest.
-    let Some((q, rank)) = closed.into_iter().max_by_key(|(_, rank)| *rank) else { return findings };
-    let rows = LoopClosure::<f64, _>::nc(&mechanism);
     let mobility = model.dof() - rank;
     let actuated = model.moving_links().filter(|link| link.actuated).count();
-    if rank < rows {
-        let (loop_index, dependent) = first_redundant_loop(model, &q);
-        let name = &model.loops[loop_index].name;
-        findings.push((Some(loop_index), messages::redundant_rows(name, dependent, [model.dof(), rows, rank])));
-    }
     if mobility == 0 {
         findings.push((None, messages::no_mobility(&model.name, model.dof(), rank)));
     } else if actuated > mobility {
         findings.push((None, messages::over_actuated(&model.name, actuated, mobility)));
     }
     findings
+}
+
+/// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank is,
+/// unless lengths and directions conspire (augmenting paths).
+fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
+    fn pair(row: usize, jacobian: &[Vec<f64>], seen: &mut [bool], rows_of: &mut [Option<usize>]) -> bool {
+        for column in 0..rows_of.len() {
+            if jacobian[row][column].abs() < ROUNDOFF || std::mem::replace(&mut seen[column], true) {
+                continue;
+            }
+            if rows_of[column].is_none_or(|other| pair(other, jacobian, seen, rows_of)) {
+                rows_of[column] = Some(row);
+                return true;
+            }
+        }
+        false
+    }
+    let columns = jacobian.first().map_or(0, Vec::len);
+    let mut rows_of = vec![None; columns];
+    (0..jacobian.len()).filter(|&row| pair(row, jacobian, &mut vec![false; columns], &mut rows_of)).count()
 }
 
 /// Closed positions with the rank of the loops there, or the smallest gap that any start leaves.
@@ -84,4 +111,18 @@ fn first_redundant_loop(model: &Model, q: &[f64]) -> (usize, usize) {
         before = (rows, rank);
     }
     (model.loops.len() - 1, 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::structural_rank;
+
+    #[test]
+    fn rows_that_share_their_only_column_have_one_between_them() {
+        assert_eq!(structural_rank(&[vec![1.0, 0.0, 0.0], vec![2.0, 0.0, 0.0]]), 1);
+        assert_eq!(structural_rank(&[vec![1.0, 1.0, 0.0], vec![2.0, 0.0, 0.0], vec![0.0, 3.0, 1.0]]), 3);
+        // Dependent by value, not by structure.
+        assert_eq!(structural_rank(&[vec![1.0, 1.0], vec![1.0, 1.0]]), 2);
+        assert_eq!(structural_rank(&[]), 0);
+    }
 }

@@ -198,13 +198,12 @@ pub(crate) fn loop_without_conditions(name: &str) -> Message {
     )
 }
 
-pub(crate) fn redundant_rows(name: &str, dependent: usize, [dof, rows, rank]: [usize; 3]) -> Message {
-    let (structural, mobility) = (dof as i64 - rows as i64, dof - rank);
+pub(crate) fn redundant_rows(name: &str, dependent: usize, [rows, structural, mobility]: [usize; 3]) -> Message {
     let follow = if dependent == 1 { "follows" } else { "follow" };
     message(
         format!("loop {}: {dependent} of its conditions {follow} from the others", quoted(name)),
         format!(
-            "by count {structural} velocities stay free, by rank {mobility}: of {rows} conditions {rank} are independent"
+            "the loops set {rows} conditions, which leave a mobility of {structural} by their structure, of {mobility} by their rank"
         ),
         "the motion is not affected; of the constraint forces those of least norm are given. A cut of another kind \
          (spherical instead of revolute) may leave them out",
