@@ -11,6 +11,7 @@ extern crate alloc;
 pub mod closed_loop;
 pub mod control;
 pub mod integrate;
+pub mod lanes;
 pub mod mechanism;
 pub mod operations;
 pub mod scalar;
