@@ -18,7 +18,7 @@ const NUMBERS: [f64; 18] = [
     3.4e20,
     1.0,
     f64::INFINITY,
-    1.5707963267948966,
+    std::f64::consts::FRAC_PI_2,
     0.0,
     f64::NAN,
     -6.0,
