@@ -67,6 +67,13 @@ pub trait Scalar:
         let _ = (quantity, body, component);
         self
     }
+
+    /// Says that the operations from here on are those of body `body` in the sweep `sweep` over all bodies. A symbolic
+    /// scalar notes it, to recognise bodies on which the same is done; a number does nothing.
+    #[inline(always)]
+    fn step(self, sweep: &'static str, body: usize) {
+        let _ = (sweep, body);
+    }
 }
 
 /// A scalar that stands for one real number: ordered, and convertible to `f64`.
