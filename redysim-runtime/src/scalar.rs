@@ -134,13 +134,16 @@ macro_rules! real {
             }
             #[inline(always)]
             fn mul_add(self, factor: Self, addend: Self) -> Self {
-                // `core` has no fused multiply-add; that of a vector becomes the scalar instruction.
-                if FUSED {
-                    let [sum, ..] = $vector::splat(self).mul_add(factor.into(), addend.into()).to_array();
-                    sum
-                } else {
-                    self * factor + addend
+                if !FUSED {
+                    return self * factor + addend;
                 }
+                // Where the target has the instruction, the one of `std` becomes it. `core` has none; that of a vector
+                // rounds the same, but is slower to compile and leaves moves between lanes in long functions.
+                #[cfg(feature = "std")]
+                let sum = $float::mul_add(self, factor, addend);
+                #[cfg(not(feature = "std"))]
+                let [sum, ..] = $vector::splat(self).mul_add(factor.into(), addend.into()).to_array();
+                sum
             }
         }
 
