@@ -199,6 +199,12 @@ impl Tree {
         self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
     }
 
+    /// The bodies whose parent is `body`.
+    pub fn children(&self, body: usize) -> impl Iterator<Item = usize> {
+        let later = self.bodies.iter().enumerate().skip(body + 1);
+        later.filter(move |(_, child)| child.parent == Some(body)).map(|(index, _)| index)
+    }
+
     /// The largest number of joints between the ground and a body.
     pub fn depth(&self) -> usize {
         let mut depths = vec![0; self.bodies.len()];

@@ -21,21 +21,25 @@ impl Emitter<'_> {
     /// The loop for sweep number `number`:
     ///
     /// ```text
-    /// let mut outward = [[S::zero(); 2]; 38];              // what is read elsewhere
-    /// let mut last_w_a_x = w_link2_x;                      // what goes from body to body
-    /// for group in 0..38 {
+    /// let mut last_w_a_x = w_link2_x;                                        // what goes from body to body
+    /// let outward: [[S; 2]; 38] = core::array::from_fn(|group| {             // what is read elsewhere
     ///     let constants = &CONSTANTS[group];
     ///     let w_a_x = …;
-    ///     outward[group] = [force_a_x, moment_a_z];
     ///     last_w_a_x = w_a_x;
-    /// }
+    ///     [force_a_x, moment_a_z]
+    /// });
     /// ```
     pub fn rolled_sweep(&self, number: usize) -> Statement {
         let rolled = self.rolled.as_ref().expect("only loops are rolled");
         let sweep = &rolled.sweeps[number];
         let mut outside = Scope::default();
-        let starts: Vec<TokenStream> =
-            sweep.carried.iter().map(|(_, start)| self.render(*start, Binding::Lowest, &mut outside)).collect();
+        let starts: Vec<TokenStream> = sweep
+            .carried
+            .iter()
+            .map(|(_, start)| {
+                start.map_or(quote!(S::zero()), |start| self.render(start, Binding::Lowest, &mut outside))
+            })
+            .collect();
         let mut inside = Scope { sweep: Some(number), needs: Vec::new() };
         let statements: Vec<Statement> = sweep
             .template
@@ -48,26 +52,24 @@ impl Emitter<'_> {
         let lasts: Vec<Ident> = values.iter().map(|ident| carried(ident)).collect();
         let (array, group, row) = (&self.arrays[number], local(GROUP), local(ROW));
         let kept: Vec<&Ident> = sweep.kept.iter().filter_map(|&node| ident(node)).collect();
-        let [groups, width] = [rolled.groups, kept.len()].map(Literal::usize_unsuffixed);
-        let keeping = (!kept.is_empty()).then(|| quote!(let mut #array = [[S::zero(); #width]; #groups];));
-        let keep = (!kept.is_empty()).then(|| quote!(#array[#group] = [#(#kept),*];));
-        let range = if sweep.ascending { quote!(0..#groups) } else { quote!((0..#groups).rev()) };
+        let [groups, width, last] = [rolled.groups, kept.len(), rolled.groups - 1].map(Literal::usize_unsuffixed);
+        let reversed = (!sweep.ascending).then(|| quote!(let #group = #last - #group;));
         let reads = self.reads_of_other_loops(rolled, number);
         let table = table(sweep, rolled.groups);
         let constants = (!sweep.columns.is_empty()).then(|| quote!(let #row = &CONSTANTS[#group];));
         let tokens = quote! {
-            #keeping
             #(let mut #lasts = #starts;)*
-            {
+            let #array: [[S; #width]; #groups] = {
                 #table
-                for #group in #range {
+                ::core::array::from_fn(|#group| {
+                    #reversed
                     #constants
                     #reads
                     #code
-                    #keep
                     #(#lasts = #values;)*
-                }
-            }
+                    [#(#kept),*]
+                })
+            };
         };
         let own = |node: &usize| sweep.template.binary_search(node).is_err();
         let needs = statements.into_iter().flat_map(|statement| statement.needs).filter(own);
@@ -77,16 +79,22 @@ impl Emitter<'_> {
     /// Takes what other loops have kept for the same group.
     fn reads_of_other_loops(&self, rolled: &Rolled, number: usize) -> TokenStream {
         let reads = rolled.sweeps[..number].iter().zip(&self.arrays).map(|(other, array)| {
-            let names: Vec<TokenStream> = other.kept.iter().map(|&node| {
-                let read = rolled.sweeps[number].template.iter().any(|&user| {
-                    self.graph.node(user).operands().any(|operand| operand.node() == node)
-                });
-                let ident = self.idents[node].as_ref().filter(|_| read);
-                ident.map_or(quote!(_), |ident| quote!(#ident))
-            }).collect();
-            let group = local(GROUP);
+            let names: Vec<TokenStream> = other
+                .kept
+                .iter()
+                .map(|&node| {
+                    let read = rolled.sweeps[number]
+                        .template
+                        .iter()
+                        .any(|&user| self.graph.node(user).operands().any(|operand| operand.node() == node));
+                    let ident = self.idents[node].as_ref().filter(|_| read);
+                    ident.map_or(quote!(_), |ident| quote!(#ident))
+                })
+                .collect();
             let any = names.iter().any(|name| name.to_string() != "_");
-            any.then(|| quote!(let [#(#names),*] = #array[#group];))
+            let (group, last) = (local(GROUP), Literal::usize_unsuffixed(rolled.groups - 1));
+            let turn = if other.ascending { quote!(#group) } else { quote!(#last - #group) };
+            any.then(|| quote!(let [#(#names),*] = #array[#turn];))
         });
         reads.flatten().collect()
     }

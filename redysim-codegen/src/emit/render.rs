@@ -82,9 +82,7 @@ impl Emitter<'_> {
         let operand = |edge, number| Operand { edge, user, number };
         let (own, tokens) = match self.graph.node(user) {
             Node::Add(a, b) => self.sum(operand(a, 0), operand(b, 1), scope),
-            Node::Subtract(a, b) => {
-                self.sum(operand(a, 0).flipped_if(flip), operand(b, 1).flipped_if(!flip), scope)
-            }
+            Node::Subtract(a, b) => self.sum(operand(a, 0).flipped_if(flip), operand(b, 1).flipped_if(!flip), scope),
             Node::Multiply(a, b) => {
                 let a = self.operand(operand(a, 0), Binding::Sum, scope);
                 let b = self.operand(operand(b, 1), Binding::Product, scope);
@@ -186,10 +184,17 @@ impl Emitter<'_> {
             }
             Some(_) => Some((place.negative, quote!(#ident))),
             None => {
-                let slot = self.rolled.as_ref()?.sweeps[place.sweep].kept.iter().position(|&node| node == place.image)?;
-                let [group, slot] = [place.group, slot].map(Literal::usize_unsuffixed);
+                let rolled = self.rolled.as_ref()?;
+                let sweep = &rolled.sweeps[place.sweep];
+                if place.group == rolled.last_group(place.sweep) {
+                    let last = super::loops::carried(ident?);
+                    return Some((place.negative, quote!(#last)));
+                }
+                let slot = sweep.kept.iter().position(|&node| node == place.image)?;
+                let slot = Literal::usize_unsuffixed(slot);
+                let turn = Literal::usize_unsuffixed(rolled.turn(place));
                 let array = &self.arrays[place.sweep];
-                Some((place.negative, quote!(#array[#group][#slot])))
+                Some((place.negative, quote!(#array[#turn][#slot])))
             }
         }
     }

@@ -123,7 +123,8 @@ impl Depths {
                 Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
                 Node::Divide(..) | Node::Sqrt(_) => 4,
             };
-            let operands = graph.node(index).operands().map(|operand| self.seen_from(graph, graph.step(index), operand.node()));
+            let operands =
+                graph.node(index).operands().map(|operand| self.seen_from(graph, graph.step(index), operand.node()));
             let depth = own + operands.max().unwrap_or(0);
             self.depths.push(depth);
         }
@@ -140,7 +141,11 @@ impl Depths {
     fn seen_from(&self, graph: &Graph, here: Option<Step>, operand: usize) -> u32 {
         match (here, graph.step(operand)) {
             (Some(here), Some(there)) if self.by_body && here != there => {
-                if here.sweep == there.sweep { LATE } else { 0 }
+                if here.sweep == there.sweep {
+                    LATE + self.depths[operand] % LATE
+                } else {
+                    0
+                }
             }
             _ => self.depths[operand],
         }

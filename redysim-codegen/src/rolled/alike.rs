@@ -35,11 +35,18 @@ enum Kind {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Operand {
     Constant,
-    Input { argument: u8, index: isize },
+    Input {
+        argument: u8,
+        index: isize,
+    },
     Sin(isize),
     Cos(isize),
     /// Operation `position` of the step of `sweep`.
-    Step { sweep: &'static str, body: isize, position: usize },
+    Step {
+        sweep: &'static str,
+        body: isize,
+        position: usize,
+    },
     /// An operation that belongs to no step.
     Outside(usize),
 }

@@ -17,7 +17,7 @@ use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 use alike::Steps;
 use signs::Signs;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 pub use table::Constant;
 
 /// The group of bodies that the others are compared with. It has a neighbour on either side.
@@ -54,9 +54,10 @@ pub struct Sweep {
     pub start: usize,
     /// The nodes of the template, in order.
     pub template: Vec<usize>,
-    /// Nodes of the template whose value in the group before is read, each with its value before the loop.
-    pub carried: Vec<(usize, Edge)>,
-    /// Nodes of the template that are read outside the loop.
+    /// Nodes of the template whose value in the group before is read, or that of the last group after the loop. Each with
+    /// its value before the loop, if any.
+    pub carried: Vec<(usize, Option<Edge>)>,
+    /// Nodes of the template of which other code reads the values of several groups.
     pub kept: Vec<usize>,
     /// Columns of the table of constants: for each, its value for every group.
     pub columns: Vec<Vec<f64>>,
@@ -89,8 +90,8 @@ impl Rolled {
             // The signs of a longer run may contradict each other where those of a shorter one do not.
             while groups >= FEWEST_GROUPS {
                 match Rolled::over(expressions, live, &steps, bodies.start, period, groups) {
-                    Ok(rolled) => return Some(rolled),
-                    Err(consistent) => groups = consistent.min(groups - 1),
+                    Some(rolled) => return Some(rolled),
+                    None => groups = groups * 3 / 4,
                 }
             }
             None
@@ -103,12 +104,28 @@ impl Rolled {
         self.places.get(&node).copied()
     }
 
+    /// The group with which a sweep starts.
+    pub fn first_group(&self, sweep: usize) -> usize {
+        if self.sweeps[sweep].ascending { 0 } else { self.groups - 1 }
+    }
+
+    /// The group with which a sweep ends.
+    pub fn last_group(&self, sweep: usize) -> usize {
+        if self.sweeps[sweep].ascending { self.groups - 1 } else { 0 }
+    }
+
+    /// At which turn of its loop a value is computed.
+    pub fn turn(&self, place: Place) -> usize {
+        if self.sweeps[place.sweep].ascending { place.group } else { self.groups - 1 - place.group }
+    }
+
     /// The constant that is operand `operand` of a node of a template.
     pub fn constant(&self, node: usize, operand: usize) -> Option<Constant> {
         self.constants.get(&(node, operand)).copied()
     }
 
-    /// Loops over the given groups of bodies, or the number of groups up to which signs are consistent.
+    /// Loops over the given groups of bodies; `None` if their signs contradict each other or one loop cannot run after
+    /// the other.
     fn over(
         expressions: &Expressions,
         live: &[bool],
@@ -116,7 +133,7 @@ impl Rolled {
         first: usize,
         period: usize,
         groups: usize,
-    ) -> Result<Rolled, usize> {
+    ) -> Option<Rolled> {
         let graph = &expressions.graph;
         let mut sweeps = Vec::new();
         let mut places = HashMap::new();
@@ -147,35 +164,38 @@ impl Rolled {
             place.sweep = order[graph.step(node).map_or("", |step| step.sweep)];
         }
         let mut members: Vec<usize> = places.keys().copied().collect();
-        members.sort_unstable_by_key(|&node| (places[&node].group, node));
+        members.sort_unstable();
         let signs = Signs::of(graph, &members, &places)?;
         for (&node, place) in &mut places {
             place.negative = signs.is_negative(node);
         }
         let template_body = first + TEMPLATE * period;
         let mut rolled = Rolled { groups, period, template_body, sweeps, places, constants: HashMap::new() };
-        rolled.connect(expressions, live, &signs).ok_or(0_usize)?;
+        rolled.connect(expressions, live, &signs)?;
         rolled.tabulate(graph, &signs, &members);
-        Ok(rolled)
+        Some(rolled)
     }
 
     /// Finds what each loop carries on and keeps; `None` where the loops cannot run one after the other.
     fn connect(&mut self, expressions: &Expressions, live: &[bool], signs: &Signs) -> Option<()> {
         let graph = &expressions.graph;
         let mut kept: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.sweeps.len()];
-        for output in &expressions.outputs {
-            if let Some(place) = self.place(output.node()) {
-                kept[place.sweep].insert(place.image);
+        let mut carried: Vec<BTreeMap<usize, Option<Edge>>> = vec![BTreeMap::new(); self.sweeps.len()];
+        let mut read_outside = |rolled: &Rolled, carried: &mut [BTreeMap<usize, Option<Edge>>], read: Place| {
+            if read.group == rolled.last_group(read.sweep) {
+                carried[read.sweep].entry(read.image).or_insert(None);
+            } else {
+                kept[read.sweep].insert(read.image);
             }
+        };
+        for place in expressions.outputs.iter().filter_map(|output| self.place(output.node())) {
+            read_outside(self, &mut carried, place);
         }
-        let mut carried: Vec<HashMap<usize, Edge>> = vec![HashMap::new(); self.sweeps.len()];
         for node in (0..graph.len()).filter(|&node| live[node]) {
             let user = self.place(node);
             for (operand, edge) in graph.node(node).operands().enumerate() {
                 match (user, self.place(edge.node())) {
-                    (None, Some(read)) => {
-                        kept[read.sweep].insert(read.image);
-                    }
+                    (None, Some(read)) => read_outside(self, &mut carried, read),
                     (Some(user), Some(read)) if user.sweep == read.sweep => {
                         let sweep = &self.sweeps[user.sweep];
                         let before = if sweep.ascending { user.group.checked_sub(1) } else { Some(user.group + 1) };
@@ -188,7 +208,7 @@ impl Rolled {
                         if read.group != user.group || !runs_before {
                             return None;
                         }
-                        kept[read.sweep].insert(read.image);
+                        read_outside(self, &mut carried, Place { group: TEMPLATE, ..read });
                     }
                     (Some(user), None) if live[edge.node()] => {
                         let sweep = &self.sweeps[user.sweep];
@@ -198,12 +218,11 @@ impl Rolled {
                         // At the start of a sweep, what the loop carries on comes from outside.
                         let same = graph.node(user.image).operands().nth(operand)?;
                         if let Some(image) = self.place(same.node()) {
-                            let first = if sweep.ascending { 0 } else { self.groups - 1 };
-                            if user.group != first || image.sweep != user.sweep {
+                            if user.group != self.first_group(user.sweep) || image.sweep != user.sweep {
                                 return None;
                             }
                             let start = edge.abs().flipped_if(signs.is_negative(edge.node()));
-                            carried[user.sweep].insert(image.image, start);
+                            carried[user.sweep].insert(image.image, Some(start));
                         }
                     }
                     _ => {}
@@ -212,8 +231,7 @@ impl Rolled {
         }
         for (index, sweep) in self.sweeps.iter_mut().enumerate() {
             sweep.kept = kept[index].iter().copied().collect();
-            sweep.carried = carried[index].iter().map(|(&image, &start)| (image, start)).collect();
-            sweep.carried.sort_unstable();
+            sweep.carried = std::mem::take(&mut carried[index]).into_iter().collect();
         }
         Some(())
     }

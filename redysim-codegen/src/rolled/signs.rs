@@ -1,8 +1,9 @@
 //! Which values of a group of bodies are the negatives of those of the template.
 //!
 //! With a sign for each value, a sum asks that both of its terms carry the sign of the sum, a product has the product
-//! of the signs of its factors, and a product with a constant may have either, since the constant takes it. That is
-//! solved by joining values into classes whose signs hang together, in the order of the operations.
+//! of the signs of its factors, and a product with a constant may have either, since the constant takes it. Values
+//! whose signs hang together are joined into classes, in the order of the operations. Where a sign is wanted before
+//! anything is known of it, it becomes an unknown, and a class that closes on itself gives an equation for the unknowns.
 
 use super::{Place, TEMPLATE};
 use crate::graph::{Edge, Graph, Node};
@@ -10,36 +11,71 @@ use std::collections::HashMap;
 
 /// Signs of nodes relative to their images in the template.
 pub struct Signs {
-    /// A parent in the forest of classes, and whether the sign differs from the parent's.
-    parents: Vec<(usize, bool)>,
+    /// A parent in the forest of classes, and the sign relative to the parent's.
+    parents: Vec<(usize, Sign)>,
+    /// For each unknown, what it is equal to, if that is known.
+    unknowns: Vec<Option<Sign>>,
+    /// The element whose sign is plus, the root of its class.
+    plus: usize,
 }
 
-/// Two signs contradict each other.
+/// A product of signs: minus, and unknowns by their number.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Sign(u64);
+
+impl Sign {
+    const PLUS: Sign = Sign(0);
+    const MINUS: Sign = Sign(1 << 63);
+    /// The most unknowns that there can be.
+    const UNKNOWNS: usize = 63;
+
+    fn minus_if(negative: bool) -> Sign {
+        if negative { Sign::MINUS } else { Sign::PLUS }
+    }
+
+    fn unknown(number: usize) -> Sign {
+        Sign(1 << number)
+    }
+
+    fn has(self, unknown: usize) -> bool {
+        self.0 >> unknown & 1 == 1
+    }
+}
+
+impl std::ops::Mul for Sign {
+    type Output = Sign;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "equal signs cancel")]
+    fn mul(self, other: Sign) -> Sign {
+        Sign(self.0 ^ other.0)
+    }
+}
+
+/// Two signs contradict each other, or there are too many unknowns.
 struct Contradiction;
 
 impl Signs {
-    /// The signs of the nodes `members`, which are in the order of groups; or the number of groups up to which there is
-    /// no contradiction.
-    pub fn of(graph: &Graph, members: &[usize], places: &HashMap<usize, Place>) -> Result<Signs, usize> {
-        // The class of the last element has the sign plus.
-        let mut signs = Signs { parents: (0..=graph.len()).map(|node| (node, false)).collect() };
+    /// The signs of the nodes `members`, which are in the order of operations; `None` where they contradict each other.
+    pub fn of(graph: &Graph, members: &[usize], places: &HashMap<usize, Place>) -> Option<Signs> {
+        let plus = graph.len();
+        let parents = (0..=plus).map(|node| (node, Sign::PLUS)).collect();
+        let mut signs = Signs { parents, unknowns: Vec::new(), plus };
         for (&node, place) in places {
             if place.group == TEMPLATE {
-                signs.parents[node] = (graph.len(), false);
+                signs.parents[node] = (plus, Sign::PLUS);
             }
         }
         for &node in members {
             let place = places[&node];
-            if place.group != TEMPLATE && signs.relate(graph, node, place.image).is_err() {
-                return Err(place.group);
+            if place.group != TEMPLATE {
+                signs.relate(graph, node, place.image).ok()?;
             }
         }
-        Ok(signs)
+        Some(signs)
     }
 
     /// Whether the value of `node` is the negative of its image's. Values that nothing ties have the sign plus.
     pub fn is_negative(&self, node: usize) -> bool {
-        self.find(node).1
+        self.solved(self.find(node).1).has(63)
     }
 
     fn relate(&mut self, graph: &Graph, node: usize, image: usize) -> Result<(), Contradiction> {
@@ -48,74 +84,104 @@ impl Signs {
                 let differs = matches!(own, Node::Add(..)) != matches!(other, Node::Add(..));
                 for (operand, image, differs) in [(a, x, false), (b, y, differs)] {
                     if graph.constant_value(operand).is_none() {
-                        let known = self.of_image(graph, image)?;
-                        self.join(node, self.operand(graph, operand), differs != known)?;
+                        let known = self.known(self.element(graph, image))?;
+                        self.join(node, self.element(graph, operand), Sign::minus_if(differs) * known)?;
                     }
                 }
                 Ok(())
             }
             (Node::Multiply(a, b), Node::Multiply(x, y)) | (Node::Divide(a, b), Node::Divide(x, y)) => {
                 if graph.constant_value(a).is_some() {
-                    return Ok(());
+                    // A numerator is the same in all groups: pivots are turned round by nothing.
+                    let quotient = matches!(graph.node(node), Node::Divide(..));
+                    let known = if quotient { self.known(self.element(graph, y))? } else { return Ok(()) };
+                    return self.join(node, self.element(graph, b), known);
                 }
-                let known = self.of_image(graph, x)? != self.of_image(graph, y)?;
-                let (a, b) = (self.operand(graph, a), self.operand(graph, b));
-                let plus = graph.len();
-                let fixed = match (self.find(a), self.find(b)) {
-                    ((root, sign), _) if root == plus => (b, sign),
-                    (_, (root, sign)) if root == plus => (a, sign),
-                    _ => {
-                        self.join(a, plus, false)?;
-                        (b, false)
-                    }
-                };
-                self.join(node, fixed.0, fixed.1 != known)
+                let known = self.known(self.element(graph, x))? * self.known(self.element(graph, y))?;
+                let (mut a, mut b) = (self.element(graph, a), self.element(graph, b));
+                let ((root_a, sign_a), (root_b, sign_b)) = (self.find(a), self.find(b));
+                if root_a == root_b {
+                    return self.join(node, self.plus, sign_a * sign_b * known);
+                }
+                if root_b == self.plus {
+                    (a, b) = (b, a);
+                }
+                let factor = self.known(a)?;
+                self.join(node, b, factor * known)
             }
             (Node::Sqrt(a), Node::Sqrt(x)) => {
-                let known = self.of_image(graph, x)?;
-                self.join(self.operand(graph, a), graph.len(), known)?;
-                self.join(node, graph.len(), false)
+                let known = self.known(self.element(graph, x))?;
+                self.join(self.element(graph, a), self.plus, known)?;
+                self.join(node, self.plus, Sign::PLUS)
             }
             _ => Ok(()),
         }
     }
 
     /// The element that stands for the sign of an operand: inputs, sines and cosines are what they are.
-    fn operand(&self, graph: &Graph, edge: Edge) -> usize {
+    fn element(&self, graph: &Graph, edge: Edge) -> usize {
         let fixed = matches!(graph.node(edge.node()), Node::Input { .. } | Node::Sin(_) | Node::Cos(_));
-        if fixed { graph.len() } else { edge.node() }
+        if fixed { self.plus } else { edge.node() }
     }
 
-    /// The sign of an operand in the template; where it is in another group and free, it becomes plus.
-    fn of_image(&mut self, graph: &Graph, edge: Edge) -> Result<bool, Contradiction> {
-        let element = self.operand(graph, edge);
-        let (root, sign) = self.find(element);
-        if root != graph.len() {
-            self.join(element, graph.len(), false)?;
-            return Ok(false);
+    /// The sign of an element, an unknown if nothing is known of it yet.
+    fn known(&mut self, element: usize) -> Result<Sign, Contradiction> {
+        if self.find(element).0 != self.plus {
+            let unknown = self.unknowns.len();
+            if unknown == Sign::UNKNOWNS {
+                return Err(Contradiction);
+            }
+            self.unknowns.push(None);
+            self.join(element, self.plus, Sign::unknown(unknown))?;
         }
-        Ok(sign)
+        Ok(self.solved(self.find(element).1))
     }
 
-    fn find(&self, node: usize) -> (usize, bool) {
-        let (mut at, mut sign) = (node, false);
+    /// The root of a class, and the sign relative to it.
+    fn find(&self, element: usize) -> (usize, Sign) {
+        let (mut at, mut sign) = (element, Sign::PLUS);
         while self.parents[at].0 != at {
-            let (parent, differs) = self.parents[at];
-            (at, sign) = (parent, sign != differs);
+            let (parent, relative) = self.parents[at];
+            (at, sign) = (parent, sign * relative);
         }
         (at, sign)
     }
 
-    /// The signs of `a` and `b` differ if `differs`, and are the same if not.
-    fn join(&mut self, a: usize, b: usize, differs: bool) -> Result<(), Contradiction> {
+    /// The sign of `a` is that of `b` times `relative`.
+    fn join(&mut self, a: usize, b: usize, relative: Sign) -> Result<(), Contradiction> {
         let ((a, sign_a), (b, sign_b)) = (self.find(a), self.find(b));
-        let differs = differs != (sign_a != sign_b);
+        let relative = self.solved(relative * sign_a * sign_b);
         if a == b {
-            return if differs { Err(Contradiction) } else { Ok(()) };
+            return self.equals_plus(relative);
         }
-        // The class of the sign plus, which is the last element, stays the root.
+        // The element of the sign plus is the last one and stays the root.
         let (child, root) = if a < b { (a, b) } else { (b, a) };
-        self.parents[child] = (root, differs);
+        self.parents[child] = (root, relative);
         Ok(())
+    }
+
+    /// The equation that a product of signs is plus.
+    fn equals_plus(&mut self, sign: Sign) -> Result<(), Contradiction> {
+        if sign == Sign::PLUS {
+            return Ok(());
+        }
+        let Some(unknown) = (0..self.unknowns.len()).find(|&unknown| sign.has(unknown)) else {
+            return Err(Contradiction);
+        };
+        let value = sign * Sign::unknown(unknown);
+        for known in self.unknowns.iter_mut().flatten().filter(|known| known.has(unknown)) {
+            *known = *known * Sign::unknown(unknown) * value;
+        }
+        self.unknowns[unknown] = Some(value);
+        Ok(())
+    }
+
+    /// A sign with the known unknowns replaced.
+    fn solved(&self, sign: Sign) -> Sign {
+        let known = self.unknowns.iter().enumerate().filter(|(unknown, _)| sign.has(*unknown));
+        known.fold(sign, |sign, (unknown, value)| match value {
+            Some(value) => sign * Sign::unknown(unknown) * *value,
+            None => sign,
+        })
     }
 }

@@ -81,25 +81,22 @@ pub fn inverse_dynamics<S: Scalar>(tree: &Tree, q: &[S], v: &[S], a: &[S]) -> Ve
                 linear = linear + Vec3([y * twice, -(x * twice), acceleration]);
             }
         }
-        let motion = BodyMotion::new(
-            angular.named("w", index),
-            angular_rate.named("dw", index),
-            linear.named("acc", index),
-        );
+        let motion =
+            BodyMotion::new(angular.named("w", index), angular_rate.named("dw", index), linear.named("acc", index));
         wrenches.push(motion.wrench(&body.inertia));
         motions.push(motion);
     }
     let mut tau = vec![S::zero(); tree.dof()];
-    for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
+    for (index, body) in tree.bodies.iter().enumerate().rev() {
         q[body.coordinate].step("inward", index);
-        let (force, moment) = wrenches[index];
-        let (force, moment) = (force.named("force", index), moment.named("moment", index));
-        tau[body.coordinate] = along_joint(body.joint, force, moment).named("tau", index, "");
-        if let Some(parent) = body.parent {
-            let (force, moment) = frame.wrench_to_parent(force, moment);
-            wrenches[parent].0 = wrenches[parent].0 + force;
-            wrenches[parent].1 = wrenches[parent].1 + moment;
+        let (mut force, mut moment) = wrenches[index];
+        // Taken from the children, not handed to the parent: so the sum for one body is one sum.
+        for child in tree.children(index) {
+            let load = frames[child].wrench_to_parent(wrenches[child].0, wrenches[child].1);
+            (force, moment) = (force + load.0, moment + load.1);
         }
+        wrenches[index] = (force.named("force", index), moment.named("moment", index));
+        tau[body.coordinate] = along_joint(body.joint, force, moment).named("tau", index, "");
     }
     tau
 }
