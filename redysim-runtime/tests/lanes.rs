@@ -4,8 +4,9 @@ use redysim_runtime::lanes::{F32x8, F32x16, F64x2, F64x4, F64x8, Lanes, pack, un
 use redysim_runtime::scalar::FUSED;
 use redysim_runtime::{Real, Scalar};
 
-/// Numbers of all sizes, angles that every path of the reduction takes, and what is not finite.
-const NUMBERS: [f64; 18] = [
+/// Numbers of all sizes, angles that every path of the reduction takes, two between quarter turns, of which either may be
+/// taken for the nearest, and what is not finite.
+const NUMBERS: [f64; 20] = [
     0.3,
     -1.7,
     2.5,
@@ -24,6 +25,8 @@ const NUMBERS: [f64; 18] = [
     -6.0,
     1e-40,
     22.0,
+    -1.8108925453454965e4,
+    -2.0849965043712058e4,
 ];
 
 /// Checks an operation on lanes against the same on numbers, with each of `NUMBERS` in each lane.

@@ -6,7 +6,7 @@
 //! cosine), are evaluated.
 
 use super::angle::Angle;
-use super::reduction;
+use super::reduction::{self, Reduced};
 use super::several::{Kernel, several};
 use crate::lanes::Lanes;
 
@@ -44,6 +44,23 @@ impl Kernel<f64> for Double {
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]
 pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
+    let (Reduced { rounded, rest, tail }, good) = reduced(x);
+    if !good {
+        // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
+        return x.one_by_one(|x| {
+            let (quick, good) = reduced(x);
+            let angle = if good { quick } else { reduction::reduced(x) };
+            let (sin, cos) = kernel(angle.rest, angle.tail);
+            f64::turned(angle.rounded, sin, cos)
+        });
+    }
+    let (sin, cos) = kernel(rest, tail);
+    A::turned(rounded, sin, cos)
+}
+
+/// The reduction that is good for nearly all angles, and whether it is good for all of these.
+#[inline(always)]
+fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
     let k = A::from_f64;
     let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
     let minus_n = k(ROUNDER) - rounded;
@@ -52,16 +69,8 @@ pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
     let first = minus_n.mul_add(k(HALF_PI[0]), x);
     let rest = minus_n.mul_add(k(HALF_PI[1]), first);
     let tail = minus_n.mul_add(k(HALF_PI[1]), first - rest);
-    let reduced = x.all_within(k(MANY_TURNS)) & (minus_n * k(TOO_SMALL)).all_within(rest);
-    if !reduced {
-        return x.one_by_one(|x| {
-            let angle = reduction::reduced(x);
-            let (sin, cos) = kernel(angle.rest, angle.tail);
-            f64::turned(angle.rounded, sin, cos)
-        });
-    }
-    let (sin, cos) = kernel(rest, tail);
-    A::turned(rounded, sin, cos)
+    let good = x.all_within(k(MANY_TURNS)) & (minus_n * k(TOO_SMALL)).all_within(rest);
+    (Reduced { rounded, rest, tail }, good)
 }
 
 /// (sin r − r) / r³ as a polynomial in r².

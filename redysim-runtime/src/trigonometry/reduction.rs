@@ -7,11 +7,11 @@
 use super::double::ROUNDER;
 
 /// x = quarters · π/2 + rest + tail, with |rest| ≤ π/4.
-pub struct Reduced {
+pub struct Reduced<A> {
     /// The quarters in its last bits.
-    pub rounded: f64,
-    pub rest: f64,
-    pub tail: f64,
+    pub rounded: A,
+    pub rest: A,
+    pub tail: A,
 }
 
 /// 2²⁰ quarter turns.
@@ -19,14 +19,14 @@ const MOST_BY_PARTS: f64 = 1_647_099.0;
 
 /// The reduction of any angle; NaN where it is not finite.
 #[cold]
-pub fn reduced(x: f64) -> Reduced {
+pub fn reduced(x: f64) -> Reduced<f64> {
     if libm::fabs(x) <= MOST_BY_PARTS { by_parts(x) } else { by_digits(x) }
 }
 
 /// π/2 in three parts of 33 bits, of which multiples up to 2²⁰ are exact, and a fourth of 53.
 const HALF_PI: [f64; 4] = [1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-21, 8.4784276603689e-32];
 
-fn by_parts(x: f64) -> Reduced {
+fn by_parts(x: f64) -> Reduced<f64> {
     let rounded = x * core::f64::consts::FRAC_2_PI + ROUNDER;
     let n = rounded - ROUNDER;
     // The first difference is exact; the others leave their roundoff in the tail.
@@ -75,7 +75,7 @@ const TWO_OVER_PI_DIGITS: [u64; 22] = [
 const HALF_PI_DIGITS: u128 = 0xc90f_daa2_2168_c234;
 
 /// The reduction of a number so large that its quarter turns are only known from far down in 2/π.
-fn by_digits(x: f64) -> Reduced {
+fn by_digits(x: f64) -> Reduced<f64> {
     let bits = x.to_bits();
     let exponent = (bits >> 52) & 0x7ff;
     if exponent == 0x7ff {

@@ -66,19 +66,30 @@ const HALF_PI: [f64; 2] = [1.5707963267341256, 6.077100506506192e-11];
 /// elsewhere comes closer to a multiple of π/2 than the parts of π/2 are good for.
 #[inline(always)]
 fn in_double<A: Angle>(x: A) -> (A, A) {
-    let k = A::from_f64;
-    let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
-    let minus_n = k(ROUNDER) - rounded;
-    let rest = minus_n.mul_add(k(HALF_PI[1]), minus_n.mul_add(k(HALF_PI[0]), x));
-    if !x.all_within(k(MANY_TURNS)) {
+    let (rounded, rest) = reduced(x);
+    if !x.all_within(A::from_f64(MANY_TURNS)) {
+        // The other lanes of a huge angle are reduced as they are when they are alone, to give the same bits.
         return x.one_by_one(|x| {
-            let angle = reduction::reduced(x);
-            let (sin, cos) = kernel(angle.rest);
-            f64::turned(angle.rounded, sin, cos)
+            let (mut rounded, mut rest) = reduced(x);
+            if !x.all_within(MANY_TURNS) {
+                let angle = reduction::reduced(x);
+                (rounded, rest) = (angle.rounded, angle.rest);
+            }
+            let (sin, cos) = kernel(rest);
+            f64::turned(rounded, sin, cos)
         });
     }
     let (sin, cos) = kernel(rest);
     A::turned(rounded, sin, cos)
+}
+
+/// The quarter turns, in the last bits, and what is left, for angles of few turns.
+#[inline(always)]
+fn reduced<A: Angle>(x: A) -> (A, A) {
+    let k = A::from_f64;
+    let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
+    let minus_n = k(ROUNDER) - rounded;
+    (rounded, minus_n.mul_add(k(HALF_PI[1]), minus_n.mul_add(k(HALF_PI[0]), x)))
 }
 
 /// (sin r − r) / r³ as a polynomial in r².
