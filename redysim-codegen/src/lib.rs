@@ -37,6 +37,7 @@ mod emit;
 mod mechanism;
 mod shape;
 mod source;
+mod trees;
 
 pub use mechanism::{Generated, implementation, stub};
 pub use source::{InvalidName, source_file};

@@ -1,7 +1,7 @@
 //! What the graph folds when a value is made, and what it must not touch.
 
 use redysim_codegen::expressions::Expressions;
-use redysim_codegen::passes;
+use redysim_codegen::passes::{self, Passes};
 use redysim_codegen::symbol::{Symbol, Tracer};
 use redysim_runtime::Scalar;
 
@@ -9,7 +9,7 @@ use redysim_runtime::Scalar;
 fn traced(function: impl for<'g> Fn(&[Symbol<'g>]) -> Vec<Symbol<'g>>) -> Expressions {
     let tracer = Tracer::default();
     let outputs = tracer.edges(&function(&tracer.argument(0, 4)));
-    passes::simplified(Expressions { graph: tracer.into_graph(), outputs })
+    passes::simplified(Expressions { graph: tracer.into_graph(), outputs }, &Passes::default())
 }
 
 /// Its additions, multiplications, divisions and sine-cosine pairs.

@@ -3,10 +3,12 @@
 mod check;
 pub mod denoc;
 mod diagnostic;
+pub mod frames;
 pub mod generic;
 pub mod inertia;
 mod load;
 pub mod model;
+pub mod pseudo;
 pub mod regroup;
 pub mod rotation;
 mod schema;

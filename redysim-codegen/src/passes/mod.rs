@@ -4,15 +4,49 @@ mod sums;
 
 use crate::expressions::Expressions;
 
-/// A pass.
+/// Which passes are on. Each gives the same values with fewer operations; switched off, it shows what it gains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Passes {
+    /// Frames of bodies are chosen anew ([`frames`](redysim_model::frames)).
+    pub frames: bool,
+    /// Inertia that a joint cannot tell from its parent's moves to the parent
+    /// ([`regroup`](redysim_model::regroup)).
+    pub base_parameters: bool,
+    /// Masses on joint axes go where they cost least; on top of `base_parameters`.
+    pub axis_masses: bool,
+    /// One angle for consecutive parallel axes.
+    pub parallel_axes: bool,
+    /// Like terms of sums are collected.
+    pub sums: bool,
+}
+
+impl Passes {
+    /// No pass at all.
+    pub const fn none() -> Self {
+        Passes { frames: false, base_parameters: false, axis_masses: false, parallel_axes: false, sums: false }
+    }
+
+    /// Every pass.
+    pub const fn all() -> Self {
+        Passes { frames: true, base_parameters: true, axis_masses: true, parallel_axes: true, sums: true }
+    }
+}
+
+impl Default for Passes {
+    /// Every pass.
+    fn default() -> Self {
+        Passes::all()
+    }
+}
+
+/// A pass over expressions.
 type Pass = fn(&Expressions) -> Expressions;
 
-/// All passes in order.
-const PASSES: [(&str, Pass); 1] = [("sums", sums::collected)];
-
-/// The expressions after all passes. In debug builds each pass is checked: the values before and after must agree.
-pub fn simplified(mut expressions: Expressions) -> Expressions {
-    for (name, pass) in PASSES {
+/// The expressions after all passes over expressions that are on. In debug builds each is checked: the values before
+/// and after must agree.
+pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Expressions {
+    let list: [(&str, bool, Pass); 1] = [("sums", passes.sums, sums::collected)];
+    for (name, _, pass) in list.into_iter().filter(|(_, on, _)| *on) {
         let simpler = pass(&expressions);
         if cfg!(debug_assertions) {
             check::same_values(name, &expressions, &simpler);

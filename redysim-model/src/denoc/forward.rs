@@ -43,10 +43,19 @@ pub fn forward_dynamics_by_factorisation<S: Scalar>(tree: &Tree, q: &[S], v: &[S
 pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], tau: &[S]) -> Vec<S> {
     let frames = joint_frames(tree, q);
     let drifts = drifts(tree, &frames, v);
-    let mut inertias: Vec<ArticulatedInertia<S>> =
-        tree.bodies.iter().map(|body| ArticulatedInertia::rigid(&body.inertia)).collect();
-    let mut biases: Vec<Spatial<S>> =
-        tree.bodies.iter().zip(&drifts).map(|(body, drift)| centrifugal_wrench(&body.inertia, drift.angular)).collect();
+    let mut inertias: Vec<ArticulatedInertia<S>> = tree
+        .bodies
+        .iter()
+        .zip(&frames)
+        .map(|(body, frame)| ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid()))
+        .collect();
+    let mut biases: Vec<Spatial<S>> = tree
+        .bodies
+        .iter()
+        .zip(&frames)
+        .zip(&drifts)
+        .map(|((body, frame), drift)| centrifugal_wrench(frame.own_inertia(body.inertia).to_rigid(), drift.angular))
+        .collect();
     let mut pivots: Vec<Pivot<S>> = Vec::with_capacity(tree.bodies.len());
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
         let free = free_axis(body.joint);
@@ -132,8 +141,8 @@ fn drifts<S: Scalar>(tree: &Tree, frames: &[JointFrame<S>], v: &[S]) -> Vec<Drif
 }
 
 /// The wrench (ω × J ω, ω × (ω × h)) of a body that turns without acceleration.
-fn centrifugal_wrench<S: Scalar>(inertia: &RigidInertia<f64>, w: Vec3<S>) -> Spatial<S> {
-    let RigidInertia { moment, tensor, .. } = RigidInertia::constant(*inertia);
+fn centrifugal_wrench<S: Scalar>(inertia: RigidInertia<S>, w: Vec3<S>) -> Spatial<S> {
+    let RigidInertia { moment, tensor, .. } = inertia;
     Spatial { angular: w.cross(tensor.full() * w), linear: w.cross(w.cross(moment)) }
 }
 

@@ -1,0 +1,68 @@
+//! Passes over trees whose gain is counted: each tries a few ways to describe the same robot and keeps the cheapest.
+//!
+//! What a choice at one body costs shows in its [neighbourhood](neighbourhood::neighbourhood), so the time taken grows
+//! with the number of bodies and no faster.
+
+pub mod axis_masses;
+pub mod frames;
+pub mod neighbourhood;
+pub mod still;
+
+use crate::expressions::Expressions;
+use crate::functions::traced;
+use crate::passes::Passes;
+use redysim_model::regroup::{Vanishing, base_parameters};
+use redysim_model::{Tree, denoc};
+
+/// What a function costs on a tree, in operations.
+pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
+
+/// Operations that a sine-cosine pair is worth: about the time it takes beside the multiplications.
+const PER_PAIR: u32 = 20;
+
+/// The same robot as different functions want it.
+pub struct Trees {
+    /// With the inertias as they are.
+    pub plain: Tree,
+    /// For the energies.
+    pub energy: Tree,
+    /// For the mass matrix and for gravity.
+    pub matrix: Tree,
+    /// For inverse dynamics and bias forces.
+    pub bias: Tree,
+}
+
+impl Trees {
+    /// The trees that the given passes make of one.
+    pub fn new(tree: &Tree, passes: &Passes) -> Self {
+        let inverse =
+            |tree: &Tree| price(&traced(tree, passes, 3, |x| denoc::inverse_dynamics(tree, x[0], x[1], x[2])));
+        let matrix = |tree: &Tree| price(&traced(tree, passes, 1, |x| denoc::mass_matrix(tree, x[0]).concat()));
+        let mut plain = tree.clone();
+        if passes.frames {
+            plain = frames::chosen(&plain, &|tree| inverse(tree) + matrix(tree));
+        }
+        // Joint forces, the mass matrix and the energies of the whole mechanism are the same for base parameters.
+        let mut trees = if passes.base_parameters {
+            let base = base_parameters(&plain, Vanishing::SecondMomentZz);
+            let energy = base_parameters(&plain, Vanishing::TensorYy);
+            Trees { energy, matrix: base.clone(), bias: base, plain }
+        } else {
+            Trees { energy: plain.clone(), matrix: plain.clone(), bias: plain.clone(), plain }
+        };
+        if passes.parallel_axes {
+            trees.bias = still::stilled(&trees.bias, &inverse);
+            trees.matrix = still::stilled(&trees.matrix, &matrix);
+        }
+        if passes.base_parameters && passes.axis_masses {
+            trees.bias = axis_masses::placed(&trees.bias, &inverse);
+        }
+        trees
+    }
+}
+
+/// Operations of an expression, its sines and cosines included.
+fn price(expressions: &Expressions) -> u32 {
+    let count = expressions.count();
+    count.flops() + PER_PAIR * count.trig
+}

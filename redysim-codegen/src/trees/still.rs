@@ -1,0 +1,31 @@
+//! One angle for consecutive parallel axes.
+//!
+//! Where the axis of a child is parallel to its parent's, the parent may be computed in axes that do not turn with its
+//! joint: what is fixed to the parent is turned by its angle, a few constants, and everything that passes between the
+//! child and the rest of the tree is turned once, by the sum of the two angles, instead of twice.
+
+use super::Cost;
+use super::neighbourhood::neighbourhood;
+use redysim_model::Tree;
+
+/// The tree, with those bodies in still axes for which that lowers the cost.
+pub fn stilled(tree: &Tree, cost: Cost) -> Tree {
+    let mut tree = tree.clone();
+    for body in 0..tree.bodies.len() {
+        let beside = |child: usize| tree.bodies[child].placement.rotation.0[2][2].abs() == 1.0;
+        let parallel_child =
+            (body + 1..tree.bodies.len()).any(|child| tree.bodies[child].parent == Some(body) && beside(child));
+        let after_still = tree.bodies[body].parent.is_some_and(|parent| tree.bodies[parent].still) && beside(body);
+        if !parallel_child && !after_still {
+            continue;
+        }
+        let part = neighbourhood(&tree, body);
+        let local = part.index_of(body).expect("the body itself");
+        let mut other = part.tree.clone();
+        other.bodies[local].still = true;
+        if cost(&other) < cost(&part.tree) {
+            tree.bodies[body].still = true;
+        }
+    }
+    tree
+}
