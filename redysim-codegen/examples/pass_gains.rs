@@ -12,6 +12,9 @@ fn main() {
         ("-frames", Passes { frames: false, ..all }),
         ("-axis", Passes { axis_masses: false, ..all }),
         ("-parallel", Passes { parallel_axes: false, ..all }),
+        ("-units", Passes { units: false, ..all }),
+        ("-squares", Passes { squares: false, ..all }),
+        ("-factors", Passes { factors: false, ..all }),
         ("-sums", Passes { sums: false, ..all }),
     ];
     let mut args: Vec<String> = std::env::args().skip(1).collect();

@@ -34,6 +34,7 @@ pub mod passes;
 pub mod symbol;
 
 mod emit;
+mod hash;
 mod mechanism;
 mod shape;
 mod source;

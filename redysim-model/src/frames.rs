@@ -27,7 +27,20 @@ pub fn canonical(tree: &Tree) -> Tree {
         let slide = first.and_then(|child| slide_to_child(&tree, child)).or_else(|| slide_to_parent(&tree, body));
         reframe(&mut tree, body, turn.unwrap_or(0.0), slide.unwrap_or(0.0));
     }
+    unify_lengths(&mut tree);
     tree
+}
+
+/// Makes lengths that differ by roundoff only the same number, as they were before frames were turned and slid.
+fn unify_lengths(tree: &mut Tree) {
+    let roundoff = LENGTH_ROUNDOFF * size(tree);
+    let mut known: Vec<f64> = Vec::new();
+    for length in tree.bodies.iter_mut().flat_map(|body| &mut body.placement.position.0) {
+        match known.iter().find(|&&other| (length.abs() - other).abs() < roundoff) {
+            Some(&other) => *length = other.copysign(*length),
+            None => known.push(length.abs()),
+        }
+    }
 }
 
 /// Turns the frame of `body` about its z axis by `angle` and slides it along by `distance`.

@@ -11,6 +11,7 @@ pub mod model;
 pub mod pseudo;
 pub mod regroup;
 pub mod rotation;
+pub mod scaling;
 mod schema;
 pub mod spatial;
 pub mod tree;

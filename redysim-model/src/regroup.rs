@@ -49,6 +49,21 @@ pub fn base_parameters(tree: &Tree, vanishing: Vanishing) -> Tree {
     tree
 }
 
+/// The sum, with nothing where only the roundoff of two terms is left.
+fn sum(a: PseudoInertia<f64>, b: PseudoInertia<f64>) -> PseudoInertia<f64> {
+    let add = |a: f64, b: f64| {
+        let sum = a + b;
+        if sum.abs() < 8.0 * f64::EPSILON * a.abs().max(b.abs()) { 0.0 } else { sum }
+    };
+    let (s, t) = (a.second.full().0, b.second.full().0);
+    let sum = PseudoInertia {
+        mass: add(a.mass, b.mass),
+        moment: Vec3::from_fn(|i| add(a.moment[i], b.moment[i])),
+        second: Sym3::from_upper(|i, j| add(s[i][j], t[i][j])),
+    };
+    sum.without_roundoff()
+}
+
 fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
     let body = &mut tree.bodies[index];
     let (own, shared) = split(body.joint, body.inertia, vanishing);
@@ -58,7 +73,7 @@ fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
         Some(parent) => &mut tree.bodies[parent].inertia,
         None => &mut tree.ground,
     };
-    *carrier = (*carrier + moved).without_roundoff();
+    *carrier = sum(*carrier, moved);
 }
 
 /// What stays with the body, and what its parent may carry as well.
@@ -92,8 +107,7 @@ pub fn take_from_parent(tree: &mut Tree, body: usize, mass: AxisMass) {
     let Body { parent, placement, .. } = tree.bodies[body];
     let Some(parent) = parent else { return };
     let minus = AxisMass { mass: -mass.mass, first: -mass.first, second: -mass.second };
-    let left = tree.bodies[parent].inertia + minus.inertia().transformed(placement);
-    tree.bodies[parent].inertia = left.without_roundoff();
+    tree.bodies[parent].inertia = sum(tree.bodies[parent].inertia, minus.inertia().transformed(placement));
     tree.bodies[body].inertia = tree.bodies[body].inertia + mass.inertia();
     let mut at = Some(parent);
     while let Some(ancestor) = at {

@@ -46,6 +46,13 @@ pub struct Body {
     pub inertia: PseudoInertia<f64>,
 }
 
+impl Body {
+    /// Whether the joint's axis is parallel to the z axis of the parent's frame.
+    pub fn is_parallel(&self) -> bool {
+        self.placement.rotation.0[2][2].abs() == 1.0
+    }
+}
+
 /// What a joint of the tree does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {

@@ -103,7 +103,7 @@ impl<'a> Emitter<'a> {
             let Some(ident) = self.idents[index].as_ref().filter(|_| !defined.contains(&index)) else { continue };
             let node = self.graph.node(index);
             if let Node::Sin(_) | Node::Cos(_) = node {
-                let statement = self.sines_and_cosines(index);
+                let statement = self.sines_and_cosines(index, &defined);
                 defined.extend(statement.defines.iter().map(|(node, _)| *node));
                 statements.push(statement);
                 continue;
@@ -121,9 +121,9 @@ impl<'a> Emitter<'a> {
 
     /// The sines and cosines of all angles that are known before node `index`, in one call, which costs less than one for
     /// each. The angles of joints are known from the start, so that one call is all there is.
-    fn sines_and_cosines(&self, index: usize) -> Statement {
+    fn sines_and_cosines(&self, index: usize, defined: &HashSet<usize>) -> Statement {
         let (mut angles, mut values, mut needs) = (Vec::new(), Vec::new(), Vec::new());
-        for node in (index..self.graph.len()).filter(|&node| self.uses[node] > 0) {
+        for node in (index..self.graph.len()).filter(|node| self.uses[*node] > 0 && !defined.contains(node)) {
             let (Node::Sin(angle) | Node::Cos(angle)) = self.graph.node(node) else { continue };
             let mut reads = Vec::new();
             let value = self.render(angle, Binding::Lowest, &mut reads);

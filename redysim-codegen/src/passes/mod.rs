@@ -1,6 +1,9 @@
 //! Passes over expressions: each takes a graph and returns one of equal value.
 
+mod factors;
+mod squares;
 mod sums;
+mod terms;
 
 use crate::expressions::Expressions;
 
@@ -16,19 +19,43 @@ pub struct Passes {
     pub axis_masses: bool,
     /// One angle for consecutive parallel axes.
     pub parallel_axes: bool,
+    /// Lengths in a unit that makes a constant 1.
+    pub units: bool,
     /// Like terms of sums are collected.
     pub sums: bool,
+    /// s² + c² = 1.
+    pub squares: bool,
+    /// Common factors of sums.
+    pub factors: bool,
 }
 
 impl Passes {
     /// No pass at all.
     pub const fn none() -> Self {
-        Passes { frames: false, base_parameters: false, axis_masses: false, parallel_axes: false, sums: false }
+        Passes {
+            frames: false,
+            base_parameters: false,
+            axis_masses: false,
+            parallel_axes: false,
+            units: false,
+            sums: false,
+            squares: false,
+            factors: false,
+        }
     }
 
     /// Every pass.
     pub const fn all() -> Self {
-        Passes { frames: true, base_parameters: true, axis_masses: true, parallel_axes: true, sums: true }
+        Passes {
+            frames: true,
+            base_parameters: true,
+            axis_masses: true,
+            parallel_axes: true,
+            units: true,
+            sums: true,
+            squares: true,
+            factors: true,
+        }
     }
 }
 
@@ -44,16 +71,26 @@ type Pass = fn(&Expressions) -> Expressions;
 
 /// The expressions after all passes over expressions that are on. In debug builds each is checked: the values before
 /// and after must agree.
-pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Expressions {
-    let list: [(&str, bool, Pass); 1] = [("sums", passes.sums, sums::collected)];
-    for (name, _, pass) in list.into_iter().filter(|(_, on, _)| *on) {
-        let simpler = pass(&expressions);
-        if cfg!(debug_assertions) {
-            check::same_values(name, &expressions, &simpler);
-        }
-        expressions = simpler;
+pub fn simplified(expressions: Expressions, passes: &Passes) -> Expressions {
+    let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
+    let collected = sums(expressions);
+    let price = collected.price();
+    let merged = applied("squares", passes.squares, squares::merged, collected);
+    let shared = applied("factors", passes.factors, factors::shared, merged);
+    // What has moved has new neighbours.
+    if shared.price() < price { sums(shared) } else { shared }
+}
+
+/// The expressions after a pass, if it is on and does not make them dearer.
+fn applied(name: &str, on: bool, pass: Pass, expressions: Expressions) -> Expressions {
+    if !on {
+        return expressions;
     }
-    expressions
+    let simpler = pass(&expressions);
+    if cfg!(debug_assertions) {
+        check::same_values(name, &expressions, &simpler);
+    }
+    if simpler.price() <= expressions.price() { simpler } else { expressions }
 }
 
 mod check {

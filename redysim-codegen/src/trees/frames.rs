@@ -12,7 +12,7 @@ use redysim_model::frames::{
 };
 use redysim_model::regroup::{Vanishing, base_parameters};
 
-/// The tree with frames chosen anew, or as it is where that costs no more.
+/// The tree with frames chosen anew.
 pub fn chosen(tree: &Tree, cost: Cost) -> Tree {
     let mut best = canonical(tree);
     for body in (0..best.bodies.len()).rev() {

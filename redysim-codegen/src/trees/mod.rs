@@ -7,6 +7,7 @@ pub mod axis_masses;
 pub mod frames;
 pub mod neighbourhood;
 pub mod still;
+pub mod units;
 
 use crate::expressions::Expressions;
 use crate::functions::traced;
@@ -16,9 +17,6 @@ use redysim_model::{Tree, denoc};
 
 /// What a function costs on a tree, in operations.
 pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
-
-/// Operations that a sine-cosine pair is worth: about the time it takes beside the multiplications.
-const PER_PAIR: u32 = 20;
 
 /// The same robot as different functions want it.
 pub struct Trees {
@@ -35,9 +33,8 @@ pub struct Trees {
 impl Trees {
     /// The trees that the given passes make of one.
     pub fn new(tree: &Tree, passes: &Passes) -> Self {
-        let inverse =
-            |tree: &Tree| price(&traced(tree, passes, 3, |x| denoc::inverse_dynamics(tree, x[0], x[1], x[2])));
-        let matrix = |tree: &Tree| price(&traced(tree, passes, 1, |x| denoc::mass_matrix(tree, x[0]).concat()));
+        let inverse = |tree: &Tree| inverse_dynamics(tree).price();
+        let matrix = |tree: &Tree| mass_matrix(tree).price();
         let mut plain = tree.clone();
         if passes.frames {
             plain = frames::chosen(&plain, &|tree| inverse(tree) + matrix(tree));
@@ -57,12 +54,20 @@ impl Trees {
         if passes.base_parameters && passes.axis_masses {
             trees.bias = axis_masses::placed(&trees.bias, &inverse);
         }
+        if passes.units {
+            trees.bias = units::chosen(&trees.bias, &inverse_dynamics(&trees.bias));
+            trees.matrix = units::chosen(&trees.matrix, &mass_matrix(&trees.matrix));
+        }
         trees
     }
 }
 
-/// Operations of an expression, its sines and cosines included.
-fn price(expressions: &Expressions) -> u32 {
-    let count = expressions.count();
-    count.flops() + PER_PAIR * count.trig
+/// What inverse dynamics and the mass matrix cost, without the passes over expressions: these take most of the time, and
+/// what they gain differs little from choice to choice.
+fn inverse_dynamics(tree: &Tree) -> Expressions {
+    traced(tree, &Passes::none(), 3, |x| denoc::inverse_dynamics(tree, x[0], x[1], x[2]))
+}
+
+fn mass_matrix(tree: &Tree) -> Expressions {
+    traced(tree, &Passes::none(), 1, |x| denoc::mass_matrix(tree, x[0]).concat())
 }

@@ -9,7 +9,7 @@ use redysim_model::tree::{Body, Joint};
 /// Bodies towards the ground that are kept, the parent among them.
 const ABOVE: usize = 2;
 /// Generations of children that are kept.
-const BELOW: usize = 2;
+const BELOW: usize = 1;
 
 /// A part of a tree, and the places of its bodies in the whole.
 pub struct Neighbourhood {

@@ -7,16 +7,17 @@
 use super::Cost;
 use super::neighbourhood::neighbourhood;
 use redysim_model::Tree;
+use redysim_model::frames::children;
 
 /// The tree, with those bodies in still axes for which that lowers the cost.
 pub fn stilled(tree: &Tree, cost: Cost) -> Tree {
     let mut tree = tree.clone();
     for body in 0..tree.bodies.len() {
-        let beside = |child: usize| tree.bodies[child].placement.rotation.0[2][2].abs() == 1.0;
-        let parallel_child =
-            (body + 1..tree.bodies.len()).any(|child| tree.bodies[child].parent == Some(body) && beside(child));
+        let beside = |child: usize| tree.bodies[child].is_parallel();
+        let parallel_child = children(&tree, body).any(beside);
         let after_still = tree.bodies[body].parent.is_some_and(|parent| tree.bodies[parent].still) && beside(body);
-        if !parallel_child && !after_still {
+        let tip = children(&tree, body).next().is_none();
+        if !parallel_child && !after_still && !tip {
             continue;
         }
         let part = neighbourhood(&tree, body);

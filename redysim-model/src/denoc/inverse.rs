@@ -74,7 +74,7 @@ impl<S: Scalar> BodyMotion<S> {
 
     /// Force and moment about the origin that give a body of these moments of mass this motion: f = m a + U h, and n
     /// such that n× = U Σ − (U Σ)ᵀ, plus h × a.
-    fn wrench(&self, inertia: &PseudoInertia<S>, shape: Shape) -> (Vec3<S>, Vec3<S>) {
+    fn wrench(&self, inertia: &PseudoInertia<S>, shape: Shape<S>) -> (Vec3<S>, Vec3<S>) {
         let PseudoInertia { mass, moment, second: s } = *inertia;
         let force = self.acceleration.scale(mass) + self.point_rate * moment;
         let (w, u) = (self.angular, self.point_rate.0);
@@ -86,7 +86,7 @@ impl<S: Scalar> BodyMotion<S> {
                 (first + second) * self.angular_rate[i]
             } else if shape.still && i == 2 {
                 // In axes that do not turn, the sum is a constant and the difference is not.
-                (first + second) * self.angular_rate[i] + (first - second) * (w[j] * w[k])
+                shape.polar * self.angular_rate[i] + (first - second) * (w[j] * w[k])
             } else {
                 first * u[k][j] - second * u[j][k]
             }
@@ -102,19 +102,25 @@ impl<S: Scalar> BodyMotion<S> {
 
 /// What is known of a body's moments of mass in numbers.
 #[derive(Clone, Copy)]
-struct Shape {
+struct Shape<S> {
+    /// Σ_xx + Σ_yy.
+    polar: S,
     /// Whether the two second moments across each axis are equal.
     equal: [bool; 3],
     /// Whether the body turns against its axes.
     still: bool,
 }
 
-impl Shape {
-    fn new<S: Scalar>(inertia: &PseudoInertia<f64>, frame: &JointFrame<S>) -> Self {
+impl<S: Scalar> Shape<S> {
+    fn new(inertia: &PseudoInertia<f64>, frame: &JointFrame<S>) -> Self {
         let Sym3 { xx, yy, zz, xy, .. } = inertia.second;
         let still = frame.is_still();
         let round = xx == yy && (xy == 0.0 || !still);
-        Shape { equal: [yy == zz && !still, zz == xx && !still, round], still }
+        Shape {
+            equal: [yy == zz && !still, zz == xx && !still, round],
+            still,
+            polar: S::from_f64(xx) + S::from_f64(yy),
+        }
     }
 }
 

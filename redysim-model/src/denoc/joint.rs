@@ -31,41 +31,60 @@ pub(super) struct JointFrame<S> {
 
 /// The frames of all bodies at the coordinates `q`.
 pub(super) fn joint_frames<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<JointFrame<S>> {
-    // By which angle each still body has turned against its axes.
-    let mut left: Vec<Option<S>> = Vec::with_capacity(tree.bodies.len());
+    // All angles first, so that compiled code can take their sines and cosines together.
+    let angles = angles(tree, q);
     let mut frames: Vec<JointFrame<S>> = Vec::with_capacity(tree.bodies.len());
-    for (index, body) in tree.bodies.iter().enumerate() {
-        let (of_parent, parent) = body.parent.map_or((None, None), |parent| (left[parent], frames[parent].attitude));
+    for (index, (body, angle)) in tree.bodies.iter().zip(angles).enumerate() {
+        let parent = body.parent.and_then(|parent| frames[parent].attitude);
+        let turn = angle.map(|Angle { value, is_sum }| {
+            let (sin, cos) = value.sin_cos();
+            let [cosine, sine] = if is_sum { ["cos_sum", "sin_sum"] } else { ["cos", "sin"] };
+            (cos.named(cosine, index, ""), sin.named(sine, index, ""))
+        });
         let Pose { rotation, position } = body.placement;
-        let (fixed, q) = (Mat3::constant(rotation), q[body.coordinate]);
-        let cosine = rotation.0[2][2];
-        let parallel = cosine.abs() == 1.0;
+        let fixed = Mat3::constant(rotation);
+        let mut position = turned(parent, Vec3::constant(position));
+        let before = parent.filter(|_| !body.is_parallel());
+        if body.joint == Joint::Prismatic {
+            position = position + turned(before, fixed.column(2)).scale(q[body.coordinate]);
+        }
+        let along_axis = before.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
+        let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
+        frames.push(JointFrame { before, fixed, turn, attitude, along_axis, position });
+    }
+    frames
+}
+
+/// By how much a body has turned about its z axis.
+#[derive(Clone, Copy)]
+struct Angle<S> {
+    value: S,
+    /// Whether more than one joint has a part in it.
+    is_sum: bool,
+}
+
+/// By how much each body has turned about its z axis: against its parent, or if that is still and the axes are
+/// parallel, against the parent's axes.
+fn angles<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Option<Angle<S>>> {
+    let mut angles: Vec<Option<Angle<S>>> = Vec::with_capacity(tree.bodies.len());
+    for body in &tree.bodies {
+        let q = q[body.coordinate];
         let own = match body.joint {
             Joint::Revolute if body.offset == 0.0 => Some(q),
             Joint::Revolute => Some(q + S::from_f64(body.offset)),
             Joint::Prismatic => None,
         };
-        let carried = of_parent.filter(|_| parallel).map(|angle| if cosine < 0.0 { -angle } else { angle });
-        let angle = match (carried, own) {
-            (Some(carried), Some(own)) => Some(carried + own),
-            (carried, own) => carried.or(own),
-        };
-        let turn = angle.map(|angle| {
-            let (sin, cos) = angle.sin_cos();
-            let [cosine, sine] = if carried.is_some() { ["cos_sum", "sin_sum"] } else { ["cos", "sin"] };
-            (cos.named(cosine, index, ""), sin.named(sine, index, ""))
+        let still_parent = body.parent.filter(|&parent| tree.bodies[parent].still && body.is_parallel());
+        let carried = still_parent.and_then(|parent| angles[parent]).map(|angle| {
+            let opposite = body.placement.rotation.0[2][2] < 0.0;
+            if opposite { -angle.value } else { angle.value }
         });
-        let mut position = turned(parent, Vec3::constant(position));
-        let before = parent.filter(|_| !parallel);
-        if body.joint == Joint::Prismatic {
-            position = position + turned(before, fixed.column(2)).scale(q);
-        }
-        let along_axis = before.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
-        let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
-        left.push(angle.filter(|_| body.still));
-        frames.push(JointFrame { before, fixed, turn, attitude, along_axis, position });
+        angles.push(match (carried, own) {
+            (Some(carried), Some(own)) => Some(Angle { value: carried + own, is_sum: true }),
+            (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some() }),
+        });
     }
-    frames
+    angles
 }
 
 impl<S: Scalar> JointFrame<S> {
@@ -88,6 +107,11 @@ impl<S: Scalar> JointFrame<S> {
     /// A vector fixed to the body, in its axes.
     pub fn fixed_vector(self, v: Vec3<S>) -> Vec3<S> {
         turned(self.attitude, v)
+    }
+
+    /// The axes fixed to the body as columns, where its own axes are the columns of `axes`.
+    pub fn fixed_axes(self, axes: Mat3<S>) -> Mat3<S> {
+        Mat3(axes.0.map(|row| turned_back(self.attitude, Vec3(row)).0))
     }
 
     /// A pose fixed to the body, in its axes.

@@ -42,8 +42,7 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Vec<S>> {
 fn upright(tree: &Tree) -> Vec<bool> {
     let mut upright: Vec<bool> = Vec::with_capacity(tree.bodies.len());
     for body in &tree.bodies {
-        let parallel = body.placement.rotation.0[2][2].abs() == 1.0;
-        upright.push(body.parent.is_none_or(|parent| parallel && upright[parent]));
+        upright.push(body.parent.is_none_or(|parent| body.is_parallel() && upright[parent]));
     }
     upright
 }
