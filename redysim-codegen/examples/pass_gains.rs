@@ -1,47 +1,40 @@
-//! scratch
+//! What each pass gains on a model: `cargo run --release -p redysim-codegen --example pass_gains -- models/kr5.toml`.
+
 use redysim_codegen::functions::trace_with;
 use redysim_codegen::passes::Passes;
 use redysim_model::{Model, Tree};
 use std::time::Instant;
-fn main() {
-    let all = Passes::default();
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let all = Passes::all();
     let sets = [
         ("none", Passes::none()),
         ("all", all),
-        ("-base", Passes { base_parameters: false, ..all }),
-        ("-frames", Passes { frames: false, ..all }),
-        ("-axis", Passes { axis_masses: false, ..all }),
-        ("-parallel", Passes { parallel_axes: false, ..all }),
-        ("-units", Passes { units: false, ..all }),
-        ("-squares", Passes { squares: false, ..all }),
-        ("-factors", Passes { factors: false, ..all }),
-        ("-sums", Passes { sums: false, ..all }),
+        ("no frames", Passes { frames: false, ..all }),
+        ("no base_parameters", Passes { base_parameters: false, ..all }),
+        ("no axis_masses", Passes { axis_masses: false, ..all }),
+        ("no parallel_axes", Passes { parallel_axes: false, ..all }),
+        ("no units", Passes { units: false, ..all }),
+        ("no sums", Passes { sums: false, ..all }),
+        ("no squares", Passes { squares: false, ..all }),
+        ("no factors", Passes { factors: false, ..all }),
     ];
-    let mut args: Vec<String> = std::env::args().skip(1).collect();
-    let only = args[0] == "-a";
-    if only {
-        args.remove(0);
-    }
-    for name in args {
-        let path = format!("{}/../models/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(&path).unwrap();
-        let model = Model::from_toml(text, &path).unwrap_or_else(|f| panic!("{f}")).model;
-        let tree = Tree::new(&model);
-        println!("{name}");
+    for path in std::env::args().skip(1) {
+        let tree = Tree::new(&Model::load(&path)?.model);
+        println!("{path}");
         for (set, passes) in &sets {
-            if only && *set != "all" {
-                continue;
-            }
             let start = Instant::now();
-            print!("{set:10}");
             let functions = trace_with(&tree, passes);
-            for f in functions {
-                let c = f.expressions.count();
-                if c.flops() > 0 {
-                    print!(" {}: {} ({}t)", f.signature.name, c.flops(), c.trig);
+            let time = start.elapsed();
+            println!("  {set}, traced in {time:.1?}");
+            for function in functions {
+                let count = function.expressions.count();
+                if count.flops() > 0 {
+                    let name = function.signature.name;
+                    println!("    {name:<18}{:>7} flops, {:>3} sine-cosine pairs", count.flops(), count.trig);
                 }
             }
-            println!(" {:?}", start.elapsed());
         }
     }
+    Ok(())
 }

@@ -40,5 +40,5 @@ mod shape;
 mod source;
 mod trees;
 
-pub use mechanism::{Generated, implementation, stub};
+pub use mechanism::{Generated, implementation, implementation_with, stub};
 pub use source::{InvalidName, source_file};

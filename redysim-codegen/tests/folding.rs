@@ -64,6 +64,48 @@ fn equal_values_are_computed_once_whatever_their_sign_and_order() {
 }
 
 #[test]
+fn common_factors_leave_a_sum() {
+    assert_eq!(counts(|x| vec![x[0] * x[1] + x[2] + x[0] * x[3]]), [2, 1, 0, 0]);
+    assert_eq!(counts(|x| vec![k(3.0) * x[1] - k(3.0) * x[2] + x[0] * x[1]]), [2, 2, 0, 0]);
+    let values = traced(|x| vec![x[2] - x[0] * x[1] + x[0] * x[3], k(3.0) * x[1] - k(3.0) * x[2]]);
+    assert_eq!(values.evaluate(&[&[2.0, 3.0, 5.0, 7.0]]), [13.0, -6.0]);
+}
+
+#[test]
+fn a_product_that_is_used_twice_keeps_its_factor() {
+    let both = counts(|x| {
+        let product = x[0] * x[1];
+        vec![product + x[0] * x[2], product + x[3]]
+    });
+    assert_eq!(both, [2, 2, 0, 0]);
+}
+
+#[test]
+fn squares_of_a_sine_and_a_cosine_are_one() {
+    assert_eq!(
+        counts(|x| {
+            let (sin, cos) = x[0].sin_cos();
+            vec![cos * (cos * x[1]) + x[2] + sin * (sin * x[1])]
+        }),
+        [1, 0, 0, 0]
+    );
+    let of_products = traced(|x| {
+        let (sin, cos) = x[0].sin_cos();
+        let (a, b) = (sin * x[1], cos * x[1]);
+        vec![x[2] - (a * a + x[3]) - b * b]
+    });
+    assert_eq!(of_products.count().flops(), 3);
+    assert_eq!(of_products.evaluate(&[&[0.7, 0.5, 2.0, 4.0]]), [-2.25]);
+    let with_coefficients = traced(|x| {
+        let (sin, cos) = x[0].sin_cos();
+        vec![k(5.0) * (sin * sin) - k(3.0) * (cos * cos)]
+    });
+    assert_eq!(with_coefficients.count().flops(), 3);
+    let expected = 5.0 * 0.7_f64.sin().powi(2) - 3.0 * 0.7_f64.cos().powi(2);
+    assert!((with_coefficients.evaluate(&[&[0.7, 0.0, 0.0, 0.0]])[0] - expected).abs() <= 1e-15);
+}
+
+#[test]
 fn a_product_is_never_multiplied_out() {
     assert_eq!(counts(|x| vec![x[0] * (x[1] + x[2]), k(2.0) * (x[1] + x[2])]), [1, 2, 0, 0]);
 }
