@@ -14,7 +14,8 @@ redysim! {
 }
 
 redysim! {
-    /// The same with the masses of the paper's table, as other programs were given it.
+    /// The same with the paper's rounded digits, as other programs were given them; the last link's belong to no body.
+    #[allow(deprecated)]
     pub struct PeersKr5("models/peers/kr5.toml");
 }
 
