@@ -155,19 +155,36 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
 pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
     let trees = Trees::new(tree, passes);
     let function = |signature, expressions| Function { signature, remark: None, expressions };
-    let Trees { energy: for_energy, matrix, bias, .. } = &trees;
+    let Trees { energy: for_energy, kinematics, matrix, bias, .. } = &trees;
     vec![
         function(INVERSE_DYNAMICS, traced(bias, passes, 3, |x| denoc::inverse_dynamics(bias, x[0], x[1], x[2]))),
         forward_dynamics(&trees, passes),
         function(MASS_MATRIX, traced(matrix, passes, 1, |x| denoc::mass_matrix(matrix, x[0]).concat())),
         function(BIAS_FORCES, traced(bias, passes, 2, |x| denoc::bias_forces(bias, x[0], x[1]))),
         function(GRAVITY_FORCES, traced(matrix, passes, 1, |x| denoc::gravity_forces(matrix, x[0]))),
-        function(ENERGY, traced(for_energy, passes, 2, |x| energy(for_energy, x[0], x[1]))),
-        function(LINK_KINEMATICS, traced(tree, passes, 2, |x| link_kinematics(tree, x[0], x[1]))),
-        function(LOOP_RESIDUAL, traced(tree, passes, 1, |x| denoc::loop_residual(tree, x[0]))),
-        function(LOOP_JACOBIAN, traced(tree, passes, 1, |x| denoc::loop_jacobian(tree, x[0]).concat())),
-        function(LOOP_BIAS, traced(tree, passes, 2, |x| denoc::loop_bias(tree, x[0], x[1]))),
+        function(ENERGY, cheapest(for_energy, |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1])))),
+        function(
+            LINK_KINEMATICS,
+            cheapest(kinematics, |tree| traced(tree, passes, 2, |x| link_kinematics(tree, x[0], x[1]))),
+        ),
+        function(
+            LOOP_RESIDUAL,
+            cheapest(kinematics, |tree| traced(tree, passes, 1, |x| denoc::loop_residual(tree, x[0]))),
+        ),
+        function(
+            LOOP_JACOBIAN,
+            cheapest(kinematics, |tree| traced(tree, passes, 1, |x| denoc::loop_jacobian(tree, x[0]).concat())),
+        ),
+        function(
+            LOOP_BIAS,
+            cheapest(kinematics, |tree| traced(tree, passes, 2, |x| denoc::loop_bias(tree, x[0], x[1]))),
+        ),
     ]
+}
+
+/// A function on the tree on which it costs least.
+fn cheapest(trees: &[Tree], function: impl Fn(&Tree) -> Expressions) -> Expressions {
+    trees.iter().map(function).min_by_key(Expressions::price).expect("at least one tree")
 }
 
 /// The longest chain whose accelerations are still taken from the explicit mass matrix, whatever the operation count:

@@ -5,8 +5,8 @@
 // mass_matrix           20 flops,   3 sine-cosine pairs
 // bias_forces           46 flops,   4 sine-cosine pairs
 // gravity_forces        21 flops,   4 sine-cosine pairs
-// energy                52 flops,   4 sine-cosine pairs
-// link_kinematics       49 flops,   4 sine-cosine pairs
+// energy                51 flops,   4 sine-cosine pairs
+// link_kinematics       34 flops,   4 sine-cosine pairs
 // loop_residual          0 flops,   0 sine-cosine pairs
 // loop_jacobian          0 flops,   0 sine-cosine pairs
 // loop_bias              0 flops,   0 sine-cosine pairs
@@ -68,13 +68,13 @@ impl Gripper {
         },
         energy: ::redysim_runtime::OperationCount {
             additions: 18,
-            multiplications: 34,
+            multiplications: 33,
             divisions: 0,
             trig: 4,
         },
         link_kinematics: ::redysim_runtime::OperationCount {
-            additions: 19,
-            multiplications: 30,
+            additions: 16,
+            multiplications: 18,
             divisions: 0,
             trig: 4,
         },
@@ -355,7 +355,7 @@ impl Gripper {
     }
     /// Kinetic and potential energy, J; the potential is zero at the base frame's origin.
     ///
-    /// 52 flops: 18 additions, 34 multiplications, 0 divisions; 4 sine-cosine pairs.
+    /// 51 flops: 18 additions, 33 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn energy<S: ::redysim_runtime::Scalar>(
         q: &[S; 4],
         v: &[S; 4],
@@ -373,72 +373,69 @@ impl Gripper {
             cos_link4,
             ],
         ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
-        let t1 = k(0.1) * v[0];
-        let vel_link2_x = sin_link2 * t1;
-        let vel_link2_y = cos_link2 * t1;
+        let vel_link2_x = v[0] * sin_link2;
+        let vel_link2_y = v[0] * cos_link2;
         let w_link2_z = v[0] + v[1];
-        let vel_link3_y = cos_link3 * (vel_link2_y + k(0.05) * w_link2_z)
+        let vel_link3_y = cos_link3 * (vel_link2_y + k(0.5) * w_link2_z)
             - sin_link3 * vel_link2_x;
         let w_link3_z = v[2] + w_link2_z;
-        let vel_link4_y = cos_link4 * (k(0.05) * v[0]);
+        let vel_link4_y = cos_link4 * (k(0.5) * v[0]);
         let w_link4_z = v[0] + v[3];
-        let t2 = w_link2_z * (k(0.0006666666666666668) * w_link2_z)
-            + (vel_link2_y * (k(0.030000000000000006) * w_link2_z)
+        let t1 = w_link2_z * (k(0.0006666666666666668) * w_link2_z)
+            + (vel_link2_y * (k(0.003000000000000001) * w_link2_z)
                 + w_link4_z * (k(0.0001666666666666667) * w_link4_z));
-        let t3 = -vel_link3_y * (k(0.010000000000000002) * w_link3_z)
+        let t2 = -vel_link3_y * (k(0.0010000000000000002) * w_link3_z)
             - (v[0] * (k(0.0058333333333333345) * v[0])
-                + (vel_link4_y * (k(0.010000000000000002) * w_link4_z) + t2));
-        let t4 = k(0.005000000000000001) * sin_link3;
-        let t5 = k(0.005000000000000001) * cos_link3 + k(0.015000000000000003);
-        let t6 = sin_link1
-            * (sin_link2 * t4
-                - (cos_link2 * t5 + (k(0.005000000000000001) * cos_link4 + k(0.07))));
-        let t7 = t6
+                + (vel_link4_y * (k(0.0010000000000000002) * w_link4_z) + t1));
+        let t3 = k(0.0005000000000000001) * sin_link3;
+        let t4 = k(0.0005000000000000001) * cos_link3 + k(0.0015000000000000005);
+        let t5 = sin_link1
+            * (sin_link2 * t3
+                - (cos_link2 * t4
+                    + (k(0.0005000000000000001) * cos_link4 + k(0.007000000000000001))));
+        let t6 = t5
             - cos_link1
-                * (sin_link2 * t5
-                    + (k(0.005000000000000001) * sin_link4 + cos_link2 * t4));
+                * (sin_link2 * t4
+                    + (k(0.0005000000000000001) * sin_link4 + cos_link2 * t3));
         ::redysim_runtime::Energy {
-            kinetic: k(0.5) * (w_link3_z * (k(0.0001666666666666667) * w_link3_z) - t3),
-            potential: -(k(9.81) * t7),
+            kinetic: k(0.5) * (w_link3_z * (k(0.0001666666666666667) * w_link3_z) - t2),
+            potential: -(k(98.10000000000001) * t6),
         }
     }
     /// Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every link, in the base frame.
     ///
-    /// 49 flops: 19 additions, 30 multiplications, 0 divisions; 4 sine-cosine pairs.
+    /// 34 flops: 16 additions, 18 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn link_kinematics<S: ::redysim_runtime::Scalar>(
         q: &[S; 4],
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
         let k = S::from_f64;
+        let t1 = q[0] + q[1];
+        let t2 = q[2] + t1;
+        let t3 = q[0] + q[3];
         let (
             [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
+            sin_sum_link2,
+            sin_sum_link3,
+            sin_sum_link4,
             ],
             [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
+            cos_sum_link2,
+            cos_sum_link3,
+            cos_sum_link4,
             ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
-        let t1 = k(0.1) * cos_link1;
-        let t2 = k(0.1) * sin_link1;
-        let t3 = v[0] * t2;
-        let t4 = v[0] * t1;
-        let t5 = cos_link1 * cos_link2 - sin_link1 * sin_link2;
-        let t6 = cos_link1 * sin_link2 + sin_link1 * cos_link2;
-        let t7 = v[0] + v[1];
-        let t8 = k(0.05) * t5;
-        let t9 = k(0.05) * t6;
-        let t10 = t1 + t8;
-        let t11 = t2 + t9;
-        let t12 = cos_link3 * t5 - sin_link3 * t6;
-        let t13 = sin_link3 * t5 + cos_link3 * t6;
-        let t14 = k(0.05) * cos_link1;
-        let t15 = k(0.05) * sin_link1;
-        let t16 = cos_link1 * cos_link4 - sin_link1 * sin_link4;
-        let t17 = cos_link1 * sin_link4 + sin_link1 * cos_link4;
+        ) = S::sin_cos_all([q[0], t1, t2, t3]);
+        let t4 = k(0.1) * cos_link1;
+        let t5 = k(0.1) * sin_link1;
+        let t6 = k(0.05) * cos_sum_link2;
+        let t7 = k(0.05) * sin_sum_link2;
+        let t8 = k(0.05) * cos_link1;
+        let t9 = k(0.05) * sin_link1;
+        let t10 = v[0] * t5;
+        let t11 = v[0] * t4;
+        let t12 = v[0] + v[1];
+        let t13 = t4 + t6;
+        let t14 = t5 + t7;
         [
             ::redysim_runtime::LinkState {
                 rotation: [
@@ -447,41 +444,53 @@ impl Gripper {
                     [k(0.0), k(0.0), k(1.0)],
                 ],
                 origin: [k(0.0), k(0.0), k(0.0)],
-                com: [t14, t15, k(0.0)],
+                com: [t8, t9, k(0.0)],
                 velocity: [k(0.0), k(0.0), k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), v[0]],
             },
             ::redysim_runtime::LinkState {
                 rotation: [
-                    [t5, -t6, k(0.0)],
-                    [t6, t5, k(0.0)],
+                    [cos_sum_link2, -sin_sum_link2, k(0.0)],
+                    [sin_sum_link2, cos_sum_link2, k(0.0)],
                     [k(0.0), k(0.0), k(1.0)],
                 ],
-                origin: [t1, t2, k(0.0)],
-                com: [t1 + k(0.025) * t5, t2 + k(0.025) * t6, k(0.0)],
-                velocity: [-t3, t4, k(0.0)],
-                angular_velocity: [k(0.0), k(0.0), t7],
+                origin: [t4, t5, k(0.0)],
+                com: [
+                    t4 + k(0.025) * cos_sum_link2,
+                    t5 + k(0.025) * sin_sum_link2,
+                    k(0.0),
+                ],
+                velocity: [-t10, t11, k(0.0)],
+                angular_velocity: [k(0.0), k(0.0), t12],
             },
             ::redysim_runtime::LinkState {
                 rotation: [
-                    [t12, -t13, k(0.0)],
-                    [t13, t12, k(0.0)],
+                    [cos_sum_link3, -sin_sum_link3, k(0.0)],
+                    [sin_sum_link3, cos_sum_link3, k(0.0)],
                     [k(0.0), k(0.0), k(1.0)],
                 ],
-                origin: [t10, t11, k(0.0)],
-                com: [t10 + k(0.025) * t12, t11 + k(0.025) * t13, k(0.0)],
-                velocity: [-(t3 + t7 * t9), t4 + t7 * t8, k(0.0)],
-                angular_velocity: [k(0.0), k(0.0), v[2] + t7],
+                origin: [t13, t14, k(0.0)],
+                com: [
+                    t13 + k(0.025) * cos_sum_link3,
+                    t14 + k(0.025) * sin_sum_link3,
+                    k(0.0),
+                ],
+                velocity: [-(t10 + t7 * t12), t11 + t6 * t12, k(0.0)],
+                angular_velocity: [k(0.0), k(0.0), v[2] + t12],
             },
             ::redysim_runtime::LinkState {
                 rotation: [
-                    [t16, -t17, k(0.0)],
-                    [t17, t16, k(0.0)],
+                    [cos_sum_link4, -sin_sum_link4, k(0.0)],
+                    [sin_sum_link4, cos_sum_link4, k(0.0)],
                     [k(0.0), k(0.0), k(1.0)],
                 ],
-                origin: [t14, t15, k(0.0)],
-                com: [t14 + k(0.025) * t16, t15 + k(0.025) * t17, k(0.0)],
-                velocity: [-(v[0] * t15), v[0] * t14, k(0.0)],
+                origin: [t8, t9, k(0.0)],
+                com: [
+                    t8 + k(0.025) * cos_sum_link4,
+                    t9 + k(0.025) * sin_sum_link4,
+                    k(0.0),
+                ],
+                velocity: [-(v[0] * t9), v[0] * t8, k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), v[0] + v[3]],
             },
         ]

@@ -22,8 +22,10 @@ pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
 pub struct Trees {
     /// With the inertias as they are.
     pub plain: Tree,
-    /// For the energies.
-    pub energy: Tree,
+    /// For the energies, one to be chosen.
+    pub energy: Vec<Tree>,
+    /// For positions and velocities, one to be chosen.
+    pub kinematics: Vec<Tree>,
     /// For the mass matrix and for gravity.
     pub matrix: Tree,
     /// For inverse dynamics and bias forces.
@@ -42,14 +44,16 @@ impl Trees {
         // Joint forces, the mass matrix and the energies of the whole mechanism are the same for base parameters.
         let mut trees = if passes.base_parameters {
             let base = base_parameters(&plain, Vanishing::SecondMomentZz);
-            let energy = base_parameters(&plain, Vanishing::TensorYy);
-            Trees { energy, matrix: base.clone(), bias: base, plain }
+            let energy = vec![base_parameters(&plain, Vanishing::TensorYy)];
+            Trees { energy, kinematics: vec![tree.clone()], matrix: base.clone(), bias: base, plain }
         } else {
-            Trees { energy: plain.clone(), matrix: plain.clone(), bias: plain.clone(), plain }
+            let [energy, kinematics] = [&plain, tree].map(|tree| vec![tree.clone()]);
+            Trees { energy, kinematics, matrix: plain.clone(), bias: plain.clone(), plain }
         };
         if passes.parallel_axes {
             trees.bias = still::stilled(&trees.bias, &inverse);
             trees.matrix = still::stilled(&trees.matrix, &matrix);
+            trees.kinematics.extend(still::everywhere(tree));
         }
         if passes.base_parameters && passes.axis_masses {
             trees.bias = axis_masses::placed(&trees.bias, &inverse);
@@ -58,6 +62,7 @@ impl Trees {
             trees.bias = units::chosen(&trees.bias, &inverse_dynamics(&trees.bias));
             trees.matrix = units::chosen(&trees.matrix, &mass_matrix(&trees.matrix));
         }
+        trees.energy.push(trees.matrix.clone());
         trees
     }
 }

@@ -9,8 +9,26 @@ use super::neighbourhood::neighbourhood;
 use redysim_model::Tree;
 use redysim_model::frames::children;
 
-/// The tree, with those bodies in still axes for which that lowers the cost.
+/// The tree, with those bodies in still axes for which that lowers the cost: one after the other, or all at once.
 pub fn stilled(tree: &Tree, cost: Cost) -> Tree {
+    let one_by_one = one_by_one(tree, cost);
+    match everywhere(tree) {
+        Some(all) if cost(&all) < cost(&one_by_one) => all,
+        _ => one_by_one,
+    }
+}
+
+/// The tree with every body in still axes that has a parallel axis beside it; `None` if there is none.
+pub fn everywhere(tree: &Tree) -> Option<Tree> {
+    let mut all = tree.clone();
+    for body in 0..tree.bodies.len() {
+        let below = tree.bodies[body].parent.is_some() && tree.bodies[body].is_parallel();
+        all.bodies[body].still = below || children(tree, body).any(|child| tree.bodies[child].is_parallel());
+    }
+    all.bodies.iter().any(|body| body.still).then_some(all)
+}
+
+fn one_by_one(tree: &Tree, cost: Cost) -> Tree {
     let mut tree = tree.clone();
     for body in 0..tree.bodies.len() {
         let beside = |child: usize| tree.bodies[child].is_parallel();
