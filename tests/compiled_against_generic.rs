@@ -41,8 +41,9 @@ fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &i
         kinetic.add(&rounded([ours.kinetic]), &rounded([theirs.kinetic]));
         potential.add(&rounded([ours.potential]), &rounded([theirs.potential]));
     }
+    // The roundoff of constants is that of the largest terms, 1e-16 of them; the smallest components that count are 1e-6.
     let all = [inverse, matrix, bias, gravity, kinetic, potential];
-    all.iter().for_each(|comparison| comparison.assert_within(1e-12));
+    all.iter().for_each(|comparison| comparison.assert_within(1e-11));
     // The mass matrix of KR5 has condition 1e7, which is what multiplies the roundoff of constants here.
     forward.assert_within(1e-10);
 }

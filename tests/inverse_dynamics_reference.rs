@@ -94,9 +94,20 @@ fn generic_gripper_follows_redysim() {
     assert_joint_forces("generic gripper", &generic("gripper"), &gripper_by_redysim());
 }
 
+/// In one row the robot stands still, and nothing turns its vertical first joint. The weights of the wrist and the arm
+/// cancel there to the roundoff of terms of 100 N m, which is what the force is held against.
 #[test]
 fn kr5_agrees_with_quadruple_precision() {
-    assert_joint_forces("compiled kr5, quad", &Kr5, &kr5_in_quadruple_precision());
+    let mut comparison = Comparison::new("compiled kr5, quad");
+    for row in kr5_in_quadruple_precision() {
+        let mut tau = inverse_dynamics(&Kr5, &row.q, &row.v, &row.a);
+        if row.tau[0] == 0.0 {
+            assert!(tau[0].abs() <= 100.0 * f64::EPSILON, "{:e} N m at rest", tau[0]);
+            tau[0] = 0.0;
+        }
+        comparison.add(&tau, &row.tau);
+    }
+    comparison.assert_within(1e-12);
     assert_joint_forces("generic kr5, quad", &generic("kr5"), &kr5_in_quadruple_precision());
 }
 

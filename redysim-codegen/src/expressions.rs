@@ -60,6 +60,15 @@ impl Expressions {
         count
     }
 
+    /// Operations, with what the sines and cosines are worth beside them: the measure by which one way to compute
+    /// something is preferred to another.
+    pub fn price(&self) -> u32 {
+        /// A sine-cosine pair takes about the time of so many multiplications.
+        const PER_PAIR: u32 = 20;
+        let count = self.count();
+        count.flops() + PER_PAIR * count.trig
+    }
+
     /// The outputs for the given arguments, computed with any scalar.
     pub fn evaluate<S: Scalar>(&self, arguments: &[&[S]]) -> Vec<S> {
         let mut values: Vec<S> = Vec::with_capacity(self.graph.len());

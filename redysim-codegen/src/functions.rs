@@ -1,11 +1,11 @@
 //! The functions of a compiled mechanism: what each computes, and how it is traced.
 
 use crate::expressions::Expressions;
-use crate::passes;
+use crate::passes::{self, Passes};
 use crate::symbol::{Symbol, Tracer};
+use crate::trees::Trees;
 use redysim_model::Tree;
-use redysim_model::denoc::{self, Method};
-use redysim_model::regroup::base_parameters;
+use redysim_model::denoc::{self, Factorisation, Method};
 
 /// What a function is called, takes and returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,23 +146,45 @@ pub struct Function {
     pub expressions: Expressions,
 }
 
-/// Traces and simplifies every function of [`SIGNATURES`].
+/// Traces and simplifies every function of [`SIGNATURES`], with all passes.
 pub fn trace(tree: &Tree) -> Vec<Function> {
-    // Joint forces, the mass matrix and the energies of the whole mechanism are the same for base parameters.
-    let base = base_parameters(tree);
+    trace_with(tree, &Passes::default())
+}
+
+/// Traces and simplifies every function of [`SIGNATURES`], with the given passes.
+pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
+    let trees = Trees::new(tree, passes);
     let function = |signature, expressions| Function { signature, remark: None, expressions };
+    let Trees { energy: for_energy, kinematics, matrix, bias, .. } = &trees;
     vec![
-        function(INVERSE_DYNAMICS, traced(&base, 3, |x| denoc::inverse_dynamics(&base, x[0], x[1], x[2]))),
-        forward_dynamics(tree, &base),
-        function(MASS_MATRIX, traced(&base, 1, |x| denoc::mass_matrix(&base, x[0]).concat())),
-        function(BIAS_FORCES, traced(&base, 2, |x| denoc::bias_forces(&base, x[0], x[1]))),
-        function(GRAVITY_FORCES, traced(&base, 1, |x| denoc::gravity_forces(&base, x[0]))),
-        function(ENERGY, traced(&base, 2, |x| energy(&base, x[0], x[1]))),
-        function(LINK_KINEMATICS, traced(tree, 2, |x| link_kinematics(tree, x[0], x[1]))),
-        function(LOOP_RESIDUAL, traced(tree, 1, |x| denoc::loop_residual(tree, x[0]))),
-        function(LOOP_JACOBIAN, traced(tree, 1, |x| denoc::loop_jacobian(tree, x[0]).concat())),
-        function(LOOP_BIAS, traced(tree, 2, |x| denoc::loop_bias(tree, x[0], x[1]))),
+        function(INVERSE_DYNAMICS, traced(bias, passes, 3, |x| denoc::inverse_dynamics(bias, x[0], x[1], x[2]))),
+        forward_dynamics(&trees, passes),
+        function(MASS_MATRIX, traced(matrix, passes, 1, |x| denoc::mass_matrix(matrix, x[0]).concat())),
+        function(BIAS_FORCES, traced(bias, passes, 2, |x| denoc::bias_forces(bias, x[0], x[1]))),
+        function(GRAVITY_FORCES, traced(matrix, passes, 1, |x| denoc::gravity_forces(matrix, x[0]))),
+        function(ENERGY, cheapest(for_energy, |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1])))),
+        function(
+            LINK_KINEMATICS,
+            cheapest(kinematics, |tree| traced(tree, passes, 2, |x| link_kinematics(tree, x[0], x[1]))),
+        ),
+        function(
+            LOOP_RESIDUAL,
+            cheapest(kinematics, |tree| traced(tree, passes, 1, |x| denoc::loop_residual(tree, x[0]))),
+        ),
+        function(
+            LOOP_JACOBIAN,
+            cheapest(kinematics, |tree| traced(tree, passes, 1, |x| denoc::loop_jacobian(tree, x[0]).concat())),
+        ),
+        function(
+            LOOP_BIAS,
+            cheapest(kinematics, |tree| traced(tree, passes, 2, |x| denoc::loop_bias(tree, x[0], x[1]))),
+        ),
     ]
+}
+
+/// A function on the tree on which it costs least.
+fn cheapest(trees: &[Tree], function: impl Fn(&Tree) -> Expressions) -> Expressions {
+    trees.iter().map(function).min_by_key(Expressions::price).expect("at least one tree")
 }
 
 /// The longest chain whose accelerations are still taken from the explicit mass matrix, whatever the operation count:
@@ -170,8 +192,8 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
 const LONGEST_CHAIN_BY_FACTORISATION: usize = 25;
 
 /// Forward dynamics by the cheaper of the two ways, or by the recursion where a chain is long.
-fn forward_dynamics(tree: &Tree, base: &Tree) -> Function {
-    let (method, expressions) = cheaper_forward_dynamics(tree, base);
+fn forward_dynamics(trees: &Trees, passes: &Passes) -> Function {
+    let (method, expressions) = cheaper_forward_dynamics(trees, passes);
     let remark = match method {
         Method::Factorisation => "By the factorisation M = U D Uᵀ of the generalised inertia matrix.",
         Method::Recursion => "By the O(n) recursion over articulated bodies.",
@@ -179,14 +201,19 @@ fn forward_dynamics(tree: &Tree, base: &Tree) -> Function {
     Function { signature: FORWARD_DYNAMICS, remark: Some(remark), expressions }
 }
 
-fn cheaper_forward_dynamics(tree: &Tree, base: &Tree) -> (Method, Expressions) {
+fn cheaper_forward_dynamics(trees: &Trees, passes: &Passes) -> (Method, Expressions) {
+    let Trees { plain, matrix, bias, .. } = trees;
     // The recursion takes the inertias as they are: moved towards the ground they would pile up there, and what is
     // subtracted from them on the way would cost the digits for which the recursion is chosen.
-    let recursion = traced(tree, 3, |x| denoc::forward_dynamics(Method::Recursion, tree, x[0], x[1], x[2]));
-    if tree.depth() > LONGEST_CHAIN_BY_FACTORISATION {
+    let recursion = traced(plain, passes, 3, |x| denoc::forward_dynamics(Method::Recursion, plain, x[0], x[1], x[2]));
+    if plain.depth() > LONGEST_CHAIN_BY_FACTORISATION {
         return (Method::Recursion, recursion);
     }
-    let explicit = traced(base, 3, |x| denoc::forward_dynamics(Method::Factorisation, base, x[0], x[1], x[2]));
+    let explicit = traced(matrix, passes, 3, |x| {
+        let forces = denoc::bias_forces(bias, x[0], x[1]);
+        let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();
+        Factorisation::new(matrix, &denoc::mass_matrix(matrix, x[0])).solve(&drive)
+    });
     if recursion.count().flops() < explicit.count().flops() {
         (Method::Recursion, recursion)
     } else {
@@ -208,12 +235,17 @@ fn link_kinematics<'g>(tree: &Tree, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<S
 }
 
 /// The expressions of a function of `arguments` vectors of length NV, simplified.
-fn traced(tree: &Tree, arguments: u8, function: impl for<'g> Fn(&[&[Symbol<'g>]]) -> Vec<Symbol<'g>>) -> Expressions {
+pub(crate) fn traced(
+    tree: &Tree,
+    passes: &Passes,
+    arguments: u8,
+    function: impl for<'g> Fn(&[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
+) -> Expressions {
     let tracer = Tracer::default();
     let outputs = {
         let symbols: Vec<Vec<Symbol>> = (0..arguments).map(|argument| tracer.argument(argument, tree.dof())).collect();
         let symbols: Vec<&[Symbol]> = symbols.iter().map(Vec::as_slice).collect();
         tracer.edges(&function(&symbols))
     };
-    passes::simplified(Expressions { graph: tracer.into_graph(), outputs })
+    passes::simplified(Expressions { graph: tracer.into_graph(), outputs }, passes)
 }

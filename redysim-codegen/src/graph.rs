@@ -4,7 +4,8 @@
 //! one node, and a − b is b − a seen from the other side. Operands always have smaller indices than the node that
 //! uses them, so every walk over the graph is a loop over indices.
 
-use std::collections::HashMap;
+use crate::hash::FastMap;
+use std::hash::{Hash, Hasher};
 
 /// A value: a node, or its negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -43,7 +44,7 @@ impl std::ops::Neg for Edge {
 }
 
 /// One operation. Operands of products and sums are ordered and carry no sign that could stand outside.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Node {
     /// Element `index` of argument `argument` of the function.
     Input {
@@ -68,6 +69,24 @@ pub enum Node {
     Cos(Edge),
     /// The square root of a.
     Sqrt(Edge),
+}
+
+impl Hash for Node {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let word = |edge: Edge| u64::from(edge.node) << 1 | u64::from(edge.negative);
+        let (kind, word) = match *self {
+            Node::Input { argument, index } => (0, u64::from(argument) << 32 | u64::from(index)),
+            Node::Constant(bits) => (1, bits),
+            Node::Add(a, b) => (2, word(a) << 31 ^ word(b)),
+            Node::Subtract(a, b) => (3, word(a) << 31 ^ word(b)),
+            Node::Multiply(a, b) => (4, word(a) << 31 ^ word(b)),
+            Node::Divide(a, b) => (5, word(a) << 31 ^ word(b)),
+            Node::Sin(a) => (6, word(a)),
+            Node::Cos(a) => (7, word(a)),
+            Node::Sqrt(a) => (8, word(a)),
+        };
+        state.write_u64(word ^ (kind << 60));
+    }
 }
 
 impl Node {
@@ -112,7 +131,7 @@ pub struct Graph {
     names: Vec<Option<Name>>,
     steps: Vec<Option<Step>>,
     current_step: Option<Step>,
-    indices: HashMap<Node, u32>,
+    indices: FastMap<Node, u32>,
 }
 
 impl Graph {
@@ -129,6 +148,11 @@ impl Graph {
     /// The node with the given index.
     pub fn node(&self, index: usize) -> Node {
         self.nodes[index]
+    }
+
+    /// The value of the node with the given index.
+    pub fn edge(&self, index: usize) -> Edge {
+        Edge { node: index as u32, negative: false }
     }
 
     /// The index of a node, if the graph has it.

@@ -34,10 +34,12 @@ pub mod passes;
 pub mod symbol;
 
 mod emit;
+mod hash;
 mod mechanism;
 mod rolled;
 mod shape;
 mod source;
+mod trees;
 
-pub use mechanism::{Generated, implementation, stub};
+pub use mechanism::{Generated, implementation, implementation_with, stub};
 pub use source::{InvalidName, source_file};

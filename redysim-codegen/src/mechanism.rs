@@ -2,7 +2,8 @@
 
 use crate::emit::{Angles, POSTURE, Vocabulary, function_body, local};
 use crate::expressions::Expressions;
-use crate::functions::{Function, SIGNATURES, Signature, trace};
+use crate::functions::{Function, SIGNATURES, Signature, trace_with};
+use crate::passes::Passes;
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -20,8 +21,13 @@ pub struct Generated {
 
 /// The `impl`s of the type `name` for `model`; `runtime` is the path of the crate `redysim_runtime`.
 pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Generated {
+    implementation_with(model, name, runtime, &Passes::default())
+}
+
+/// The same with the given passes only, to see what the others gain.
+pub fn implementation_with(model: &Model, name: &Ident, runtime: &TokenStream, passes: &Passes) -> Generated {
     let tree = Tree::new(model);
-    let functions = trace(&tree);
+    let functions = trace_with(&tree, passes);
     let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
     let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.coordinate].to_string()).collect();
     let operations: Vec<_> =

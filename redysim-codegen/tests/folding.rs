@@ -1,7 +1,7 @@
 //! What the graph folds when a value is made, and what it must not touch.
 
 use redysim_codegen::expressions::Expressions;
-use redysim_codegen::passes;
+use redysim_codegen::passes::{self, Passes};
 use redysim_codegen::symbol::{Symbol, Tracer};
 use redysim_runtime::Scalar;
 
@@ -9,7 +9,7 @@ use redysim_runtime::Scalar;
 fn traced(function: impl for<'g> Fn(&[Symbol<'g>]) -> Vec<Symbol<'g>>) -> Expressions {
     let tracer = Tracer::default();
     let outputs = tracer.edges(&function(&tracer.argument(0, 4)));
-    passes::simplified(Expressions { graph: tracer.into_graph(), outputs })
+    passes::simplified(Expressions { graph: tracer.into_graph(), outputs }, &Passes::default())
 }
 
 /// Its additions, multiplications, divisions and sine-cosine pairs.
@@ -61,6 +61,48 @@ fn what_is_only_roundoff_is_no_term() {
 fn equal_values_are_computed_once_whatever_their_sign_and_order() {
     assert_eq!(counts(|x| vec![x[0] * x[1], -(x[1] * x[0]), (-x[0]) * x[1]]), [0, 1, 0, 0]);
     assert_eq!(counts(|x| vec![x[0] - x[1], x[1] - x[0], -x[0] + x[1]]), [1, 0, 0, 0]);
+}
+
+#[test]
+fn common_factors_leave_a_sum() {
+    assert_eq!(counts(|x| vec![x[0] * x[1] + x[2] + x[0] * x[3]]), [2, 1, 0, 0]);
+    assert_eq!(counts(|x| vec![k(3.0) * x[1] - k(3.0) * x[2] + x[0] * x[1]]), [2, 2, 0, 0]);
+    let values = traced(|x| vec![x[2] - x[0] * x[1] + x[0] * x[3], k(3.0) * x[1] - k(3.0) * x[2]]);
+    assert_eq!(values.evaluate(&[&[2.0, 3.0, 5.0, 7.0]]), [13.0, -6.0]);
+}
+
+#[test]
+fn products_that_are_used_twice_keep_their_factor() {
+    let both = counts(|x| {
+        let (first, second) = (x[0] * x[1], x[0] * x[2]);
+        vec![first + second, first * x[3], second * x[3]]
+    });
+    assert_eq!(both, [1, 4, 0, 0]);
+}
+
+#[test]
+fn squares_of_a_sine_and_a_cosine_are_one() {
+    assert_eq!(
+        counts(|x| {
+            let (sin, cos) = x[0].sin_cos();
+            vec![cos * (cos * x[1]) + x[2] + sin * (sin * x[1])]
+        }),
+        [1, 0, 0, 0]
+    );
+    let of_products = traced(|x| {
+        let (sin, cos) = x[0].sin_cos();
+        let (a, b) = (sin * x[1], cos * x[1]);
+        vec![x[2] - (a * a + x[3]) - b * b]
+    });
+    assert_eq!(of_products.count().flops(), 3);
+    assert_eq!(of_products.evaluate(&[&[0.7, 0.5, 2.0, 4.0]]), [-2.25]);
+    let with_coefficients = traced(|x| {
+        let (sin, cos) = x[0].sin_cos();
+        vec![k(5.0) * (sin * sin) - k(3.0) * (cos * cos)]
+    });
+    assert_eq!(with_coefficients.count().flops(), 3);
+    let expected = 5.0 * 0.7_f64.sin().powi(2) - 3.0 * 0.7_f64.cos().powi(2);
+    assert!((with_coefficients.evaluate(&[&[0.7, 0.0, 0.0, 0.0]])[0] - expected).abs() <= 1e-15);
 }
 
 #[test]

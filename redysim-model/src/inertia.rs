@@ -1,6 +1,6 @@
 //! The inertia of a rigid body about the origin of a frame, over any scalar.
 
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Vec3};
 use redysim_runtime::Scalar;
 use std::ops::Add;
 
@@ -102,72 +102,4 @@ pub struct RigidInertia<S> {
     pub moment: Vec3<S>,
     /// Inertia tensor about the origin, kg m².
     pub tensor: Sym3<S>,
-}
-
-impl<S: Scalar> RigidInertia<S> {
-    /// Nothing.
-    pub fn zero() -> Self {
-        RigidInertia { mass: S::zero(), moment: Vec3::zero(), tensor: Sym3::zero() }
-    }
-
-    /// The body of the given mass, centre of mass, and inertia about it (Steiner's theorem).
-    pub fn from_central(mass: S, com: Vec3<S>, central: Sym3<S>) -> Self {
-        let moment = com.scale(mass);
-        RigidInertia { mass, moment, tensor: central + steiner(moment, com) }
-    }
-
-    /// Constants of the model as scalars.
-    pub fn constant(value: RigidInertia<f64>) -> Self {
-        RigidInertia {
-            mass: S::from_f64(value.mass),
-            moment: Vec3::constant(value.moment),
-            tensor: value.tensor.map(S::from_f64),
-        }
-    }
-
-    /// The same body about the origin of the reference, where `position` is the origin of its frame (of equal axes).
-    ///
-    /// With the first moment h about the old origin: J' = J + Σ over (p, h + m p) of the cross terms, h' = h + m p.
-    pub fn translated(self, position: Vec3<S>) -> Self {
-        let moment = self.moment + position.scale(self.mass);
-        // J + [p·h 1 − h pᵀ] + [p·h' 1 − p h'ᵀ] is symmetric though its two terms are not.
-        let tensor = Sym3::from_upper(|i, j| {
-            if i == j {
-                let (k, l) = ((i + 1) % 3, (i + 2) % 3);
-                position[k] * (self.moment[k] + moment[k]) + position[l] * (self.moment[l] + moment[l])
-            } else {
-                -(self.moment[i] * position[j] + position[i] * moment[j])
-            }
-        });
-        RigidInertia { mass: self.mass, moment, tensor: self.tensor + tensor }
-    }
-
-    /// The same body seen from the frame in which its own frame stands at `pose`.
-    pub fn transformed(self, pose: Pose<S>) -> Self {
-        RigidInertia {
-            mass: self.mass,
-            moment: pose.rotation * self.moment,
-            tensor: self.tensor.rotated(pose.rotation),
-        }
-        .translated(pose.position)
-    }
-}
-
-impl<S: Scalar> Add for RigidInertia<S> {
-    type Output = Self;
-    fn add(self, b: Self) -> Self {
-        RigidInertia { mass: self.mass + b.mass, moment: self.moment + b.moment, tensor: self.tensor + b.tensor }
-    }
-}
-
-/// (p·h) 1 − h pᵀ for parallel h and p: the tensor of the mass h/p at p.
-fn steiner<S: Scalar>(h: Vec3<S>, p: Vec3<S>) -> Sym3<S> {
-    Sym3::from_upper(|i, j| {
-        if i == j {
-            let (k, l) = ((i + 1) % 3, (i + 2) % 3);
-            h[k] * p[k] + h[l] * p[l]
-        } else {
-            -(h[i] * p[j])
-        }
-    })
 }

@@ -3,12 +3,15 @@
 mod check;
 pub mod denoc;
 mod diagnostic;
+pub mod frames;
 pub mod generic;
 pub mod inertia;
 mod load;
 pub mod model;
+pub mod pseudo;
 pub mod regroup;
 pub mod rotation;
+pub mod scaling;
 mod schema;
 pub mod spatial;
 pub mod tree;

@@ -1,52 +1,117 @@
 //! Base parameters: inertia that a joint cannot tell from its parent's is moved to the parent.
 //!
-//! For a joint that turns about z, the mass m, the first moment along z and an inertia diag(a, a, 0) move with the
-//! parent whatever the joint does: the kinetic energy ½ m v² + v·(ω × h) + ½ ωᵀ J ω of such a body depends neither on
-//! the joint's angle nor on its rate. Choosing a = J_yy leaves the body with seven parameters instead of ten. For a
-//! joint that moves along z, the whole tensor about the body's origin can go. Kinetic and potential energy of the whole
-//! mechanism, hence M, C and g, stay exactly the same (Gautier & Khalil, "Direct calculation of minimum set of inertial
-//! parameters of serial robots", IEEE Trans. Robotics and Automation 6(3), 1990). Energies and wrenches of single
-//! links do not, and a body left over need not be a possible one.
+//! Mass on the axis of a joint that turns belongs to both bodies: whichever carries it, it moves the same. Of such mass
+//! the moments ∫1, ∫z and ∫z² enter, which are three of a body's ten parameters: the mass m, the first moment h_z and
+//! the second moment Σ_zz (of which an inertia tensor has diag(1, 1, 0)). Moved to the parent they leave a body with seven. For
+//! a joint that moves along z, all second moments about the body's origin can go. Kinetic and potential energy of the
+//! whole mechanism, hence M, C and g, stay exactly the same (Gautier & Khalil, "Direct calculation of minimum set of
+//! inertial parameters of serial robots", IEEE Trans. Robotics and Automation 6(3), 1990). Energies and wrenches of
+//! single links do not, and a body left over need not be a possible one.
 
-use crate::inertia::{RigidInertia, Sym3};
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
-use crate::tree::{Joint, Tree};
+use crate::tree::{Body, Joint, Tree};
+
+/// Which number is made zero by the freedom to move an inertia diag(1, 1, 0) across a joint that turns about z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Vanishing {
+    /// J_yy, so that J_xx − J_yy is left for J_xx: few terms in ωᵀ J ω.
+    TensorYy,
+    /// Σ_zz = ½ (J_xx + J_yy − J_zz): few terms in U Σ.
+    SecondMomentZz,
+}
+
+/// Moments of mass on a joint's axis, about the body's origin: ∫1, ∫z and ∫z².
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisMass {
+    /// ∫1 dm, kg.
+    pub mass: f64,
+    /// ∫z dm, kg m.
+    pub first: f64,
+    /// ∫z² dm, kg m².
+    pub second: f64,
+}
+
+impl AxisMass {
+    fn inertia(self) -> PseudoInertia<f64> {
+        let AxisMass { mass, first, second } = self;
+        PseudoInertia { mass, moment: Vec3([0.0, 0.0, first]), second: Sym3 { zz: second, ..Sym3::zero() } }
+    }
+}
 
 /// The tree with as much inertia as possible moved towards the ground.
-pub fn base_parameters(tree: &Tree) -> Tree {
+pub fn base_parameters(tree: &Tree, vanishing: Vanishing) -> Tree {
     let mut tree = tree.clone();
     for index in (0..tree.bodies.len()).rev() {
-        let body = &mut tree.bodies[index];
-        let (own, shared) = split(body.joint, body.inertia);
-        body.inertia = own;
-        let (parent, moved) = (body.parent, shared.transformed(body.placement));
-        let carrier = match parent {
-            Some(parent) => &mut tree.bodies[parent].inertia,
-            None => &mut tree.ground,
-        };
-        *carrier = (*carrier + moved).without_roundoff();
+        move_to_parent(&mut tree, index, vanishing);
     }
     tree
 }
 
+/// The sum, with nothing where only the roundoff of two terms is left.
+fn sum(a: PseudoInertia<f64>, b: PseudoInertia<f64>) -> PseudoInertia<f64> {
+    let add = |a: f64, b: f64| {
+        let sum = a + b;
+        if sum.abs() < 8.0 * f64::EPSILON * a.abs().max(b.abs()) { 0.0 } else { sum }
+    };
+    let (s, t) = (a.second.full().0, b.second.full().0);
+    let sum = PseudoInertia {
+        mass: add(a.mass, b.mass),
+        moment: Vec3::from_fn(|i| add(a.moment[i], b.moment[i])),
+        second: Sym3::from_upper(|i, j| add(s[i][j], t[i][j])),
+    };
+    sum.without_roundoff()
+}
+
+fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
+    let body = &mut tree.bodies[index];
+    let (own, shared) = split(body.joint, body.inertia, vanishing);
+    body.inertia = own;
+    let (parent, moved) = (body.parent, shared.transformed(body.placement));
+    let carrier = match parent {
+        Some(parent) => &mut tree.bodies[parent].inertia,
+        None => &mut tree.ground,
+    };
+    *carrier = sum(*carrier, moved);
+}
+
 /// What stays with the body, and what its parent may carry as well.
-fn split(joint: Joint, inertia: RigidInertia<f64>) -> (RigidInertia<f64>, RigidInertia<f64>) {
-    let RigidInertia { mass, moment: Vec3([x, y, z]), tensor } = inertia;
+fn split(joint: Joint, inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+    let PseudoInertia { mass, moment, second } = inertia;
     match joint {
         Joint::Revolute => {
-            let a = tensor.yy;
-            (
-                RigidInertia {
-                    mass: 0.0,
-                    moment: Vec3([x, y, 0.0]),
-                    tensor: Sym3 { xx: tensor.xx - a, yy: 0.0, ..tensor },
-                },
-                RigidInertia { mass, moment: Vec3([0.0, 0.0, z]), tensor: Sym3 { xx: a, yy: a, ..Sym3::zero() } },
-            )
+            // J_yy is Σ_zz + Σ_xx.
+            let left = match vanishing {
+                Vanishing::TensorYy => -second.xx,
+                Vanishing::SecondMomentZz => 0.0,
+            };
+            let own = PseudoInertia {
+                mass: 0.0,
+                moment: Vec3([moment[0], moment[1], 0.0]),
+                second: Sym3 { zz: left, ..second },
+            };
+            (own, AxisMass { mass, first: moment[2], second: second.zz - left }.inertia())
         }
         Joint::Prismatic => (
-            RigidInertia { mass, moment: inertia.moment, tensor: Sym3::zero() },
-            RigidInertia { mass: 0.0, moment: Vec3::zero(), tensor },
+            PseudoInertia { mass, moment, second: Sym3::zero() },
+            PseudoInertia { mass: 0.0, moment: Vec3::zero(), second },
         ),
+    }
+}
+
+/// Takes mass on the axis of the joint of `body` from its parent and gives it to the body: the other way round from
+/// [`base_parameters`], where that leaves fewer numbers to compute with. What the parent can no longer tell from its
+/// own parent's moves on towards the ground.
+pub fn take_from_parent(tree: &mut Tree, body: usize, mass: AxisMass) {
+    let Body { parent, placement, .. } = tree.bodies[body];
+    let Some(parent) = parent else { return };
+    let minus = AxisMass { mass: -mass.mass, first: -mass.first, second: -mass.second };
+    tree.bodies[parent].inertia = sum(tree.bodies[parent].inertia, minus.inertia().transformed(placement));
+    tree.bodies[body].inertia = tree.bodies[body].inertia + mass.inertia();
+    let mut at = Some(parent);
+    while let Some(ancestor) = at {
+        move_to_parent(tree, ancestor, Vanishing::SecondMomentZz);
+        at = tree.bodies[ancestor].parent;
     }
 }

@@ -4,8 +4,9 @@
 //! its joint axis is z. All of this happens in numbers, before any recursion runs, so it costs the recursions nothing.
 
 use crate::denoc;
-use crate::inertia::{RigidInertia, Sym3};
+use crate::inertia::Sym3;
 use crate::model::{CutKind, CutSide, JointKind, Link, Model};
+use crate::pseudo::PseudoInertia;
 use crate::rotation;
 use crate::spatial::{Mat3, Pose, Vec3};
 
@@ -15,7 +16,7 @@ pub struct Tree {
     /// Acceleration of gravity in the base frame, m/s².
     pub gravity: Vec3<f64>,
     /// Everything that does not move, about the base frame.
-    pub ground: RigidInertia<f64>,
+    pub ground: PseudoInertia<f64>,
     /// The moving bodies; each parent has a smaller index.
     pub bodies: Vec<Body>,
     /// Where each of [`Model::links`] stands, in the model's order.
@@ -35,10 +36,21 @@ pub struct Body {
     pub joint: Joint,
     /// What is added to the joint variable, rad.
     pub offset: f64,
+    /// Whether the body's quantities are computed in axes that do not turn with its joint: those of the parent, by the
+    /// fixed rotation. What is fixed to the body then turns against them, and a child with a parallel axis turns by the
+    /// sum of angles.
+    pub still: bool,
     /// Index of the joint's variable, velocity and force in the model's order.
     pub coordinate: usize,
-    /// Inertia about the origin of the body's frame.
-    pub inertia: RigidInertia<f64>,
+    /// Moments of its mass about the origin of its frame.
+    pub inertia: PseudoInertia<f64>,
+}
+
+impl Body {
+    /// Whether the joint's axis is parallel to the z axis of the parent's frame.
+    pub fn is_parallel(&self) -> bool {
+        self.placement.rotation.0[2][2].abs() == 1.0
+    }
 }
 
 /// What a joint of the tree does.
@@ -92,7 +104,7 @@ impl Tree {
     pub fn new(model: &Model) -> Tree {
         let mut tree = Tree {
             gravity: model.gravity,
-            ground: RigidInertia::zero(),
+            ground: PseudoInertia::zero(),
             bodies: Vec::new(),
             links: model
                 .links
@@ -182,8 +194,9 @@ impl Tree {
             placement: placement.without_roundoff(),
             joint,
             offset,
+            still: false,
             coordinate,
-            inertia: RigidInertia::zero(),
+            inertia: PseudoInertia::zero(),
         });
         let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)
@@ -268,10 +281,10 @@ fn parents_first(model: &Model) -> Vec<usize> {
     order
 }
 
-fn link_inertia(link: &Link) -> RigidInertia<f64> {
+fn link_inertia(link: &Link) -> PseudoInertia<f64> {
     let i = link.inertia;
     let central = Sym3 { xx: i.xx, yy: i.yy, zz: i.zz, xy: i.xy, yz: i.yz, xz: i.xz };
-    RigidInertia::from_central(link.mass, link.com, central)
+    PseudoInertia::from_central(link.mass, link.com, central)
 }
 
 /// Sets to zero what is smaller than the roundoff of the largest element, so that the noise of a fixed rotation never
@@ -300,11 +313,11 @@ impl Pose<f64> {
     }
 }
 
-impl RigidInertia<f64> {
+impl PseudoInertia<f64> {
     pub(crate) fn without_roundoff(mut self) -> Self {
         let [x, y, z] = &mut self.moment.0;
         without_noise(&mut [x, y, z]);
-        let Sym3 { xx, yy, zz, xy, yz, xz } = &mut self.tensor;
+        let Sym3 { xx, yy, zz, xy, yz, xz } = &mut self.second;
         without_noise(&mut [xx, yy, zz, xy, yz, xz]);
         self
     }

@@ -1,25 +1,96 @@
 //! Passes over expressions: each takes a graph and returns one of equal value.
 
+mod factors;
+mod squares;
 mod sums;
+mod terms;
 
 use crate::expressions::Expressions;
 
-/// A pass.
+/// Which passes are on. Each gives the same values with fewer operations; switched off, it shows what it gains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Passes {
+    /// Frames of bodies are chosen anew ([`frames`](redysim_model::frames)).
+    pub frames: bool,
+    /// Inertia that a joint cannot tell from its parent's moves to the parent
+    /// ([`regroup`](redysim_model::regroup)).
+    pub base_parameters: bool,
+    /// Masses on joint axes go where they cost least; on top of `base_parameters`.
+    pub axis_masses: bool,
+    /// One angle for consecutive parallel axes.
+    pub parallel_axes: bool,
+    /// Lengths in a unit that makes a constant 1.
+    pub units: bool,
+    /// Like terms of sums are collected.
+    pub sums: bool,
+    /// s² + c² = 1.
+    pub squares: bool,
+    /// Common factors of sums.
+    pub factors: bool,
+}
+
+impl Passes {
+    /// No pass at all.
+    pub const fn none() -> Self {
+        Passes {
+            frames: false,
+            base_parameters: false,
+            axis_masses: false,
+            parallel_axes: false,
+            units: false,
+            sums: false,
+            squares: false,
+            factors: false,
+        }
+    }
+
+    /// Every pass.
+    pub const fn all() -> Self {
+        Passes {
+            frames: true,
+            base_parameters: true,
+            axis_masses: true,
+            parallel_axes: true,
+            units: true,
+            sums: true,
+            squares: true,
+            factors: true,
+        }
+    }
+}
+
+impl Default for Passes {
+    /// Every pass.
+    fn default() -> Self {
+        Passes::all()
+    }
+}
+
+/// A pass over expressions.
 type Pass = fn(&Expressions) -> Expressions;
 
-/// All passes in order.
-const PASSES: [(&str, Pass); 1] = [("sums", sums::collected)];
+/// The expressions after all passes over expressions that are on. In debug builds each is checked: the values before
+/// and after must agree.
+pub fn simplified(expressions: Expressions, passes: &Passes) -> Expressions {
+    let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
+    let collected = sums(expressions);
+    let price = collected.price();
+    let merged = applied("squares", passes.squares, squares::merged, collected);
+    let shared = applied("factors", passes.factors, factors::shared, merged);
+    // What has moved has new neighbours.
+    if shared.price() < price { sums(shared) } else { shared }
+}
 
-/// The expressions after all passes. In debug builds each pass is checked: the values before and after must agree.
-pub fn simplified(mut expressions: Expressions) -> Expressions {
-    for (name, pass) in PASSES {
-        let simpler = pass(&expressions);
-        if cfg!(debug_assertions) {
-            check::same_values(name, &expressions, &simpler);
-        }
-        expressions = simpler;
+/// The expressions after a pass, if it is on and does not make them dearer.
+fn applied(name: &str, on: bool, pass: Pass, expressions: Expressions) -> Expressions {
+    if !on {
+        return expressions;
     }
-    expressions
+    let simpler = pass(&expressions);
+    if cfg!(debug_assertions) {
+        check::same_values(name, &expressions, &simpler);
+    }
+    if simpler.price() <= expressions.price() { simpler } else { expressions }
 }
 
 mod check {

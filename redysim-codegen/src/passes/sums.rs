@@ -7,6 +7,7 @@
 //! code can be a loop: a sum does not reach into the steps of other bodies, and what comes from there counts as ready,
 //! but for what the same sweep has just computed, which counts as late.
 
+use super::terms::inner_sums;
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node, Step, sum_without_noise};
 use std::cmp::Reverse;
@@ -37,24 +38,6 @@ pub fn collected(expressions: &Expressions) -> Expressions {
     Expressions { graph, outputs }
 }
 
-/// Sums, and constants times something, that are only part of one larger sum.
-fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
-    let mut inner = vec![false; graph.len()];
-    for index in (0..graph.len()).rev() {
-        if uses[index] == 0 {
-            continue;
-        }
-        if let Node::Add(a, b) | Node::Subtract(a, b) = graph.node(index) {
-            for operand in [a, b].map(Edge::node) {
-                let is_sum = matches!(graph.node(operand), Node::Add(..) | Node::Subtract(..));
-                let within_reach = !by_body || graph.step(operand) == graph.step(index);
-                inner[operand] |= is_sum && uses[operand] == 1 && within_reach;
-            }
-        }
-    }
-    inner
-}
-
 /// The terms of the sum at `root`, like ones collected, added up again so that the result is ready soonest.
 fn rebuilt_sum(
     old: &Graph,
@@ -79,27 +62,18 @@ fn collect(old: &Graph, root: usize, inner: &[bool], graph: &Graph, made: &[Opti
     let mut constant = 0.0;
     let mut terms: Vec<(Edge, f64)> = Vec::new();
     let mut places: HashMap<Edge, usize> = HashMap::new();
-    let mut open = vec![(root, false)];
-    while let Some((index, negative)) = open.pop() {
-        let (Node::Add(a, b) | Node::Subtract(a, b)) = old.node(index) else { continue };
-        let second = matches!(old.node(index), Node::Subtract(..)) != negative;
-        for (operand, negative) in [(a, negative), (b, second)] {
-            if inner[operand.node()] {
-                open.push((operand.node(), operand.is_negative() != negative));
-                continue;
-            }
-            let edge = mapped(made, operand).flipped_if(negative);
-            if let Some(value) = graph.constant_value(edge) {
-                constant = sum_without_noise(constant, value);
-                continue;
-            }
-            let (factor, base) = graph.coefficient(edge);
-            let place = *places.entry(base).or_insert(terms.len());
-            if place == terms.len() {
-                terms.push((base, 0.0));
-            }
-            terms[place].1 = sum_without_noise(terms[place].1, factor);
+    for operand in super::terms::terms(old, root, inner) {
+        let edge = mapped(made, operand);
+        if let Some(value) = graph.constant_value(edge) {
+            constant = sum_without_noise(constant, value);
+            continue;
         }
+        let (factor, base) = graph.coefficient(edge);
+        let place = *places.entry(base).or_insert(terms.len());
+        if place == terms.len() {
+            terms.push((base, 0.0));
+        }
+        terms[place].1 = sum_without_noise(terms[place].1, factor);
     }
     (constant, terms)
 }

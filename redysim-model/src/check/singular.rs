@@ -35,8 +35,8 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
 fn meets_own_inertia(body: &Body) -> bool {
     match body.joint {
         Joint::Revolute => {
-            let tensor = body.inertia.tensor;
-            tensor.zz > ROUNDOFF * (tensor.xx + tensor.yy)
+            let second = body.inertia.second;
+            second.xx + second.yy > ROUNDOFF * (second.xx + second.yy + 2.0 * second.zz)
         }
         Joint::Prismatic => body.inertia.mass > 0.0,
     }

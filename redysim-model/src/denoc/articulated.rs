@@ -56,8 +56,8 @@ pub(super) struct ArticulatedInertia<S> {
 
 impl<S: Scalar> ArticulatedInertia<S> {
     /// A body that carries nothing.
-    pub fn rigid(inertia: &RigidInertia<f64>) -> Self {
-        let RigidInertia { mass, moment, tensor } = RigidInertia::constant(*inertia);
+    pub fn rigid(inertia: RigidInertia<S>) -> Self {
+        let RigidInertia { mass, moment, tensor } = inertia;
         let mass = Sym3 { xx: mass, yy: mass, zz: mass, ..Sym3::zero() };
         ArticulatedInertia { tensor, coupling: moment.skew(), mass }
     }

@@ -1,9 +1,9 @@
 //! Kinetic and potential energy.
 
-use super::joint::joint_frames;
+use super::joint::{JointFrame, joint_frames};
 use crate::inertia::RigidInertia;
 use crate::spatial::Vec3;
-use crate::tree::{Joint, Tree};
+use crate::tree::{Body, Joint, Tree};
 use redysim_runtime::{Energy, Scalar};
 
 /// Kinetic energy ½ Σ (m v² + 2 v·(ω × h) + ωᵀ J ω) and potential energy −Σ m g·c, zero at the base frame's origin, J.
@@ -21,10 +21,11 @@ pub fn energy<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Energy<S> {
             Joint::Prismatic => linear[2] += v[body.coordinate],
         }
         let (angular, linear) = (angular.named("w", index), linear.named("vel", index));
-        twice_kinetic += twice_kinetic_energy(&RigidInertia::constant(body.inertia), angular, linear);
+        twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), angular, linear);
         motions.push((angular, linear));
     }
-    let mut moments: Vec<Vec3<S>> = tree.bodies.iter().map(|body| Vec3::constant(body.inertia.moment)).collect();
+    let of_body = |(body, frame): (&Body, &JointFrame<S>)| frame.fixed_vector(Vec3::constant(body.inertia.moment));
+    let mut moments: Vec<Vec3<S>> = tree.bodies.iter().zip(&frames).map(of_body).collect();
     let mut masses: Vec<f64> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
     let mut total = Vec3::constant(tree.ground.moment);
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {

@@ -43,15 +43,20 @@ pub fn forward_dynamics_by_factorisation<S: Scalar>(tree: &Tree, q: &[S], v: &[S
 pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], tau: &[S]) -> Vec<S> {
     let frames = joint_frames(tree, q);
     let drifts = drifts(tree, &frames, q, v);
-    let mut inertias: Vec<ArticulatedInertia<S>> =
-        tree.bodies.iter().map(|body| ArticulatedInertia::rigid(&body.inertia)).collect();
+    let mut inertias: Vec<ArticulatedInertia<S>> = tree
+        .bodies
+        .iter()
+        .zip(&frames)
+        .map(|(body, frame)| ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid()))
+        .collect();
     let mut biases = vec![Spatial::zero(); tree.bodies.len()];
     let mut pivots: Vec<Pivot<S>> = Vec::with_capacity(tree.bodies.len());
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
         q[body.coordinate].step("inward", index);
         let free = free_axis(body.joint);
         let inertia = inertias[index].named(index);
-        let bias = biases[index].plus(centrifugal_wrench(&body.inertia, drifts[index].angular));
+        let own = frame.own_inertia(body.inertia).to_rigid();
+        let bias = biases[index].plus(centrifugal_wrench(own, drifts[index].angular));
         let bias = bias.named("bias_n", "bias_f", index);
         let column = inertia.column(free);
         let inverse = (S::one() / column.component(free)).named("inv_D", index, "");
@@ -135,8 +140,8 @@ fn drifts<S: Scalar>(tree: &Tree, frames: &[JointFrame<S>], q: &[S], v: &[S]) ->
 }
 
 /// The wrench (ω × J ω, ω × (ω × h)) of a body that turns without acceleration.
-fn centrifugal_wrench<S: Scalar>(inertia: &RigidInertia<f64>, w: Vec3<S>) -> Spatial<S> {
-    let RigidInertia { moment, tensor, .. } = RigidInertia::constant(*inertia);
+fn centrifugal_wrench<S: Scalar>(inertia: RigidInertia<S>, w: Vec3<S>) -> Spatial<S> {
+    let RigidInertia { moment, tensor, .. } = inertia;
     Spatial { angular: w.cross(tensor.full() * w), linear: w.cross(w.cross(moment)) }
 }
 

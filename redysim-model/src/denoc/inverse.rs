@@ -1,7 +1,8 @@
 //! Inverse dynamics: joint forces from motion, by one recursion outwards and one inwards (recursive Newton-Euler).
 
-use super::joint::{along_joint, joint_frames};
-use crate::inertia::RigidInertia;
+use super::joint::{JointFrame, along_joint, joint_frames};
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Vec3};
 use crate::tree::{Joint, Tree};
 use redysim_runtime::Scalar;
@@ -32,28 +33,94 @@ impl<S: Scalar> BodyMotion<S> {
         Self::new(Vec3::zero(), Vec3::zero(), Vec3::constant(-gravity))
     }
 
-    /// Force and moment about the origin that give a body of this inertia this motion:
-    /// f = m a + U h, n = J ω̇ + ω × J ω + h × a.
-    fn wrench(&self, inertia: &RigidInertia<f64>) -> (Vec3<S>, Vec3<S>) {
-        let RigidInertia { mass, moment, tensor } = RigidInertia::constant(*inertia);
+    /// The motion behind a joint that turns about z with rate `rate` and acceleration `joint`.
+    fn behind_revolute(self, frame: &JointFrame<S>, rate: S, joint: S) -> Self {
+        let acceleration = frame.to_body(self.acceleration + self.point_rate * frame.position);
+        let mut w = frame.to_body(self.angular);
+        let before = frame.to_body(self.angular_rate);
+        let Some(image) = frame.axis_image(self.point_rate) else {
+            let rates = before + Vec3([w[1] * rate, -(w[0] * rate), joint]);
+            w[2] += rate;
+            return Self::new(w, rates, acceleration);
+        };
+        // The points of the axis belong to both bodies, so the third columns of their U are the same vector, and
+        // U_xz = ω_x ω_z + ω̇_y, U_yz = ω_y ω_z − ω̇_x give ω̇ without the products of ω and the joint's rate.
+        w[2] += rate;
+        let rates = Vec3([w[1] * w[2] - image[1], image[0] - w[0] * w[2], before[2] + joint]);
+        let mut motion = Self::new(w, rates, acceleration);
+        for i in 0..3 {
+            motion.point_rate.0[i][2] = image[i];
+        }
+        motion
+    }
+
+    /// The motion behind a joint that moves along z with rate `rate` and acceleration `joint`.
+    fn behind_prismatic(self, frame: &JointFrame<S>, rate: S, joint: S) -> Self {
+        let w = frame.to_body(self.angular);
+        let twice = rate + rate;
+        let acceleration = frame.to_body(self.acceleration + self.point_rate * frame.position);
+        let acceleration = acceleration + Vec3([w[1] * twice, -(w[0] * twice), joint]);
+        Self::new(w, frame.to_body(self.angular_rate), acceleration)
+    }
+
+    fn named(self, index: usize) -> Self {
+        BodyMotion {
+            angular: self.angular.named("w", index),
+            angular_rate: self.angular_rate.named("dw", index),
+            acceleration: self.acceleration.named("acc", index),
+            ..self
+        }
+    }
+
+    /// Force and moment about the origin that give a body of these moments of mass this motion: f = m a + U h, and n
+    /// such that n× = U Σ − (U Σ)ᵀ, plus h × a.
+    fn wrench(&self, inertia: &PseudoInertia<S>, shape: Shape<S>) -> (Vec3<S>, Vec3<S>) {
+        let PseudoInertia { mass, moment, second: s } = *inertia;
         let force = self.acceleration.scale(mass) + self.point_rate * moment;
-        let (w, rate, u) = (self.angular, self.angular_rate, self.point_rate.0);
-        // The gyroscopic moment in the elements of U, which the force has computed already. Differences of constants
-        // are taken in numbers.
-        let t = inertia.tensor;
-        let [zy, xz, yx] = [t.zz - t.yy, t.xx - t.zz, t.yy - t.xx].map(S::from_f64);
-        let gyroscopic = Vec3([
-            tensor.xx * rate[0] + zy * (w[1] * w[2]) - tensor.xy * u[2][0]
-                + tensor.xz * u[1][0]
-                + tensor.yz * (u[1][1] - u[2][2]),
-            tensor.yy * rate[1] + xz * (w[2] * w[0]) - tensor.yz * u[0][1]
-                + tensor.xy * u[2][1]
-                + tensor.xz * (u[2][2] - u[0][0]),
-            tensor.zz * rate[2] + yx * (w[0] * w[1]) - tensor.xz * u[1][2]
-                + tensor.yz * u[0][2]
-                + tensor.xy * (u[0][0] - u[1][1]),
+        let (w, u) = (self.angular, self.point_rate.0);
+        // U_jj − U_ii.
+        let squares = |i: usize, j: usize| w[j] * w[j] - w[i] * w[i];
+        // Σ_jj U_kj − Σ_kk U_jk, for i, j, k in cyclic order: where the two moments are equal, only ω̇ is left of U.
+        let across = |i: usize, j: usize, k: usize, first: S, second: S| {
+            if shape.equal[i] {
+                (first + second) * self.angular_rate[i]
+            } else if shape.still && i == 2 {
+                // In axes that do not turn, the sum is a constant and the difference is not.
+                shape.polar * self.angular_rate[i] + (first - second) * (w[j] * w[k])
+            } else {
+                first * u[k][j] - second * u[j][k]
+            }
+        };
+        let own = Vec3([
+            across(0, 1, 2, s.yy, s.zz) + s.xy * u[2][0] - s.xz * u[1][0] + s.yz * squares(1, 2),
+            across(1, 2, 0, s.zz, s.xx) + s.yz * u[0][1] - s.xy * u[2][1] + s.xz * squares(2, 0),
+            across(2, 0, 1, s.xx, s.yy) + s.xz * u[1][2] - s.yz * u[0][2] + s.xy * squares(0, 1),
         ]);
-        (force, gyroscopic + moment.cross(self.acceleration))
+        (force, own + moment.cross(self.acceleration))
+    }
+}
+
+/// What is known of a body's moments of mass in numbers.
+#[derive(Clone, Copy)]
+struct Shape<S> {
+    /// Σ_xx + Σ_yy.
+    polar: S,
+    /// Whether the two second moments across each axis are equal.
+    equal: [bool; 3],
+    /// Whether the body turns against its axes.
+    still: bool,
+}
+
+impl<S: Scalar> Shape<S> {
+    fn new(inertia: &PseudoInertia<f64>, frame: &JointFrame<S>) -> Self {
+        let Sym3 { xx, yy, zz, xy, .. } = inertia.second;
+        let still = frame.is_still();
+        let round = xx == yy && (xy == 0.0 || !still);
+        Shape {
+            equal: [yy == zz && !still, zz == xx && !still, round],
+            still,
+            polar: S::from_f64(xx) + S::from_f64(yy),
+        }
     }
 }
 
@@ -66,24 +133,13 @@ pub fn inverse_dynamics<S: Scalar>(tree: &Tree, q: &[S], v: &[S], a: &[S]) -> Ve
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate() {
         q[body.coordinate].step("outward", index);
         let parent = body.parent.map_or(ground, |parent| motions[parent]);
-        let (rate, acceleration) = (v[body.coordinate], a[body.coordinate]);
-        let mut angular = frame.to_body(parent.angular);
-        let mut angular_rate = frame.to_body(parent.angular_rate);
-        let mut linear = frame.to_body(parent.acceleration + parent.point_rate * frame.position);
-        let [x, y, _] = angular.0;
-        match body.joint {
-            Joint::Revolute => {
-                angular_rate = angular_rate + Vec3([y * rate, -(x * rate), acceleration]);
-                angular[2] += rate;
-            }
-            Joint::Prismatic => {
-                let twice = rate + rate;
-                linear = linear + Vec3([y * twice, -(x * twice), acceleration]);
-            }
-        }
-        let motion =
-            BodyMotion::new(angular.named("w", index), angular_rate.named("dw", index), linear.named("acc", index));
-        wrenches.push(motion.wrench(&body.inertia));
+        let (rate, joint) = (v[body.coordinate], a[body.coordinate]);
+        let motion = match body.joint {
+            Joint::Revolute => parent.behind_revolute(frame, rate, joint),
+            Joint::Prismatic => parent.behind_prismatic(frame, rate, joint),
+        };
+        let motion = motion.named(index);
+        wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), Shape::new(&body.inertia, frame)));
         motions.push(motion);
     }
     let mut tau = vec![S::zero(); tree.dof()];

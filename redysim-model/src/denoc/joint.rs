@@ -1,94 +1,178 @@
 //! One joint at one position: how vectors, forces and inertias pass between a body and its parent.
 
-use crate::inertia::{RigidInertia, Sym3};
-use crate::spatial::{Mat3, Vec3};
-use crate::tree::{Body, Joint, Tree};
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
+use crate::spatial::{Mat3, Pose, Vec3};
+use crate::tree::{Joint, Tree};
 use redysim_runtime::Scalar;
 
-/// A body's frame in its parent's: a fixed rotation, then the joint's own.
+/// Cosine and sine of an angle about z.
+type Turn<S> = (S, S);
+
+/// The axes in which a body's quantities are computed, in its parent's: a fixed rotation, then the joint's own.
 ///
-/// The two rotations are kept apart, since the fixed one is mostly made of zeros and ones.
+/// The two rotations are kept apart, since the fixed one is mostly made of zeros and ones. The axes of a still body
+/// ([`Body::still`](crate::tree::Body::still)) do not turn with its joint; then what is fixed to the body turns against
+/// them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointFrame<S> {
+    /// The parent against its axes, where these are still and the joint's axis turns against them.
+    before: Option<Turn<S>>,
     fixed: Mat3<S>,
-    /// Cosine and sine of the joint's angle; `None` where the joint does not turn.
-    turn: Option<(S, S)>,
-    /// The body's origin in the parent's frame.
+    /// The body's axes against the fixed rotation; `None` where they do not turn.
+    turn: Option<Turn<S>>,
+    /// The body against its axes; `None` where they are its own.
+    attitude: Option<Turn<S>>,
+    /// Whether the joint's axis is one of the parent's axes.
+    along_axis: bool,
+    /// The body's origin in the parent's axes.
     pub position: Vec3<S>,
 }
 
 /// The frames of all bodies at the coordinates `q`.
 pub(super) fn joint_frames<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<JointFrame<S>> {
-    tree.bodies.iter().enumerate().map(|(index, body)| JointFrame::new(body, index, q[body.coordinate])).collect()
+    // All angles first, so that compiled code can take their sines and cosines together.
+    let angles = angles(tree, q);
+    let mut frames: Vec<JointFrame<S>> = Vec::with_capacity(tree.bodies.len());
+    for (index, (body, angle)) in tree.bodies.iter().zip(angles).enumerate() {
+        q[body.coordinate].step("frames", index);
+        let parent = body.parent.and_then(|parent| frames[parent].attitude);
+        let turn = angle.map(|Angle { value, is_sum }| {
+            let (sin, cos) = value.sin_cos();
+            let [cosine, sine] = if is_sum { ["cos_sum", "sin_sum"] } else { ["cos", "sin"] };
+            (cos.named(cosine, index, ""), sin.named(sine, index, ""))
+        });
+        let Pose { rotation, position } = body.placement;
+        let fixed = Mat3::constant(rotation);
+        let mut position = turned(parent, Vec3::constant(position));
+        let before = parent.filter(|_| !body.is_parallel());
+        if body.joint == Joint::Prismatic {
+            position = position + turned(before, fixed.column(2)).scale(q[body.coordinate]);
+        }
+        let along_axis = before.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
+        let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
+        frames.push(JointFrame { before, fixed, turn, attitude, along_axis, position });
+    }
+    frames
+}
+
+/// By how much a body has turned about its z axis.
+#[derive(Clone, Copy)]
+struct Angle<S> {
+    value: S,
+    /// Whether more than one joint has a part in it.
+    is_sum: bool,
+}
+
+/// By how much each body has turned about its z axis: against its parent, or if that is still and the axes are
+/// parallel, against the parent's axes.
+fn angles<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Option<Angle<S>>> {
+    let mut angles: Vec<Option<Angle<S>>> = Vec::with_capacity(tree.bodies.len());
+    for body in &tree.bodies {
+        let q = q[body.coordinate];
+        let own = match body.joint {
+            Joint::Revolute if body.offset == 0.0 => Some(q),
+            Joint::Revolute => Some(q + S::from_f64(body.offset)),
+            Joint::Prismatic => None,
+        };
+        let still_parent = body.parent.filter(|&parent| tree.bodies[parent].still && body.is_parallel());
+        let carried = still_parent.and_then(|parent| angles[parent]).map(|angle| {
+            let opposite = body.placement.rotation.0[2][2] < 0.0;
+            if opposite { -angle.value } else { angle.value }
+        });
+        angles.push(match (carried, own) {
+            (Some(carried), Some(own)) => Some(Angle { value: carried + own, is_sum: true }),
+            (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some() }),
+        });
+    }
+    angles
 }
 
 impl<S: Scalar> JointFrame<S> {
-    fn new(body: &Body, index: usize, q: S) -> Self {
-        q.step("frames", index);
-        let fixed = Mat3::constant(body.placement.rotation);
-        let position = Vec3::constant(body.placement.position);
-        match body.joint {
-            Joint::Revolute => {
-                let angle = if body.offset == 0.0 { q } else { q + S::from_f64(body.offset) };
-                let (sin, cos) = angle.sin_cos();
-                let turn = Some((cos.named("cos", index, ""), sin.named("sin", index, "")));
-                JointFrame { fixed, turn, position }
-            }
-            Joint::Prismatic => JointFrame { fixed, turn: None, position: position + fixed.column(2).scale(q) },
-        }
-    }
-
-    /// A vector of the body's frame, in the parent's.
+    /// A vector in the body's axes, in the parent's.
     pub fn to_parent(self, v: Vec3<S>) -> Vec3<S> {
-        self.fixed * self.turned(v)
+        turned(self.before, self.fixed * turned(self.turn, v))
     }
 
-    /// A vector of the parent's frame, in the body's.
+    /// A vector in the parent's axes, in the body's.
     pub fn to_body(self, v: Vec3<S>) -> Vec3<S> {
-        let v = self.fixed.transpose() * v;
-        match self.turn {
-            Some((cos, sin)) => Vec3([cos * v[0] + sin * v[1], cos * v[1] - sin * v[0], v[2]]),
-            None => v,
-        }
+        turned_back(self.turn, self.fixed.transpose() * turned_back(self.before, v))
     }
 
-    /// A force on the body and its moment about the body's origin, in the parent's frame and about the parent's origin.
+    /// What the matrix of the parent's axes makes of the joint's axis, in the body's axes; `None` where the joint's
+    /// axis is none of the parent's axes and the product would cost.
+    pub fn axis_image(self, matrix: Mat3<S>) -> Option<Vec3<S>> {
+        self.along_axis.then(|| self.to_body(matrix * self.fixed.column(2)))
+    }
+
+    /// A vector fixed to the body, in its axes.
+    pub fn fixed_vector(self, v: Vec3<S>) -> Vec3<S> {
+        turned(self.attitude, v)
+    }
+
+    /// The axes fixed to the body as columns, where its own axes are the columns of `axes`.
+    pub fn fixed_axes(self, axes: Mat3<S>) -> Mat3<S> {
+        Mat3(axes.0.map(|row| turned_back(self.attitude, Vec3(row)).0))
+    }
+
+    /// A pose fixed to the body, in its axes.
+    pub fn fixed_pose(self, pose: Pose<S>) -> Pose<S> {
+        let columns = pose.rotation.transpose().0.map(|column| self.fixed_vector(Vec3(column)).0);
+        Pose { rotation: Mat3(columns).transpose(), position: self.fixed_vector(pose.position) }
+    }
+
+    /// The moments of the body's own mass, in its axes.
+    pub fn own_inertia(self, inertia: PseudoInertia<f64>) -> PseudoInertia<S> {
+        let PseudoInertia { mass, moment, second } = PseudoInertia::constant(inertia);
+        PseudoInertia { mass, moment: self.fixed_vector(moment), second: turned_tensor(self.attitude, second) }
+    }
+
+    /// Whether what is fixed to the body turns against its axes.
+    pub fn is_still(self) -> bool {
+        self.attitude.is_some()
+    }
+
+    /// A force on the body and its moment about the body's origin, in the parent's axes and about the parent's origin.
     pub fn wrench_to_parent(self, force: Vec3<S>, moment: Vec3<S>) -> (Vec3<S>, Vec3<S>) {
         let force = self.to_parent(force);
         (force, self.to_parent(moment) + self.position.cross(force))
     }
 
-    /// A symmetric tensor of the body's frame, in the parent's axes.
+    /// A symmetric tensor of the body's axes, in the parent's.
     pub fn tensor_to_parent(self, tensor: Sym3<S>) -> Sym3<S> {
-        match self.turn {
-            Some((cos, sin)) => tensor.rotated_about_z(cos, sin),
-            None => tensor,
-        }
-        .rotated(self.fixed)
+        turned_tensor(self.before, turned_tensor(self.turn, tensor).rotated(self.fixed))
     }
 
-    /// A general tensor of the body's frame, in the parent's axes.
+    /// A general tensor of the body's axes, in the parent's.
     pub fn matrix_to_parent(self, matrix: Mat3<S>) -> Mat3<S> {
         let rows = Mat3(matrix.0.map(|row| self.to_parent(Vec3(row)).0)).transpose();
         Mat3(rows.0.map(|column| self.to_parent(Vec3(column)).0)).transpose()
     }
 
-    /// A body's inertia about its origin, in the parent's frame and about the parent's origin.
-    pub fn inertia_to_parent(self, inertia: RigidInertia<S>) -> RigidInertia<S> {
-        RigidInertia {
+    /// Moments of mass about the body's origin, in the parent's axes and about the parent's origin.
+    pub fn inertia_to_parent(self, inertia: PseudoInertia<S>) -> PseudoInertia<S> {
+        PseudoInertia {
             mass: inertia.mass,
             moment: self.to_parent(inertia.moment),
-            tensor: self.tensor_to_parent(inertia.tensor),
+            second: self.tensor_to_parent(inertia.second),
         }
         .translated(self.position)
     }
+}
 
-    fn turned(self, v: Vec3<S>) -> Vec3<S> {
-        match self.turn {
-            Some((cos, sin)) => Vec3([cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]]),
-            None => v,
-        }
+fn turned<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
+    match turn {
+        Some((cos, sin)) => Vec3([cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]]),
+        None => v,
     }
+}
+
+fn turned_back<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
+    turned(turn.map(|(cos, sin)| (cos, -sin)), v)
+}
+
+fn turned_tensor<S: Scalar>(turn: Option<Turn<S>>, tensor: Sym3<S>) -> Sym3<S> {
+    turn.map_or(tensor, |(cos, sin)| tensor.rotated_about_z(cos, sin))
 }
 
 /// The component of a wrench that a joint's motion meets: the moment about z, or the force along it.

@@ -31,8 +31,9 @@ impl<S: Scalar> MovingFrame<S> {
 
 /// Rotation, origin, centre of mass, velocity of the origin and angular velocity of every link, in the model's order.
 pub fn link_kinematics<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<LinkState<S>> {
+    let joints = joint_frames(tree, q);
     let mut frames: Vec<MovingFrame<S>> = Vec::with_capacity(tree.bodies.len());
-    for (index, (body, joint)) in tree.bodies.iter().zip(joint_frames(tree, q)).enumerate() {
+    for (index, (body, joint)) in tree.bodies.iter().zip(&joints).enumerate() {
         q[body.coordinate].step("outward", index);
         let parent = body.parent.map_or(MovingFrame::ground(), |parent| frames[parent]);
         let mut frame = parent.carry(Pose { rotation: Mat3::identity(), position: joint.position });
@@ -50,8 +51,11 @@ pub fn link_kinematics<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<LinkStat
             if let Some(body) = link.body {
                 q[tree.bodies[body].coordinate].step("links", body);
             }
-            let body = link.body.map_or(MovingFrame::ground(), |body| frames[body]);
-            let frame = body.carry(Pose::constant(link.pose));
+            let pose = Pose::constant(link.pose);
+            let frame = match link.body {
+                Some(body) => frames[body].carry(joints[body].fixed_pose(pose)),
+                None => MovingFrame::ground().carry(pose),
+            };
             let Mat3(rotation) = frame.pose.rotation;
             LinkState {
                 rotation,

@@ -32,6 +32,8 @@ impl CutKind {
 #[derive(Clone, Copy)]
 struct Placed<S> {
     pose: Pose<S>,
+    /// The axes fixed to the body, which those of `pose` need not be.
+    fixed: Mat3<S>,
     /// Angular velocity.
     angular: Vec3<S>,
     /// Angular acceleration at zero joint accelerations.
@@ -43,7 +45,13 @@ struct Placed<S> {
 impl<S: Scalar> Placed<S> {
     fn ground() -> Self {
         let zero = Vec3::zero();
-        Placed { pose: Pose::identity(), angular: zero, angular_rate: zero, acceleration: zero }
+        Placed {
+            pose: Pose::identity(),
+            fixed: Mat3::identity(),
+            angular: zero,
+            angular_rate: zero,
+            acceleration: zero,
+        }
     }
 
     /// How a vector fixed to the body changes, ω × r, ...
@@ -65,7 +73,8 @@ fn placed<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<Placed<S>> {
         let arm = parent.pose.rotation * joint.position;
         let pose = Pose { rotation: turned(parent.pose.rotation, &joint), position: parent.pose.position + arm };
         let along = pose.rotation.column(2).scale(v[body.coordinate]);
-        let mut placed = Placed { pose, acceleration: parent.acceleration + parent.second_rate(arm), ..parent };
+        let fixed = joint.fixed_axes(pose.rotation);
+        let mut placed = Placed { pose, fixed, acceleration: parent.acceleration + parent.second_rate(arm), ..parent };
         match body.joint {
             Joint::Revolute => {
                 placed.angular_rate = parent.angular_rate + parent.rate(along);
@@ -104,7 +113,7 @@ impl<S: Scalar> Side<S> {
             carried[index] = true;
             at = tree.bodies[index].parent;
         }
-        let rotation = body.pose.rotation;
+        let rotation = body.fixed;
         Side { body, arm: rotation * Vec3::constant(end.point), axes: rotation * Mat3::constant(end.axes), carried }
     }
 

@@ -1,9 +1,10 @@
 //! The generalised inertia matrix, from composite bodies.
 
-use super::joint::{along_joint, joint_frames};
-use crate::inertia::RigidInertia;
+use super::joint::{JointFrame, along_joint, joint_frames};
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
-use crate::tree::{Joint, Tree};
+use crate::tree::{Body, Joint, Tree};
 use redysim_runtime::Scalar;
 
 /// M(q), by rows: element (i, j) is the force on joint i for a unit acceleration of joint j.
@@ -12,20 +13,17 @@ use redysim_runtime::Scalar;
 /// the ground feels of it is the element. Joints that are not on one way to the ground do not feel each other.
 pub fn mass_matrix<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Vec<S>> {
     let frames = joint_frames(tree, q);
-    let mut composites: Vec<RigidInertia<S>> =
-        tree.bodies.iter().map(|body| RigidInertia::constant(body.inertia)).collect();
+    let upright = upright(tree);
+    let own_inertia = |(body, frame): (&Body, &JointFrame<S>)| Composite::new(body.inertia, frame);
+    let mut composites: Vec<Composite<S>> = tree.bodies.iter().zip(&frames).map(own_inertia).collect();
     let mut matrix = vec![vec![S::zero(); tree.dof()]; tree.dof()];
     for (index, body) in tree.bodies.iter().enumerate().rev() {
-        let composite = composites[index];
-        let composite = RigidInertia {
-            mass: composite.mass,
-            moment: composite.moment.named("h", index),
-            tensor: composite.tensor.named("J", index),
-        };
+        let composite = composites[index].named(index);
         if let Some(parent) = body.parent {
-            composites[parent] = composites[parent] + frames[index].inertia_to_parent(composite);
+            let carried = composite.to_parent(&frames[index], upright[index]);
+            composites[parent] = composites[parent].plus(carried);
         }
-        let (mut force, mut moment) = unit_wrench(body.joint, &composite);
+        let (mut force, mut moment) = composite.unit_wrench(body.joint);
         let mut at = index;
         loop {
             let joint = &tree.bodies[at];
@@ -40,11 +38,59 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Vec<S>> {
     matrix
 }
 
-/// Force and moment that give the body a unit acceleration of its joint from rest.
-fn unit_wrench<S: Scalar>(joint: Joint, inertia: &RigidInertia<S>) -> (Vec3<S>, Vec3<S>) {
-    let Vec3([x, y, _]) = inertia.moment;
-    match joint {
-        Joint::Revolute => (Vec3([-y, x, S::zero()]), Vec3([inertia.tensor.xz, inertia.tensor.yz, inertia.tensor.zz])),
-        Joint::Prismatic => (Vec3([S::zero(), S::zero(), inertia.mass]), Vec3([y, -x, S::zero()])),
+/// Which bodies can turn about directions parallel to their own joint's axis only, as all bodies of a planar mechanism.
+fn upright(tree: &Tree) -> Vec<bool> {
+    let mut upright: Vec<bool> = Vec::with_capacity(tree.bodies.len());
+    for body in &tree.bodies {
+        upright.push(body.parent.is_none_or(|parent| body.is_parallel() && upright[parent]));
+    }
+    upright
+}
+
+/// A body and all it carries, as one rigid body.
+#[derive(Clone, Copy)]
+struct Composite<S> {
+    inertia: PseudoInertia<S>,
+    /// The moment of inertia about z, Σ_xx + Σ_yy. A body that turns about z only has no other use for these two.
+    polar: S,
+}
+
+impl<S: Scalar> Composite<S> {
+    fn new(inertia: PseudoInertia<f64>, frame: &JointFrame<S>) -> Self {
+        let Sym3 { xx, yy, .. } = inertia.second.map(S::from_f64);
+        Composite { inertia: frame.own_inertia(inertia), polar: xx + yy }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Composite { inertia: self.inertia + other.inertia, polar: self.polar + other.polar }
+    }
+
+    /// The composite in the parent's axes and about the parent's origin.
+    fn to_parent(self, frame: &JointFrame<S>, upright: bool) -> Self {
+        let inertia = frame.inertia_to_parent(self.inertia);
+        let polar = if upright {
+            // Steiner's theorem for this one moment.
+            let (p, far, near) = (frame.position, inertia.moment, frame.to_parent(self.inertia.moment));
+            self.polar + (p[0] * (near[0] + far[0]) + p[1] * (near[1] + far[1]))
+        } else {
+            inertia.second.xx + inertia.second.yy
+        };
+        Composite { inertia, polar }
+    }
+
+    /// Force and moment that give the body a unit acceleration of its joint from rest.
+    fn unit_wrench(self, joint: Joint) -> (Vec3<S>, Vec3<S>) {
+        let Vec3([x, y, _]) = self.inertia.moment;
+        let (zero, s) = (S::zero(), self.inertia.second);
+        match joint {
+            Joint::Revolute => (Vec3([-y, x, zero]), Vec3([-s.xz, -s.yz, self.polar])),
+            Joint::Prismatic => (Vec3([zero, zero, self.inertia.mass]), Vec3([y, -x, zero])),
+        }
+    }
+
+    fn named(self, index: usize) -> Self {
+        let PseudoInertia { mass, moment, second } = self.inertia;
+        let inertia = PseudoInertia { mass, moment: moment.named("h", index), second: second.named("S", index) };
+        Composite { inertia, polar: self.polar.named("J", index, "zz") }
     }
 }

@@ -1,0 +1,85 @@
+//! Which mass on the joint axes goes with which body.
+//!
+//! [Base parameters](redysim_model::regroup) make three numbers of each body vanish. The same freedom can make others
+//! vanish: a mass at the child's origin instead of the parent's first moment, say, which saves a column of U h and a
+//! part of h × a. For each body the mass on its axis is tried that cancels one number of its parent's, and kept where
+//! the count falls.
+
+use super::Cost;
+use super::neighbourhood::neighbourhood;
+use redysim_model::Tree;
+use redysim_model::pseudo::PseudoInertia;
+use redysim_model::regroup::{AxisMass, take_from_parent};
+use redysim_model::tree::Joint;
+
+/// The tree, of base parameters, with masses on its axes where they lower the cost.
+pub fn placed(tree: &Tree, cost: Cost) -> Tree {
+    let mut tree = tree.clone();
+    for body in (0..tree.bodies.len()).rev() {
+        if tree.bodies[body].parent.is_none() || tree.bodies[body].joint == Joint::Prismatic {
+            continue;
+        }
+        for kind in [Kind::Mass, Kind::First, Kind::Second] {
+            let part = neighbourhood(&tree, body);
+            let local = part.index_of(body).expect("the body itself");
+            let mut least = cost(&part.tree);
+            let mut best = None;
+            for mass in candidates(&tree, body, kind) {
+                let mut other = part.tree.clone();
+                take_from_parent(&mut other, local, mass);
+                part.relieve_stand_ins(&mut other);
+                let price = cost(&other);
+                if price < least {
+                    (least, best) = (price, Some(mass));
+                }
+            }
+            if let Some(mass) = best {
+                take_from_parent(&mut tree, body, mass);
+            }
+        }
+    }
+    tree
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Mass,
+    First,
+    Second,
+}
+
+impl Kind {
+    fn times(self, amount: f64) -> AxisMass {
+        match self {
+            Kind::Mass => AxisMass { mass: amount, ..AxisMass::default() },
+            Kind::First => AxisMass { first: amount, ..AxisMass::default() },
+            Kind::Second => AxisMass { second: amount, ..AxisMass::default() },
+        }
+    }
+}
+
+/// The masses that make one number of the parent's vanish.
+fn candidates(tree: &Tree, body: usize, kind: Kind) -> Vec<AxisMass> {
+    let Some(parent) = tree.bodies[body].parent else { return Vec::new() };
+    let now = numbers(tree, parent);
+    let mut changed = tree.clone();
+    take_from_parent(&mut changed, body, kind.times(1.0));
+    let then = numbers(&changed, parent);
+    let mut found: Vec<AxisMass> = Vec::new();
+    for (now, then) in now.into_iter().zip(then) {
+        // The number falls by `now − then` for each unit.
+        if now != 0.0 && (now - then).abs() > 1e-9 {
+            let mass = kind.times(now / (now - then));
+            if !found.contains(&mass) {
+                found.push(mass);
+            }
+        }
+    }
+    found
+}
+
+/// The numbers of a body that no choice on its own axis can remove.
+fn numbers(tree: &Tree, body: usize) -> [f64; 7] {
+    let PseudoInertia { moment, second: s, .. } = tree.bodies[body].inertia;
+    [moment[0], moment[1], s.xx, s.yy, s.xy, s.xz, s.yz]
+}

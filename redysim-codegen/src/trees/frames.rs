@@ -1,0 +1,61 @@
+//! Frames where they cost least.
+//!
+//! The search starts from [canonical](redysim_model::frames::canonical) frames, so that it ends the same wherever the
+//! model put its own, and tries for each body the few places that can make a constant vanish.
+
+use super::Cost;
+use super::neighbourhood::neighbourhood;
+use redysim_model::Tree;
+use redysim_model::frames::{
+    canonical, children, reframe, slide_to_child, slide_to_parent, turn_to_child, turn_to_inertia,
+    turn_to_principal_axis,
+};
+use redysim_model::regroup::{Vanishing, base_parameters};
+
+/// The tree with frames chosen anew.
+pub fn chosen(tree: &Tree, cost: Cost) -> Tree {
+    let mut best = canonical(tree);
+    for body in (0..best.bodies.len()).rev() {
+        for candidates in [turns, slides] {
+            let changes = candidates(&best, body);
+            improve(&mut best, body, &changes, cost);
+        }
+    }
+    best
+}
+
+/// Applies the cheapest of the changes (angle, distance) to the frame of `body`, if it is cheaper than none.
+fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost) {
+    let part = neighbourhood(tree, body);
+    let local = part.index_of(body).expect("the body itself");
+    let cost = |tree: &Tree| {
+        let mut base = base_parameters(tree, Vanishing::SecondMomentZz);
+        part.relieve_stand_ins(&mut base);
+        cost(&base)
+    };
+    let mut least = cost(&part.tree);
+    let mut best = None;
+    for &(angle, distance) in candidates {
+        let mut other = part.tree.clone();
+        reframe(&mut other, local, angle, distance);
+        let price = cost(&other);
+        if price < least {
+            (least, best) = (price, Some((angle, distance)));
+        }
+    }
+    if let Some((angle, distance)) = best {
+        reframe(tree, body, angle, distance);
+    }
+}
+
+fn turns(tree: &Tree, body: usize) -> Vec<(f64, f64)> {
+    let to_children = children(tree, body).filter_map(|child| turn_to_child(tree, child));
+    let to_inertia = [turn_to_inertia(tree, body), turn_to_principal_axis(tree, body)].into_iter().flatten();
+    to_children.chain(to_inertia).filter(|angle| angle.abs() > 1e-12).map(|angle| (angle, 0.0)).collect()
+}
+
+fn slides(tree: &Tree, body: usize) -> Vec<(f64, f64)> {
+    let to_children = children(tree, body).filter_map(|child| slide_to_child(tree, child));
+    let all = to_children.chain(slide_to_parent(tree, body));
+    all.filter(|distance| distance.abs() > 1e-12).map(|distance| (0.0, distance)).collect()
+}

@@ -1,0 +1,99 @@
+//! A body with those around it, as a small tree of its own.
+
+use redysim_model::Tree;
+use redysim_model::inertia::Sym3;
+use redysim_model::pseudo::PseudoInertia;
+use redysim_model::spatial::{Pose, Vec3};
+use redysim_model::tree::{Body, Joint};
+
+/// Bodies towards the ground that are kept, the parent among them.
+const ABOVE: usize = 2;
+/// Generations of children that are kept.
+const BELOW: usize = 1;
+
+/// A part of a tree, and the places of its bodies in the whole.
+pub struct Neighbourhood {
+    /// The part.
+    pub tree: Tree,
+    /// The index in the whole of each body; `None` for what stands for the rest.
+    origins: Vec<Option<usize>>,
+}
+
+impl Neighbourhood {
+    /// The index in the part of a body of the whole.
+    pub fn index_of(&self, body: usize) -> Option<usize> {
+        self.origins.iter().position(|origin| *origin == Some(body))
+    }
+
+    /// Makes massless again what stands for the rest.
+    pub fn relieve_stand_ins(&self, tree: &mut Tree) {
+        for (body, origin) in tree.bodies.iter_mut().zip(&self.origins) {
+            if origin.is_none() {
+                body.inertia = PseudoInertia::zero();
+            }
+        }
+    }
+}
+
+/// The body `body` with its parent, its parent's parent, its children and theirs.
+///
+/// Where the tree goes on towards the ground, two oblique joints give the part a motion with no zeros in it; where it
+/// goes on outwards, the last body kept gets an inertia with no zeros in it.
+pub fn neighbourhood(tree: &Tree, body: usize) -> Neighbourhood {
+    let above: Vec<usize> = std::iter::successors(Some(body), |&at| tree.bodies[at].parent).take(ABOVE + 1).collect();
+    let top = *above.last().expect("the body itself");
+    let mut part = Tree { bodies: Vec::new(), links: Vec::new(), cuts: Vec::new(), ..tree.clone() };
+    let mut origins = Vec::new();
+    if tree.bodies[top].parent.is_some() {
+        for parent in [None, Some(0)] {
+            part.bodies.push(stand_in(parent));
+            origins.push(None);
+        }
+    }
+    let mut places: Vec<Option<usize>> = vec![None; tree.bodies.len()];
+    let mut generations: Vec<Option<usize>> = vec![None; tree.bodies.len()];
+    for index in top..tree.bodies.len() {
+        let original = &tree.bodies[index];
+        let generation = match original.parent {
+            _ if index == body => Some(0),
+            Some(parent) => generations[parent].map(|generation| generation + 1),
+            None => None,
+        };
+        let kept = above.contains(&index) || generation.is_some_and(|generation| generation <= BELOW);
+        if !kept {
+            continue;
+        }
+        generations[index] = generation;
+        places[index] = Some(part.bodies.len());
+        let parent =
+            if index == top { part.bodies.len().checked_sub(1) } else { original.parent.and_then(|at| places[at]) };
+        let mut copy = Body { parent, coordinate: part.bodies.len(), ..original.clone() };
+        let goes_on = tree.bodies[index + 1..].iter().any(|child| child.parent == Some(index));
+        if generation == Some(BELOW) && goes_on {
+            copy.inertia = full_inertia();
+        }
+        part.bodies.push(copy);
+        origins.push(Some(index));
+    }
+    Neighbourhood { tree: part, origins }
+}
+
+/// A massless body on an oblique joint.
+fn stand_in(parent: Option<usize>) -> Body {
+    let rotation = redysim_model::rotation::roll_pitch_yaw([0.7, 0.4, 0.2]);
+    Body {
+        parent,
+        placement: Pose { rotation, position: Vec3([0.3, 0.5, 0.2]) },
+        joint: Joint::Revolute,
+        offset: 0.0,
+        still: false,
+        coordinate: parent.map_or(0, |parent| parent + 1),
+        inertia: PseudoInertia::zero(),
+    }
+}
+
+/// An inertia without a zero.
+fn full_inertia() -> PseudoInertia<f64> {
+    let tensor = Sym3 { xx: 0.9, yy: 0.7, zz: 0.8, xy: 0.11, yz: 0.13, xz: 0.17 };
+    PseudoInertia::from_central(1.9, Vec3([0.3, 0.5, 0.2]), tensor)
+}

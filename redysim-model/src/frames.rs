@@ -1,0 +1,201 @@
+//! Frames of bodies chosen anew.
+//!
+//! A body's frame may be turned about its joint axis z and slid along it without changing the joint: q stays what it
+//! was. With x along the common normal of the body's axis and a child's, and the origin at its foot, the child's fixed
+//! rotation is one about x and its arm has no more than two components, wherever the model put its frames (Khalil &
+//! Kleinfinger, "A new geometric notation for open and closed-loop robots", Proc. IEEE Int. Conf. on Robotics and
+//! Automation, 1986).
+
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
+use crate::rotation;
+use crate::spatial::{Mat3, Pose, Vec3};
+use crate::tree::{Joint, Tree};
+
+/// Elements of a rotation nearer than this to a quarter turn's are roundoff of the products they come from.
+const ROTATION_ROUNDOFF: f64 = 64.0 * f64::EPSILON;
+/// Lengths and inertias smaller than this part of the tree's are roundoff of the sums they come from.
+const LENGTH_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
+
+/// The tree with every frame in its canonical place, whatever the frames of the model: by the common normal with the
+/// first child's axis, and for a body without children by its inertia.
+pub fn canonical(tree: &Tree) -> Tree {
+    let mut tree = tree.clone();
+    for body in (0..tree.bodies.len()).rev() {
+        let first = children(&tree, body).next();
+        let turn = first.and_then(|child| turn_to_child(&tree, child)).or_else(|| turn_to_inertia(&tree, body));
+        let slide = first.and_then(|child| slide_to_child(&tree, child)).or_else(|| slide_to_parent(&tree, body));
+        reframe(&mut tree, body, turn.unwrap_or(0.0), slide.unwrap_or(0.0));
+    }
+    unify_lengths(&mut tree);
+    tree
+}
+
+/// Makes lengths that differ by roundoff only the same number, as they were before frames were turned and slid.
+fn unify_lengths(tree: &mut Tree) {
+    let roundoff = LENGTH_ROUNDOFF * size(tree);
+    let mut known: Vec<f64> = Vec::new();
+    for length in tree.bodies.iter_mut().flat_map(|body| &mut body.placement.position.0) {
+        match known.iter().find(|&&other| (length.abs() - other).abs() < roundoff) {
+            Some(&other) => *length = other.copysign(*length),
+            None => known.push(length.abs()),
+        }
+    }
+}
+
+/// Turns the frame of `body` about its z axis by `angle` and slides it along by `distance`.
+pub fn reframe(tree: &mut Tree, body: usize, angle: f64, distance: f64) {
+    let size = size(tree).max(distance.abs());
+    let change = Pose { rotation: snapped(rotation::about_z(angle)), position: Vec3([0.0, 0.0, distance]) };
+    let back = inverse(change);
+    let moved = &mut tree.bodies[body];
+    moved.placement = moved.placement * change;
+    moved.inertia = clean_inertia(moved.inertia.transformed(back), size);
+    settle_rotation(tree, body, size);
+    for child in children(tree, body).collect::<Vec<_>>() {
+        tree.bodies[child].placement = back * tree.bodies[child].placement;
+        settle_rotation(tree, child, size);
+    }
+    for link in tree.links.iter_mut().filter(|link| link.body == Some(body)) {
+        link.pose = clean_pose(back * link.pose, size);
+    }
+    for end in tree.cuts.iter_mut().flat_map(|cut| [&mut cut.a, &mut cut.b]).filter(|end| end.body == Some(body)) {
+        let Pose { rotation, position } = clean_pose(back * Pose { rotation: end.axes, position: end.point }, size);
+        (end.axes, end.point) = (rotation, position);
+    }
+}
+
+/// By which angle to turn the frame of the parent of `child` so that x is along the common normal of their axes; for
+/// parallel axes, so that x points from one to the other. `None` where the axes coincide.
+pub fn turn_to_child(tree: &Tree, child: usize) -> Option<f64> {
+    let Pose { rotation, position: p } = tree.bodies[child].placement;
+    let u = rotation.column(2);
+    let (normal, size) = if is_parallel(u) { (p, size(tree)) } else { (Vec3([-u[1], u[0], 0.0]), 1.0) };
+    (normal[0].hypot(normal[1]) > LENGTH_ROUNDOFF * size).then(|| normal[1].atan2(normal[0]))
+}
+
+/// How far to slide the frame of the parent of `child` so that its origin is the foot of the common normal of their
+/// axes; for parallel axes, so that the two origins are at one height.
+pub fn slide_to_child(tree: &Tree, child: usize) -> Option<f64> {
+    let Pose { rotation, position: p } = tree.bodies[child].placement;
+    let u = rotation.column(2);
+    if is_parallel(u) {
+        return Some(p[2]);
+    }
+    let along = -(p[0] * u[0] + p[1] * u[1]) / (u[0] * u[0] + u[1] * u[1]);
+    Some(p[2] + along * u[2])
+}
+
+/// How far to slide the frame of `body` so that its origin is the foot of the common normal with its parent's axis; for
+/// parallel axes, so that the two origins are at one height. `None` for a body on the ground.
+pub fn slide_to_parent(tree: &Tree, body: usize) -> Option<f64> {
+    tree.bodies[body].parent?;
+    let Pose { rotation, position: p } = tree.bodies[body].placement;
+    let u = rotation.column(2);
+    if is_parallel(u) {
+        return Some(-p[2] * u[2]);
+    }
+    Some(-(p[0] * u[0] + p[1] * u[1]) / (u[0] * u[0] + u[1] * u[1]))
+}
+
+/// By which angle to turn the frame of `body` so that the first moment of its mass is along x, or if that is on the
+/// axis, so that the second moment Σ_xy vanishes. `None` where both do already.
+pub fn turn_to_inertia(tree: &Tree, body: usize) -> Option<f64> {
+    let PseudoInertia { mass, moment: h, .. } = tree.bodies[body].inertia;
+    if h[0].hypot(h[1]) > LENGTH_ROUNDOFF * size(tree) * mass {
+        return Some(h[1].atan2(h[0]));
+    }
+    turn_to_principal_axis(tree, body)
+}
+
+/// By which angle to turn the frame of `body` so that the second moment Σ_xy vanishes. `None` where all directions are
+/// the same.
+pub fn turn_to_principal_axis(tree: &Tree, body: usize) -> Option<f64> {
+    let Sym3 { xx, yy, xy, .. } = tree.bodies[body].inertia.second;
+    let difference = xx - yy;
+    let roundoff = 64.0 * f64::EPSILON * (xx.abs() + yy.abs());
+    (difference.abs().max(xy.abs()) > roundoff).then(|| 0.5 * (2.0 * xy).atan2(difference))
+}
+
+/// The children of `body`, in order.
+pub fn children(tree: &Tree, body: usize) -> impl Iterator<Item = usize> {
+    (body + 1..tree.bodies.len()).filter(move |&child| tree.bodies[child].parent == Some(body))
+}
+
+/// Writes the rotation of `body` as a fixed one with as many zeros as can be, after which comes one about z: this is
+/// part of the fixed one if it is of quarter turns, else it is the joint's offset.
+fn settle_rotation(tree: &mut Tree, body: usize, size: f64) {
+    let Pose { rotation, position } = tree.bodies[body].placement;
+    let position = clean_vector(position, size);
+    let offset = tree.bodies[body].offset;
+    let whole = snapped(rotation * rotation::about_z(offset));
+    let fixed = simplest_with_axis(whole.column(2));
+    let rest = snapped(fixed.transpose() * whole);
+    let quarter = rest.0[0].iter().all(|x| x.round() == *x);
+    let joint = tree.bodies[body].joint;
+    let (rotation, offset) = if quarter || joint == Joint::Prismatic {
+        (if quarter { fixed * rest } else { whole }, 0.0)
+    } else {
+        (fixed, rest.0[1][0].atan2(rest.0[0][0]))
+    };
+    tree.bodies[body].placement = Pose { rotation, position };
+    tree.bodies[body].offset = offset;
+}
+
+/// A rotation that takes z to the unit vector `u`, about x or y if that can be.
+fn simplest_with_axis(u: Vec3<f64>) -> Mat3<f64> {
+    let x = if u[0] == 0.0 {
+        Vec3([1.0, 0.0, 0.0])
+    } else if u[1] == 0.0 {
+        Vec3([u[2], 0.0, -u[0]])
+    } else {
+        let across = u[0].hypot(u[1]);
+        Vec3([-u[1] / across, u[0] / across, 0.0])
+    };
+    let y = u.cross(x);
+    Mat3::from_fn(|i, j| [x, y, u][j][i])
+}
+
+fn is_parallel(u: Vec3<f64>) -> bool {
+    u[0] == 0.0 && u[1] == 0.0
+}
+
+fn inverse(pose: Pose<f64>) -> Pose<f64> {
+    let rotation = pose.rotation.transpose();
+    Pose { rotation, position: -(rotation * pose.position) }
+}
+
+/// The largest length in the tree.
+fn size(tree: &Tree) -> f64 {
+    let lengths = tree.bodies.iter().flat_map(|body| body.placement.position.0);
+    let lengths = lengths.chain(tree.links.iter().flat_map(|link| link.pose.position.0));
+    lengths.fold(0.0, |size, length| size.max(length.abs()))
+}
+
+fn snapped(mut rotation: Mat3<f64>) -> Mat3<f64> {
+    for element in rotation.0.iter_mut().flatten() {
+        let nearest = element.round();
+        if (*element - nearest).abs() < ROTATION_ROUNDOFF {
+            *element = nearest;
+        }
+    }
+    rotation
+}
+
+fn clean(value: f64, size: f64) -> f64 {
+    if value.abs() < LENGTH_ROUNDOFF * size { 0.0 } else { value }
+}
+
+fn clean_vector(v: Vec3<f64>, size: f64) -> Vec3<f64> {
+    Vec3(v.0.map(|x| clean(x, size)))
+}
+
+fn clean_pose(pose: Pose<f64>, size: f64) -> Pose<f64> {
+    Pose { rotation: snapped(pose.rotation), position: clean_vector(pose.position, size) }
+}
+
+fn clean_inertia(inertia: PseudoInertia<f64>, size: f64) -> PseudoInertia<f64> {
+    let PseudoInertia { mass, moment, second } = inertia.without_roundoff();
+    let length = clean_vector(moment, mass.abs() * size);
+    PseudoInertia { mass, moment: length, second: second.map(|x| clean(x, mass.abs() * size * size)) }
+}

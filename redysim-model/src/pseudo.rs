@@ -1,0 +1,93 @@
+//! The inertia of a rigid body as moments of its mass: ∫1, ∫r and ∫r rᵀ.
+//!
+//! With Σ = ∫ r rᵀ dm instead of the inertia tensor J = tr(Σ) 1 − Σ, the force and the moment that a motion takes are
+//! f = m a + U h and n = the axial vector of U Σ, where U = ω̇× + (ω×)² takes the points of the body to their
+//! accelerations against the origin; and mass on an axis is three of the ten numbers (Balafoutis & Patel, *Dynamic
+//! Analysis of Robot Manipulators*, Kluwer 1991; Wensing, Kim, Slotine, "Linear matrix inequalities for physically
+//! consistent inertial parameter identification", IEEE Robotics and Automation Letters 3(1), 2018).
+
+use crate::inertia::{RigidInertia, Sym3};
+use crate::spatial::{Mat3, Pose, Vec3};
+use redysim_runtime::Scalar;
+use std::ops::Add;
+
+/// Mass, first and second moments of a rigid body about the origin of a frame, in its axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PseudoInertia<S> {
+    /// Mass ∫ dm, kg.
+    pub mass: S,
+    /// First moment ∫ r dm, kg m.
+    pub moment: Vec3<S>,
+    /// Second moment Σ = ∫ r rᵀ dm, kg m².
+    pub second: Sym3<S>,
+}
+
+impl PseudoInertia<f64> {
+    /// The body of the given mass, centre of mass, and inertia tensor J about it: Σ = ½ tr(J) 1 − J + m c cᵀ.
+    pub fn from_central(mass: f64, com: Vec3<f64>, central: Sym3<f64>) -> Self {
+        let j = central;
+        // Halves of sums of three: what is below their roundoff is none.
+        let size = 4.0 * f64::EPSILON * j.xx.abs().max(j.yy.abs()).max(j.zz.abs());
+        let half = |sum: f64| if sum.abs() < size { 0.0 } else { 0.5 * sum };
+        let own = Sym3 {
+            xx: half(j.yy + j.zz - j.xx),
+            yy: half(j.zz + j.xx - j.yy),
+            zz: half(j.xx + j.yy - j.zz),
+            xy: -j.xy,
+            yz: -j.yz,
+            xz: -j.xz,
+        };
+        let moment = com.scale(mass);
+        PseudoInertia { mass, moment, second: own + Sym3::from_upper(|i, j| moment[i] * com[j]) }
+    }
+}
+
+impl<S: Scalar> PseudoInertia<S> {
+    /// Nothing.
+    pub fn zero() -> Self {
+        PseudoInertia { mass: S::zero(), moment: Vec3::zero(), second: Sym3::zero() }
+    }
+
+    /// The same with the inertia tensor J = tr(Σ) 1 − Σ.
+    pub fn to_rigid(self) -> RigidInertia<S> {
+        let s = self.second;
+        let tensor = Sym3 { xx: s.yy + s.zz, yy: s.zz + s.xx, zz: s.xx + s.yy, xy: -s.xy, yz: -s.yz, xz: -s.xz };
+        RigidInertia { mass: self.mass, moment: self.moment, tensor }
+    }
+
+    /// Constants of the model as scalars.
+    pub fn constant(value: PseudoInertia<f64>) -> Self {
+        PseudoInertia {
+            mass: S::from_f64(value.mass),
+            moment: Vec3::constant(value.moment),
+            second: value.second.map(S::from_f64),
+        }
+    }
+
+    /// The same body about the origin of the reference, where `p` is the origin of its frame (of equal axes):
+    /// h' = h + m p, Σ' = Σ + h pᵀ + p h'ᵀ.
+    pub fn translated(self, p: Vec3<S>) -> Self {
+        let moment = self.moment + p.scale(self.mass);
+        let steiner = Sym3::from_upper(|i, j| {
+            if i == j { p[i] * (self.moment[i] + moment[i]) } else { self.moment[i] * p[j] + p[i] * moment[j] }
+        });
+        PseudoInertia { mass: self.mass, moment, second: self.second + steiner }
+    }
+
+    /// The same body seen from the frame in which its own frame stands at `pose`.
+    pub fn transformed(self, pose: Pose<S>) -> Self {
+        self.rotated(pose.rotation).translated(pose.position)
+    }
+
+    /// The body after the rotation.
+    pub fn rotated(self, rotation: Mat3<S>) -> Self {
+        PseudoInertia { mass: self.mass, moment: rotation * self.moment, second: self.second.rotated(rotation) }
+    }
+}
+
+impl<S: Scalar> Add for PseudoInertia<S> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        PseudoInertia { mass: self.mass + b.mass, moment: self.moment + b.moment, second: self.second + b.second }
+    }
+}

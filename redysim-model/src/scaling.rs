@@ -1,0 +1,34 @@
+//! Another unit of length, in which a constant of the mechanism becomes 1.
+//!
+//! With lengths in a unit L and masses in a unit 1/L², moments of inertia, energies and the forces of joints that turn
+//! are the same numbers as in m and kg, so nothing has to be converted on the way in or out; but a length L, a mass 1/L²
+//! or a first moment 1/L is 1, and multiplies nothing.
+
+use crate::pseudo::PseudoInertia;
+use crate::tree::{Joint, Tree};
+
+/// The tree in the unit of length `unit`, m; `None` if a joint moves along its axis, whose coordinate is a length.
+pub fn in_unit(tree: &Tree, unit: f64) -> Option<Tree> {
+    if tree.bodies.iter().any(|body| body.joint == Joint::Prismatic) {
+        return None;
+    }
+    let mut tree = tree.clone();
+    tree.gravity = tree.gravity.scale(1.0 / unit);
+    tree.ground = scaled(tree.ground, unit);
+    for body in &mut tree.bodies {
+        body.placement.position.0 = body.placement.position.0.map(|length| exact_one(length / unit));
+        body.inertia = scaled(body.inertia, unit);
+    }
+    Some(tree)
+}
+
+fn scaled(inertia: PseudoInertia<f64>, unit: f64) -> PseudoInertia<f64> {
+    let PseudoInertia { mass, mut moment, second } = inertia;
+    moment.0 = moment.0.map(|moment| exact_one(moment * unit));
+    PseudoInertia { mass: exact_one(mass * (unit * unit)), moment, second }
+}
+
+/// ±1 for what differs from it by roundoff.
+fn exact_one(value: f64) -> f64 {
+    if (value.abs() - 1.0).abs() < 16.0 * f64::EPSILON { value.signum() } else { value }
+}
