@@ -30,6 +30,21 @@ impl Expressions {
         uses
     }
 
+    /// How often each value is read in the code of the function. Angles are not: their sines and cosines are given.
+    pub fn uses_in_code(&self) -> Vec<usize> {
+        let graph = &self.graph;
+        let mut uses = vec![0; graph.len()];
+        for output in &self.outputs {
+            uses[output.node()] += 1;
+        }
+        for index in (0..graph.len()).rev().filter(|&index| !matches!(graph.node(index), Node::Sin(_) | Node::Cos(_))) {
+            if uses[index] > 0 {
+                graph.node(index).operands().for_each(|operand| uses[operand.node()] += 1);
+            }
+        }
+        uses
+    }
+
     /// Whether unrolled code of this would be too long: past some 3,000 operations it no longer fits the instruction cache
     /// of 32 KB, and every operation costs about twice as much.
     pub fn is_long(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use crate::expressions::Expressions;
 use crate::passes::{self, Passes};
+use crate::rolled;
 use crate::symbol::{Symbol, Tracer};
 use crate::trees::Trees;
 use redysim_model::Tree;
@@ -152,13 +153,30 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
 }
 
 /// Traces and simplifies every function of [`SIGNATURES`], with the given passes.
+///
+/// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to be
+/// unrolled is traced without them as well, and the shorter code is taken.
 pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
-    let trees = Trees::new(tree, passes);
+    let own = functions(&Trees::new(tree, passes), passes);
+    if !passes.loops || own.iter().all(|function| !function.expressions.is_long()) {
+        return own;
+    }
+    let even = passes.even();
+    let even = functions(&Trees::new(tree, &even), &even);
+    let shorter = |(own, even): (Function, Function)| {
+        let worth =
+            own.expressions.is_long() && rolled::code_size(&even.expressions) < rolled::code_size(&own.expressions);
+        if worth { even } else { own }
+    };
+    own.into_iter().zip(even).map(shorter).collect()
+}
+
+fn functions(trees: &Trees, passes: &Passes) -> Vec<Function> {
     let function = |signature, expressions| Function { signature, remark: None, expressions };
-    let Trees { energy: for_energy, kinematics, matrix, bias, .. } = &trees;
+    let Trees { energy: for_energy, kinematics, matrix, bias, .. } = trees;
     vec![
         function(INVERSE_DYNAMICS, traced(bias, passes, 3, |x| denoc::inverse_dynamics(bias, x[0], x[1], x[2]))),
-        forward_dynamics(&trees, passes),
+        forward_dynamics(trees, passes),
         function(MASS_MATRIX, traced(matrix, passes, 1, |x| denoc::mass_matrix(matrix, x[0]).concat())),
         function(BIAS_FORCES, traced(bias, passes, 2, |x| denoc::bias_forces(bias, x[0], x[1]))),
         function(GRAVITY_FORCES, traced(matrix, passes, 1, |x| denoc::gravity_forces(matrix, x[0]))),

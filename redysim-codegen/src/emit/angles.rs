@@ -5,8 +5,9 @@ use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use std::collections::{HashMap, HashSet};
 
-/// Angles as expressions of the coordinates `q`, in the order of the first coordinate of each.
+/// Angles as expressions of the coordinates `q`: first those of single joints in order, then sums.
 #[derive(Clone, Debug, Default)]
 pub struct Angles {
     angles: Vec<Angle>,
@@ -26,11 +27,15 @@ impl Angles {
     pub fn of<'a>(functions: impl IntoIterator<Item = &'a Expressions>) -> Angles {
         let mut angles = Angles::default();
         for expressions in functions {
-            for edge in trigonometric(expressions).map(|(_, angle)| angle) {
-                angles.add(&expressions.graph, edge);
+            let mut seen = HashSet::new();
+            for (_, angle) in trigonometric(expressions) {
+                if seen.insert(angle) {
+                    angles.add(&expressions.graph, angle);
+                }
             }
         }
-        angles.angles.sort_by(|a, b| a.coordinates.cmp(&b.coordinates));
+        // Sums of angles last, so that those of a chain of joints stand as the joints do.
+        angles.angles.sort_by_key(|angle| (angle.coordinates.len(), angle.coordinates.clone()));
         angles
     }
 
@@ -39,8 +44,18 @@ impl Angles {
         self.angles.len()
     }
 
+    /// For each live sine and cosine of a function, where its angle is among these.
+    pub fn positions(&self, expressions: &Expressions) -> HashMap<usize, usize> {
+        let mut known: HashMap<Edge, usize> = HashMap::new();
+        trigonometric(expressions)
+            .map(|(node, angle)| {
+                (node, *known.entry(angle).or_insert_with(|| self.position(&expressions.graph, angle)))
+            })
+            .collect()
+    }
+
     /// Where among the angles `edge` of `graph` is.
-    pub fn position(&self, graph: &Graph, edge: Edge) -> usize {
+    fn position(&self, graph: &Graph, edge: Edge) -> usize {
         let text = rendered(graph, edge.abs()).to_string();
         self.angles
             .iter()
@@ -55,8 +70,7 @@ impl Angles {
 
     /// The positions of the angles whose sine or cosine `expressions` needs, in order.
     pub fn needed_by(&self, expressions: &Expressions) -> Vec<usize> {
-        let mut needed: Vec<usize> =
-            trigonometric(expressions).map(|(_, angle)| self.position(&expressions.graph, angle)).collect();
+        let mut needed: Vec<usize> = self.positions(expressions).into_values().collect();
         needed.sort_unstable();
         needed.dedup();
         needed

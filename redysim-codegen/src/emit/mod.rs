@@ -28,6 +28,8 @@ pub struct Vocabulary<'a> {
     pub bodies: &'a [String],
     /// The angles whose sines and cosines are given.
     pub angles: &'a Angles,
+    /// Whether there may be loops.
+    pub loops: bool,
 }
 
 /// The body of a function over `S: Scalar` that finds the sines and cosines of all angles in `at`: statements, then the
@@ -84,10 +86,9 @@ struct Emitter<'a> {
 impl<'a> Emitter<'a> {
     fn new(expressions: &'a Expressions, vocabulary: &'a Vocabulary<'a>) -> Self {
         let graph = &expressions.graph;
-        let uses = uses_in_statements(expressions);
-        let positions = angle_positions(graph, &uses, vocabulary.angles);
-        let live: Vec<bool> = (0..graph.len()).map(|node| uses[node] > 0 && is_operation(graph.node(node))).collect();
-        let rolled = Rolled::of(expressions, &live, &|angle| vocabulary.angles.position(graph, angle));
+        let uses = expressions.uses_in_code();
+        let positions = vocabulary.angles.positions(expressions);
+        let rolled = vocabulary.loops.then(|| Rolled::of(expressions, &positions)).flatten();
         let mut emitter = Emitter {
             graph,
             vocabulary,
@@ -201,32 +202,6 @@ impl<'a> Emitter<'a> {
         });
         taken.into_iter().flatten().collect()
     }
-}
-
-/// For each live sine and cosine, where its angle is among those of the mechanism.
-fn angle_positions(graph: &Graph, uses: &[usize], angles: &Angles) -> HashMap<usize, usize> {
-    let live = (0..graph.len()).filter(|&index| uses[index] > 0);
-    live.filter_map(|index| match graph.node(index) {
-        Node::Sin(angle) | Node::Cos(angle) => Some((index, angles.position(graph, angle))),
-        _ => None,
-    })
-    .collect()
-}
-
-/// How often each value is read by the statements of a function. Angles are not among them: their sines and cosines are
-/// given.
-fn uses_in_statements(expressions: &Expressions) -> Vec<usize> {
-    let graph = &expressions.graph;
-    let mut uses = vec![0; graph.len()];
-    for output in &expressions.outputs {
-        uses[output.node()] += 1;
-    }
-    for index in (0..graph.len()).rev().filter(|&index| !matches!(graph.node(index), Node::Sin(_) | Node::Cos(_))) {
-        if uses[index] > 0 {
-            graph.node(index).operands().for_each(|operand| uses[operand.node()] += 1);
-        }
-    }
-    uses
 }
 
 /// Products whose only use is a sum with something that is not such a product itself, or is the earlier of two: with the

@@ -27,6 +27,8 @@ pub struct Passes {
     pub squares: bool,
     /// Common factors of sums.
     pub factors: bool,
+    /// Loops over bodies on which the same is done ([`rolled`](crate::rolled)), where the code is long.
+    pub loops: bool,
 }
 
 impl Passes {
@@ -41,6 +43,7 @@ impl Passes {
             sums: false,
             squares: false,
             factors: false,
+            loops: false,
         }
     }
 
@@ -55,7 +58,15 @@ impl Passes {
             sums: true,
             squares: true,
             factors: true,
+            loops: true,
         }
+    }
+}
+
+impl Passes {
+    /// Without the passes that treat alike bodies differently.
+    pub const fn even(self) -> Self {
+        Passes { frames: false, axis_masses: false, parallel_axes: false, units: false, ..self }
     }
 }
 

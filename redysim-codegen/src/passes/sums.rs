@@ -21,7 +21,7 @@ pub fn collected(expressions: &Expressions) -> Expressions {
     let inner = inner_sums(old, &uses, by_body);
     let mut graph = Graph::default();
     let mut made: Vec<Option<Edge>> = vec![None; old.len()];
-    let mut depths = Depths { by_body, depths: Vec::new() };
+    let mut depths = Depths { by_body, depths: Vec::new(), in_step: Vec::new() };
     for index in (0..old.len()).filter(|&index| uses[index] > 0 && !inner[index]) {
         let node = old.node(index);
         graph.enter_step(old.step(index));
@@ -83,6 +83,8 @@ struct Depths {
     /// Whether to count from the start of each body's step.
     by_body: bool,
     depths: Vec<u32>,
+    /// The depth within its own step.
+    in_step: Vec<u32>,
 }
 
 /// The depth of what the body before has just computed.
@@ -97,10 +99,13 @@ impl Depths {
                 Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
                 Node::Divide(..) | Node::Sqrt(_) => 4,
             };
-            let operands =
-                graph.node(index).operands().map(|operand| self.seen_from(graph, graph.step(index), operand.node()));
-            let depth = own + operands.max().unwrap_or(0);
-            self.depths.push(depth);
+            let step = graph.step(index);
+            let operands = || graph.node(index).operands().map(Edge::node);
+            let depth = operands().map(|operand| self.seen_from(graph, step, operand)).max().unwrap_or(0);
+            let same_step = operands().filter(|&operand| graph.step(operand) == step);
+            let in_step = same_step.map(|operand| self.in_step[operand]).max().unwrap_or(0);
+            self.depths.push(own + depth);
+            self.in_step.push(own + in_step);
         }
         self.depths[edge.node()]
     }
@@ -116,7 +121,7 @@ impl Depths {
         match (here, graph.step(operand)) {
             (Some(here), Some(there)) if self.by_body && here != there => {
                 if here.sweep == there.sweep {
-                    LATE + self.depths[operand] % LATE
+                    LATE + self.in_step[operand]
                 } else {
                     0
                 }

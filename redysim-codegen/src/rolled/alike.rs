@@ -53,9 +53,9 @@ enum Operand {
 
 impl Steps {
     /// The steps of a graph of which the nodes `live` are operations of the function.
-    pub fn of(graph: &Graph, live: &[bool], position: &dyn Fn(Edge) -> usize) -> Steps {
+    pub fn of(graph: &Graph, live: &[bool], positions: &HashMap<usize, usize>) -> Steps {
         let mut steps = Steps { sweeps: Vec::new(), nodes: HashMap::new(), forms: HashMap::new(), bodies: 0 };
-        let mut positions = vec![0; graph.len()];
+        let mut places = vec![0; graph.len()];
         for node in (0..graph.len()).filter(|&node| live[node]) {
             let Some(step) = graph.step(node) else { continue };
             if !steps.sweeps.contains(&step.sweep) {
@@ -63,21 +63,21 @@ impl Steps {
             }
             steps.bodies = steps.bodies.max(step.body + 1);
             let nodes = steps.nodes.entry((step.sweep, step.body)).or_default();
-            positions[node] = nodes.len();
+            places[node] = nodes.len();
             nodes.push(node);
         }
         for (&(sweep, body), nodes) in &steps.nodes {
             let operand = |edge: Edge| match graph.node(edge.node()) {
                 Node::Constant(_) => Operand::Constant,
                 Node::Input { argument, index } => Operand::Input { argument, index: index as isize - body as isize },
-                Node::Sin(angle) => Operand::Sin(position(angle) as isize - body as isize),
-                Node::Cos(angle) => Operand::Cos(position(angle) as isize - body as isize),
+                Node::Sin(_) => Operand::Sin(positions[&edge.node()] as isize - body as isize),
+                Node::Cos(_) => Operand::Cos(positions[&edge.node()] as isize - body as isize),
                 _ => match graph.step(edge.node()) {
                     None => Operand::Outside(edge.node()),
                     Some(step) => Operand::Step {
                         sweep: step.sweep,
                         body: step.body as isize - body as isize,
-                        position: positions[edge.node()],
+                        position: places[edge.node()],
                     },
                 },
             };

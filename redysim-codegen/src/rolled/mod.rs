@@ -13,6 +13,7 @@ mod alike;
 mod signs;
 mod table;
 
+use crate::emit::Angles;
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 use alike::Steps;
@@ -77,13 +78,14 @@ pub struct Place {
 }
 
 impl Rolled {
-    /// The longest run of alike bodies, if it is worth loops. `live` says which nodes are operations of the function's
-    /// code, `position` finds an angle among all.
-    pub fn of(expressions: &Expressions, live: &[bool], position: &dyn Fn(Edge) -> usize) -> Option<Rolled> {
+    /// The longest run of alike bodies, if the function is long enough for loops. `positions` says of each sine and
+    /// cosine where it stands among all.
+    pub fn of(expressions: &Expressions, positions: &HashMap<usize, usize>) -> Option<Rolled> {
         if !expressions.is_long() {
             return None;
         }
-        let steps = Steps::of(&expressions.graph, live, position);
+        let live = &operations(expressions);
+        let steps = Steps::of(&expressions.graph, live, positions);
         let runs = (1..=LONGEST_PERIOD).filter_map(|period| {
             let bodies = steps.longest_run(period)?;
             let mut groups = bodies.len() / period;
@@ -258,7 +260,24 @@ impl Rolled {
     }
 }
 
-/// The live operations of a function: what is neither an input, a constant, nor only part of an angle.
+/// About how many operations the code of a function has, loops counted once.
+pub fn code_size(expressions: &Expressions) -> usize {
+    let angles = Angles::of([expressions]);
+    let all = operations(expressions).into_iter().filter(|live| *live).count();
+    let saved = Rolled::of(expressions, &angles.positions(expressions)).map_or(0, |rolled| {
+        let in_loops: usize = rolled.sweeps.iter().map(|sweep| sweep.template.len()).sum();
+        in_loops * (rolled.groups - 1)
+    });
+    all - saved
+}
+
+/// Which nodes are operations of the function's code.
+fn operations(expressions: &Expressions) -> Vec<bool> {
+    let uses = expressions.uses_in_code();
+    (0..uses.len()).map(|node| uses[node] > 0 && is_operation(expressions.graph.node(node))).collect()
+}
+
+/// Whether a node is neither an input, a constant, a sine nor a cosine.
 pub fn is_operation(node: Node) -> bool {
     !matches!(node, Node::Input { .. } | Node::Constant(_) | Node::Sin(_) | Node::Cos(_))
 }

@@ -21,13 +21,13 @@ pub struct Signs {
 
 /// A product of signs: minus, and unknowns by their number.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Sign(u64);
+struct Sign(u128);
 
 impl Sign {
     const PLUS: Sign = Sign(0);
-    const MINUS: Sign = Sign(1 << 63);
+    const MINUS: Sign = Sign(1 << 127);
     /// The most unknowns that there can be.
-    const UNKNOWNS: usize = 63;
+    const UNKNOWNS: usize = 127;
 
     fn minus_if(negative: bool) -> Sign {
         if negative { Sign::MINUS } else { Sign::PLUS }
@@ -75,7 +75,7 @@ impl Signs {
 
     /// Whether the value of `node` is the negative of its image's. Values that nothing ties have the sign plus.
     pub fn is_negative(&self, node: usize) -> bool {
-        self.solved(self.find(node).1).has(63)
+        self.solved(self.find(node).1).has(127)
     }
 
     fn relate(&mut self, graph: &Graph, node: usize, image: usize) -> Result<(), Contradiction> {
