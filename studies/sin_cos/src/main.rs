@@ -1,7 +1,7 @@
 //! The largest errors of sine and cosine, in units in the last place of the true value, against MPFR.
 //!
-//! `cargo run --release -- [arguments per range]`, with and without `RUSTFLAGS="-C target-cpu=native"`. One in every so
-//! many arguments is also sent through every width of lanes, which must give the same bits; so one table holds for all.
+//! `cargo run --release -- [arguments per range]`, with and without `RUSTFLAGS="-C target-cpu=native"`. All arguments are
+//! also sent through every width of lanes, which must give the same bits; so one table holds for all.
 
 mod arguments;
 mod single;
@@ -78,7 +78,7 @@ fn measured(range: Range, count: usize) -> [Worst; 2] {
     worst.into_inner().expect("no thread panics")
 }
 
-/// Every width of lanes, and lists of every length up to eight, give the bits of one angle at a time.
+/// Every width of lanes, and lists of most lengths up to eight, give the bits of one angle at a time.
 fn lanes_agree(angles: [f64; 8]) {
     let alone = angles.map(Scalar::sin_cos).map(|(sin, cos)| (sin.to_bits(), cos.to_bits()));
     let check = |sines: &[f64], cosines: &[f64]| {

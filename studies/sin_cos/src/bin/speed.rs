@@ -13,6 +13,11 @@ redysim! {
     struct Kr5("../../../../models/kr5.toml");
 }
 
+/// Keeps the compiler from leaving out what nobody looks at.
+fn done<T>(value: T) {
+    black_box(value);
+}
+
 /// Nanoseconds of one call.
 fn time(mut call: impl FnMut()) -> f64 {
     let (mut shortest, mut calls) = (f64::MAX, 1_u32);
@@ -38,8 +43,8 @@ fn list<S: Scalar, const N: usize>(angles: &[S; N]) -> ([S; N], [S; N]) {
 fn lists<const N: usize>() {
     let angles: [f64; N] = core::array::from_fn(|index| 0.3 + 0.7 * index as f64);
     let single = angles.map(|angle| angle as f32);
-    let double = time(|| drop(black_box(list(black_box(&angles)))));
-    let single = time(|| drop(black_box(list(black_box(&single)))));
+    let double = time(|| done(list(black_box(&angles))));
+    let single = time(|| done(list(black_box(&single))));
     println!("sin_cos_all of {N}: f64 {double:5.1}, f32 {single:5.1}");
 }
 
@@ -55,8 +60,8 @@ fn forward<S: Scalar>(q: &[S; 6], v: &[S; 6], tau: &[S; 6]) -> [S; 6] {
 
 fn lanes<S: Scalar>(name: &str, width: usize) {
     let [q, v, u] = [0.1, -0.3, 0.7].map(|start| core::array::from_fn(|i| S::from_f64(start + 0.3 * i as f64)));
-    let inverse = time(|| drop(black_box(inverse(black_box(&q), black_box(&v), black_box(&u))))) / width as f64;
-    let forward = time(|| drop(black_box(forward(black_box(&q), black_box(&v), black_box(&u))))) / width as f64;
+    let inverse = time(|| done(inverse(black_box(&q), black_box(&v), black_box(&u)))) / width as f64;
+    let forward = time(|| done(forward(black_box(&q), black_box(&v), black_box(&u)))) / width as f64;
     println!("KR5 in {name:6}: inverse {inverse:5.1}, forward {forward:5.1} for one state");
 }
 
@@ -100,8 +105,8 @@ fn main() {
     lanes::<F32x16>("F32x16", 16);
     let states = [[0.1; 6]; 8];
     let lanes = packed(&states);
-    println!("eight states of six into F64x8: {:.1}", time(|| drop(black_box(packed(black_box(&states))))));
-    println!("and out of them: {:.1}", time(|| drop(black_box(unpacked(black_box(&lanes))))));
+    println!("eight states of six into F64x8: {:.1}", time(|| done(packed(black_box(&states)))));
+    println!("and out of them: {:.1}", time(|| done(unpacked(black_box(&lanes)))));
     println!("{} threads", std::thread::available_parallelism().map_or(1, usize::from));
     batches::<f64>("f64");
     batches::<f32>("f32");
