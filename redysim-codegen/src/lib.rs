@@ -1,5 +1,8 @@
 //! From a checked model to Rust code made for it.
 //!
+//! Before anything is traced, the robot is described in the way that costs least: frames, inertias and units are chosen
+//! anew where the values stay the same ([`passes::Passes`] lists what is done and switches it).
+//!
 //! The recursions of [`redysim_model::denoc`] run once with a [symbol](symbol::Symbol) for a scalar. What they leave
 //! behind is a [graph](graph::Graph) of the operations that this one mechanism needs: zeros, ones and constants are
 //! folded as they arise, equal values are one node, and [passes] over the graph collect what is left. The graph is then
