@@ -28,8 +28,6 @@ pub struct Vocabulary<'a> {
     pub bodies: &'a [String],
     /// The angles whose sines and cosines are given.
     pub angles: &'a Angles,
-    /// Whether there may be loops.
-    pub loops: bool,
 }
 
 /// The body of a function over `S: Scalar` that finds the sines and cosines of all angles in `at`: statements, then the
@@ -88,7 +86,7 @@ impl<'a> Emitter<'a> {
         let graph = &expressions.graph;
         let uses = expressions.uses_in_code();
         let positions = vocabulary.angles.positions(expressions);
-        let rolled = vocabulary.loops.then(|| Rolled::of(expressions, &positions)).flatten();
+        let rolled = Rolled::of(expressions, &positions);
         let mut emitter = Emitter {
             graph,
             vocabulary,
