@@ -46,6 +46,8 @@ class Results:
     calibrations: list[float] = field(default_factory=list)
     disturbed: int = 0
     refused: list[str] = field(default_factory=list)
+    # What takes too long to build.
+    skipped: list[str] = field(default_factory=list)
     pinned: str = ""
 
 
@@ -88,25 +90,27 @@ class Bench:
 
     def result(self, program: Program, robot: str, function: str) -> numpy.ndarray:
         """What the program says at the states, one row for each."""
-        joints = robot_files.read(robot).joints
-        states = self.states(robot)
+        known = robot_files.read(robot)
+        joints = known.joints
+        order = known.breadth_first() if program.breadth_first else list(range(joints))
         # With gravity k g, a motion is √k faster: τ(q, √k v, k a; k g) = k τ(q, v, a; g), and the same the other way.
         k = program.gravity / 9.81
-        scale = numpy.repeat([1, numpy.sqrt(k), k], joints)
-        path = self.write_states(robot, states * scale, "checked")
-        command = self.command("check", program, robot, function, path)
+        scale = numpy.array([1, numpy.sqrt(k), k])[None, :, None]
+        states = self.states(robot).reshape(STATES, 3, joints)[:, :, order] * scale
+        command = self.command("check", program, robot, function, self.write_states(robot, states, "checked"))
         ran = subprocess.run(command, capture_output=True)
         if ran.returncode != 0:
             raise Refused(ran.stderr.decode().strip() or f"the program ended with {ran.returncode}")
         values = numpy.frombuffer(ran.stdout).reshape(STATES // program.lanes, -1, program.lanes)
         values = values.transpose(0, 2, 1).reshape(STATES, -1)
+        back = numpy.argsort(order)
         if function != "mass":
-            return values / k
+            return values[:, back] / k
         matrices = values.reshape(STATES, joints, joints)
         if program.upper:
             upper = numpy.triu(matrices.transpose(0, 2, 1))
             matrices = upper + numpy.triu(upper, 1).transpose(0, 2, 1)
-        return matrices.reshape(STATES, -1)
+        return matrices[:, back][:, :, back].reshape(STATES, -1)
 
     def check(self, programs: list[Program], names: list[str], results: Results) -> None:
         for robot in names:

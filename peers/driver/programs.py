@@ -20,6 +20,8 @@ class Program:
     lanes: int = 1
     # Where the library leaves no more than the upper triangle of the mass matrix, by columns.
     upper: bool = False
+    # Whether it numbers joints breadth first, whatever the file's order.
+    breadth_first: bool = False
     # Its gravity, m/s², where that is built in.
     gravity: float = 9.81
     # All robots, unless named.
@@ -49,7 +51,7 @@ PROGRAMS = [
     Program("cppadcodegen", "CppADCodeGen", GENERATED + "/cppadcodegen.so", "{function}", "txt"),
     Program("casadi", "CasADi", GENERATED + "/casadi.so", "{function}", "txt"),
     Program("mujoco", "MuJoCo", "mujoco.so", "{function}", "xml"),
-    Program("dynibo", "dynibo", "cargo-native/release/libdynibo_peer.so", "{function}", "urdf", gravity=9.80665),
+    Program("dynibo", "dynibo", "cargo-native/release/libdynibo_peer.so", "{function}", "urdf", breadth_first=True, gravity=9.80665),
     _ours("generic", "redysim, generic path", NATIVE, "generic_{function}"),
     _ours("native_f64", "redysim, f64", NATIVE, "{robot}_{function}_f64"),
     _ours("native_f32", "redysim, f32", NATIVE, "{robot}_{function}_f32", scalar="f32"),

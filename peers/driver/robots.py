@@ -35,9 +35,12 @@ class Robot:
     def joints(self) -> int:
         return len(self.links)
 
-    @property
-    def text(self) -> Path:
-        return FOLDER / f"{self.name}.txt"
+    def breadth_first(self) -> list[int]:
+        """The links, those nearer to the ground first."""
+        order = [-1]
+        for parent in order:
+            order += [number for number, link in enumerate(self.links) if link.parent == parent]
+        return order[1:]
 
 
 def read(name: str) -> Robot:

@@ -2,6 +2,7 @@
 //
 // The C is over `scalar`, which is `double`, or a vector of doubles for several states at once.
 #include <iostream>
+#include <regex>
 
 #include <pinocchio/codegen/cppadcg.hpp>
 
@@ -31,12 +32,14 @@ int main(int count, char ** arguments)
   CppAD::vector<Coded> outputs = function.Forward(0, inputs);
   CppAD::cg::LanguageC<double> language("scalar");
   CppAD::cg::LangCDefaultVariableNameGenerator<double> names("y", "x", "v");
+  language.setParameterPrecision(17);
   std::ostringstream body;
   handler.generateCode(body, language, outputs, names);
 
   std::ofstream file(arguments[3]);
   file << "void FUNCTION(const scalar *x, scalar *y)\n{\n"
        << "  scalar v[" << std::max<size_t>(1, handler.getTemporaryVariableCount()) << "];\n"
-       << body.str() << "}\n";
+       // A constant alone is no vector.
+       << std::regex_replace(body.str(), std::regex(" = ([-+.e0-9]+);"), " = SPLAT($1);") << "}\n";
   return file ? 0 : 1;
 }

@@ -10,18 +10,15 @@ pub struct State<V> {
 
 /// Exports `function`, from a state to a result, as the C function `name`.
 ///
-/// The state is read and the result written where they are; nothing is copied around the function itself.
+/// The arguments are references, which tell the compiler that state and result lie apart: then it writes the result where
+/// the timer wants it. Otherwise it would copy it there, in wider pieces than it was written in, which waits for memory.
 macro_rules! export {
     ($name:expr, $state:ty => $result:ty, $function:expr) => {
         const _: () = {
             #[unsafe(export_name = $name)]
-            extern "C" fn call(state: *const $state, result: *mut $result) -> *const $result {
+            extern "C" fn call<'r>(state: &$state, result: &'r mut std::mem::MaybeUninit<$result>) -> &'r mut $result {
                 let function: fn(&$state) -> $result = $function;
-                // SAFETY: the timer hands over the address of a state, and that of memory for a result, of these types.
-                unsafe {
-                    result.write(function(&*state));
-                }
-                result
+                result.write(function(state))
             }
         };
     };

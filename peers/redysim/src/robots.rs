@@ -2,7 +2,11 @@
 
 use redysim::redysim;
 
-redysim! { pub struct Kr5("../../../models/peers/kr5.toml"); }
+redysim! {
+    /// Its last link has an inertia that no body has. The paper gives it so.
+    #[allow(deprecated)]
+    pub struct Kr5("../../../models/peers/kr5.toml");
+}
 redysim! { pub struct Gripper("../../../models/peers/gripper.toml"); }
 redysim! { pub struct Humanoid30("../../../models/peers/humanoid30.toml"); }
 redysim! { pub struct Chain10("../../../models/peers/chain10.toml"); }
