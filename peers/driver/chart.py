@@ -1,6 +1,6 @@
 """Draws the times as an SVG: grouped bars over a logarithmic axis, a panel for each function."""
 
-from math import ceil, floor, log10
+from math import floor, log10
 from xml.sax.saxutils import escape
 
 import robots
@@ -36,7 +36,7 @@ class Drawing:
         x, y = float(LEFT), top
         for key, colour in colours.items():
             label = BY_KEY[key].label
-            width = 30 + 7.2 * len(label)
+            width = 40 + 7.6 * len(label)
             if x + width > WIDTH - RIGHT:
                 x, y = float(LEFT), y + 22
             self.box(x, y - 11, 14, 14, colour)
@@ -46,7 +46,8 @@ class Drawing:
     def panel(self, top: float, title: str, unit: str, groups: list[tuple[str, dict[str, float]]], colours: dict) -> None:
         """Bars by colour for each group: (name, time by key)."""
         values = [value for _, bars in groups for value in bars.values()]
-        low, high = 10.0 ** floor(log10(min(values) * 0.95)), 10.0 ** ceil(log10(max(values)))
+        # From a decade below all bars to a bit above them, where their numbers stand.
+        low, high = 10.0 ** floor(log10(min(values) * 0.95)), 1.9 * max(values)
         bottom = top + PANEL
 
         def height(value: float) -> float:
@@ -56,12 +57,13 @@ class Drawing:
         self.parts.append(f'<g transform="translate(18 {top + PANEL / 2:.0f}) rotate(-90)">')
         self.text(0, 0, unit)
         self.parts.append("</g>")
-        for decade in range(round(log10(low)), round(log10(high)) + 1):
+        for decade in range(round(log10(low)), floor(log10(high)) + 1):
             y = bottom - height(10.0**decade)
             self.line(y, "#888" if decade == round(log10(low)) else "#ddd")
             self.text(LEFT - 8, y + 4, f"{10.0**decade:,.10g}", anchor="end")
-            for minor in range(2, 10) if 10.0**decade < high else ():
-                self.line(bottom - height(minor * 10.0**decade), "#f2f2f2")
+            for minor in range(2, 10):
+                if minor * 10.0**decade < high:
+                    self.line(bottom - height(minor * 10.0**decade), "#f2f2f2")
         group_width = (WIDTH - LEFT - RIGHT) / len(groups)
         bar = min(group_width * 0.86 / len(colours), 26.0)
         for number, (name, bars) in enumerate(groups):
@@ -91,10 +93,10 @@ def drawn(times: Times, titles: dict[str, str]) -> str:
     groups = [(f"{titles[n]}, {FUNCTIONS[f]}", _bars(times, LANES, n, f)) for n in special for f in FUNCTIONS]
     groups = [(_short(name), bars) for name, bars in groups if bars]
     if groups:
-        drawing.panel(top + 34, "Several states at once", "ns per state", groups, LANES)
-        drawing.legend(top + 4, LANES)
-        drawing.parts.append("")
-        top += PANEL + GAP + 34
+        colours = {key: colour for key, colour in LANES.items() if any(key in bars for _, bars in groups)}
+        drawing.legend(top, colours)
+        drawing.panel(top + 44, "Several states at once", "ns per state", groups, colours)
+        top += PANEL + GAP + 44
     style = "font-family=\"'DejaVu Sans', Arial, sans-serif\" fill=\"#222\""
     frame = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {top - 24:.0f}" {style}>'
     return "\n".join([frame, '<rect width="100%" height="100%" fill="#fff"/>', *drawing.parts, "</svg>", ""])
