@@ -23,7 +23,7 @@
 //! "#;
 //! let model = Model::from_toml(pendulum, "pendulum.toml")?.model;
 //! let source = source_file(&model, "Pendulum")?;
-//! assert!(source.contains("let (_, cos_rod) = S::sin_cos(q[0]);"));
+//! assert!(source.contains("let [cos_rod] = at.cos;"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

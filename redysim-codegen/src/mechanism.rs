@@ -1,6 +1,7 @@
 //! The compiled type: constants, functions and traits of one mechanism.
 
-use crate::emit::{Vocabulary, function_body, local};
+use crate::emit::{Angles, POSTURE, Vocabulary, function_body, local};
+use crate::expressions::Expressions;
 use crate::functions::{Function, SIGNATURES, Signature, trace};
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -26,7 +27,10 @@ pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Gen
     let operations: Vec<_> =
         functions.iter().map(|function| (function.signature.name, function.expressions.count())).collect();
     let outline = Outline::new(model);
-    let definitions = functions.iter().map(|function| definition(function, &bodies, &outline, runtime));
+    let angles = Angles::of(functions.iter().map(|function| &function.expressions));
+    let writer = Writer { bodies: &bodies, angles: &angles, outline: &outline, runtime };
+    let definitions =
+        std::iter::once(writer.posture()).chain(functions.iter().map(|function| writer.function(function)));
     let tokens = type_impls(&outline, name, runtime, &operations, definitions.collect());
     Generated { tokens, operations }
 }
@@ -34,10 +38,12 @@ pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Gen
 /// The `impl`s of a type whose model has faults: everything has its type and nothing has a meaning, so that the faults
 /// of the model are the only errors.
 pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
-    let definitions = SIGNATURES.iter().map(|signature| {
-        let head = head(signature, outline, runtime);
-        quote!(pub #head { ::core::unreachable!() })
-    });
+    let nq = outline.joints.len();
+    let posture = posture_head(nq, nq, runtime);
+    let heads = SIGNATURES
+        .iter()
+        .flat_map(|signature| [head(signature, outline, runtime), head_at(signature, outline, nq, runtime)]);
+    let definitions = std::iter::once(posture).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
     type_impls(outline, name, runtime, &[], definitions.collect())
 }
 
@@ -101,28 +107,112 @@ fn constants(outline: &Outline, operations: &[(&str, OperationCount)], runtime: 
     }
 }
 
-/// The documentation and definition of one inherent function.
-fn definition(function: &Function, bodies: &[String], outline: &Outline, runtime: &TokenStream) -> TokenStream {
-    let Function { signature, remark, expressions } = function;
-    let head = head(signature, outline, runtime);
-    let vocabulary = Vocabulary { arguments: signature.arguments, bodies };
-    let body =
-        function_body(expressions, &vocabulary, |outputs| shape::value(signature.shape, outline, outputs, runtime));
-    let count = expressions.count();
-    let cost = format!(
-        "{} flops: {} additions, {} multiplications, {} divisions; {} sine-cosine pairs.",
-        count.flops(),
-        count.additions,
-        count.multiplications,
-        count.divisions,
-        count.trig
-    );
-    let paragraphs = [Some(signature.summary), *remark, Some(&cost)].into_iter().flatten();
-    let docs = paragraphs.flat_map(|paragraph| [String::new(), format!(" {paragraph}")]).skip(1);
-    quote! {
-        #(#[doc = #docs])*
-        pub #head { #body }
+/// Writes the inherent functions of one type.
+struct Writer<'a> {
+    bodies: &'a [String],
+    angles: &'a Angles,
+    outline: &'a Outline,
+    runtime: &'a TokenStream,
+}
+
+impl Writer<'_> {
+    /// The function that computes the sines and cosines of all angles.
+    fn posture(&self) -> TokenStream {
+        let head = posture_head(self.outline.joints.len(), self.angles.len(), self.runtime);
+        let (q, runtime) = (local("q"), self.runtime);
+        let angles = self.angles.expressions(0..self.angles.len());
+        quote! {
+            /// Coordinates with the sines and cosines of all angles: computed once, they serve every function whose
+            /// name ends in `_at`.
+            #[inline]
+            pub #head {
+                let (sin, cos) = S::sin_cos_all([#(#angles),*]);
+                #runtime::Posture { q: *#q, sin, cos }
+            }
+        }
     }
+
+    /// One function with its documentation: of coordinates, and of a posture.
+    fn function(&self, function: &Function) -> TokenStream {
+        let Function { signature, remark, expressions } = function;
+        let Writer { bodies, angles, outline, runtime } = self;
+        let (head, head_at) = (head(signature, outline, runtime), head_at(signature, outline, angles.len(), runtime));
+        let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles };
+        let result = |outputs: &[TokenStream]| shape::value(signature.shape, outline, outputs, runtime);
+        let body = function_body(expressions, &vocabulary, result);
+        let count = expressions.count();
+        let cost = format!(
+            "{} flops: {} additions, {} multiplications, {} divisions; {} sine-cosine pairs.",
+            count.flops(),
+            count.additions,
+            count.multiplications,
+            count.divisions,
+            count.trig
+        );
+        let paragraphs = [Some(signature.summary), *remark, Some(&cost)].into_iter().flatten();
+        let docs = paragraphs.flat_map(|paragraph| [String::new(), format!(" {paragraph}")]).skip(1);
+        let docs_at = format!(" [`{0}`](Self::{0}) where the sines and cosines are there already.", signature.name);
+        let needed_angles = self.posture_for(expressions);
+        let (name_at, q, at) = (format_ident!("{}_at", signature.name), local("q"), local(POSTURE));
+        let others: Vec<Ident> = signature.arguments[1..].iter().map(|argument| local(argument)).collect();
+        quote! {
+            #(#[doc = #docs])*
+            pub #head {
+                Self::#name_at(&#needed_angles #(, #others)*)
+            }
+            #[doc = #docs_at]
+            #[inline]
+            pub #head_at {
+                let #q = &#at.#q;
+                #body
+            }
+        }
+    }
+
+    /// A posture with the sines and cosines that one function needs; what it never reads is zero.
+    fn posture_for(&self, expressions: &Expressions) -> TokenStream {
+        let (q, runtime) = (local("q"), self.runtime);
+        let needed = self.angles.needed_by(expressions);
+        if needed.len() == self.angles.len() && !needed.is_empty() {
+            return quote!(Self::posture(#q));
+        }
+        let values = self.angles.expressions(needed.iter().copied());
+        let [sin, cos] = ["sin", "cos"].map(|function| {
+            let elements = (0..self.angles.len()).map(|position| match needed.binary_search(&position) {
+                Ok(place) => {
+                    let (array, place) = (local(function), Literal::usize_unsuffixed(place));
+                    quote!(#array[#place])
+                }
+                Err(_) => quote!(S::zero()),
+            });
+            let elements: Vec<TokenStream> = elements.collect();
+            quote!([#(#elements),*])
+        });
+        let computed = (!values.is_empty()).then(|| quote!(let (sin, cos) = S::sin_cos_all([#(#values),*]);));
+        quote!({
+            #computed
+            #runtime::Posture { q: *#q, sin: #sin, cos: #cos }
+        })
+    }
+}
+
+/// Name, argument and result of the function that computes sines and cosines.
+fn posture_head(coordinates: usize, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let [nq, angles] = [coordinates, angles].map(Literal::usize_unsuffixed);
+    let q = local("q");
+    quote!(fn posture<S: #runtime::Scalar>(#q: &[S; #nq]) -> #runtime::Posture<S, #nq, #angles>)
+}
+
+/// Name, arguments and result of a function of a posture with `angles` angles.
+fn head_at(signature: &Signature, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}_at", signature.name);
+    let [nv, angles] = [outline.joints.len(), angles].map(Literal::usize_unsuffixed);
+    let at = local(POSTURE);
+    let others = signature.arguments[1..].iter().map(|argument| local(argument));
+    let output = shape::output_type(signature.shape, outline, runtime);
+    quote!(fn #name<S: #runtime::Scalar>(
+        #at: &#runtime::Posture<S, #nv, #angles> #(, #others: &[S; #nv])*
+    ) -> #output)
 }
 
 /// Name, arguments and result of a function.

@@ -11,8 +11,10 @@ extern crate alloc;
 pub mod closed_loop;
 pub mod control;
 pub mod integrate;
+pub mod lanes;
 pub mod mechanism;
 pub mod operations;
+pub mod posture;
 pub mod scalar;
 pub mod simulate;
 pub mod trajectory;
@@ -30,6 +32,7 @@ pub use mechanism::{
     MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
 };
 pub use operations::{OperationCount, Operations};
+pub use posture::Posture;
 pub use scalar::{Real, Scalar};
 pub use simulate::{ForwardSimulation, SimulationState};
 pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError};

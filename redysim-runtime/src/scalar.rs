@@ -3,6 +3,15 @@
 use crate::trigonometry;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use wide::{f32x4, f64x2};
+
+/// Whether [`Scalar::mul_add`] of the numbers of this crate rounds once: where the target that is compiled for has the
+/// instruction (on x86-64 by `-C target-cpu` or `-C target-feature=+fma`, on AArch64 always), unless the feature
+/// `deterministic` asks for the same bits everywhere.
+pub const FUSED: bool = cfg!(all(
+    not(feature = "deterministic"),
+    any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon"))
+));
 
 /// A number in the sense of the recursions: a field with sine, cosine and square root.
 ///
@@ -34,6 +43,12 @@ pub trait Scalar:
 
     /// The non-negative square root.
     fn sqrt(self) -> Self;
+
+    /// self · factor + addend, rounded once where [`FUSED`] and twice elsewhere: what is faster, never a library call.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
 
     /// Zero.
     fn zero() -> Self {
@@ -85,7 +100,7 @@ pub trait Real: Scalar + PartialOrd + Default + 'static {
 }
 
 macro_rules! real {
-    ($float:ident, $sqrt:path, $fabs:path, $pow:path) => {
+    ($float:ident, $vector:ident, $sin_cos:path, $sin_cos_all:path, $sqrt:path, $fabs:path, $pow:path) => {
         impl Scalar for $float {
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -93,17 +108,32 @@ macro_rules! real {
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                let (sin, cos) = trigonometry::sin_cos(self.into());
-                (sin as $float, cos as $float)
+                $sin_cos(self)
             }
             #[inline(always)]
             fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-                let (sines, cosines) = trigonometry::sin_cos_all(angles.map(f64::from));
-                (sines.map(|sin| sin as $float), cosines.map(|cos| cos as $float))
+                $sin_cos_all(angles)
             }
             #[inline]
             fn sqrt(self) -> Self {
-                $sqrt(self)
+                // The vector's square root becomes the scalar instruction, which that of `libm` hides in assembly that
+                // the compiler cannot see through; without the instruction, `libm` is the better one.
+                if cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128")) {
+                    let [root, ..] = $vector::splat(self).sqrt().to_array();
+                    root
+                } else {
+                    $sqrt(self)
+                }
+            }
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                // `core` has no fused multiply-add; that of a vector becomes the scalar instruction.
+                if FUSED {
+                    let [sum, ..] = $vector::splat(self).mul_add(factor.into(), addend.into()).to_array();
+                    sum
+                } else {
+                    self * factor + addend
+                }
             }
         }
 
@@ -128,5 +158,13 @@ macro_rules! real {
     };
 }
 
-real!(f64, libm::sqrt, libm::fabs, libm::pow);
-real!(f32, libm::sqrtf, libm::fabsf, libm::powf);
+real!(f64, f64x2, trigonometry::double::sin_cos, trigonometry::double::sin_cos_all, libm::sqrt, libm::fabs, libm::pow);
+real!(
+    f32,
+    f32x4,
+    trigonometry::single::sin_cos,
+    trigonometry::single::sin_cos_all,
+    libm::sqrtf,
+    libm::fabsf,
+    libm::powf
+);

@@ -98,6 +98,19 @@ impl Gripper {
         },
         ..::redysim_runtime::Operations::NONE
     };
+    /// Coordinates with the sines and cosines of all angles: computed once, they serve every function whose
+    /// name ends in `_at`.
+    #[inline]
+    pub fn posture<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+    ) -> ::redysim_runtime::Posture<S, 4, 4> {
+        let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        ::redysim_runtime::Posture {
+            q: *q,
+            sin,
+            cos,
+        }
+    }
     /// τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.
     ///
     /// 77 flops: 32 additions, 45 multiplications, 0 divisions; 4 sine-cosine pairs.
@@ -106,57 +119,88 @@ impl Gripper {
         v: &[S; 4],
         a: &[S; 4],
     ) -> [S; 4] {
+        Self::inverse_dynamics_at(&Self::posture(q), v, a)
+    }
+    /// [`inverse_dynamics`](Self::inverse_dynamics) where the sines and cosines are there already.
+    #[inline]
+    pub fn inverse_dynamics_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+        v: &[S; 4],
+        a: &[S; 4],
+    ) -> [S; 4] {
+        let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4] = at.cos;
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
         let t1 = v[0] * v[0];
-        let t2 = acc_link1_x - k(0.1) * t1;
-        let t3 = acc_link1_y + k(0.1) * a[0];
-        let acc_link2_y = cos_link2 * t3 - sin_link2 * t2;
+        let t2 = S::mul_add(k(-0.1), t1, acc_link1_x);
+        let t3 = S::mul_add(k(0.1), a[0], acc_link1_y);
+        let acc_link2_y = S::mul_add(-sin_link2, t2, cos_link2 * t3);
         let dw_link2_z = a[0] + a[1];
         let w_link2_z = v[0] + v[1];
         let t4 = w_link2_z * w_link2_z;
-        let acc_link3_y = cos_link3 * (acc_link2_y + k(0.05) * dw_link2_z)
-            - sin_link3 * (sin_link2 * t3 + (cos_link2 * t2 - k(0.05) * t4));
+        let acc_link3_y = S::mul_add(
+            -sin_link3,
+            S::mul_add(sin_link2, t3, S::mul_add(k(-0.05), t4, cos_link2 * t2)),
+            cos_link3 * S::mul_add(k(0.05), dw_link2_z, acc_link2_y),
+        );
         let dw_link3_z = a[2] + dw_link2_z;
         let w_link3_z = v[2] + w_link2_z;
-        let acc_link4_y = cos_link4 * (acc_link1_y + k(0.05) * a[0])
-            - sin_link4 * (acc_link1_x - k(0.05) * t1);
+        let acc_link4_y = S::mul_add(
+            -sin_link4,
+            S::mul_add(k(-0.05), t1, acc_link1_x),
+            cos_link4 * S::mul_add(k(0.05), a[0], acc_link1_y),
+        );
         let dw_link4_z = a[0] + a[3];
         let w_link4_z = v[0] + v[3];
         let minus_force_link3_x = k(0.005000000000000001) * (w_link3_z * w_link3_z);
         let force_link3_y = k(0.005000000000000001) * dw_link3_z;
-        let moment_link3_z = k(0.0001666666666666667) * dw_link3_z
-            + k(0.005000000000000001) * acc_link3_y;
+        let moment_link3_z = S::mul_add(
+            k(0.005000000000000001),
+            acc_link3_y,
+            k(0.0001666666666666667) * dw_link3_z,
+        );
         let minus_force_link4_x = k(0.005000000000000001) * (w_link4_z * w_link4_z);
         let force_link4_y = k(0.005000000000000001) * dw_link4_z;
-        let moment_link4_z = k(0.0001666666666666667) * dw_link4_z
-            + k(0.005000000000000001) * acc_link4_y;
-        let t5 = sin_link3 * minus_force_link3_x - cos_link3 * force_link3_y;
-        let minus_force_link2_x = cos_link3 * minus_force_link3_x
-            + (k(0.015000000000000003) * t4 + sin_link3 * force_link3_y);
-        let force_link2_y = k(0.015000000000000003) * dw_link2_z - t5;
+        let moment_link4_z = S::mul_add(
+            k(0.005000000000000001),
+            acc_link4_y,
+            k(0.0001666666666666667) * dw_link4_z,
+        );
+        let t5 = S::mul_add(-cos_link3, force_link3_y, sin_link3 * minus_force_link3_x);
+        let minus_force_link2_x = S::mul_add(
+            cos_link3,
+            minus_force_link3_x,
+            S::mul_add(sin_link3, force_link3_y, k(0.015000000000000003) * t4),
+        );
+        let force_link2_y = S::mul_add(k(0.015000000000000003), dw_link2_z, -t5);
         let moment_link2_z = moment_link3_z
-            + (k(0.0006666666666666668) * dw_link2_z
-                + k(0.015000000000000003) * acc_link2_y - k(0.05) * t5);
-        let t6 = k(0.05) * (sin_link4 * minus_force_link4_x - cos_link4 * force_link4_y)
-            - (k(0.0058333333333333345) * a[0] + k(0.6867000000000001) * cos_link1);
+            + S::mul_add(
+                k(-0.05),
+                t5,
+                S::mul_add(
+                    k(0.015000000000000003),
+                    acc_link2_y,
+                    k(0.0006666666666666668) * dw_link2_z,
+                ),
+            );
+        let t6 = S::mul_add(
+            k(0.05),
+            S::mul_add(-cos_link4, force_link4_y, sin_link4 * minus_force_link4_x),
+            -(S::mul_add(
+                k(0.6867000000000001),
+                cos_link1,
+                k(0.0058333333333333345) * a[0],
+            )),
+        );
         let moment_link1_z = moment_link2_z
-            + (moment_link4_z - t6
-                - k(0.1)
-                    * (sin_link2 * minus_force_link2_x - cos_link2 * force_link2_y));
+            + S::mul_add(
+                k(-0.1),
+                S::mul_add(-cos_link2, force_link2_y, sin_link2 * minus_force_link2_x),
+                moment_link4_z - t6,
+            );
         [moment_link1_z, moment_link2_z, moment_link3_z, moment_link4_z]
     }
     /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree.
@@ -169,107 +213,187 @@ impl Gripper {
         v: &[S; 4],
         tau: &[S; 4],
     ) -> [S; 4] {
+        Self::forward_dynamics_at(&Self::posture(q), v, tau)
+    }
+    /// [`forward_dynamics`](Self::forward_dynamics) where the sines and cosines are there already.
+    #[inline]
+    pub fn forward_dynamics_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+        v: &[S; 4],
+        tau: &[S; 4],
+    ) -> [S; 4] {
+        let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4] = at.cos;
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
         let t1 = v[0] * v[0];
-        let t2 = acc_link1_x - k(0.1) * t1;
-        let acc_link2_y = cos_link2 * acc_link1_y - sin_link2 * t2;
+        let t2 = S::mul_add(k(-0.1), t1, acc_link1_x);
+        let acc_link2_y = S::mul_add(-sin_link2, t2, cos_link2 * acc_link1_y);
         let w_link2_z = v[0] + v[1];
         let t3 = w_link2_z * w_link2_z;
-        let acc_link3_y = cos_link3 * acc_link2_y
-            - sin_link3 * (cos_link2 * t2 + (sin_link2 * acc_link1_y - k(0.05) * t3));
+        let acc_link3_y = S::mul_add(
+            -sin_link3,
+            S::mul_add(cos_link2, t2, S::mul_add(k(-0.05), t3, sin_link2 * acc_link1_y)),
+            cos_link3 * acc_link2_y,
+        );
         let w_link3_z = v[2] + w_link2_z;
-        let acc_link4_y = cos_link4 * acc_link1_y
-            - sin_link4 * (acc_link1_x - k(0.05) * t1);
+        let acc_link4_y = S::mul_add(
+            -sin_link4,
+            S::mul_add(k(-0.05), t1, acc_link1_x),
+            cos_link4 * acc_link1_y,
+        );
         let w_link4_z = v[0] + v[3];
         let minus_force_link3_x = k(0.005000000000000001) * (w_link3_z * w_link3_z);
         let moment_link3_z = k(0.005000000000000001) * acc_link3_y;
         let minus_force_link4_x = k(0.005000000000000001) * (w_link4_z * w_link4_z);
         let moment_link4_z = k(0.005000000000000001) * acc_link4_y;
         let minus_force_link2_y = sin_link3 * minus_force_link3_x;
-        let minus_force_link2_x = k(0.015000000000000003) * t3
-            + cos_link3 * minus_force_link3_x;
+        let minus_force_link2_x = S::mul_add(
+            cos_link3,
+            minus_force_link3_x,
+            k(0.015000000000000003) * t3,
+        );
         let moment_link2_z = moment_link3_z
-            + (k(0.015000000000000003) * acc_link2_y - k(0.05) * minus_force_link2_y);
+            + S::mul_add(
+                k(-0.05),
+                minus_force_link2_y,
+                k(0.015000000000000003) * acc_link2_y,
+            );
         let t4 = tau[2] - moment_link3_z;
         let t5 = tau[3] - moment_link4_z;
-        let t6 = k(0.0001666666666666667) + k(0.00025000000000000006) * cos_link4;
+        let t6 = S::mul_add(
+            k(0.00025000000000000006),
+            cos_link4,
+            k(0.0001666666666666667),
+        );
         let t7 = k(0.005000000000000001) * cos_link3;
         let h_link2_y = k(0.005000000000000001) * sin_link3;
         let h_link2_x = k(0.015000000000000003) + t7;
-        let J_link2_zz = k(0.0005000000000000001) * cos_link3 + k(0.0008333333333333335);
-        let t8 = k(0.0001666666666666667) + k(0.00025000000000000006) * cos_link3;
+        let J_link2_zz = S::mul_add(
+            k(0.0005000000000000001),
+            cos_link3,
+            k(0.0008333333333333335),
+        );
+        let t8 = S::mul_add(
+            k(0.00025000000000000006),
+            cos_link3,
+            k(0.0001666666666666667),
+        );
         let t9 = sin_link2 * h_link2_y;
-        let t10 = t8 - k(0.1) * (t9 - cos_link2 * t7);
-        let t11 = t9 - cos_link2 * h_link2_x;
+        let t10 = S::mul_add(k(-0.1), S::mul_add(-cos_link2, t7, t9), t8);
+        let t11 = S::mul_add(-cos_link2, h_link2_x, t9);
         let t12 = k(5999.999999999999) * t6;
         let t13 = k(5999.999999999999) * t8;
-        let D_link2 = J_link2_zz - t8 * t13;
-        let t14 = t10 * t13 + (k(0.1) * t11 - J_link2_zz);
+        let D_link2 = S::mul_add(-t8, t13, J_link2_zz);
+        let t14 = S::mul_add(t10, t13, S::mul_add(k(0.1), t11, -J_link2_zz));
         let t15 = k(5999.999999999999) * t10;
         let inv_D_link2 = k(1.0) / D_link2;
         let t16 = t14 * inv_D_link2;
-        let t17 = k(0.2) * t11
-            + (t6 * t12
-                - (J_link2_zz
-                    + (k(0.0005000000000000001) * cos_link4 + k(0.006000000000000001))));
-        let minus_D_link1 = t14 * t16 + (t10 * t15 + t17);
+        let t17 = S::mul_add(
+            k(0.2),
+            t11,
+            S::mul_add(
+                t6,
+                t12,
+                -(J_link2_zz
+                    + S::mul_add(
+                        k(0.0005000000000000001),
+                        cos_link4,
+                        k(0.006000000000000001),
+                    )),
+            ),
+        );
+        let minus_D_link1 = S::mul_add(t14, t16, S::mul_add(t10, t15, t17));
         let minus_inv_D_link1 = k(1.0) / minus_D_link1;
-        let t18 = t4 * t13 + (moment_link2_z - tau[1]);
-        let t19 = t5 * t12
-            + (moment_link4_z
-                - (k(0.05) * (sin_link4 * minus_force_link4_x)
-                    + (tau[0] - k(0.6867000000000001) * cos_link1)));
+        let t18 = S::mul_add(t4, t13, moment_link2_z - tau[1]);
+        let t19 = S::mul_add(
+            t5,
+            t12,
+            moment_link4_z
+                - S::mul_add(
+                    k(0.05),
+                    sin_link4 * minus_force_link4_x,
+                    S::mul_add(k(-0.6867000000000001), cos_link1, tau[0]),
+                ),
+        );
         let t20 = moment_link2_z + t19
-            + (t4 * t15
-                - k(0.1)
-                    * (sin_link2 * minus_force_link2_x
-                        + cos_link2 * minus_force_link2_y));
-        let t21 = minus_inv_D_link1 * (t16 * t18 + t20);
-        let t22 = inv_D_link2 * t18 - t16 * t21;
+            + S::mul_add(
+                t4,
+                t15,
+                -(k(0.1)
+                    * S::mul_add(
+                        cos_link2,
+                        minus_force_link2_y,
+                        sin_link2 * minus_force_link2_x,
+                    )),
+            );
+        let t21 = minus_inv_D_link1 * S::mul_add(t16, t18, t20);
+        let t22 = S::mul_add(-t16, t21, inv_D_link2 * t18);
         [
             t21,
             -t22,
-            t13 * t22 + (k(5999.999999999999) * t4 - t15 * t21),
-            k(5999.999999999999) * t5 - t12 * t21,
+            S::mul_add(t13, t22, S::mul_add(-t15, t21, k(5999.999999999999) * t4)),
+            S::mul_add(-t12, t21, k(5999.999999999999) * t5),
         ]
     }
     /// M(q), the generalised inertia matrix, symmetric: kg m², kg m or kg.
     ///
     /// 23 flops: 11 additions, 12 multiplications, 0 divisions; 3 sine-cosine pairs.
     pub fn mass_matrix<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [[S; 4]; 4] {
+        Self::mass_matrix_at(
+            &{
+                let (sin, cos) = S::sin_cos_all([q[1], q[2], q[3]]);
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [S::zero(), sin[0], sin[1], sin[2]],
+                    cos: [S::zero(), cos[0], cos[1], cos[2]],
+                }
+            },
+        )
+    }
+    /// [`mass_matrix`](Self::mass_matrix) where the sines and cosines are there already.
+    #[inline]
+    pub fn mass_matrix_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+    ) -> [[S; 4]; 4] {
+        let q = &at.q;
         let k = S::from_f64;
-        let ([sin_link2, sin_link3, _], [cos_link2, cos_link3, cos_link4]) = S::sin_cos_all([
-            q[1],
-            q[2],
-            q[3],
-        ]);
-        let t1 = k(0.0001666666666666667) + k(0.00025000000000000006) * cos_link4;
+        let [_, sin_link2, sin_link3, _] = at.sin;
+        let [_, cos_link2, cos_link3, cos_link4] = at.cos;
+        let t1 = S::mul_add(
+            k(0.00025000000000000006),
+            cos_link4,
+            k(0.0001666666666666667),
+        );
         let t2 = k(0.005000000000000001) * cos_link3;
         let h_link2_y = k(0.005000000000000001) * sin_link3;
         let h_link2_x = t2 + k(0.015000000000000003);
-        let J_link2_zz = k(0.0005000000000000001) * cos_link3 + k(0.0008333333333333335);
-        let t3 = k(0.0001666666666666667) + k(0.00025000000000000006) * cos_link3;
+        let J_link2_zz = S::mul_add(
+            k(0.0005000000000000001),
+            cos_link3,
+            k(0.0008333333333333335),
+        );
+        let t3 = S::mul_add(
+            k(0.00025000000000000006),
+            cos_link3,
+            k(0.0001666666666666667),
+        );
         let t4 = sin_link2 * h_link2_y;
-        let t5 = t3 - k(0.1) * (t4 - cos_link2 * t2);
-        let t6 = t4 - cos_link2 * h_link2_x;
-        let J_link1_zz = J_link2_zz
-            + (k(0.0005000000000000001) * cos_link4 + k(0.006000000000000001))
-            - k(0.2) * t6;
-        let t7 = J_link2_zz - k(0.1) * t6;
+        let t5 = S::mul_add(k(-0.1), S::mul_add(-cos_link2, t2, t4), t3);
+        let t6 = S::mul_add(-cos_link2, h_link2_x, t4);
+        let J_link1_zz = S::mul_add(
+            k(-0.2),
+            t6,
+            J_link2_zz
+                + S::mul_add(
+                    k(0.0005000000000000001),
+                    cos_link4,
+                    k(0.006000000000000001),
+                ),
+        );
+        let t7 = S::mul_add(k(-0.1), t6, J_link2_zz);
         [
             [J_link1_zz, t7, t5, t1],
             [t7, J_link2_zz, t3, k(0.0)],
@@ -281,77 +405,96 @@ impl Gripper {
     ///
     /// 50 flops: 18 additions, 32 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn bias_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 4] {
+        Self::bias_forces_at(&Self::posture(q), v)
+    }
+    /// [`bias_forces`](Self::bias_forces) where the sines and cosines are there already.
+    #[inline]
+    pub fn bias_forces_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+        v: &[S; 4],
+    ) -> [S; 4] {
+        let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4] = at.cos;
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
         let t1 = v[0] * v[0];
-        let t2 = acc_link1_x - k(0.1) * t1;
-        let acc_link2_y = cos_link2 * acc_link1_y - sin_link2 * t2;
+        let t2 = S::mul_add(k(-0.1), t1, acc_link1_x);
+        let acc_link2_y = S::mul_add(-sin_link2, t2, cos_link2 * acc_link1_y);
         let w_link2_z = v[0] + v[1];
         let t3 = w_link2_z * w_link2_z;
-        let acc_link3_y = cos_link3 * acc_link2_y
-            - sin_link3 * (cos_link2 * t2 + (sin_link2 * acc_link1_y - k(0.05) * t3));
+        let acc_link3_y = S::mul_add(
+            -sin_link3,
+            S::mul_add(cos_link2, t2, S::mul_add(k(-0.05), t3, sin_link2 * acc_link1_y)),
+            cos_link3 * acc_link2_y,
+        );
         let w_link3_z = v[2] + w_link2_z;
-        let acc_link4_y = cos_link4 * acc_link1_y
-            - sin_link4 * (acc_link1_x - k(0.05) * t1);
+        let acc_link4_y = S::mul_add(
+            -sin_link4,
+            S::mul_add(k(-0.05), t1, acc_link1_x),
+            cos_link4 * acc_link1_y,
+        );
         let w_link4_z = v[0] + v[3];
         let minus_force_link3_x = k(0.005000000000000001) * (w_link3_z * w_link3_z);
         let moment_link3_z = k(0.005000000000000001) * acc_link3_y;
         let minus_force_link4_x = k(0.005000000000000001) * (w_link4_z * w_link4_z);
         let moment_link4_z = k(0.005000000000000001) * acc_link4_y;
         let minus_force_link2_y = sin_link3 * minus_force_link3_x;
-        let minus_force_link2_x = k(0.015000000000000003) * t3
-            + cos_link3 * minus_force_link3_x;
+        let minus_force_link2_x = S::mul_add(
+            cos_link3,
+            minus_force_link3_x,
+            k(0.015000000000000003) * t3,
+        );
         let moment_link2_z = moment_link3_z
-            + (k(0.015000000000000003) * acc_link2_y - k(0.05) * minus_force_link2_y);
-        let moment_link1_z = moment_link2_z
-            + (moment_link4_z
-                + (k(0.6867000000000001) * cos_link1
-                    - k(0.05) * (sin_link4 * minus_force_link4_x)))
-            - k(0.1)
-                * (sin_link2 * minus_force_link2_x + cos_link2 * minus_force_link2_y);
+            + S::mul_add(
+                k(-0.05),
+                minus_force_link2_y,
+                k(0.015000000000000003) * acc_link2_y,
+            );
+        let moment_link1_z = S::mul_add(
+            k(-0.1),
+            S::mul_add(cos_link2, minus_force_link2_y, sin_link2 * minus_force_link2_x),
+            moment_link2_z
+                + (moment_link4_z
+                    + S::mul_add(
+                        k(-0.05),
+                        sin_link4 * minus_force_link4_x,
+                        k(0.6867000000000001) * cos_link1,
+                    )),
+        );
         [moment_link1_z, moment_link2_z, moment_link3_z, moment_link4_z]
     }
     /// g(q), N m or N: the joint forces at rest.
     ///
     /// 21 flops: 7 additions, 14 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn gravity_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 4] {
+        Self::gravity_forces_at(&Self::posture(q))
+    }
+    /// [`gravity_forces`](Self::gravity_forces) where the sines and cosines are there already.
+    #[inline]
+    pub fn gravity_forces_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+    ) -> [S; 4] {
+        let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4] = at.cos;
         let acc_link1_x = k(9.81) * sin_link1;
         let acc_link1_y = k(9.81) * cos_link1;
-        let acc_link2_x = cos_link2 * acc_link1_x + sin_link2 * acc_link1_y;
-        let acc_link2_y = cos_link2 * acc_link1_y - sin_link2 * acc_link1_x;
-        let acc_link3_y = cos_link3 * acc_link2_y - sin_link3 * acc_link2_x;
-        let acc_link4_y = cos_link4 * acc_link1_y - sin_link4 * acc_link1_x;
+        let acc_link2_x = S::mul_add(sin_link2, acc_link1_y, cos_link2 * acc_link1_x);
+        let acc_link2_y = S::mul_add(-sin_link2, acc_link1_x, cos_link2 * acc_link1_y);
+        let acc_link3_y = S::mul_add(-sin_link3, acc_link2_x, cos_link3 * acc_link2_y);
+        let acc_link4_y = S::mul_add(-sin_link4, acc_link1_x, cos_link4 * acc_link1_y);
         let moment_link3_z = k(0.005000000000000001) * acc_link3_y;
         let moment_link4_z = k(0.005000000000000001) * acc_link4_y;
-        let moment_link2_z = k(0.015000000000000003) * acc_link2_y + moment_link3_z;
+        let moment_link2_z = S::mul_add(
+            k(0.015000000000000003),
+            acc_link2_y,
+            moment_link3_z,
+        );
         let moment_link1_z = moment_link2_z
-            + (k(0.6867000000000001) * cos_link1 + moment_link4_z);
+            + S::mul_add(k(0.6867000000000001), cos_link1, moment_link4_z);
         [moment_link1_z, moment_link2_z, moment_link3_z, moment_link4_z]
     }
     /// Kinetic and potential energy, J; the potential is zero at the base frame's origin.
@@ -361,46 +504,72 @@ impl Gripper {
         q: &[S; 4],
         v: &[S; 4],
     ) -> ::redysim_runtime::Energy<S> {
+        Self::energy_at(&Self::posture(q), v)
+    }
+    /// [`energy`](Self::energy) where the sines and cosines are there already.
+    #[inline]
+    pub fn energy_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+        v: &[S; 4],
+    ) -> ::redysim_runtime::Energy<S> {
+        let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4] = at.cos;
         let t1 = k(0.1) * v[0];
         let vel_link2_x = sin_link2 * t1;
         let vel_link2_y = cos_link2 * t1;
         let w_link2_z = v[0] + v[1];
-        let vel_link3_y = cos_link3 * (vel_link2_y + k(0.05) * w_link2_z)
-            - sin_link3 * vel_link2_x;
+        let vel_link3_y = S::mul_add(
+            -sin_link3,
+            vel_link2_x,
+            cos_link3 * S::mul_add(k(0.05), w_link2_z, vel_link2_y),
+        );
         let w_link3_z = v[2] + w_link2_z;
         let vel_link4_y = cos_link4 * (k(0.05) * v[0]);
         let w_link4_z = v[0] + v[3];
-        let t2 = w_link2_z * (k(0.0006666666666666668) * w_link2_z)
-            + (vel_link2_y * (k(0.030000000000000006) * w_link2_z)
-                + w_link4_z * (k(0.0001666666666666667) * w_link4_z));
-        let t3 = w_link3_z * (k(0.0001666666666666667) * w_link3_z)
-            + (v[0] * (k(0.0058333333333333345) * v[0])
-                + vel_link4_y * (k(0.010000000000000002) * w_link4_z));
+        let t2 = S::mul_add(
+            w_link2_z,
+            k(0.0006666666666666668) * w_link2_z,
+            S::mul_add(
+                w_link4_z,
+                k(0.0001666666666666667) * w_link4_z,
+                vel_link2_y * (k(0.030000000000000006) * w_link2_z),
+            ),
+        );
+        let t3 = S::mul_add(
+            w_link3_z,
+            k(0.0001666666666666667) * w_link3_z,
+            S::mul_add(
+                vel_link4_y,
+                k(0.010000000000000002) * w_link4_z,
+                v[0] * (k(0.0058333333333333345) * v[0]),
+            ),
+        );
         let t4 = k(0.005000000000000001) * sin_link3;
-        let t5 = k(0.005000000000000001) * cos_link3 + k(0.015000000000000003);
+        let t5 = S::mul_add(k(0.005000000000000001), cos_link3, k(0.015000000000000003));
         let t6 = sin_link1
-            * (cos_link2 * t5
-                + (k(0.005000000000000001) * cos_link4 + k(0.07) - sin_link2 * t4));
-        let t7 = t6
-            + cos_link1
-                * (sin_link2 * t5
-                    + (k(0.005000000000000001) * sin_link4 + cos_link2 * t4));
+            * S::mul_add(
+                cos_link2,
+                t5,
+                S::mul_add(
+                    -sin_link2,
+                    t4,
+                    S::mul_add(k(0.005000000000000001), cos_link4, k(0.07)),
+                ),
+            );
+        let t7 = S::mul_add(
+            cos_link1,
+            S::mul_add(
+                sin_link2,
+                t5,
+                S::mul_add(cos_link2, t4, k(0.005000000000000001) * sin_link4),
+            ),
+            t6,
+        );
         ::redysim_runtime::Energy {
             kinetic: k(0.5)
-                * (vel_link3_y * (k(0.010000000000000002) * w_link3_z) + (t2 + t3)),
+                * S::mul_add(vel_link3_y, k(0.010000000000000002) * w_link3_z, t2 + t3),
             potential: k(9.81) * t7,
         }
     }
@@ -411,36 +580,35 @@ impl Gripper {
         q: &[S; 4],
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
+        Self::link_kinematics_at(&Self::posture(q), v)
+    }
+    /// [`link_kinematics`](Self::link_kinematics) where the sines and cosines are there already.
+    #[inline]
+    pub fn link_kinematics_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+        v: &[S; 4],
+    ) -> [::redysim_runtime::LinkState<S>; 4] {
+        let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4] = at.cos;
         let t1 = k(0.1) * cos_link1;
         let t2 = k(0.1) * sin_link1;
         let t3 = v[0] * t2;
         let t4 = v[0] * t1;
-        let t5 = cos_link1 * cos_link2 - sin_link1 * sin_link2;
-        let t6 = sin_link1 * cos_link2 + cos_link1 * sin_link2;
+        let t5 = S::mul_add(-sin_link1, sin_link2, cos_link1 * cos_link2);
+        let t6 = S::mul_add(cos_link1, sin_link2, sin_link1 * cos_link2);
         let t7 = v[0] + v[1];
         let t8 = k(0.05) * t5;
         let t9 = k(0.05) * t6;
         let t10 = t1 + t8;
         let t11 = t2 + t9;
-        let t12 = cos_link3 * t5 - sin_link3 * t6;
-        let t13 = cos_link3 * t6 + sin_link3 * t5;
+        let t12 = S::mul_add(-sin_link3, t6, cos_link3 * t5);
+        let t13 = S::mul_add(sin_link3, t5, cos_link3 * t6);
         let t14 = k(0.05) * cos_link1;
         let t15 = k(0.05) * sin_link1;
-        let t16 = cos_link1 * cos_link4 - sin_link1 * sin_link4;
-        let t17 = sin_link1 * cos_link4 + cos_link1 * sin_link4;
+        let t16 = S::mul_add(-sin_link1, sin_link4, cos_link1 * cos_link4);
+        let t17 = S::mul_add(cos_link1, sin_link4, sin_link1 * cos_link4);
         [
             ::redysim_runtime::LinkState {
                 rotation: [
@@ -460,7 +628,11 @@ impl Gripper {
                     [k(0.0), k(0.0), k(1.0)],
                 ],
                 origin: [t1, t2, k(0.0)],
-                com: [t1 + k(0.025) * t5, t2 + k(0.025) * t6, k(0.0)],
+                com: [
+                    S::mul_add(k(0.025), t5, t1),
+                    S::mul_add(k(0.025), t6, t2),
+                    k(0.0),
+                ],
                 velocity: [-t3, t4, k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), t7],
             },
@@ -471,8 +643,12 @@ impl Gripper {
                     [k(0.0), k(0.0), k(1.0)],
                 ],
                 origin: [t10, t11, k(0.0)],
-                com: [t10 + k(0.025) * t12, t11 + k(0.025) * t13, k(0.0)],
-                velocity: [-(t3 + t7 * t9), t4 + t7 * t8, k(0.0)],
+                com: [
+                    S::mul_add(k(0.025), t12, t10),
+                    S::mul_add(k(0.025), t13, t11),
+                    k(0.0),
+                ],
+                velocity: [-(S::mul_add(t7, t9, t3)), S::mul_add(t7, t8, t4), k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), v[2] + t7],
             },
             ::redysim_runtime::LinkState {
@@ -482,7 +658,11 @@ impl Gripper {
                     [k(0.0), k(0.0), k(1.0)],
                 ],
                 origin: [t14, t15, k(0.0)],
-                com: [t14 + k(0.025) * t16, t15 + k(0.025) * t17, k(0.0)],
+                com: [
+                    S::mul_add(k(0.025), t16, t14),
+                    S::mul_add(k(0.025), t17, t15),
+                    k(0.0),
+                ],
                 velocity: [-(v[0] * t15), v[0] * t14, k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), v[0] + v[3]],
             },
@@ -492,6 +672,22 @@ impl Gripper {
     ///
     /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
     pub fn loop_residual<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 0] {
+        Self::loop_residual_at(
+            &{
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [S::zero(), S::zero(), S::zero(), S::zero()],
+                    cos: [S::zero(), S::zero(), S::zero(), S::zero()],
+                }
+            },
+        )
+    }
+    /// [`loop_residual`](Self::loop_residual) where the sines and cosines are there already.
+    #[inline]
+    pub fn loop_residual_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+    ) -> [S; 0] {
+        let q = &at.q;
         let k = S::from_f64;
         []
     }
@@ -499,6 +695,22 @@ impl Gripper {
     ///
     /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
     pub fn loop_jacobian<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [[S; 4]; 0] {
+        Self::loop_jacobian_at(
+            &{
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [S::zero(), S::zero(), S::zero(), S::zero()],
+                    cos: [S::zero(), S::zero(), S::zero(), S::zero()],
+                }
+            },
+        )
+    }
+    /// [`loop_jacobian`](Self::loop_jacobian) where the sines and cosines are there already.
+    #[inline]
+    pub fn loop_jacobian_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+    ) -> [[S; 4]; 0] {
+        let q = &at.q;
         let k = S::from_f64;
         []
     }
@@ -506,6 +718,24 @@ impl Gripper {
     ///
     /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
     pub fn loop_bias<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 0] {
+        Self::loop_bias_at(
+            &{
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [S::zero(), S::zero(), S::zero(), S::zero()],
+                    cos: [S::zero(), S::zero(), S::zero(), S::zero()],
+                }
+            },
+            v,
+        )
+    }
+    /// [`loop_bias`](Self::loop_bias) where the sines and cosines are there already.
+    #[inline]
+    pub fn loop_bias_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 4>,
+        v: &[S; 4],
+    ) -> [S; 0] {
+        let q = &at.q;
         let k = S::from_f64;
         []
     }

@@ -1,15 +1,16 @@
 //! Expressions as Rust: one `let` for each value that has a name or more than one use.
 
+mod angles;
 mod blocks;
 mod names;
 
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
+pub use angles::Angles;
 use blocks::{Statement, in_blocks};
 use names::Identifiers;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use std::collections::HashSet;
 
 /// Operations that one `let` may hold before it is cut in two, for the reader's sake.
 const OPERATIONS_PER_LINE: usize = 6;
@@ -20,15 +21,18 @@ pub struct Vocabulary<'a> {
     pub arguments: &'a [&'a str],
     /// The name of each body of the tree.
     pub bodies: &'a [String],
+    /// The angles whose sines and cosines are given.
+    pub angles: &'a Angles,
 }
 
-/// The body of a function over `S: Scalar`: statements, then the result that `result` makes of the outputs.
+/// The body of a function over `S: Scalar` that finds the sines and cosines of all angles in `at`: statements, then the
+/// result that `result` makes of the outputs.
 pub fn function_body(
     expressions: &Expressions,
     vocabulary: &Vocabulary,
     result: impl FnOnce(&[TokenStream]) -> TokenStream,
 ) -> TokenStream {
-    let mut emitter = Emitter::new(expressions, vocabulary);
+    let emitter = Emitter::new(expressions, vocabulary);
     let statements = emitter.statements();
     let mut needed = Vec::new();
     let outputs: Vec<TokenStream> =
@@ -36,8 +40,10 @@ pub fn function_body(
     let statements = in_blocks(statements, &needed);
     let result = result(&outputs);
     let k = local(FROM_F64);
+    let sines_and_cosines = emitter.sines_and_cosines();
     quote! {
         let #k = S::from_f64;
+        #sines_and_cosines
         #statements
         #result
     }
@@ -47,6 +53,9 @@ pub fn function_body(
 pub fn local(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
+
+/// The name of the argument that has the coordinates with the sines and cosines.
+pub const POSTURE: &str = "at";
 
 /// The local name of `S::from_f64`.
 const FROM_F64: &str = "k";
@@ -66,6 +75,8 @@ struct Emitter<'a> {
     uses: Vec<usize>,
     /// Nodes that are subtractions written the other way round, since their negative is what is wanted.
     flipped: Vec<bool>,
+    /// Products that are part of a fused multiply-add.
+    fused: Vec<bool>,
     /// The identifier of each value that has a `let`.
     idents: Vec<Option<Ident>>,
 }
@@ -73,11 +84,12 @@ struct Emitter<'a> {
 impl<'a> Emitter<'a> {
     fn new(expressions: &'a Expressions, vocabulary: &'a Vocabulary<'a>) -> Self {
         let graph = &expressions.graph;
-        let uses = expressions.uses();
+        let uses = uses_in_statements(expressions);
         let flipped = flipped(expressions, &uses);
+        let fused = fused_products(graph, &uses);
         let mut idents = vec![None; graph.len()];
         let mut reserved = vocabulary.arguments.to_vec();
-        reserved.push(FROM_F64);
+        reserved.extend([FROM_F64, POSTURE]);
         let mut identifiers = Identifiers::new(vocabulary.bodies, &reserved);
         let mut sizes = vec![0; graph.len()];
         for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
@@ -85,27 +97,26 @@ impl<'a> Emitter<'a> {
             if matches!(node, Node::Input { .. } | Node::Constant(_)) {
                 continue;
             }
+            if matches!(node, Node::Sin(_) | Node::Cos(_)) {
+                idents[index] = Some(identifiers.make(graph.name(index), false));
+                continue;
+            }
             sizes[index] = 1 + node.operands().map(|operand| sizes[operand.node()]).sum::<usize>();
             let inline = uses[index] == 1 && graph.name(index).is_none() && sizes[index] <= OPERATIONS_PER_LINE;
-            if !inline || matches!(node, Node::Sin(_) | Node::Cos(_)) {
+            if !(inline || fused[index]) {
                 idents[index] = Some(identifiers.make(graph.name(index), flipped[index]));
                 sizes[index] = 0;
             }
         }
-        Emitter { graph, vocabulary, uses, flipped, idents }
+        Emitter { graph, vocabulary, uses, flipped, fused, idents }
     }
 
     /// One statement for each value with a `let`, operands first.
-    fn statements(&mut self) -> Vec<Statement> {
+    fn statements(&self) -> Vec<Statement> {
         let mut statements = Vec::new();
-        let mut defined = HashSet::new();
-        for index in (0..self.graph.len()).filter(|&index| self.uses[index] > 0) {
-            let Some(ident) = self.idents[index].as_ref().filter(|_| !defined.contains(&index)) else { continue };
-            let node = self.graph.node(index);
-            if let Node::Sin(_) | Node::Cos(_) = node {
-                let statement = self.sines_and_cosines(index);
-                defined.extend(statement.defines.iter().map(|(node, _)| *node));
-                statements.push(statement);
+        for (index, ident) in self.idents.iter().enumerate() {
+            let (Some(ident), node) = (ident, self.graph.node(index)) else { continue };
+            if matches!(node, Node::Sin(_) | Node::Cos(_)) {
                 continue;
             }
             let mut needs = Vec::new();
@@ -119,34 +130,23 @@ impl<'a> Emitter<'a> {
         statements
     }
 
-    /// The sines and cosines of all angles that are known before node `index`, in one call, which costs less than one for
-    /// each. The angles of joints are known from the start, so that one call is all there is.
-    fn sines_and_cosines(&self, index: usize) -> Statement {
-        let (mut angles, mut values, mut needs) = (Vec::new(), Vec::new(), Vec::new());
-        for node in (index..self.graph.len()).filter(|&node| self.uses[node] > 0) {
-            let (Node::Sin(angle) | Node::Cos(angle)) = self.graph.node(node) else { continue };
-            let mut reads = Vec::new();
-            let value = self.render(angle, Binding::Lowest, &mut reads);
-            if !angles.contains(&angle) && reads.iter().all(|&read| read < index) {
-                angles.push(angle);
-                values.push(value);
-                needs.extend(reads);
+    /// Takes the sines and cosines that the function needs from those of all angles.
+    fn sines_and_cosines(&self) -> TokenStream {
+        let angles = self.vocabulary.angles;
+        let [mut sines, mut cosines] = [vec![None; angles.len()], vec![None; angles.len()]];
+        for (index, ident) in self.idents.iter().enumerate() {
+            match self.graph.node(index) {
+                Node::Sin(angle) => sines[angles.position(self.graph, angle)] = ident.clone(),
+                Node::Cos(angle) => cosines[angles.position(self.graph, angle)] = ident.clone(),
+                _ => {}
             }
         }
-        let defined = |function: fn(Edge) -> Node| -> Vec<Option<(usize, Ident)>> {
-            let node = |angle| self.graph.index_of(function(angle)).filter(|&node| self.uses[node] > 0);
-            angles.iter().map(|&angle| node(angle).and_then(|node| Some((node, self.idents[node].clone()?)))).collect()
-        };
-        let (sines, cosines) = (defined(Node::Sin), defined(Node::Cos));
-        let [sin, cos] = [&sines, &cosines].map(|functions| {
-            let names = functions.iter().map(|one| one.as_ref().map_or(quote!(_), |(_, ident)| quote!(#ident)));
-            names.collect::<Vec<_>>()
+        let taken = [("sin", sines), ("cos", cosines)].map(|(field, idents)| {
+            let (at, field) = (local(POSTURE), local(field));
+            let names = idents.iter().map(|ident| ident.as_ref().map_or(quote!(_), |ident| quote!(#ident)));
+            idents.iter().any(Option::is_some).then(|| quote!(let [#(#names),*] = #at.#field;))
         });
-        let tokens = match &values[..] {
-            [value] => quote!(let (#(#sin)*, #(#cos)*) = S::sin_cos(#value);),
-            _ => quote!(let ([#(#sin),*], [#(#cos),*]) = S::sin_cos_all([#(#values),*]);),
-        };
-        Statement { defines: sines.into_iter().chain(cosines).flatten().collect(), tokens, needs }
+        taken.into_iter().flatten().collect()
     }
 
     /// A value as an expression; `needs` collects the nodes with a `let` that it reads.
@@ -177,15 +177,25 @@ impl<'a> Emitter<'a> {
     }
 
     /// a + b, with a minus sign between them where one of them has it.
-    fn sum(&self, a: Edge, b: Edge, needs: &mut Vec<usize>) -> TokenStream {
+    fn sum(&self, a: Edge, b: Edge, needs: &mut Vec<usize>) -> (Binding, TokenStream) {
+        for (product, addend) in [(a, b), (b, a)] {
+            if self.fused[product.node()]
+                && let Node::Multiply(x, y) = self.graph.node(product.node())
+            {
+                let x = self.render(x.flipped_if(product.is_negative()), Binding::Lowest, needs);
+                let y = self.render(y, Binding::Lowest, needs);
+                let addend = self.render(addend, Binding::Lowest, needs);
+                return (Binding::Unary, quote!(S::mul_add(#x, #y, #addend)));
+            }
+        }
         let (a, b) = if self.has_minus(a) && !self.has_minus(b) { (b, a) } else { (a, b) };
         let left = self.render(a, Binding::Lowest, needs);
         if self.has_minus(b) {
             let right = self.render(-b, Binding::Sum, needs);
-            quote!(#left - #right)
+            (Binding::Sum, quote!(#left - #right))
         } else {
             let right = self.render(b, Binding::Sum, needs);
-            quote!(#left + #right)
+            (Binding::Sum, quote!(#left + #right))
         }
     }
 
@@ -198,8 +208,8 @@ impl<'a> Emitter<'a> {
     /// The operation of a node; of a subtraction, the other way round if `flip`.
     fn operation(&self, node: Node, flip: bool, binding: Binding, needs: &mut Vec<usize>) -> TokenStream {
         let (own, tokens) = match node {
-            Node::Add(a, b) => (Binding::Sum, self.sum(a, b, needs)),
-            Node::Subtract(a, b) => (Binding::Sum, self.sum(a.flipped_if(flip), b.flipped_if(!flip), needs)),
+            Node::Add(a, b) => self.sum(a, b, needs),
+            Node::Subtract(a, b) => self.sum(a.flipped_if(flip), b.flipped_if(!flip), needs),
             Node::Multiply(a, b) => {
                 let (a, b) = (self.render(a, Binding::Sum, needs), self.render(b, Binding::Product, needs));
                 (Binding::Product, quote!(#a * #b))
@@ -218,6 +228,39 @@ impl<'a> Emitter<'a> {
         };
         if own <= binding && binding != Binding::Lowest { quote!((#tokens)) } else { tokens }
     }
+}
+
+/// How often each value is read by the statements of a function. Angles are not among them: their sines and cosines are
+/// given.
+fn uses_in_statements(expressions: &Expressions) -> Vec<usize> {
+    let graph = &expressions.graph;
+    let mut uses = vec![0; graph.len()];
+    for output in &expressions.outputs {
+        uses[output.node()] += 1;
+    }
+    for index in (0..graph.len()).rev().filter(|&index| !matches!(graph.node(index), Node::Sin(_) | Node::Cos(_))) {
+        if uses[index] > 0 {
+            graph.node(index).operands().for_each(|operand| uses[operand.node()] += 1);
+        }
+    }
+    uses
+}
+
+/// Products whose only use is a sum with something that is not such a product itself, or is the earlier of two: with the
+/// sum they are one operation.
+fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
+    let mut fused = vec![false; graph.len()];
+    for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
+        if let Node::Add(a, b) | Node::Subtract(a, b) = graph.node(index) {
+            let products = [a.node(), b.node()]
+                .into_iter()
+                .filter(|&operand| uses[operand] == 1 && matches!(graph.node(operand), Node::Multiply(..)));
+            if let Some(latest) = products.max() {
+                fused[latest] = true;
+            }
+        }
+    }
+    fused
 }
 
 /// Which subtractions are wanted the other way round: those named so, and those mostly used with a minus.

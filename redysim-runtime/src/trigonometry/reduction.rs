@@ -4,7 +4,7 @@
 //! digits of 2/π are multiplied that make the fraction of a quarter turn (M. H. Payne and R. N. Hanek, *Radian reduction
 //! for trigonometric functions*, SIGNUM Newsletter 18, 1983).
 
-use super::ROUNDER;
+use super::double::ROUNDER;
 
 /// x = quarters · π/2 + rest + tail, with |rest| ≤ π/4.
 pub struct Reduced {

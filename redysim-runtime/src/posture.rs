@@ -1,0 +1,25 @@
+//! Coordinates with the sines and cosines that are computed from them.
+
+/// Coordinates of a mechanism with the sines and cosines of its angles: what a compiled type computes by `posture(&q)`,
+/// and its functions `…_at` take.
+///
+/// Half of the time of a small mechanism's inverse dynamics goes into sines and cosines. A controller that wants inverse
+/// dynamics, mass matrix and kinematics at one position computes them once:
+///
+/// ```text
+/// let at = Kr5::posture(&q);
+/// let torques = Kr5::inverse_dynamics_at(&at, &v, &a);
+/// let inertia = Kr5::mass_matrix_at(&at);
+/// ```
+///
+/// `Q` is the number of coordinates, `A` that of angles: the joint angles with their offsets, and sums of them where that
+/// is cheaper. They stand in the order of the coordinates they depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posture<S, const Q: usize, const A: usize> {
+    /// The coordinates, rad or m.
+    pub q: [S; Q],
+    /// The sine of each angle.
+    pub sin: [S; A],
+    /// The cosine of each angle.
+    pub cos: [S; A],
+}

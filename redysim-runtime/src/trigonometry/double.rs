@@ -1,0 +1,98 @@
+//! Sine and cosine of `f64`.
+//!
+//! The angle is reduced to |r| ≤ π/4 with a tail that carries what a `f64` cannot: by subtracting π/2 in two parts, or,
+//! where that is not enough (many quarter turns, or an angle beside a multiple of π/2), with more digits (`reduction`).
+//! Then two polynomials in r², of least relative error (found by Remez exchange: 2⁻⁵⁷ for the sine, 2⁻⁵⁹ for the
+//! cosine), are evaluated.
+
+use super::angle::Angle;
+use super::reduction;
+use super::several::{Kernel, several};
+
+/// 2¹⁷ quarter turns.
+const MANY_TURNS: f64 = 205_887.0;
+/// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³.
+const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
+/// π/2 in a part of 36 bits, of which multiples up to 2¹⁷ are exact, and one of 53.
+const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
+/// Added to a number below 2⁵¹ and taken away again, it leaves the nearest integer, and shows its bits in between.
+pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// Sines and cosines of all `angles`, several at a time.
+#[inline(always)]
+pub fn sin_cos_all<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
+    several::<Double, N>(angles)
+}
+
+/// This file's sine and cosine, as [`several`] takes them.
+struct Double;
+
+impl Kernel for Double {
+    #[inline(always)]
+    fn sin_cos<A: Angle>(x: A) -> (A, A) {
+        sin_cos(x)
+    }
+}
+
+/// Sine and cosine of `x` radians, in every lane.
+#[inline(always)]
+pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
+    let k = A::from_f64;
+    let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
+    let minus_n = k(ROUNDER) - rounded;
+    // The first difference is exact; the second leaves its roundoff in the tail (Dekker: `first` is the larger, or the
+    // rest is too small).
+    let first = minus_n.mul_add(k(HALF_PI[0]), x);
+    let rest = minus_n.mul_add(k(HALF_PI[1]), first);
+    let tail = minus_n.mul_add(k(HALF_PI[1]), first - rest);
+    let reduced = x.all_within(k(MANY_TURNS)) & (minus_n * k(TOO_SMALL)).all_within(rest);
+    if !reduced {
+        return x.one_by_one(|x| {
+            let angle = reduction::reduced(x);
+            let (sin, cos) = kernel(angle.rest, angle.tail);
+            f64::turned(angle.rounded, sin, cos)
+        });
+    }
+    let (sin, cos) = kernel(rest, tail);
+    A::turned(rounded, sin, cos)
+}
+
+/// (sin r − r) / r³ as a polynomial in r².
+const SINE: [f64; 6] = [
+    -0.16666666666666632,
+    0.008333333333322418,
+    -0.0001984126982981238,
+    2.755731369357263e-6,
+    -2.5050758384371987e-8,
+    1.5896811798732654e-10,
+];
+
+/// (cos r − 1 + r²/2) / r⁴ as a polynomial in r².
+const COSINE: [f64; 6] = [
+    0.0416666666666666,
+    -0.0013888888888874131,
+    2.4801587289487012e-5,
+    -2.755731435378898e-7,
+    2.087572347902117e-9,
+    -1.1359658844005114e-11,
+];
+
+/// Sine and cosine of r + tail, |r| ≤ π/4.
+#[inline(always)]
+fn kernel<A: Angle>(r: A, tail: A) -> (A, A) {
+    let (one, z) = (A::one(), r * r);
+    let half = A::from_f64(0.5) * z;
+    let near_one = one - half;
+    let sin = r + (r * z).mul_add(polynomial(&SINE, z), tail * near_one);
+    let correction = (-r).mul_add(tail, (one - near_one) - half);
+    let cos = near_one + (z * z).mul_add(polynomial(&COSINE, z), correction);
+    (sin, cos)
+}
+
+/// Neighbouring terms are paired, so that fewer operations wait for each other.
+#[inline(always)]
+fn polynomial<A: Angle>([a, b, c, d, e, f]: &[f64; 6], z: A) -> A {
+    let pair = |low: &f64, high: &f64| z.mul_add(A::from_f64(*high), A::from_f64(*low));
+    let squared = z * z;
+    squared.mul_add(squared.mul_add(pair(e, f), pair(c, d)), pair(a, b))
+}

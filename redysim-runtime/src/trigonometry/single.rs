@@ -1,0 +1,100 @@
+//! Sine and cosine of `f32`, worked out in `f64`: what that costs in width, it saves in the reduction, of which the
+//! roundoff needs no care, and in shorter polynomials.
+//!
+//! The polynomials in r² are of least relative error (found by Remez exchange: 2⁻³⁶ for the sine, 2⁻³¹ for the cosine),
+//! so that only the last rounding counts.
+
+use super::angle::Angle;
+use super::double::ROUNDER;
+use super::reduction;
+use super::several::{Kernel, several};
+use crate::lanes::{F32x8, F32x16, F64x8};
+
+/// Sine and cosine of `x` radians.
+#[inline]
+pub fn sin_cos(x: f32) -> (f32, f32) {
+    let (sin, cos) = in_double(f64::from(x));
+    (sin as f32, cos as f32)
+}
+
+/// Sines and cosines of all `angles`, several at a time.
+#[inline(always)]
+pub fn sin_cos_all<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
+    let (sines, cosines) = several::<Single, N>(angles.map(f64::from));
+    (sines.map(|sin| sin as f32), cosines.map(|cos| cos as f32))
+}
+
+/// Sine and cosine of `x` radians, in every lane.
+#[inline]
+pub fn sin_cos_8(x: F32x8) -> (F32x8, F32x8) {
+    let (sin, cos) = in_double(F64x8::from(x.to_array().map(f64::from)));
+    (narrow(sin).into(), narrow(cos).into())
+}
+
+/// Sine and cosine of `x` radians, in every lane.
+#[inline]
+pub fn sin_cos_16(x: F32x16) -> (F32x16, F32x16) {
+    let [low, high]: [[f32; 8]; 2] = bytemuck::cast(x.to_array());
+    let [(low_sin, low_cos), (high_sin, high_cos)] =
+        [low, high].map(|half| in_double(F64x8::from(half.map(f64::from))));
+    let both = |low, high| F32x16::from(bytemuck::cast::<[[f32; 8]; 2], [f32; 16]>([narrow(low), narrow(high)]));
+    (both(low_sin, high_sin), both(low_cos, high_cos))
+}
+
+#[inline(always)]
+fn narrow(lanes: F64x8) -> [f32; 8] {
+    lanes.to_array().map(|number| number as f32)
+}
+
+/// This file's sine and cosine, as [`several`] takes them.
+struct Single;
+
+impl Kernel for Single {
+    #[inline(always)]
+    fn sin_cos<A: Angle>(x: A) -> (A, A) {
+        in_double(x)
+    }
+}
+
+/// 2²⁰ quarter turns.
+const MANY_TURNS: f64 = 1_647_099.0;
+/// π/2 in a part of 33 bits, of which multiples up to 2²⁰ are exact, and one of 53.
+const HALF_PI: [f64; 2] = [1.5707963267341256, 6.077100506506192e-11];
+
+/// Sine and cosine, to more digits than a `f32` has, of angles that were `f32`: none of those that are not reduced
+/// elsewhere comes closer to a multiple of π/2 than the parts of π/2 are good for.
+#[inline(always)]
+fn in_double<A: Angle>(x: A) -> (A, A) {
+    let k = A::from_f64;
+    let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
+    let minus_n = k(ROUNDER) - rounded;
+    let rest = minus_n.mul_add(k(HALF_PI[1]), minus_n.mul_add(k(HALF_PI[0]), x));
+    if !x.all_within(k(MANY_TURNS)) {
+        return x.one_by_one(|x| {
+            let angle = reduction::reduced(x);
+            let (sin, cos) = kernel(angle.rest);
+            f64::turned(angle.rounded, sin, cos)
+        });
+    }
+    let (sin, cos) = kernel(rest);
+    A::turned(rounded, sin, cos)
+}
+
+/// (sin r − r) / r³ as a polynomial in r².
+const SINE: [f64; 4] = [-0.16666666644211606, 0.008333329327948209, -0.00019839261165637746, 2.7173457518465026e-6];
+
+/// (cos r − 1 + r²/2) / r⁴ as a polynomial in r².
+const COSINE: [f64; 3] = [0.04166665464820804, -0.0013887654138661685, 2.4463803885607833e-5];
+
+/// Sine and cosine of r, |r| ≤ π/4.
+#[inline(always)]
+fn kernel<A: Angle>(r: A) -> (A, A) {
+    let k = A::from_f64;
+    let z = r * r;
+    let squared = z * z;
+    let [a, b, c, d] = SINE.map(k);
+    let sin = (r * z).mul_add(squared.mul_add(z.mul_add(d, c), z.mul_add(b, a)), r);
+    let [a, b, c] = COSINE.map(k);
+    let cos = squared.mul_add(squared.mul_add(c, z.mul_add(b, a)), z.mul_add(k(-0.5), k(1.0)));
+    (sin, cos)
+}
