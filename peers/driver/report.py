@@ -10,7 +10,7 @@ from statistics import median
 
 import chart
 import robots as robot_files
-from programs import BY_KEY, FUNCTIONS, PROGRAMS, SPECIAL
+from programs import FUNCTIONS, PROGRAMS, REFERENCE, SPECIAL
 from requirements import PAPER, Times, outcomes
 
 TITLES = {
@@ -161,7 +161,7 @@ def _agreement(results: dict) -> str:
                 ]
                 cells.append(f"{max(of):.0e}" if of else "–")
         if any(cell != "–" for cell in cells):
-            rows.append([program.label, *cells])
+            rows.append([program.label, *(["reference"] * len(cells) if program is REFERENCE else cells)])
     header = ["", "inverse dynamics", "forward dynamics", "forward dynamics, chains of 40 and 80", "mass matrix"]
     return (
         "## Agreement\n\nThe largest deviation from redysim's f64 of any component at 256 random states, relative to the "
