@@ -39,13 +39,37 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! With the feature `std`, many states are computed on all cores, several at a time in vector lanes:
+//!
+//! ```
+//! # #[cfg(feature = "std")] {
+//! use redysim::{batch, redysim};
+//!
+//! redysim! { struct Kr5("models/kr5.toml"); }
+//!
+//! // The torques of a thousand samples of a motion.
+//! let [q, v, a] = [0.1, 0.2, 0.3].map(|scale| (0..1000).map(|i| [scale * f64::from(i); 6]).collect::<Vec<_>>());
+//! let mut torques = vec![[0.0; 6]; q.len()];
+//! batch::inverse_dynamics(&Kr5, &q, &v, &a, &mut torques)?;
+//! assert_eq!(torques[500], Kr5::inverse_dynamics(&q[500], &v[500], &a[500]));
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The same lanes can be used without `std`: [`lanes::F64x8`] and its like are scalars, so that
+//! `Kr5::inverse_dynamics` of `[F64x8; 6]` works on eight states.
+//!
 //! Where to look: [`Mechanism`](trait@Mechanism) and the traits beside it for what a mechanism can do; [`Ode45`] and [`Ode5`] with
 //! [`ForwardSimulation`] for motion in time; [`TorqueLaw`] and [`Trajectory`] for what drives it; [`closed_loop`] for
 //! mechanisms with loops.
 //!
 //! # Features
 //!
-//! `generic` (on by default): [`generic`], which needs `std`. Without it the crate is `no_std`.
+//! - `generic` (on by default): [`generic`]; brings `std`.
+//! - `std`: [`batch`], and a fused multiply-add that is quicker to compile. Without it the crate is `no_std`.
+//! - `deterministic`: the same bits on every target. Without it products and sums are fused where the target can (see
+//!   [`scalar::FUSED`]), so that a program compiled with `-C target-cpu=native` may differ from one that is not in the
+//!   last places; within one program, lanes, batches and plain numbers agree to the bit either way.
 #![no_std]
 
 /// The runtime that compiled mechanisms stand on: scalars, traits, integrators, trajectories, torque laws.

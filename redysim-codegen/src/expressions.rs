@@ -30,6 +30,12 @@ impl Expressions {
         uses
     }
 
+    /// Whether unrolled code of this would be too long: past some 3,000 operations it no longer fits the instruction cache
+    /// of 32 KB, and every operation costs about twice as much.
+    pub fn is_long(&self) -> bool {
+        self.count().flops() > 3000
+    }
+
     /// Operations of what the outputs need. A sine and a cosine of one angle are a pair; unary minus is free.
     pub fn count(&self) -> OperationCount {
         let mut count = OperationCount::default();

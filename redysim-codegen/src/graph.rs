@@ -95,12 +95,23 @@ pub struct Name {
     pub negative: bool,
 }
 
+/// Where in a recursion a value arises: at body `body` of the sweep `sweep` over all bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Step {
+    /// What the recursion calls the sweep.
+    pub sweep: &'static str,
+    /// Index of the body in the tree.
+    pub body: usize,
+}
+
 /// A hash-consed expression graph. Every constructor folds what can be folded without looking further than the
 /// operands: constants, zeros and ones, equal terms, products with two constants.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
     names: Vec<Option<Name>>,
+    steps: Vec<Option<Step>>,
+    current_step: Option<Step>,
     indices: HashMap<Node, u32>,
 }
 
@@ -134,6 +145,21 @@ impl Graph {
     pub fn set_name(&mut self, edge: Edge, name: Name) {
         let negative = name.negative != edge.negative;
         self.names[edge.node()].get_or_insert(Name { negative, ..name });
+    }
+
+    /// The step in which the node with the given index arose.
+    pub fn step(&self, index: usize) -> Option<Step> {
+        self.steps[index]
+    }
+
+    /// The step in which nodes arise now.
+    pub fn current_step(&self) -> Option<Step> {
+        self.current_step
+    }
+
+    /// From here on, nodes arise in `step`.
+    pub fn enter_step(&mut self, step: Option<Step>) {
+        self.current_step = step;
     }
 
     /// The value of a constant edge.
@@ -269,6 +295,7 @@ impl Graph {
         let index = *self.indices.entry(node).or_insert_with(|| {
             self.nodes.push(node);
             self.names.push(None);
+            self.steps.push(self.current_step);
             (self.nodes.len() - 1) as u32
         });
         Edge { node: index, negative: false }

@@ -35,6 +35,7 @@ pub mod symbol;
 
 mod emit;
 mod mechanism;
+mod rolled;
 mod shape;
 mod source;
 

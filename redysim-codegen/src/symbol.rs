@@ -1,6 +1,6 @@
 //! The symbolic scalar: run through the recursions, it leaves their expressions behind.
 
-use crate::graph::{Edge, Graph, Name};
+use crate::graph::{Edge, Graph, Name, Step};
 use redysim_runtime::Scalar;
 use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -95,6 +95,12 @@ impl Scalar for Symbol<'_> {
             tracer.0.borrow_mut().set_name(edge, Name { quantity, body, component, negative: false });
         }
         self
+    }
+
+    fn step(self, sweep: &'static str, body: usize) {
+        if let Symbol::Value(tracer, _) = self {
+            tracer.0.borrow_mut().enter_step(Some(Step { sweep, body }));
+        }
     }
 }
 

@@ -2,12 +2,17 @@
 //! integrators, trajectories and torque laws.
 //!
 //! The crate is `no_std` and allocates nothing. Vectors are arrays whose length comes from the type; with the
-//! feature `alloc`, `Vec` may stand in for them where sizes are known only at run time (the generic path).
+//! feature `alloc`, `Vec` may stand in for them where sizes are known only at run time (the generic path). With the
+//! feature `std`, `batch` works on many states on all cores.
 #![no_std]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
 
+#[cfg(feature = "std")]
+pub mod batch;
 pub mod closed_loop;
 pub mod control;
 pub mod integrate;

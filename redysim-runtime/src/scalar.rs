@@ -67,6 +67,13 @@ pub trait Scalar:
         let _ = (quantity, body, component);
         self
     }
+
+    /// Says that the operations from here on are those of body `body` in the sweep `sweep` over all bodies. A symbolic
+    /// scalar notes it, to recognise bodies on which the same is done; a number does nothing.
+    #[inline(always)]
+    fn step(self, sweep: &'static str, body: usize) {
+        let _ = (sweep, body);
+    }
 }
 
 /// A scalar that stands for one real number: ordered, and convertible to `f64`.
@@ -127,13 +134,16 @@ macro_rules! real {
             }
             #[inline(always)]
             fn mul_add(self, factor: Self, addend: Self) -> Self {
-                // `core` has no fused multiply-add; that of a vector becomes the scalar instruction.
-                if FUSED {
-                    let [sum, ..] = $vector::splat(self).mul_add(factor.into(), addend.into()).to_array();
-                    sum
-                } else {
-                    self * factor + addend
+                if !FUSED {
+                    return self * factor + addend;
                 }
+                // Where the target has the instruction, the one of `std` becomes it. `core` has none; that of a vector
+                // rounds the same, but is slower to compile and leaves moves between lanes in long functions.
+                #[cfg(feature = "std")]
+                let sum = $float::mul_add(self, factor, addend);
+                #[cfg(not(feature = "std"))]
+                let [sum, ..] = $vector::splat(self).mul_add(factor.into(), addend.into()).to_array();
+                sum
             }
         }
 

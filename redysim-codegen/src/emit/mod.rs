@@ -1,16 +1,21 @@
-//! Expressions as Rust: one `let` for each value that has a name or more than one use.
+//! Expressions as Rust: one `let` for each value that has a name or more than one use, and loops where bodies are alike.
 
 mod angles;
 mod blocks;
+mod loops;
 mod names;
+mod render;
 
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
+use crate::rolled::{Rolled, is_operation};
 pub use angles::Angles;
 use blocks::{Statement, in_blocks};
 use names::Identifiers;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
+use render::{Binding, Scope};
+use std::collections::HashMap;
 
 /// Operations that one `let` may hold before it is cut in two, for the reader's sake.
 const OPERATIONS_PER_LINE: usize = 6;
@@ -33,11 +38,10 @@ pub fn function_body(
     result: impl FnOnce(&[TokenStream]) -> TokenStream,
 ) -> TokenStream {
     let emitter = Emitter::new(expressions, vocabulary);
-    let statements = emitter.statements();
-    let mut needed = Vec::new();
+    let mut scope = Scope::default();
     let outputs: Vec<TokenStream> =
-        expressions.outputs.iter().map(|&output| emitter.render(output, Binding::Lowest, &mut needed)).collect();
-    let statements = in_blocks(statements, &needed);
+        expressions.outputs.iter().map(|&output| emitter.render(output, Binding::Lowest, &mut scope)).collect();
+    let statements = emitter.code(&scope.needs);
     let result = result(&outputs);
     let k = local(FROM_F64);
     let sines_and_cosines = emitter.sines_and_cosines();
@@ -60,85 +64,134 @@ pub const POSTURE: &str = "at";
 /// The local name of `S::from_f64`.
 const FROM_F64: &str = "k";
 
-/// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Binding {
-    Lowest,
-    Sum,
-    Product,
-    Unary,
-}
-
 struct Emitter<'a> {
     graph: &'a Graph,
     vocabulary: &'a Vocabulary<'a>,
-    uses: Vec<usize>,
-    /// Nodes that are subtractions written the other way round, since their negative is what is wanted.
+    /// What of the function is loops.
+    rolled: Option<Rolled>,
+    /// Subtractions that are written the other way round, since their negative is what is wanted.
     flipped: Vec<bool>,
     /// Products that are part of a fused multiply-add.
     fused: Vec<bool>,
     /// The identifier of each value that has a `let`.
     idents: Vec<Option<Ident>>,
+    /// For each sine and cosine, where its angle is among those of the mechanism.
+    positions: HashMap<usize, usize>,
+    /// The array in which each loop keeps what is read outside it.
+    arrays: Vec<Ident>,
 }
 
 impl<'a> Emitter<'a> {
     fn new(expressions: &'a Expressions, vocabulary: &'a Vocabulary<'a>) -> Self {
         let graph = &expressions.graph;
         let uses = uses_in_statements(expressions);
-        let flipped = flipped(expressions, &uses);
-        let fused = fused_products(graph, &uses);
-        let mut idents = vec![None; graph.len()];
-        let mut reserved = vocabulary.arguments.to_vec();
-        reserved.extend([FROM_F64, POSTURE]);
-        let mut identifiers = Identifiers::new(vocabulary.bodies, &reserved);
+        let positions = angle_positions(graph, &uses, vocabulary.angles);
+        let live: Vec<bool> = (0..graph.len()).map(|node| uses[node] > 0 && is_operation(graph.node(node))).collect();
+        let rolled = Rolled::of(expressions, &live, &|angle| vocabulary.angles.position(graph, angle));
+        let mut emitter = Emitter {
+            graph,
+            vocabulary,
+            flipped: flipped(expressions, &uses),
+            fused: fused_products(graph, &uses),
+            idents: vec![None; graph.len()],
+            positions,
+            arrays: Vec::new(),
+            rolled,
+        };
+        emitter.name_values(&uses);
+        emitter
+    }
+
+    /// Gives an identifier to every value that is to have a `let`.
+    fn name_values(&mut self, uses: &[usize]) {
+        let graph = self.graph;
+        let mut identifiers = Identifiers::new(self.vocabulary.bodies, &[FROM_F64, POSTURE, loops::GROUP, loops::ROW]);
+        self.vocabulary.arguments.iter().for_each(|argument| identifiers.reserve(argument));
+        let mut lasting = vec![false; graph.len()];
+        if let Some(rolled) = &self.rolled {
+            self.arrays = rolled.sweeps.iter().map(|sweep| identifiers.unique(sweep.name)).collect();
+            for sweep in &rolled.sweeps {
+                sweep.carried.iter().map(|(node, _)| *node).chain(sweep.kept.iter().copied()).for_each(|node| {
+                    lasting[node] = true;
+                });
+            }
+        }
         let mut sizes = vec![0; graph.len()];
         for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
             let node = graph.node(index);
-            if matches!(node, Node::Input { .. } | Node::Constant(_)) {
-                continue;
+            let place = self.rolled.as_ref().and_then(|rolled| rolled.place(index));
+            if place.is_some() {
+                self.flipped[index] = false;
+                self.fused[index] &= !lasting[index];
             }
             if matches!(node, Node::Sin(_) | Node::Cos(_)) {
-                idents[index] = Some(identifiers.make(graph.name(index), false));
+                // Among loops, sines and cosines are read where they are used.
+                if self.rolled.is_none() {
+                    self.idents[index] = Some(identifiers.make(graph.name(index), false));
+                }
+                continue;
+            }
+            if !is_operation(node) || place.is_some_and(|place| place.image != index) {
                 continue;
             }
             sizes[index] = 1 + node.operands().map(|operand| sizes[operand.node()]).sum::<usize>();
-            let inline = uses[index] == 1 && graph.name(index).is_none() && sizes[index] <= OPERATIONS_PER_LINE;
-            if !(inline || fused[index]) {
-                idents[index] = Some(identifiers.make(graph.name(index), flipped[index]));
+            let nameless = graph.name(index).is_none() && !lasting[index];
+            let inline = uses[index] == 1 && nameless && sizes[index] <= OPERATIONS_PER_LINE;
+            if !(inline || self.fused[index]) {
+                self.idents[index] = Some(match (&self.rolled, place) {
+                    (Some(rolled), Some(_)) => identifiers.make_in_loop(graph.name(index), rolled.template_body),
+                    _ => identifiers.make(graph.name(index), self.flipped[index]),
+                });
                 sizes[index] = 0;
             }
         }
-        Emitter { graph, vocabulary, uses, flipped, fused, idents }
     }
 
-    /// One statement for each value with a `let`, operands first.
-    fn statements(&self) -> Vec<Statement> {
+    /// All statements, operands first: loops, and blocks in between. `needed` are the nodes read after the last one.
+    fn code(&self, needed: &[usize]) -> TokenStream {
+        let mut parts: Vec<(Vec<Statement>, Option<Statement>)> = Vec::new();
         let mut statements = Vec::new();
+        let mut loops = self.rolled.iter().flat_map(|rolled| &rolled.sweeps).enumerate().peekable();
         for (index, ident) in self.idents.iter().enumerate() {
-            let (Some(ident), node) = (ident, self.graph.node(index)) else { continue };
-            if matches!(node, Node::Sin(_) | Node::Cos(_)) {
-                continue;
+            while let Some((number, _)) = loops.next_if(|(_, sweep)| sweep.start <= index) {
+                parts.push((std::mem::take(&mut statements), Some(self.rolled_sweep(number))));
             }
-            let mut needs = Vec::new();
-            let value = self.operation(node, self.flipped[index], Binding::Lowest, &mut needs);
-            statements.push(Statement {
-                defines: vec![(index, ident.clone())],
-                tokens: quote!(let #ident = #value;),
-                needs,
-            });
+            let (Some(ident), node) = (ident, self.graph.node(index)) else { continue };
+            let in_loop = self.rolled.as_ref().is_some_and(|rolled| rolled.place(index).is_some());
+            if is_operation(node) && !in_loop {
+                statements.push(self.statement(index, ident, &mut Scope::default()));
+            }
         }
-        statements
+        parts.push((statements, None));
+        let mut needed = needed.to_vec();
+        let mut code = Vec::new();
+        for (statements, after) in parts.into_iter().rev() {
+            if let Some(statement) = after {
+                needed.extend(&statement.needs);
+                code.push(statement.tokens);
+            }
+            let reads: Vec<usize> = statements.iter().flat_map(|statement| statement.needs.iter().copied()).collect();
+            code.push(in_blocks(statements, &needed));
+            needed.extend(reads);
+        }
+        code.into_iter().rev().collect()
+    }
+
+    /// The `let` of one value.
+    fn statement(&self, index: usize, ident: &Ident, scope: &mut Scope) -> Statement {
+        let value = self.operation(index, self.flipped[index], Binding::Lowest, scope);
+        let needs = std::mem::take(&mut scope.needs);
+        Statement { defines: vec![(index, ident.clone())], tokens: quote!(let #ident = #value;), needs }
     }
 
     /// Takes the sines and cosines that the function needs from those of all angles.
     fn sines_and_cosines(&self) -> TokenStream {
-        let angles = self.vocabulary.angles;
-        let [mut sines, mut cosines] = [vec![None; angles.len()], vec![None; angles.len()]];
-        for (index, ident) in self.idents.iter().enumerate() {
+        let count = self.vocabulary.angles.len();
+        let [mut sines, mut cosines] = [vec![None; count], vec![None; count]];
+        for (&index, &position) in &self.positions {
             match self.graph.node(index) {
-                Node::Sin(angle) => sines[angles.position(self.graph, angle)] = ident.clone(),
-                Node::Cos(angle) => cosines[angles.position(self.graph, angle)] = ident.clone(),
-                _ => {}
+                Node::Sin(_) => sines[position] = self.idents[index].clone(),
+                _ => cosines[position] = self.idents[index].clone(),
             }
         }
         let taken = [("sin", sines), ("cos", cosines)].map(|(field, idents)| {
@@ -148,86 +201,16 @@ impl<'a> Emitter<'a> {
         });
         taken.into_iter().flatten().collect()
     }
+}
 
-    /// A value as an expression; `needs` collects the nodes with a `let` that it reads.
-    fn render(&self, edge: Edge, binding: Binding, needs: &mut Vec<usize>) -> TokenStream {
-        let index = edge.node();
-        let negative = edge.is_negative() != self.flipped[index];
-        if let Some(value) = self.graph.constant_value(edge) {
-            let (k, value) = (local(FROM_F64), constant(value));
-            return quote!(#k(#value));
-        }
-        if let Some(ident) = &self.idents[index] {
-            needs.push(index);
-            return if negative { quote!(-#ident) } else { quote!(#ident) };
-        }
-        match self.graph.node(index) {
-            Node::Input { argument, index } => {
-                let argument = local(self.vocabulary.arguments[usize::from(argument)]);
-                let index = Literal::u32_unsuffixed(index);
-                if negative { quote!(-#argument[#index]) } else { quote!(#argument[#index]) }
-            }
-            node @ Node::Subtract(..) => self.operation(node, edge.is_negative(), binding, needs),
-            node if negative => {
-                let value = self.operation(node, false, Binding::Unary, needs);
-                quote!(-#value)
-            }
-            node => self.operation(node, false, binding, needs),
-        }
-    }
-
-    /// a + b, with a minus sign between them where one of them has it.
-    fn sum(&self, a: Edge, b: Edge, needs: &mut Vec<usize>) -> (Binding, TokenStream) {
-        for (product, addend) in [(a, b), (b, a)] {
-            if self.fused[product.node()]
-                && let Node::Multiply(x, y) = self.graph.node(product.node())
-            {
-                let x = self.render(x.flipped_if(product.is_negative()), Binding::Lowest, needs);
-                let y = self.render(y, Binding::Lowest, needs);
-                let addend = self.render(addend, Binding::Lowest, needs);
-                return (Binding::Unary, quote!(S::mul_add(#x, #y, #addend)));
-            }
-        }
-        let (a, b) = if self.has_minus(a) && !self.has_minus(b) { (b, a) } else { (a, b) };
-        let left = self.render(a, Binding::Lowest, needs);
-        if self.has_minus(b) {
-            let right = self.render(-b, Binding::Sum, needs);
-            (Binding::Sum, quote!(#left - #right))
-        } else {
-            let right = self.render(b, Binding::Sum, needs);
-            (Binding::Sum, quote!(#left + #right))
-        }
-    }
-
-    /// Whether the value is written with a minus sign in front.
-    fn has_minus(&self, edge: Edge) -> bool {
-        let turned = self.idents[edge.node()].is_none() && matches!(self.graph.node(edge.node()), Node::Subtract(..));
-        !turned && edge.is_negative() != self.flipped[edge.node()]
-    }
-
-    /// The operation of a node; of a subtraction, the other way round if `flip`.
-    fn operation(&self, node: Node, flip: bool, binding: Binding, needs: &mut Vec<usize>) -> TokenStream {
-        let (own, tokens) = match node {
-            Node::Add(a, b) => self.sum(a, b, needs),
-            Node::Subtract(a, b) => self.sum(a.flipped_if(flip), b.flipped_if(!flip), needs),
-            Node::Multiply(a, b) => {
-                let (a, b) = (self.render(a, Binding::Sum, needs), self.render(b, Binding::Product, needs));
-                (Binding::Product, quote!(#a * #b))
-            }
-            Node::Divide(a, b) => {
-                let (a, b) = (self.render(a, Binding::Sum, needs), self.render(b, Binding::Product, needs));
-                (Binding::Product, quote!(#a / #b))
-            }
-            Node::Sqrt(a) => {
-                let a = self.render(a, Binding::Lowest, needs);
-                (Binding::Unary, quote!(S::sqrt(#a)))
-            }
-            Node::Sin(_) | Node::Cos(_) | Node::Input { .. } | Node::Constant(_) => {
-                unreachable!("sines and cosines have a `let`, inputs and constants are no operations")
-            }
-        };
-        if own <= binding && binding != Binding::Lowest { quote!((#tokens)) } else { tokens }
-    }
+/// For each live sine and cosine, where its angle is among those of the mechanism.
+fn angle_positions(graph: &Graph, uses: &[usize], angles: &Angles) -> HashMap<usize, usize> {
+    let live = (0..graph.len()).filter(|&index| uses[index] > 0);
+    live.filter_map(|index| match graph.node(index) {
+        Node::Sin(angle) | Node::Cos(angle) => Some((index, angles.position(graph, angle))),
+        _ => None,
+    })
+    .collect()
 }
 
 /// How often each value is read by the statements of a function. Angles are not among them: their sines and cosines are
@@ -287,4 +270,21 @@ fn constant(value: f64) -> TokenStream {
     }
     let digits: Literal = format!("{:?}", value.abs()).parse().expect("a finite number is a literal");
     if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
+}
+
+/// Where a value stands in an array: in a loop over groups of bodies, `first + period · group`.
+fn index_in_loop(first: usize, period: usize) -> TokenStream {
+    let group = local(loops::GROUP);
+    let [first_index, period_length] = [first, period].map(Literal::usize_unsuffixed);
+    match (first, period) {
+        (0, 1) => quote!(#group),
+        (0, _) => quote!(#period_length * #group),
+        (_, 1) => quote!(#group + #first_index),
+        _ => quote!(#period_length * #group + #first_index),
+    }
+}
+
+/// The edge of a node.
+fn edge_is_subtraction(graph: &Graph, edge: Edge) -> bool {
+    matches!(graph.node(edge.node()), Node::Subtract(..))
 }

@@ -19,27 +19,51 @@ impl<'a> Identifiers<'a> {
         Identifiers { bodies, taken: reserved.iter().map(|name| name.to_string()).collect(), unnamed: 0 }
     }
 
-    /// An identifier such as `w_link3_z` for a named value, `t7` for another.
-    pub fn make(&mut self, name: Option<Name>, flipped: bool) -> Ident {
-        let text = match name {
-            Some(name) => {
-                let sign = if name.negative == flipped { "" } else { "minus_" };
-                let component = if name.component.is_empty() { String::new() } else { format!("_{}", name.component) };
-                format!("{sign}{}_{}{component}", name.quantity, word(&self.bodies[name.body]))
-            }
-            None => {
-                self.unnamed += 1;
-                format!("t{}", self.unnamed)
-            }
-        };
-        let mut unique = text.clone();
+    /// Keeps an identifier from being handed out.
+    pub fn reserve(&mut self, name: &str) {
+        self.taken.insert(name.to_string());
+    }
+
+    /// An identifier like `name`.
+    pub fn unique(&mut self, name: &str) -> Ident {
+        let mut unique = name.to_string();
         let mut copies = 1;
         while !self.taken.insert(unique.clone()) {
             copies += 1;
-            unique = format!("{text}_{copies}");
+            unique = format!("{name}_{copies}");
         }
         local(&unique)
     }
+
+    /// An identifier such as `w_a_z` for a named value of a loop over groups of bodies, which begin with body `first`.
+    pub fn make_in_loop(&mut self, name: Option<Name>, first: usize) -> Ident {
+        let letters = ["a", "b", "c"];
+        match name {
+            Some(name) => {
+                let letter = name.body.checked_sub(first).and_then(|place| letters.get(place)).unwrap_or(&"x");
+                self.unique(&spelled(name, letter, false))
+            }
+            None => self.make(None, false),
+        }
+    }
+
+    /// An identifier such as `w_link3_z` for a named value, `t7` for another.
+    pub fn make(&mut self, name: Option<Name>, flipped: bool) -> Ident {
+        match name {
+            Some(name) => self.unique(&spelled(name, &word(&self.bodies[name.body]), flipped)),
+            None => {
+                self.unnamed += 1;
+                self.unique(&format!("t{}", self.unnamed))
+            }
+        }
+    }
+}
+
+/// Sign, quantity, body and component.
+fn spelled(name: Name, body: &str, flipped: bool) -> String {
+    let sign = if name.negative == flipped { "" } else { "minus_" };
+    let component = if name.component.is_empty() { String::new() } else { format!("_{}", name.component) };
+    format!("{sign}{}_{body}{component}", name.quantity)
 }
 
 /// The part of an identifier that stands for a name of the model.

@@ -2,9 +2,13 @@
 //!
 //! A constructor of the graph sees two terms at a time; here a whole sum is looked at, through all additions whose
 //! only use is the sum. Constants are collected in numbers, and a coefficient that is only roundoff vanishes.
+//!
+//! In a long function each body is looked at by itself, so that the same is done on bodies that are alike and their
+//! code can be a loop: a sum does not reach into the steps of other bodies, and what comes from there counts as ready,
+//! but for what the same sweep has just computed, which counts as late.
 
 use crate::expressions::Expressions;
-use crate::graph::{Edge, Graph, Node, sum_without_noise};
+use crate::graph::{Edge, Graph, Node, Step, sum_without_noise};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
@@ -12,12 +16,14 @@ use std::collections::{BinaryHeap, HashMap};
 pub fn collected(expressions: &Expressions) -> Expressions {
     let old = &expressions.graph;
     let uses = expressions.uses();
-    let inner = inner_sums(old, &uses);
+    let by_body = expressions.is_long();
+    let inner = inner_sums(old, &uses, by_body);
     let mut graph = Graph::default();
     let mut made: Vec<Option<Edge>> = vec![None; old.len()];
-    let mut depths = Depths::default();
+    let mut depths = Depths { by_body, depths: Vec::new() };
     for index in (0..old.len()).filter(|&index| uses[index] > 0 && !inner[index]) {
         let node = old.node(index);
+        graph.enter_step(old.step(index));
         let edge = match node {
             Node::Add(..) | Node::Subtract(..) => rebuilt_sum(old, index, &inner, &mut graph, &made, &mut depths),
             _ => graph.rebuild(node, |edge| mapped(&made, edge)),
@@ -32,7 +38,7 @@ pub fn collected(expressions: &Expressions) -> Expressions {
 }
 
 /// Sums, and constants times something, that are only part of one larger sum.
-fn inner_sums(graph: &Graph, uses: &[usize]) -> Vec<bool> {
+fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
     let mut inner = vec![false; graph.len()];
     for index in (0..graph.len()).rev() {
         if uses[index] == 0 {
@@ -41,7 +47,8 @@ fn inner_sums(graph: &Graph, uses: &[usize]) -> Vec<bool> {
         if let Node::Add(a, b) | Node::Subtract(a, b) = graph.node(index) {
             for operand in [a, b].map(Edge::node) {
                 let is_sum = matches!(graph.node(operand), Node::Add(..) | Node::Subtract(..));
-                inner[operand] |= is_sum && uses[operand] == 1;
+                let within_reach = !by_body || graph.step(operand) == graph.step(index);
+                inner[operand] |= is_sum && uses[operand] == 1 && within_reach;
             }
         }
     }
@@ -98,29 +105,52 @@ fn collect(old: &Graph, root: usize, inner: &[bool], graph: &Graph, made: &[Opti
 }
 
 /// How many operations, one after the other, it takes until each node of a graph is ready.
-#[derive(Default)]
-struct Depths(Vec<u32>);
+struct Depths {
+    /// Whether to count from the start of each body's step.
+    by_body: bool,
+    depths: Vec<u32>,
+}
+
+/// The depth of what the body before has just computed.
+const LATE: u32 = 1000;
 
 impl Depths {
     fn of(&mut self, graph: &Graph, edge: Edge) -> u32 {
-        for index in self.0.len()..graph.len() {
+        for index in self.depths.len()..graph.len() {
             // In units of an addition: a division takes several times as long, and sines come before all else.
             let own = match graph.node(index) {
                 Node::Input { .. } | Node::Constant(_) => 0,
                 Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
                 Node::Divide(..) | Node::Sqrt(_) => 4,
             };
-            let operands = graph.node(index).operands().map(|operand| self.0[operand.node()]);
-            self.0.push(own + operands.max().unwrap_or(0));
+            let operands = graph.node(index).operands().map(|operand| self.seen_from(graph, graph.step(index), operand.node()));
+            let depth = own + operands.max().unwrap_or(0);
+            self.depths.push(depth);
         }
-        self.0[edge.node()]
+        self.depths[edge.node()]
+    }
+
+    /// The depth of a term for the step that is being computed.
+    fn of_term(&mut self, graph: &Graph, term: Edge) -> u32 {
+        self.of(graph, term);
+        self.seen_from(graph, graph.current_step(), term.node())
+    }
+
+    /// The depth of `operand` for what is computed in the step `here`.
+    fn seen_from(&self, graph: &Graph, here: Option<Step>, operand: usize) -> u32 {
+        match (here, graph.step(operand)) {
+            (Some(here), Some(there)) if self.by_body && here != there => {
+                if here.sweep == there.sweep { LATE } else { 0 }
+            }
+            _ => self.depths[operand],
+        }
     }
 
     /// The sum of all terms: always of the two that are ready first, so that none waits for what it does not need.
     fn add_up(&mut self, graph: &mut Graph, terms: Vec<Edge>) -> Edge {
         let mut ready: BinaryHeap<Reverse<(u32, usize, Edge)>> = BinaryHeap::new();
         for (order, term) in terms.into_iter().enumerate() {
-            ready.push(Reverse((self.of(graph, term), order, term)));
+            ready.push(Reverse((self.of_term(graph, term), order, term)));
         }
         loop {
             let Some(Reverse((_, order, first))) = ready.pop() else { return graph.constant(0.0) };

@@ -12,6 +12,7 @@ pub fn energy<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Energy<S> {
     let mut motions: Vec<(Vec3<S>, Vec3<S>)> = Vec::with_capacity(tree.bodies.len());
     let mut twice_kinetic = S::zero();
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate() {
+        q[body.coordinate].step("outward", index);
         let (angular, linear) = body.parent.map_or((Vec3::zero(), Vec3::zero()), |parent| motions[parent]);
         let mut linear = frame.to_body(linear + angular.cross(frame.position));
         let mut angular = frame.to_body(angular);
@@ -27,6 +28,7 @@ pub fn energy<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Energy<S> {
     let mut masses: Vec<f64> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
     let mut total = Vec3::constant(tree.ground.moment);
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
+        q[body.coordinate].step("inward", index);
         let moment = frame.position.scale(S::from_f64(masses[index])) + frame.to_parent(moments[index]);
         match body.parent {
             Some(parent) => {

@@ -42,16 +42,17 @@ pub fn forward_dynamics_by_factorisation<S: Scalar>(tree: &Tree, q: &[S], v: &[S
 /// first, since their roundoff would be multiplied by the condition of M.
 pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], tau: &[S]) -> Vec<S> {
     let frames = joint_frames(tree, q);
-    let drifts = drifts(tree, &frames, v);
+    let drifts = drifts(tree, &frames, q, v);
     let mut inertias: Vec<ArticulatedInertia<S>> =
         tree.bodies.iter().map(|body| ArticulatedInertia::rigid(&body.inertia)).collect();
-    let mut biases: Vec<Spatial<S>> =
-        tree.bodies.iter().zip(&drifts).map(|(body, drift)| centrifugal_wrench(&body.inertia, drift.angular)).collect();
+    let mut biases = vec![Spatial::zero(); tree.bodies.len()];
     let mut pivots: Vec<Pivot<S>> = Vec::with_capacity(tree.bodies.len());
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
+        q[body.coordinate].step("inward", index);
         let free = free_axis(body.joint);
         let inertia = inertias[index].named(index);
-        let bias = biases[index].named("bias_n", "bias_f", index);
+        let bias = biases[index].plus(centrifugal_wrench(&body.inertia, drifts[index].angular));
+        let bias = bias.named("bias_n", "bias_f", index);
         let column = inertia.column(free);
         let inverse = (S::one() / column.component(free)).named("inv_D", index, "");
         let ratio = column.scale(inverse).named("ratio_n", "ratio_f", index);
@@ -72,6 +73,7 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], t
     let mut accelerations: Vec<Spatial<S>> = Vec::with_capacity(tree.bodies.len());
     let mut result = vec![S::zero(); tree.dof()];
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate() {
+        q[body.coordinate].step("accelerations", index);
         let parent = body.parent.map_or(ground, |parent| accelerations[parent]);
         let mut acceleration = Spatial {
             angular: frame.to_body(parent.angular),
@@ -106,9 +108,10 @@ struct Drift<S> {
     acceleration: Spatial<S>,
 }
 
-fn drifts<S: Scalar>(tree: &Tree, frames: &[JointFrame<S>], v: &[S]) -> Vec<Drift<S>> {
+fn drifts<S: Scalar>(tree: &Tree, frames: &[JointFrame<S>], q: &[S], v: &[S]) -> Vec<Drift<S>> {
     let mut drifts: Vec<Drift<S>> = Vec::with_capacity(tree.bodies.len());
     for (index, (body, frame)) in tree.bodies.iter().zip(frames).enumerate() {
+        q[body.coordinate].step("velocities", index);
         let rate = v[body.coordinate];
         let parent = body.parent.map_or(Vec3::zero(), |parent| drifts[parent].angular);
         let mut acceleration = Spatial::zero();

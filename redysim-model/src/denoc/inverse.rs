@@ -62,7 +62,9 @@ pub fn inverse_dynamics<S: Scalar>(tree: &Tree, q: &[S], v: &[S], a: &[S]) -> Ve
     let frames = joint_frames(tree, q);
     let ground = BodyMotion::ground(tree.gravity);
     let mut motions: Vec<BodyMotion<S>> = Vec::with_capacity(tree.bodies.len());
+    let mut wrenches: Vec<(Vec3<S>, Vec3<S>)> = Vec::with_capacity(tree.bodies.len());
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate() {
+        q[body.coordinate].step("outward", index);
         let parent = body.parent.map_or(ground, |parent| motions[parent]);
         let (rate, acceleration) = (v[body.coordinate], a[body.coordinate]);
         let mut angular = frame.to_body(parent.angular);
@@ -79,16 +81,17 @@ pub fn inverse_dynamics<S: Scalar>(tree: &Tree, q: &[S], v: &[S], a: &[S]) -> Ve
                 linear = linear + Vec3([y * twice, -(x * twice), acceleration]);
             }
         }
-        motions.push(BodyMotion::new(
+        let motion = BodyMotion::new(
             angular.named("w", index),
             angular_rate.named("dw", index),
             linear.named("acc", index),
-        ));
+        );
+        wrenches.push(motion.wrench(&body.inertia));
+        motions.push(motion);
     }
-    let mut wrenches: Vec<(Vec3<S>, Vec3<S>)> =
-        tree.bodies.iter().zip(&motions).map(|(body, motion)| motion.wrench(&body.inertia)).collect();
     let mut tau = vec![S::zero(); tree.dof()];
     for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
+        q[body.coordinate].step("inward", index);
         let (force, moment) = wrenches[index];
         let (force, moment) = (force.named("force", index), moment.named("moment", index));
         tau[body.coordinate] = along_joint(body.joint, force, moment).named("tau", index, "");

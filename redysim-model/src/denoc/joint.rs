@@ -24,6 +24,7 @@ pub(super) fn joint_frames<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<JointFrame<S>
 
 impl<S: Scalar> JointFrame<S> {
     fn new(body: &Body, index: usize, q: S) -> Self {
+        q.step("frames", index);
         let fixed = Mat3::constant(body.placement.rotation);
         let position = Vec3::constant(body.placement.position);
         match body.joint {

@@ -32,7 +32,8 @@ impl<S: Scalar> MovingFrame<S> {
 /// Rotation, origin, centre of mass, velocity of the origin and angular velocity of every link, in the model's order.
 pub fn link_kinematics<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<LinkState<S>> {
     let mut frames: Vec<MovingFrame<S>> = Vec::with_capacity(tree.bodies.len());
-    for (body, joint) in tree.bodies.iter().zip(joint_frames(tree, q)) {
+    for (index, (body, joint)) in tree.bodies.iter().zip(joint_frames(tree, q)).enumerate() {
+        q[body.coordinate].step("outward", index);
         let parent = body.parent.map_or(MovingFrame::ground(), |parent| frames[parent]);
         let mut frame = parent.carry(Pose { rotation: Mat3::identity(), position: joint.position });
         frame.pose.rotation = Mat3(frame.pose.rotation.0.map(|row| joint.to_body(Vec3(row)).0));
@@ -46,6 +47,9 @@ pub fn link_kinematics<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<LinkStat
     tree.links
         .iter()
         .map(|link| {
+            if let Some(body) = link.body {
+                q[tree.bodies[body].coordinate].step("links", body);
+            }
             let body = link.body.map_or(MovingFrame::ground(), |body| frames[body]);
             let frame = body.carry(Pose::constant(link.pose));
             let Mat3(rotation) = frame.pose.rotation;

@@ -57,10 +57,21 @@ macro_rules! angles {
                 (Self(cast(sin ^ differing ^ sin_sign)), Self(cast(cos ^ differing ^ cos_sign)))
             }
 
+            #[inline(always)]
+            fn one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
+                // A call that is not inlined takes the address of its lanes, which would keep these lanes in memory from
+                // where they are put together; and to read as a whole what was just written in parts stalls. Negative
+                // lanes are other lanes, made only when they are needed.
+                (-self).negatives_one_by_one(function)
+            }
+        }
+
+        impl $lanes {
+            /// `function` of the negative of each lane.
             #[inline(never)]
             #[cold]
-            fn one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
-                let pairs = self.to_array().map(function);
+            fn negatives_one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
+                let pairs = self.to_array().map(|minus_x| function(-minus_x));
                 (Self::from(pairs.map(|(sin, _)| sin)), Self::from(pairs.map(|(_, cos)| cos)))
             }
         }

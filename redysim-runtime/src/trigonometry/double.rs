@@ -8,6 +8,7 @@
 use super::angle::Angle;
 use super::reduction;
 use super::several::{Kernel, several};
+use crate::lanes::Lanes;
 
 /// 2¹⁷ quarter turns.
 const MANY_TURNS: f64 = 205_887.0;
@@ -21,16 +22,22 @@ pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
 /// Sines and cosines of all `angles`, several at a time.
 #[inline(always)]
 pub fn sin_cos_all<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
-    several::<Double, N>(angles)
+    several::<Double, f64, N>(angles)
 }
 
 /// This file's sine and cosine, as [`several`] takes them.
 struct Double;
 
-impl Kernel for Double {
+impl Kernel<f64> for Double {
     #[inline(always)]
-    fn sin_cos<A: Angle>(x: A) -> (A, A) {
-        sin_cos(x)
+    fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [f64; W]) -> ([f64; W], [f64; W]) {
+        let (sin, cos) = sin_cos(L::from(angles));
+        (sin.into(), cos.into())
+    }
+
+    #[inline(always)]
+    fn one(angle: f64) -> (f64, f64) {
+        sin_cos(angle)
     }
 }
 

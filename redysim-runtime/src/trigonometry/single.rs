@@ -8,7 +8,8 @@ use super::angle::Angle;
 use super::double::ROUNDER;
 use super::reduction;
 use super::several::{Kernel, several};
-use crate::lanes::{F32x8, F32x16, F64x8};
+use crate::lanes::{F32x8, F32x16, F64x8, Lanes};
+use bytemuck::cast;
 
 /// Sine and cosine of `x` radians.
 #[inline]
@@ -20,39 +21,39 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 /// Sines and cosines of all `angles`, several at a time.
 #[inline(always)]
 pub fn sin_cos_all<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
-    let (sines, cosines) = several::<Single, N>(angles.map(f64::from));
-    (sines.map(|sin| sin as f32), cosines.map(|cos| cos as f32))
+    several::<Single, f32, N>(angles)
 }
 
 /// Sine and cosine of `x` radians, in every lane.
 #[inline]
 pub fn sin_cos_8(x: F32x8) -> (F32x8, F32x8) {
-    let (sin, cos) = in_double(F64x8::from(x.to_array().map(f64::from)));
-    (narrow(sin).into(), narrow(cos).into())
+    let (sin, cos) = Single::group::<F64x8, 8>(x.to_array());
+    (sin.into(), cos.into())
 }
 
 /// Sine and cosine of `x` radians, in every lane.
 #[inline]
 pub fn sin_cos_16(x: F32x16) -> (F32x16, F32x16) {
-    let [low, high]: [[f32; 8]; 2] = bytemuck::cast(x.to_array());
-    let [(low_sin, low_cos), (high_sin, high_cos)] =
-        [low, high].map(|half| in_double(F64x8::from(half.map(f64::from))));
-    let both = |low, high| F32x16::from(bytemuck::cast::<[[f32; 8]; 2], [f32; 16]>([narrow(low), narrow(high)]));
+    let [low, high]: [[f32; 8]; 2] = cast(x.to_array());
+    let ((low_sin, low_cos), (high_sin, high_cos)) = (Single::group::<F64x8, 8>(low), Single::group::<F64x8, 8>(high));
+    let both = |low, high| F32x16::from(cast::<[[f32; 8]; 2], [f32; 16]>([low, high]));
     (both(low_sin, high_sin), both(low_cos, high_cos))
-}
-
-#[inline(always)]
-fn narrow(lanes: F64x8) -> [f32; 8] {
-    lanes.to_array().map(|number| number as f32)
 }
 
 /// This file's sine and cosine, as [`several`] takes them.
 struct Single;
 
-impl Kernel for Single {
+impl Kernel<f32> for Single {
     #[inline(always)]
-    fn sin_cos<A: Angle>(x: A) -> (A, A) {
-        in_double(x)
+    fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [f32; W]) -> ([f32; W], [f32; W]) {
+        let (sin, cos) = in_double(L::from(angles.map(f64::from)));
+        let narrow = |lanes: L| <L as Into<[f64; W]>>::into(lanes).map(|number| number as f32);
+        (narrow(sin), narrow(cos))
+    }
+
+    #[inline(always)]
+    fn one(angle: f32) -> (f32, f32) {
+        sin_cos(angle)
     }
 }
 

@@ -1,0 +1,127 @@
+//! The steps of a recursion, and which of them are alike.
+
+use super::is_operation;
+use crate::graph::{Edge, Graph, Node};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// The steps of all sweeps.
+pub struct Steps {
+    sweeps: Vec<&'static str>,
+    /// The operations of each step, in order.
+    nodes: HashMap<(&'static str, usize), Vec<usize>>,
+    /// The same, described by what they do and read.
+    forms: HashMap<(&'static str, usize), Vec<Form>>,
+    bodies: usize,
+}
+
+/// An operation without its constants, described relative to its body.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Form {
+    kind: Kind,
+    operands: [Option<Operand>; 2],
+}
+
+/// The kind of an operation; whether a sum has a minus sign is a matter of signs, not of form.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Sum,
+    Product,
+    Quotient,
+    Root,
+}
+
+/// Where an operand comes from. Bodies and indices are differences to the body of the operation.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Operand {
+    Constant,
+    Input { argument: u8, index: isize },
+    Sin(isize),
+    Cos(isize),
+    /// Operation `position` of the step of `sweep`.
+    Step { sweep: &'static str, body: isize, position: usize },
+    /// An operation that belongs to no step.
+    Outside(usize),
+}
+
+impl Steps {
+    /// The steps of a graph of which the nodes `live` are operations of the function.
+    pub fn of(graph: &Graph, live: &[bool], position: &dyn Fn(Edge) -> usize) -> Steps {
+        let mut steps = Steps { sweeps: Vec::new(), nodes: HashMap::new(), forms: HashMap::new(), bodies: 0 };
+        let mut positions = vec![0; graph.len()];
+        for node in (0..graph.len()).filter(|&node| live[node]) {
+            let Some(step) = graph.step(node) else { continue };
+            if !steps.sweeps.contains(&step.sweep) {
+                steps.sweeps.push(step.sweep);
+            }
+            steps.bodies = steps.bodies.max(step.body + 1);
+            let nodes = steps.nodes.entry((step.sweep, step.body)).or_default();
+            positions[node] = nodes.len();
+            nodes.push(node);
+        }
+        for (&(sweep, body), nodes) in &steps.nodes {
+            let operand = |edge: Edge| match graph.node(edge.node()) {
+                Node::Constant(_) => Operand::Constant,
+                Node::Input { argument, index } => Operand::Input { argument, index: index as isize - body as isize },
+                Node::Sin(angle) => Operand::Sin(position(angle) as isize - body as isize),
+                Node::Cos(angle) => Operand::Cos(position(angle) as isize - body as isize),
+                _ => match graph.step(edge.node()) {
+                    None => Operand::Outside(edge.node()),
+                    Some(step) => Operand::Step {
+                        sweep: step.sweep,
+                        body: step.body as isize - body as isize,
+                        position: positions[edge.node()],
+                    },
+                },
+            };
+            let forms = nodes.iter().map(|&node| {
+                let mut operands = graph.node(node).operands().map(operand);
+                Form { kind: kind(graph.node(node)), operands: [operands.next(), operands.next()] }
+            });
+            steps.forms.insert((sweep, body), forms.collect());
+        }
+        steps
+    }
+
+    /// The names of the sweeps.
+    pub fn sweeps(&self) -> impl Iterator<Item = &'static str> {
+        self.sweeps.iter().copied()
+    }
+
+    /// The operations of one step.
+    pub fn nodes(&self, sweep: &'static str, body: usize) -> &[usize] {
+        self.nodes.get(&(sweep, body)).map_or(&[], Vec::as_slice)
+    }
+
+    /// The longest run of bodies on which every sweep does the same as on the body `period` further on, cut to whole
+    /// groups of `period` bodies.
+    pub fn longest_run(&self, period: usize) -> Option<Range<usize>> {
+        let alike = |body: usize| {
+            self.sweeps().all(|sweep| self.forms.get(&(sweep, body)) == self.forms.get(&(sweep, body + period)))
+        };
+        let mut longest = 0..0;
+        let mut start = 0;
+        for body in 0..self.bodies {
+            if body + period < self.bodies && alike(body) {
+                continue;
+            }
+            let end = (body + period).min(self.bodies);
+            let length = (end - start) / period * period;
+            if length > longest.len() {
+                longest = start..start + length;
+            }
+            start = body + 1;
+        }
+        (!longest.is_empty()).then_some(longest)
+    }
+}
+
+fn kind(node: Node) -> Kind {
+    debug_assert!(is_operation(node));
+    match node {
+        Node::Add(..) | Node::Subtract(..) => Kind::Sum,
+        Node::Multiply(..) => Kind::Product,
+        Node::Divide(..) => Kind::Quotient,
+        _ => Kind::Root,
+    }
+}

@@ -1,0 +1,52 @@
+//! The constants of a loop: one literal where all groups have the same, a column of a table where not.
+
+use super::signs::Signs;
+use crate::graph::{Edge, Graph, Node};
+
+/// A constant of a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Constant {
+    /// The same for all groups.
+    Same(f64),
+    /// A column of the table.
+    Column(usize),
+}
+
+/// The constants among the operands of `node`, with the operands' numbers, as they stand in the formula of its image:
+/// with the signs of all other values as there.
+pub fn constants(graph: &Graph, node: usize, image: usize, signs: &Signs) -> Vec<(usize, f64)> {
+    let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
+    let own = sign(signs.is_negative(node));
+    let relative = |operand: Edge, image: Edge| {
+        let is_negative = |edge: Edge| is_value(graph.node(edge.node())) && signs.is_negative(edge.node());
+        sign(is_negative(operand) != is_negative(image))
+    };
+    match (graph.node(node), graph.node(image)) {
+        (Node::Multiply(a, b), Node::Multiply(_, y)) | (Node::Divide(a, b), Node::Divide(_, y)) => {
+            graph.constant_value(a).map(|value| (0, own * relative(b, y) * value)).into_iter().collect()
+        }
+        (one @ (Node::Add(a, b) | Node::Subtract(a, b)), other @ (Node::Add(..) | Node::Subtract(..))) => {
+            let differs = matches!(one, Node::Add(..)) != matches!(other, Node::Add(..));
+            let first = graph.constant_value(a).map(|value| (0, own * value));
+            let second = graph.constant_value(b).map(|value| (1, own * sign(differs) * value));
+            first.into_iter().chain(second).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The constant with the given value for each group; a new column if there is none like it.
+pub fn entered(columns: &mut Vec<Vec<f64>>, values: Vec<f64>) -> Constant {
+    if values.iter().all(|value| *value == values[0]) {
+        return Constant::Same(values[0]);
+    }
+    let place = columns.iter().position(|column| *column == values).unwrap_or(columns.len());
+    if place == columns.len() {
+        columns.push(values);
+    }
+    Constant::Column(place)
+}
+
+fn is_value(node: Node) -> bool {
+    !matches!(node, Node::Input { .. } | Node::Constant(_) | Node::Sin(_) | Node::Cos(_))
+}

@@ -1,0 +1,124 @@
+//! Many states at once give, for each, what the state gives alone.
+
+mod common;
+
+use common::models::{Gripper, Kr5};
+use redysim::Real;
+use redysim::batch::{self, Batched, LengthMismatch};
+
+/// No state, one, about as many as lanes, enough that a last task and a last group are not full.
+const COUNTS: [usize; 8] = [0, 1, 7, 8, 9, 17, 1000, 1283];
+
+/// `count` states of `N` numbers in −3 to 3, others for each `seed`.
+fn numbers<T: Real, const N: usize>(seed: usize, count: usize) -> Vec<[T; N]> {
+    let number = |index: usize| T::from_f64(3.0 * (1.7 * (index + 1000 * seed) as f64).sin());
+    (0..count).map(|state| core::array::from_fn(|entry| number(state * N + entry))).collect()
+}
+
+fn bits<T: Real, const N: usize>(states: &[[T; N]]) -> Vec<u64> {
+    states.iter().flatten().map(|number| number.to_f64().to_bits()).collect()
+}
+
+fn each_state_is_as_if_alone<T: Batched>(count: usize) {
+    let [q, v, u]: [Vec<[T; 6]>; 3] = [1, 2, 3].map(|seed| numbers(seed, count));
+    let mut found = vec![[T::default(); 6]; count];
+    let alone = |function: &dyn Fn(usize) -> [T; 6]| (0..count).map(function).collect::<Vec<_>>();
+
+    batch::inverse_dynamics(&Kr5, &q, &v, &u, &mut found).unwrap();
+    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::inverse_dynamics(&q[i], &v[i], &u[i]))), "inverse dynamics");
+    batch::forward_dynamics(&Kr5, &q, &v, &u, &mut found).unwrap();
+    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::forward_dynamics(&q[i], &v[i], &u[i]))), "forward dynamics");
+    batch::bias_forces(&Kr5, &q, &v, &mut found).unwrap();
+    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::bias_forces(&q[i], &v[i]))), "bias forces");
+    batch::gravity_forces(&Kr5, &q, &mut found).unwrap();
+    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::gravity_forces(&q[i]))), "gravity forces");
+
+    let mut matrices = vec![[[T::default(); 6]; 6]; count];
+    batch::mass_matrix(&Kr5, &q, &mut matrices).unwrap();
+    for (matrix, q) in matrices.iter().zip(&q) {
+        assert_eq!(bits(matrix), bits(&Kr5::mass_matrix(q)), "mass matrix");
+    }
+
+    let mut sums = vec![[T::default(); 1]; count];
+    batch::map(&q, &mut sums, |[a, b, c, d, e, f]| [a * b + c * d + e * f]).unwrap();
+    for (sum, [a, b, c, d, e, f]) in sums.iter().zip(q) {
+        assert_eq!(*sum, [a * b + c * d + e * f], "map");
+    }
+}
+
+#[test]
+fn any_number_of_states_gives_the_bits_of_each_alone() {
+    for count in COUNTS {
+        each_state_is_as_if_alone::<f64>(count);
+        each_state_is_as_if_alone::<f32>(count);
+    }
+}
+
+#[test]
+fn a_branching_mechanism_has_its_own_number_of_joints() {
+    let [q, v, tau]: [Vec<[f64; 4]>; 3] = [1, 2, 3].map(|seed| numbers(seed, 100));
+    let mut a = vec![[0.0; 4]; 100];
+    batch::forward_dynamics(&Gripper, &q, &v, &tau, &mut a).unwrap();
+    for (state, a) in a.iter().enumerate() {
+        assert_eq!(*a, Gripper::forward_dynamics(&q[state], &v[state], &tau[state]));
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let [q, v, tau]: [Vec<[f64; 6]>; 3] = [1, 2, 3].map(|seed| numbers(seed, 3001));
+    let on = |threads: usize| {
+        let mut a = vec![[0.0; 6]; q.len()];
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| batch::forward_dynamics(&Kr5, &q, &v, &tau, &mut a)).unwrap();
+        bits(&a)
+    };
+    let one = on(1);
+    assert_eq!(one, on(2));
+    assert_eq!(one, on(7));
+}
+
+/// States beside one whose angles need the exact reduction, or are not numbers, are as if alone.
+#[test]
+fn one_bad_state_spoils_no_other() {
+    let [mut q, v, a]: [Vec<[f64; 6]>; 3] = [1, 2, 3].map(|seed| numbers(seed, 20));
+    q[3][1] = 1e300;
+    q[7][2] = f64::NAN;
+    let mut tau = vec![[0.0; 6]; 20];
+    batch::inverse_dynamics(&Kr5, &q, &v, &a, &mut tau).unwrap();
+    for (state, tau) in tau.iter().enumerate() {
+        assert_eq!(tau.iter().any(|force| force.is_nan()), state == 7, "state {state}: {tau:?}");
+        let alone = Kr5::inverse_dynamics(&q[state], &v[state], &a[state]);
+        assert!(state == 7 || *tau == alone, "state {state}: {tau:?} {alone:?}");
+    }
+}
+
+#[test]
+fn a_wrong_length_is_named_and_nothing_is_written() {
+    let states = [[0.5; 6]; 8];
+    let short = [[0.5; 6]; 7];
+    let mut found = [[9.0; 6]; 8];
+    let expected = |slice| Err(LengthMismatch { slice, length: 7, states: 8 });
+    assert_eq!(batch::inverse_dynamics(&Kr5, &states, &short, &states, &mut found), expected("v"));
+    assert_eq!(batch::inverse_dynamics(&Kr5, &states, &states, &short, &mut found), expected("a"));
+    assert_eq!(batch::inverse_dynamics(&Kr5, &states, &states, &states, &mut found[..7]), expected("tau"));
+    assert_eq!(batch::forward_dynamics(&Kr5, &states, &short, &states, &mut found), expected("v"));
+    assert_eq!(batch::forward_dynamics(&Kr5, &states, &states, &short, &mut found), expected("tau"));
+    assert_eq!(batch::forward_dynamics(&Kr5, &states, &states, &states, &mut found[..7]), expected("a"));
+    assert_eq!(batch::bias_forces(&Kr5, &states, &short, &mut found), expected("v"));
+    assert_eq!(batch::bias_forces(&Kr5, &states, &states, &mut found[..7]), expected("tau"));
+    assert_eq!(batch::gravity_forces(&Kr5, &states, &mut found[..7]), expected("tau"));
+    assert_eq!(batch::map(&states, &mut found[..7], |q| q), expected("results"));
+    assert_eq!(batch::mass_matrix(&Kr5, &states, &mut [[[0.0; 6]; 6]; 7]), expected("matrices"));
+    assert_eq!(found, [[9.0; 6]; 8]);
+    let mismatch = LengthMismatch { slice: "v", length: 7, states: 8 };
+    assert_eq!(mismatch.to_string(), "`v` has 7 entries for 8 states");
+}
+
+#[test]
+fn what_stays_on_one_thread_allocates_nothing() {
+    let [q, v, tau]: [Vec<[f64; 6]>; 3] = [1, 2, 3].map(|seed| numbers(seed, batch::SERIAL));
+    let mut a = vec![[0.0; 6]; q.len()];
+    let allocations = allocation_counter::measure(|| batch::forward_dynamics(&Kr5, &q, &v, &tau, &mut a).unwrap());
+    assert_eq!(allocations.count_total, 0);
+}
