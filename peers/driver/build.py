@@ -35,11 +35,21 @@ def has_lanes() -> bool:
     return "pub mod lanes" in (REPOSITORY / "redysim-runtime/src/lib.rs").read_text()
 
 
+def _stamp(target: Path) -> Path:
+    """The file beside `target` that says what it was made from."""
+    return target.with_name(target.name + ".stamp")
+
+
 class Builder:
     def __init__(self, built: Path, packages: Path):
         self.built = built
         self.packages = packages
-        self.includes = ["-isystem", packages / "cmeel.prefix/include", "-isystem", packages / "cmeel.prefix/include/eigen3"]
+        self.includes = [
+            "-isystem",
+            packages / "cmeel.prefix/include",
+            "-isystem",
+            packages / "cmeel.prefix/include/eigen3",
+        ]
         self.skipped: list[str] = []
 
     def everything(self, names: list[str]) -> None:
@@ -67,7 +77,7 @@ class Builder:
 
     def _make(self, target: Path, sources: list[Path], command: list, patience: float | None = None) -> None:
         """Runs the command that makes `target`, unless it has run before with these sources and words."""
-        stamp = target.with_name(target.name + ".stamp")
+        stamp = _stamp(target)
         hashed = hashlib.sha256(repr([str(word) for word in command]).encode())
         for source in sources:
             hashed.update(source.read_bytes())
@@ -105,7 +115,18 @@ class Builder:
     def _pinocchio(self) -> None:
         """By clang: gcc's Pinocchio is much slower, which would flatter everybody else."""
         source, target = SOURCES / "pinocchio.cpp", self.built / "pinocchio.so"
-        command = ["clang++", "-std=c++17", *FAST, *BOOST_LIMITS, *self.includes, "-fPIC", "-shared", source, "-o", target]
+        command = [
+            "clang++",
+            "-std=c++17",
+            *FAST,
+            *BOOST_LIMITS,
+            *self.includes,
+            "-fPIC",
+            "-shared",
+            source,
+            "-o",
+            target,
+        ]
         self._make(target, [source, SOURCES / "robot.hpp"], command)
 
     def _generators(self) -> None:
@@ -118,7 +139,18 @@ class Builder:
         }
         for name, words in extra.items():
             source, target = SOURCES / f"{name}.cpp", self.built / name
-            command = ["g++", "-std=c++17", "-O1", "-DNDEBUG", *BOOST_LIMITS, *self.includes, source, "-o", target, *words]
+            command = [
+                "g++",
+                "-std=c++17",
+                "-O1",
+                "-DNDEBUG",
+                *BOOST_LIMITS,
+                *self.includes,
+                source,
+                "-o",
+                target,
+                *words,
+            ]
             self._make(target, [source, *shared], command)
 
     def _robot_files(self, name: str) -> None:
@@ -132,7 +164,7 @@ class Builder:
         robot, folder = robot_files.FOLDER / f"{name}.txt", self.built / "generated" / name / function
         code = folder / "cppadcodegen.c"
         generator = self.built / "cppadcodegen"
-        self._make(code, [robot, SOURCES / "cppadcodegen.cpp", SOURCES / "symbolic.hpp"], [generator, robot, function, code])
+        self._make(code, [robot, _stamp(generator)], [generator, robot, function, code])
         for lanes, ending in [(1, ""), (8, "_x8")]:
             if lanes == 1 or name in SPECIAL:
                 words = [f'-DSOURCE="{code}"', f"-DSYMBOL={function}", f"-DLANES={lanes}"]
@@ -144,7 +176,7 @@ class Builder:
         code.parent.mkdir(parents=True, exist_ok=True)
         generator = self.built / "casadi"
         command = [generator, robot, function, code.parent]
-        self._make(code, [robot, SOURCES / "casadi.cpp", SOURCES / "symbolic.hpp"], command)
+        self._make(code, [robot, _stamp(generator)], command)
         words = [f'-DSOURCE="{code}"', f"-DSYMBOL={function}", f"-DCODE=casadi_{function}"]
         self._generated(folder / "casadi.so", code, "casadi_generated.c", words, f"{name} {function}")
 

@@ -9,8 +9,15 @@ from requirements import Times
 
 # Peers in cold and grey tones, redysim in warm ones.
 SCALAR = {
-    "pinocchio": "#9aa5b1", "mujoco": "#6b7785", "dynibo": "#7fb3b8", "cppadcodegen": "#3d7ea6", "casadi": "#7f9fd6",
-    "generic": "#f0d9a8", "baseline_f64": "#f2a65a", "native_f64": "#d1495b", "native_f32": "#8c2f39",
+    "pinocchio": "#9aa5b1",
+    "mujoco": "#6b7785",
+    "dynibo": "#7fb3b8",
+    "cppadcodegen": "#3d7ea6",
+    "casadi": "#7f9fd6",
+    "generic": "#f0d9a8",
+    "baseline_f64": "#f2a65a",
+    "native_f64": "#d1495b",
+    "native_f32": "#8c2f39",
 }
 LANES = {"cppadcodegen_x8": "#3d7ea6", "f64x8": "#d1495b", "f32x16": "#8c2f39"}
 WIDTH, LEFT, RIGHT = 1120, 70, 20
@@ -43,7 +50,9 @@ class Drawing:
             self.text(x + 20, y + 1, label, anchor="start")
             x += width
 
-    def panel(self, top: float, title: str, unit: str, groups: list[tuple[str, dict[str, float]]], colours: dict) -> None:
+    def panel(
+        self, top: float, title: str, unit: str, groups: list[tuple[str, dict[str, float]]], colours: dict
+    ) -> None:
         """Bars by colour for each group: (name, time by key)."""
         values = [value for _, bars in groups for value in bars.values()]
         # From a decade below all bars to a bit above them, where their numbers stand.
@@ -97,7 +106,7 @@ def drawn(times: Times, titles: dict[str, str]) -> str:
         drawing.legend(top, colours)
         drawing.panel(top + 44, "Several states at once", "ns per state", groups, colours)
         top += PANEL + GAP + 44
-    style = "font-family=\"'DejaVu Sans', Arial, sans-serif\" fill=\"#222\""
+    style = 'font-family="\'DejaVu Sans\', Arial, sans-serif" fill="#222"'
     frame = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {top - 24:.0f}" {style}>'
     return "\n".join([frame, '<rect width="100%" height="100%" fill="#fff"/>', *drawing.parts, "</svg>", ""])
 

@@ -57,7 +57,10 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
     bench.check(programs, names, results)
     wrong = [d for d in results.deviations if not d.largest <= d.allowed]
     for d in wrong:
-        print(f"  {d.program} disagrees: {d.robot} {d.function}, off by {d.largest:.1e}, allowed {d.allowed:.0e}", file=sys.stderr)
+        print(
+            f"  {d.program} disagrees: {d.robot} {d.function}, off by {d.largest:.1e}, allowed {d.allowed:.0e}",
+            file=sys.stderr,
+        )
     for refused in results.refused:
         print(f"  not taken: {refused}", file=sys.stderr)
     if wrong:
@@ -66,7 +69,9 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
     if chosen.check_only:
         return None
     bench.time(programs, names, results)
-    tasks = {symbol: bench.task(symbol, results) for symbol in ("task_inverse", "task_fall")} if "gripper" in names else {}
+    tasks = (
+        {symbol: bench.task(symbol, results) for symbol in ("task_inverse", "task_fall")} if "gripper" in names else {}
+    )
     return {
         "deviations": [asdict(d) for d in results.deviations],
         "times": {" ".join(key): times for key, times in results.times.items()},

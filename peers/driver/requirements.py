@@ -59,6 +59,14 @@ def outcomes(times: Times) -> list[Outcome]:
     ask("f64, against the faster of CppADCodeGen and CasADi", small, every, generators, "native_f64", 2.3, 3.0)
     ask("f64, against Pinocchio", ["kr5"], ["inverse", "forward"], ["pinocchio"], "native_f64", 10.0)
     ask("f64 for any x86-64, against the fastest peer's native build", small, every, all_peers, "baseline_f64", 1.0)
-    ask("f64 × 8, per state, against CppADCodeGen's 8-state code", SPECIAL, every, ["cppadcodegen_x8"], "f64x8", 1.6, 2.0)
+    ask(
+        "f64 × 8, per state, against CppADCodeGen's 8-state code",
+        SPECIAL,
+        every,
+        ["cppadcodegen_x8"],
+        "f64x8",
+        1.6,
+        2.0,
+    )
     ask("f64, 30-joint tree, against CppADCodeGen", ["humanoid30"], every, ["cppadcodegen"], "native_f64", 1.8)
     return found

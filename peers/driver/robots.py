@@ -113,10 +113,12 @@ def mjcf(robot: Robot) -> str:
             inertia = f'fullinertia="{_words([xx, yy, zz, xy, xz, yz])}"'
         else:
             inertia = f'diaginertia="{_words([max(link.inertia)] * 3)}"'
-        out.extend([
-            f'<body pos="{_words(link.position)}" xyaxes="{_words(x + y)}">',
-            f'<inertial pos="{_words(link.com)}" mass="{link.mass!r}" {inertia}/><joint type="hinge" axis="0 0 1"/>',
-        ])
+        out.extend(
+            [
+                f'<body pos="{_words(link.position)}" xyaxes="{_words(x + y)}">',
+                f'<inertial pos="{_words(link.com)}" mass="{link.mass!r}" {inertia}/><joint type="hinge" axis="0 0 1"/>',
+            ]
+        )
         for child in children[number]:
             body(child)
         out.append("</body>")

@@ -5,7 +5,5 @@
 mod call;
 mod compiled;
 mod generic;
-#[cfg(feature = "lanes")]
-mod lanes;
 mod robots;
 mod tasks;
