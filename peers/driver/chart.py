@@ -77,7 +77,8 @@ class Drawing:
         bar = min(group_width * 0.86 / len(colours), 26.0)
         for number, (name, bars) in enumerate(groups):
             middle = LEFT + group_width * (number + 0.5)
-            self.text(middle, bottom + 20, name)
+            for row, words in enumerate(name.split(", ")):
+                self.text(middle, bottom + 20 + 16 * row, words)
             shown = [key for key in colours if key in bars]
             for place, key in enumerate(shown):
                 x = middle + (place - len(shown) / 2) * bar
