@@ -40,7 +40,9 @@ def main() -> None:
         stored.write_text(json.dumps(results, indent=1))
     elif not stored.exists():
         raise SystemExit("peers: there are no times yet: run without --report-only")
-    report.write(json.loads(stored.read_text()), build.REPOSITORY / "docs")
+    results = json.loads(stored.read_text())
+    # Some robots alone do not replace the page of all.
+    report.write(results, chosen.built / "docs" if results["partial"] else build.REPOSITORY / "docs")
 
 
 def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
@@ -73,6 +75,7 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
         {symbol: bench.task(symbol, results) for symbol in ("task_inverse", "task_fall")} if "gripper" in names else {}
     )
     return {
+        "partial": len(names) < len(robots.NAMES),
         "deviations": [asdict(d) for d in results.deviations],
         "times": {" ".join(key): times for key, times in results.times.items()},
         "calibrations": results.calibrations,

@@ -51,6 +51,7 @@ def _locked(crate: str) -> str:
 def write(results: dict, docs: Path) -> None:
     times = Times(results)
     picture = docs / "pictures/peers.svg"
+    picture.parent.mkdir(parents=True, exist_ok=True)
     picture.write_text(chart.drawn(times, TITLES))
     sections = [
         _head(results),
@@ -63,7 +64,7 @@ def write(results: dict, docs: Path) -> None:
     ]
     page = docs / "peers.md"
     page.write_text("\n".join(section for section in sections if section).replace("\n\n\n", "\n\n"))
-    print(f"written: {page.relative_to(docs.parent)} and {picture.relative_to(docs.parent)}")
+    print(f"written: {page} and {picture}")
 
 
 def _row(cells) -> str:
