@@ -69,17 +69,31 @@ fn assert_same_kinematics(compiled: &impl TreeDynamics<DoubleDouble>, generic: &
     }
 }
 
-/// The same in `f64`. Where a force is a small difference of large terms, neither path has all its digits: of some 6,000
-/// components one or two differ by more than 1e-12 (1.04e-12 with this seed, up to 7e-12 with others), none by 1e-11.
+/// The same in `f64`, for fifteen samples of a thousand states.
+///
+/// Where a force is a small difference of large terms, neither path has all its digits, and of some 6,000 components of a
+/// sample the worst is a matter of luck: most samples stay below 1e-12 in inverse dynamics, some have one or two
+/// components beyond. What roundoff can do at most is bounded in `roundings.rs`.
 fn assert_same_dynamics_in_f64(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDynamics<f64>) {
-    let new = |function: &str| Comparison::new(format!("{} {function} in f64", generic.name()));
-    let [mut inverse, mut forward] = ["inverse", "forward"].map(new);
+    let sample = |seed: u64| {
+        let mut random = Random::new(seed);
+        let mut inverse = Comparison::new(format!("{} inverse in f64, sample {seed}", generic.name()));
+        for State { q, v, a } in (0..STATES).map(|_| random.state(generic.nv())) {
+            inverse.add(&inverse_dynamics(compiled, &q, &v, &a), &inverse_dynamics(generic, &q, &v, &a));
+        }
+        inverse.assert_within(1e-10);
+        inverse.worst().0
+    };
+    let mut errors: Vec<f64> = (1..=15).map(sample).collect();
+    errors.sort_by(f64::total_cmp);
+    println!("{} inverse in f64: median {:.1e}", generic.name(), errors[7]);
+    assert!(errors[7] <= 1e-12, "{}: the typical sample is at {:e}", generic.name(), errors[7]);
+
+    let mut forward = Comparison::new(format!("{} forward in f64", generic.name()));
     for State { q, v, a } in states(generic.nv()) {
         let tau = inverse_dynamics(generic, &q, &v, &a);
-        inverse.add(&inverse_dynamics(compiled, &q, &v, &a), &tau);
         forward.add(&forward_dynamics(compiled, &q, &v, &tau), &forward_dynamics(generic, &q, &v, &tau));
     }
-    inverse.assert_within(1e-11);
     forward.assert_within(1e-10);
 }
 

@@ -18,6 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("no sums", Passes { sums: false, ..all }),
         ("no squares", Passes { squares: false, ..all }),
         ("no factors", Passes { factors: false, ..all }),
+        ("no loops", Passes { loops: false, ..all }),
     ];
     for path in std::env::args().skip(1) {
         let tree = Tree::new(&Model::load(&path)?.model);

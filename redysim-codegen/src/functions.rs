@@ -157,16 +157,16 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
 /// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to be
 /// unrolled is traced without them as well, and the shorter code is taken.
 pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
-    let own = functions(&Trees::new(tree, passes), passes);
+    let unrolled = Passes { loops: false, ..*passes };
+    let own = functions(&Trees::new(tree, &unrolled), &unrolled);
     if !passes.loops || own.iter().all(|function| !function.expressions.is_long()) {
         return own;
     }
     let even = passes.even();
     let even = functions(&Trees::new(tree, &even), &even);
     let shorter = |(own, even): (Function, Function)| {
-        let worth =
-            own.expressions.is_long() && rolled::code_size(&even.expressions) < rolled::code_size(&own.expressions);
-        if worth { even } else { own }
+        let is_long = own.expressions.is_long();
+        if is_long && rolled::code_size(&even.expressions) < rolled::code_size(&own.expressions) { even } else { own }
     };
     own.into_iter().zip(even).map(shorter).collect()
 }

@@ -176,6 +176,12 @@ impl Graph {
         self.steps[index]
     }
 
+    /// Forgets in which steps nodes arose.
+    pub fn forget_steps(&mut self) {
+        self.steps.fill(None);
+        self.current_step = None;
+    }
+
     /// The step in which nodes arise now.
     pub fn current_step(&self) -> Option<Step> {
         self.current_step

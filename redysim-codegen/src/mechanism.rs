@@ -2,7 +2,7 @@
 
 use crate::emit::{Angles, POSTURE, Vocabulary, function_body, local};
 use crate::expressions::Expressions;
-use crate::functions::{Function, SIGNATURES, Signature, trace_with};
+use crate::functions::{Function, SIGNATURES, Shape, Signature, trace_with};
 use crate::passes::Passes;
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -34,7 +34,7 @@ pub fn implementation_with(model: &Model, name: &Ident, runtime: &TokenStream, p
         functions.iter().map(|function| (function.signature.name, function.expressions.count())).collect();
     let outline = Outline::new(model);
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
-    let writer = Writer { bodies: &bodies, angles: &angles, outline: &outline, runtime, loops: passes.loops };
+    let writer = Writer { bodies: &bodies, angles: &angles, outline: &outline, runtime };
     let definitions =
         std::iter::once(writer.posture()).chain(functions.iter().map(|function| writer.function(function)));
     let tokens = type_impls(&outline, name, runtime, &operations, definitions.collect());
@@ -119,7 +119,6 @@ struct Writer<'a> {
     angles: &'a Angles,
     outline: &'a Outline,
     runtime: &'a TokenStream,
-    loops: bool,
 }
 
 impl Writer<'_> {
@@ -142,9 +141,10 @@ impl Writer<'_> {
     /// One function with its documentation: of coordinates, and of a posture.
     fn function(&self, function: &Function) -> TokenStream {
         let Function { signature, remark, expressions } = function;
-        let Writer { bodies, angles, outline, runtime, loops } = *self;
+        let Writer { bodies, angles, outline, runtime } = *self;
         let (head, head_at) = (head(signature, outline, runtime), head_at(signature, outline, angles.len(), runtime));
-        let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles, loops };
+        let columns = if signature.shape == Shape::Matrix { outline.joints.len() } else { 0 };
+        let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles, columns };
         let result = |outputs: &[TokenStream]| shape::value(signature.shape, outline, outputs, runtime);
         let body = function_body(expressions, &vocabulary, result);
         let count = expressions.count();

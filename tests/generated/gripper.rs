@@ -103,8 +103,16 @@ impl Gripper {
     #[inline]
     pub fn posture<S: ::redysim_runtime::Scalar>(
         q: &[S; 4],
-    ) -> ::redysim_runtime::Posture<S, 4, 4> {
-        let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+    ) -> ::redysim_runtime::Posture<S, 4, 7> {
+        let (sin, cos) = S::sin_cos_all([
+            q[0],
+            q[1],
+            q[2],
+            q[3],
+            (q[0] + q[1]),
+            (q[0] + q[3]),
+            (q[2] + (q[0] + q[1])),
+        ]);
         ::redysim_runtime::Posture {
             q: *q,
             sin,
@@ -119,65 +127,113 @@ impl Gripper {
         v: &[S; 4],
         a: &[S; 4],
     ) -> [S; 4] {
-        Self::inverse_dynamics_at(&Self::posture(q), v, a)
+        Self::inverse_dynamics_at(
+            &{
+                let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [
+                        sin[0],
+                        sin[1],
+                        sin[2],
+                        sin[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        cos[0],
+                        cos[1],
+                        cos[2],
+                        cos[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                }
+            },
+            v,
+            a,
+        )
     }
     /// [`inverse_dynamics`](Self::inverse_dynamics) where the sines and cosines are there already.
     #[inline]
     pub fn inverse_dynamics_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
         a: &[S; 4],
     ) -> [S; 4] {
         let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
         let acc_link1_x = k(196.20000000000002) * sin_link1;
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
-        let t2 = acc_link1_x - k(2.0) * t1;
-        let t3 = acc_link1_y + k(2.0) * a[0];
+        let t2 = S::mul_add(k(-2.0), t1, acc_link1_x);
+        let t3 = S::mul_add(k(2.0), a[0], acc_link1_y);
         let w_link2_z = v[0] + v[1];
         let dw_link2_z = a[0] + a[1];
-        let acc_link3_x = sin_link2 * t3 + (cos_link2 * t2 - w_link2_z * w_link2_z);
-        let acc_link3_y = cos_link2 * t3 + (dw_link2_z - sin_link2 * t2);
+        let acc_link3_x = S::mul_add(
+            sin_link2,
+            t3,
+            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
+        );
+        let acc_link3_y = S::mul_add(
+            cos_link2,
+            t3,
+            S::mul_add(-sin_link2, t2, dw_link2_z),
+        );
         let w_link3_z = v[2] + w_link2_z;
         let dw_link3_z = a[2] + dw_link2_z;
         let t4 = w_link3_z * w_link3_z;
+        let t5 = k(0.00025000000000000006) * cos_link3;
+        let t6 = k(0.00025000000000000006) * sin_link3;
+        let force_link3_x = S::mul_add(
+            -t4,
+            t5,
+            S::mul_add(-dw_link3_z, t6, k(0.0007500000000000002) * acc_link3_x),
+        );
+        let force_link3_y = S::mul_add(
+            dw_link3_z,
+            t5,
+            S::mul_add(-t4, t6, k(0.0007500000000000002) * acc_link3_y),
+        );
+        let moment_link3_z = S::mul_add(
+            -acc_link3_x,
+            t6,
+            S::mul_add(acc_link3_y, t5, k(0.0001666666666666667) * dw_link3_z),
+        );
         let acc_link4_x = acc_link1_x - t1;
         let acc_link4_y = a[0] + acc_link1_y;
         let w_link4_z = v[0] + v[3];
         let dw_link4_z = a[0] + a[3];
-        let t5 = k(0.00025000000000000006) * cos_link3;
-        let t6 = k(0.00025000000000000006) * sin_link3;
-        let force_link3_x = k(0.0007500000000000002) * acc_link3_x - dw_link3_z * t6
-            - t4 * t5;
-        let force_link3_y = dw_link3_z * t5
-            + (k(0.0007500000000000002) * acc_link3_y - t4 * t6);
-        let moment_link3_z = k(0.0001666666666666667) * dw_link3_z + acc_link3_y * t5
-            - acc_link3_x * t6;
         let t7 = k(0.00025000000000000006) * cos_link4;
         let t8 = k(0.00025000000000000006) * sin_link4;
-        let moment_link4_z = k(0.0001666666666666667) * dw_link4_z + acc_link4_y * t7
-            - acc_link4_x * t8;
-        let minus_moment_link2_z = k(8.333333333333348e-5) * dw_link2_z - force_link3_y
-            - moment_link3_z;
-        let t9 = dw_link4_z * t7
-            + (k(0.0028333333333333335) * a[0] + k(0.3924) * cos_link1
-                - w_link4_z * w_link4_z * t8);
-        let minus_moment_link1_z = k(2.0)
-            * (sin_link2 * -force_link3_x - cos_link2 * force_link3_y)
-            + (minus_moment_link2_z + (-moment_link4_z - t9));
+        let moment_link4_z = S::mul_add(
+            -acc_link4_x,
+            t8,
+            S::mul_add(acc_link4_y, t7, k(0.0001666666666666667) * dw_link4_z),
+        );
+        let minus_moment_link2_z = S::mul_add(
+            k(8.333333333333348e-5),
+            dw_link2_z,
+            -force_link3_y,
+        ) - moment_link3_z;
+        let t9 = S::mul_add(
+            dw_link4_z,
+            t7,
+            S::mul_add(
+                -(w_link4_z * w_link4_z),
+                t8,
+                S::mul_add(k(0.3924), cos_link1, k(0.0028333333333333335) * a[0]),
+            ),
+        );
+        let minus_moment_link1_z = S::mul_add(
+            k(2.0),
+            S::mul_add(-cos_link2, force_link3_y, sin_link2 * -force_link3_x),
+            minus_moment_link2_z + (-moment_link4_z - t9),
+        );
         [-minus_moment_link1_z, -minus_moment_link2_z, moment_link3_z, moment_link4_z]
     }
     /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree.
@@ -190,50 +246,73 @@ impl Gripper {
         v: &[S; 4],
         tau: &[S; 4],
     ) -> [S; 4] {
-        Self::forward_dynamics_at(&Self::posture(q), v, tau)
+        Self::forward_dynamics_at(
+            &{
+                let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [
+                        sin[0],
+                        sin[1],
+                        sin[2],
+                        sin[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        cos[0],
+                        cos[1],
+                        cos[2],
+                        cos[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                }
+            },
+            v,
+            tau,
+        )
     }
     /// [`forward_dynamics`](Self::forward_dynamics) where the sines and cosines are there already.
     #[inline]
     pub fn forward_dynamics_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
         tau: &[S; 4],
     ) -> [S; 4] {
         let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
         let acc_link1_x = k(196.20000000000002) * sin_link1;
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
-        let t2 = acc_link1_x - k(2.0) * t1;
-        let acc_link2_y = cos_link2 * acc_link1_y - sin_link2 * t2;
+        let t2 = S::mul_add(k(-2.0), t1, acc_link1_x);
+        let acc_link2_y = S::mul_add(cos_link2, acc_link1_y, -(sin_link2 * t2));
         let w_link2_z = v[0] + v[1];
-        let acc_link3_x = sin_link2 * acc_link1_y
-            + (cos_link2 * t2 - w_link2_z * w_link2_z);
+        let acc_link3_x = S::mul_add(
+            sin_link2,
+            acc_link1_y,
+            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
+        );
         let w_link3_z = v[2] + w_link2_z;
         let t3 = w_link3_z * w_link3_z;
-        let acc_link4_x = acc_link1_x - t1;
-        let w_link4_z = v[0] + v[3];
         let t4 = k(0.00025000000000000006) * cos_link3;
         let t5 = k(0.00025000000000000006) * sin_link3;
-        let force_link3_x = k(0.0007500000000000002) * acc_link3_x - t3 * t4;
-        let minus_force_link3_y = k(0.0007500000000000002) * -acc_link2_y + t3 * t5;
-        let minus_moment_link3_z = -acc_link2_y * t4 + acc_link3_x * t5;
+        let force_link3_x = S::mul_add(-t3, t4, k(0.0007500000000000002) * acc_link3_x);
+        let minus_force_link3_y = S::mul_add(
+            t3,
+            t5,
+            k(0.0007500000000000002) * -acc_link2_y,
+        );
+        let minus_moment_link3_z = S::mul_add(acc_link3_x, t5, -acc_link2_y * t4);
+        let acc_link4_x = acc_link1_x - t1;
+        let w_link4_z = v[0] + v[3];
         let t6 = k(0.00025000000000000006) * cos_link4;
         let t7 = k(0.00025000000000000006) * sin_link4;
-        let minus_force_link4_y = w_link4_z * w_link4_z * t7;
-        let moment_link4_z = acc_link1_y * t6 - acc_link4_x * t7;
+        let moment_link4_z = S::mul_add(-acc_link4_x, t7, acc_link1_y * t6);
         let minus_moment_link2_z = minus_force_link3_y + minus_moment_link3_z;
         let t8 = tau[2] + minus_moment_link3_z;
         let t9 = tau[3] - moment_link4_z;
@@ -244,35 +323,54 @@ impl Gripper {
         let J_link2_zz = t11 + k(0.0008333333333333335);
         let t12 = t4 + k(0.0001666666666666667);
         let t13 = sin_link2 * h_link2_y;
-        let t14 = cos_link2 * t11 + (t12 - t13);
-        let t15 = t13 - cos_link2 * h_link2_x;
+        let t14 = S::mul_add(cos_link2, t11, t12 - t13);
+        let t15 = S::mul_add(-cos_link2, h_link2_x, t13);
         let t16 = k(5999.999999999999) * t10;
         let t17 = k(5999.999999999999) * t12;
-        let D_link2 = J_link2_zz - t12 * t17;
-        let t18 = t14 * t17 + (t15 - J_link2_zz);
+        let D_link2 = S::mul_add(-t12, t17, J_link2_zz);
+        let t18 = S::mul_add(t14, t17, t15 - J_link2_zz);
         let t19 = k(5999.999999999999) * t14;
         let inv_D_link2 = k(1.0) / D_link2;
         let t20 = t18 * inv_D_link2;
-        let t21 = k(2.0) * t15
-            + (t10 * t16
-                - (J_link2_zz
-                    + (k(0.0005000000000000001) * cos_link4 + k(0.006000000000000001))));
-        let minus_D_link1 = t18 * t20 + (t14 * t19 + t21);
+        let t21 = S::mul_add(
+            k(2.0),
+            t15,
+            S::mul_add(
+                t10,
+                t16,
+                -(J_link2_zz
+                    + S::mul_add(
+                        k(0.0005000000000000001),
+                        cos_link4,
+                        k(0.006000000000000001),
+                    )),
+            ),
+        );
+        let minus_D_link1 = S::mul_add(t18, t20, S::mul_add(t14, t19, t21));
         let minus_inv_D_link1 = k(1.0) / minus_D_link1;
-        let t22 = t8 * t17 - (tau[1] + minus_moment_link2_z);
-        let t23 = minus_moment_link2_z
-            - (t9 * t16
-                + (moment_link4_z
-                    - (minus_force_link4_y + (tau[0] - k(0.3924) * cos_link1))));
-        let t24 = k(2.0) * (sin_link2 * force_link3_x - cos_link2 * minus_force_link3_y)
-            + (t8 * t19 - t23);
-        let t25 = minus_inv_D_link1 * (t20 * t22 + t24);
-        let t26 = inv_D_link2 * t22 - t20 * t25;
+        let t22 = S::mul_add(t8, t17, -(tau[1] + minus_moment_link2_z));
+        let t23 = S::mul_add(
+            t9,
+            t16,
+            moment_link4_z
+                - S::mul_add(
+                    w_link4_z * w_link4_z,
+                    t7,
+                    S::mul_add(k(-0.3924), cos_link1, tau[0]),
+                ),
+        );
+        let t24 = S::mul_add(
+            k(2.0),
+            S::mul_add(-cos_link2, minus_force_link3_y, sin_link2 * force_link3_x),
+            S::mul_add(t8, t19, t23 - minus_moment_link2_z),
+        );
+        let t25 = minus_inv_D_link1 * S::mul_add(t20, t22, t24);
+        let t26 = S::mul_add(-t20, t25, inv_D_link2 * t22);
         [
             t25,
             -t26,
-            t17 * t26 + (k(5999.999999999999) * t8 - t19 * t25),
-            k(5999.999999999999) * t9 - t16 * t25,
+            S::mul_add(t17, t26, S::mul_add(-t19, t25, k(5999.999999999999) * t8)),
+            S::mul_add(-t16, t25, k(5999.999999999999) * t9),
         ]
     }
     /// M(q), the generalised inertia matrix, symmetric: kg m², kg m or kg.
@@ -284,8 +382,24 @@ impl Gripper {
                 let (sin, cos) = S::sin_cos_all([q[1], q[2], q[3]]);
                 ::redysim_runtime::Posture {
                     q: *q,
-                    sin: [S::zero(), sin[0], sin[1], sin[2]],
-                    cos: [S::zero(), cos[0], cos[1], cos[2]],
+                    sin: [
+                        S::zero(),
+                        sin[0],
+                        sin[1],
+                        sin[2],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        S::zero(),
+                        cos[0],
+                        cos[1],
+                        cos[2],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
                 }
             },
         )
@@ -293,27 +407,39 @@ impl Gripper {
     /// [`mass_matrix`](Self::mass_matrix) where the sines and cosines are there already.
     #[inline]
     pub fn mass_matrix_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [[S; 4]; 4] {
         let q = &at.q;
         let k = S::from_f64;
-        let ([sin_link2, sin_link3, _], [cos_link2, cos_link3, cos_link4]) = S::sin_cos_all([
-            q[1],
-            q[2],
-            q[3],
-        ]);
-        let t1 = k(0.0001666666666666667) + k(0.00025000000000000006) * cos_link4;
+        let [_, sin_link2, sin_link3, _, _, _, _] = at.sin;
+        let [_, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
+        let t1 = S::mul_add(
+            k(0.00025000000000000006),
+            cos_link4,
+            k(0.0001666666666666667),
+        );
         let t2 = k(0.0005000000000000001) * cos_link3;
         let h_link2_y = k(0.0005000000000000001) * sin_link3;
         let h_link2_x = t2 + k(0.0015000000000000005);
         let J_link2_zz = t2 + k(0.0008333333333333335);
-        let t3 = k(0.0001666666666666667) + k(0.00025000000000000006) * cos_link3;
+        let t3 = S::mul_add(
+            k(0.00025000000000000006),
+            cos_link3,
+            k(0.0001666666666666667),
+        );
         let t4 = sin_link2 * h_link2_y;
-        let t5 = cos_link2 * t2 + (t3 - t4);
-        let t6 = t4 - cos_link2 * h_link2_x;
-        let J_link1_zz = J_link2_zz
-            + (k(0.0005000000000000001) * cos_link4 + k(0.006000000000000001))
-            - k(2.0) * t6;
+        let t5 = S::mul_add(cos_link2, t2, t3 - t4);
+        let t6 = S::mul_add(-cos_link2, h_link2_x, t4);
+        let J_link1_zz = S::mul_add(
+            k(-2.0),
+            t6,
+            J_link2_zz
+                + S::mul_add(
+                    k(0.0005000000000000001),
+                    cos_link4,
+                    k(0.006000000000000001),
+                ),
+        );
         let t7 = J_link2_zz - t6;
         [
             [J_link1_zz, t7, t5, t1],
@@ -326,93 +452,146 @@ impl Gripper {
     ///
     /// 46 flops: 18 additions, 28 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn bias_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 4] {
-        Self::bias_forces_at(&Self::posture(q), v)
+        Self::bias_forces_at(
+            &{
+                let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [
+                        sin[0],
+                        sin[1],
+                        sin[2],
+                        sin[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        cos[0],
+                        cos[1],
+                        cos[2],
+                        cos[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                }
+            },
+            v,
+        )
     }
     /// [`bias_forces`](Self::bias_forces) where the sines and cosines are there already.
     #[inline]
     pub fn bias_forces_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> [S; 4] {
         let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
         let acc_link1_x = k(196.20000000000002) * sin_link1;
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
-        let t2 = acc_link1_x - k(2.0) * t1;
-        let acc_link2_y = cos_link2 * acc_link1_y - sin_link2 * t2;
+        let t2 = S::mul_add(k(-2.0), t1, acc_link1_x);
+        let acc_link2_y = S::mul_add(cos_link2, acc_link1_y, -(sin_link2 * t2));
         let w_link2_z = v[0] + v[1];
-        let acc_link3_x = sin_link2 * acc_link1_y
-            + (cos_link2 * t2 - w_link2_z * w_link2_z);
+        let acc_link3_x = S::mul_add(
+            sin_link2,
+            acc_link1_y,
+            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
+        );
         let w_link3_z = v[2] + w_link2_z;
         let t3 = w_link3_z * w_link3_z;
-        let acc_link4_x = acc_link1_x - t1;
-        let w_link4_z = v[0] + v[3];
         let t4 = k(0.00025000000000000006) * cos_link3;
         let t5 = k(0.00025000000000000006) * sin_link3;
-        let force_link3_x = k(0.0007500000000000002) * acc_link3_x - t3 * t4;
-        let minus_force_link3_y = k(0.0007500000000000002) * -acc_link2_y + t3 * t5;
-        let minus_moment_link3_z = -acc_link2_y * t4 + acc_link3_x * t5;
+        let force_link3_x = S::mul_add(-t3, t4, k(0.0007500000000000002) * acc_link3_x);
+        let minus_force_link3_y = S::mul_add(
+            t3,
+            t5,
+            k(0.0007500000000000002) * -acc_link2_y,
+        );
+        let minus_moment_link3_z = S::mul_add(acc_link3_x, t5, -acc_link2_y * t4);
+        let acc_link4_x = acc_link1_x - t1;
+        let w_link4_z = v[0] + v[3];
         let t6 = k(0.00025000000000000006) * sin_link4;
-        let minus_force_link4_y = w_link4_z * w_link4_z * t6;
-        let moment_link4_z = acc_link1_y * (k(0.00025000000000000006) * cos_link4)
-            - acc_link4_x * t6;
+        let moment_link4_z = S::mul_add(
+            -acc_link4_x,
+            t6,
+            acc_link1_y * (k(0.00025000000000000006) * cos_link4),
+        );
         let minus_moment_link2_z = minus_force_link3_y + minus_moment_link3_z;
-        let moment_link1_z = k(2.0)
-            * (sin_link2 * force_link3_x - cos_link2 * minus_force_link3_y)
-            + (moment_link4_z + (k(0.3924) * cos_link1 - minus_force_link4_y)
-                - minus_moment_link2_z);
+        let moment_link1_z = S::mul_add(
+            k(2.0),
+            S::mul_add(-cos_link2, minus_force_link3_y, sin_link2 * force_link3_x),
+            moment_link4_z
+                + S::mul_add(-(w_link4_z * w_link4_z), t6, k(0.3924) * cos_link1)
+                - minus_moment_link2_z,
+        );
         [moment_link1_z, -minus_moment_link2_z, -minus_moment_link3_z, moment_link4_z]
     }
     /// g(q), N m or N: the joint forces at rest.
     ///
     /// 21 flops: 7 additions, 14 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn gravity_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 4] {
-        Self::gravity_forces_at(&Self::posture(q))
+        Self::gravity_forces_at(
+            &{
+                let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [
+                        sin[0],
+                        sin[1],
+                        sin[2],
+                        sin[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        cos[0],
+                        cos[1],
+                        cos[2],
+                        cos[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                }
+            },
+        )
     }
     /// [`gravity_forces`](Self::gravity_forces) where the sines and cosines are there already.
     #[inline]
     pub fn gravity_forces_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [S; 4] {
         let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
         let acc_link1_x = k(98.10000000000001) * sin_link1;
         let acc_link1_y = k(98.10000000000001) * cos_link1;
-        let acc_link2_x = cos_link2 * acc_link1_x + sin_link2 * acc_link1_y;
-        let acc_link2_y = cos_link2 * acc_link1_y - sin_link2 * acc_link1_x;
-        let minus_acc_link3_y = sin_link3 * acc_link2_x + cos_link3 * -acc_link2_y;
-        let acc_link4_y = cos_link4 * acc_link1_y - sin_link4 * acc_link1_x;
+        let acc_link2_x = S::mul_add(sin_link2, acc_link1_y, cos_link2 * acc_link1_x);
+        let acc_link2_y = S::mul_add(cos_link2, acc_link1_y, -(sin_link2 * acc_link1_x));
+        let minus_acc_link3_y = S::mul_add(
+            cos_link3,
+            -acc_link2_y,
+            sin_link3 * acc_link2_x,
+        );
         let minus_moment_link3_z = k(0.0005000000000000001) * minus_acc_link3_y;
+        let acc_link4_y = S::mul_add(cos_link4, acc_link1_y, -(sin_link4 * acc_link1_x));
         let minus_moment_link4_z = k(0.0005000000000000001) * -acc_link4_y;
-        let minus_moment_link2_z = k(0.0015000000000000005) * -acc_link2_y
-            + minus_moment_link3_z;
-        let moment_link1_z = k(0.6867000000000002) * cos_link1 - minus_moment_link4_z
-            - minus_moment_link2_z;
+        let minus_moment_link2_z = S::mul_add(
+            k(0.0015000000000000005),
+            -acc_link2_y,
+            minus_moment_link3_z,
+        );
+        let moment_link1_z = S::mul_add(
+            k(0.6867000000000002),
+            cos_link1,
+            -minus_moment_link4_z,
+        ) - minus_moment_link2_z;
         [
             moment_link1_z,
             -minus_moment_link2_z,
@@ -427,54 +606,105 @@ impl Gripper {
         q: &[S; 4],
         v: &[S; 4],
     ) -> ::redysim_runtime::Energy<S> {
-        Self::energy_at(&Self::posture(q), v)
+        Self::energy_at(
+            &{
+                let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [
+                        sin[0],
+                        sin[1],
+                        sin[2],
+                        sin[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        cos[0],
+                        cos[1],
+                        cos[2],
+                        cos[3],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                }
+            },
+            v,
+        )
     }
     /// [`energy`](Self::energy) where the sines and cosines are there already.
     #[inline]
     pub fn energy_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> ::redysim_runtime::Energy<S> {
         let q = &at.q;
         let k = S::from_f64;
-        let (
-            [sin_link1,
-            sin_link2,
-            sin_link3,
-            sin_link4,
-            ],
-            [cos_link1,
-            cos_link2,
-            cos_link3,
-            cos_link4,
-            ],
-        ) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
         let vel_link2_x = v[0] * sin_link2;
         let vel_link2_y = v[0] * cos_link2;
         let w_link2_z = v[0] + v[1];
-        let vel_link3_y = cos_link3 * (vel_link2_y + k(0.5) * w_link2_z)
-            - sin_link3 * vel_link2_x;
+        let vel_link3_y = S::mul_add(
+            cos_link3,
+            S::mul_add(k(0.5), w_link2_z, vel_link2_y),
+            -(sin_link3 * vel_link2_x),
+        );
         let w_link3_z = v[2] + w_link2_z;
         let vel_link4_y = cos_link4 * (k(0.5) * v[0]);
         let w_link4_z = v[0] + v[3];
-        let t1 = w_link2_z * (k(0.0006666666666666668) * w_link2_z)
-            + (vel_link2_y * (k(0.003000000000000001) * w_link2_z)
-                + w_link4_z * (k(0.0001666666666666667) * w_link4_z));
-        let t2 = -vel_link3_y * (k(0.0010000000000000002) * w_link3_z)
-            - (v[0] * (k(0.0058333333333333345) * v[0])
-                + (vel_link4_y * (k(0.0010000000000000002) * w_link4_z) + t1));
+        let t1 = S::mul_add(
+            w_link2_z,
+            k(0.0006666666666666668) * w_link2_z,
+            S::mul_add(
+                w_link4_z,
+                k(0.0001666666666666667) * w_link4_z,
+                vel_link2_y * (k(0.003000000000000001) * w_link2_z),
+            ),
+        );
+        let t2 = S::mul_add(
+            -vel_link3_y,
+            k(0.0010000000000000002) * w_link3_z,
+            -(S::mul_add(
+                v[0],
+                k(0.0058333333333333345) * v[0],
+                S::mul_add(vel_link4_y, k(0.0010000000000000002) * w_link4_z, t1),
+            )),
+        );
         let t3 = k(0.0005000000000000001) * sin_link3;
-        let t4 = k(0.0005000000000000001) * cos_link3 + k(0.0015000000000000005);
+        let t4 = S::mul_add(
+            k(0.0005000000000000001),
+            cos_link3,
+            k(0.0015000000000000005),
+        );
         let t5 = sin_link1
-            * (sin_link2 * t3
-                - (cos_link2 * t4
-                    + (k(0.0005000000000000001) * cos_link4 + k(0.007000000000000001))));
-        let t6 = t5
-            - cos_link1
-                * (sin_link2 * t4
-                    + (k(0.0005000000000000001) * sin_link4 + cos_link2 * t3));
+            * S::mul_add(
+                sin_link2,
+                t3,
+                -(S::mul_add(
+                    cos_link2,
+                    t4,
+                    S::mul_add(
+                        k(0.0005000000000000001),
+                        cos_link4,
+                        k(0.007000000000000001),
+                    ),
+                )),
+            );
+        let t6 = S::mul_add(
+            -cos_link1,
+            S::mul_add(
+                sin_link2,
+                t4,
+                S::mul_add(cos_link2, t3, k(0.0005000000000000001) * sin_link4),
+            ),
+            t5,
+        );
         ::redysim_runtime::Energy {
-            kinetic: k(0.5) * (w_link3_z * (k(0.0001666666666666667) * w_link3_z) - t2),
+            kinetic: k(0.5)
+                * S::mul_add(w_link3_z, k(0.0001666666666666667) * w_link3_z, -t2),
             potential: -(k(98.10000000000001) * t6),
         }
     }
@@ -485,42 +715,60 @@ impl Gripper {
         q: &[S; 4],
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
-        Self::link_kinematics_at(&Self::posture(q), v)
+        Self::link_kinematics_at(
+            &{
+                let (sin, cos) = S::sin_cos_all([
+                    q[0],
+                    (q[0] + q[1]),
+                    (q[0] + q[3]),
+                    (q[2] + (q[0] + q[1])),
+                ]);
+                ::redysim_runtime::Posture {
+                    q: *q,
+                    sin: [
+                        sin[0],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        sin[1],
+                        sin[2],
+                        sin[3],
+                    ],
+                    cos: [
+                        cos[0],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        cos[1],
+                        cos[2],
+                        cos[3],
+                    ],
+                }
+            },
+            v,
+        )
     }
     /// [`link_kinematics`](Self::link_kinematics) where the sines and cosines are there already.
     #[inline]
     pub fn link_kinematics_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
         let q = &at.q;
         let k = S::from_f64;
-        let t1 = q[0] + q[1];
-        let t2 = q[2] + t1;
-        let t3 = q[0] + q[3];
-        let (
-            [sin_link1,
-            sin_sum_link2,
-            sin_sum_link3,
-            sin_sum_link4,
-            ],
-            [cos_link1,
-            cos_sum_link2,
-            cos_sum_link3,
-            cos_sum_link4,
-            ],
-        ) = S::sin_cos_all([q[0], t1, t2, t3]);
-        let t4 = k(0.1) * cos_link1;
-        let t5 = k(0.1) * sin_link1;
-        let t6 = k(0.05) * cos_sum_link2;
-        let t7 = k(0.05) * sin_sum_link2;
-        let t8 = k(0.05) * cos_link1;
-        let t9 = k(0.05) * sin_link1;
-        let t10 = v[0] * t5;
-        let t11 = v[0] * t4;
-        let t12 = v[0] + v[1];
-        let t13 = t4 + t6;
-        let t14 = t5 + t7;
+        let [sin_link1, _, _, _, sin_sum_link2, sin_sum_link4, sin_sum_link3] = at.sin;
+        let [cos_link1, _, _, _, cos_sum_link2, cos_sum_link4, cos_sum_link3] = at.cos;
+        let t1 = k(0.1) * cos_link1;
+        let t2 = k(0.1) * sin_link1;
+        let t3 = k(0.05) * cos_sum_link2;
+        let t4 = k(0.05) * sin_sum_link2;
+        let t5 = k(0.05) * cos_link1;
+        let t6 = k(0.05) * sin_link1;
+        let t7 = v[0] * t2;
+        let t8 = v[0] * t1;
+        let t9 = v[0] + v[1];
+        let t10 = t1 + t3;
+        let t11 = t2 + t4;
         [
             ::redysim_runtime::LinkState {
                 rotation: [
@@ -529,7 +777,7 @@ impl Gripper {
                     [k(0.0), k(0.0), k(1.0)],
                 ],
                 origin: [k(0.0), k(0.0), k(0.0)],
-                com: [t8, t9, k(0.0)],
+                com: [t5, t6, k(0.0)],
                 velocity: [k(0.0), k(0.0), k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), v[0]],
             },
@@ -539,14 +787,14 @@ impl Gripper {
                     [sin_sum_link2, cos_sum_link2, k(0.0)],
                     [k(0.0), k(0.0), k(1.0)],
                 ],
-                origin: [t4, t5, k(0.0)],
+                origin: [t1, t2, k(0.0)],
                 com: [
-                    t4 + k(0.025) * cos_sum_link2,
-                    t5 + k(0.025) * sin_sum_link2,
+                    S::mul_add(k(0.025), cos_sum_link2, t1),
+                    S::mul_add(k(0.025), sin_sum_link2, t2),
                     k(0.0),
                 ],
-                velocity: [-t10, t11, k(0.0)],
-                angular_velocity: [k(0.0), k(0.0), t12],
+                velocity: [-t7, t8, k(0.0)],
+                angular_velocity: [k(0.0), k(0.0), t9],
             },
             ::redysim_runtime::LinkState {
                 rotation: [
@@ -554,14 +802,14 @@ impl Gripper {
                     [sin_sum_link3, cos_sum_link3, k(0.0)],
                     [k(0.0), k(0.0), k(1.0)],
                 ],
-                origin: [t13, t14, k(0.0)],
+                origin: [t10, t11, k(0.0)],
                 com: [
-                    t13 + k(0.025) * cos_sum_link3,
-                    t14 + k(0.025) * sin_sum_link3,
+                    S::mul_add(k(0.025), cos_sum_link3, t10),
+                    S::mul_add(k(0.025), sin_sum_link3, t11),
                     k(0.0),
                 ],
-                velocity: [-(t10 + t7 * t12), t11 + t6 * t12, k(0.0)],
-                angular_velocity: [k(0.0), k(0.0), v[2] + t12],
+                velocity: [-(S::mul_add(t4, t9, t7)), S::mul_add(t3, t9, t8), k(0.0)],
+                angular_velocity: [k(0.0), k(0.0), v[2] + t9],
             },
             ::redysim_runtime::LinkState {
                 rotation: [
@@ -569,13 +817,13 @@ impl Gripper {
                     [sin_sum_link4, cos_sum_link4, k(0.0)],
                     [k(0.0), k(0.0), k(1.0)],
                 ],
-                origin: [t8, t9, k(0.0)],
+                origin: [t5, t6, k(0.0)],
                 com: [
-                    t8 + k(0.025) * cos_sum_link4,
-                    t9 + k(0.025) * sin_sum_link4,
+                    S::mul_add(k(0.025), cos_sum_link4, t5),
+                    S::mul_add(k(0.025), sin_sum_link4, t6),
                     k(0.0),
                 ],
-                velocity: [-(v[0] * t9), v[0] * t8, k(0.0)],
+                velocity: [-(v[0] * t6), v[0] * t5, k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), v[0] + v[3]],
             },
         ]
@@ -588,8 +836,24 @@ impl Gripper {
             &{
                 ::redysim_runtime::Posture {
                     q: *q,
-                    sin: [S::zero(), S::zero(), S::zero(), S::zero()],
-                    cos: [S::zero(), S::zero(), S::zero(), S::zero()],
+                    sin: [
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
                 }
             },
         )
@@ -597,7 +861,7 @@ impl Gripper {
     /// [`loop_residual`](Self::loop_residual) where the sines and cosines are there already.
     #[inline]
     pub fn loop_residual_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [S; 0] {
         let q = &at.q;
         let k = S::from_f64;
@@ -611,8 +875,24 @@ impl Gripper {
             &{
                 ::redysim_runtime::Posture {
                     q: *q,
-                    sin: [S::zero(), S::zero(), S::zero(), S::zero()],
-                    cos: [S::zero(), S::zero(), S::zero(), S::zero()],
+                    sin: [
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
                 }
             },
         )
@@ -620,7 +900,7 @@ impl Gripper {
     /// [`loop_jacobian`](Self::loop_jacobian) where the sines and cosines are there already.
     #[inline]
     pub fn loop_jacobian_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [[S; 4]; 0] {
         let q = &at.q;
         let k = S::from_f64;
@@ -634,8 +914,24 @@ impl Gripper {
             &{
                 ::redysim_runtime::Posture {
                     q: *q,
-                    sin: [S::zero(), S::zero(), S::zero(), S::zero()],
-                    cos: [S::zero(), S::zero(), S::zero(), S::zero()],
+                    sin: [
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    cos: [
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
                 }
             },
             v,
@@ -644,7 +940,7 @@ impl Gripper {
     /// [`loop_bias`](Self::loop_bias) where the sines and cosines are there already.
     #[inline]
     pub fn loop_bias_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 4>,
+        at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> [S; 0] {
         let q = &at.q;

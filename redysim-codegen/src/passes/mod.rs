@@ -82,7 +82,10 @@ type Pass = fn(&Expressions) -> Expressions;
 
 /// The expressions after all passes over expressions that are on. In debug builds each is checked: the values before
 /// and after must agree.
-pub fn simplified(expressions: Expressions, passes: &Passes) -> Expressions {
+pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Expressions {
+    if !passes.loops {
+        expressions.graph.forget_steps();
+    }
     let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
     let collected = sums(expressions);
     let price = collected.price();

@@ -1,0 +1,194 @@
+"""Checks that all programs say the same, and times them in turns."""
+
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy
+
+import robots as robot_files
+from programs import FUNCTIONS, REFERENCE, Program
+
+# Enough that no result can be foreseen, and few enough that those of KR5 lie in the innermost cache.
+STATES = 256
+REPETITIONS = 3
+# A measurement during which the calibration loop was so much slower than at its fastest is taken again.
+DISTURBED = 1.05
+AGAIN = 4
+# Deviations are relative to the component, or to this part of the state's largest one if that is more.
+FLOOR = {"f64": 1e-6, "f32": 1e-2}
+
+
+def tolerance(program: Program, robot: str, function: str) -> float:
+    """How far a component may be off. Accelerations lose digits with the condition of the mass matrix, of long chains most."""
+    if program.scalar == "f32":
+        return 1e-2
+    return 1e-7 if function == "forward" and robot in ("chain40", "chain80") else 1e-8
+
+
+@dataclass
+class Deviation:
+    program: str
+    robot: str
+    function: str
+    largest: float
+    allowed: float
+
+
+@dataclass
+class Results:
+    deviations: list[Deviation] = field(default_factory=list)
+    # ns per state of each repetition, by (program, robot, function).
+    times: dict[tuple[str, str, str], list[float]] = field(default_factory=dict)
+    calibrations: list[float] = field(default_factory=list)
+    disturbed: int = 0
+    refused: list[str] = field(default_factory=list)
+    # What takes too long to build.
+    skipped: list[str] = field(default_factory=list)
+    pinned: str = ""
+
+
+class Bench:
+    def __init__(self, built: Path, core: int):
+        self.built = built
+        self.core = core
+        self.prefix, self.pinned = self._pin()
+        self.fastest = float("inf")
+
+    def _pin(self) -> tuple[list[str], str]:
+        command = ["taskset", "-c", str(self.core)]
+        try:
+            subprocess.run([*command, "true"], check=True, capture_output=True)
+            return command, f"pinned to core {self.core}"
+        except (OSError, subprocess.CalledProcessError):
+            print(f"cannot pin programs to core {self.core}: times are taken on any core", file=sys.stderr)
+            return [], "not pinned to a core"
+
+    def states(self, robot: str) -> numpy.ndarray:
+        """Random coordinates, velocities, and accelerations or forces: ±π rad, ±3 rad/s, ±10 rad/s² or N m."""
+        joints = robot_files.read(robot).joints
+        random = numpy.random.default_rng(20120611).uniform(-1, 1, (STATES, 3, joints))
+        return (random * numpy.array([numpy.pi, 3, 10])[None, :, None]).reshape(STATES, 3 * joints)
+
+    def command(self, mode: str, program: Program, robot: str, function: str, states: Path) -> list[str]:
+        joints = robot_files.read(robot).joints
+        folders = {"txt": robot_files.FOLDER, "toml": robot_files.FOLDER.parent.parent / "models/peers"}
+        folder = folders.get(program.robot_file, self.built / "robots")
+        return [
+            str(self.built / "timer"),
+            mode,
+            str(program.library_of(self.built, robot, function)),
+            program.symbol_of(robot, function),
+            str(folder / f"{robot}.{program.robot_file}"),
+            str(states),
+            program.scalar,
+            str(program.lanes),
+            str(3 * joints),
+            str(joints * joints if function == "mass" else joints),
+        ]
+
+    def write_states(self, robot: str, states: numpy.ndarray, name: str = "states") -> Path:
+        path = self.built / "robots" / f"{robot}.{name}"
+        states.astype(numpy.float64).tofile(path)
+        return path
+
+    def result(self, program: Program, robot: str, function: str) -> numpy.ndarray:
+        """What the program says at the states, one row for each."""
+        known = robot_files.read(robot)
+        joints = known.joints
+        order = known.breadth_first() if program.breadth_first else list(range(joints))
+        # With gravity k g, a motion is √k faster: τ(q, √k v, k a; k g) = k τ(q, v, a; g), and the same the other way.
+        k = program.gravity / 9.81
+        scale = numpy.array([1, numpy.sqrt(k), k])[None, :, None]
+        states = self.states(robot).reshape(STATES, 3, joints)[:, :, order] * scale
+        command = self.command("check", program, robot, function, self.write_states(robot, states, "checked"))
+        ran = subprocess.run(command, capture_output=True)
+        if ran.returncode != 0:
+            raise Refused(ran.stderr.decode().strip() or f"the program ended with {ran.returncode}")
+        values = numpy.frombuffer(ran.stdout).reshape(STATES // program.lanes, -1, program.lanes)
+        values = values.transpose(0, 2, 1).reshape(STATES, -1)
+        back = numpy.argsort(order)
+        if function != "mass":
+            return values[:, back] / k
+        matrices = values.reshape(STATES, joints, joints)
+        if program.upper:
+            upper = numpy.triu(matrices.transpose(0, 2, 1))
+            matrices = upper + numpy.triu(upper, 1).transpose(0, 2, 1)
+        return matrices[:, back][:, :, back].reshape(STATES, -1)
+
+    def check(self, programs: list[Program], names: list[str], results: Results) -> None:
+        for robot in names:
+            for function in FUNCTIONS:
+                expected = self.result(REFERENCE, robot, function)
+                largest = numpy.abs(expected).max(axis=1, keepdims=True)
+                for program in programs:
+                    if not program.takes(robot) or not program.library_of(self.built, robot, function).exists():
+                        continue
+                    try:
+                        found = self.result(program, robot, function)
+                    except Refused as refused:
+                        results.refused.append(f"{program.label}, {robot}, {FUNCTIONS[function]}: {refused}")
+                        continue
+                    scale = numpy.maximum(numpy.abs(expected), FLOOR[program.scalar] * largest)
+                    deviation = numpy.abs(found - expected) / scale
+                    if not numpy.isfinite(found).all():
+                        deviation = numpy.full_like(expected, numpy.inf)
+                    allowed = tolerance(program, robot, function)
+                    results.deviations.append(Deviation(program.key, robot, function, float(deviation.max()), allowed))
+
+    def time(self, programs: list[Program], names: list[str], results: Results) -> None:
+        """All programs at one robot's function after another, in an order that turns with each repetition."""
+        agreed = {(d.program, d.robot, d.function) for d in results.deviations if d.largest <= d.allowed}
+        results.pinned = self.pinned
+        for repetition in range(REPETITIONS):
+            for robot in names:
+                states = self.write_states(robot, self.states(robot))
+                print(f"repetition {repetition + 1} of {REPETITIONS}: {robot}", flush=True)
+                for function in FUNCTIONS:
+                    ready = [p for p in programs if (p.key, robot, function) in agreed]
+                    turn = repetition * len(ready) // REPETITIONS
+                    for program in ready[turn:] + ready[:turn]:
+                        command = self.command("time", program, robot, function, states)
+                        time = self.measured(command, results)
+                        results.times.setdefault((program.key, robot, function), []).append(time)
+
+    def measured(self, command: list[str], results: Results) -> float:
+        """ns per state; taken again while the calibration loop says that something else slows the core."""
+        best = (float("inf"), float("inf"))
+        for _ in range(AGAIN + 1):
+            ran = subprocess.run([*self.prefix, *command], capture_output=True, text=True)
+            if ran.returncode != 0:
+                raise SystemExit(f"peers: timing failed: {ran.stderr.strip()}\n  {' '.join(command)}")
+            time, calibration = (float(word) for word in ran.stdout.split())
+            self.fastest = min(self.fastest, calibration)
+            best = min(best, (calibration, time))
+            if calibration <= DISTURBED * self.fastest:
+                break
+        else:
+            results.disturbed += 1
+        results.calibrations.append(best[0])
+        return best[1]
+
+    def task(self, symbol: str, results: Results) -> float:
+        """ns that one of ReDySim's own tasks takes."""
+        states = self.built / "robots" / "gripper.states"
+        robot = robot_files.FOLDER.parent.parent / "models/peers/gripper.toml"
+        library = REFERENCE.library_of(self.built, "gripper", "inverse")
+        command = [
+            str(self.built / "timer"),
+            "time",
+            str(library),
+            symbol,
+            str(robot),
+            str(states),
+            "f64",
+            "1",
+            "12",
+            "404",
+        ]
+        return float(numpy.median([self.measured(command, results) for _ in range(REPETITIONS)]))
+
+
+class Refused(Exception):
+    """A program that does not take a robot."""

@@ -1,0 +1,91 @@
+"""What is compared: each program, where its library is and what its functions are called there."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+FUNCTIONS = {"inverse": "inverse dynamics", "forward": "forward dynamics", "mass": "mass matrix"}
+SPECIAL = ["kr5", "gripper", "humanoid30"]
+
+
+@dataclass(frozen=True)
+class Program:
+    key: str
+    label: str
+    # Of the library and of the function, with places for {robot} and {function}.
+    library: str
+    symbol: str
+    # What its robots are written in: the ending of the file that it is prepared with.
+    robot_file: str
+    scalar: str = "f64"
+    lanes: int = 1
+    # Where the library leaves no more than the upper triangle of the mass matrix, by columns.
+    upper: bool = False
+    # Whether it numbers joints breadth first, whatever the file's order.
+    breadth_first: bool = False
+    # Its gravity, m/s², where that is built in.
+    gravity: float = 9.81
+    # All robots, unless named.
+    robots: tuple[str, ...] | None = None
+    ours: bool = False
+
+    def takes(self, robot: str) -> bool:
+        return self.robots is None or robot in self.robots
+
+    def library_of(self, built: Path, robot: str, function: str) -> Path:
+        return built / self.library.format(robot=robot, function=function)
+
+    def symbol_of(self, robot: str, function: str) -> str:
+        return self.symbol.format(robot=robot, function=function)
+
+
+NATIVE, BASELINE = "cargo-native/release/libredysim_peers.so", "cargo-baseline/release/libredysim_peers.so"
+GENERATED = "generated/{robot}/{function}"
+
+
+def _ours(key: str, label: str, library: str, symbol: str, **more) -> Program:
+    return Program(key, label, library, symbol, "toml", ours=True, **more)
+
+
+PROGRAMS = [
+    Program("pinocchio", "Pinocchio", "pinocchio.so", "{function}", "txt", upper=True),
+    Program("cppadcodegen", "CppADCodeGen", GENERATED + "/cppadcodegen.so", "{function}", "txt"),
+    Program("casadi", "CasADi", GENERATED + "/casadi.so", "{function}", "txt"),
+    Program("mujoco", "MuJoCo", "mujoco.so", "{function}", "xml"),
+    Program(
+        "dynibo",
+        "dynibo",
+        "cargo-native/release/libdynibo_peer.so",
+        "{function}",
+        "urdf",
+        breadth_first=True,
+        gravity=9.80665,
+    ),
+    _ours("generic", "redysim, generic path", NATIVE, "generic_{function}"),
+    _ours("native_f64", "redysim, f64", NATIVE, "{robot}_{function}_f64"),
+    _ours("native_f32", "redysim, f32", NATIVE, "{robot}_{function}_f32", scalar="f32"),
+    _ours("baseline_f64", "redysim, f64, any x86-64", BASELINE, "{robot}_{function}_f64"),
+    _ours("baseline_f32", "redysim, f32, any x86-64", BASELINE, "{robot}_{function}_f32", scalar="f32"),
+    Program(
+        "cppadcodegen_x8",
+        "CppADCodeGen, 8 states",
+        GENERATED + "/cppadcodegen_x8.so",
+        "{function}",
+        "txt",
+        lanes=8,
+        robots=tuple(SPECIAL),
+    ),
+    _ours("f64x8", "redysim, f64 × 8", NATIVE, "{robot}_{function}_f64x8", lanes=8, robots=tuple(SPECIAL)),
+    _ours(
+        "f32x16",
+        "redysim, f32 × 16",
+        NATIVE,
+        "{robot}_{function}_f32x16",
+        scalar="f32",
+        lanes=16,
+        robots=tuple(SPECIAL),
+    ),
+]
+BY_KEY = {program.key: program for program in PROGRAMS}
+PEERS = [program for program in PROGRAMS if not program.ours]
+# All are checked against this one, which has been checked itself against references outside this folder.
+REFERENCE = BY_KEY["native_f64"]
