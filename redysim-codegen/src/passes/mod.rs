@@ -27,7 +27,7 @@ pub struct Passes {
     pub squares: bool,
     /// Common factors of sums.
     pub factors: bool,
-    /// Loops over bodies on which the same is done , in tables of constants and loops, where the code is long.
+    /// Loops over bodies on which the same is done, where the code is long.
     pub loops: bool,
 }
 
