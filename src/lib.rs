@@ -1,7 +1,7 @@
 //! The dynamics of serial, tree-type and closed-loop mechanisms, made at compile time for the one mechanism you have.
 //!
 //! A model in TOML becomes a type by [`redysim!`] (or `#[derive(Mechanism)]`), checked while the program compiles. Its
-//! functions are the DeNOC recursions unrolled for that topology: no `std`, no allocation, no panics.
+//! functions are the DeNOC recursions made for that topology: no `std`, no allocation, no panics.
 //!
 //! ```
 //! use redysim::redysim;

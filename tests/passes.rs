@@ -120,6 +120,45 @@ fn every_pass_keeps_the_values() {
     }
 }
 
+/// KR5 as it is calibrated: axes tilted and origins offset by about `error`, rad and m.
+fn calibrated(error: f64) -> Model {
+    let mut model = model("kr5");
+    let mut random = Random::new(11);
+    for link in &mut model.links {
+        let tilt = rotation::about_x(random.within(error)) * rotation::about_y(random.within(error));
+        link.placement.rotation = link.placement.rotation * tilt;
+        link.placement.position = link.placement.position + Vec3([0.0; 3].map(|_: f64| random.within(error)));
+    }
+    model
+}
+
+/// The common normal of nearly parallel axes is far away, and a mass that balances a short lever is large: neither may
+/// cost the digits of all else. What is left is that elements of rotations below 64 roundings count as roundoff, also
+/// where they are products of two tilts.
+#[test]
+fn small_tilts_and_offsets_cost_no_digits() {
+    for exponent in 2..=12 {
+        let error = 10.0_f64.powi(-exponent);
+        let tree = Tree::new(&calibrated(error));
+        let plain = trace_with(&tree, &Passes::none());
+        let worst = difference(&plain, &trace_with(&tree, &Passes::all()), tree.dof());
+        println!("errors of {error:.0e}: {worst:.1e}");
+        assert!(worst <= 2e-13, "errors of {error:.0e}: {worst:e}");
+    }
+}
+
+/// A robot in the coordinates of a map computes what it computes at the origin. (Positions and potential energy lose what
+/// large coordinates lose.)
+#[test]
+fn a_robot_far_from_the_origin_keeps_its_inertias() {
+    let mut moved = model("kr5");
+    moved.links[0].placement.position = moved.links[0].placement.position + Vec3([1e6, 3e5, -2e6]);
+    let [here, far] = [model("kr5"), moved].map(|model| trace_with(&Tree::new(&model), &Passes::all()));
+    let forces = |functions: &[Function]| functions[..5].to_vec();
+    let worst = difference(&forces(&here), &forces(&far), 6);
+    assert!(worst <= 1e-14, "{worst:e}");
+}
+
 #[test]
 fn gains_of_the_passes() {
     let functions = ["inverse_dynamics", "forward_dynamics", "mass_matrix", "bias_forces", "gravity_forces", "energy"];

@@ -10,12 +10,15 @@ use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;
 use crate::rotation;
 use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::{Joint, Tree};
+use crate::tree::{Body, Joint, Tree};
 
 /// Elements of a rotation nearer than this to a quarter turn's are roundoff of the products they come from.
 const ROTATION_ROUNDOFF: f64 = 64.0 * f64::EPSILON;
-/// Lengths and inertias smaller than this part of the tree's are roundoff of the sums they come from.
+/// Lengths and inertias smaller than this part of those around them are roundoff of the sums they come from.
 const LENGTH_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
+/// The common normal of two axes is taken if its foot is no further away than so many times the lengths around: that of
+/// nearly parallel axes is as far as their tilt is small, and inertias about a point out there have lost their digits.
+const FARTHEST_FOOT: f64 = 4.0;
 
 /// The tree with every frame in its canonical place, whatever the frames of the model: by the common normal with the
 /// first child's axis, and for a body without children by its inertia.
@@ -33,7 +36,8 @@ pub fn canonical(tree: &Tree) -> Tree {
 
 /// Makes lengths that differ by roundoff only the same number, as they were before frames were turned and slid.
 fn unify_lengths(tree: &mut Tree) {
-    let roundoff = LENGTH_ROUNDOFF * size(tree);
+    let size = (0..tree.bodies.len()).map(|body| reach(tree, body)).fold(0.0, f64::max);
+    let roundoff = LENGTH_ROUNDOFF * size;
     let mut known: Vec<f64> = Vec::new();
     for length in tree.bodies.iter_mut().flat_map(|body| &mut body.placement.position.0) {
         match known.iter().find(|&&other| (length.abs() - other).abs() < roundoff) {
@@ -45,7 +49,7 @@ fn unify_lengths(tree: &mut Tree) {
 
 /// Turns the frame of `body` about its z axis by `angle` and slides it along by `distance`.
 pub fn reframe(tree: &mut Tree, body: usize, angle: f64, distance: f64) {
-    let size = size(tree).max(distance.abs());
+    let size = reach(tree, body).max(distance.abs());
     let change = Pose { rotation: snapped(rotation::about_z(angle)), position: Vec3([0.0, 0.0, distance]) };
     let back = inverse(change);
     let moved = &mut tree.bodies[body];
@@ -70,39 +74,41 @@ pub fn reframe(tree: &mut Tree, body: usize, angle: f64, distance: f64) {
 pub fn turn_to_child(tree: &Tree, child: usize) -> Option<f64> {
     let Pose { rotation, position: p } = tree.bodies[child].placement;
     let u = rotation.column(2);
-    let (normal, size) = if is_parallel(u) { (p, size(tree)) } else { (Vec3([-u[1], u[0], 0.0]), 1.0) };
+    let around = tree.bodies[child].parent.map_or(0.0, |parent| reach(tree, parent));
+    let (normal, size) = if is_parallel(u) { (p, around) } else { (Vec3([-u[1], u[0], 0.0]), 1.0) };
     (normal[0].hypot(normal[1]) > LENGTH_ROUNDOFF * size).then(|| normal[1].atan2(normal[0]))
 }
 
 /// How far to slide the frame of the parent of `child` so that its origin is the foot of the common normal of their
-/// axes; for parallel axes, so that the two origins are at one height.
+/// axes; for axes that are parallel, or nearly so, that the two origins are at one height.
 pub fn slide_to_child(tree: &Tree, child: usize) -> Option<f64> {
     let Pose { rotation, position: p } = tree.bodies[child].placement;
-    let u = rotation.column(2);
-    if is_parallel(u) {
-        return Some(p[2]);
-    }
-    let along = -(p[0] * u[0] + p[1] * u[1]) / (u[0] * u[0] + u[1] * u[1]);
-    Some(p[2] + along * u[2])
+    Some(foot_on_child(tree, child).map_or(p[2], |along| p[2] + along * rotation.column(2)[2]))
 }
 
 /// How far to slide the frame of `body` so that its origin is the foot of the common normal with its parent's axis; for
-/// parallel axes, so that the two origins are at one height. `None` for a body on the ground.
+/// axes that are parallel, or nearly so, that the two origins are at one height. `None` for a body on the ground.
 pub fn slide_to_parent(tree: &Tree, body: usize) -> Option<f64> {
     tree.bodies[body].parent?;
     let Pose { rotation, position: p } = tree.bodies[body].placement;
+    Some(foot_on_child(tree, body).unwrap_or(-p[2] * rotation.column(2)[2]))
+}
+
+/// How far along the axis of `child`, from its origin, the foot of the common normal with its parent's axis is. `None`
+/// where that is nowhere near.
+fn foot_on_child(tree: &Tree, child: usize) -> Option<f64> {
+    let Pose { rotation, position: p } = tree.bodies[child].placement;
     let u = rotation.column(2);
-    if is_parallel(u) {
-        return Some(-p[2] * u[2]);
-    }
-    Some(-(p[0] * u[0] + p[1] * u[1]) / (u[0] * u[0] + u[1] * u[1]))
+    let along = -(p[0] * u[0] + p[1] * u[1]) / (u[0] * u[0] + u[1] * u[1]);
+    let around = tree.bodies[child].parent.map_or(0.0, |parent| reach(tree, parent)).max(reach(tree, child));
+    (!is_parallel(u) && along.abs() <= FARTHEST_FOOT * around).then_some(along)
 }
 
 /// By which angle to turn the frame of `body` so that the first moment of its mass is along x, or if that is on the
 /// axis, so that the second moment Σ_xy vanishes. `None` where both do already.
 pub fn turn_to_inertia(tree: &Tree, body: usize) -> Option<f64> {
     let PseudoInertia { mass, moment: h, .. } = tree.bodies[body].inertia;
-    if h[0].hypot(h[1]) > LENGTH_ROUNDOFF * size(tree) * mass {
+    if h[0].hypot(h[1]) > LENGTH_ROUNDOFF * reach(tree, body) * mass {
         return Some(h[1].atan2(h[0]));
     }
     turn_to_principal_axis(tree, body)
@@ -156,6 +162,7 @@ fn simplest_with_axis(u: Vec3<f64>) -> Mat3<f64> {
     Mat3::from_fn(|i, j| [x, y, u][j][i])
 }
 
+/// Whether an axis is that of z.
 fn is_parallel(u: Vec3<f64>) -> bool {
     u[0] == 0.0 && u[1] == 0.0
 }
@@ -165,21 +172,27 @@ fn inverse(pose: Pose<f64>) -> Pose<f64> {
     Pose { rotation, position: -(rotation * pose.position) }
 }
 
-/// The largest length in the tree.
-fn size(tree: &Tree) -> f64 {
-    let lengths = tree.bodies.iter().flat_map(|body| body.placement.position.0);
-    let lengths = lengths.chain(tree.links.iter().flat_map(|link| link.pose.position.0));
-    lengths.fold(0.0, |size, length| size.max(length.abs()))
+/// The largest length around a body: to its parent, its children, its links and its centre of mass.
+///
+/// Where the robot stands in the base frame is none of them: its inertias know nothing of it.
+fn reach(tree: &Tree, body: usize) -> f64 {
+    let Body { parent, placement, inertia, .. } = &tree.bodies[body];
+    let own = parent.map_or(Vec3::zero(), |_| placement.position);
+    let com = if inertia.mass > 0.0 { inertia.moment.scale(1.0 / inertia.mass) } else { Vec3::zero() };
+    let children = children(tree, body).map(|child| tree.bodies[child].placement.position);
+    let links = tree.links.iter().filter(|link| link.body == Some(body)).map(|link| link.pose.position);
+    let lengths = [own, com].into_iter().chain(children).chain(links).flat_map(|vector| vector.0);
+    lengths.fold(0.0, |reach, length| reach.max(length.abs()))
 }
 
+/// A rotation without the roundoff of quarter turns. An element is ±1 only where the others in its row and column vanish:
+/// the cosine of a small tilt is as near to 1 as roundoff.
 fn snapped(mut rotation: Mat3<f64>) -> Mat3<f64> {
-    for element in rotation.0.iter_mut().flatten() {
-        let nearest = element.round();
-        if (*element - nearest).abs() < ROTATION_ROUNDOFF {
-            *element = nearest;
-        }
-    }
-    rotation
+    let elements = rotation.0.as_flattened_mut();
+    elements.iter_mut().filter(|element| element.abs() < ROTATION_ROUNDOFF).for_each(|element| *element = 0.0);
+    let along_axis =
+        |i: usize, j: usize| (0..3).all(|k| (k == j || rotation.0[i][k] == 0.0) && (k == i || rotation.0[k][j] == 0.0));
+    Mat3::from_fn(|i, j| if along_axis(i, j) { rotation.0[i][j].round() } else { rotation.0[i][j] })
 }
 
 fn clean(value: f64, size: f64) -> f64 {

@@ -49,7 +49,9 @@ pub struct Body {
 impl Body {
     /// Whether the joint's axis is parallel to the z axis of the parent's frame.
     pub fn is_parallel(&self) -> bool {
-        self.placement.rotation.0[2][2].abs() == 1.0
+        // The cosine of a tilt of 1e-8 is 1 already.
+        let [x, y, _] = self.placement.rotation.column(2).0;
+        x == 0.0 && y == 0.0
     }
 }
 

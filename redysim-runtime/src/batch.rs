@@ -19,8 +19,8 @@ pub const SERIAL: usize = 512;
 /// States that one thread takes at a time: enough to make up for taking them, few enough that cores finish together.
 const TASK: usize = 256;
 
-/// A plain number with lanes to work on several at once: `f64` and `f32`.
-pub trait Batched: Real + Send + Sync {
+/// A plain number with lanes to work on several at once: `f64` and `f32`, and no other.
+pub trait Batched: Real + Send + Sync + sealed::Sealed {
     /// As many numbers as a vector of the target holds.
     type Lanes: Scalar;
     /// How many those are.
@@ -31,6 +31,13 @@ pub trait Batched: Real + Send + Sync {
 
     /// Writes as many states as `states` has.
     fn unpack<const N: usize>(lanes: [Self::Lanes; N], states: &mut [[Self; N]]);
+}
+
+mod sealed {
+    /// Keeps other types from saying how many lanes they have.
+    pub trait Sealed {}
+    impl Sealed for f64 {}
+    impl Sealed for f32 {}
 }
 
 macro_rules! batched {

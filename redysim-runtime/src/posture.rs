@@ -13,7 +13,7 @@
 /// ```
 ///
 /// `Q` is the number of coordinates, `A` that of angles: the joint angles with their offsets, and sums of them where that
-/// is cheaper. They stand in the order of the coordinates they depend on.
+/// is cheaper. Angles of single joints come first, in the order of the coordinates, then sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Posture<S, const Q: usize, const A: usize> {
     /// The coordinates, rad or m.

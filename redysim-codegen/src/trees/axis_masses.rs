@@ -12,6 +12,10 @@ use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::{AxisMass, take_from_parent};
 use redysim_model::tree::Joint;
 
+/// A mass on an axis is at most so many times the largest of its kind in the robot: where a body is a small lever, a large
+/// mass would be wanted, and its digits would be those that the others lose.
+const LARGEST: f64 = 8.0;
+
 /// The tree, of base parameters, with masses on its axes where they lower the cost.
 pub fn placed(tree: &Tree, cost: Cost) -> Tree {
     let mut tree = tree.clone();
@@ -49,6 +53,18 @@ enum Kind {
 }
 
 impl Kind {
+    /// The largest of this kind in the robot. Base parameters have moved most of the mass to the ground; its moments there
+    /// depend on where the robot stands.
+    fn largest(self, tree: &Tree) -> f64 {
+        let least = if let Kind::Mass = self { tree.ground.mass } else { 0.0 };
+        let values = tree.bodies.iter().flat_map(|body| match self {
+            Kind::Mass => [body.inertia.mass, 0.0, 0.0],
+            Kind::First => body.inertia.moment.0,
+            Kind::Second => [body.inertia.second.xx, body.inertia.second.yy, body.inertia.second.zz],
+        });
+        values.fold(least, |largest, value| largest.max(value.abs()))
+    }
+
     fn times(self, amount: f64) -> AxisMass {
         match self {
             Kind::Mass => AxisMass { mass: amount, ..AxisMass::default() },
@@ -65,14 +81,13 @@ fn candidates(tree: &Tree, body: usize, kind: Kind) -> Vec<AxisMass> {
     let mut changed = tree.clone();
     take_from_parent(&mut changed, body, kind.times(1.0));
     let then = numbers(&changed, parent);
+    let most = LARGEST * kind.largest(tree);
     let mut found: Vec<AxisMass> = Vec::new();
     for (now, then) in now.into_iter().zip(then) {
         // The number falls by `now − then` for each unit.
-        if now != 0.0 && (now - then).abs() > 1e-9 {
-            let mass = kind.times(now / (now - then));
-            if !found.contains(&mass) {
-                found.push(mass);
-            }
+        let amount = now / (now - then);
+        if now != 0.0 && amount.abs() <= most && !found.contains(&kind.times(amount)) {
+            found.push(kind.times(amount));
         }
     }
     found
