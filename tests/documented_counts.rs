@@ -1,0 +1,45 @@
+//! The operation counts that `docs/performance.md` tells are those that the tests hold.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+const ROBOTS: [&str; 5] = ["peers/kr5", "peers/gripper", "peers/humanoid30", "peers/chain10", "test/kr5_origin_axis"];
+
+fn read(path: &str) -> String {
+    fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a file of the repository")
+}
+
+/// From set of passes and robot to the operations of inverse dynamics, forward dynamics and the mass matrix, as
+/// `tests/passes.rs` has found them.
+fn snapshot() -> BTreeMap<(String, &'static str), String> {
+    let mut counts = BTreeMap::new();
+    let mut robot = ROBOTS[0];
+    for line in read("tests/snapshots/passes__gains_of_the_passes.snap").lines() {
+        let found = ROBOTS.into_iter().find(|robot| line.split_whitespace().next() == Some(robot));
+        if let Some(found) = found {
+            robot = found;
+        } else if line.starts_with("all ") || line.starts_with("no") {
+            let (set, numbers) = line.split_at(22);
+            let numbers: Vec<&str> = numbers.split_whitespace().take(3).collect();
+            counts.insert((set.trim().to_string(), robot), numbers.join(" / "));
+        }
+    }
+    counts
+}
+
+#[test]
+fn the_table_of_passes_is_that_of_the_snapshot() {
+    let counts = snapshot();
+    let documentation = read("docs/performance.md");
+    let of_kr5 = counts.keys().filter(|(_, robot)| *robot == ROBOTS[0]);
+    for (set, _) in of_kr5 {
+        let cells = ROBOTS.map(|robot| counts[&(set.clone(), robot)].as_str());
+        let set = match set.as_str() {
+            "all" => "all passes".to_string(),
+            "none" => "no pass".to_string(),
+            without => format!("without `{}`", &without["no ".len()..]),
+        };
+        let row = format!("| {set} | {} |", cells.join(" | "));
+        assert!(documentation.contains(&row), "docs/performance.md lacks the row\n{row}");
+    }
+}
