@@ -2,7 +2,7 @@
 
 use crate::emit::{Angles, POSTURE, Vocabulary, function_body, local};
 use crate::expressions::Expressions;
-use crate::functions::{Function, SIGNATURES, Shape, Signature, trace_with};
+use crate::functions::{Function, SIGNATURES, Signature, trace_with};
 use crate::passes::Passes;
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -143,8 +143,7 @@ impl Writer<'_> {
         let Function { signature, remark, expressions } = function;
         let Writer { bodies, angles, outline, runtime } = *self;
         let (head, head_at) = (head(signature, outline, runtime), head_at(signature, outline, angles.len(), runtime));
-        let columns = if signature.shape == Shape::Matrix { outline.joints.len() } else { 0 };
-        let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles, columns };
+        let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles };
         let result = |outputs: &[TokenStream]| shape::value(signature.shape, outline, outputs, runtime);
         let body = function_body(expressions, &vocabulary, result);
         let count = expressions.count();

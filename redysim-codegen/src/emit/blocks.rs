@@ -42,15 +42,11 @@ pub fn in_blocks(statements: Vec<Statement>, needed: &[usize]) -> TokenStream {
             .map(|(_, ident)| ident)
             .collect();
         let code = block.iter().map(|statement| &statement.tokens);
-        blocks.extend(if live.is_empty() {
-            quote!({ #(#code)* })
-        } else {
-            quote! {
-                let [#(#live),*] = {
-                    #(#code)*
-                    [#(#live),*]
-                };
-            }
+        blocks.extend(quote! {
+            let [#(#live),*] = {
+                #(#code)*
+                [#(#live),*]
+            };
         });
     }
     blocks

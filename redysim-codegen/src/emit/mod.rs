@@ -28,15 +28,6 @@ pub struct Vocabulary<'a> {
     pub bodies: &'a [String],
     /// The angles whose sines and cosines are given.
     pub angles: &'a Angles,
-    /// Columns of the result if it is a matrix, else zero.
-    pub columns: usize,
-}
-
-impl Vocabulary<'_> {
-    /// Whether the elements of a matrix are written as soon as they are known: where they are more than registers hold.
-    fn writes_early(&self, expressions: &Expressions) -> bool {
-        self.columns > 0 && expressions.outputs.len() > 64
-    }
 }
 
 /// The body of a function over `S: Scalar` that finds the sines and cosines of all angles in `at`: statements, then the
@@ -48,24 +39,15 @@ pub fn function_body(
 ) -> TokenStream {
     let emitter = Emitter::new(expressions, vocabulary);
     let mut scope = Scope::default();
-    let rendered = |&output: &Edge| emitter.render(output, Binding::Lowest, &mut scope);
-    let (start, result) = if vocabulary.writes_early(expressions) {
-        // Held back until the end, so many values would all be spilled; a matrix is mostly zeros besides.
-        let columns = Literal::usize_unsuffixed(vocabulary.columns);
-        let rows = Literal::usize_unsuffixed(expressions.outputs.len() / vocabulary.columns);
-        let result = local(RESULT);
-        (Some(quote!(let mut #result: [[S; #columns]; #rows] = [[S::zero(); #columns]; #rows];)), quote!(#result))
-    } else {
-        let outputs: Vec<TokenStream> = expressions.outputs.iter().map(rendered).collect();
-        (None, result(&outputs))
-    };
+    let outputs: Vec<TokenStream> =
+        expressions.outputs.iter().map(|&output| emitter.render(output, Binding::Lowest, &mut scope)).collect();
     let statements = emitter.code(&scope.needs);
+    let result = result(&outputs);
     let k = local(FROM_F64);
     let sines_and_cosines = emitter.sines_and_cosines();
     quote! {
         let #k = S::from_f64;
         #sines_and_cosines
-        #start
         #statements
         #result
     }
@@ -78,9 +60,6 @@ pub fn local(name: &str) -> Ident {
 
 /// The name of the argument that has the coordinates with the sines and cosines.
 pub const POSTURE: &str = "at";
-
-/// A matrix that is written as its elements become known.
-const RESULT: &str = "result";
 
 /// The local name of `S::from_f64`.
 const FROM_F64: &str = "k";
@@ -100,8 +79,6 @@ struct Emitter<'a> {
     positions: HashMap<usize, usize>,
     /// The array in which each loop keeps what is read outside it.
     arrays: Vec<Ident>,
-    /// Where in the result each node goes as soon as it is known, and whether its negative does.
-    written: HashMap<usize, Vec<(usize, bool)>>,
 }
 
 impl<'a> Emitter<'a> {
@@ -118,14 +95,8 @@ impl<'a> Emitter<'a> {
             idents: vec![None; graph.len()],
             positions,
             arrays: Vec::new(),
-            written: HashMap::new(),
             rolled,
         };
-        if vocabulary.writes_early(expressions) {
-            for (place, output) in expressions.outputs.iter().enumerate() {
-                emitter.written.entry(output.node()).or_default().push((place, output.is_negative()));
-            }
-        }
         emitter.name_values(&uses);
         emitter
     }
@@ -133,10 +104,9 @@ impl<'a> Emitter<'a> {
     /// Gives an identifier to every value that is to have a `let`.
     fn name_values(&mut self, uses: &[usize]) {
         let graph = self.graph;
-        let mut identifiers =
-            Identifiers::new(self.vocabulary.bodies, &[FROM_F64, POSTURE, RESULT, loops::GROUP, loops::ROW]);
+        let mut identifiers = Identifiers::new(self.vocabulary.bodies, &[FROM_F64, POSTURE, loops::GROUP, loops::ROW]);
         self.vocabulary.arguments.iter().for_each(|argument| identifiers.reserve(argument));
-        let mut lasting: Vec<bool> = (0..graph.len()).map(|node| self.written.contains_key(&node)).collect();
+        let mut lasting = vec![false; graph.len()];
         if let Some(rolled) = &self.rolled {
             self.arrays = rolled.sweeps.iter().map(|sweep| identifiers.unique(sweep.name)).collect();
             for sweep in &rolled.sweeps {
@@ -149,8 +119,10 @@ impl<'a> Emitter<'a> {
         for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
             let node = graph.node(index);
             let place = self.rolled.as_ref().and_then(|rolled| rolled.place(index));
-            self.flipped[index] &= place.is_none();
-            self.fused[index] &= !lasting[index];
+            if place.is_some() {
+                self.flipped[index] = false;
+                self.fused[index] &= !lasting[index];
+            }
             if matches!(node, Node::Sin(_) | Node::Cos(_)) {
                 // Among loops, sines and cosines are read where they are used.
                 if self.rolled.is_none() {
@@ -183,11 +155,11 @@ impl<'a> Emitter<'a> {
             while let Some((number, _)) = loops.next_if(|(_, sweep)| sweep.start <= index) {
                 parts.push((std::mem::take(&mut statements), Some(self.rolled_sweep(number))));
             }
+            let (Some(ident), node) = (ident, self.graph.node(index)) else { continue };
             let in_loop = self.rolled.as_ref().is_some_and(|rolled| rolled.place(index).is_some());
-            if let Some(ident) = ident.as_ref().filter(|_| is_operation(self.graph.node(index)) && !in_loop) {
+            if is_operation(node) && !in_loop {
                 statements.push(self.statement(index, ident, &mut Scope::default()));
             }
-            statements.extend(self.write(index));
         }
         parts.push((statements, None));
         let mut needed = needed.to_vec();
@@ -202,22 +174,6 @@ impl<'a> Emitter<'a> {
             needed.extend(reads);
         }
         code.into_iter().rev().collect()
-    }
-
-    /// Writes a value to where it stands in the result.
-    fn write(&self, index: usize) -> Option<Statement> {
-        let mut scope = Scope::default();
-        let writes =
-            self.written.get(&index)?.iter().filter(|_| self.graph.constant_value(self.graph.edge(index)) != Some(0.0));
-        let tokens = writes.map(|&(place, negative)| {
-            let (row, column) = (place / self.vocabulary.columns, place % self.vocabulary.columns);
-            let [row, column] = [row, column].map(Literal::usize_unsuffixed);
-            let value = self.render(self.graph.edge(index).flipped_if(negative), Binding::Lowest, &mut scope);
-            let result = local(RESULT);
-            quote!(#result[#row][#column] = #value;)
-        });
-        let tokens = tokens.collect();
-        Some(Statement { defines: Vec::new(), tokens, needs: scope.needs })
     }
 
     /// The `let` of one value.
