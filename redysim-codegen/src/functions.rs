@@ -157,8 +157,7 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
 /// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to be
 /// unrolled is traced without them as well, and the shorter code is taken.
 pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
-    let unrolled = Passes { loops: false, ..*passes };
-    let own = functions(&Trees::new(tree, &unrolled), &unrolled);
+    let own = functions(&Trees::new(tree, passes), passes);
     if !passes.loops || own.iter().all(|function| !function.expressions.is_long()) {
         return own;
     }
