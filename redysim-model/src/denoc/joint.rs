@@ -90,66 +90,78 @@ fn angles<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Option<Angle<S>>> {
 
 impl<S: Scalar> JointFrame<S> {
     /// A vector in the body's axes, in the parent's.
+    #[inline]
     pub fn to_parent(self, v: Vec3<S>) -> Vec3<S> {
         turned(self.before, self.fixed * turned(self.turn, v))
     }
 
     /// A vector in the parent's axes, in the body's.
+    #[inline]
     pub fn to_body(self, v: Vec3<S>) -> Vec3<S> {
         turned_back(self.turn, self.fixed.transpose() * turned_back(self.before, v))
     }
 
     /// What the matrix of the parent's axes makes of the joint's axis, in the body's axes; `None` where the joint's
     /// axis is none of the parent's axes and the product would cost.
+    #[inline]
     pub fn axis_image(self, matrix: Mat3<S>) -> Option<Vec3<S>> {
         self.along_axis.then(|| self.to_body(matrix * self.fixed.column(2)))
     }
 
     /// A vector fixed to the body, in its axes.
+    #[inline]
     pub fn fixed_vector(self, v: Vec3<S>) -> Vec3<S> {
         turned(self.attitude, v)
     }
 
     /// The axes fixed to the body as columns, where its own axes are the columns of `axes`.
+    #[inline]
     pub fn fixed_axes(self, axes: Mat3<S>) -> Mat3<S> {
         Mat3(axes.0.map(|row| turned_back(self.attitude, Vec3(row)).0))
     }
 
     /// A pose fixed to the body, in its axes.
+    #[inline]
     pub fn fixed_pose(self, pose: Pose<S>) -> Pose<S> {
         let columns = pose.rotation.transpose().0.map(|column| self.fixed_vector(Vec3(column)).0);
         Pose { rotation: Mat3(columns).transpose(), position: self.fixed_vector(pose.position) }
     }
 
     /// The moments of the body's own mass, in its axes.
+    #[inline]
     pub fn own_inertia(self, inertia: PseudoInertia<f64>) -> PseudoInertia<S> {
         let PseudoInertia { mass, moment, second } = PseudoInertia::constant(inertia);
         PseudoInertia { mass, moment: self.fixed_vector(moment), second: turned_tensor(self.attitude, second) }
     }
 
     /// Whether what is fixed to the body turns against its axes.
+    #[inline]
     pub fn is_still(self) -> bool {
         self.attitude.is_some()
     }
 
     /// A force on the body and its moment about the body's origin, in the parent's axes and about the parent's origin.
+    #[inline]
     pub fn wrench_to_parent(self, force: Vec3<S>, moment: Vec3<S>) -> (Vec3<S>, Vec3<S>) {
         let force = self.to_parent(force);
         (force, self.to_parent(moment) + self.position.cross(force))
     }
 
     /// A symmetric tensor of the body's axes, in the parent's.
+    #[inline]
     pub fn tensor_to_parent(self, tensor: Sym3<S>) -> Sym3<S> {
         turned_tensor(self.before, turned_tensor(self.turn, tensor).rotated(self.fixed))
     }
 
     /// A general tensor of the body's axes, in the parent's.
+    #[inline]
     pub fn matrix_to_parent(self, matrix: Mat3<S>) -> Mat3<S> {
         let rows = Mat3(matrix.0.map(|row| self.to_parent(Vec3(row)).0)).transpose();
         Mat3(rows.0.map(|column| self.to_parent(Vec3(column)).0)).transpose()
     }
 
     /// Moments of mass about the body's origin, in the parent's axes and about the parent's origin.
+    #[inline]
     pub fn inertia_to_parent(self, inertia: PseudoInertia<S>) -> PseudoInertia<S> {
         PseudoInertia {
             mass: inertia.mass,
@@ -160,6 +172,7 @@ impl<S: Scalar> JointFrame<S> {
     }
 }
 
+#[inline]
 fn turned<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
     match turn {
         Some((cos, sin)) => Vec3([cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]]),
@@ -167,10 +180,12 @@ fn turned<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
     }
 }
 
+#[inline]
 fn turned_back<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
     turned(turn.map(|(cos, sin)| (cos, -sin)), v)
 }
 
+#[inline]
 fn turned_tensor<S: Scalar>(turn: Option<Turn<S>>, tensor: Sym3<S>) -> Sym3<S> {
     turn.map_or(tensor, |(cos, sin)| tensor.rotated_about_z(cos, sin))
 }
