@@ -42,8 +42,10 @@ fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &i
         potential.add(&rounded([ours.potential]), &rounded([theirs.potential]));
     }
     // The roundoff of constants is that of the largest terms, 1e-16 of them; the smallest components that count are 1e-6.
-    let all = [inverse, matrix, bias, gravity, kinetic, potential];
-    all.iter().for_each(|comparison| comparison.assert_within(1e-11));
+    let all = [inverse, matrix, gravity, kinetic, potential];
+    all.iter().for_each(|comparison| comparison.assert_within(1e-12));
+    // A few components of the bias are smaller than what its terms cancel to.
+    bias.assert_within(4e-12);
     // The mass matrix of KR5 has condition 1e7, which is what multiplies the roundoff of constants here.
     forward.assert_within(1e-10);
 }
@@ -81,7 +83,7 @@ fn assert_same_dynamics_in_f64(compiled: &impl TreeDynamics<f64>, generic: &impl
         for State { q, v, a } in (0..STATES).map(|_| random.state(generic.nv())) {
             inverse.add(&inverse_dynamics(compiled, &q, &v, &a), &inverse_dynamics(generic, &q, &v, &a));
         }
-        inverse.assert_within(1e-10);
+        inverse.assert_within(2e-11);
         inverse.worst().0
     };
     let mut errors: Vec<f64> = (1..=15).map(sample).collect();
