@@ -7,6 +7,7 @@ use crate::symbol::{Symbol, Tracer};
 use crate::trees::Trees;
 use redysim_model::Tree;
 use redysim_model::denoc::{self, Factorisation, Method};
+use std::cell::LazyCell;
 
 /// What a function is called, takes and returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,47 +158,43 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
 /// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to be
 /// unrolled is traced without them as well, and the shorter code is taken.
 pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
-    let own = functions(&Trees::new(tree, passes), passes);
-    if !passes.loops || own.iter().all(|function| !function.expressions.is_long()) {
-        return own;
-    }
+    let trees = Trees::new(tree, passes);
     let even = passes.even();
-    let even = functions(&Trees::new(tree, &even), &even);
-    let shorter = |(own, even): (Function, Function)| {
-        let is_long = own.expressions.is_long();
-        if is_long && rolled::code_size(&even.expressions) < rolled::code_size(&own.expressions) { even } else { own }
+    let even_trees = LazyCell::new(|| Trees::new(tree, &even));
+    let shortest = |&signature: &Signature| {
+        let own = function(signature, &trees, passes);
+        if !passes.loops || !own.expressions.is_long() {
+            return own;
+        }
+        let alike = function(signature, &even_trees, &even);
+        if rolled::code_size(&alike.expressions) < rolled::code_size(&own.expressions) { alike } else { own }
     };
-    own.into_iter().zip(even).map(shorter).collect()
+    SIGNATURES.iter().map(shortest).collect()
 }
 
-fn functions(trees: &Trees, passes: &Passes) -> Vec<Function> {
-    let function = |signature, expressions| Function { signature, remark: None, expressions };
+fn function(signature: Signature, trees: &Trees, passes: &Passes) -> Function {
     let Trees { energy: for_energy, kinematics, matrix, bias, .. } = trees;
-    vec![
-        function(INVERSE_DYNAMICS, traced(bias, passes, 3, |x| denoc::inverse_dynamics(bias, x[0], x[1], x[2]))),
-        forward_dynamics(trees, passes),
-        function(MASS_MATRIX, traced(matrix, passes, 1, |x| denoc::mass_matrix(matrix, x[0]).concat())),
-        function(BIAS_FORCES, traced(bias, passes, 2, |x| denoc::bias_forces(bias, x[0], x[1]))),
-        function(GRAVITY_FORCES, traced(matrix, passes, 1, |x| denoc::gravity_forces(matrix, x[0]))),
-        function(ENERGY, cheapest(for_energy, |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1])))),
-        function(
-            LINK_KINEMATICS,
-            cheapest(kinematics, |tree| traced(tree, passes, 2, |x| link_kinematics(tree, x[0], x[1]))),
-        ),
-        function(
-            LOOP_RESIDUAL,
-            cheapest(kinematics, |tree| traced(tree, passes, 1, |x| denoc::loop_residual(tree, x[0]))),
-        ),
-        function(
-            LOOP_JACOBIAN,
-            cheapest(kinematics, |tree| traced(tree, passes, 1, |x| denoc::loop_jacobian(tree, x[0]).concat())),
-        ),
-        function(
-            LOOP_BIAS,
-            cheapest(kinematics, |tree| traced(tree, passes, 2, |x| denoc::loop_bias(tree, x[0], x[1]))),
-        ),
-    ]
+    let on_kinematics = |arguments, function: TreeFunction| {
+        cheapest(kinematics, |tree| traced(tree, passes, arguments, |x| function(tree, x)))
+    };
+    let expressions = match signature {
+        INVERSE_DYNAMICS => traced(bias, passes, 3, |x| denoc::inverse_dynamics(bias, x[0], x[1], x[2])),
+        FORWARD_DYNAMICS => return forward_dynamics(trees, passes),
+        MASS_MATRIX => traced(matrix, passes, 1, |x| denoc::mass_matrix(matrix, x[0]).concat()),
+        BIAS_FORCES => traced(bias, passes, 2, |x| denoc::bias_forces(bias, x[0], x[1])),
+        GRAVITY_FORCES => traced(matrix, passes, 1, |x| denoc::gravity_forces(matrix, x[0])),
+        ENERGY => cheapest(for_energy, |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1]))),
+        LINK_KINEMATICS => on_kinematics(2, |tree, x| link_kinematics(tree, x[0], x[1])),
+        LOOP_RESIDUAL => on_kinematics(1, |tree, x| denoc::loop_residual(tree, x[0])),
+        LOOP_JACOBIAN => on_kinematics(1, |tree, x| denoc::loop_jacobian(tree, x[0]).concat()),
+        LOOP_BIAS => on_kinematics(2, |tree, x| denoc::loop_bias(tree, x[0], x[1])),
+        _ => unreachable!("`{}` is none of the functions of a mechanism", signature.name),
+    };
+    Function { signature, remark: None, expressions }
 }
+
+/// A function of a tree and its arguments.
+type TreeFunction = for<'g> fn(&Tree, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>;
 
 /// A function on the tree on which it costs least.
 fn cheapest(trees: &[Tree], function: impl Fn(&Tree) -> Expressions) -> Expressions {

@@ -25,7 +25,7 @@ const FARTHEST_FOOT: f64 = 4.0;
 pub fn canonical(tree: &Tree) -> Tree {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
-        let first = children(&tree, body).next();
+        let first = tree.children(body).next();
         let turn = first.and_then(|child| turn_to_child(&tree, child)).or_else(|| turn_to_inertia(&tree, body));
         let slide = first.and_then(|child| slide_to_child(&tree, child)).or_else(|| slide_to_parent(&tree, body));
         reframe(&mut tree, body, turn.unwrap_or(0.0), slide.unwrap_or(0.0));
@@ -56,7 +56,7 @@ pub fn reframe(tree: &mut Tree, body: usize, angle: f64, distance: f64) {
     moved.placement = moved.placement * change;
     moved.inertia = clean_inertia(moved.inertia.transformed(back), size);
     settle_rotation(tree, body, size);
-    for child in children(tree, body).collect::<Vec<_>>() {
+    for child in tree.children(body).collect::<Vec<_>>() {
         tree.bodies[child].placement = back * tree.bodies[child].placement;
         settle_rotation(tree, child, size);
     }
@@ -123,11 +123,6 @@ pub fn turn_to_principal_axis(tree: &Tree, body: usize) -> Option<f64> {
     (difference.abs().max(xy.abs()) > roundoff).then(|| 0.5 * (2.0 * xy).atan2(difference))
 }
 
-/// The children of `body`, in order.
-pub fn children(tree: &Tree, body: usize) -> impl Iterator<Item = usize> {
-    (body + 1..tree.bodies.len()).filter(move |&child| tree.bodies[child].parent == Some(body))
-}
-
 /// Writes the rotation of `body` as a fixed one with as many zeros as can be, after which comes one about z: this is
 /// part of the fixed one if it is of quarter turns, else it is the joint's offset.
 fn settle_rotation(tree: &mut Tree, body: usize, size: f64) {
@@ -179,7 +174,7 @@ fn reach(tree: &Tree, body: usize) -> f64 {
     let Body { parent, placement, inertia, .. } = &tree.bodies[body];
     let own = parent.map_or(Vec3::zero(), |_| placement.position);
     let com = if inertia.mass > 0.0 { inertia.moment.scale(1.0 / inertia.mass) } else { Vec3::zero() };
-    let children = children(tree, body).map(|child| tree.bodies[child].placement.position);
+    let children = tree.children(body).map(|child| tree.bodies[child].placement.position);
     let links = tree.links.iter().filter(|link| link.body == Some(body)).map(|link| link.pose.position);
     let lengths = [own, com].into_iter().chain(children).chain(links).flat_map(|vector| vector.0);
     lengths.fold(0.0, |reach, length| reach.max(length.abs()))

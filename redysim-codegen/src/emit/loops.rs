@@ -17,6 +17,18 @@ pub fn carried(ident: &Ident) -> Ident {
     format_ident!("last_{ident}")
 }
 
+/// Where a value stands in an array, in a loop over groups of `period` bodies: `first + period · group`.
+pub fn index_in_loop(first: usize, period: usize) -> TokenStream {
+    let group = local(GROUP);
+    let [first_index, period_length] = [first, period].map(Literal::usize_unsuffixed);
+    match (first, period) {
+        (0, 1) => quote!(#group),
+        (0, _) => quote!(#period_length * #group),
+        (_, 1) => quote!(#group + #first_index),
+        _ => quote!(#period_length * #group + #first_index),
+    }
+}
+
 impl Emitter<'_> {
     /// The loop for sweep number `number`:
     ///

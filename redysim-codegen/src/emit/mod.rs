@@ -7,7 +7,7 @@ mod names;
 mod render;
 
 use crate::expressions::Expressions;
-use crate::graph::{Edge, Graph, Node};
+use crate::graph::{Graph, Node};
 use crate::rolled::{Rolled, is_operation};
 pub use angles::Angles;
 use blocks::{Statement, in_blocks};
@@ -243,21 +243,4 @@ fn constant(value: f64) -> TokenStream {
     }
     let digits: Literal = format!("{:?}", value.abs()).parse().expect("a finite number is a literal");
     if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
-}
-
-/// Where a value stands in an array: in a loop over groups of bodies, `first + period · group`.
-fn index_in_loop(first: usize, period: usize) -> TokenStream {
-    let group = local(loops::GROUP);
-    let [first_index, period_length] = [first, period].map(Literal::usize_unsuffixed);
-    match (first, period) {
-        (0, 1) => quote!(#group),
-        (0, _) => quote!(#period_length * #group),
-        (_, 1) => quote!(#group + #first_index),
-        _ => quote!(#period_length * #group + #first_index),
-    }
-}
-
-/// The edge of a node.
-fn edge_is_subtraction(graph: &Graph, edge: Edge) -> bool {
-    matches!(graph.node(edge.node()), Node::Subtract(..))
 }

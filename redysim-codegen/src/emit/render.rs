@@ -1,6 +1,7 @@
 //! Values and operations as Rust expressions.
 
-use super::{Emitter, FROM_F64, POSTURE, constant, edge_is_subtraction, index_in_loop, local};
+use super::loops::{ROW, carried, index_in_loop};
+use super::{Emitter, FROM_F64, POSTURE, constant, local};
 use crate::graph::{Edge, Node};
 use crate::rolled::{Constant, TEMPLATE};
 use proc_macro2::{Literal, TokenStream};
@@ -133,7 +134,7 @@ impl Emitter<'_> {
         if let Some((negative, _)) = self.loop_value(edge.node(), scope) {
             return edge.is_negative() != negative;
         }
-        let turned = self.idents[edge.node()].is_none() && edge_is_subtraction(self.graph, edge);
+        let turned = self.idents[edge.node()].is_none() && matches!(self.graph.node(edge.node()), Node::Subtract(..));
         !turned && edge.is_negative() != self.flipped[edge.node()]
     }
 
@@ -151,7 +152,7 @@ impl Emitter<'_> {
                         quote!(#k(#value))
                     }
                     Constant::Column(column) => {
-                        let (row, column) = (local(super::loops::ROW), Literal::usize_unsuffixed(column));
+                        let (row, column) = (local(ROW), Literal::usize_unsuffixed(column));
                         if negative { quote!(-#k(#row[#column])) } else { quote!(#k(#row[#column])) }
                     }
                 }
@@ -179,15 +180,15 @@ impl Emitter<'_> {
         match scope.sweep {
             Some(sweep) if sweep == place.sweep && place.group == TEMPLATE => None,
             Some(sweep) if sweep == place.sweep => {
-                let carried = super::loops::carried(ident?);
-                Some((place.negative, quote!(#carried)))
+                let last = carried(ident?);
+                Some((place.negative, quote!(#last)))
             }
             Some(_) => Some((place.negative, quote!(#ident))),
             None => {
                 let rolled = self.rolled.as_ref()?;
                 let sweep = &rolled.sweeps[place.sweep];
                 if place.group == rolled.last_group(place.sweep) {
-                    let last = super::loops::carried(ident?);
+                    let last = carried(ident?);
                     return Some((place.negative, quote!(#last)));
                 }
                 let slot = sweep.kept.iter().position(|&node| node == place.image)?;

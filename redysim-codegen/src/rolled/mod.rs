@@ -77,6 +77,24 @@ pub struct Place {
     pub negative: bool,
 }
 
+impl Sweep {
+    /// The loop of a sweep with the given nodes in each group; `None` if there are none.
+    fn new(name: &'static str, groups: usize, nodes: impl Fn(&'static str, usize) -> Vec<usize>) -> Option<Sweep> {
+        let mut template = nodes(name, TEMPLATE);
+        template.sort_unstable();
+        let first = nodes(name, 0).into_iter().min()?;
+        Some(Sweep {
+            name,
+            ascending: first < *template.first()?,
+            start: (0..groups).flat_map(|group| nodes(name, group)).min()?,
+            template,
+            carried: Vec::new(),
+            kept: Vec::new(),
+            columns: Vec::new(),
+        })
+    }
+}
+
 impl Rolled {
     /// The longest run of alike bodies, if the function is long enough for loops. `positions` says of each sine and
     /// cosine where it stands among all.
@@ -137,33 +155,20 @@ impl Rolled {
         groups: usize,
     ) -> Option<Rolled> {
         let graph = &expressions.graph;
-        let mut sweeps = Vec::new();
+        let nodes = |sweep: &'static str, group: usize| -> Vec<usize> {
+            let bodies = first + group * period..first + (group + 1) * period;
+            bodies.flat_map(|body| steps.nodes(sweep, body).iter().copied()).collect()
+        };
+        let mut sweeps: Vec<Sweep> = steps.sweeps().filter_map(|name| Sweep::new(name, groups, nodes)).collect();
+        sweeps.sort_by_key(|sweep| sweep.start);
         let mut places = HashMap::new();
-        for sweep in steps.sweeps() {
-            let nodes = |group: usize| -> Vec<usize> {
-                let bodies = first + group * period..first + (group + 1) * period;
-                bodies.flat_map(|body| steps.nodes(sweep, body).iter().copied()).collect()
-            };
-            let template = nodes(TEMPLATE);
-            if template.is_empty() {
-                continue;
-            }
+        for (index, sweep) in sweeps.iter().enumerate() {
+            let images = nodes(sweep.name, TEMPLATE);
             for group in 0..groups {
-                for (node, &image) in nodes(group).into_iter().zip(&template) {
-                    places.insert(node, Place { sweep: sweeps.len(), group, image, negative: false });
+                for (node, &image) in nodes(sweep.name, group).into_iter().zip(&images) {
+                    places.insert(node, Place { sweep: index, group, image, negative: false });
                 }
             }
-            let ascending = nodes(0)[0] < template[0];
-            let start = (0..groups).flat_map(nodes).min().unwrap_or(0);
-            let mut template = template;
-            template.sort_unstable();
-            let (carried, kept, columns) = (Vec::new(), Vec::new(), Vec::new());
-            sweeps.push(Sweep { name: sweep, ascending, start, template, carried, kept, columns });
-        }
-        sweeps.sort_by_key(|sweep| sweep.start);
-        let order: HashMap<&str, usize> = sweeps.iter().enumerate().map(|(index, sweep)| (sweep.name, index)).collect();
-        for (&node, place) in &mut places {
-            place.sweep = order[graph.step(node).map_or("", |step| step.sweep)];
         }
         let mut members: Vec<usize> = places.keys().copied().collect();
         members.sort_unstable();

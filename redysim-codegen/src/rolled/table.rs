@@ -1,5 +1,6 @@
 //! The constants of a loop: one literal where all groups have the same, a column of a table where not.
 
+use super::is_operation;
 use super::signs::Signs;
 use crate::graph::{Edge, Graph, Node};
 
@@ -18,7 +19,7 @@ pub fn constants(graph: &Graph, node: usize, image: usize, signs: &Signs) -> Vec
     let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
     let own = sign(signs.is_negative(node));
     let relative = |operand: Edge, image: Edge| {
-        let is_negative = |edge: Edge| is_value(graph.node(edge.node())) && signs.is_negative(edge.node());
+        let is_negative = |edge: Edge| is_operation(graph.node(edge.node())) && signs.is_negative(edge.node());
         sign(is_negative(operand) != is_negative(image))
     };
     match (graph.node(node), graph.node(image)) {
@@ -45,8 +46,4 @@ pub fn entered(columns: &mut Vec<Vec<f64>>, values: Vec<f64>) -> Constant {
         columns.push(values);
     }
     Constant::Column(place)
-}
-
-fn is_value(node: Node) -> bool {
-    !matches!(node, Node::Input { .. } | Node::Constant(_) | Node::Sin(_) | Node::Cos(_))
 }

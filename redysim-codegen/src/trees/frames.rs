@@ -7,8 +7,7 @@ use super::Cost;
 use super::neighbourhood::neighbourhood;
 use redysim_model::Tree;
 use redysim_model::frames::{
-    canonical, children, reframe, slide_to_child, slide_to_parent, turn_to_child, turn_to_inertia,
-    turn_to_principal_axis,
+    canonical, reframe, slide_to_child, slide_to_parent, turn_to_child, turn_to_inertia, turn_to_principal_axis,
 };
 use redysim_model::regroup::{Vanishing, base_parameters};
 
@@ -49,13 +48,13 @@ fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost) 
 }
 
 fn turns(tree: &Tree, body: usize) -> Vec<(f64, f64)> {
-    let to_children = children(tree, body).filter_map(|child| turn_to_child(tree, child));
+    let to_children = tree.children(body).filter_map(|child| turn_to_child(tree, child));
     let to_inertia = [turn_to_inertia(tree, body), turn_to_principal_axis(tree, body)].into_iter().flatten();
     to_children.chain(to_inertia).filter(|angle| angle.abs() > 1e-12).map(|angle| (angle, 0.0)).collect()
 }
 
 fn slides(tree: &Tree, body: usize) -> Vec<(f64, f64)> {
-    let to_children = children(tree, body).filter_map(|child| slide_to_child(tree, child));
+    let to_children = tree.children(body).filter_map(|child| slide_to_child(tree, child));
     let all = to_children.chain(slide_to_parent(tree, body));
     all.filter(|distance| distance.abs() > 1e-12).map(|distance| (0.0, distance)).collect()
 }

@@ -68,8 +68,7 @@ pub fn neighbourhood(tree: &Tree, body: usize) -> Neighbourhood {
         let parent =
             if index == top { part.bodies.len().checked_sub(1) } else { original.parent.and_then(|at| places[at]) };
         let mut copy = Body { parent, coordinate: part.bodies.len(), ..original.clone() };
-        let goes_on = tree.bodies[index + 1..].iter().any(|child| child.parent == Some(index));
-        if generation == Some(BELOW) && goes_on {
+        if generation == Some(BELOW) && tree.children(index).next().is_some() {
             copy.inertia = full_inertia();
         }
         part.bodies.push(copy);

@@ -7,7 +7,6 @@
 use super::Cost;
 use super::neighbourhood::neighbourhood;
 use redysim_model::Tree;
-use redysim_model::frames::children;
 
 /// The tree, with those bodies in still axes for which that lowers the cost: one after the other, or all at once.
 pub fn stilled(tree: &Tree, cost: Cost) -> Tree {
@@ -23,7 +22,7 @@ pub fn everywhere(tree: &Tree) -> Option<Tree> {
     let mut all = tree.clone();
     for body in 0..tree.bodies.len() {
         let below = tree.bodies[body].parent.is_some() && tree.bodies[body].is_parallel();
-        all.bodies[body].still = below || children(tree, body).any(|child| tree.bodies[child].is_parallel());
+        all.bodies[body].still = below || tree.children(body).any(|child| tree.bodies[child].is_parallel());
     }
     all.bodies.iter().any(|body| body.still).then_some(all)
 }
@@ -32,9 +31,9 @@ fn one_by_one(tree: &Tree, cost: Cost) -> Tree {
     let mut tree = tree.clone();
     for body in 0..tree.bodies.len() {
         let beside = |child: usize| tree.bodies[child].is_parallel();
-        let parallel_child = children(&tree, body).any(beside);
+        let parallel_child = tree.children(body).any(beside);
         let after_still = tree.bodies[body].parent.is_some_and(|parent| tree.bodies[parent].still) && beside(body);
-        let tip = children(&tree, body).next().is_none();
+        let tip = tree.children(body).next().is_none();
         if !parallel_child && !after_still && !tip {
             continue;
         }
