@@ -112,23 +112,16 @@ fn unit_vector(random: &mut Random) -> Vector3<f64> {
     }
 }
 
-/// A tree of links, grown from the base, its links then put in any order; and one to three loops between any two of them
-/// or the base.
+/// A tree of links, and one to three loops between any two of them or the base.
 fn random_model(random: &mut Random) -> Model {
     let count = 2 + random.below(8);
-    let mut order: Vec<usize> = (0..count).collect();
-    for index in (1..count).rev() {
-        order.swap(index, random.below(index + 1));
-    }
-    let mut links: Vec<Option<Link>> = vec![None; count];
-    for grown in 0..count {
-        let parent = if random.below(3) > 0 { grown.checked_sub(1) } else { random.below(grown + 1).checked_sub(1) };
+    let links = random.tree(count, |random, grown, parent| {
         let axis = Unit::new_normalize(unit_vector(random));
         let turned = Rotation3::from_axis_angle(&axis, random.within(3.0));
-        links[order[grown]] = Some(Link {
+        Link {
             name: format!("link{grown}"),
             joint_name: format!("link{grown}"),
-            parent: parent.map(|parent| order[parent]),
+            parent,
             joint: [JointKind::Revolute, JointKind::Revolute, JointKind::Prismatic, JointKind::Fixed][random.below(4)],
             placement: Pose {
                 rotation: Mat3::from_fn(|i, j| turned[(i, j)]),
@@ -140,8 +133,8 @@ fn random_model(random: &mut Random) -> Model {
             com: Vec3::zero(),
             inertia: Inertia { xx: 1.0, yy: 1.0, zz: 1.0, ..Inertia::default() },
             actuated: true,
-        });
-    }
+        }
+    });
     let mut loops = Vec::new();
     for number in 0..=random.below(3) {
         let a = random.below(count + 1);
@@ -155,7 +148,6 @@ fn random_model(random: &mut Random) -> Model {
         let joint = [CutKind::Revolute, CutKind::Spherical, CutKind::Weld][random.below(3)];
         loops.push(Loop { name: format!("loop{number}"), joint, a, b });
     }
-    let links = links.into_iter().flatten().collect();
     Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops }
 }
 

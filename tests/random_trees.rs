@@ -58,17 +58,10 @@ fn inertia(random: &mut Random) -> Inertia {
     Inertia { xx: i[(0, 0)], yy: i[(1, 1)], zz: i[(2, 2)], xy: i[(0, 1)], yz: i[(1, 2)], xz: i[(0, 2)] }
 }
 
-/// A tree that grows from the ground, its links then put in any order.
+/// A tree of up to twelve links on joints of all kinds.
 fn random_model(random: &mut Random) -> Model {
     let count = 1 + random.below(12);
-    let mut order: Vec<usize> = (0..count).collect();
-    for index in (1..count).rev() {
-        order.swap(index, random.below(index + 1));
-    }
-    let mut links: Vec<Option<Link>> = vec![None; count];
-    for grown in 0..count {
-        // Mostly the link before, so that chains get long; else any link, or the ground.
-        let parent = if random.below(3) > 0 { grown.checked_sub(1) } else { random.below(grown + 1).checked_sub(1) };
+    let links = random.tree(count, |random, grown, parent| {
         let joint = match random.below(5) {
             0 if grown > 0 => JointKind::Fixed,
             1 => JointKind::Prismatic,
@@ -76,10 +69,10 @@ fn random_model(random: &mut Random) -> Model {
         };
         let name = format!("link{grown}");
         let turned = rotation(random);
-        links[order[grown]] = Some(Link {
+        Link {
             joint_name: name.clone(),
             name,
-            parent: parent.map(|parent| order[parent]),
+            parent,
             joint,
             placement: Pose {
                 rotation: Mat3::from_fn(|i, j| turned[(i, j)]),
@@ -91,9 +84,8 @@ fn random_model(random: &mut Random) -> Model {
             com: Vec3::from_fn(|_| random.within(0.2)),
             inertia: inertia(random),
             actuated: true,
-        });
-    }
-    let links = links.into_iter().flatten().collect();
+        }
+    });
     Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops: Vec::new() }
 }
 

@@ -43,4 +43,19 @@ impl Random {
     pub fn state(&mut self, dof: usize) -> State {
         State { q: self.vector(dof, PI), v: self.vector(dof, 3.0), a: self.vector(dof, 10.0) }
     }
+
+    /// Links of a tree that grows from the ground, then put in any order: mostly each on the one before, so that chains get
+    /// long, else on any, or on the ground. `link` makes the `n`th to grow, given its parent's place in the result.
+    pub fn tree<L>(&mut self, count: usize, mut link: impl FnMut(&mut Self, usize, Option<usize>) -> L) -> Vec<L> {
+        let mut order: Vec<usize> = (0..count).collect();
+        for index in (1..count).rev() {
+            order.swap(index, self.below(index + 1));
+        }
+        let mut links: Vec<Option<L>> = (0..count).map(|_| None).collect();
+        for grown in 0..count {
+            let parent = if self.below(3) > 0 { grown.checked_sub(1) } else { self.below(grown + 1).checked_sub(1) };
+            links[order[grown]] = Some(link(self, grown, parent.map(|parent| order[parent])));
+        }
+        links.into_iter().flatten().collect()
+    }
 }
