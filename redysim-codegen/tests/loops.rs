@@ -27,7 +27,7 @@ fn shipped(name: &str) -> Model {
 /// Names of the functions that have loops.
 fn with_loops(model: &Model, passes: &Passes) -> Vec<String> {
     let functions = functions(model, passes).into_iter();
-    functions.filter(|(_, body)| body.contains("array::from_fn")).map(|(name, _)| name).collect()
+    functions.filter(|(_, body)| body.contains("forgroupin")).map(|(name, _)| name).collect()
 }
 
 #[test]

@@ -33,14 +33,18 @@ impl Emitter<'_> {
     /// The loop for sweep number `number`:
     ///
     /// ```text
-    /// let mut last_w_a_x = w_link2_x;                                        // what goes from body to body
-    /// let outward: [[S; 2]; 38] = core::array::from_fn(|group| {             // what is read elsewhere
+    /// let mut last_w_a_x = w_link2_x;                       // what goes from body to body
+    /// let mut outward = [[S::zero(); 2]; 38];               // what is read elsewhere
+    /// for group in 0..38 {
     ///     let constants = &CONSTANTS[group];
     ///     let w_a_x = …;
     ///     last_w_a_x = w_a_x;
-    ///     [force_a_x, moment_a_z]
-    /// });
+    ///     outward[group] = [force_a_x, moment_a_z];
+    /// }
     /// ```
+    ///
+    /// An array from a closure would not have to be set to zero first, but where the compiler does not inline the closure,
+    /// what goes from body to body goes through memory.
     pub fn rolled_sweep(&self, number: usize) -> Statement {
         let rolled = self.rolled.as_ref().expect("only loops are rolled");
         let sweep = &rolled.sweeps[number];
@@ -64,24 +68,26 @@ impl Emitter<'_> {
         let lasts: Vec<Ident> = values.iter().map(|ident| carried(ident)).collect();
         let (array, group, row) = (&self.arrays[number], local(GROUP), local(ROW));
         let kept: Vec<&Ident> = sweep.kept.iter().filter_map(|&node| ident(node)).collect();
-        let [groups, width, last] = [rolled.groups, kept.len(), rolled.groups - 1].map(Literal::usize_unsuffixed);
-        let reversed = (!sweep.ascending).then(|| quote!(let #group = #last - #group;));
+        let [groups, width] = [rolled.groups, kept.len()].map(Literal::usize_unsuffixed);
+        let range = if sweep.ascending { quote!(0..#groups) } else { quote!((0..#groups).rev()) };
         let reads = self.reads_of_other_loops(rolled, number);
         let table = table(sweep, rolled.groups);
         let constants = (!sweep.columns.is_empty()).then(|| quote!(let #row = &CONSTANTS[#group];));
+        let keeping = (!kept.is_empty()).then(|| quote!(let mut #array = [[S::zero(); #width]; #groups];));
+        let keep = (!kept.is_empty()).then(|| quote!(#array[#group] = [#(#kept),*];));
         let tokens = quote! {
             #(let mut #lasts = #starts;)*
-            let #array: [[S; #width]; #groups] = {
+            #keeping
+            {
                 #table
-                ::core::array::from_fn(|#group| {
-                    #reversed
+                for #group in #range {
                     #constants
                     #reads
                     #code
                     #(#lasts = #values;)*
-                    [#(#kept),*]
-                })
-            };
+                    #keep
+                }
+            }
         };
         let own = |node: &usize| sweep.template.binary_search(node).is_err();
         let needs = statements.into_iter().flat_map(|statement| statement.needs).filter(own);
@@ -104,9 +110,8 @@ impl Emitter<'_> {
                 })
                 .collect();
             let any = names.iter().any(|name| name.to_string() != "_");
-            let (group, last) = (local(GROUP), Literal::usize_unsuffixed(rolled.groups - 1));
-            let turn = if other.ascending { quote!(#group) } else { quote!(#last - #group) };
-            any.then(|| quote!(let [#(#names),*] = #array[#turn];))
+            let group = local(GROUP);
+            any.then(|| quote!(let [#(#names),*] = #array[#group];))
         });
         reads.flatten().collect()
     }

@@ -192,10 +192,9 @@ impl Emitter<'_> {
                     return Some((place.negative, quote!(#last)));
                 }
                 let slot = sweep.kept.iter().position(|&node| node == place.image)?;
-                let slot = Literal::usize_unsuffixed(slot);
-                let turn = Literal::usize_unsuffixed(rolled.turn(place));
+                let [group, slot] = [place.group, slot].map(Literal::usize_unsuffixed);
                 let array = &self.arrays[place.sweep];
-                Some((place.negative, quote!(#array[#turn][#slot])))
+                Some((place.negative, quote!(#array[#group][#slot])))
             }
         }
     }

@@ -134,11 +134,6 @@ impl Rolled {
         if self.sweeps[sweep].ascending { self.groups - 1 } else { 0 }
     }
 
-    /// At which turn of its loop a value is computed.
-    pub fn turn(&self, place: Place) -> usize {
-        if self.sweeps[place.sweep].ascending { place.group } else { self.groups - 1 - place.group }
-    }
-
     /// The constant that is operand `operand` of a node of a template.
     pub fn constant(&self, node: usize, operand: usize) -> Option<Constant> {
         self.constants.get(&(node, operand)).copied()
