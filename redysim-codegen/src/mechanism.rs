@@ -233,11 +233,30 @@ fn head(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> Toke
 fn trait_impl(signature: &Signature, outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let trait_name = format_ident!("{}", signature.trait_name);
     let method = method(signature, outline, runtime);
+    let tangent = tangent(signature, runtime);
     quote! {
         impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
             #method
+            #tangent
         }
     }
+}
+
+/// The derivative of a function whose trait asks for one: the same code over dual numbers.
+fn tangent(signature: &Signature, runtime: &TokenStream) -> Option<TokenStream> {
+    if !matches!(signature.name, "inverse_dynamics" | "forward_dynamics") {
+        return None;
+    }
+    let name = format_ident!("{}_tangent", signature.name);
+    Some(quote! {
+        fn #name(
+            &self,
+            at: #runtime::mechanism::Arguments<'_, S, Self>,
+            slopes: #runtime::mechanism::Arguments<'_, S, Self>,
+        ) -> ::core::option::Option<Self::Velocities> {
+            ::core::option::Option::Some(#runtime::dual::#name(self, at, slopes))
+        }
+    })
 }
 
 /// The method of a trait that is one of the type's own functions.

@@ -3,6 +3,8 @@
 use crate::denoc::{self, Method};
 use crate::model::Model;
 use crate::tree::Tree;
+use redysim_runtime::dual;
+use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
     BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
     MassMatrix, MechanicalEnergy, Mechanism, Scalar,
@@ -84,6 +86,9 @@ impl<S: Scalar> InverseDynamics<S> for GenericMechanism {
         self.check(&[("q", q), ("v", v), ("a", a)]);
         denoc::inverse_dynamics(&self.tree, q, v, a)
     }
+    fn inverse_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
+        Some(dual::inverse_dynamics_tangent(self, at, slopes))
+    }
 }
 
 impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
@@ -91,6 +96,9 @@ impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
     fn forward_dynamics(&self, q: &Vec<S>, v: &Vec<S>, tau: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q), ("v", v), ("tau", tau)]);
         denoc::forward_dynamics(Method::Recursion, &self.tree, q, v, tau)
+    }
+    fn forward_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
+        Some(dual::forward_dynamics_tangent(self, at, slopes))
     }
 }
 

@@ -15,6 +15,18 @@ use crate::{InverseDynamics, Mechanism, Real, Scalar, Trajectory, Vector};
 pub trait TorqueLaw<S: Scalar, M: Mechanism<S>> {
     /// The joint forces at time `t` (s) for coordinates `q` and velocities `v`.
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities;
+
+    /// The derivative of the joint forces along `(dq, dv)`, (∂τ/∂q) dq + (∂τ/∂v) dv, for the Jacobians of implicit
+    /// integrators. `None`, as unless told, leaves it to differences of [`torque`](Self::torque).
+    fn torque_tangent(
+        &mut self,
+        t: S,
+        at: (&M::Coordinates, &M::Velocities),
+        slopes: (&M::Coordinates, &M::Velocities),
+    ) -> Option<M::Velocities> {
+        let _ = (t, at, slopes);
+        None
+    }
 }
 
 impl<S, M, F> TorqueLaw<S, M> for F
@@ -41,6 +53,15 @@ impl<S: Scalar, M: Mechanism<S>> TorqueLaw<S, M> for Free {
     fn torque(&mut self, _t: S, _q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |_| S::zero())
     }
+
+    fn torque_tangent(
+        &mut self,
+        _t: S,
+        _at: (&M::Coordinates, &M::Velocities),
+        (_, dv): (&M::Coordinates, &M::Velocities),
+    ) -> Option<M::Velocities> {
+        Some(M::Velocities::from_fn(dv.as_ref().len(), |_| S::zero()))
+    }
 }
 
 /// A spring to a set point: τ = Kp (q_d − q).
@@ -55,6 +76,15 @@ pub struct Proportional<Q, V> {
 impl<S: Real, M: Mechanism<S>> TorqueLaw<S, M> for Proportional<M::Coordinates, M::Velocities> {
     fn torque(&mut self, _t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |i| entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)))
+    }
+
+    fn torque_tangent(
+        &mut self,
+        _t: S,
+        _at: (&M::Coordinates, &M::Velocities),
+        (dq, dv): (&M::Coordinates, &M::Velocities),
+    ) -> Option<M::Velocities> {
+        Some(M::Velocities::from_fn(dv.as_ref().len(), |i| -entry(&self.kp, i) * entry(dq, i)))
     }
 }
 
@@ -75,6 +105,20 @@ impl<S: Real, M: Mechanism<S>> TorqueLaw<S, M> for ProportionalDerivative<M::Coo
             entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)) - entry(&self.kd, i) * entry(v, i)
         })
     }
+
+    fn torque_tangent(
+        &mut self,
+        _t: S,
+        _at: (&M::Coordinates, &M::Velocities),
+        (dq, dv): (&M::Coordinates, &M::Velocities),
+    ) -> Option<M::Velocities> {
+        Some(spring_and_damper(&self.kp, &self.kd, dq, dv))
+    }
+}
+
+/// −Kp dq − Kd dv.
+fn spring_and_damper<S: Real, Q: Vector<S>, V: Vector<S>>(kp: &V, kd: &V, dq: &Q, dv: &V) -> V {
+    V::from_fn(dv.as_ref().len(), |i| -entry(kp, i) * entry(dq, i) - entry(kd, i) * entry(dv, i))
 }
 
 /// A spring and a damper to a moving target: τ = Kp (q_d(t) − q) + Kd (q̇_d(t) − q̇).
@@ -101,6 +145,15 @@ where
                 + entry(&self.kd, i) * (entry(&desired.v, i) - entry(v, i))
         })
     }
+
+    fn torque_tangent(
+        &mut self,
+        _t: S,
+        _at: (&M::Coordinates, &M::Velocities),
+        (dq, dv): (&M::Coordinates, &M::Velocities),
+    ) -> Option<M::Velocities> {
+        Some(spring_and_damper(&self.kp, &self.kd, dq, dv))
+    }
 }
 
 /// Computed torque: τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), with the error e = q_d(t) − q.
@@ -120,6 +173,22 @@ pub struct ComputedTorque<'m, M, T, V> {
     pub kd: V,
 }
 
+impl<N, T, V> ComputedTorque<'_, N, T, V> {
+    /// q̈_d + Kd ė + Kp e.
+    fn acceleration<S: Real, Q: Vector<S>>(&self, t: S, q: &Q, v: &V) -> V
+    where
+        T: Trajectory<S, Q, V>,
+        V: Vector<S>,
+    {
+        let desired = self.trajectory.at(t);
+        V::from_fn(v.as_ref().len(), |i| {
+            entry(&desired.a, i)
+                + entry(&self.kd, i) * (entry(&desired.v, i) - entry(v, i))
+                + entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, i))
+        })
+    }
+}
+
 impl<S, M, N, T> TorqueLaw<S, M> for ComputedTorque<'_, N, T, M::Velocities>
 where
     S: Real,
@@ -128,12 +197,17 @@ where
     T: Trajectory<S, M::Coordinates, M::Velocities>,
 {
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
-        let desired = self.trajectory.at(t);
-        let a = M::Velocities::from_fn(v.as_ref().len(), |i| {
-            entry(&desired.a, i)
-                + entry(&self.kd, i) * (entry(&desired.v, i) - entry(v, i))
-                + entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, i))
-        });
-        self.mechanism.inverse_dynamics(q, v, &a)
+        self.mechanism.inverse_dynamics(q, v, &self.acceleration(t, q, v))
+    }
+
+    fn torque_tangent(
+        &mut self,
+        t: S,
+        (q, v): (&M::Coordinates, &M::Velocities),
+        (dq, dv): (&M::Coordinates, &M::Velocities),
+    ) -> Option<M::Velocities> {
+        let a = self.acceleration(t, q, v);
+        let da = spring_and_damper(&self.kp, &self.kd, dq, dv);
+        self.mechanism.inverse_dynamics_tangent((q, v, &a), (dq, dv, &da))
     }
 }

@@ -15,6 +15,7 @@ extern crate std;
 pub mod batch;
 pub mod closed_loop;
 pub mod control;
+pub mod dual;
 pub mod integrate;
 pub mod lanes;
 pub mod mechanism;
@@ -31,6 +32,7 @@ pub use closed_loop::{
     Projection, Rows, Stabilisation,
 };
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
+pub use dual::Dual;
 pub use integrate::{IntegrationError, Integrator, Ode, Ode4, Ode5, Ode45, Solution, Statistics, Step};
 pub use mechanism::{
     BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,

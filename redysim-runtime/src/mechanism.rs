@@ -34,10 +34,25 @@ pub trait Mechanism<S: Scalar> {
     fn coordinate_rates(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Coordinates;
 }
 
+/// Coordinates, velocities, and accelerations or joint forces of the mechanism `M`, or derivatives of them.
+pub type Arguments<'a, S, M> =
+    (&'a <M as Mechanism<S>>::Coordinates, &'a <M as Mechanism<S>>::Velocities, &'a <M as Mechanism<S>>::Velocities);
+
 /// Joint forces from motion.
 pub trait InverseDynamics<S: Scalar>: Mechanism<S> {
     /// τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.
     fn inverse_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, a: &Self::Velocities) -> Self::Velocities;
+
+    /// The derivative of τ along `slopes`, (∂τ/∂q) dq + (∂τ/∂v) dv + (∂τ/∂a) da at `at` = (q, v, a). Compiled types and
+    /// the generic path compute it with [dual numbers](crate::dual); `None`, as unless told, leaves it to differences.
+    fn inverse_dynamics_tangent(
+        &self,
+        at: Arguments<'_, S, Self>,
+        slopes: Arguments<'_, S, Self>,
+    ) -> Option<Self::Velocities> {
+        let _ = (at, slopes);
+        None
+    }
 }
 
 /// Accelerations from joint forces.
@@ -45,6 +60,17 @@ pub trait ForwardDynamics<S: Scalar>: Mechanism<S> {
     /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree (loops, if any, open).
     fn forward_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, tau: &Self::Velocities)
     -> Self::Velocities;
+
+    /// The derivative of a along `slopes`, (∂a/∂q) dq + (∂a/∂v) dv + (∂a/∂τ) dτ at `at` = (q, v, τ). Compiled types and
+    /// the generic path compute it with [dual numbers](crate::dual); `None`, as unless told, leaves it to differences.
+    fn forward_dynamics_tangent(
+        &self,
+        at: Arguments<'_, S, Self>,
+        slopes: Arguments<'_, S, Self>,
+    ) -> Option<Self::Velocities> {
+        let _ = (at, slopes);
+        None
+    }
 }
 
 /// The generalised inertia matrix.

@@ -93,10 +93,63 @@ where
         let tau = self.law.torque(t, &q, &v);
         let rates = self.mechanism.coordinate_rates(&q, &v);
         let accelerations = self.mechanism.forward_dynamics(&q, &v, &tau);
-        let power = tau.as_ref().iter().zip(v.as_ref()).fold(S::zero(), |sum, (&tau, &v)| sum + tau * v);
-        let values = rates.as_ref().iter().chain(accelerations.as_ref()).chain(once(&power));
-        for (rate, &value) in rate.as_mut().iter_mut().zip(values) {
-            *rate = value;
-        }
+        write(rates.as_ref().iter().chain(accelerations.as_ref()).chain(once(&dot(&tau, &v))), rate);
     }
+
+    fn tangent(&mut self, t: S, state: &M::State, direction: &M::State, slope: &mut M::State) -> bool {
+        let SimulationState { q, v, .. } = self.split(state);
+        let SimulationState { q: dq, v: dv, .. } = self.split(direction);
+        let tau = self.law.torque(t, &q, &v);
+        let dtau = torque_tangent(&mut self.law, t, (&q, &v), (&dq, &dv));
+        let Some(da) = self.mechanism.forward_dynamics_tangent((&q, &v, &tau), (&dq, &dv, &dtau)) else {
+            return false;
+        };
+        // N(q) v is linear in v; what it does with q matters to joints of more than one freedom only, of which there are
+        // none, so that N is constant.
+        let drates = self.mechanism.coordinate_rates(&q, &dv);
+        write(drates.as_ref().iter().chain(da.as_ref()).chain(once(&(dot(&dtau, &v) + dot(&tau, &dv)))), slope);
+        true
+    }
+
+    fn coordinate_rates(&mut self, _t: S, state: &M::State, rates: &mut M::State) -> usize {
+        let SimulationState { q, v, .. } = self.split(state);
+        write(self.mechanism.coordinate_rates(&q, &v).as_ref().iter(), rates);
+        self.mechanism.nq()
+    }
+}
+
+fn write<'a, S: Real + 'a, Y: Vector<S>>(values: impl Iterator<Item = &'a S>, state: &mut Y) {
+    for (element, &value) in state.as_mut().iter_mut().zip(values) {
+        *element = value;
+    }
+}
+
+fn dot<S: Real, V: Vector<S>>(a: &V, b: &V) -> S {
+    a.as_ref().iter().zip(b.as_ref()).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+}
+
+/// The derivative of a law's joint forces along `(dq, dv)`: what the law says, or else central differences.
+fn torque_tangent<S: Real, M: Mechanism<S>>(
+    law: &mut impl TorqueLaw<S, M>,
+    t: S,
+    (q, v): (&M::Coordinates, &M::Velocities),
+    (dq, dv): (&M::Coordinates, &M::Velocities),
+) -> M::Velocities {
+    if let Some(dtau) = law.torque_tangent(t, (q, v), (dq, dv)) {
+        return dtau;
+    }
+    let largest = |values: &[S]| values.iter().fold(S::zero(), |largest, value| largest.maximum(value.abs()));
+    let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref()).maximum(largest(v.as_ref())));
+    if slope == S::zero() {
+        return M::Velocities::from_fn(v.as_ref().len(), |_| S::zero());
+    }
+    // The step at which truncation and rounding of central differences are alike.
+    let step = S::EPSILON.powf(S::from_f64(1.0 / 3.0)) * state.maximum(S::one()) / slope;
+    let mut torque_at = |step: S| {
+        let q = M::Coordinates::from_fn(q.as_ref().len(), |i| entry(q, i) + step * entry(dq, i));
+        let v = M::Velocities::from_fn(v.as_ref().len(), |i| entry(v, i) + step * entry(dv, i));
+        law.torque(t, &q, &v)
+    };
+    let (ahead, behind) = (torque_at(step), torque_at(-step));
+    M::Velocities::from_fn(v.as_ref().len(), |i| (entry(&ahead, i) - entry(&behind, i)) / (step + step))
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use redysim_runtime::integrate::tableau::DORMAND_PRINCE;
+use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, ErrorEstimate};
 use redysim_runtime::{Integrator, Ode5, Ode45, Statistics, Step};
 
 fn decay(_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]) {
@@ -86,7 +86,7 @@ fn every_step_costs_six_evaluations_and_the_start_one() {
     assert_eq!(evaluations, calls);
 
     let end = Ode5::new(0.01).integrate(&mut oscillators, (0.0, 3.0), start).unwrap();
-    assert_eq!(end.statistics, Statistics { steps: 300, rejected: 0, evaluations: 1801, corrections: 0 });
+    assert_eq!(end.statistics, Statistics { steps: 300, evaluations: 1801, ..Statistics::default() });
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn asked_times_cost_no_evaluations_and_change_no_step() {
 fn without_reason_for_smaller_ones_steps_are_a_tenth_of_the_interval() {
     let mut parabola = |t: f64, _y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = 2.0 * t;
     let end = Ode45::new().integrate(&mut parabola, (0.0, 5.0), [0.0]).unwrap();
-    assert_eq!(end.statistics, Statistics { steps: 10, rejected: 0, evaluations: 61, corrections: 0 });
+    assert_eq!(end.statistics, Statistics { steps: 10, evaluations: 61, ..Statistics::default() });
     assert!((end.y[0] - 25.0).abs() < 1e-14);
     let end = Ode45::new().max_step(0.1).integrate(&mut parabola, (0.0, 5.0), [0.0]).unwrap();
     assert_eq!(end.statistics.steps, 50);
@@ -116,7 +116,8 @@ fn linear_step(z: f64) -> (f64, f64) {
     for row in DORMAND_PRINCE.rows {
         states.push(1.0 + z * dot(row, &states));
     }
-    (states[6], z * dot(&DORMAND_PRINCE.error, &states))
+    let ErrorEstimate::Embedded(error) = DORMAND_PRINCE.error else { panic!("one embedded formula") };
+    (states[6], z * dot(&error, &states))
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

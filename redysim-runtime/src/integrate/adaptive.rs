@@ -1,39 +1,95 @@
 //! Steps of a size that follows from tolerances, by the rules of L. F. Shampine and M. W. Reichelt, *The MATLAB ODE
 //! Suite*, SIAM J. Sci. Comput. 18 (1997).
 
-use core::ops::ControlFlow;
+use core::marker::PhantomData;
 
-use super::explicit::Explicit;
 use super::interval::Interval;
-use super::tableau::Tableau;
-use super::tolerance::Tolerances;
-use super::{IntegrationError, Ode, Solution, Step};
+use super::method::{Method, SAFETY, Stepper, root};
+use super::progress::Progress;
+use super::tolerance::{Absolute, Tolerances};
+use super::{IntegrationError, Integrator, Observer, Ode, Solution};
 use crate::{Real, Vector};
 
-/// A new step aims at an error of 0.8⁵ of the tolerance, so that it rarely has to be tried again.
-const SAFETY: f64 = 0.8;
-/// The largest factor between the sizes of two steps.
-const LARGEST_GROWTH: f64 = 5.0;
-/// The smallest factor after the first failure of a step. A second failure says that the estimate cannot be trusted;
-/// from then on the size is halved.
-const SMALLEST_SHRINKAGE: f64 = 0.1;
 /// A step that would end so near to the end is stretched to it, rather than followed by a tiny one.
 const STRETCH: f64 = 1.1;
 
-/// What the steps are chosen by.
+/// A method with steps chosen from tolerances, as MATLAB chooses them: see [`Ode45`](super::Ode45) and its like.
+///
+/// A step is accepted when its estimated error e satisfies, for every component i,
+/// |e_i| ≤ max(rtol max(|y_i|, |y_new,i|), atol_i). Errors of steps add up, and the equation may amplify them: ask for
+/// less than is allowed at the end. First step, step control and defaults are those of the MATLAB ODE suite.
+///
+/// A derivative that is infinite or not a number at an attempted step makes the step smaller; only where that does not
+/// help, it is an error.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Options<'a, S> {
-    pub tolerances: Tolerances<'a, S>,
-    pub initial_step: Option<S>,
-    pub max_step: Option<S>,
-    pub max_steps: u64,
+pub struct Adaptive<'a, S, M> {
+    tolerances: Tolerances<'a, S>,
+    initial_step: Option<S>,
+    max_step: Option<S>,
+    max_steps: u64,
+    method: PhantomData<M>,
 }
 
-impl<S: Real> Options<'_, S> {
+impl<'a, S: Real, M> Adaptive<'a, S, M> {
+    /// The method with MATLAB's defaults: rtol 10⁻³, atol 10⁻⁶, steps of at most a tenth of the interval.
+    pub fn new() -> Self {
+        Self {
+            tolerances: Tolerances { relative: S::from_f64(1e-3), absolute: Absolute::All(S::from_f64(1e-6)) },
+            initial_step: None,
+            max_step: None,
+            max_steps: 100_000_000,
+            method: PhantomData,
+        }
+    }
+
+    /// Sets the relative tolerance, at least 100 roundoff units (2.2·10⁻¹⁴ for `f64`, 1.2·10⁻⁵ for `f32`): no step
+    /// could keep a smaller one, so it is an error where MATLAB warns and takes the smallest.
+    pub fn rtol(mut self, tolerance: S) -> Self {
+        self.tolerances.relative = tolerance;
+        self
+    }
+
+    /// Sets one absolute tolerance for all components, > 0, in the units of the state.
+    pub fn atol(mut self, tolerance: S) -> Self {
+        self.tolerances.absolute = Absolute::All(tolerance);
+        self
+    }
+
+    /// Sets one absolute tolerance, > 0, for each component.
+    pub fn atol_each(mut self, tolerances: &'a [S]) -> Self {
+        self.tolerances.absolute = Absolute::Each(tolerances);
+        self
+    }
+
+    /// Sets the size of the first step to try, > 0; unless told, it follows from the derivative at the start.
+    pub fn initial_step(mut self, size: S) -> Self {
+        self.initial_step = Some(size);
+        self
+    }
+
+    /// Sets the largest size of a step, > 0; unless told, a tenth of the interval. The last step may be a tenth longer,
+    /// so that it ends at the end.
+    pub fn max_step(mut self, size: S) -> Self {
+        self.max_step = Some(size);
+        self
+    }
+
+    /// Gives up after `max_steps` steps, accepted or rejected; 10⁸ unless told.
+    pub fn max_steps(mut self, max_steps: u64) -> Self {
+        self.max_steps = max_steps;
+        self
+    }
+
     fn check(&self, len: usize) -> Result<(), IntegrationError<S>> {
         self.tolerances.check(len)?;
         check_step("initial step", self.initial_step)?;
         check_step("maximum step", self.max_step)
+    }
+}
+
+impl<S: Real, M> Default for Adaptive<'_, S, M> {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
@@ -45,75 +101,69 @@ pub(super) fn check_step<S: Real>(option: &'static str, size: Option<S>) -> Resu
     }
 }
 
-/// Integrates with steps whose estimated errors are within the tolerances.
-pub(super) fn integrate<S: Real, Y: Vector<S>, const STAGES: usize>(
-    tableau: &Tableau<STAGES>,
-    options: &Options<'_, S>,
-    ode: &mut (impl Ode<S, Y> + ?Sized),
-    interval: Interval<S>,
-    start: Y,
-    mut on_step: impl FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
-) -> Result<Solution<S, Y>, IntegrationError<S>> {
-    options.check(start.as_ref().len())?;
-    let rtol = options.tolerances.relative;
-    let exponent = S::one() / S::from_f64(f64::from(tableau.error_order + 1));
-    let largest = options.max_step.unwrap_or(S::from_f64(0.1) * interval.length());
+impl<S: Real, M: Method> Integrator<S> for Adaptive<'_, S, M> {
+    fn run<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        observer: &mut impl Observer<S, Y>,
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        let interval = Interval::new(interval)?;
+        self.check(start.as_ref().len())?;
+        let rtol = self.tolerances.relative;
+        let largest = self.max_step.unwrap_or(S::from_f64(0.1) * interval.length());
 
-    let mut state = Explicit::new(tableau, ode, interval.from, start)?;
-    let mut size = options.initial_step.unwrap_or_else(|| {
-        // A first-order step of this size would change the state by 0.8 rtol^exponent of itself.
-        let rate = options.tolerances.norm(state.derivative(), &state.y, &state.y);
-        S::from_f64(SAFETY) * rtol.powf(exponent) / rate
-    });
-    let (mut steps, mut rejected) = (0, 0);
-    loop {
-        let smallest = interval.smallest_step(state.t);
-        size = size.minimum(largest).maximum(smallest);
-        let mut failed = false;
-        let error = loop {
-            if steps + rejected >= options.max_steps {
-                return Err(IntegrationError::TooManySteps { t: state.t, limit: options.max_steps });
-            }
-            let rest = (interval.to - state.t).abs();
-            let last = S::from_f64(STRETCH) * size >= rest;
-            let t = if last { interval.to } else { interval.advance(state.t, size) };
-            if last {
-                size = rest;
-            }
-            if t == state.t {
-                return Err(IntegrationError::StepTooSmall { t, step: size });
-            }
-            let (error, fault) = match state.attempt(ode, t) {
-                Ok(()) => (state.error(&options.tolerances), IntegrationError::StepTooSmall { t: state.t, step: size }),
-                Err(fault) => (S::from_f64(f64::INFINITY), fault),
+        let mut stepper = M::start(ode, interval.from, start)?;
+        let mut size = self.initial_step.unwrap_or_else(|| {
+            // A first-order step of this size would change the state by 0.8 rtol^(1/exponent) of itself.
+            let y = &stepper.progress().y;
+            let rate = self.tolerances.norm(stepper.rate(), y, y);
+            S::from_f64(SAFETY) * rtol.powf(root(stepper.error_exponent())) / rate
+        });
+        loop {
+            let from = stepper.progress().t;
+            let smallest = interval.smallest_step(from);
+            size = size.minimum(largest).maximum(smallest);
+            let mut failures = 0;
+            let error = loop {
+                let statistics = &mut stepper.progress_mut().statistics;
+                if statistics.steps + statistics.rejected >= self.max_steps {
+                    return Err(IntegrationError::TooManySteps { t: from, limit: self.max_steps });
+                }
+                let rest = (interval.to - from).abs();
+                let last = S::from_f64(STRETCH) * size >= rest;
+                let t = if last { interval.to } else { interval.advance(from, size) };
+                if last {
+                    size = rest;
+                }
+                if t == from {
+                    return Err(IntegrationError::StepTooSmall { t, step: size });
+                }
+                let (error, fault) = match stepper.attempt(ode, t, &self.tolerances) {
+                    Ok(()) => (stepper.error(&self.tolerances), IntegrationError::StepTooSmall { t: from, step: size }),
+                    Err(fault) => (S::from_f64(f64::INFINITY), fault),
+                };
+                if error <= rtol {
+                    break error;
+                }
+                if size <= smallest {
+                    return Err(fault);
+                }
+                stepper.progress_mut().statistics.rejected += 1;
+                size = smallest.maximum(stepper.shrinkage(rtol / error, failures) * size);
+                failures += 1;
             };
-            if error <= rtol {
-                break error;
+            let flow = super::show(&mut stepper, ode, observer)?;
+            stepper.accept();
+            let Progress { t, y, statistics, .. } = stepper.progress();
+            if flow.is_break() || *t == interval.to {
+                return Ok(Solution { t: *t, y: y.clone(), statistics: *statistics });
             }
-            if size <= smallest {
-                return Err(fault);
+            stepper.renew(ode)?;
+            if failures == 0 {
+                size = stepper.growth(rtol / error) * size;
             }
-            rejected += 1;
-            let shrinkage = if failed {
-                S::from_f64(0.5)
-            } else {
-                (S::from_f64(SAFETY) * (rtol / error).powf(exponent)).maximum(S::from_f64(SMALLEST_SHRINKAGE))
-            };
-            size = smallest.maximum(shrinkage * size);
-            failed = true;
-        };
-        steps += 1;
-        state.finish(ode)?;
-        let flow = on_step(&state.step());
-        state.accept();
-        if flow.is_break() || state.t == interval.to {
-            let statistics = state.statistics(steps, rejected);
-            return Ok(Solution { t: state.t, y: state.y, statistics });
-        }
-        state.renew(ode)?;
-        if !failed {
-            let growth = S::from_f64(SAFETY) * (rtol / error).powf(exponent);
-            size = growth.minimum(S::from_f64(LARGEST_GROWTH)) * size;
         }
     }
 }

@@ -1,36 +1,42 @@
 //! Answers at the times a caller asks for.
 
+use core::ops::ControlFlow;
+
 use super::interval::Interval;
-use super::{IntegrationError, Step};
+use super::{IntegrationError, Observer, Step};
 use crate::{Real, Vector};
 
 /// The times still to be answered. Each is checked when the iterator yields it.
-pub(super) struct AskedTimes<I, S> {
+pub(super) struct AskedTimes<I, S, Y, F> {
     times: I,
     next: Option<S>,
     interval: Interval<S>,
+    /// Room for the answers.
+    y: Y,
+    output: F,
+    fault: Option<IntegrationError<S>>,
 }
 
-impl<S: Real, I: Iterator<Item = S>> AskedTimes<I, S> {
-    pub fn new(times: I, interval: Interval<S>) -> Result<Self, IntegrationError<S>> {
-        let mut asked = Self { times, next: None, interval };
+impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> AskedTimes<I, S, Y, F> {
+    pub fn new(times: I, interval: Interval<S>, y: Y, output: F) -> Result<Self, IntegrationError<S>> {
+        let mut asked = Self { times, next: None, interval, y, output, fault: None };
         asked.pull(interval.from)?;
         Ok(asked)
     }
 
-    /// Calls `output` for every asked time that `step` covers; `y` is room for the answers.
-    pub fn answer<Y: Vector<S>>(
-        &mut self,
-        step: &Step<'_, S, Y>,
-        y: &mut Y,
-        output: &mut impl FnMut(S, &Y),
-    ) -> Result<(), IntegrationError<S>> {
+    /// The asked time that could not be answered, if there was one.
+    pub fn fault(self) -> Option<IntegrationError<S>> {
+        self.fault
+    }
+
+    /// Calls `output` for every asked time that `step` covers.
+    fn answer(&mut self, step: &Step<'_, S, Y>) -> Result<(), IntegrationError<S>> {
         while let Some(t) = self.next {
             if !self.interval.reaches(step.end().0, t) {
                 break;
             }
-            step.write_at(t, y);
-            output(t, y);
+            step.write_at(t, &mut self.y);
+            (self.output)(t, &self.y);
             self.pull(t)?;
         }
         Ok(())
@@ -46,6 +52,23 @@ impl<S: Real, I: Iterator<Item = S>> AskedTimes<I, S> {
                 Err(IntegrationError::AskedTimesOutOfOrder { t, previous })
             }
             _ => Ok(()),
+        }
+    }
+}
+
+impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> Observer<S, Y> for AskedTimes<I, S, Y, F> {
+    /// A time that follows the next one within the step counts as within, too.
+    fn looks_within(&self, _from: S, to: S) -> bool {
+        self.next.is_some_and(|t| t != to && self.interval.reaches(to, t))
+    }
+
+    fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()> {
+        match self.answer(step) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(fault) => {
+                self.fault = Some(fault);
+                ControlFlow::Break(())
+            }
         }
     }
 }

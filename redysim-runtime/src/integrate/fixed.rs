@@ -1,48 +1,73 @@
 //! Steps of one size.
 
-use core::ops::ControlFlow;
+use core::marker::PhantomData;
 
-use super::explicit::Explicit;
+use super::adaptive::check_step;
 use super::interval::Interval;
-use super::tableau::Tableau;
-use super::{IntegrationError, Ode, Solution, Step};
+use super::method::{Method, Stepper};
+use super::progress::Progress;
+use super::tolerance::Tolerances;
+use super::{IntegrationError, Integrator, Observer, Ode, Solution};
 use crate::{Real, Vector};
 
-/// Integrates with steps of size `size`, of which the last ends exactly at the end of the interval.
-pub(super) fn integrate<S: Real, Y: Vector<S>, const STAGES: usize>(
-    tableau: &Tableau<STAGES>,
-    size: S,
+/// A method with steps of one given size: see [`Ode5`](super::Ode5) and its like.
+///
+/// Step k ends at t₀ + k h, computed by one product, so that times do not drift. Where the interval is no multiple of h,
+/// the last step is shorter, so that the end is hit exactly; a rest of rounding size lengthens the last step instead.
+/// Nothing estimates the error: halve the step and compare.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedStep<S, M> {
+    step: S,
     max_steps: u64,
-    ode: &mut (impl Ode<S, Y> + ?Sized),
-    interval: Interval<S>,
-    start: Y,
-    mut on_step: impl FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
-) -> Result<Solution<S, Y>, IntegrationError<S>> {
-    let count = count(interval, size);
-    if count > max_steps {
-        return Err(IntegrationError::TooManySteps { t: interval.from, limit: max_steps });
+    method: PhantomData<M>,
+}
+
+impl<S: Real, M> FixedStep<S, M> {
+    /// The method with steps of size `step` > 0, in units of time, whichever the direction of integration.
+    pub fn new(step: S) -> Self {
+        Self { step, max_steps: 1_000_000_000, method: PhantomData }
     }
-    let mut state = Explicit::new(tableau, ode, interval.from, start)?;
-    let mut steps = 0;
-    while steps < count {
-        let t = if steps + 1 == count { interval.to } else { time_after(steps + 1, interval, size) };
-        if t == state.t {
-            return Err(IntegrationError::StepTooSmall { t, step: size });
-        }
-        state.attempt(ode, t)?;
-        steps += 1;
-        state.finish(ode)?;
-        let flow = on_step(&state.step());
-        state.accept();
-        if flow.is_break() {
-            break;
-        }
-        if steps < count {
-            state.renew(ode)?;
-        }
+
+    /// Refuses, before it begins, what would take more than `max_steps` steps; 10⁹ unless told.
+    pub fn max_steps(self, max_steps: u64) -> Self {
+        Self { max_steps, ..self }
     }
-    let statistics = state.statistics(steps, 0);
-    Ok(Solution { t: state.t, y: state.y, statistics })
+}
+
+impl<S: Real, M: Method> Integrator<S> for FixedStep<S, M> {
+    fn run<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        observer: &mut impl Observer<S, Y>,
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        check_step("step", Some(self.step))?;
+        let interval = Interval::new(interval)?;
+        let count = count(interval, self.step);
+        if count > self.max_steps {
+            return Err(IntegrationError::TooManySteps { t: interval.from, limit: self.max_steps });
+        }
+        let tolerances = Tolerances::roundoff();
+        let mut stepper = M::start(ode, interval.from, start)?;
+        for step in 1..=count {
+            let t = if step == count { interval.to } else { time_after(step, interval, self.step) };
+            if t == stepper.progress().t {
+                return Err(IntegrationError::StepTooSmall { t, step: self.step });
+            }
+            stepper.attempt(ode, t, &tolerances)?;
+            let flow = super::show(&mut stepper, ode, observer)?;
+            stepper.accept();
+            if flow.is_break() {
+                break;
+            }
+            if step < count {
+                stepper.renew(ode)?;
+            }
+        }
+        let Progress { t, y, statistics, .. } = stepper.progress();
+        Ok(Solution { t: *t, y: y.clone(), statistics: *statistics })
+    }
 }
 
 /// The time after `steps` steps: one product, so that no error grows from step to step, and in `f64`, so that also an

@@ -5,34 +5,43 @@
 //! closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
-//! A reader finds the method in five steps: the coefficients in [`tableau`], one step in `explicit`, the solution within
-//! a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and `tolerance`. Another
-//! explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau).
+//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and its like, the
+//! solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
+//! `tolerance`. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another method of any kind
+//! another [`Method`](method::Method).
 
 mod adaptive;
 mod asked;
+mod dormand_prince;
 mod error;
-mod explicit;
+pub mod explicit;
 mod fixed;
+mod implicit;
 mod interval;
+pub mod method;
+mod observer;
 mod ode4;
-mod ode45;
-mod ode5;
+pub mod progress;
 mod step;
 pub mod tableau;
 mod tolerance;
 
 use core::ops::ControlFlow;
 
+pub use adaptive::Adaptive;
+pub use dormand_prince::{DormandPrince, Ode5, Ode45};
 pub use error::IntegrationError;
-pub use ode4::Ode4;
-pub use ode5::Ode5;
-pub use ode45::Ode45;
+pub use fixed::FixedStep;
+pub use observer::Observer;
+pub use ode4::{Ode4, RungeKutta4};
 pub use step::Step;
+pub use tolerance::Tolerances;
 
 use crate::{Real, Vector};
 use asked::AskedTimes;
 use interval::Interval;
+use method::Stepper;
+use observer::{Ends, EveryStep};
 
 /// The right-hand side of an ordinary differential equation, ẏ = f(t, y).
 ///
@@ -49,6 +58,21 @@ pub trait Ode<S, Y> {
     fn accepted(&mut self, t: S, step: S, y: &mut Y) -> Accepted {
         let _ = (t, step, y);
         Accepted::AsItIs
+    }
+
+    /// Writes (∂f/∂y) `direction` at (t, y) to `slope` and returns `true`, if it can do that without differences; from
+    /// such products implicit methods have their Jacobians. `false`, as unless told, leaves them to differences.
+    fn tangent(&mut self, t: S, y: &Y, direction: &Y, slope: &mut Y) -> bool {
+        let _ = (t, y, direction, slope);
+        false
+    }
+
+    /// Writes the rates of the leading components of y that are coordinates of a mechanical system, those whose rates
+    /// depend on the coordinates and velocities alone, and returns how many there are: what a method needs that treats
+    /// coordinates and velocities differently. None, unless told.
+    fn coordinate_rates(&mut self, t: S, y: &Y, rates: &mut Y) -> usize {
+        let _ = (t, y, rates);
+        0
     }
 }
 
@@ -71,7 +95,7 @@ impl<S, Y, F: FnMut(S, &Y, &mut Y)> Ode<S, Y> for F {
 
 /// A method that solves initial value problems.
 ///
-/// The three ways to receive a solution differ only in what they report on the way; the steps are the same.
+/// The ways to receive a solution differ only in what they report on the way; the steps are the same.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Ode45};
@@ -89,18 +113,32 @@ impl<S, Y, F: FnMut(S, &Y, &mut Y)> Ode<S, Y> for F {
 /// ```
 pub trait Integrator<S: Real> {
     /// Integrates from `start` at the first time of `interval` to the second, earlier or later, and shows every accepted
-    /// step to `on_step`, which may ask it for the solution at any time within. [`ControlFlow::Break`] ends the
-    /// integration after that step.
+    /// step to `observer`, who may end the integration after it. All other functions are this one with an observer.
     ///
     /// # Errors
     /// What [`IntegrationError`] lists; the number of evaluations is bounded in every case.
+    fn run<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        observer: &mut impl Observer<S, Y>,
+    ) -> Result<Solution<S, Y>, IntegrationError<S>>;
+
+    /// Shows every accepted step to `on_step`, which may ask it for the solution at any time within.
+    /// [`ControlFlow::Break`] ends the integration after that step.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
     fn each_step_until<Y: Vector<S>>(
         &self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
         interval: (S, S),
         start: Y,
         on_step: impl FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
-    ) -> Result<Solution<S, Y>, IntegrationError<S>>;
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        self.run(ode, interval, start, &mut EveryStep(on_step))
+    }
 
     /// As [`each_step_until`](Self::each_step_until), always to the end of the interval.
     ///
@@ -132,20 +170,11 @@ pub trait Integrator<S: Real> {
         interval: (S, S),
         start: Y,
         times: impl IntoIterator<Item = S>,
-        mut output: impl FnMut(S, &Y),
+        output: impl FnMut(S, &Y),
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
-        let mut asked = AskedTimes::new(times.into_iter(), Interval::new(interval)?)?;
-        let mut y = start.clone();
-        let mut fault = None;
-        let solution =
-            self.each_step_until(ode, interval, start, |step| match asked.answer(step, &mut y, &mut output) {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(error) => {
-                    fault = Some(error);
-                    ControlFlow::Break(())
-                }
-            })?;
-        fault.map_or(Ok(solution), Err)
+        let mut asked = AskedTimes::new(times.into_iter(), Interval::new(interval)?, start.clone(), output)?;
+        let solution = self.run(ode, interval, start, &mut asked)?;
+        asked.fault().map_or(Ok(solution), Err)
     }
 
     /// Integrates over `interval`, for the end alone.
@@ -158,7 +187,7 @@ pub trait Integrator<S: Real> {
         interval: (S, S),
         start: Y,
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
-        self.each_step(ode, interval, start, |_| {})
+        self.run(ode, interval, start, &mut Ends)
     }
 }
 
@@ -180,8 +209,26 @@ pub struct Statistics {
     pub steps: u64,
     /// Attempted steps that were rejected and tried again with a smaller size.
     pub rejected: u64,
-    /// Evaluations of the right-hand side, those after corrections included.
+    /// Evaluations of the right-hand side, those after corrections and those for differences included.
     pub evaluations: u64,
     /// Accepted steps whose end was corrected by [`Ode::accepted`].
     pub corrections: u64,
+    /// Evaluations of the Jacobian ∂f/∂y.
+    pub jacobians: u64,
+    /// Decompositions of a matrix.
+    pub decompositions: u64,
+}
+
+/// Takes an attempted step as good, lets the equation correct its end, and shows it.
+fn show<S: Real, Y: Vector<S>>(
+    stepper: &mut impl Stepper<S, Y>,
+    ode: &mut (impl Ode<S, Y> + ?Sized),
+    observer: &mut impl Observer<S, Y>,
+) -> Result<ControlFlow<()>, IntegrationError<S>> {
+    let progress = stepper.progress();
+    if observer.looks_within(progress.t, progress.t_new) {
+        stepper.look_within(ode)?;
+    }
+    stepper.progress_mut().finish(ode)?;
+    Ok(observer.step(&stepper.step()))
 }

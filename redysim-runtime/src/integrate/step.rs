@@ -9,15 +9,28 @@ use crate::{Real, Vector};
 /// through values and derivatives at both ends. It agrees with the neighbouring steps in value and in derivative (where
 /// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations.
 pub struct Step<'a, S, Y> {
-    pub(super) t: S,
-    pub(super) y: &'a Y,
-    pub(super) t_new: S,
-    pub(super) y_new: &'a Y,
-    pub(super) stages: &'a [Y],
-    pub(super) dense: &'a [&'static [f64]],
+    t: S,
+    y: &'a Y,
+    t_new: S,
+    y_new: &'a Y,
+    scale: S,
+    stages: &'a [Y],
+    dense: &'a [&'static [f64]],
 }
 
-impl<S: Real, Y: Vector<S>> Step<'_, S, Y> {
+impl<'a, S: Real, Y: Vector<S>> Step<'a, S, Y> {
+    /// A step from `start` to `end`, each a time and the state there, within which the solution is
+    /// y(t + θ h) = y + `scale` · Σ p_k(θ) `stages`_k. The polynomials p_k have the coefficients `dense`, of θ, θ², …
+    pub fn new(
+        (t, y): (S, &'a Y),
+        (t_new, y_new): (S, &'a Y),
+        scale: S,
+        stages: &'a [Y],
+        dense: &'a [&'static [f64]],
+    ) -> Self {
+        Self { t, y, t_new, y_new, scale, stages, dense }
+    }
+
     /// Time and state at which the step began.
     pub fn start(&self) -> (S, &Y) {
         (self.t, self.y)
@@ -41,12 +54,11 @@ impl<S: Real, Y: Vector<S>> Step<'_, S, Y> {
         if t == self.t_new {
             return y.clone_from(self.y_new);
         }
-        let h = self.t_new - self.t;
-        let theta = (t - self.t) / h;
+        let theta = (t - self.t) / (self.t_new - self.t);
         let weights = self.dense.iter().map(|polynomial| without_constant(polynomial, theta));
         weighted_sum(weights, self.stages, y);
         for (value, &start) in y.as_mut().iter_mut().zip(self.y.as_ref()) {
-            *value = start + h * *value;
+            *value = start + self.scale * *value;
         }
     }
 }

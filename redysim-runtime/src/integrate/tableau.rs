@@ -2,8 +2,8 @@
 
 /// An explicit Runge-Kutta method of `STAGES` stages with an error estimate and a continuous extension.
 ///
-/// Stage k evaluates f_k = f(t + c_k h, y + h Σ_j a_kj f_j). The last stage is taken at the end of the step, so that its
-/// row of a gives the new state and its derivative is the first stage of the next step ("first same as last"). Every
+/// Stage k evaluates f_k = f(t + c_k h, y + h Σ_j a_kj f_j). The last main stage is taken at the end of the step, so that
+/// its row of a gives the new state and its derivative is the first stage of the next step ("first same as last"). Every
 /// explicit method can be written so: one whose last stage lies elsewhere gets its weights b as one more row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tableau<const STAGES: usize> {
@@ -11,12 +11,31 @@ pub struct Tableau<const STAGES: usize> {
     pub rows: [&'static [f64]; STAGES],
     /// c, the times of the stages in units of the step.
     pub nodes: [f64; STAGES],
-    /// d: the estimate of the step's error is h Σ d_k f_k.
-    pub error: [f64; STAGES],
-    /// The order of the less accurate formula of the pair, whose error the estimate measures.
-    pub error_order: u32,
+    /// How many stages a step takes. Those after them are evaluated only for a step within which the solution is asked
+    /// for.
+    pub main: usize,
+    /// How the error of a step is estimated.
+    pub error: ErrorEstimate<STAGES>,
+    /// The power of the step size that the estimated error goes with.
+    pub error_exponent: u32,
     /// The polynomials b_k of the continuous extension, y(t + θ h) ≈ y + h Σ b_k(θ) f_k: coefficients of θ, θ², …
     pub dense: [&'static [f64]; STAGES],
+}
+
+/// How the error of a step follows from its stages.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ErrorEstimate<const STAGES: usize> {
+    /// h Σ d_k f_k, the difference from an embedded formula of lower order.
+    Embedded([f64; STAGES]),
+    /// e² / √(e² + 0.01 ẽ²) of the differences e and ẽ from two embedded formulas. The one of lower order guards against
+    /// an e that is small by chance: E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*,
+    /// 2nd ed., Springer (1993), section II.10.
+    Stretched {
+        /// d of the formula of higher order.
+        higher: [f64; STAGES],
+        /// d of the formula of lower order.
+        lower: [f64; STAGES],
+    },
 }
 
 /// The pair of orders 5 and 4 of J. R. Dormand and P. J. Prince, *A family of embedded Runge-Kutta formulae*, J. Comput.
@@ -33,8 +52,17 @@ pub const DORMAND_PRINCE: Tableau<7> = Tableau {
         &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
     ],
     nodes: [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0],
-    error: [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0],
-    error_order: 4,
+    main: 7,
+    error: ErrorEstimate::Embedded([
+        71.0 / 57600.0,
+        0.0,
+        -71.0 / 16695.0,
+        71.0 / 1920.0,
+        -17253.0 / 339200.0,
+        22.0 / 525.0,
+        -1.0 / 40.0,
+    ]),
+    error_exponent: 5,
     dense: [
         &[1.0, -183.0 / 64.0, 37.0 / 12.0, -145.0 / 128.0],
         &[],
@@ -52,8 +80,9 @@ pub const DORMAND_PRINCE: Tableau<7> = Tableau {
 pub const RUNGE_KUTTA_4: Tableau<5> = Tableau {
     rows: [&[], &[1.0 / 2.0], &[0.0, 1.0 / 2.0], &[0.0, 0.0, 1.0], &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0]],
     nodes: [0.0, 1.0 / 2.0, 1.0 / 2.0, 1.0, 1.0],
-    error: [0.0; 5],
-    error_order: 3,
+    main: 5,
+    error: ErrorEstimate::Embedded([0.0; 5]),
+    error_exponent: 4,
     dense: [
         &[1.0, -3.0 / 2.0, 2.0 / 3.0],
         &[0.0, 1.0, -2.0 / 3.0],

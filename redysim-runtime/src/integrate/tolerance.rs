@@ -5,9 +5,9 @@ use crate::{Real, Vector};
 
 /// |e_i| ≤ max(rtol |y_i|, atol_i).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tolerances<'a, S> {
-    pub relative: S,
-    pub absolute: Absolute<'a, S>,
+pub struct Tolerances<'a, S> {
+    pub(super) relative: S,
+    pub(super) absolute: Absolute<'a, S>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,16 @@ pub(super) enum Absolute<'a, S> {
 }
 
 impl<S: Real> Tolerances<'_, S> {
+    /// What steps of a given size solve by iteration, they solve to roundoff.
+    pub(super) fn roundoff() -> Self {
+        Self { relative: S::EPSILON, absolute: Absolute::All(S::EPSILON * S::EPSILON) }
+    }
+
+    /// rtol.
+    pub fn relative(&self) -> S {
+        self.relative
+    }
+
     /// Checks the tolerances for a state of `len` components.
     pub fn check(&self, len: usize) -> Result<(), IntegrationError<S>> {
         let smallest = S::from_f64(100.0) * S::EPSILON;
@@ -52,7 +62,7 @@ impl<S: Real> Tolerances<'_, S> {
     }
 
     /// The size below which the absolute tolerance of a component is the larger one.
-    fn threshold(&self, component: usize) -> S {
+    pub(super) fn threshold(&self, component: usize) -> S {
         match self.absolute {
             Absolute::All(value) => value / self.relative,
             Absolute::Each(values) => values.get(component).map_or(S::zero(), |&value| value / self.relative),

@@ -1,7 +1,8 @@
 // Two mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
 
+use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar, Vector,
+    Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar, Vector, dual,
 };
 
 pub const GRAVITY: f64 = 9.81;
@@ -66,11 +67,27 @@ impl<S: Scalar> InverseDynamics<S> for Pendulum {
     fn inverse_dynamics(&self, q: &[S; 1], _: &[S; 1], a: &[S; 1]) -> [S; 1] {
         [self.inertia::<S>() * a[0] + self.weight::<S>() * q[0].sin_cos().0]
     }
+
+    fn inverse_dynamics_tangent(
+        &self,
+        at: Arguments<'_, S, Self>,
+        slopes: Arguments<'_, S, Self>,
+    ) -> Option<Self::Velocities> {
+        Some(dual::inverse_dynamics_tangent(self, at, slopes))
+    }
 }
 
 impl<S: Scalar> ForwardDynamics<S> for Pendulum {
     fn forward_dynamics(&self, q: &[S; 1], _: &[S; 1], tau: &[S; 1]) -> [S; 1] {
         [(tau[0] - self.weight::<S>() * q[0].sin_cos().0) / self.inertia()]
+    }
+
+    fn forward_dynamics_tangent(
+        &self,
+        at: Arguments<'_, S, Self>,
+        slopes: Arguments<'_, S, Self>,
+    ) -> Option<Self::Velocities> {
+        Some(dual::forward_dynamics_tangent(self, at, slopes))
     }
 }
 
@@ -142,6 +159,14 @@ impl<S: Scalar> InverseDynamics<S> for Arm {
         let ([m11, m12, m22], bias) = (Self::mass_matrix(q), Self::bias(q, v));
         [m11 * a[0] + m12 * a[1] + bias[0], m12 * a[0] + m22 * a[1] + bias[1]]
     }
+
+    fn inverse_dynamics_tangent(
+        &self,
+        at: Arguments<'_, S, Self>,
+        slopes: Arguments<'_, S, Self>,
+    ) -> Option<Self::Velocities> {
+        Some(dual::inverse_dynamics_tangent(self, at, slopes))
+    }
 }
 
 impl<S: Scalar> ForwardDynamics<S> for Arm {
@@ -150,6 +175,14 @@ impl<S: Scalar> ForwardDynamics<S> for Arm {
         let (f1, f2) = (tau[0] - bias[0], tau[1] - bias[1]);
         let determinant = m11 * m22 - m12 * m12;
         [(m22 * f1 - m12 * f2) / determinant, (m11 * f2 - m12 * f1) / determinant]
+    }
+
+    fn forward_dynamics_tangent(
+        &self,
+        at: Arguments<'_, S, Self>,
+        slopes: Arguments<'_, S, Self>,
+    ) -> Option<Self::Velocities> {
+        Some(dual::forward_dynamics_tangent(self, at, slopes))
     }
 }
 
