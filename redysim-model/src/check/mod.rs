@@ -6,17 +6,20 @@ mod massless;
 mod mobility;
 mod names;
 mod placement;
+mod scene;
 mod singular;
 mod tree;
 
 use crate::diagnostic::{Findings, messages};
 use crate::model::{JointKind, Link, Model};
+use crate::scene::Scene;
 use crate::schema::{Document, LinkTable};
 use crate::spatial::Vec3;
 use toml::Spanned;
 
-/// The model, unless an error is found, or was found while reading.
-pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Model> {
+/// The model and what is asked of it, unless an error is found, or was found while reading.
+pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Model, Scene)> {
+    let scene = scene::check(document, findings);
     names::check(document, findings);
     something_moves(document, findings);
     let parents = tree::parents(document, findings);
@@ -44,7 +47,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Mode
         let table = cut.and_then(|cut| document.loops.get(cut)).and_then(|table| table.name.spanned());
         findings.warning(table.map_or(document.place.clone(), Spanned::span), message);
     }
-    Some(model)
+    Some((model, scene?))
 }
 
 /// One link by itself, still without its parent.

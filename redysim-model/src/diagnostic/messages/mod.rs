@@ -5,9 +5,11 @@
 
 mod mechanism;
 mod reading;
+mod scene;
 
 pub(crate) use mechanism::*;
 pub(crate) use reading::*;
+pub(crate) use scene::*;
 
 use super::Message;
 

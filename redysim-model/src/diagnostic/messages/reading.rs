@@ -10,6 +10,7 @@ const EXAMPLES: &[(&str, &str, &str)] = &[
     ("gravity", "gravity = [0.0, 0.0, -9.81]", "m/s², in the base frame"),
     ("link", "[[link]]", "one such table for each link"),
     ("loop", "[[loop]]", "one such table for each cut joint"),
+    ("functions", "functions = [\"inverse_dynamics\", \"mass_matrix\"]", "only these are generated; default: all"),
     ("joint_name", "joint_name = \"elbow\"", ""),
     ("parent", "parent = \"base\"", "the link that carries this one; `base` is the ground"),
     ("joint", "joint = \"revolute\"", ""),
