@@ -28,12 +28,14 @@ use proc_macro::TokenStream;
 ///
 /// ```text
 /// redysim! {
-///     pub struct Kr5("models/kr5.toml", functions = [inverse_dynamics, mass_matrix]);
+///     pub struct Kr5("models/kr5.toml", functions = [inverse_dynamics], locked = { joint6 = "0 deg" });
 /// }
 /// ```
 ///
 /// - `functions = [..]`: only these, with their forms `…_at` and the angles they need in `posture`, and only the traits
 ///   that they make up; `OPS` has no operations for the others.
+/// - `locked = { joint6 = "0 deg", slide = 0.3 }`: joints, by their names or those of their links, are held at these
+///   coordinates, as if they were fixed there.
 ///
 /// A model file may say the same at its top, with names in quotes: `functions = ["inverse_dynamics"]`. Each key that is
 /// given here wins over the file's.

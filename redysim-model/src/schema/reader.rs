@@ -200,7 +200,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         }
     }
 
-    fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+    pub(super) fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
         let (number, text) = match value.get_ref() {
             DeValue::Float(float) => (float.as_str().parse().unwrap_or(f64::NAN), float.as_str()),
             DeValue::Integer(integer) => (integer_value(integer), integer.as_str()),
@@ -209,7 +209,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.finite(path, value, number, text)
     }
 
-    fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+    pub(super) fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
         let DeValue::String(text) = value.get_ref() else {
             if !matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_)) {
                 return self.wrong_type(path, value, "an angle");
@@ -252,7 +252,11 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 
     pub(super) fn fault<T>(&mut self, value: &Value<'_>, message: Message) -> Option<T> {
-        self.findings.error(value.span(), message);
+        self.fault_at(value.span(), message)
+    }
+
+    pub(super) fn fault_at<T>(&mut self, place: Range<usize>, message: Message) -> Option<T> {
+        self.findings.error(place, message);
         None
     }
 
