@@ -3,8 +3,9 @@
 //! Springer (1993), section II.7). All stages depend on each other and are found by iteration; between the ends of the
 //! step, u is the solution, and continued beyond its end it is where the iteration of the next step begins.
 //!
-//! [`radau`] has the one for stiff equations.
+//! [`gauss`] has the methods for long conservative motion, [`radau`] the one for stiff equations.
 
+pub mod gauss;
 mod newton;
 pub mod radau;
 mod radau_tableau;
