@@ -1,63 +1,16 @@
 //! The coefficients against the order conditions, one for each rooted tree (Butcher's theory).
 
-use std::collections::BTreeSet;
+mod order_conditions;
 
+use order_conditions::{trees, values};
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, ErrorEstimate};
 
 const STAGES: usize = 7;
 const ROUNDOFF: f64 = 1e-14;
 
-/// A rooted tree: its branches, sorted, so that equal trees are equal.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Tree(Vec<Tree>);
-
-impl Tree {
-    fn order(&self) -> usize {
-        1 + self.0.iter().map(Tree::order).sum::<usize>()
-    }
-
-    /// γ: the product of the orders of all subtrees.
-    fn density(&self) -> f64 {
-        self.order() as f64 * self.0.iter().map(Tree::density).product::<f64>()
-    }
-
-    /// Φ_k, one for each stage: Π over branches of Σ_j a_kj Φ_j(branch).
-    fn elementary_weights(&self) -> [f64; STAGES] {
-        self.0.iter().fold([1.0; STAGES], |weights, branch| {
-            let inner = branch.elementary_weights();
-            std::array::from_fn(|k| weights[k] * dot(DORMAND_PRINCE.rows[k], &inner))
-        })
-    }
-
-    /// All trees with one more leaf.
-    fn grown(&self) -> Vec<Tree> {
-        let mut grown = vec![self.with_branches(|branches| branches.push(Tree(vec![])))];
-        for (i, branch) in self.0.iter().enumerate() {
-            grown.extend(branch.grown().into_iter().map(|new| self.with_branches(|branches| branches[i] = new)));
-        }
-        grown
-    }
-
-    fn with_branches(&self, change: impl FnOnce(&mut Vec<Tree>)) -> Tree {
-        let mut branches = self.0.clone();
-        change(&mut branches);
-        branches.sort();
-        Tree(branches)
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn trees(order: usize) -> BTreeSet<Tree> {
-    if order == 1 { [Tree(vec![])].into() } else { trees(order - 1).iter().flat_map(Tree::grown).collect() }
-}
-
-/// The largest violation of b·Φ(t) = θ^order / γ(t) over all trees of one order.
+/// The largest violation of the order conditions of one order.
 fn defect(order: usize, b: &[f64], theta: f64) -> f64 {
-    let exact = |tree: &Tree| theta.powi(order as i32) / tree.density();
-    trees(order).iter().map(|tree| (dot(b, &tree.elementary_weights()) - exact(tree)).abs()).fold(0.0, f64::max)
+    order_conditions::defect(DORMAND_PRINCE.rows, order, b, theta)
 }
 
 fn solution_weights() -> [f64; STAGES] {
@@ -70,7 +23,7 @@ fn embedded_weights() -> [f64; STAGES] {
 }
 
 fn dense_weights(theta: f64) -> [f64; STAGES] {
-    DORMAND_PRINCE.dense.map(|polynomial| (1..).zip(polynomial).map(|(power, c)| c * theta.powi(power)).sum())
+    values(DORMAND_PRINCE.dense, theta)
 }
 
 fn dense_rates(theta: f64) -> [f64; STAGES] {

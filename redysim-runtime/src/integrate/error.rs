@@ -76,6 +76,14 @@ pub enum IntegrationError<S> {
         /// The time.
         t: S,
     },
+    /// The equations for the stages of an implicit step were not solved: the iteration does not converge, or the matrix
+    /// of the linear equations is singular.
+    StagesNotSolved {
+        /// The time that was reached.
+        t: S,
+        /// The size of the step that was to follow, with its sign.
+        step: S,
+    },
     /// The tolerances ask for a step below the spacing of floating-point times, or a given step is below it.
     StepTooSmall {
         /// The time that was reached.
@@ -148,6 +156,11 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             Self::Refused { t } => write!(
                 f,
                 "the equation refused the state at t = {t:?}; a closed-loop simulation has the reason in `last_error`"
+            ),
+            Self::StagesNotSolved { t, step } => write!(
+                f,
+                "at t = {t:?} the equations of an implicit step of {step:?} could not be solved; take smaller steps, or \
+                 Radau5 if the equation is stiff, and look for a jump of the derivative there if it is Radau5 that says so"
             ),
             Self::StepTooSmall { t, step } => write!(
                 f,

@@ -48,10 +48,7 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Explicit<S, Y, STAGES> {
     }
 
     fn evaluate(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), stage: usize) -> Result<(), IntegrationError<S>> {
-        let node = self.tableau.nodes[stage];
-        let Progress { t, t_new, .. } = self.progress;
-        // t + h may differ from t_new by a rounding error, and must not lie beyond the interval.
-        let t = if node == 1.0 { t_new } else { t + (t_new - t) * S::from_f64(node) };
+        let t = self.progress.time_at(self.tableau.nodes[stage]);
         self.progress.evaluate(ode, t, &mut self.stages[stage])
     }
 

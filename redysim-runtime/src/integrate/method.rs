@@ -42,7 +42,7 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     /// The same, to be changed by the driver.
     fn progress_mut(&mut self) -> &mut Progress<S, Y>;
 
-    /// The derivative at the state.
+    /// The derivative at the state; after the first step only where the method needs it.
     fn rate(&self) -> &Y;
 
     /// Computes a step to `t_new`. What is solved by iteration is solved well within the tolerances.
@@ -86,16 +86,21 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     /// The factor to the size of a step whose error was 1/`ratio` times the tolerance, after `failures` earlier
     /// failures of the same step.
     fn shrinkage(&mut self, ratio: S, failures: u32) -> S {
-        if failures > 0 {
-            return S::from_f64(0.5);
-        }
-        (S::from_f64(SAFETY) * ratio.powf(root(self.error_exponent()))).maximum(S::from_f64(SMALLEST_SHRINKAGE))
+        usual_shrinkage(ratio, failures, self.error_exponent())
     }
 
     /// The factor from the size of an accepted step, whose error was 1/`ratio` times the tolerance, to the next.
     fn growth(&mut self, ratio: S) -> S {
         (S::from_f64(SAFETY) * ratio.powf(root(self.error_exponent()))).minimum(S::from_f64(LARGEST_GROWTH))
     }
+}
+
+/// What [`Stepper::shrinkage`] is unless told.
+pub(super) fn usual_shrinkage<S: Real>(ratio: S, failures: u32, error_exponent: u32) -> S {
+    if failures > 0 {
+        return S::from_f64(0.5);
+    }
+    (S::from_f64(SAFETY) * ratio.powf(root(error_exponent))).maximum(S::from_f64(SMALLEST_SHRINKAGE))
 }
 
 /// 1/`exponent`.

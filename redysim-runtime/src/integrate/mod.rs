@@ -1,17 +1,18 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
 //! [`Ode4`] and [`Ode5`] take steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45`
-//! does. Each is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
+//! does. [`Radau5`] is for stiff equations, [`Gauss4`] and [`Gauss6`] are for long conservative motion. Each is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
 //! closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
-//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and its like, the
+//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and [`collocation`], the
 //! solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
 //! `tolerance`. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another method of any kind
 //! another [`Method`](method::Method).
 
 mod adaptive;
 mod asked;
+pub mod collocation;
 mod dormand_prince;
 mod error;
 pub mod explicit;
@@ -29,6 +30,8 @@ mod tolerance;
 use core::ops::ControlFlow;
 
 pub use adaptive::Adaptive;
+pub use collocation::gauss::{Gauss4, Gauss6, GaussLegendre2, GaussLegendre3};
+pub use collocation::radau::{Radau5, RadauIIA};
 pub use dormand_prince::{DormandPrince, Ode5, Ode45};
 pub use error::IntegrationError;
 pub use fixed::FixedStep;

@@ -64,7 +64,7 @@ impl<'a, S: Real, Y: Vector<S>> Step<'a, S, Y> {
 }
 
 /// c₁ x + c₂ x² + …
-fn without_constant<S: Real>(coefficients: &[f64], x: S) -> S {
+pub(super) fn without_constant<S: Real>(coefficients: &[f64], x: S) -> S {
     coefficients.iter().rfold(S::zero(), |sum, &coefficient| x * (S::from_f64(coefficient) + sum))
 }
 
