@@ -76,6 +76,13 @@ pub enum IntegrationError<S> {
         /// The time.
         t: S,
     },
+    /// The iteration for the end of an implicit step does not converge.
+    NotConverged {
+        /// The time at which the step begins.
+        t: S,
+        /// The size of the step.
+        step: S,
+    },
     /// The tolerances ask for a step below the spacing of floating-point times, or a given step is below it.
     StepTooSmall {
         /// The time that was reached.
@@ -148,6 +155,11 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             Self::Refused { t } => write!(
                 f,
                 "the equation refused the state at t = {t:?}; a closed-loop simulation has the reason in `last_error`"
+            ),
+            Self::NotConverged { t, step } => write!(
+                f,
+                "from t = {t:?} the end of a step of {step:?} is not found by iteration; look for a jump of the derivative \
+                 or a wrong tangent there, or take smaller steps"
             ),
             Self::StepTooSmall { t, step } => write!(
                 f,

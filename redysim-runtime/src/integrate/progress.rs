@@ -54,11 +54,15 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
 
     /// Writes y + h · `increment` to `y_new`, and what was added to `increment`.
     pub fn advance_by_increment(&mut self) {
-        let h = self.step_size();
+        self.advance_by(self.step_size());
+    }
+
+    /// Writes y + `scale` · `increment` to `y_new`, and what was added to `increment`.
+    pub fn advance_by(&mut self, scale: S) {
         let increments = self.increment.as_mut().iter_mut().zip(self.carry.as_ref());
         let states = self.y_new.as_mut().iter_mut().zip(self.y.as_ref());
         for ((new, &old), (increment, &carry)) in states.zip(increments) {
-            *increment = h * *increment + carry;
+            *increment = scale * *increment + carry;
             *new = old + *increment;
         }
     }
