@@ -1,7 +1,7 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
 //! [`Ode4`] and [`Ode5`] take steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45`
-//! does. Each is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
+//! does, and [`Ode15s`] steps and order for stiff equations, as `ode15s` does. Each is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
 //! closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
@@ -19,6 +19,7 @@ mod fixed;
 mod implicit;
 mod interval;
 pub mod method;
+mod ndf;
 mod observer;
 mod ode4;
 pub mod progress;
@@ -32,6 +33,7 @@ pub use adaptive::Adaptive;
 pub use dormand_prince::{DormandPrince, Ode5, Ode45};
 pub use error::IntegrationError;
 pub use fixed::FixedStep;
+pub use ndf::{Bdf, Ndf, Ode15s};
 pub use observer::Observer;
 pub use ode4::{Ode4, RungeKutta4};
 pub use step::Step;
