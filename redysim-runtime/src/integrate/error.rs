@@ -76,12 +76,12 @@ pub enum IntegrationError<S> {
         /// The time.
         t: S,
     },
-    /// The equations for the stages of an implicit step were not solved: the iteration does not converge, or the matrix
-    /// of the linear equations is singular.
-    StagesNotSolved {
-        /// The time that was reached.
+    /// The equations of an implicit step were not solved: the iteration does not converge, or the matrix of the linear
+    /// equations is singular.
+    NotConverged {
+        /// The time at which the step begins.
         t: S,
-        /// The size of the step that was to follow, with its sign.
+        /// The size of the step, with its sign.
         step: S,
     },
     /// The tolerances ask for a step below the spacing of floating-point times, or a given step is below it.
@@ -157,10 +157,11 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 f,
                 "the equation refused the state at t = {t:?}; a closed-loop simulation has the reason in `last_error`"
             ),
-            Self::StagesNotSolved { t, step } => write!(
+            Self::NotConverged { t, step } => write!(
                 f,
-                "at t = {t:?} the equations of an implicit step of {step:?} could not be solved; take smaller steps, or \
-                 Radau5 if the equation is stiff, and look for a jump of the derivative there if it is Radau5 that says so"
+                "from t = {t:?} the equations of an implicit step of {step:?} are not solved by iteration; take smaller \
+                 steps, or Radau5 or Ode15s if the equation is stiff, and look for a jump of the derivative or a wrong \
+                 tangent there"
             ),
             Self::StepTooSmall { t, step } => write!(
                 f,

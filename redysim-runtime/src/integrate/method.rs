@@ -11,7 +11,7 @@ const LARGEST_GROWTH: f64 = 5.0;
 /// from then on the size is halved.
 const SMALLEST_SHRINKAGE: f64 = 0.1;
 /// A new step aims at an error of 0.8^order of the tolerance, so that it rarely has to be tried again.
-pub(super) const SAFETY: f64 = 0.8;
+const SAFETY: f64 = 0.8;
 
 /// A method of integration: how it begins. With [`FixedStep`](super::FixedStep) it is an integrator with steps of one
 /// size, with [`Adaptive`](super::Adaptive) one that chooses them.
@@ -44,6 +44,23 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
 
     /// The derivative at the state; after the first step only where the method needs it.
     fn rate(&self) -> &Y;
+
+    /// The size of a first step that the tolerances will probably allow; `reach`, with its sign, is the largest that may
+    /// be. Unless told, the one with which a first-order step would change the state by 0.8 rtol^(1/exponent) of itself.
+    ///
+    /// # Errors
+    /// If a derivative is infinite or not a number.
+    fn first_size(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        reach: S,
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<S, IntegrationError<S>> {
+        let _ = (ode, reach);
+        let y = &self.progress().y;
+        let rate = tolerances.norm(self.rate(), y, y);
+        Ok(S::from_f64(SAFETY) * tolerances.relative().powf(root(self.error_exponent())) / rate)
+    }
 
     /// Computes a step to `t_new`. What is solved by iteration is solved well within the tolerances.
     ///

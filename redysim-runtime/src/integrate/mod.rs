@@ -1,7 +1,8 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
 //! [`Ode4`] and [`Ode5`] take steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45`
-//! does. [`Radau5`] is for stiff equations, [`Gauss4`] and [`Gauss6`] are for long conservative motion. Each is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
+//! does. [`Ode15s`] and [`Radau5`] are for stiff equations, [`Gauss4`] and [`Gauss6`] for long conservative motion. Each
+//! is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
 //! closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
@@ -20,6 +21,7 @@ mod fixed;
 mod implicit;
 mod interval;
 pub mod method;
+mod ndf;
 mod observer;
 mod ode4;
 pub mod progress;
@@ -35,6 +37,7 @@ pub use collocation::radau::{Radau5, RadauIIA};
 pub use dormand_prince::{DormandPrince, Ode5, Ode45};
 pub use error::IntegrationError;
 pub use fixed::FixedStep;
+pub use ndf::{Bdf, Ndf, Ode15s};
 pub use observer::Observer;
 pub use ode4::{Ode4, RungeKutta4};
 pub use step::Step;

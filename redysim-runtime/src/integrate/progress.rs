@@ -73,7 +73,8 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         self.add_increment();
     }
 
-    fn add_increment(&mut self) {
+    /// Writes y + `increment` to `y_new`, and what was added to `increment`.
+    pub fn add_increment(&mut self) {
         let increments = self.increment.as_mut().iter_mut().zip(self.carry.as_ref());
         let states = self.y_new.as_mut().iter_mut().zip(self.y.as_ref());
         for ((new, &old), (increment, &carry)) in states.zip(increments) {

@@ -34,7 +34,7 @@ const ROUNDOFF_UNITS: f64 = 1024.0;
 /// The stages are iterated until they no longer change, two evaluations each time, and roundoff is kept from adding up
 /// as E. Hairer, R. I. McLachlan and A. Razakarivony demand, *Achieving Brouwer's law with implicit Runge-Kutta methods*,
 /// BIT 48 (2008), so that what remains of it is a random walk. The iteration contracts where h ‖∂f/∂y‖ is below 2;
-/// where it does not, [`IntegrationError::StagesNotSolved`] asks for smaller steps, or for
+/// where it does not, [`IntegrationError::NotConverged`] asks for smaller steps, or for
 /// [`Radau5`](crate::Radau5). Between the ends of its steps the solution is a quadratic polynomial, accurate to order 2.
 ///
 /// ```
@@ -248,7 +248,7 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Gauss<S, Y, STAGES> {
                 break;
             }
         }
-        Err(IntegrationError::StagesNotSolved { t: self.progress.t, step: self.progress.step_size() })
+        Err(IntegrationError::NotConverged { t: self.progress.t, step: self.progress.step_size() })
     }
 }
 

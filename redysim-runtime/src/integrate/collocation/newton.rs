@@ -120,7 +120,7 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
         }
         match &self.decomposed {
             Some(_) => Ok(()),
-            None => Err(IntegrationError::StagesNotSolved { t: progress.t, step: h }),
+            None => Err(IntegrationError::NotConverged { t: progress.t, step: h }),
         }
     }
 

@@ -158,7 +158,7 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
                 Outcome::Failed { .. } if newton.outdate() => self.begin_at_the_state(),
                 Outcome::Failed { retreat } => {
                     self.retreat = Some(retreat);
-                    return Err(IntegrationError::StagesNotSolved { t: progress.t, step: progress.step_size() });
+                    return Err(IntegrationError::NotConverged { t: progress.t, step: progress.step_size() });
                 }
             }
         }
