@@ -1,8 +1,8 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
-//! [`Ode4`] and [`Ode5`] take steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45`
-//! does. Each is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
-//! closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
+//! [`Ode4`], [`Ode5`] and [`Dop8`] take steps of one given size; [`Ode45`] and [`Dop853`] choose their steps from
+//! tolerances, as MATLAB's `ode45` does. Each is an [`Integrator`], and gives the solution between its steps, too. What is
+//! integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
 //! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and its like, the
@@ -13,6 +13,7 @@
 mod adaptive;
 mod asked;
 mod dormand_prince;
+mod dormand_prince_853;
 mod error;
 pub mod explicit;
 mod fixed;
@@ -30,6 +31,7 @@ use core::ops::ControlFlow;
 
 pub use adaptive::Adaptive;
 pub use dormand_prince::{DormandPrince, Ode5, Ode45};
+pub use dormand_prince_853::{Dop8, Dop853, DormandPrince853};
 pub use error::IntegrationError;
 pub use fixed::FixedStep;
 pub use observer::Observer;
