@@ -33,7 +33,9 @@ pub use closed_loop::{
 };
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
 pub use dual::Dual;
-pub use integrate::{Dop8, Dop853, IntegrationError, Integrator, Ode, Ode4, Ode5, Ode45, Solution, Statistics, Step};
+pub use integrate::{
+    Dop8, Dop853, IntegrationError, Integrator, Ode, Ode4, Ode5, Ode45, SemiImplicitEuler, Solution, Statistics, Step,
+};
 pub use mechanism::{
     BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
     MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,

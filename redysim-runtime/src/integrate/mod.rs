@@ -1,6 +1,6 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
-//! [`Ode4`], [`Ode5`] and [`Dop8`] take steps of one given size; [`Ode45`] and [`Dop853`] choose their steps from
+//! [`Ode4`], [`Ode5`], [`Dop8`] and [`SemiImplicitEuler`] take steps of one given size; [`Ode45`] and [`Dop853`] choose their steps from
 //! tolerances, as MATLAB's `ode45` does. Each is an [`Integrator`], and gives the solution between its steps, too. What is
 //! integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
@@ -23,6 +23,7 @@ pub mod method;
 mod observer;
 mod ode4;
 pub mod progress;
+mod semi_implicit_euler;
 mod step;
 pub mod tableau;
 mod tolerance;
@@ -36,6 +37,7 @@ pub use error::IntegrationError;
 pub use fixed::FixedStep;
 pub use observer::Observer;
 pub use ode4::{Ode4, RungeKutta4};
+pub use semi_implicit_euler::{SemiImplicitEuler, SymplecticEuler};
 pub use step::Step;
 pub use tolerance::Tolerances;
 
