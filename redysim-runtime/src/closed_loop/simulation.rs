@@ -188,6 +188,14 @@ where
         }
     }
 
+    fn coordinate_rates(&mut self, _t: S, state: &M::State, rates: &mut M::State) -> usize {
+        let SimulationState { q, v, .. } = self.split(state);
+        for (rate, &value) in rates.as_mut().iter_mut().zip(self.loops.mechanism.coordinate_rates(&q, &v).as_ref()) {
+            *rate = value;
+        }
+        self.loops.mechanism.nq()
+    }
+
     fn accepted(&mut self, _t: S, step: S, state: &mut M::State) -> Accepted {
         let corrected = self.stabilisation.check(step).and_then(|()| match self.stabilisation {
             Stabilisation::Projection => {

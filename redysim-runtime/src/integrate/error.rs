@@ -71,6 +71,8 @@ pub enum IntegrationError<S> {
         /// The first such component.
         component: usize,
     },
+    /// The method treats coordinates and velocities differently, but the equation does not tell them apart.
+    NoCoordinates,
     /// The equation refused the state at the end of a step (see [`Ode::accepted`](crate::Ode::accepted)).
     Refused {
         /// The time.
@@ -152,6 +154,10 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 f,
                 "component {component} of the derivative is infinite or not a number at t = {t:?}; look for a division \
                  by zero, a singular mass matrix or a bad force there"
+            ),
+            Self::NoCoordinates => f.write_str(
+                "the method treats coordinates and velocities differently, but the equation has 0 coordinates; simulate \
+                 a mechanism, implement Ode::coordinate_rates, or take a method for any equation, such as Ode4",
             ),
             Self::Refused { t } => write!(
                 f,

@@ -1,9 +1,9 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
-//! [`Ode4`] and [`Ode5`] take steps of one given size; [`Ode45`] chooses its steps from tolerances, as MATLAB's `ode45`
-//! does. [`Ode15s`] and [`Radau5`] are for stiff equations, [`Gauss4`] and [`Gauss6`] for long conservative motion. Each
-//! is an [`Integrator`], and gives the solution between its steps, too. What is integrated is an [`Ode`]: a
-//! closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
+//! [`Ode4`], [`Ode5`], [`Dop8`] and [`SemiImplicitEuler`] take steps of one given size; [`Ode45`] and [`Dop853`] choose
+//! their steps from tolerances, as MATLAB's `ode45` does. [`Ode15s`] and [`Radau5`] are for stiff equations, [`Gauss4`] and
+//! [`Gauss6`] for long conservative motion. Each is an [`Integrator`], and gives the solution between its steps, too. What
+//! is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
 //! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and [`collocation`], the
@@ -15,6 +15,7 @@ mod adaptive;
 mod asked;
 pub mod collocation;
 mod dormand_prince;
+mod dormand_prince_853;
 mod error;
 pub mod explicit;
 mod fixed;
@@ -25,6 +26,7 @@ mod ndf;
 mod observer;
 mod ode4;
 pub mod progress;
+mod semi_implicit_euler;
 mod step;
 pub mod tableau;
 mod tolerance;
@@ -35,11 +37,13 @@ pub use adaptive::Adaptive;
 pub use collocation::gauss::{Gauss4, Gauss6, GaussLegendre2, GaussLegendre3};
 pub use collocation::radau::{Radau5, RadauIIA};
 pub use dormand_prince::{DormandPrince, Ode5, Ode45};
+pub use dormand_prince_853::{Dop8, Dop853, DormandPrince853};
 pub use error::IntegrationError;
 pub use fixed::FixedStep;
 pub use ndf::{Bdf, Ndf, Ode15s};
 pub use observer::Observer;
 pub use ode4::{Ode4, RungeKutta4};
+pub use semi_implicit_euler::{SemiImplicitEuler, SymplecticEuler};
 pub use step::Step;
 pub use tolerance::Tolerances;
 

@@ -140,7 +140,8 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         core::mem::take(&mut self.corrected)
     }
 
-    fn check_state(&self, t: S) -> Result<(), IntegrationError<S>> {
+    /// Checks `y_new`, the state at `t`.
+    pub(super) fn check_state(&self, t: S) -> Result<(), IntegrationError<S>> {
         match first_non_finite(&self.y_new) {
             None => Ok(()),
             Some(component) => Err(IntegrationError::NonFiniteState { t, component }),

@@ -1,5 +1,9 @@
 //! Coefficients of explicit Runge-Kutta methods.
 
+mod dormand_prince_853;
+
+pub use dormand_prince_853::DORMAND_PRINCE_853;
+
 /// An explicit Runge-Kutta method of `STAGES` stages with an error estimate and a continuous extension.
 ///
 /// Stage k evaluates f_k = f(t + c_k h, y + h Σ_j a_kj f_j). The last main stage is taken at the end of the step, so that
