@@ -6,7 +6,8 @@ use crate::{Real, Vector};
 ///
 /// The solution between the ends is the method's continuous extension: for [`Ode5`](crate::Ode5) and
 /// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, for [`Ode4`](crate::Ode4) the cubic
-/// through values and derivatives at both ends. It agrees with the neighbouring steps in value and in derivative (where
+/// through values and derivatives at both ends, for [`Ode15s`](crate::Ode15s) the polynomial through the ends of the last
+/// steps. It agrees with the neighbouring steps in value and, but for `Ode15s`, in derivative (where
 /// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations.
 pub struct Step<'a, S, Y> {
     t: S,
