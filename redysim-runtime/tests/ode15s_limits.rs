@@ -72,6 +72,13 @@ fn a_jump_is_crossed_or_reported_but_never_waited_at() {
 }
 
 #[test]
+fn a_state_that_overflows_is_reported() {
+    let (outcome, calls) = run(&Ode15s::new(), 10.0, |_, y| [y[0], 1e308]);
+    assert!(matches!(outcome, Err(NonFiniteState { component: 1, .. })), "{outcome:?}");
+    assert!(calls < 1000);
+}
+
+#[test]
 fn steps_are_counted_before_they_become_too_many() {
     let (outcome, calls) = run(&Ode15s::new().max_steps(50), 1e3, |t, y| [y[1], -y[0] + t.sin()]);
     assert!(matches!(outcome, Err(TooManySteps { limit: 50, t }) if t > 0.0 && t < 1e3), "{outcome:?}");
@@ -176,7 +183,7 @@ fn small_corrections_leave_the_order_high() {
             took.steps as f64
         };
         let (with, without) = (steps(true), steps(false));
-        assert!(with < 1.15 * without, "{with} steps with corrections, {without} without");
+        assert!(with < 1.03 * without, "{with} steps with corrections, {without} without");
     }
 }
 

@@ -106,11 +106,10 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
             // The changes to come are at most a geometric series.
             let rest = |rate: S| size * rate / (S::one() - rate);
             if let Some(previous) = previous {
-                let observed = size / previous;
-                // Not a number does not converge, either.
-                if !(observed <= S::from_f64(SLOWEST_RATE)) {
+                if size > S::from_f64(SLOWEST_RATE) * previous {
                     return Ok(false);
                 }
+                let observed = size / previous;
                 let rate = self.rate.map_or(observed, |rate| observed.maximum(S::from_f64(MEMORY_OF_RATE) * rate));
                 self.rate = Some(rate);
                 let accuracy = S::from_f64(ACCURACY) * rtol;

@@ -1,6 +1,6 @@
 //! Steps of the numerical differentiation formulas: their error, size and order.
 
-use super::differences::Differences;
+use super::differences::{Differences, add};
 use super::formulas::{DENSE, Formula, GAMMA};
 use super::newton::{Equation, Newton};
 use crate::integrate::implicit::jacobian::jacobian;
@@ -23,6 +23,10 @@ const LARGEST_GROWTH: f64 = 10.0;
 const SAFETY: [f64; 3] = [1.2, 1.3, 1.4];
 /// A first step aims at an error of 0.8² of the tolerance.
 const SAFETY_OF_START: f64 = 0.8;
+
+/// The largest correction of a state with which the past is kept, in units of the error that a step is allowed. A
+/// projection may move a state further than the step was wrong, and in components that were not.
+const LARGEST_CORRECTION: f64 = 10.0;
 
 /// What is evaluated at the state that is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -144,19 +148,20 @@ impl<S: Real, Y: Vector<S>> NdfStepper<S, Y> {
         let order = self.differences.order();
         let [lower, higher] = self.neighbours;
         let ratios = [(order, ratio), (order.saturating_sub(1), lower), (order + 1, higher)];
-        let factors = ratios.iter().zip(SAFETY).take(candidates).filter(|((_, ratio), _)| *ratio > S::zero());
+        let factors = ratios.iter().zip(SAFETY).take(candidates);
         factors.fold((order, S::zero()), |best, (&(order, ratio), safety)| {
             let factor = limited(ratio.powf(root(order as u32 + 1)) / S::from_f64(safety));
             if factor > best.1 { (order, factor) } else { best }
         })
     }
 
-    /// Whether a correction of the state is no larger than the error that the step was allowed.
+    /// Whether a correction of the state is of the size of errors of steps.
     fn is_correction_small(&self) -> bool {
         let Progress { y, y_new: old, increment, .. } = &self.progress;
         let ends = y.as_ref().iter().zip(old.as_ref().iter().zip(increment.as_ref()));
+        let most = S::from_f64(LARGEST_CORRECTION);
         ends.zip(self.allowed.as_ref())
-            .all(|((&y, (&old, &increment)), &allowed)| (y - (old + increment)).abs() <= allowed)
+            .all(|((&y, (&old, &increment)), &allowed)| (y - (old + increment)).abs() <= most * allowed)
     }
 }
 
@@ -229,19 +234,15 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
 
     fn error(&mut self, tolerances: &Tolerances<'_, S>) -> S {
         let order = self.differences.order();
-        let next = self.differences.get(order + 1);
-        // ∇^k at the end of the step.
-        if let Some(difference) = self.differences.get(order) {
-            for ((sum, &old), &d) in
-                self.scratch.as_mut().iter_mut().zip(difference.as_ref()).zip(self.newton.correction.as_ref())
-            {
-                *sum = old + d;
-            }
+        // The error of the order below goes with ∇^k at the end of the step.
+        if let Some(old) = self.differences.get(order) {
+            self.scratch.clone_from(old);
+            add(&mut self.scratch, S::one(), &self.newton.correction);
         }
         let lower = self.error_of(order.saturating_sub(1), Some(&self.scratch), tolerances);
         let higher = self.error_of(order + 1, self.differences.get(order + 2), tolerances);
         self.neighbours = [lower, higher].map(|error| error.map_or(S::zero(), |error| tolerances.relative() / error));
-        self.error_of(order, next, tolerances).unwrap_or(S::from_f64(f64::INFINITY))
+        self.error_of(order, self.differences.get(order + 1), tolerances).unwrap_or(S::from_f64(f64::INFINITY))
     }
 
     fn error_exponent(&self) -> u32 {
@@ -262,11 +263,12 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
 
     fn renew(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
         let small = self.is_correction_small();
-        // A small correction moves the past along: ∇^j y, j ≥ 1, stay, as does E. Eich, *Convergence results for a
-        // coordinate projection method applied to mechanical systems with algebraic constraints*, SIAM J. Numer. Anal. 30
-        // (1993), to which order and error estimate of the method are kept. The next correction d then differs by at
-        // most what was corrected, of which no more than a third counts as error, so that it cannot fail a step. After a
-        // larger one the past is that of another solution, and nothing but the derivative is left.
+        // A small correction moves the whole past along: y_n changes and ∇^j y_n, j ≥ 1, stay. For the formula that is an
+        // error like those of steps, and where it is of their order the method keeps its own: E. Eich, *Convergence
+        // results for a coordinate projection method applied to mechanical systems with algebraic constraints*, SIAM J.
+        // Numer. Anal. 30 (1993). The next correction d changes by at most about what was corrected, so that the estimate
+        // of the error notices if that is too much. After one that is no error of a step the past is that of another
+        // solution, and nothing but the derivative is left of it.
         if self.progress.take_correction() && !small {
             self.evaluate(ode)?;
             self.differences.restart(&self.rate);
@@ -275,7 +277,7 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
     }
 
     fn shrinkage(&mut self, ratio: S, failures: u32) -> S {
-        if !(ratio > S::zero()) {
+        if ratio == S::zero() {
             return S::from_f64(SHRINKAGE_WITHOUT_CONVERGENCE);
         }
         if failures > 0 {
