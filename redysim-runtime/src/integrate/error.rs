@@ -73,6 +73,11 @@ pub enum IntegrationError<S> {
     },
     /// The method treats coordinates and velocities differently, but the equation does not tell them apart.
     NoCoordinates,
+    /// The eigenvalues of the Jacobian are not found.
+    NoEigenvalues {
+        /// The time.
+        t: S,
+    },
     /// The equation refused the state at the end of a step (see [`Ode::accepted`](crate::Ode::accepted)).
     Refused {
         /// The time.
@@ -150,6 +155,11 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             Self::NoCoordinates => f.write_str(
                 "the method treats coordinates and velocities differently, but the equation has 0 coordinates; simulate \
                  a mechanism, implement Ode::coordinate_rates, or take a method for any equation, such as Ode4",
+            ),
+            Self::NoEigenvalues { t } => write!(
+                f,
+                "the eigenvalues of the Jacobian at t = {t:?} are not found: its elements may be too large; look for a \
+                 singularity nearby, or ask in another state"
             ),
             Self::Refused { t } => write!(
                 f,

@@ -24,6 +24,7 @@ mod observer;
 mod ode4;
 pub mod progress;
 mod semi_implicit_euler;
+pub mod stability;
 mod step;
 pub mod tableau;
 mod tolerance;
