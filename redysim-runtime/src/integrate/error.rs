@@ -90,6 +90,16 @@ pub enum IntegrationError<S> {
         /// The size of the step that was to follow.
         step: S,
     },
+    /// Steps of an explicit method are small for stability, not for accuracy, and the rest of the interval would take very
+    /// many of them.
+    Stiff {
+        /// The time that was reached.
+        t: S,
+        /// The mean size of the last steps.
+        step: S,
+        /// How many of that size the rest would take.
+        remaining: u64,
+    },
     /// The end is not reached, or with steps of one size will not be reached, within the largest number of steps.
     TooManySteps {
         /// The time that was reached.
@@ -169,6 +179,12 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 f,
                 "at t = {t:?} a step of {step:?} is too small for the precision of time; the solution may have a \
                  singularity there, or the tolerance or the step is too small"
+            ),
+            Self::Stiff { t, step, remaining } => write!(
+                f,
+                "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the rest of \
+                 the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, lower the \
+                 gains or dampings, or let it go on with stiffness_limit(None)"
             ),
             Self::TooManySteps { t, limit } => write!(
                 f,

@@ -26,6 +26,7 @@ pub mod progress;
 mod semi_implicit_euler;
 pub mod stability;
 mod step;
+mod stiffness;
 pub mod tableau;
 mod tolerance;
 

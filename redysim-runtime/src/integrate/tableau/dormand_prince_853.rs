@@ -195,6 +195,7 @@ pub const DORMAND_PRINCE_853: Tableau<STAGES> = Tableau {
         ],
     },
     error_exponent: 8,
+    stable_to: 6.3937,
     dense: [
         &EXTENSION[0],
         &[],
