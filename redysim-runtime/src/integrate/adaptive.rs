@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 use super::interval::Interval;
 use super::method::{Method, Stepper};
 use super::progress::Progress;
+use super::stiffness::StiffnessTest;
 use super::tolerance::{Absolute, Tolerances};
 use super::{IntegrationError, Integrator, Observer, Ode, Solution};
 use crate::{Real, Vector};
@@ -27,6 +28,7 @@ pub struct Adaptive<'a, S, M> {
     initial_step: Option<S>,
     max_step: Option<S>,
     max_steps: u64,
+    stiffness_limit: Option<u64>,
     method: PhantomData<M>,
 }
 
@@ -38,6 +40,7 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
             initial_step: None,
             max_step: None,
             max_steps: 100_000_000,
+            stiffness_limit: Some(10_000),
             method: PhantomData,
         }
     }
@@ -77,6 +80,14 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
     /// Gives up after `max_steps` steps, accepted or rejected; 10⁸ unless told.
     pub fn max_steps(mut self, max_steps: u64) -> Self {
         self.max_steps = max_steps;
+        self
+    }
+
+    /// Sets how many steps may lie ahead of an explicit method whose steps are small for stability, not for accuracy;
+    /// with more of them to the end it gives up with [`IntegrationError::Stiff`]. 10⁴ unless told; `None` lets it crawl.
+    /// Implicit methods do not ask.
+    pub fn stiffness_limit(mut self, steps: Option<u64>) -> Self {
+        self.stiffness_limit = steps;
         self
     }
 
@@ -122,6 +133,7 @@ impl<S: Real, M: Method> Integrator<S> for Adaptive<'_, S, M> {
                 stepper.first_size(ode, reach, &self.tolerances)?
             }
         };
+        let mut stiffness = StiffnessTest::new(self.stiffness_limit);
         loop {
             let from = stepper.progress().t;
             let smallest = interval.smallest_step(from);
@@ -155,6 +167,8 @@ impl<S: Real, M: Method> Integrator<S> for Adaptive<'_, S, M> {
                 size = smallest.maximum(stepper.shrinkage(rtol / error, failures) * size);
                 failures += 1;
             };
+            let rest = (interval.to - stepper.progress().t_new).abs();
+            let suspects = stiffness.suspects(&mut stepper, rest, &self.tolerances);
             let flow = super::show(&mut stepper, ode, observer)?;
             stepper.accept();
             let Progress { t, y, statistics, .. } = stepper.progress();
@@ -162,6 +176,9 @@ impl<S: Real, M: Method> Integrator<S> for Adaptive<'_, S, M> {
                 return Ok(Solution { t: *t, y: y.clone(), statistics: *statistics });
             }
             stepper.renew(ode)?;
+            if suspects {
+                stiffness.confirm(&mut stepper, ode, rest, &self.tolerances)?;
+            }
             if failures == 0 {
                 size = stepper.growth(rtol / error) * size;
             }

@@ -73,6 +73,11 @@ pub enum IntegrationError<S> {
     },
     /// The method treats coordinates and velocities differently, but the equation does not tell them apart.
     NoCoordinates,
+    /// The eigenvalues of the Jacobian are not found.
+    NoEigenvalues {
+        /// The time.
+        t: S,
+    },
     /// The equation refused the state at the end of a step (see [`Ode::accepted`](crate::Ode::accepted)).
     Refused {
         /// The time.
@@ -92,6 +97,16 @@ pub enum IntegrationError<S> {
         t: S,
         /// The size of the step that was to follow.
         step: S,
+    },
+    /// Steps of an explicit method are small for stability, not for accuracy, and the rest of the interval would take very
+    /// many of them.
+    Stiff {
+        /// The time that was reached.
+        t: S,
+        /// The mean size of the last steps.
+        step: S,
+        /// How many of that size the rest would take.
+        remaining: u64,
     },
     /// The end is not reached, or with steps of one size will not be reached, within the largest number of steps.
     TooManySteps {
@@ -159,6 +174,11 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 "the method treats coordinates and velocities differently, but the equation has 0 coordinates; simulate \
                  a mechanism, implement Ode::coordinate_rates, or take a method for any equation, such as Ode4",
             ),
+            Self::NoEigenvalues { t } => write!(
+                f,
+                "the eigenvalues of the Jacobian at t = {t:?} are not found: its elements may be too large; look for a \
+                 singularity nearby, or ask in another state"
+            ),
             Self::Refused { t } => write!(
                 f,
                 "the equation refused the state at t = {t:?}; a closed-loop simulation has the reason in `last_error`"
@@ -173,6 +193,12 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 f,
                 "at t = {t:?} a step of {step:?} is too small for the precision of time; the solution may have a \
                  singularity there, or the tolerance or the step is too small"
+            ),
+            Self::Stiff { t, step, remaining } => write!(
+                f,
+                "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the rest of \
+                 the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, lower the \
+                 gains or dampings, or let it go on with stiffness_limit(None)"
             ),
             Self::TooManySteps { t, limit } => write!(
                 f,

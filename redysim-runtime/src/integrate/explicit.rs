@@ -119,6 +119,29 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
         Ok(())
     }
 
+    fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {
+        let tableau = self.tableau;
+        let last = tableau.main.checked_sub(1)?;
+        let before = last.checked_sub(1)?;
+        let (row, row_before) = (tableau.rows.get(last)?, tableau.rows.get(before)?);
+        if *tableau.nodes.get(before)? != 1.0 {
+            return None;
+        }
+        let h = self.progress.step_size();
+        let weights = row.iter().enumerate().map(|(k, a)| a - row_before.get(k).copied().unwrap_or(0.0));
+        weighted_sum(weights.map(|a| h * S::from_f64(a)), &self.stages, &mut self.scratch);
+        let Progress { y, y_new, .. } = &self.progress;
+        let apart = tolerances.norm(&self.scratch, y, y_new);
+        let rates = self.stages.get(last)?.as_ref().iter().zip(self.stages.get(before)?.as_ref());
+        for (difference, (&after, &before)) in self.scratch.as_mut().iter_mut().zip(rates) {
+            *difference = h * (after - before);
+        }
+        // States that differ by rounding alone say nothing.
+        let says = apart > S::from_f64(100.0) * S::EPSILON;
+        let estimate = if says { tolerances.norm(&self.scratch, y, y_new) / apart } else { S::zero() };
+        Some((estimate, S::from_f64(tableau.stable_to)))
+    }
+
     fn step(&self) -> Step<'_, S, Y> {
         let Progress { t, y, t_new, y_new, .. } = &self.progress;
         Step::new((*t, y), (*t_new, y_new), *t_new - *t, &self.stages, &self.tableau.dense)

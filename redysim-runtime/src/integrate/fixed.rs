@@ -28,6 +28,11 @@ impl<S: Real, M> FixedStep<S, M> {
         Self { step, max_steps: 1_000_000_000, method: PhantomData }
     }
 
+    /// The size of the steps.
+    pub fn step(&self) -> S {
+        self.step
+    }
+
     /// Refuses, before it begins, what would take more than `max_steps` steps; 10⁹ unless told.
     pub fn max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }

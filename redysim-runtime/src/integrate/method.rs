@@ -88,6 +88,13 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
         Ok(())
     }
 
+    /// h |λ| for the largest eigenvalue λ of the Jacobian, as far as the attempted step shows it, and how large it may be
+    /// for a damped motion, λ < 0; `None`, as unless told, if nothing limits it or the method cannot tell.
+    fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {
+        let _ = tolerances;
+        None
+    }
+
     /// The attempted step.
     fn step(&self) -> Step<'_, S, Y>;
 

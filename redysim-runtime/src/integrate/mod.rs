@@ -27,7 +27,9 @@ mod observer;
 mod ode4;
 pub mod progress;
 mod semi_implicit_euler;
+pub mod stability;
 mod step;
+mod stiffness;
 pub mod tableau;
 mod tolerance;
 

@@ -195,6 +195,7 @@ pub const DORMAND_PRINCE_853: Tableau<STAGES> = Tableau {
         ],
     },
     error_exponent: 8,
+    stable_to: 6.3937,
     dense: [
         &EXTENSION[0],
         &[],
@@ -329,10 +330,11 @@ const fn extension() -> [[f64; 7]; STAGES] {
         while term > 0 {
             let mut i = polynomial.len() - 1;
             while i > 0 {
-                polynomial[i] = if term % 2 == 0 { polynomial[i - 1] } else { polynomial[i] - polynomial[i - 1] };
+                polynomial[i] =
+                    if term.is_multiple_of(2) { polynomial[i - 1] } else { polynomial[i] - polynomial[i - 1] };
                 i -= 1;
             }
-            if term % 2 == 0 {
+            if term.is_multiple_of(2) {
                 polynomial[0] = 0.0;
             }
             term -= 1;

@@ -22,6 +22,8 @@ pub struct Tableau<const STAGES: usize> {
     pub error: ErrorEstimate<STAGES>,
     /// The power of the step size that the estimated error goes with.
     pub error_exponent: u32,
+    /// How far the method is stable on the negative real axis: the largest z with |R(−z)| ≤ 1.
+    pub stable_to: f64,
     /// The polynomials b_k of the continuous extension, y(t + θ h) ≈ y + h Σ b_k(θ) f_k: coefficients of θ, θ², …
     pub dense: [&'static [f64]; STAGES],
 }
@@ -67,6 +69,7 @@ pub const DORMAND_PRINCE: Tableau<7> = Tableau {
         -1.0 / 40.0,
     ]),
     error_exponent: 5,
+    stable_to: 3.3066,
     dense: [
         &[1.0, -183.0 / 64.0, 37.0 / 12.0, -145.0 / 128.0],
         &[],
@@ -87,6 +90,7 @@ pub const RUNGE_KUTTA_4: Tableau<5> = Tableau {
     main: 5,
     error: ErrorEstimate::Embedded([0.0; 5]),
     error_exponent: 4,
+    stable_to: 2.7853,
     dense: [
         &[1.0, -3.0 / 2.0, 2.0 / 3.0],
         &[0.0, 1.0, -2.0 / 3.0],
