@@ -103,8 +103,12 @@ impl Judge {
             name: name.to_owned(),
             error: [self.error(0, |index| numbers(tau(index))), self.error(1, |index| numbers(a(index)))],
             nanoseconds: [
-                per_state(1, |index| { black_box(tau(index)); }),
-                per_state(1, |index| { black_box(a(index)); }),
+                per_state(1, |index| {
+                    black_box(tau(index));
+                }),
+                per_state(1, |index| {
+                    black_box(a(index));
+                }),
             ],
         }
     }
@@ -133,8 +137,12 @@ impl Judge {
                 self.error(1, |sample| lane(a(sample / W), sample)),
             ],
             nanoseconds: [
-                per_state(W, |group| { black_box(tau(group)); }),
-                per_state(W, |group| { black_box(a(group)); }),
+                per_state(W, |group| {
+                    black_box(tau(group));
+                }),
+                per_state(W, |group| {
+                    black_box(a(group));
+                }),
             ],
         }
     }

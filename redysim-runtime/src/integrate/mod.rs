@@ -14,6 +14,7 @@
 mod adaptive;
 mod asked;
 pub mod collocation;
+mod complex;
 mod dormand_prince;
 mod dormand_prince_853;
 mod error;

@@ -8,7 +8,7 @@
 use core::array::from_fn;
 
 use super::radau_tableau::RADAU_IIA_5;
-use crate::integrate::implicit::complex::Complex;
+use crate::integrate::complex::Complex;
 use crate::integrate::implicit::jacobian::jacobian;
 use crate::integrate::implicit::lu::Lu;
 use crate::integrate::progress::{Progress, zeros};

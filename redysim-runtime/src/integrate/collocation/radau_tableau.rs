@@ -1,6 +1,6 @@
 //! The coefficients of the method Radau IIA with 3 stages.
 
-use crate::integrate::implicit::complex::Complex;
+use crate::integrate::complex::Complex;
 
 const SQRT_6: f64 = 2.449_489_742_783_178;
 

@@ -1,15 +1,58 @@
-//! Complex numbers, as far as linear equations need them.
+//! Complex numbers, as far as linear equations and eigenvalues need them.
 
 use core::ops::{Add, Div, Mul, Sub};
 
-use super::lu::Field;
+use super::implicit::lu::Field;
 use crate::Real;
 
 /// The number `re` + `im` i.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Complex<S> {
     pub re: S,
     pub im: S,
+}
+
+impl<S: Real> Complex<S> {
+    pub fn real(re: S) -> Self {
+        Self { re, im: S::zero() }
+    }
+
+    pub fn conj(self) -> Self {
+        Self { re: self.re, im: -self.im }
+    }
+
+    pub fn scale(self, factor: S) -> Self {
+        Self { re: self.re * factor, im: self.im * factor }
+    }
+
+    /// |z|, without overflow of the squares.
+    pub fn abs(self) -> S {
+        let (re, im) = (self.re.abs(), self.im.abs());
+        let (large, small) = (re.maximum(im), re.minimum(im));
+        if small > S::zero() {
+            let ratio = small / large;
+            large * (S::one() + ratio * ratio).sqrt()
+        } else {
+            large
+        }
+    }
+
+    /// The square root with a real part that is not negative.
+    pub fn sqrt(self) -> Self {
+        let half = S::from_f64(0.5);
+        let size = self.abs();
+        if size == S::zero() {
+            return self;
+        }
+        let large = (half * (size + self.re.abs())).sqrt();
+        let small = half * self.im / large;
+        if self.re >= S::zero() {
+            Self { re: large, im: small }
+        } else {
+            let sign = if self.im < S::zero() { -S::one() } else { S::one() };
+            Self { re: small.abs(), im: sign * large }
+        }
+    }
 }
 
 impl<S: Real> Add for Complex<S> {
@@ -65,8 +108,8 @@ impl<S: Real> Field for Complex<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::lu::Lu;
     use super::*;
+    use crate::integrate::implicit::lu::Lu;
 
     fn c(re: f64, im: f64) -> Complex<f64> {
         Complex { re, im }
