@@ -4,7 +4,8 @@
 //! `cargo run --release --example accuracy_vs_speed`
 //!
 //! It takes some minutes, and builds itself twice again: for this machine's instructions, and with the feature
-//! `deterministic`. The names of parts (`work`, `evaluation`, `drift`) may follow behind `--`, to have those alone.
+//! `deterministic`. The names of parts (`kr5`, `gripper`, `fourbar`, `stiff`,
+//! `swing`, `drift`, `evaluation`) may follow behind `--`, to have those alone.
 
 mod common;
 
@@ -22,7 +23,6 @@ mod double_double;
 
 use accuracy::{drift, evaluation, scene, work_precision};
 use common::{Failure, Outputs};
-use redysim::Radau5;
 
 fn main() -> Result<(), Failure> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -34,11 +34,19 @@ fn main() -> Result<(), Failure> {
     }
     let asked = |part: &str| arguments.is_empty() || arguments.iter().any(|argument| argument == part);
     let mut outputs = Outputs::of("accuracy")?;
-    if asked("work") {
+    if asked("kr5") {
         work_precision::report(&scene::kr5()?, &mut outputs)?;
+    }
+    if asked("gripper") {
         work_precision::report(&scene::gripper()?, &mut outputs)?;
+    }
+    if asked("fourbar") {
         work_precision::report(&scene::fourbar()?, &mut outputs)?;
-        work_precision::report(&scene::stiff(&Radau5::new().rtol(1e-13).atol(1e-15))?, &mut outputs)?;
+    }
+    if asked("stiff") {
+        work_precision::report(&scene::stiff()?, &mut outputs)?;
+    }
+    if asked("swing") {
         work_precision::report(&scene::LongSwing, &mut outputs)?;
     }
     if asked("drift") {
