@@ -170,6 +170,27 @@ fn van_der_pols_oscillator_costs_what_it_costs_in_matlab() {
     }
 }
 
+/// With ÿ = ∂f/∂t + (∂f/∂y) f known, the error ½ h² |ÿ| / |y| of the first step is 0.8² of the tolerance: on the solution
+/// cos t both parts are in ÿ = −1, and off it, at y(0) = 2 with λ = −10, in ÿ = −1 + 100.
+#[test]
+fn the_first_step_follows_from_the_second_derivative() {
+    for (lambda, start, second) in [(-1e6, 1.0, 1.0), (-10.0, 1.0, 1.0), (-10.0, 2.0, 99.0)] {
+        for direction in [1.0, -1.0] {
+            // Backward in time the same solution is that of the mirrored equation.
+            let mut mirrored = |t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| {
+                prothero_robinson(lambda)(direction * t, y, dydt);
+                dydt[0] *= direction;
+            };
+            let mut first = None;
+            let look = |step: &Step<'_, f64, [f64; 1]>| first = first.or(Some(step.end().0));
+            method(1e-6).each_step(&mut mirrored, (0.0, direction * 3.0), [start], look).unwrap();
+            let expected = direction * 0.8 * (2e-6 * start / second).sqrt();
+            let found = first.expect("a step");
+            assert!((found / expected - 1.0).abs() < 1e-4, "{found} instead of {expected}, λ = {lambda:e}");
+        }
+    }
+}
+
 #[test]
 fn both_directions_of_time_take_the_same_steps() {
     let mut ends = vec![];
