@@ -7,7 +7,9 @@ use crate::{Real, Vector};
 /// The solution between the ends is the method's continuous extension: for [`Ode5`](crate::Ode5) and
 /// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, for [`Ode4`](crate::Ode4) the cubic
 /// through values and derivatives at both ends. It agrees with the neighbouring steps in value and in derivative (where
-/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations.
+/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations. For
+/// [`Radau5`](crate::Radau5), [`Gauss4`](crate::Gauss4) and [`Gauss6`](crate::Gauss6) it is the collocation polynomial,
+/// whose degree and order are the number of stages, and which agrees with its neighbours in value only.
 pub struct Step<'a, S, Y> {
     t: S,
     y: &'a Y,
