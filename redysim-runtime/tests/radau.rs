@@ -169,6 +169,17 @@ fn a_fast_decay_costs_no_steps() {
     }
 }
 
+/// The estimate from the derivative at the start is that of an error of the size of the transient; the one from where
+/// that estimate points to is not.
+#[test]
+fn a_transient_that_is_over_within_the_first_step_is_jumped_over() {
+    let method = radau(1e-8).initial_step(0.01);
+    let end = method.integrate(&mut prothero_robinson(-1e9), (0.0, 1.0), [2.0]).unwrap();
+    println!("error {:e}, {:?}", end.y[0] - 1.0_f64.cos(), end.statistics);
+    assert!((end.y[0] - 1.0_f64.cos()).abs() < 1e-8);
+    assert!(end.statistics.rejected <= 1 && end.statistics.steps < 30);
+}
+
 /// H. H. Robertson's reactions: reference values from section IV.10 of *Solving Ordinary Differential Equations II*.
 #[test]
 fn the_reactions_of_robertson_end_where_the_reference_does() {
@@ -205,7 +216,7 @@ fn the_relaxations_of_van_der_pol_are_followed() {
         let error = (end.y[0] - reference[0]).abs();
         println!("tolerance {tolerance:e}: error {error:e}, {:?}", end.statistics);
         assert!(error < 30.0 * tolerance, "{error:e} for {tolerance:e}");
-        assert!(end.statistics.steps < 2200 && end.statistics.rejected < 60, "{:?}", end.statistics);
+        assert!(end.statistics.steps < 2200 && end.statistics.rejected < 55, "{:?}", end.statistics);
     }
 }
 
@@ -253,7 +264,28 @@ fn jacobians_and_decompositions_are_kept_while_they_serve() {
     println!("{:?}", end.statistics);
     assert_eq!(end.statistics.jacobians, 1, "of a linear equation one is enough");
     let Statistics { steps, rejected, decompositions, .. } = end.statistics;
-    assert!(decompositions < 2 * (steps + rejected), "some sizes are kept");
+    assert!(2 * decompositions < 3 * (steps + rejected), "some sizes are kept");
+}
+
+/// With steps of one size there is no driver that would take a smaller one.
+#[test]
+fn a_jacobian_that_does_not_serve_any_more_is_evaluated_again() {
+    struct Caught;
+    impl Ode<f64, [f64; 1]> for Caught {
+        fn derivative(&mut self, _t: f64, y: &[f64; 1], rate: &mut [f64; 1]) {
+            rate[0] = if y[0] < 1.0 { 0.5 } else { -1e4 * (y[0] - 2.0) };
+        }
+        fn accepted(&mut self, t: f64, _step: f64, y: &mut [f64; 1]) -> Accepted {
+            if t == 0.5 {
+                y[0] = 3.0;
+                return Accepted::Corrected;
+            }
+            Accepted::AsItIs
+        }
+    }
+    let end = FixedStep::<f64, RadauIIA>::new(0.1).integrate(&mut Caught, (0.0, 1.0), [0.0]).unwrap();
+    assert!((2..5).contains(&end.statistics.jacobians), "{:?}", end.statistics);
+    assert!((end.y[0] - 2.0).abs() < 1e-9, "{:?}", end.y);
 }
 
 #[test]

@@ -36,7 +36,8 @@ const LARGEST_RATIO: f64 = 1000.0;
 ///
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.
-/// Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more.
+/// Between the ends of the steps, where the order is 3, nothing controls the error: it is about the power 2/3 of the
+/// tolerance, and more where the equation is so stiff that steps become long; a largest step keeps it small. Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Radau5};
