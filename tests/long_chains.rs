@@ -31,6 +31,7 @@ fn chain(count: usize, axis: impl Fn(usize) -> [f64; 3], mass: impl Fn(usize) ->
             ..Inertia::default()
         },
         actuated: false,
+        range: None,
     };
     let links = (0..count).map(link).collect();
     Tree::new(&Model { name: "chain".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
