@@ -49,9 +49,10 @@ pub fn worst_error(
     shares.fold(0.0, f64::max)
 }
 
-/// What is no error is none of nothing, either.
+/// What is no error is none of nothing, either; what is no number is infinitely wrong.
 fn share_of(error: f64, scale: f64) -> f64 {
-    if error == 0.0 { 0.0 } else { error / scale }
+    let share = if error == 0.0 { 0.0 } else { error / scale };
+    if share.is_nan() { f64::INFINITY } else { share }
 }
 
 /// What the error of each output is a share of: for joint forces, the force that the joint's range states; for an element

@@ -46,8 +46,10 @@ const MEASURED: usize = 100_000;
 const USED: f64 = 0.9;
 /// Rounds at most; each sees what the one before has made possible.
 const ROUNDS: usize = 6;
-/// How often less is tried where the tolerance does not hold.
-const ATTEMPTS: usize = 6;
+/// How many aims are tried at most.
+const ATTEMPTS: usize = 8;
+/// Two aims are the same if their quotient is less.
+const NARROW: f64 = 1.15;
 /// Of a sample from which terms are judged, the largest number of states, and of numbers that are kept for it.
 const LARGEST_SAMPLE: usize = 1000;
 const SMALLEST_SAMPLE: usize = 60;
@@ -65,26 +67,40 @@ pub fn pruned(
     let mut sample = sample(whole, shape, states);
     let scales = sample.allowed.clone();
     let bound = USED * tolerance;
-    let mut aim = bound;
-    let (mut worst, mut measured) = (f64::INFINITY, 0);
+    let measured = |candidate: &Expressions, seed: u64| {
+        let in_states = |states_asked: usize| {
+            let worst = worst_error(whole, candidate, shape, states, states_asked, seed);
+            Pruning { tolerance, before, worst, states: states_asked, holds: worst <= bound }
+        };
+        // Where a part of the states is enough to refute it, the others need not be asked.
+        let few = in_states(MEASURED / 20);
+        if few.holds { in_states(MEASURED) } else { few }
+    };
+    // The sample may miss the worst states. So what is aimed at there is found by bisection, between the largest aim with which
+    // the bound holds elsewhere and the smallest with which it does not.
+    let (mut aim, mut held, mut broken) = (bound, 0.0, f64::INFINITY);
+    let mut least: Option<(Expressions, Pruning)> = None;
+    let mut last = Pruning { tolerance, before, worst: f64::INFINITY, states: 0, holds: false };
     for attempt in 0..ATTEMPTS {
         sample.allowed = scales.iter().map(|scale| aim * scale).collect();
         let candidate = rounds(whole, &sample, passes);
-        // Where a part of the states is enough to refute it, the others need not be asked.
-        for count in [MEASURED / 20, MEASURED] {
-            worst = worst_error(whole, &candidate, shape, states, count, 1 << (40 + attempt));
-            measured = count;
-            if worst > bound {
-                break;
+        if least.as_ref().is_some_and(|(least, _)| candidate.price() >= least.price()) {
+            held = aim;
+        } else {
+            last = measured(&candidate, 1 << (40 + attempt));
+            if last.holds {
+                held = aim;
+                least = Some((candidate, last));
+            } else {
+                broken = aim;
             }
         }
-        if worst <= bound {
-            return (candidate, Pruning { tolerance, before, worst, states: measured, holds: true });
+        if broken < NARROW * held || broken.is_infinite() {
+            break;
         }
-        // The sample has missed the worst states by this factor, and may do so again.
-        aim *= (0.95 * bound / worst).max(0.1);
+        aim = if held > 0.0 { 0.5 * (held + broken) } else { aim * (0.95 * bound / last.worst).max(0.1) };
     }
-    (whole.clone(), Pruning { tolerance, before, worst, states: measured, holds: false })
+    least.unwrap_or((whole.clone(), last))
 }
 
 /// The sample on which a function is judged; of its outputs the scale stands for what is allowed.
