@@ -133,6 +133,7 @@ fn random_model(random: &mut Random) -> Model {
             com: Vec3::zero(),
             inertia: Inertia { xx: 1.0, yy: 1.0, zz: 1.0, ..Inertia::default() },
             actuated: true,
+            range: None,
         }
     });
     let mut loops = Vec::new();

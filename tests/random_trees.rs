@@ -84,6 +84,7 @@ fn random_model(random: &mut Random) -> Model {
             com: Vec3::from_fn(|_| random.within(0.2)),
             inertia: inertia(random),
             actuated: true,
+            range: None,
         }
     });
     Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops: Vec::new() }

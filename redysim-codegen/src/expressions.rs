@@ -4,6 +4,9 @@ use crate::graph::{Edge, Graph, Node};
 use redysim_runtime::{OperationCount, Scalar};
 use std::collections::HashSet;
 
+/// A sine-cosine pair takes about the time of so many multiplications.
+pub(crate) const PRICE_PER_PAIR: u32 = 20;
+
 /// A graph with its outputs.
 #[derive(Clone, Debug)]
 pub struct Expressions {
@@ -78,10 +81,8 @@ impl Expressions {
     /// Operations, with what the sines and cosines are worth beside them: the measure by which one way to compute
     /// something is preferred to another.
     pub fn price(&self) -> u32 {
-        /// A sine-cosine pair takes about the time of so many multiplications.
-        const PER_PAIR: u32 = 20;
         let count = self.count();
-        count.flops() + PER_PAIR * count.trig
+        count.flops() + PRICE_PER_PAIR * count.trig
     }
 
     /// The outputs for the given arguments, computed with any scalar.

@@ -2,11 +2,12 @@
 
 use crate::expressions::Expressions;
 use crate::passes::{self, Passes};
+use crate::pruning::{Pruning, States, pruned};
 use crate::rolled;
 use crate::symbol::{Symbol, Tracer};
 use crate::trees::Trees;
 use redysim_model::denoc::{self, Factorisation, Method};
-use redysim_model::{Functions, Tree};
+use redysim_model::{Functions, Link, Model, Scene, Tree};
 use std::cell::LazyCell;
 
 /// What a function is called, takes and returns.
@@ -146,6 +147,8 @@ pub struct Function {
     pub remark: Option<&'static str>,
     /// Its expressions.
     pub expressions: Expressions,
+    /// What pruning has done to them, if there was any.
+    pub pruning: Option<Pruning>,
 }
 
 /// Traces and simplifies every function of [`SIGNATURES`], with all passes.
@@ -177,6 +180,56 @@ pub fn trace_of(tree: &Tree, functions: &Functions, passes: &Passes) -> Vec<Func
     SIGNATURES.iter().filter(|signature| functions.contains(signature.name)).map(shortest).collect()
 }
 
+/// Traces and simplifies the functions that a scene asks for, and prunes those that compute joint forces, accelerations and
+/// the mass matrix if it has a tolerance.
+///
+/// Energies, link kinematics and loops are exact in any case, and so are functions that are too long to be unrolled.
+///
+/// # Errors
+///
+/// If the scene has a tolerance and a joint no range.
+pub fn trace_scene(model: &Model, scene: &Scene, passes: &Passes) -> Result<Vec<Function>, NoRange> {
+    let tree = Tree::new(model);
+    let functions = trace_of(&tree, &scene.functions, passes);
+    let Some(tolerance) = scene.tolerance else { return Ok(functions) };
+    let range = |link: &Link| link.range.ok_or_else(|| NoRange { joint: link.joint_name.clone() });
+    let ranges = model.moving_links().map(range).collect::<Result<Vec<_>, _>>()?;
+    let own = |functions: &[Function]| functions.iter().find(|f| f.signature == INVERSE_DYNAMICS).cloned();
+    let forces = LazyCell::new(|| {
+        let only = Functions::of([INVERSE_DYNAMICS.name]).expect("a function of a mechanism");
+        own(&functions).or_else(|| own(&trace_of(&tree, &only, passes))).expect("it is asked for").expressions
+    });
+    let prune = |function: &Function| {
+        let Function { signature, expressions, .. } = function;
+        if !PRUNED.contains(signature) || expressions.is_long() {
+            return function.clone();
+        }
+        let forces = (*signature == FORWARD_DYNAMICS).then(|| &*forces);
+        let states = States { ranges: &ranges, forces };
+        let (expressions, pruning) = pruned(expressions, signature.shape, &states, tolerance, passes);
+        Function { expressions, pruning: Some(pruning), ..function.clone() }
+    };
+    Ok(functions.iter().map(prune).collect())
+}
+
+/// The functions that a tolerance is for.
+const PRUNED: [Signature; 5] = [INVERSE_DYNAMICS, FORWARD_DYNAMICS, MASS_MATRIX, BIAS_FORCES, GRAVITY_FORCES];
+
+/// A tolerance holds within ranges, and a joint has none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoRange {
+    /// The joint.
+    pub joint: String,
+}
+
+impl std::fmt::Display for NoRange {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a tolerance holds within ranges, but joint `{}` has none: give its link a `range`", self.joint)
+    }
+}
+
+impl std::error::Error for NoRange {}
+
 fn function(signature: Signature, trees: &Trees, passes: &Passes) -> Function {
     let on_kinematics = |arguments, function: TreeFunction| {
         cheapest(&trees.kinematics(), |tree| traced(tree, passes, arguments, |x| function(tree, x)))
@@ -202,7 +255,7 @@ fn function(signature: Signature, trees: &Trees, passes: &Passes) -> Function {
         LOOP_BIAS => on_kinematics(2, |tree, x| denoc::loop_bias(tree, x[0], x[1])),
         _ => unreachable!("`{}` is none of the functions of a mechanism", signature.name),
     };
-    Function { signature, remark: None, expressions }
+    Function { signature, remark: None, expressions, pruning: None }
 }
 
 /// A function of a tree and its arguments.
@@ -224,7 +277,7 @@ fn forward_dynamics(trees: &Trees, passes: &Passes) -> Function {
         Method::Factorisation => "By the factorisation M = U D Uᵀ of the generalised inertia matrix.",
         Method::Recursion => "By the O(n) recursion over articulated bodies.",
     };
-    Function { signature: FORWARD_DYNAMICS, remark: Some(remark), expressions }
+    Function { signature: FORWARD_DYNAMICS, remark: Some(remark), expressions, pruning: None }
 }
 
 fn cheaper_forward_dynamics(trees: &Trees, passes: &Passes) -> (Method, Expressions) {

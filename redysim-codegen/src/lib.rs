@@ -36,13 +36,16 @@ pub mod graph;
 pub mod passes;
 pub mod symbol;
 
+mod documentation;
 mod emit;
 mod hash;
 mod mechanism;
+mod pruning;
 mod rolled;
 mod shape;
 mod source;
 mod trees;
 
 pub use mechanism::{Generated, implementation, implementation_with, stub};
+pub use pruning::Pruning;
 pub use source::{InvalidName, source_file, source_file_with};

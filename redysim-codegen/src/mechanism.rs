@@ -1,8 +1,9 @@
 //! The compiled type: constants, functions and traits of one mechanism.
 
+use crate::documentation;
 use crate::emit::{Angles, POSTURE, Vocabulary, function_body, local};
 use crate::expressions::Expressions;
-use crate::functions::{Function, SIGNATURES, Signature, trace_of};
+use crate::functions::{Function, SIGNATURES, Signature, trace_of, trace_scene};
 use crate::passes::Passes;
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -17,6 +18,8 @@ pub struct Generated {
     pub tokens: TokenStream,
     /// Name and operations of each function.
     pub operations: Vec<(&'static str, OperationCount)>,
+    /// What was asked for and cannot be.
+    pub warnings: Vec<String>,
 }
 
 /// The `impl`s of the type `name` for `model`; `runtime` is the path of the crate `redysim_runtime`.
@@ -33,18 +36,22 @@ pub fn implementation_with(
     passes: &Passes,
 ) -> Generated {
     let tree = Tree::new(model);
-    let functions = trace_of(&tree, &scene.functions, passes);
+    let (functions, unpruned) = match trace_scene(model, scene, passes) {
+        Ok(functions) => (functions, None),
+        Err(no_range) => (trace_of(&tree, &scene.functions, passes), Some(format!("nothing is pruned: {no_range}"))),
+    };
+    let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
     let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
     let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.coordinate].to_string()).collect();
     let operations: Vec<_> =
         functions.iter().map(|function| (function.signature.name, function.expressions.count())).collect();
     let outline = Outline::new(model, scene);
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
-    let writer = Writer { bodies: &bodies, angles: &angles, outline: &outline, runtime };
+    let writer = Writer { model, bodies: &bodies, angles: &angles, outline: &outline, runtime };
     let definitions =
         std::iter::once(writer.posture()).chain(functions.iter().map(|function| writer.function(function)));
     let tokens = type_impls(&outline, name, runtime, &operations, definitions.collect());
-    Generated { tokens, operations }
+    Generated { tokens, operations, warnings }
 }
 
 /// The `impl`s of a type whose model has faults: everything has its type and nothing has a meaning, so that the faults
@@ -128,6 +135,7 @@ fn constants(outline: &Outline, operations: &[(&str, OperationCount)], runtime: 
 
 /// Writes the inherent functions of one type.
 struct Writer<'a> {
+    model: &'a Model,
     bodies: &'a [String],
     angles: &'a Angles,
     outline: &'a Outline,
@@ -153,23 +161,15 @@ impl Writer<'_> {
 
     /// One function with its documentation: of coordinates, and of a posture.
     fn function(&self, function: &Function) -> TokenStream {
-        let Function { signature, remark, expressions } = function;
-        let Writer { bodies, angles, outline, runtime } = *self;
+        let Function { signature, expressions, .. } = function;
+        let Writer { model, bodies, angles, outline, runtime } = *self;
         let (head, head_at) = (head(signature, outline, runtime), head_at(signature, outline, angles.len(), runtime));
         let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles };
         let result = |outputs: &[TokenStream]| shape::value(signature.shape, outline, outputs, runtime);
         let body = function_body(expressions, &vocabulary, result);
-        let count = expressions.count();
-        let cost = format!(
-            "{} flops: {} additions, {} multiplications, {} divisions; {} sine-cosine pairs.",
-            count.flops(),
-            count.additions,
-            count.multiplications,
-            count.divisions,
-            count.trig
-        );
-        let paragraphs = [Some(signature.summary), *remark, Some(&cost)].into_iter().flatten();
-        let docs = paragraphs.flat_map(|paragraph| [String::new(), format!(" {paragraph}")]).skip(1);
+        let paragraphs = documentation::paragraphs(function, model);
+        let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
+        let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
         let docs_at = format!(" [`{0}`](Self::{0}) where the sines and cosines are there already.", signature.name);
         let needed_angles = self.posture_for(expressions);
         let (name_at, q, at) = (format_ident!("{}_at", signature.name), local("q"), local(POSTURE));

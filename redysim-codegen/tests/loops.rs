@@ -8,7 +8,7 @@ use redysim_model::{Model, Scene};
 
 /// The code of a model, without spaces, function by function: name and body.
 fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
-    let Generated { tokens, operations } =
+    let Generated { tokens, operations, .. } =
         implementation_with(model, &format_ident!("Robot"), &quote!(redysim_runtime), &Scene::default(), passes);
     let text = without_spaces(tokens);
     let start = |name: &str| text.find(&format!("pubfn{name}_at<")).expect("every function has a form of a posture");

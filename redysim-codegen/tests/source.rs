@@ -65,7 +65,7 @@ fn a_name_that_is_no_type_is_refused() {
 #[test]
 fn a_scene_has_its_functions_and_their_traits_only() {
     let functions = Functions::of(["gravity_forces", "loop_residual", "loop_jacobian"]).unwrap();
-    let scene = Scene { functions };
+    let scene = Scene { functions, ..Scene::default() };
     let source = source_file_with(&model("fourbar.toml"), "Fourbar", &scene).unwrap();
     for function in FUNCTIONS {
         for form in [format!("pub fn {function}<"), format!("pub fn {function}_at<"), format!("// {function} ")] {

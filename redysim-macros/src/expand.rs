@@ -37,20 +37,25 @@ pub fn derived(declaration: &Declaration) -> TokenStream {
             const _: &[u8] = ::core::include_bytes!(#path);
         )
     });
-    let (diagnostics, implementation) = match Model::load_with(&file, shown(&file), scene.text.as_str()) {
+    let (diagnostics, warnings, implementation) = match Model::load_with(&file, shown(&file), scene.text.as_str()) {
         Ok(loaded) => {
             let generated = implementation_with(&loaded.model, name, &runtime, &loaded.scene, &Passes::default());
-            (loaded.warnings, generated.tokens)
+            (loaded.warnings, generated.warnings, generated.tokens)
         }
-        Err(faults) => (faults.diagnostics, stub(&faults.outline, name, &runtime)),
+        Err(faults) => (faults.diagnostics, Vec::new(), stub(&faults.outline, name, &runtime)),
     };
-    let messages = diagnostics.iter().map(|diagnostic| match diagnostic.severity() {
-        Severity::Error => compile_error(declaration, diagnostic),
-        Severity::Warning => compile_warning(declaration, diagnostic),
+    let messages = diagnostics.iter().map(|diagnostic| {
+        let (message, span) = (message(diagnostic), place(declaration, diagnostic));
+        match diagnostic.severity() {
+            Severity::Error => compile_error(declaration, &message, span),
+            Severity::Warning => compile_warning(declaration, &message, span),
+        }
     });
+    let warnings = warnings.iter().map(|warning| compile_warning(declaration, warning, model.span()));
     let cfgs = cfgs(declaration);
     quote! {
         #(#messages)*
+        #(#warnings)*
         #(#cfgs)*
         const _: () = {
             #registered
@@ -64,8 +69,7 @@ fn cfgs(declaration: &Declaration) -> impl Iterator<Item = &Attribute> {
     declaration.attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"))
 }
 
-fn compile_error(declaration: &Declaration, error: &Diagnostic) -> TokenStream {
-    let (message, span) = (message(error), place(declaration, error));
+fn compile_error(declaration: &Declaration, message: &str, span: Span) -> TokenStream {
     let cfgs = cfgs(declaration);
     quote_spanned!(span=> #(#cfgs)* ::core::compile_error!(#message);)
 }
@@ -90,9 +94,8 @@ fn message(diagnostic: &Diagnostic) -> String {
 }
 
 /// A compiler warning: the use of a constant that is deprecated for what the warning says.
-fn compile_warning(declaration: &Declaration, warning: &Diagnostic) -> TokenStream {
+fn compile_warning(declaration: &Declaration, note: &str, span: Span) -> TokenStream {
     let lints = declaration.attributes.iter().filter(is_lint_level);
-    let (note, span) = (message(warning), place(declaration, warning));
     let cfgs = cfgs(declaration);
     quote_spanned! {span=>
         #(#cfgs)*

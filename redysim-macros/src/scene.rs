@@ -94,7 +94,10 @@ impl Parse for Pair {
 }
 
 fn what_is_meant(span: Span) -> syn::Error {
-    syn::Error::new(span, "after the path of the model only `functions = [..]` and `locked = { .. }` can stand")
+    syn::Error::new(
+        span,
+        "after the path of the model only `functions = [..]`, `locked = { .. }` and `tolerance = ..` can stand",
+    )
 }
 
 /// A value as TOML has them; a name stands for itself as a string.

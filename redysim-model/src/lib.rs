@@ -23,6 +23,6 @@ pub use diagnostic::{Diagnostic, Faults, Severity};
 pub use generic::GenericMechanism;
 pub use load::Loaded;
 pub use lock::LockError;
-pub use model::{CutKind, CutSide, Inertia, JointKind, Link, Loop, Model, Outline};
+pub use model::{CutKind, CutSide, Inertia, JointKind, JointRange, Link, Loop, Model, Outline};
 pub use scene::{Functions, Scene, UnknownFunction};
 pub use tree::Tree;

@@ -45,6 +45,22 @@ pub struct Link {
     pub inertia: Inertia,
     /// Whether the joint has an actuator.
     pub actuated: bool,
+    /// Within what the joint moves; not every file says.
+    pub range: Option<JointRange>,
+}
+
+/// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function is
+/// made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointRange {
+    /// The least and the largest coordinate.
+    pub position: [f64; 2],
+    /// The largest speed in either direction.
+    pub velocity: f64,
+    /// The largest acceleration in either direction.
+    pub acceleration: f64,
+    /// The force of which a tolerance is a share, N m or N; if there is none, the largest that occurs within these ranges.
+    pub force: Option<f64>,
 }
 
 /// The kinds of joint.

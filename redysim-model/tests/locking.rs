@@ -63,6 +63,18 @@ fn checks_are_made_on_the_locked_model() {
 }
 
 #[test]
+fn a_locked_joint_needs_no_range() {
+    let without = text("test/kr5_ranges");
+    let last = without.rfind("range =").unwrap();
+    let without = &without[..last];
+    let faults = Model::from_toml_with(without, "test.toml", "tolerance = 1e-3").unwrap_err();
+    assert!(faults.errors().next().unwrap().title().contains("joint `joint6` has no range"), "{faults}");
+    let scene = "tolerance = 1e-3\nlocked = { joint6 = 0 }";
+    let loaded = Model::from_toml_with(without, "test.toml", scene).unwrap();
+    assert_eq!((loaded.scene.tolerance, loaded.model.dof()), (Some(1e-3), 5));
+}
+
+#[test]
 fn what_cannot_be_locked_is_said() {
     let kr5 = loaded(&text("kr5"), "");
     let gantry = loaded(&text("test/gantry"), "");

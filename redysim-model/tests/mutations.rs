@@ -11,7 +11,7 @@ const FILES: [&str; 3] = [
 ];
 
 /// Pieces that mean something in a model file.
-const PIECES: [&str; 20] = [
+const PIECES: [&str; 24] = [
     "[[link]]",
     "[link]",
     "[[loop]]",
@@ -32,6 +32,10 @@ const PIECES: [&str; 20] = [
     "joint = \"fixed\"",
     "axis = [0, 0, 0]",
     "ß°\u{0}",
+    "functions = [\"energy\"]",
+    "locked = { link1 = 0.1 }",
+    "tolerance = 1e-3",
+    "range = { position = [0, 1], velocity = 1, acceleration = 1 }",
 ];
 
 #[derive(Clone, Debug)]
@@ -116,6 +120,18 @@ proptest! {
     #[test]
     fn mutated_files_never_panic(file in 0..FILES.len(), mutations in prop::collection::vec(mutation(), 1..6)) {
         check(&mutations.iter().fold(FILES[file].to_owned(), |text, mutation| mutated(&text, mutation)));
+    }
+
+    /// A scene is read beside a good file.
+    #[test]
+    fn mutated_scenes_never_panic(mutations in prop::collection::vec(mutation(), 1..4)) {
+        let scene = "functions = ['mass_matrix', \"energy\"]\nlocked = { joint6 = \"30 deg\", link2 = 1 }\ntolerance = 0.01";
+        let scene = mutations.iter().fold(scene.to_owned(), |scene, mutation| mutated(&scene, mutation));
+        if let Err(faults) = Model::from_toml_with(FILES[0], "test.toml", scene.as_str()) {
+            for span in faults.diagnostics.iter().filter_map(Diagnostic::span_in_scene) {
+                assert!(span.start <= scene.len(), "{span:?} in {scene}");
+            }
+        }
     }
 
     #[test]

@@ -45,6 +45,7 @@ pub fn chain(count: usize, rod: impl Fn(usize) -> Rod) -> Tree {
             com: Vec3([length / 2.0, 0.0, 0.0]),
             inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },
             actuated: false,
+            range: None,
         }
     };
     let links = (0..count).map(link).collect();

@@ -17,5 +17,22 @@ pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scen
         });
     }
     let functions = if said.is_missing() { Functions::ALL } else { said.value()?.set() };
-    Some(Scene { functions })
+    Some(Scene { functions, tolerance: tolerance(document, findings)? })
+}
+
+/// The tolerance, which needs the range of every joint that moves; `Some(None)` without one.
+fn tolerance(document: &Document, findings: &mut Findings) -> Option<Option<f64>> {
+    let Entry { text, said } = &document.scene.tolerance;
+    if said.is_missing() {
+        return Some(None);
+    }
+    let given = said.spanned()?;
+    let without = document.links.iter().filter(|link| !link.is_rigid() && link.range.is_missing());
+    let without: Vec<&str> = without.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect();
+    if !without.is_empty() {
+        findings.within(*text, |findings| {
+            findings.error(given.span(), messages::no_range(&document.item, &without));
+        });
+    }
+    Some(Some(*given.get_ref()))
 }

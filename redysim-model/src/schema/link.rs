@@ -3,7 +3,7 @@
 use super::reader::{Reader, Shape};
 use super::{Field, Table, item};
 use crate::diagnostic::Findings;
-use crate::model::{Inertia, JointKind};
+use crate::model::{Inertia, JointKind, JointRange};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -25,6 +25,7 @@ pub(crate) struct LinkTable {
     pub(crate) com: Field<[f64; 3]>,
     pub(crate) inertia: Field<Inertia>,
     pub(crate) actuated: Field<bool>,
+    pub(crate) range: Field<JointRange>,
     /// The value at which the scene holds the joint.
     pub(crate) locked: Option<f64>,
 }
@@ -47,10 +48,24 @@ pub(crate) struct Origin {
 
 const LINK: Shape = Shape {
     owner: "A link",
-    keys: &["name", "joint_name", "parent", "joint", "dh", "origin", "axis", "mass", "com", "inertia", "actuated"],
+    keys: &[
+        "name",
+        "joint_name",
+        "parent",
+        "joint",
+        "dh",
+        "origin",
+        "axis",
+        "mass",
+        "com",
+        "inertia",
+        "actuated",
+        "range",
+    ],
 };
 const DH: Shape = Shape { owner: "`dh`", keys: &["a", "alpha", "b", "theta"] };
 const ORIGIN: Shape = Shape { owner: "`origin`", keys: &["xyz", "rpy"] };
+const RANGE: Shape = Shape { owner: "`range`", keys: &["position", "velocity", "acceleration", "force"] };
 const INERTIA: Shape = Shape { owner: "`inertia`", keys: &["xx", "yy", "zz", "xy", "yz", "xz"] };
 
 /// Kinds of joint that are planned.
@@ -65,6 +80,7 @@ impl LinkTable {
         let parent = reader.text("parent");
         let joint = reader.choice("joint", &JointKind::ALL, UNSUPPORTED);
         let mass = reader.number("mass");
+        let turns = joint.value() != Some(&JointKind::Prismatic);
         LinkTable {
             name: reader.required("name", name),
             joint_name: reader.text("joint_name"),
@@ -77,6 +93,7 @@ impl LinkTable {
             com: reader.vector("com"),
             inertia: reader.table("inertia", &INERTIA, inertia),
             actuated: reader.flag("actuated"),
+            range: reader.table("range", &RANGE, |reader| range(reader, turns)),
             locked: None,
             item,
             header,
@@ -115,6 +132,18 @@ fn origin(mut reader: Reader<'_, '_>) -> Origin {
         xyz: reader.vector("xyz").value_or([0.0; 3]).unwrap_or_default(),
         rpy: reader.angles("rpy").value_or([0.0; 3]).unwrap_or_default(),
     }
+}
+
+/// Of a joint that turns, in radians.
+fn range(mut reader: Reader<'_, '_>, turns: bool) -> JointRange {
+    let position = reader.bounds("position", turns);
+    let [velocity, acceleration] = ["velocity", "acceleration"].map(|key| {
+        let largest = reader.largest(key, turns);
+        reader.required(key, largest).value_or(0.0).unwrap_or_default()
+    });
+    let position = reader.required("position", position).value_or([0.0; 2]).unwrap_or_default();
+    let force = reader.positive("force");
+    JointRange { position, velocity, acceleration, force: force.value().copied() }
 }
 
 fn inertia(mut reader: Reader<'_, '_>) -> Inertia {

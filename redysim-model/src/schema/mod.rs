@@ -80,7 +80,8 @@ pub(crate) struct Document {
     pub(crate) scene: SceneTable,
 }
 
-const MODEL: Shape = Shape { owner: "A model", keys: &["name", "gravity", "link", "loop", "functions", "locked"] };
+const MODEL: Shape =
+    Shape { owner: "A model", keys: &["name", "gravity", "link", "loop", "functions", "locked", "tolerance"] };
 
 impl Document {
     /// Reads the file's tree, and that of the scene beside it.

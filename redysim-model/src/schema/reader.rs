@@ -115,6 +115,57 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.field(key, |reader, path, value| reader.three(path, value, "3 angles", Self::an_angle))
     }
 
+    /// A least and a largest coordinate: of a joint that turns, in radians.
+    pub(super) fn bounds(&mut self, key: &str, turns: bool) -> Field<[f64; 2]> {
+        self.field(key, |reader, path, value| {
+            let DeValue::Array(array) = value.get_ref() else {
+                return reader.wrong_type(path, value, "an array of 2 numbers");
+            };
+            let read = array.iter().enumerate().map(|(i, value)| reader.rate(&format!("{path}[{i}]"), value, turns));
+            let elements: Vec<_> = read.collect();
+            match elements.as_slice() {
+                [least, largest] => {
+                    let (least, largest) = ((*least)?, (*largest)?);
+                    if least > largest {
+                        return reader.fault(value, messages::empty_range(reader.item, path, least, largest));
+                    }
+                    Some([least, largest])
+                }
+                _ => reader.fault(value, messages::wrong_length(reader.item, path, "2 numbers", elements.len())),
+            }
+        })
+    }
+
+    /// The largest size of a rate: of a joint that turns, in radians.
+    pub(super) fn largest(&mut self, key: &str, turns: bool) -> Field<f64> {
+        self.field(key, |reader, path, value| {
+            let largest = reader.rate(path, value, turns)?;
+            if largest < 0.0 {
+                return reader.fault(value, messages::negative_range(reader.item, path, largest));
+            }
+            Some(largest)
+        })
+    }
+
+    /// A number above zero.
+    pub(super) fn positive(&mut self, key: &str) -> Field<f64> {
+        self.field(key, |reader, path, value| {
+            let number = reader.a_number(path, value)?;
+            if number <= 0.0 {
+                return reader.fault(value, messages::not_positive(reader.item, path, number));
+            }
+            Some(number)
+        })
+    }
+
+    /// A number, or in radians one with a unit of angle. Unlike of an angle, more than a turn of it is nothing odd.
+    fn rate(&mut self, path: &str, value: &Value<'_>, turns: bool) -> Option<f64> {
+        match value.get_ref() {
+            DeValue::String(_) if turns => self.an_angle(path, value),
+            _ => self.a_number(path, value),
+        }
+    }
+
     /// One of the names in `choices`. Those in `planned` are known, but not supported.
     pub(super) fn choice<T: Copy>(&mut self, key: &str, choices: &[(&str, T)], planned: &[&str]) -> Field<T> {
         self.field(key, |reader, path, value| {

@@ -16,6 +16,7 @@ pub(crate) struct SceneTable {
     pub(crate) functions: Entry<Field<FunctionNames>>,
     /// The joints that are locked. One whose value is faulty is among them, at zero: what is around the model counts joints.
     pub(crate) locked: Entry<Vec<Lock>>,
+    pub(crate) tolerance: Entry<Field<f64>>,
 }
 
 /// A joint held at a value.
@@ -47,7 +48,7 @@ impl FunctionNames {
     }
 }
 
-const SCENE: Shape = Shape { owner: "A scene", keys: &["functions", "locked"] };
+const SCENE: Shape = Shape { owner: "A scene", keys: &["functions", "locked", "tolerance"] };
 
 impl SceneTable {
     /// Reads the keys of a scene from the file and from what is beside it. `links` are there if all can be read.
@@ -61,10 +62,8 @@ impl SceneTable {
         let beside = findings
             .within(Text::Scene, |findings| Keys::read(Reader::new(beside, 0..0, item, &SCENE, findings), links));
         SceneTable {
-            functions: match beside.functions {
-                Field::Missing => Entry { text: Text::File, said: in_file.functions },
-                said => Entry { text: Text::Scene, said },
-            },
+            functions: first(beside.functions, in_file.functions),
+            tolerance: first(beside.tolerance, in_file.tolerance),
             locked: match beside.locked {
                 None => Entry { text: Text::File, said: in_file.locked.unwrap_or_default() },
                 Some(said) => Entry { text: Text::Scene, said },
@@ -77,12 +76,34 @@ impl SceneTable {
 struct Keys {
     functions: Field<FunctionNames>,
     locked: Option<Vec<Lock>>,
+    tolerance: Field<f64>,
 }
 
 impl Keys {
     fn read(mut reader: Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Keys {
-        Keys { functions: functions(&mut reader), locked: locked(&mut reader, links) }
+        Keys {
+            functions: functions(&mut reader),
+            locked: locked(&mut reader, links),
+            tolerance: tolerance(&mut reader),
+        }
     }
+}
+
+fn first<T>(beside: Field<T>, in_file: Field<T>) -> Entry<Field<T>> {
+    match beside {
+        Field::Missing => Entry { text: Text::File, said: in_file },
+        said => Entry { text: Text::Scene, said },
+    }
+}
+
+fn tolerance(reader: &mut Reader<'_, '_>) -> Field<f64> {
+    reader.field("tolerance", |reader, path, value| {
+        let tolerance = reader.a_number(path, value)?;
+        if tolerance <= 0.0 || tolerance >= 1.0 {
+            return reader.fault(value, messages::bad_tolerance(reader.item(), tolerance));
+        }
+        Some(tolerance)
+    })
 }
 
 fn functions(reader: &mut Reader<'_, '_>) -> Field<FunctionNames> {

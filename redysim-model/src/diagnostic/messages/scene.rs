@@ -1,7 +1,7 @@
 //! Messages about what is asked of a mechanism.
 
 use super::super::Message;
-use super::{did_you_mean, message, nearest, quoted, shortened};
+use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
 use crate::scene::FUNCTIONS;
 
 pub(crate) fn unknown_function(item: &str, name: &str) -> Message {
@@ -63,5 +63,49 @@ pub(crate) fn nothing_moves_unlocked(item: &str) -> Message {
         format!("{item}: every joint is fixed or locked, so nothing moves"),
         "locks the last joint that moves",
         "leave at least one joint unlocked",
+    )
+}
+
+pub(crate) fn bad_tolerance(item: &str, tolerance: f64) -> Message {
+    message(
+        format!("{item}: `tolerance` is {tolerance:?}, which is no share"),
+        "not between 0 and 1",
+        "give the error allowed as a share of each joint's largest force, as in 1e-3; without `tolerance` nothing is pruned",
+    )
+}
+
+/// A tolerance is asked for, but these joints have no range.
+pub(crate) fn no_range(item: &str, joints: &[&str]) -> Message {
+    let names: Vec<_> = joints.iter().map(|name| quoted(name)).collect();
+    let names: Vec<_> = names.iter().map(String::as_str).collect();
+    let (have, s) = if joints.len() == 1 { ("has", "") } else { ("have", "s") };
+    message(
+        format!("{item}: `tolerance` is given, but joint{s} {} {have} no range", shortened(&names)),
+        "holds within ranges only",
+        "give each link whose joint moves `range = { position = [.., ..], velocity = .., acceleration = .. }`",
+    )
+}
+
+pub(crate) fn empty_range(item: &str, path: &str, least: f64, largest: f64) -> Message {
+    message(
+        format!("{item}: `{path}` goes from {} down to {}", rounded(least), rounded(largest)),
+        "no such range",
+        "give the least coordinate first, then the largest",
+    )
+}
+
+pub(crate) fn negative_range(item: &str, path: &str, largest: f64) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, which is negative", rounded(largest)),
+        "negative",
+        "give the largest size of it, which holds in both directions",
+    )
+}
+
+pub(crate) fn not_positive(item: &str, path: &str, number: f64) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, which is not above zero", rounded(number)),
+        "not above zero",
+        "give the force of which the tolerance is a share, N m or N, or leave it out: then it is the largest that occurs",
     )
 }

@@ -1,0 +1,102 @@
+//! What the documentation of a generated function says.
+
+use crate::functions::{Function, Shape};
+use crate::pruning::Pruning;
+use redysim_model::{JointKind, JointRange, Model};
+use redysim_runtime::OperationCount;
+
+/// The paragraphs of a function.
+pub fn paragraphs(function: &Function, model: &Model) -> Vec<String> {
+    let Function { signature, remark, expressions, pruning } = function;
+    let mut paragraphs = vec![signature.summary.to_string()];
+    paragraphs.extend(remark.map(str::to_string));
+    paragraphs.push(cost(&expressions.count()));
+    if let Some(pruning) = pruning {
+        paragraphs.push(pruned(pruning, signature.shape));
+        paragraphs.push(ranges(model));
+    }
+    paragraphs
+}
+
+/// What a person who compiles is told of pruning that came to nothing.
+pub fn warning(function: &Function) -> Option<String> {
+    let Pruning { tolerance, worst, states, .. } = function.pruning.filter(|pruning| !pruning.holds)?;
+    Some(format!(
+        "`{}` is not pruned: the tolerance {tolerance:?} did not hold, the worst error of {states} sampled states was {worst:.1e} \
+         of {}",
+        function.signature.name,
+        scale(function.signature.shape),
+    ))
+}
+
+fn cost(count: &OperationCount) -> String {
+    let OperationCount { additions, multiplications, divisions, trig } = count;
+    format!(
+        "{} flops: {additions} additions, {multiplications} multiplications, {divisions} divisions; {trig} sine-cosine pairs.",
+        count.flops()
+    )
+}
+
+fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, shape: Shape) -> String {
+    if !holds {
+        return format!("Not pruned: a tolerance of {tolerance:?} did not hold in {states} sampled states.");
+    }
+    format!(
+        "Pruned to a tolerance of {tolerance:?}: {} flops and {} sine-cosine pairs before. The worst error of {states} sampled \
+         states within the ranges below is {worst:.1e} of {}.",
+        before.flops(),
+        before.trig,
+        scale(shape),
+    )
+}
+
+/// What the error is a share of.
+fn scale(shape: Shape) -> &'static str {
+    match shape {
+        Shape::Matrix => "√(M_ii M_jj) at its largest",
+        _ => "each joint's scale: the force stated for it, else its largest value",
+    }
+}
+
+fn ranges(model: &Model) -> String {
+    let line = |(name, kind, range): (&str, JointKind, JointRange)| {
+        let unit = if kind == JointKind::Revolute { "rad" } else { "m" };
+        let JointRange { position: [least, largest], velocity, acceleration, force } = range;
+        let motion =
+            format!("{least:.4} to {largest:.4} {unit}, ±{velocity:.4} {unit}/s, ±{acceleration:.4} {unit}/s²");
+        let force = force.map_or(String::new(), |force| {
+            format!(", force {force} {}", if kind == JointKind::Revolute { "N m" } else { "N" })
+        });
+        format!("- `{name}`: {motion}{force}")
+    };
+    let moving = model.moving_links().filter_map(|link| Some((link.joint_name.as_str(), link.joint, link.range?)));
+    moving.map(line).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::functions::trace_scene;
+    use crate::passes::Passes;
+    use redysim_model::Scene;
+
+    #[test]
+    fn a_tolerance_that_does_not_hold_is_a_warning() {
+        let text = "name = 'rod'\ngravity = [0, -10, 0]\n[[link]]\nname = 'rod'\nparent = 'base'\njoint = 'revolute'\n\
+                    dh = {}\nmass = 1\ncom = [1, 0, 0]\n\
+                    range = { position = [0, 1], velocity = 1, acceleration = 1 }";
+        let model = Model::from_toml(text, "rod.toml").expect("a good model").model;
+        let scene = Scene { tolerance: Some(0.01), ..Scene::default() };
+        let mut function = trace_scene(&model, &scene, &Passes::all()).expect("a range").swap_remove(0);
+        assert_eq!(warning(&function), None);
+        function.pruning = function.pruning.map(|pruning| Pruning { worst: 0.02, holds: false, ..pruning });
+        assert_eq!(
+            warning(&function).as_deref(),
+            Some(
+                "`inverse_dynamics` is not pruned: the tolerance 0.01 did not hold, the worst error of 100000 sampled states \
+                 was 2.0e-2 of each joint's scale: the force stated for it, else its largest value"
+            )
+        );
+        assert!(paragraphs(&function, &model).iter().any(|line| line.starts_with("Not pruned: a tolerance of 0.01")));
+    }
+}

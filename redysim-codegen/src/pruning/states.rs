@@ -1,0 +1,65 @@
+//! States spread over the ranges of the joints, the same in every run.
+
+use super::columns::{Columns, evaluate, live, sign};
+use crate::expressions::Expressions;
+use redysim_model::JointRange;
+
+/// Where the arguments of a function come from.
+pub struct States<'a> {
+    /// Of the joints, in the model's order.
+    pub ranges: &'a [JointRange],
+    /// The function that makes joint forces of accelerations, where the third argument are forces.
+    pub forces: Option<&'a Expressions>,
+}
+
+impl States<'_> {
+    /// The arguments in `states` states: coordinates, velocities, and accelerations or the forces that they need.
+    ///
+    /// In half of the states velocities, in half accelerations are at their limits, in every eighth so are coordinates:
+    /// joint forces are linear in accelerations and quadratic in velocities, so that this is where terms are largest.
+    pub fn arguments(&self, states: usize, seed: u64) -> Vec<Columns> {
+        let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        let joints = self.ranges.len();
+        let [mut q, mut v, mut a] = [0; 3].map(|_| Columns::new(joints, states));
+        for state in 0..states {
+            let corners = random.bits();
+            for (joint, JointRange { position: [least, largest], velocity, acceleration, .. }) in
+                self.ranges.iter().enumerate()
+            {
+                let middle = 0.5 * (least + largest);
+                q.column_mut(joint)[state] = middle + (largest - middle) * random.share(corners & 7 == 0);
+                v.column_mut(joint)[state] = velocity * random.share(corners & 8 == 0);
+                a.column_mut(joint)[state] = acceleration * random.share(corners & 16 == 0);
+            }
+        }
+        let Some(forces) = self.forces else { return vec![q, v, a] };
+        let motion = vec![q, v, a];
+        let mut values = Columns::new(forces.graph.len(), states);
+        evaluate(forces, &live(forces), &motion, &mut values);
+        let mut tau = Columns::new(joints, states);
+        for (joint, &output) in forces.outputs.iter().enumerate() {
+            let given = values.column(output.node());
+            tau.column_mut(joint).iter_mut().zip(given).for_each(|(tau, value)| *tau = sign(output) * value);
+        }
+        let [q, v, _] = <[Columns; 3]>::try_from(motion).expect("three arguments");
+        vec![q, v, tau]
+    }
+}
+
+/// The generator SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number within ±1; one of the two ends if `at_end`.
+    fn share(&mut self, at_end: bool) -> f64 {
+        let within = 2.0 * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64 - 1.0;
+        if at_end { 1.0_f64.copysign(within) } else { within }
+    }
+}
