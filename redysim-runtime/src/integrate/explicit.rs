@@ -122,6 +122,13 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
         Ok(())
     }
 
+    fn state_at(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), t: S) -> Result<Option<Y>, IntegrationError<S>> {
+        let mut aside = self.clone();
+        let outcome = aside.attempt(ode, t, &Tolerances::roundoff());
+        self.progress.statistics = aside.progress.statistics;
+        outcome.map(|()| Some(aside.progress.y_new))
+    }
+
     fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {
         let tableau = self.tableau;
         let last = tableau.main.checked_sub(1)?;
