@@ -195,8 +195,8 @@ pub trait Integrator<S: Real> {
     /// Crossings are found on the continuous extension, by nine samples of each step, and by a search for the minimum
     /// where a function comes near zero between them; one that crosses zero twice within a sixteenth of a step may be
     /// missed. Explicit methods then refine time and state by steps of their own, so that both are as exact as the ends of
-    /// steps: up to six steps for each crossing, and usually three or
-    /// four. The steps of the integration are the same as
+    /// steps: up to six steps for each crossing, and usually two or
+    /// three. The steps of the integration are the same as
     /// without events.
     ///
     /// # Errors

@@ -13,8 +13,8 @@ const STEPS: u32 = 6;
 ///
 /// An extension may be of lower order than the step it belongs to: that of the pair of orders 5 and 4 errs by h⁵ where the
 /// step errs by h⁶. So a method that says so takes steps of its own from the start of the step to the event, whose time
-/// follows by Newton's rule, with the slope of the extension and then that between two such steps: three or
-/// four of them.
+/// follows by Newton's rule, with the slope of the extension and then that between two such steps: two or
+/// three of them.
 /// The function has then reached or passed zero, so that who starts again from there does not meet the same crossing.
 ///
 /// # Errors
@@ -31,9 +31,11 @@ pub fn refine<S: Real, Y: Vector<S>>(
     let sign = if crossing.rising { -S::one() } else { S::one() };
     let mut slope = sign * slope_within(value, crossing.t, from, to, stepper);
     let mut t = crossing.t;
-    let precision = S::EPSILON * from.abs().maximum(to.abs());
-    let forward = if to > from { S::one() } else { -S::one() };
-    let (mut previous, mut best): (Option<(S, S)>, Option<(S, Y, S)>) = (None, None);
+    // Aiming a few roundings of time beyond zero, so that it is passed.
+    let beyond = S::from_f64(4.0) * S::EPSILON * from.abs().maximum(to.abs());
+    let beyond = if to > from { beyond } else { -beyond };
+    let mut previous: Option<(S, S)> = None;
+    let mut best: Option<Trial<S, Y>> = None;
     for _ in 0..STEPS {
         if t == to {
             break;
@@ -47,23 +49,35 @@ pub fn refine<S: Real, Y: Vector<S>>(
             slope = (error - previous) / (t - t_previous);
         }
         previous = Some((t, error));
-        let correction = -error / slope;
-        let passed = error <= S::zero();
-        let is_better =
-            best.as_ref().is_none_or(|(_, _, best)| error.abs() <= best.abs() || (passed && *best > S::zero()));
-        if is_better {
-            best = Some((t, y, error));
+        let trial = Trial { t, y, error };
+        if best.as_ref().is_none_or(|best| trial.is_better_than(best)) {
+            best = Some(trial);
         }
-        let small = S::from_f64(4.0) * precision;
-        if !correction.is_finite() || (passed && correction.abs() <= small) {
+        let correction = -error / slope;
+        if !correction.is_finite() || (error <= S::zero() && correction.abs() <= beyond.abs() + beyond.abs()) {
             break;
         }
-        let next = if correction.abs() <= small { t + forward * small } else { t + correction };
-        t = clamped(next, from, to);
+        t = clamped(t + correction + beyond, from, to);
     }
-    match best {
-        Some((t, y, _)) => Ok((t, y)),
-        None => Ok((t, stepper.step().at(t))),
+    Ok(match best {
+        Some(Trial { t, y, .. }) => (t, y),
+        None => (t, stepper.step().at(t)),
+    })
+}
+
+/// A step of the method to where the event might be.
+struct Trial<S, Y> {
+    t: S,
+    y: Y,
+    /// The value of the event, positive before the crossing.
+    error: S,
+}
+
+impl<S: Real, Y> Trial<S, Y> {
+    /// Whether this one has passed zero and the other has not, or is nearer to zero.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let passed = self.error <= S::zero();
+        if passed == (other.error <= S::zero()) { self.error.abs() <= other.error.abs() } else { passed }
     }
 }
 
