@@ -5,6 +5,9 @@
 //! integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
+//! [`watch`](Integrator::watch) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be, and
+//! where an equation is stiff, explicit methods say so.
+//!
 //! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and its like, the
 //! solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
 //! `tolerance`. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another method of any kind
