@@ -1,6 +1,10 @@
 //! The pair of order 8: measured orders, work, and one run against another implementation.
 
-use redysim_runtime::{Dop8, Dop853, Integrator, Ode45, Statistics, Step};
+#[allow(dead_code)]
+mod mechanisms;
+
+use mechanisms::Arm;
+use redysim_runtime::{Dop8, Dop853, ForwardSimulation, Free, Integrator, MechanicalEnergy, Ode45, Statistics, Step};
 
 /// ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), nonlinear and not autonomous: 1/(1 + t²), tan(sin t).
 fn nonlinear(t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
@@ -97,6 +101,23 @@ fn at_tight_tolerances_it_takes_fewer_evaluations_than_the_pair_of_order_five() 
     }
     assert!(3 * order_eight(1e-10) < 2 * order_five(1e-10));
     assert!(2 * order_eight(1e-12) < order_five(1e-12));
+}
+
+/// Errors as the energy shows them, for work at the same tolerance.
+#[test]
+fn a_swinging_arm_takes_fewer_evaluations_for_a_smaller_error() {
+    let mut simulation = ForwardSimulation::new(&Arm, Free);
+    let start = simulation.state(&[1.0, 0.5], &[0.0, 0.0]);
+    let energy = |y: &[f64; 5]| Arm.energy(&[y[0], y[1]], &[y[2], y[3]]).total();
+    for (tolerance, gain) in [(1e-8, 1.2), (1e-10, 1.8), (1e-12, 2.8)] {
+        let five = Ode45::new().rtol(tolerance).atol(tolerance).integrate(&mut simulation, (0.0, 10.0), start).unwrap();
+        let eight =
+            Dop853::new().rtol(tolerance).atol(tolerance).integrate(&mut simulation, (0.0, 10.0), start).unwrap();
+        let work = [five, eight].map(|end| end.statistics.evaluations as f64);
+        let error = [five, eight].map(|end| (energy(&end.y) - energy(&start)).abs());
+        println!("{tolerance:e}: {work:?} evaluations, {error:?} J");
+        assert!(work[0] > gain * work[1] && error[1] < error[0], "{work:?}, {error:?}");
+    }
 }
 
 #[test]

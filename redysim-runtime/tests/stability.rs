@@ -128,6 +128,31 @@ fn what_neither_swings_nor_is_damped_limits_nothing() {
     assert_eq!((stable.step, stable.component), (f64::INFINITY, None));
 }
 
+/// The fast mode of a system in which another one falls over limits the step as if it were alone, and a swing that
+/// grows by itself limits it as one that does not.
+#[test]
+fn what_grows_by_itself_is_no_fault_of_the_method() {
+    struct Upright;
+    impl Ode<f64, [f64; 4]> for Upright {
+        fn derivative(&mut self, _t: f64, y: &[f64; 4], dydt: &mut [f64; 4]) {
+            *dydt = [y[2], y[3], 4.0 * y[0], -2500.0 * y[1]];
+        }
+        fn coordinate_rates(&mut self, _t: f64, y: &[f64; 4], rates: &mut [f64; 4]) -> usize {
+            rates[..2].copy_from_slice(&y[2..]);
+            2
+        }
+    }
+    let euler = largest_stable_step(&mut Upright, 0.0, &[0.0; 4], &SemiImplicitEuler::new(1.0)).unwrap();
+    assert!((euler.step * 50.0 / 2.0 - 1.0).abs() < 0.01, "{euler:?}");
+    assert_eq!(euler.joint, Some(1));
+    let four = largest_stable_step(&mut Upright, 0.0, &[0.0; 4], &Ode4::new(1.0)).unwrap();
+    assert!((four.step * 50.0 / 8.0_f64.sqrt() - 1.0).abs() < 1e-3, "{four:?}");
+
+    let mut growing = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[0] + 50.0 * y[1], y[1] - 50.0 * y[0]];
+    let four = largest_stable_step(&mut growing, 0.0, &[0.0; 2], &Ode4::new(1.0)).unwrap();
+    assert!((four.step * 50.0 / 8.0_f64.sqrt() - 1.0).abs() < 1e-3, "{four:?}");
+}
+
 /// h² ω² + 4 ζ ω h ≤ 4.
 #[test]
 fn the_semi_implicit_method_is_stable_as_its_map_says() {

@@ -78,6 +78,13 @@ pub enum IntegrationError<S> {
         /// The time.
         t: S,
     },
+    /// The function of an event is infinite or not a number.
+    NonFiniteEvent {
+        /// The time.
+        t: S,
+        /// Which of the events.
+        event: usize,
+    },
     /// The equation refused the state at the end of a step (see [`Ode::accepted`](crate::Ode::accepted)).
     Refused {
         /// The time.
@@ -178,6 +185,11 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 f,
                 "the eigenvalues of the Jacobian at t = {t:?} are not found: its elements may be too large; look for a \
                  singularity nearby, or ask in another state"
+            ),
+            Self::NonFiniteEvent { t, event } => write!(
+                f,
+                "the function of event {event} is infinite or not a number at t = {t:?}; it must be finite for every \
+                 state of the solution, also between the ends of steps"
             ),
             Self::Refused { t } => write!(
                 f,

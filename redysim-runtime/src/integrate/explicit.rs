@@ -1,5 +1,7 @@
 //! One step of an explicit Runge-Kutta method.
 
+use core::mem::swap;
+
 use super::method::Stepper;
 use super::progress::{Progress, zeros};
 use super::step::{Step, weighted_sum};
@@ -42,14 +44,18 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Explicit<S, Y, STAGES> {
 
     /// Moves `y_new` to where stage `stage` is evaluated.
     fn move_to(&mut self, stage: usize) {
-        let row = self.tableau.rows[stage].iter().map(|&a| S::from_f64(a));
+        let Some(row) = self.tableau.rows.get(stage) else { return };
+        let row = row.iter().map(|&a| S::from_f64(a));
         weighted_sum(row, &self.stages, &mut self.progress.increment);
         self.progress.advance_by_increment();
     }
 
     fn evaluate(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), stage: usize) -> Result<(), IntegrationError<S>> {
-        let t = self.progress.time_at(self.tableau.nodes[stage]);
-        self.progress.evaluate(ode, t, &mut self.stages[stage])
+        let (Some(&node), Some(rate)) = (self.tableau.nodes.get(stage), self.stages.get_mut(stage)) else {
+            return Ok(());
+        };
+        let t = self.progress.time_at(node);
+        self.progress.evaluate(ode, t, rate)
     }
 
     /// h Σ d_k f_k as the tolerances measure it.
@@ -119,6 +125,13 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
         Ok(())
     }
 
+    fn state_at(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), t: S) -> Result<Option<Y>, IntegrationError<S>> {
+        let mut aside = self.clone();
+        let outcome = aside.attempt(ode, t, &Tolerances::roundoff());
+        self.progress.statistics = aside.progress.statistics;
+        outcome.map(|()| Some(aside.progress.y_new))
+    }
+
     fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {
         let tableau = self.tableau;
         let last = tableau.main.checked_sub(1)?;
@@ -149,7 +162,11 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
 
     fn accept(&mut self) {
         self.progress.accept();
-        self.stages.swap(0, self.tableau.main - 1);
+        if let [first, others @ ..] = self.stages.as_mut_slice()
+            && let Some(last) = others.get_mut(self.tableau.main.wrapping_sub(2))
+        {
+            swap(first, last);
+        }
     }
 
     fn renew(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {

@@ -95,6 +95,16 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
         None
     }
 
+    /// The state at which a step of the method from the start of the attempted one to `t`, within it, arrives; `None`, as
+    /// unless told, if the continuous extension is as good. The attempted step stays what it is.
+    ///
+    /// # Errors
+    /// If a derivative is infinite or not a number.
+    fn state_at(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), t: S) -> Result<Option<Y>, IntegrationError<S>> {
+        let _ = (ode, t);
+        Ok(None)
+    }
+
     /// The attempted step.
     fn step(&self) -> Step<'_, S, Y>;
 

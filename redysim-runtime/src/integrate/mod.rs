@@ -6,6 +6,9 @@
 //! is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
+//! [`watch`](Integrator::watch) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be, and
+//! where an equation is stiff, explicit methods say so.
+//!
 //! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and [`collocation`], the
 //! solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
 //! `tolerance`. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another method of any kind
@@ -18,6 +21,7 @@ mod complex;
 mod dormand_prince;
 mod dormand_prince_853;
 mod error;
+mod events;
 pub mod explicit;
 mod fixed;
 mod implicit;
@@ -42,6 +46,7 @@ pub use collocation::radau::{Radau5, RadauIIA};
 pub use dormand_prince::{DormandPrince, Ode5, Ode45};
 pub use dormand_prince_853::{Dop8, Dop853, DormandPrince853};
 pub use error::IntegrationError;
+pub use events::{Direction, Event, Occurrence};
 pub use fixed::FixedStep;
 pub use ndf::{Bdf, Ndf, Ode15s};
 pub use observer::Observer;
@@ -52,6 +57,7 @@ pub use tolerance::Tolerances;
 
 use crate::{Real, Vector};
 use asked::AskedTimes;
+use events::Watch;
 use interval::Interval;
 use method::Stepper;
 use observer::{Ends, EveryStep};
@@ -190,6 +196,48 @@ pub trait Integrator<S: Real> {
         asked.fault().map_or(Ok(solution), Err)
     }
 
+    /// Integrates over `interval` and looks for `events`: every crossing of zero of their functions is shown to `on_event`,
+    /// in order of time, also several in one step, before `on_step` is shown the step in which they are.
+    /// [`ControlFlow::Break`] from `on_event` ends the solution at the event: `on_step` is shown the step up to there, and
+    /// the [`Solution`] has the time and the state of the event, corrected by [`Ode::accepted`] like that at the end of a
+    /// step. Break from `on_step` ends it after that step.
+    ///
+    /// Crossings are found on the continuous extension, by nine samples of each step, and by a search for the minimum
+    /// where a function comes near zero between them; one that crosses zero twice within a sixteenth of a step may be
+    /// missed. Explicit methods then refine time and state by steps of their own, so that both are as exact as the ends of
+    /// steps: up to six steps for each crossing, and usually two or
+    /// three. The steps of the integration are the same as
+    /// without events.
+    ///
+    /// # Errors
+    /// As [`each_step_until`](Self::each_step_until), and for a function that is infinite or not a number.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use redysim_runtime::{Event, Integrator, Ode45};
+    ///
+    /// // A ball falls from 10 m.
+    /// let mut fall = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[1], -9.81];
+    /// let events = &mut [Event::falling(&|_t, y: &[f64; 2]| y[0])];
+    /// let go_on = |_: &redysim_runtime::Step<'_, f64, [f64; 2]>| ControlFlow::Continue(());
+    /// let end = Ode45::new().watch(&mut fall, (0.0, 5.0), [10.0, 0.0], events, go_on, |_| ControlFlow::Break(()))?;
+    /// assert!((end.t - (20.0_f64 / 9.81).sqrt()).abs() < 1e-14);
+    /// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
+    /// ```
+    fn watch<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        events: &mut [Event<'_, S, Y>],
+        on_step: impl FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
+        on_event: impl FnMut(Occurrence<'_, S, Y>) -> ControlFlow<()>,
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        let mut watch = Watch::new(events, start.clone(), on_step, on_event);
+        let solution = self.run(ode, interval, start, &mut watch)?;
+        Ok(watch.stopped().map_or(solution.clone(), |(t, y)| Solution { t, y, ..solution }))
+    }
+
     /// Integrates over `interval`, for the end alone.
     ///
     /// # Errors
@@ -243,5 +291,5 @@ fn show<S: Real, Y: Vector<S>>(
         stepper.look_within(ode)?;
     }
     stepper.progress_mut().finish(ode)?;
-    Ok(observer.step(&stepper.step()))
+    observer.look(stepper, ode)
 }

@@ -2,7 +2,9 @@
 
 use core::ops::ControlFlow;
 
-use super::Step;
+use super::method::Stepper;
+use super::{IntegrationError, Ode, Step};
+use crate::{Real, Vector};
 
 /// Is shown every accepted step of an integration.
 pub trait Observer<S, Y> {
@@ -15,6 +17,24 @@ pub trait Observer<S, Y> {
 
     /// Looks at a step. [`ControlFlow::Break`] ends the integration after it.
     fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()>;
+
+    /// What is called for every accepted step: as unless told, [`step`](Self::step). Who needs states within that are
+    /// more exact than the continuous extension, [takes steps](Stepper::state_at) to them here.
+    ///
+    /// # Errors
+    /// If a state within cannot be computed.
+    fn look(
+        &mut self,
+        stepper: &mut impl Stepper<S, Y>,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+    ) -> Result<ControlFlow<()>, IntegrationError<S>>
+    where
+        S: Real,
+        Y: Vector<S>,
+    {
+        let _ = ode;
+        Ok(self.step(&stepper.step()))
+    }
 }
 
 /// Asks for nothing: only the end of the integration counts.

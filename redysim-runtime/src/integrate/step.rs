@@ -17,6 +17,8 @@ pub struct Step<'a, S, Y> {
     y: &'a Y,
     t_new: S,
     y_new: &'a Y,
+    /// The length of the step in which the polynomials count time.
+    size: S,
     scale: S,
     stages: &'a [Y],
     dense: &'a [&'static [f64]],
@@ -32,7 +34,13 @@ impl<'a, S: Real, Y: Vector<S>> Step<'a, S, Y> {
         stages: &'a [Y],
         dense: &'a [&'static [f64]],
     ) -> Self {
-        Self { t, y, t_new, y_new, scale, stages, dense }
+        Self { t, y, t_new, y_new, size: t_new - t, scale, stages, dense }
+    }
+
+    /// The same step, ended at `t_new` within it, where the state is `y_new`.
+    pub(super) fn until<'b>(&'b self, t_new: S, y_new: &'b Y) -> Step<'b, S, Y> {
+        let Self { t, y, size, scale, stages, dense, .. } = *self;
+        Step { t, y, t_new, y_new, size, scale, stages, dense }
     }
 
     /// Time and state at which the step began.
@@ -58,7 +66,7 @@ impl<'a, S: Real, Y: Vector<S>> Step<'a, S, Y> {
         if t == self.t_new {
             return y.clone_from(self.y_new);
         }
-        let theta = (t - self.t) / (self.t_new - self.t);
+        let theta = (t - self.t) / self.size;
         let weights = self.dense.iter().map(|polynomial| without_constant(polynomial, theta));
         weighted_sum(weights, self.stages, y);
         for (value, &start) in y.as_mut().iter_mut().zip(self.y.as_ref()) {

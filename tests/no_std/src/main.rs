@@ -3,9 +3,11 @@
 #![no_std]
 #![no_main]
 
+use core::ops::ControlFlow;
+
 use redysim::{
-    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, ForwardSimulation, Free, Integrator, Motion, Ode5, Ode45,
-    redysim,
+    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation, Free, Integrator, Motion,
+    Ode5, Ode45, ProportionalDerivative, SemiImplicitEuler, redysim,
 };
 
 redysim! {
@@ -36,7 +38,12 @@ unsafe extern "C" {}
 #[unsafe(no_mangle)]
 extern "C" fn main() -> i32 {
     let kept = keeps_its_energy_when_it_falls().is_some_and(|kept| kept);
-    i32::from(!(is_held_by_gravity_forces() && kept && stays_closed_when_it_turns().is_some_and(|closed| closed)))
+    i32::from(
+        !(is_held_by_gravity_forces()
+            && kept
+            && stays_closed_when_it_turns().is_some_and(|closed| closed)
+            && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)),
+    )
 }
 
 fn is_held_by_gravity_forces() -> bool {
@@ -58,6 +65,22 @@ fn keeps_its_energy_when_it_falls() -> Option<bool> {
         -1e-5 < gained && gained < 1e-5
     });
     Some(kept)
+}
+
+fn stops_at_an_event_with_stable_steps() -> Option<bool> {
+    let mut fall = ForwardSimulation::new(&Kr5, Free);
+    let start = fall.state(&[0.0_f64; 6], &[0.0; 6]);
+    let events = &mut [Event::any(&|_, y: &[f64; 13]| y[1] * y[1] - 0.01)];
+    let end = Dop853::new()
+        .watch(&mut fall, (0.0, 0.5), start, events, |_| ControlFlow::Continue(()), |_| ControlFlow::Break(()))
+        .ok()?;
+    let stopped = end.t < 0.5 && end.y[1] * end.y[1] - 0.01 < 1e-9;
+    let law = ProportionalDerivative { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
+    let mut held = ForwardSimulation::new(&Kr5, law);
+    let warning = held.step_warning(&SemiImplicitEuler::new(1.0), 0.0, &start).ok()??;
+    let method = SemiImplicitEuler::new(0.5 * warning.stable.step);
+    let end = method.integrate(&mut held, (0.0, 0.1), start).ok()?;
+    Some(stopped && warning.joint.is_some() && end.y[2] < 1.0)
 }
 
 fn stays_closed_when_it_turns() -> Option<bool> {

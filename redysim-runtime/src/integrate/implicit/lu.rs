@@ -51,8 +51,10 @@ impl<T: Field, Y: Vector<T>> Lu<T, Y> {
                 return None;
             }
             *chosen = k + pivot;
-            if pivot > 0 {
-                below.swap(0, pivot);
+            if let Some((first, others)) = below.split_first_mut()
+                && let Some(chosen) = others.get_mut(pivot.wrapping_sub(1))
+            {
+                core::mem::swap(first, chosen);
             }
             let (row, rest) = below.split_first_mut()?;
             let (&diagonal, right) = row.as_ref().get(k..)?.split_first()?;

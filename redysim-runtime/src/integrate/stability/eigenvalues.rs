@@ -85,7 +85,11 @@ impl<S: Real, R: AsRef<[Complex<S>]> + AsMut<[Complex<S>]>> Rows<'_, S, R> {
                 continue;
             }
             if pivot != below {
-                self.0.swap(pivot, below);
+                for j in 0..len {
+                    let (a, b) = (self.at(pivot, j), self.at(below, j));
+                    self.set(pivot, j, b);
+                    self.set(below, j, a);
+                }
                 for i in 0..len {
                     let (a, b) = (self.at(i, pivot), self.at(i, below));
                     self.set(i, pivot, b);

@@ -1,0 +1,100 @@
+//! The time of an event and the state there, as exact as the steps are.
+
+use super::crossings::Crossing;
+use super::finite;
+use crate::integrate::method::Stepper;
+use crate::integrate::{IntegrationError, Ode};
+use crate::{Real, Vector};
+
+/// Steps of the method for one event at most.
+const STEPS: u32 = 6;
+
+/// Time and state of a crossing that the continuous extension has.
+///
+/// An extension may be of lower order than the step it belongs to: that of the pair of orders 5 and 4 errs by h⁵ where the
+/// step errs by h⁶. So a method that says so takes steps of its own from the start of the step to the event, whose time
+/// follows by Newton's rule, with the slope of the extension and then that between two such steps: two or
+/// three of them.
+/// The function has then reached or passed zero, so that who starts again from there does not meet the same crossing.
+///
+/// # Errors
+/// If a derivative or a value of the event is infinite or not a number.
+pub fn refine<S: Real, Y: Vector<S>>(
+    value: &dyn Fn(S, &Y) -> S,
+    event: usize,
+    crossing: &Crossing<S>,
+    stepper: &mut impl Stepper<S, Y>,
+    ode: &mut (impl Ode<S, Y> + ?Sized),
+) -> Result<(S, Y), IntegrationError<S>> {
+    let (from, to) = (stepper.progress().t, stepper.progress().t_new);
+    // Positive before the crossing.
+    let sign = if crossing.rising { -S::one() } else { S::one() };
+    let mut slope = sign * slope_within(value, crossing.t, from, to, stepper);
+    let mut t = crossing.t;
+    // Aiming a few roundings of time beyond zero, so that it is passed.
+    let beyond = S::from_f64(4.0) * S::EPSILON * from.abs().maximum(to.abs());
+    let beyond = if to > from { beyond } else { -beyond };
+    let mut previous: Option<(S, S)> = None;
+    let mut best: Option<Trial<S, Y>> = None;
+    for _ in 0..STEPS {
+        if t == to {
+            break;
+        }
+        let Some(y) = stepper.state_at(ode, t)? else { return Ok((t, stepper.step().at(t))) };
+        let error = finite(sign * value(t, &y), event, t)?;
+        if let Some((t_previous, previous)) = previous
+            && t != t_previous
+            && (error - previous).abs() > S::from_f64(0.1) * previous.abs()
+        {
+            slope = (error - previous) / (t - t_previous);
+        }
+        previous = Some((t, error));
+        let trial = Trial { t, y, error };
+        if best.as_ref().is_none_or(|best| trial.is_better_than(best)) {
+            best = Some(trial);
+        }
+        let correction = -error / slope;
+        if !correction.is_finite() || (error <= S::zero() && correction.abs() <= beyond.abs() + beyond.abs()) {
+            break;
+        }
+        t = clamped(t + correction + beyond, from, to);
+    }
+    Ok(match best {
+        Some(Trial { t, y, .. }) => (t, y),
+        None => (t, stepper.step().at(t)),
+    })
+}
+
+/// A step of the method to where the event might be.
+struct Trial<S, Y> {
+    t: S,
+    y: Y,
+    /// The value of the event, positive before the crossing.
+    error: S,
+}
+
+impl<S: Real, Y> Trial<S, Y> {
+    /// Whether this one has passed zero and the other has not, or is nearer to zero.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let passed = self.error <= S::zero();
+        if passed == (other.error <= S::zero()) { self.error.abs() <= other.error.abs() } else { passed }
+    }
+}
+
+/// The slope of the value along the extension.
+fn slope_within<S: Real, Y: Vector<S>>(
+    value: &dyn Fn(S, &Y) -> S,
+    t: S,
+    from: S,
+    to: S,
+    stepper: &impl Stepper<S, Y>,
+) -> S {
+    let step = stepper.step();
+    let distance = S::from_f64(1e-3) * (to - from);
+    let (before, after) = (clamped(t - distance, from, to), clamped(t + distance, from, to));
+    (value(after, &step.at(after)) - value(before, &step.at(before))) / (after - before)
+}
+
+fn clamped<S: Real>(t: S, from: S, to: S) -> S {
+    t.maximum(from.minimum(to)).minimum(from.maximum(to))
+}
