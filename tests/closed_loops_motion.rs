@@ -8,7 +8,7 @@ mod common;
 use common::models::generic;
 use redysim::integrate::Ode;
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Free, Integrator, LoopClosure, Ode4, Ode5, Ode45, Stabilisation, redysim,
+    ClosedLoop, ClosedLoopSimulation, Free, Integrator, LoopClosure, Ode4, Ode5, Ode15s, Ode45, Stabilisation, redysim,
 };
 use spatial::FourbarSpatial;
 
@@ -70,6 +70,24 @@ fn the_four_bar_falls_as_in_quadruple_precision() {
         }
         println!("{worst:?}");
         assert!(worst[0] <= 1e-10 && worst[1] <= 1e-10 && worst[2] <= 1e-8, "{worst:?}");
+    }
+}
+
+/// A multistep method whose past is that of the states before they were corrected.
+#[test]
+fn the_projection_costs_ode15s_no_steps() {
+    for tolerance in [1e-3, 1e-5, 1e-7] {
+        let fall = |stabilisation: Stabilisation<f64>| {
+            let mut spin = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(stabilisation);
+            let start = spin.start(&START, &SPIN).expect("a closed start");
+            let method = Ode15s::new().rtol(tolerance).atol(tolerance);
+            method.integrate(&mut spin, (0.0, 0.68), start).expect("it moves")
+        };
+        let (projected, free) = (fall(Stabilisation::Projection), fall(Stabilisation::None));
+        println!("tolerance {tolerance:e}: {:?}\n{:?}", projected.statistics, free.statistics);
+        assert_eq!(projected.statistics.corrections, projected.statistics.steps);
+        assert!(projected.statistics.steps as f64 <= 1.03 * free.statistics.steps as f64);
+        assert!(difference(&projected.y[..6], &free.y[..6]) < 1e3 * tolerance);
     }
 }
 

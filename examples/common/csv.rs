@@ -16,7 +16,16 @@ impl Csv {
 
     /// Adds one row: the shortest decimals that read back as exactly the same numbers.
     pub fn row(&mut self, values: impl IntoIterator<Item = f64>) {
-        let mut count = 0;
+        self.fill(0, values);
+    }
+
+    /// Adds one row whose first entry is a name.
+    pub fn named_row(&mut self, name: &str, values: impl IntoIterator<Item = f64>) {
+        write!(self.text, "\"{name}\"").expect("a String takes everything");
+        self.fill(1, values);
+    }
+
+    fn fill(&mut self, mut count: usize, values: impl IntoIterator<Item = f64>) {
         for value in values {
             let comma = if count == 0 { "" } else { "," };
             write!(self.text, "{comma}{value:?}").expect("a String takes everything");

@@ -1,8 +1,8 @@
-//! What a picture shows, before it is drawn: panels with curves over time.
+//! What a picture shows, before it is drawn: panels with curves over time, or over what they say.
 
 use super::{Series, column, peak};
 
-/// A picture: panels in rows, over the same time.
+/// A picture: panels in rows. Those above each other have the same horizontal axis.
 pub struct Figure {
     /// How many panels stand beside each other.
     pub columns: usize,
@@ -20,10 +20,12 @@ pub struct Panel {
     pub unit: String,
     /// Whether the vertical axis is logarithmic.
     pub logarithmic: bool,
+    /// What the horizontal axis measures, and whether it is logarithmic.
+    pub across: (String, bool),
     pub curves: Vec<Curve>,
 }
 
-/// Values over time.
+/// Values over time, or over what the panel says.
 pub struct Curve {
     /// As the legend shows it; a curve without a name needs none.
     pub name: String,
@@ -37,6 +39,8 @@ pub struct Curve {
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     Line,
+    /// A line with a dot at every point.
+    Dots,
     /// Hollow circles at a few points, so that a line below can be seen.
     Circles,
 }
@@ -63,7 +67,19 @@ impl Panel {
     /// An empty panel whose vertical axis shows `quantity` in `unit`.
     pub fn new(title: impl Into<String>, quantity: &str, unit: &str) -> Self {
         let (title, quantity, unit) = (title.into(), quantity.to_owned(), unit.to_owned());
-        Panel { title, quantity, unit, logarithmic: false, curves: Vec::new() }
+        Panel { title, quantity, unit, logarithmic: false, across: ("time [s]".to_owned(), false), curves: Vec::new() }
+    }
+
+    /// Makes the horizontal axis a logarithmic one that measures `quantity`.
+    pub fn over(mut self, quantity: &str) -> Self {
+        self.across = (quantity.to_owned(), true);
+        self
+    }
+
+    /// Adds a line with a dot at every point, in colour number `colour`; of no points, for the legend alone.
+    pub fn dots(mut self, name: &str, colour: usize, points: &[(f64, f64)]) -> Self {
+        self.curves.push(Curve { name: name.to_owned(), points: points.to_vec(), colour, mark: Mark::Dots });
+        self
     }
 
     /// Makes the vertical axis logarithmic.

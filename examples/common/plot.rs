@@ -23,8 +23,8 @@ const TITLE_INSET: i32 = 14;
 const RIGHT: i32 = 20;
 const TICK_LABELS: i32 = 24;
 
-/// Black, and the colours of Okabe and Ito, which colour-blind people can tell apart.
-const PALETTE: [RGBColor; 8] = [
+/// Black, and the colours of Okabe and Ito, which colour-blind people can tell apart; then two that they may not.
+const PALETTE: [RGBColor; 10] = [
     RGBColor(0, 0, 0),
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -33,6 +33,8 @@ const PALETTE: [RGBColor; 8] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
     RGBColor(120, 120, 120),
+    RGBColor(120, 70, 30),
+    RGBColor(150, 150, 0),
 ];
 const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
@@ -43,7 +45,8 @@ type Drawn = Result<(), Failure>;
 /// The figure as an SVG file of 800 pixels in width.
 pub fn svg(figure: &Figure) -> Result<String, Failure> {
     let rows = figure.panels.len().div_ceil(figure.columns) as i32;
-    let legend = if figure.shared_legend { HEAD } else { 0 };
+    let shared = figure.panels.first().filter(|_| figure.shared_legend);
+    let legend = shared.map_or(0, |panel| HEAD * (1 + legend_places(panel, LEFT).last().map_or(0, |place| place.2)));
     let row = HEAD + PLOT + TICK_LABELS;
     let height = legend + rows * row + TIME_TITLE;
     let size = |length: i32| (length * FINE) as u32;
@@ -52,7 +55,7 @@ pub fn svg(figure: &Figure) -> Result<String, Failure> {
         let root = SVGBackend::with_string(&mut text, (size(WIDTH), size(height))).into_drawing_area();
         root.fill(&WHITE)?;
         let (top, rest) = root.split_vertically(legend * FINE);
-        if let Some(panel) = figure.panels.first().filter(|_| figure.shared_legend) {
+        if let Some(panel) = shared {
             draw_legend(&top, panel, LEFT)?;
         }
         let columns: Vec<i32> =
@@ -99,7 +102,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, last: bool, shared_legend: bool) -
         .axis_style(INK.stroke_width(FINE as u32))
         .label_style(font(15, &INK))
         .axis_desc_style(font(16, &INK))
-        .x_desc(if last { "time [s]" } else { "" })
+        .x_desc(if last { &panel.across.0 } else { "" })
         .y_desc(format!("{} [{}]", panel.quantity, panel.unit))
         .set_all_tick_mark_size(4 * FINE)
         .draw()?;
@@ -110,28 +113,39 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, last: bool, shared_legend: bool) -
         ))?;
     }
     for curve in &panel.curves {
-        let points = curve.points.iter().map(|&(t, value)| (t, coordinate(panel, value)));
-        let points = points.filter(|point| point.1.is_finite());
+        let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| point.1.is_finite()).collect();
+        if curve.mark != Mark::Circles {
+            chart.draw_series(LineSeries::new(points.iter().copied(), line_style(curve)))?;
+        }
         match curve.mark {
-            Mark::Line => chart.draw_series(LineSeries::new(points, line_style(curve)))?,
-            Mark::Circles => {
-                chart.draw_series(points.map(|point| Circle::new(point, 3 * FINE, circle_style(curve))))?
+            Mark::Line => {}
+            Mark::Dots => {
+                chart.draw_series(
+                    points.iter().map(|&point| Circle::new(point, 3 * FINE, line_style(curve).filled())),
+                )?;
             }
-        };
+            Mark::Circles => {
+                chart.draw_series(points.iter().map(|&point| Circle::new(point, 3 * FINE, circle_style(curve))))?;
+            }
+        }
     }
     Ok(())
 }
 
 fn axes(panel: &Panel) -> (Axis, Axis) {
-    let points = || panel.curves.iter().flat_map(|curve| &curve.points);
-    let values = points().map(|point| coordinate(panel, point.1));
-    let y = if panel.logarithmic { Axis::logarithmic(values, 6) } else { Axis::linear(values, 6) };
-    (Axis::linear(points().map(|point| point.0), 5), y)
+    let all = || panel.curves.iter().flat_map(|curve| points(panel, curve));
+    let axis = |values: Vec<f64>, logarithmic: bool, ticks| {
+        if logarithmic { Axis::logarithmic(values.into_iter(), ticks) } else { Axis::linear(values.into_iter(), ticks) }
+    };
+    let x = axis(all().map(|point| point.0).collect(), panel.across.1, 5);
+    (x, axis(all().map(|point| point.1).collect(), panel.logarithmic, 6))
 }
 
-/// Where a value stands on the panel's vertical axis.
-fn coordinate(panel: &Panel, value: f64) -> f64 {
-    if panel.logarithmic { value.log10() } else { value }
+/// Where the points of a curve stand on the panel's axes.
+fn points(panel: &Panel, curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
+    let coordinate = |value: f64, logarithmic: bool| if logarithmic { value.log10() } else { value };
+    let place = move |&(x, y): &(f64, f64)| (coordinate(x, panel.across.1), coordinate(y, panel.logarithmic));
+    curve.points.iter().map(place)
 }
 
 fn line_style(curve: &Curve) -> ShapeStyle {
@@ -142,24 +156,45 @@ fn circle_style(curve: &Curve) -> ShapeStyle {
     PALETTE[curve.colour % PALETTE.len()].stroke_width(FINE as u32)
 }
 
-/// Draws the names of the panel's curves in a row that begins at `x`, above the coordinate system, where no data is.
-fn draw_legend(area: &Area<'_>, panel: &Panel, mut x: i32) -> Drawn {
-    const SAMPLE: i32 = 22;
-    let y = (HEAD - 13) * FINE;
-    let mut named: Vec<&str> = Vec::new();
-    for curve in &panel.curves {
-        if curve.name.is_empty() || named.contains(&curve.name.as_str()) {
+/// Length of a curve's sample in the legend, and room before and behind its name.
+const SAMPLE: i32 = 22;
+const GAP: i32 = 6;
+const BETWEEN: i32 = 14;
+
+/// The curves that have names, once each, with the places of their samples: distance from the left, and row.
+fn legend_places(panel: &Panel, left: i32) -> Vec<(&Curve, i32, i32)> {
+    let mut places: Vec<(&Curve, i32, i32)> = Vec::new();
+    let (mut x, mut row) = (left, 0);
+    for curve in panel.curves.iter().filter(|curve| !curve.name.is_empty()) {
+        if places.iter().any(|(other, ..)| other.name == curve.name) {
             continue;
         }
-        named.push(&curve.name);
+        let width = SAMPLE + GAP + text_width(&curve.name);
+        if x > left && x + width > WIDTH - RIGHT {
+            (x, row) = (left, row + 1);
+        }
+        places.push((curve, x, row));
+        x += width + BETWEEN;
+    }
+    places
+}
+
+/// Draws the names of the panel's curves in rows that begin at `x`, above the coordinate system, where no data is.
+fn draw_legend(area: &Area<'_>, panel: &Panel, x: i32) -> Drawn {
+    for (curve, x, row) in legend_places(panel, x) {
+        let y = (HEAD * (row + 1) - 13) * FINE;
         let (from, to) = (x * FINE, (x + SAMPLE) * FINE);
+        if curve.mark != Mark::Circles {
+            area.draw(&PathElement::new([(from, y), (to, y)], line_style(curve)))?;
+        }
+        let middle = ((from + to) / 2, y);
         match curve.mark {
-            Mark::Line => area.draw(&PathElement::new([(from, y), (to, y)], line_style(curve)))?,
-            Mark::Circles => area.draw(&Circle::new(((from + to) / 2, y), 3 * FINE, circle_style(curve)))?,
+            Mark::Line => {}
+            Mark::Dots => area.draw(&Circle::new(middle, 3 * FINE, line_style(curve).filled()))?,
+            Mark::Circles => area.draw(&Circle::new(middle, 3 * FINE, circle_style(curve)))?,
         }
         let style = font(15, &INK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new(curve.name.clone(), ((x + SAMPLE + 6) * FINE, y), style))?;
-        x += SAMPLE + 6 + text_width(&curve.name) + 14;
+        area.draw(&Text::new(curve.name.clone(), ((x + SAMPLE + GAP) * FINE, y), style))?;
     }
     Ok(())
 }

@@ -5,8 +5,8 @@ use crate::passes::{self, Passes};
 use crate::rolled;
 use crate::symbol::{Symbol, Tracer};
 use crate::trees::Trees;
-use redysim_model::Tree;
 use redysim_model::denoc::{self, Factorisation, Method};
+use redysim_model::{Functions, Tree};
 use std::cell::LazyCell;
 
 /// What a function is called, takes and returns.
@@ -154,10 +154,15 @@ pub fn trace(tree: &Tree) -> Vec<Function> {
 }
 
 /// Traces and simplifies every function of [`SIGNATURES`], with the given passes.
+pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
+    trace_of(tree, &Functions::ALL, passes)
+}
+
+/// Traces and simplifies the given functions and no others, in the order of [`SIGNATURES`].
 ///
 /// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to be
 /// unrolled is traced without them as well, and the shorter code is taken.
-pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
+pub fn trace_of(tree: &Tree, functions: &Functions, passes: &Passes) -> Vec<Function> {
     let trees = Trees::new(tree, passes);
     let even = passes.even();
     let even_trees = LazyCell::new(|| Trees::new(tree, &even));
@@ -169,21 +174,28 @@ pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
         let alike = function(signature, &even_trees, &even);
         if rolled::code_size(&alike.expressions) < rolled::code_size(&own.expressions) { alike } else { own }
     };
-    SIGNATURES.iter().map(shortest).collect()
+    SIGNATURES.iter().filter(|signature| functions.contains(signature.name)).map(shortest).collect()
 }
 
 fn function(signature: Signature, trees: &Trees, passes: &Passes) -> Function {
-    let Trees { energy: for_energy, kinematics, matrix, bias, .. } = trees;
     let on_kinematics = |arguments, function: TreeFunction| {
-        cheapest(kinematics, |tree| traced(tree, passes, arguments, |x| function(tree, x)))
+        cheapest(&trees.kinematics(), |tree| traced(tree, passes, arguments, |x| function(tree, x)))
+    };
+    let on_bias = |arguments, function: TreeFunction| {
+        let tree = trees.bias();
+        traced(tree, passes, arguments, |x| function(tree, x))
+    };
+    let on_matrix = |function: TreeFunction| {
+        let tree = trees.matrix();
+        traced(tree, passes, 1, |x| function(tree, x))
     };
     let expressions = match signature {
-        INVERSE_DYNAMICS => traced(bias, passes, 3, |x| denoc::inverse_dynamics(bias, x[0], x[1], x[2])),
+        INVERSE_DYNAMICS => on_bias(3, |tree, x| denoc::inverse_dynamics(tree, x[0], x[1], x[2])),
         FORWARD_DYNAMICS => return forward_dynamics(trees, passes),
-        MASS_MATRIX => traced(matrix, passes, 1, |x| denoc::mass_matrix(matrix, x[0]).concat()),
-        BIAS_FORCES => traced(bias, passes, 2, |x| denoc::bias_forces(bias, x[0], x[1])),
-        GRAVITY_FORCES => traced(matrix, passes, 1, |x| denoc::gravity_forces(matrix, x[0])),
-        ENERGY => cheapest(for_energy, |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1]))),
+        MASS_MATRIX => on_matrix(|tree, x| denoc::mass_matrix(tree, x[0]).concat()),
+        BIAS_FORCES => on_bias(2, |tree, x| denoc::bias_forces(tree, x[0], x[1])),
+        GRAVITY_FORCES => on_matrix(|tree, x| denoc::gravity_forces(tree, x[0])),
+        ENERGY => cheapest(&trees.energy(), |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1]))),
         LINK_KINEMATICS => on_kinematics(2, |tree, x| link_kinematics(tree, x[0], x[1])),
         LOOP_RESIDUAL => on_kinematics(1, |tree, x| denoc::loop_residual(tree, x[0])),
         LOOP_JACOBIAN => on_kinematics(1, |tree, x| denoc::loop_jacobian(tree, x[0]).concat()),
@@ -216,13 +228,14 @@ fn forward_dynamics(trees: &Trees, passes: &Passes) -> Function {
 }
 
 fn cheaper_forward_dynamics(trees: &Trees, passes: &Passes) -> (Method, Expressions) {
-    let Trees { plain, matrix, bias, .. } = trees;
+    let plain = trees.plain();
     // The recursion takes the inertias as they are: moved towards the ground they would pile up there, and what is
     // subtracted from them on the way would cost the digits for which the recursion is chosen.
     let recursion = traced(plain, passes, 3, |x| denoc::forward_dynamics(Method::Recursion, plain, x[0], x[1], x[2]));
     if plain.depth() > LONGEST_CHAIN_BY_FACTORISATION {
         return (Method::Recursion, recursion);
     }
+    let (matrix, bias) = (trees.matrix(), trees.bias());
     let explicit = traced(matrix, passes, 3, |x| {
         let forces = denoc::bias_forces(bias, x[0], x[1]);
         let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();

@@ -45,4 +45,4 @@ mod source;
 mod trees;
 
 pub use mechanism::{Generated, implementation, implementation_with, stub};
-pub use source::{InvalidName, source_file};
+pub use source::{InvalidName, source_file, source_file_with};

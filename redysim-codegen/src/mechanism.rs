@@ -2,12 +2,12 @@
 
 use crate::emit::{Angles, POSTURE, Vocabulary, function_body, local};
 use crate::expressions::Expressions;
-use crate::functions::{Function, SIGNATURES, Signature, trace_with};
+use crate::functions::{Function, SIGNATURES, Signature, trace_of};
 use crate::passes::Passes;
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Model, Outline, Tree};
+use redysim_model::{Model, Outline, Scene, Tree};
 use redysim_runtime::OperationCount;
 
 /// The code of a mechanism, and what it costs.
@@ -21,18 +21,24 @@ pub struct Generated {
 
 /// The `impl`s of the type `name` for `model`; `runtime` is the path of the crate `redysim_runtime`.
 pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Generated {
-    implementation_with(model, name, runtime, &Passes::default())
+    implementation_with(model, name, runtime, &Scene::default(), &Passes::default())
 }
 
-/// The same with the given passes only, to see what the others gain.
-pub fn implementation_with(model: &Model, name: &Ident, runtime: &TokenStream, passes: &Passes) -> Generated {
+/// The same with no more than what is asked of the mechanism, and with the given passes only, to see what the others gain.
+pub fn implementation_with(
+    model: &Model,
+    name: &Ident,
+    runtime: &TokenStream,
+    scene: &Scene,
+    passes: &Passes,
+) -> Generated {
     let tree = Tree::new(model);
-    let functions = trace_with(&tree, passes);
+    let functions = trace_of(&tree, &scene.functions, passes);
     let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
     let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.coordinate].to_string()).collect();
     let operations: Vec<_> =
         functions.iter().map(|function| (function.signature.name, function.expressions.count())).collect();
-    let outline = Outline::new(model);
+    let outline = Outline::new(model, scene);
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
     let writer = Writer { bodies: &bodies, angles: &angles, outline: &outline, runtime };
     let definitions =
@@ -46,11 +52,18 @@ pub fn implementation_with(model: &Model, name: &Ident, runtime: &TokenStream, p
 pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let nq = outline.joints.len();
     let posture = posture_head(nq, nq, runtime);
-    let heads = SIGNATURES
-        .iter()
+    let heads = signatures(outline)
         .flat_map(|signature| [head(signature, outline, runtime), head_at(signature, outline, nq, runtime)]);
     let definitions = std::iter::once(posture).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
     type_impls(outline, name, runtime, &[], definitions.collect())
+}
+
+/// The trait that has several functions.
+const CLOSURE: &str = "LoopClosure";
+
+/// The functions that the mechanism has.
+fn signatures(outline: &Outline) -> impl Iterator<Item = &'static Signature> {
+    SIGNATURES.iter().filter(|signature| outline.functions.contains(signature.name))
 }
 
 fn type_impls(
@@ -63,7 +76,7 @@ fn type_impls(
     let constants = constants(outline, operations, runtime);
     let mechanism = mechanism_trait(outline, name, runtime);
     let closure = closure_trait(outline, name, runtime);
-    let own_trait = SIGNATURES.iter().filter(|signature| signature.trait_name != "LoopClosure");
+    let own_trait = signatures(outline).filter(|signature| signature.trait_name != CLOSURE);
     let traits = own_trait.map(|signature| trait_impl(signature, outline, name, runtime));
     quote! {
         #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
@@ -78,7 +91,7 @@ fn type_impls(
 }
 
 fn constants(outline: &Outline, operations: &[(&str, OperationCount)], runtime: &TokenStream) -> TokenStream {
-    let Outline { name, links, joints, actuated, loop_rows } = outline;
+    let Outline { name, links, joints, actuated, loop_rows, .. } = outline;
     let (nv, nl) = (Literal::usize_unsuffixed(joints.len()), Literal::usize_unsuffixed(links.len()));
     let nc = Literal::usize_unsuffixed(loop_rows.len());
     let counts = operations.iter().map(|(field, count)| {
@@ -273,10 +286,14 @@ fn method(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> To
     }
 }
 
+/// The closure of the loops, for a type that has all of its functions.
 fn closure_trait(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let own = SIGNATURES.iter().filter(|signature| signature.trait_name == CLOSURE);
+    if !own.clone().all(|signature| outline.functions.contains(signature.name)) {
+        return TokenStream::new();
+    }
     let nv = Literal::usize_unsuffixed(outline.joints.len());
     let nc = Literal::usize_unsuffixed(outline.loop_rows.len());
-    let own = SIGNATURES.iter().filter(|signature| signature.trait_name == "LoopClosure");
     let methods = own.map(|signature| method(signature, outline, runtime));
     quote! {
         impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {

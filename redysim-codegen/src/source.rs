@@ -1,8 +1,9 @@
 //! The generated code as a formatted source file, for those who must review it or ship it.
 
-use crate::mechanism::{Generated, implementation};
+use crate::mechanism::{Generated, implementation_with};
+use crate::passes::Passes;
 use quote::{format_ident, quote};
-use redysim_model::Model;
+use redysim_model::{Model, Scene};
 
 /// A Rust module that declares the struct `name` and makes it the mechanism of `model`, as `redysim!` does.
 ///
@@ -12,11 +13,21 @@ use redysim_model::Model;
 ///
 /// If `name` is not an identifier.
 pub fn source_file(model: &Model, name: &str) -> Result<String, InvalidName> {
+    source_file_with(model, name, &Scene::default())
+}
+
+/// The same with no more than what is asked of the mechanism.
+///
+/// # Errors
+///
+/// If `name` is not an identifier.
+pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<String, InvalidName> {
     if syn::parse_str::<syn::Ident>(name).is_err() {
         return Err(InvalidName(name.to_string()));
     }
     let name = format_ident!("{name}");
-    let Generated { tokens, operations } = implementation(model, &name, &quote!(::redysim_runtime));
+    let Generated { tokens, operations } =
+        implementation_with(model, &name, &quote!(::redysim_runtime), scene, &Passes::default());
     let doc = format!(" The mechanism `{}`.", model.name);
     let file = quote! {
         #[doc = #doc]

@@ -1,7 +1,9 @@
 //! The generated code as people see it: the same every time, whole, and readable.
 
-use redysim_codegen::{implementation, source_file};
-use redysim_model::Model;
+use redysim_codegen::functions::SIGNATURES;
+use redysim_codegen::{implementation, source_file, source_file_with, stub};
+use redysim_model::scene::FUNCTIONS;
+use redysim_model::{Functions, Model, Outline, Scene};
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -58,4 +60,38 @@ fn functions_say_what_they_cost() {
 fn a_name_that_is_no_type_is_refused() {
     let error = source_file(&model("gripper.toml"), "6-axis robot").unwrap_err();
     assert_eq!(error.to_string(), "`6-axis robot` is not a name for a Rust type; write for example `Robot`");
+}
+
+#[test]
+fn a_scene_has_its_functions_and_their_traits_only() {
+    let functions = Functions::of(["gravity_forces", "loop_residual", "loop_jacobian"]).unwrap();
+    let scene = Scene { functions };
+    let source = source_file_with(&model("fourbar.toml"), "Fourbar", &scene).unwrap();
+    for function in FUNCTIONS {
+        for form in [format!("pub fn {function}<"), format!("pub fn {function}_at<"), format!("// {function} ")] {
+            assert_eq!(source.contains(&form), functions.contains(function), "{form}");
+        }
+    }
+    // Of the closure one function is missing.
+    for (trait_name, there) in
+        [("GravityForces", true), ("Mechanism", true), ("MassMatrix", false), ("LoopClosure", false)]
+    {
+        assert_eq!(source.contains(&format!("::{trait_name}<S")), there, "{trait_name}");
+    }
+}
+
+#[test]
+fn a_stub_has_what_the_scene_asks_for() {
+    let functions = Functions::of(["energy"]).unwrap();
+    let outline = Outline { functions, ..Outline::default() };
+    let stub = stub(&outline, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
+    assert!(
+        stub.contains("pub fn energy") && stub.contains("pub fn energy_at") && stub.contains("MechanicalEnergy < S >")
+    );
+    assert!(!stub.contains("mass_matrix") && !stub.contains("MassMatrix") && !stub.contains("LoopClosure"));
+}
+
+#[test]
+fn every_function_can_be_asked_for_by_its_name() {
+    assert_eq!(SIGNATURES.map(|signature| signature.name), FUNCTIONS);
 }

@@ -1,5 +1,6 @@
-//! What the macros are given: a unit struct and the path of a model.
+//! What the macros are given: a unit struct, the path of a model, and what is asked of it.
 
+use crate::scene::SceneText;
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DeriveInput, Error, Fields, Ident, LitStr, Result, Token, Visibility, parenthesized};
 
@@ -9,9 +10,26 @@ pub struct Declaration {
     pub visibility: Visibility,
     pub name: Ident,
     pub model: LitStr,
+    pub scene: SceneText,
 }
 
-/// The input of `redysim!`: `pub struct Kr5("models/kr5.toml");`.
+/// A model and what is asked of it: `"models/kr5.toml", functions = [mass_matrix]`.
+struct Robot {
+    model: LitStr,
+    scene: SceneText,
+}
+
+impl Parse for Robot {
+    fn parse(input: ParseStream) -> Result<Self> {
+        let model = input.parse()?;
+        if !input.is_empty() {
+            input.parse::<Token![,]>()?;
+        }
+        Ok(Robot { model, scene: input.parse()? })
+    }
+}
+
+/// The input of `redysim!`: `pub struct Kr5("models/kr5.toml");`, with what is asked of it after the path.
 pub struct Macro(pub Declaration);
 
 /// The input of the derive: a unit struct with the attribute `#[mechanism("models/kr5.toml")]`.
@@ -25,14 +43,12 @@ impl Parse for Macro {
         let name = input.parse()?;
         let content;
         parenthesized!(content in input);
-        let model = content.parse()?;
-        content.parse::<Option<Token![,]>>()?;
+        let Robot { model, scene } = content.parse()?;
         input.parse::<Option<Token![;]>>()?;
-        if !content.is_empty() || !input.is_empty() {
-            let rest = if content.is_empty() { input.span() } else { content.span() };
-            return Err(Error::new(rest, "expected `struct Name(\"path/of/model.toml\");` and nothing else"));
+        if !input.is_empty() {
+            return Err(Error::new(input.span(), "expected `struct Name(\"path/of/model.toml\");` and nothing else"));
         }
-        Ok(Macro(Declaration { attributes, visibility, name: usable(name)?, model }))
+        Ok(Macro(Declaration { attributes, visibility, name: usable(name)?, model, scene }))
     }
 }
 
@@ -51,8 +67,8 @@ impl Parse for Derive {
         if let Some(more) = more {
             return Err(Error::new_spanned(more, "a mechanism has one model; remove this attribute"));
         }
-        let model = model.parse_args()?;
-        Ok(Derive(Declaration { attributes: attrs, visibility: vis, name: usable(ident)?, model }))
+        let Robot { model, scene } = model.parse_args()?;
+        Ok(Derive(Declaration { attributes: attrs, visibility: vis, name: usable(ident)?, model, scene }))
     }
 }
 

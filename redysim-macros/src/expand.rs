@@ -2,9 +2,10 @@
 
 use crate::declaration::Declaration;
 use crate::locate::{model_file, shown};
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
-use redysim_codegen::{implementation, stub};
+use redysim_codegen::passes::Passes;
+use redysim_codegen::{implementation_with, stub};
 use redysim_model::{Diagnostic, Model, Severity};
 use syn::Attribute;
 
@@ -27,7 +28,7 @@ pub fn declared(declaration: &Declaration) -> TokenStream {
 
 /// The `impl`s of a struct that stands in the caller's code.
 pub fn derived(declaration: &Declaration) -> TokenStream {
-    let Declaration { name, model, .. } = declaration;
+    let Declaration { name, model, scene, .. } = declaration;
     let runtime = quote!(::redysim::runtime);
     let file = model_file(model);
     let registered = file.to_str().filter(|_| file.is_file()).map(|path| {
@@ -36,8 +37,11 @@ pub fn derived(declaration: &Declaration) -> TokenStream {
             const _: &[u8] = ::core::include_bytes!(#path);
         )
     });
-    let (diagnostics, implementation) = match Model::load_as(&file, shown(&file)) {
-        Ok(loaded) => (loaded.warnings, implementation(&loaded.model, name, &runtime).tokens),
+    let (diagnostics, implementation) = match Model::load_with(&file, shown(&file), scene.text.as_str()) {
+        Ok(loaded) => {
+            let generated = implementation_with(&loaded.model, name, &runtime, &loaded.scene, &Passes::default());
+            (loaded.warnings, generated.tokens)
+        }
         Err(faults) => (faults.diagnostics, stub(&faults.outline, name, &runtime)),
     };
     let messages = diagnostics.iter().map(|diagnostic| match diagnostic.severity() {
@@ -61,19 +65,36 @@ fn cfgs(declaration: &Declaration) -> impl Iterator<Item = &Attribute> {
 }
 
 fn compile_error(declaration: &Declaration, error: &Diagnostic) -> TokenStream {
-    let message = error.to_string();
-    let message = message.strip_prefix("error: ").unwrap_or(&message);
+    let (message, span) = (message(error), place(declaration, error));
     let cfgs = cfgs(declaration);
-    quote_spanned!(declaration.model.span()=> #(#cfgs)* ::core::compile_error!(#message);)
+    quote_spanned!(span=> #(#cfgs)* ::core::compile_error!(#message);)
+}
+
+/// Where the compiler shows a diagnostic: at what was asked for in the declaration, or at the path of the model.
+fn place(declaration: &Declaration, diagnostic: &Diagnostic) -> Span {
+    let asked = diagnostic.span_in_scene().and_then(|range| declaration.scene.span_of(&range));
+    asked.unwrap_or(declaration.model.span())
+}
+
+/// What the compiler says: with the line of the model file, but where it shows a line of the declaration itself.
+fn message(diagnostic: &Diagnostic) -> String {
+    if diagnostic.span_in_scene().is_some() {
+        return format!("{}\n = help: {}", diagnostic.title(), diagnostic.help());
+    }
+    let picture = diagnostic.to_string();
+    let severity = match diagnostic.severity() {
+        Severity::Error => "error: ",
+        Severity::Warning => "warning: ",
+    };
+    picture.strip_prefix(severity).unwrap_or(&picture).to_string()
 }
 
 /// A compiler warning: the use of a constant that is deprecated for what the warning says.
 fn compile_warning(declaration: &Declaration, warning: &Diagnostic) -> TokenStream {
     let lints = declaration.attributes.iter().filter(is_lint_level);
-    let note = warning.to_string();
-    let note = note.strip_prefix("warning: ").unwrap_or(&note);
+    let (note, span) = (message(warning), place(declaration, warning));
     let cfgs = cfgs(declaration);
-    quote_spanned! {declaration.model.span()=>
+    quote_spanned! {span=>
         #(#cfgs)*
         #(#lints)*
         const _: () = {

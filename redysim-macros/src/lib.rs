@@ -3,6 +3,7 @@
 mod declaration;
 mod expand;
 mod locate;
+mod scene;
 
 use proc_macro::TokenStream;
 
@@ -23,6 +24,22 @@ use proc_macro::TokenStream;
 /// `link_kinematics`, `loop_residual`, `loop_jacobian` and `loop_bias`, all over any `S: Scalar`, and the traits that have
 /// them. Unless the declaration derives traits itself, the type is `Clone`, `Copy`, `Debug` and `Default`.
 ///
+/// After the path may stand what is asked of the model, so that nothing else is generated and compiled:
+///
+/// ```text
+/// redysim! {
+///     pub struct Kr5("models/kr5.toml", functions = [inverse_dynamics], locked = { joint6 = "0 deg" });
+/// }
+/// ```
+///
+/// - `functions = [..]`: only these, with their forms `…_at` and the angles they need in `posture`, and only the traits
+///   that they make up; `OPS` has no operations for the others.
+/// - `locked = { joint6 = "0 deg", slide = 0.3 }`: joints, by their names or those of their links, are held at these
+///   coordinates, as if they were fixed there.
+///
+/// A model file may say the same at its top, with names in quotes: `functions = ["inverse_dynamics"]`. Each key that is
+/// given here wins over the file's.
+///
 /// Faults of the model are compile errors that show the model file's own lines. Warnings of the model are warnings of
 /// the kind `deprecated`, the only one a macro can give; `#[allow(deprecated)]` on the struct accepts them.
 #[proc_macro]
@@ -36,7 +53,8 @@ pub fn redysim(input: TokenStream) -> TokenStream {
 
 /// Makes a unit struct the mechanism of a model file: `#[derive(Mechanism)] #[mechanism("models/kr5.toml")]`.
 ///
-/// The same code as [`redysim!`], for a type whose declaration stands outside the macro.
+/// The same code as [`redysim!`], for a type whose declaration stands outside the macro. After the path may stand what is
+/// asked of the model, as there: `#[mechanism("models/kr5.toml", functions = [inverse_dynamics])]`.
 #[proc_macro_derive(Mechanism, attributes(mechanism))]
 pub fn mechanism(input: TokenStream) -> TokenStream {
     match syn::parse(input) {

@@ -1,8 +1,9 @@
 //! From a file to a checked model.
 
 use crate::check;
-use crate::diagnostic::{Diagnostic, Faults, Findings, Message, Severity, Source, messages};
+use crate::diagnostic::{Diagnostic, Faults, Findings, Message, Source, Text, messages};
 use crate::model::Model;
+use crate::scene::Scene;
 use crate::schema::Document;
 use std::ops::Range;
 use std::path::Path;
@@ -14,6 +15,8 @@ use toml::de::{DeTable, Error};
 pub struct Loaded {
     /// The model.
     pub model: Model,
+    /// What is asked of it, by the file or beside it.
+    pub scene: Scene,
     /// Warnings, in the file's order.
     pub warnings: Vec<Diagnostic>,
 }
@@ -35,15 +38,28 @@ impl Model {
     ///
     /// As [`load`](Model::load).
     pub fn load_as(path: impl AsRef<Path>, file_name: impl Into<String>) -> Result<Loaded, Faults> {
-        let (path, name) = (path.as_ref(), file_name.into());
+        Model::load_with(path, file_name, "")
+    }
+
+    /// Reads and checks a model file with a scene beside it, as [`from_toml_with`](Model::from_toml_with) does.
+    ///
+    /// # Errors
+    ///
+    /// As [`load`](Model::load), and every fault in the scene.
+    pub fn load_with(
+        path: impl AsRef<Path>,
+        file_name: impl Into<String>,
+        scene: impl Into<String>,
+    ) -> Result<Loaded, Faults> {
+        let (path, name, scene) = (path.as_ref(), file_name.into(), scene.into());
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
-            Err(_) if path.is_dir() => return Err(unreadable(name, messages::unreadable("it is a directory"))),
-            Err(error) => return Err(unreadable(name, messages::unreadable(&error.to_string()))),
+            Err(_) if path.is_dir() => return Err(unreadable(name, messages::unreadable("it is a directory"), &scene)),
+            Err(error) => return Err(unreadable(name, messages::unreadable(&error.to_string()), &scene)),
         };
         match String::from_utf8(bytes) {
-            Ok(text) => Model::from_toml(text, name),
-            Err(error) => Err(unreadable(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1))),
+            Ok(text) => Model::from_toml_with(text, name, scene),
+            Err(error) => Err(unreadable(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &scene)),
         }
     }
 
@@ -82,21 +98,54 @@ impl Model {
     /// assert_eq!(faults.errors().next().unwrap().position(), Some((10, 5)));
     /// ```
     pub fn from_toml(text: impl Into<String>, file_name: impl Into<String>) -> Result<Loaded, Faults> {
+        Model::from_toml_with(text, file_name, "")
+    }
+
+    /// Checks the text of a model file with a scene beside it: TOML with the keys `functions` and `locked`, each of which
+    /// wins over that of the file.
+    ///
+    /// # Errors
+    ///
+    /// Every fault in both texts, each shown where it stands.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// use redysim_model::Model;
+    ///
+    /// # let pendulum = "name = 'pendulum'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
+    /// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 1.0\ncom = [0.5, 0, 0]";
+    /// let loaded = Model::from_toml_with(pendulum, "pendulum.toml", "functions = ['inverse_dynamics']").unwrap();
+    /// assert!(!loaded.scene.functions.contains("mass_matrix"));
+    /// ```
+    pub fn from_toml_with(
+        text: impl Into<String>,
+        file_name: impl Into<String>,
+        scene: impl Into<String>,
+    ) -> Result<Loaded, Faults> {
         let source = Arc::new(Source { name: file_name.into(), text: text.into() });
-        let mut findings = Findings::new(Arc::clone(&source));
+        let scene_source = scene_source(scene.into());
+        let new_findings = || Findings::new(Arc::clone(&source), Arc::clone(&scene_source));
+        let mut findings = new_findings();
         let (root, errors) = DeTable::parse_recoverable(&source.text);
-        if !errors.is_empty() {
-            // What a broken file says is read for its outline only: its faults would be echoes of the syntax errors.
-            let outline = Document::read(root.get_ref(), &mut Findings::new(Arc::clone(&source))).outline();
+        let (scene, scene_errors) = DeTable::parse_recoverable(&scene_source.text);
+        if !errors.is_empty() || !scene_errors.is_empty() {
+            // What a broken text says is read for the outline only: its faults would be echoes of the syntax errors.
+            let outline = Document::read(root.get_ref(), scene.get_ref(), &mut new_findings()).outline();
             report_syntax(&errors, &source, &mut findings);
+            findings.within(Text::Scene, |findings| report_syntax(&scene_errors, &scene_source, findings));
             return Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(outline) });
         }
-        let document = Document::read(root.get_ref(), &mut findings);
+        let document = Document::read(root.get_ref(), scene.get_ref(), &mut findings);
         match check::check(&document, &mut findings) {
-            Some(model) => Ok(Loaded { model, warnings: findings.into_sorted() }),
+            Some((model, scene)) => Ok(Loaded { model, scene, warnings: findings.into_sorted() }),
             None => Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(document.outline()) }),
         }
     }
+}
+
+fn scene_source(text: String) -> Arc<Source> {
+    Arc::new(Source { name: "scene".into(), text })
 }
 
 /// Reports the first syntax error of each line; the parser stumbles on over the rest of a broken line.
@@ -112,8 +161,12 @@ fn report_syntax(errors: &[Error], source: &Source, findings: &mut Findings) {
     }
 }
 
-fn unreadable(name: String, message: Message) -> Faults {
-    let source = Arc::new(Source { name, text: String::new() });
-    let diagnostics = vec![Diagnostic::new(Severity::Error, message, source, None)];
-    Faults { diagnostics, outline: Box::default() }
+/// Without a file there are no links, but the scene still says which functions code around the model will call.
+fn unreadable(name: String, message: Message, scene: &str) -> Faults {
+    let (nothing, scene_source) = (scene_source(String::new()), scene_source(scene.to_string()));
+    let (empty, _) = DeTable::parse_recoverable("");
+    let (scene, _) = DeTable::parse_recoverable(&scene_source.text);
+    let mut echoes = Findings::new(nothing, Arc::clone(&scene_source));
+    let outline = Document::read(empty.get_ref(), scene.get_ref(), &mut echoes).outline();
+    Faults { diagnostics: vec![Diagnostic::unreadable(name, message)], outline: Box::new(outline) }
 }

@@ -1,5 +1,6 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
+use crate::scene::{Functions, Scene};
 use crate::spatial::{Pose, Vec3};
 use crate::tree::Tree;
 
@@ -155,17 +156,20 @@ pub struct Outline {
     pub actuated: Vec<bool>,
     /// For each row of the loops, the name of its loop.
     pub loop_rows: Vec<String>,
+    /// The functions that it has.
+    pub functions: Functions,
 }
 
 impl Outline {
-    /// The outline of a checked model.
-    pub fn new(model: &Model) -> Self {
+    /// The outline of a checked model and what is asked of it.
+    pub fn new(model: &Model, scene: &Scene) -> Self {
         Outline {
             name: model.name.clone(),
             links: model.links.iter().map(|link| link.name.clone()).collect(),
             joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
             actuated: model.moving_links().map(|link| link.actuated).collect(),
             loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
+            functions: scene.functions,
         }
     }
 }

@@ -245,7 +245,7 @@ impl Tree {
 }
 
 /// A rotation that takes z to the unit vector `axis`: a signed permutation where the axis is one of the frame's.
-fn align_z(axis: Vec3<f64>) -> Mat3<f64> {
+pub(crate) fn align_z(axis: Vec3<f64>) -> Mat3<f64> {
     let least = (0..3).fold(0, |least, i| if axis[i].abs() < axis[least].abs() { i } else { least });
     let mut y = axis.cross(Mat3::identity().column(least));
     y = y.scale(1.0 / y.dot(y).sqrt());
@@ -301,6 +301,14 @@ fn without_noise(values: &mut [&mut f64]) {
 }
 
 impl Pose<f64> {
+    /// -0.0 is nobody's coordinate: it comes from products with zero, and would be printed.
+    pub(crate) fn without_negative_zeros(self) -> Self {
+        Pose {
+            rotation: Mat3::from_fn(|i, j| self.rotation.0[i][j] + 0.0),
+            position: Vec3::from_fn(|i| self.position[i] + 0.0),
+        }
+    }
+
     pub(crate) fn without_roundoff(mut self) -> Self {
         let Mat3(rows) = &mut self.rotation;
         for element in rows.iter_mut().flatten() {

@@ -34,8 +34,8 @@ pub use closed_loop::{
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
 pub use dual::Dual;
 pub use integrate::{
-    Dop8, Dop853, Event, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode45, SemiImplicitEuler, Solution,
-    Statistics, Step,
+    Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,
+    Radau5, SemiImplicitEuler, Solution, Statistics, Step,
 };
 pub use mechanism::{
     BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,

@@ -5,8 +5,9 @@
 mod mechanisms;
 
 use mechanisms::Arm;
+use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    ForwardDynamics, ForwardSimulation, Free, IntegrationError, Integrator, LinkState, Mechanism, Ode5, Ode45,
+    ForwardDynamics, ForwardSimulation, Free, IntegrationError, Integrator, LinkState, Mechanism, Ode5, Ode15s, Ode45,
     Proportional, ProportionalDerivative, TorqueLaw,
 };
 
@@ -47,6 +48,16 @@ impl ForwardDynamics<f64> for DynamicArm {
     fn forward_dynamics(&self, q: &Vec<f64>, v: &Vec<f64>, tau: &Vec<f64>) -> Vec<f64> {
         Arm.forward_dynamics(&[q[0], q[1]], &[v[0], v[1]], &[tau[0], tau[1]]).to_vec()
     }
+
+    fn forward_dynamics_tangent(
+        &self,
+        at: Arguments<'_, f64, Self>,
+        slopes: Arguments<'_, f64, Self>,
+    ) -> Option<Vec<f64>> {
+        let [at, slopes] = [at, slopes].map(|(q, v, tau)| [q, v, tau].map(|values| [values[0], values[1]]));
+        let [[q, v, tau], [dq, dv, dtau]] = [at, slopes];
+        Some(Arm.forward_dynamics_tangent((&q, &v, &tau), (&dq, &dv, &dtau))?.to_vec())
+    }
 }
 
 const Q: [f64; 2] = [0.5, -0.25];
@@ -83,6 +94,7 @@ fn compare(method: impl Integrator<f64>) {
 fn vectors_give_the_same_bits_as_arrays() {
     compare(Ode5::new(0.01));
     compare(Ode45::new());
+    compare(Ode15s::new());
 }
 
 #[test]
@@ -111,6 +123,11 @@ fn a_start_of_the_wrong_length_is_reported() {
 #[test]
 fn a_state_without_components_is_no_trouble() {
     let mut nothing = |_t: f64, _y: &Vec<f64>, _dydt: &mut Vec<f64>| {};
-    let end = Ode45::new().integrate(&mut nothing, (0.0, 1.0), vec![]).unwrap();
-    assert_eq!((end.t, end.y.len()), (1.0, 0));
+    for end in [
+        Ode45::new().integrate(&mut nothing, (0.0, 1.0), vec![]),
+        Ode15s::new().integrate(&mut nothing, (0.0, 1.0), vec![]),
+    ] {
+        let end = end.unwrap();
+        assert_eq!((end.t, end.y.len()), (1.0, 0));
+    }
 }

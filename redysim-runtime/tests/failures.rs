@@ -204,7 +204,7 @@ fn steps_are_counted_before_they_become_too_many() {
 
 #[test]
 fn messages_name_the_rule_the_value_and_the_way_out() {
-    let cases: [(IntegrationError<f64>, &[&str]); 11] = [
+    let cases: [(IntegrationError<f64>, &[&str]); 12] = [
         (BadInterval { from: 1.0, to: 1.5 }, &["interval", "1.0", "1.5", "length"]),
         (BadRelativeTolerance { value: 1e-17, smallest: 2e-14 }, &["relative", "1e-17", "2e-14", "larger"]),
         (BadAbsoluteTolerance { component: None, value: -1.0 }, &["absolute", "-1.0", "positive"]),
@@ -214,6 +214,7 @@ fn messages_name_the_rule_the_value_and_the_way_out() {
         (AskedTimeOutside { t: 2.0, from: 0.0, to: 1.0 }, &["t = 2.0", "0.0 to 1.0", "interval"]),
         (AskedTimesOutOfOrder { t: 2.0, previous: 3.0 }, &["t = 2.0", "3.0", "sort"]),
         (NonFiniteDerivative { t: 0.5, component: 4 }, &["component 4", "derivative", "t = 0.5"]),
+        (NotConverged { t: 0.5, step: 1e-3 }, &["t = 0.5", "0.001", "iteration", "tangent", "smaller"]),
         (StepTooSmall { t: 0.5, step: 1e-16 }, &["t = 0.5", "1e-16", "singularity"]),
         (TooManySteps { t: 0.5, limit: 7 }, &["t = 0.5", "7 steps", "max_steps"]),
     ];

@@ -1,7 +1,8 @@
 //! The coefficients against the order conditions, one for each rooted tree (Butcher's theory).
 
-use std::collections::BTreeSet;
+mod order_conditions;
 
+use order_conditions::{trees, values};
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, ErrorEstimate, RUNGE_KUTTA_4, Tableau};
 
 /// For coefficients of moderate size.
@@ -11,57 +12,9 @@ const ROUNDOFF_853: f64 = 1e-12;
 
 const THETAS: [f64; 9] = [0.0, 0.1, 0.25, 0.5, 0.7, 0.9, 0.99, 0.9999, 1.0];
 
-/// A rooted tree: its branches, sorted, so that equal trees are equal.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Tree(Vec<Tree>);
-
-impl Tree {
-    fn order(&self) -> usize {
-        1 + self.0.iter().map(Tree::order).sum::<usize>()
-    }
-
-    /// γ: the product of the orders of all subtrees.
-    fn density(&self) -> f64 {
-        self.order() as f64 * self.0.iter().map(Tree::density).product::<f64>()
-    }
-
-    /// Φ_k, one for each stage: Π over branches of Σ_j a_kj Φ_j(branch).
-    fn elementary_weights<const N: usize>(&self, tableau: &Tableau<N>) -> [f64; N] {
-        self.0.iter().fold([1.0; N], |weights, branch| {
-            let inner = branch.elementary_weights(tableau);
-            std::array::from_fn(|k| weights[k] * dot(tableau.rows[k], &inner))
-        })
-    }
-
-    /// All trees with one more leaf.
-    fn grown(&self) -> Vec<Tree> {
-        let mut grown = vec![self.with_branches(|branches| branches.push(Tree(vec![])))];
-        for (i, branch) in self.0.iter().enumerate() {
-            grown.extend(branch.grown().into_iter().map(|new| self.with_branches(|branches| branches[i] = new)));
-        }
-        grown
-    }
-
-    fn with_branches(&self, change: impl FnOnce(&mut Vec<Tree>)) -> Tree {
-        let mut branches = self.0.clone();
-        change(&mut branches);
-        branches.sort();
-        Tree(branches)
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn trees(order: usize) -> BTreeSet<Tree> {
-    if order == 1 { [Tree(vec![])].into() } else { trees(order - 1).iter().flat_map(Tree::grown).collect() }
-}
-
-/// The largest violation of b·Φ(t) = θ^order / γ(t) over all trees of one order.
+/// The largest violation of the order conditions of one order.
 fn defect<const N: usize>(tableau: &Tableau<N>, order: usize, b: &[f64], theta: f64) -> f64 {
-    let exact = |tree: &Tree| theta.powi(order as i32) / tree.density();
-    trees(order).iter().map(|tree| (dot(b, &tree.elementary_weights(tableau)) - exact(tree)).abs()).fold(0.0, f64::max)
+    order_conditions::defect(tableau.rows, order, b, theta)
 }
 
 /// Whether a formula satisfies all conditions up to an order, and clearly not those of the next.
@@ -84,7 +37,7 @@ fn embedded_weights<const N: usize>(tableau: &Tableau<N>, error: &[f64; N]) -> [
 }
 
 fn dense_weights<const N: usize>(tableau: &Tableau<N>, theta: f64) -> [f64; N] {
-    tableau.dense.map(|polynomial| (1..).zip(polynomial).map(|(power, c)| c * theta.powi(power)).sum())
+    values(tableau.dense, theta)
 }
 
 fn dense_rates<const N: usize>(tableau: &Tableau<N>, theta: f64) -> [f64; N] {

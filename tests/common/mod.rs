@@ -3,6 +3,7 @@
 
 pub mod andrews;
 pub mod call;
+pub mod chains;
 pub mod comparison;
 pub mod double_double;
 pub mod dual;

@@ -981,11 +981,29 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::InverseDynamics<S> for Gri
     fn inverse_dynamics(&self, q: &[S; 4], v: &[S; 4], a: &[S; 4]) -> [S; 4] {
         Self::inverse_dynamics(q, v, a)
     }
+    fn inverse_dynamics_tangent(
+        &self,
+        at: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
+        slopes: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
+    ) -> ::core::option::Option<Self::Velocities> {
+        ::core::option::Option::Some(
+            ::redysim_runtime::dual::inverse_dynamics_tangent(self, at, slopes),
+        )
+    }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::ForwardDynamics<S> for Gripper {
     #[inline]
     fn forward_dynamics(&self, q: &[S; 4], v: &[S; 4], tau: &[S; 4]) -> [S; 4] {
         Self::forward_dynamics(q, v, tau)
+    }
+    fn forward_dynamics_tangent(
+        &self,
+        at: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
+        slopes: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
+    ) -> ::core::option::Option<Self::Velocities> {
+        ::core::option::Option::Some(
+            ::redysim_runtime::dual::forward_dynamics_tangent(self, at, slopes),
+        )
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::MassMatrix<S> for Gripper {

@@ -3,7 +3,7 @@
 use super::placement::unit_axis;
 use super::tree;
 use crate::diagnostic::{Findings, messages};
-use crate::model::{CutKind, CutSide, JointKind, Loop};
+use crate::model::{CutKind, CutSide, Loop};
 use crate::schema::{CutSideTable, Document, LoopTable};
 use crate::spatial::Vec3;
 
@@ -66,7 +66,7 @@ fn joins_two_bodies(
         return;
     }
     if let (Some(link_a), Some(link_b)) = (table.a.link.spanned(), table.b.link.spanned()) {
-        let message = messages::loop_within_body(&table.item, link_a.get_ref(), link_b.get_ref());
+        let message = messages::loop_within_body(&table.item, link_a.get_ref(), link_b.get_ref(), document.locks());
         findings.error(link_b.span(), message);
     }
 }
@@ -74,7 +74,7 @@ fn joins_two_bodies(
 /// The link that fixed joints make this one a part of; `None` is the ground.
 fn body(document: &Document, link: Option<usize>, parents: &[Option<usize>]) -> Option<usize> {
     let mut at = link;
-    while let Some(link) = at.filter(|&link| document.links[link].joint.value() == Some(&JointKind::Fixed)) {
+    while let Some(link) = at.filter(|&link| document.links[link].is_rigid()) {
         at = parents[link];
     }
     at

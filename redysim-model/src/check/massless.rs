@@ -16,7 +16,7 @@ pub(super) fn check(document: &Document, parents: &[Option<usize>], findings: &m
         }
     }
     for (link, _) in document.links.iter().zip(carries).filter(|(_, carries)| !carries) {
-        let moves = link.joint.value().is_some_and(|joint| joint.dof() > 0);
+        let moves = link.joint.value().is_some() && !link.is_rigid();
         if let Some(joint) = link.joint_name().filter(|_| moves) {
             findings.error(link.place(), messages::massless(&link.item, joint.get_ref()));
         }

@@ -6,17 +6,20 @@ mod massless;
 mod mobility;
 mod names;
 mod placement;
+mod scene;
 mod singular;
 mod tree;
 
 use crate::diagnostic::{Findings, messages};
 use crate::model::{JointKind, Link, Model};
+use crate::scene::Scene;
 use crate::schema::{Document, LinkTable};
 use crate::spatial::Vec3;
 use toml::Spanned;
 
-/// The model, unless an error is found, or was found while reading.
-pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Model> {
+/// The model and what is asked of it, unless an error is found, or was found while reading.
+pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Model, Scene)> {
+    let scene = scene::check(document, findings);
     names::check(document, findings);
     something_moves(document, findings);
     let parents = tree::parents(document, findings);
@@ -26,8 +29,11 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Mode
     massless::check(document, &parents, findings);
 
     let mut links = links.into_iter().collect::<Option<Vec<_>>>()?;
-    for (link, parent) in links.iter_mut().zip(parents) {
+    for ((link, table), parent) in links.iter_mut().zip(&document.links).zip(parents) {
         link.parent = parent;
+        if let Some(value) = table.locked {
+            link.lock(value);
+        }
     }
     let gravity = Vec3(*document.gravity.value()?);
     let model = Model { name: document.name.value()?.clone(), gravity, links, loops: loops? };
@@ -35,6 +41,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Mode
         return None;
     }
     for (link, message) in singular::check(&model) {
+        let message = message.with_locks(&document.locks());
         findings.error(document.links.get(link).map_or(document.place.clone(), LinkTable::place), message);
     }
     if findings.errors() > 0 {
@@ -42,9 +49,10 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<Mode
     }
     for (cut, message) in mobility::check(&model) {
         let table = cut.and_then(|cut| document.loops.get(cut)).and_then(|table| table.name.spanned());
+        let message = message.with_locks(&document.locks());
         findings.warning(table.map_or(document.place.clone(), Spanned::span), message);
     }
-    Some(model)
+    Some((model, scene?))
 }
 
 /// One link by itself, still without its parent.
@@ -77,7 +85,13 @@ fn something_moves(document: &Document, findings: &mut Findings) {
         return;
     };
     let fixed = |link: &LinkTable| link.joint.value() == Some(&JointKind::Fixed);
-    if document.links.iter().all(fixed) {
+    let locks = &document.scene.locked;
+    if let Some(last) = locks.said.last()
+        && document.links.iter().all(LinkTable::is_rigid)
+    {
+        let message = messages::nothing_moves_unlocked(&document.item);
+        findings.within(locks.text, |findings| findings.error(last.place.clone(), message));
+    } else if document.links.iter().all(fixed) {
         let place = first.joint.spanned().map_or(first.place(), Spanned::span);
         findings.error(place, messages::nothing_moves(&document.item));
     }

@@ -25,7 +25,7 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<(Pose<f
     }
     let Origin { xyz, rpy } = link.origin.value_or(Origin::default())?;
     let placement = Pose { rotation: roll_pitch_yaw(rpy), position: Vec3(xyz) };
-    Some((without_negative_zeros(placement), axis?, 0.0))
+    Some((placement.without_negative_zeros(), axis?, 0.0))
 }
 
 /// Either `dh`, or `origin` and `axis` or one of them.
@@ -84,15 +84,7 @@ fn from_dh(joint: JointKind, dh: Dh) -> (Pose<f64>, f64) {
         JointKind::Prismatic => (before * moved(dh.a, 0.0) * turned(about_z(dh.theta)), dh.b),
         JointKind::Fixed => (before * moved(dh.a, dh.b) * turned(about_z(dh.theta)), 0.0),
     };
-    (without_negative_zeros(placement), offset)
-}
-
-/// -0.0 is nobody's coordinate: it comes from products with zero, and would be printed.
-fn without_negative_zeros(pose: Pose<f64>) -> Pose<f64> {
-    Pose {
-        rotation: Mat3::from_fn(|i, j| pose.rotation.0[i][j] + 0.0),
-        position: Vec3::from_fn(|i| pose.position[i] + 0.0),
-    }
+    (placement.without_negative_zeros(), offset)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ mod source;
 pub(crate) use source::Source;
 
 use crate::model::Outline;
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -31,19 +31,32 @@ pub(crate) struct Message {
     pub(crate) help: String,
 }
 
-/// One finding about a model file. Its `Display` is the whole picture: title, place, source line with carets, help.
+/// Which of the texts that describe a mechanism a finding is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Text {
+    /// The model file.
+    #[default]
+    File,
+    /// The scene that is given beside it.
+    Scene,
+}
+
+/// One finding about a model file, or about the scene beside it. Its `Display` is the whole picture: title, place, source line with carets, help.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
     severity: Severity,
     message: Message,
+    text: Text,
     source: Arc<Source>,
     /// Bytes of the source; `None` where the file could not be read.
     span: Option<Range<usize>>,
 }
 
 impl Diagnostic {
-    pub(crate) fn new(severity: Severity, message: Message, source: Arc<Source>, span: Option<Range<usize>>) -> Self {
-        Diagnostic { severity, message, source, span }
+    /// A finding about the file as a whole, which could not be read.
+    pub(crate) fn unreadable(name: String, message: Message) -> Self {
+        let source = Arc::new(Source { name, text: String::new() });
+        Diagnostic { severity: Severity::Error, message, text: Text::File, source, span: None }
     }
 
     /// Whether it is an error or a warning.
@@ -64,6 +77,12 @@ impl Diagnostic {
     /// The file's name, as it was given to the loader.
     pub fn file(&self) -> &str {
         &self.source.name
+    }
+
+    /// The bytes concerned, of the text of the scene that was given beside the file; `None` if the finding is about the
+    /// file.
+    pub fn span_in_scene(&self) -> Option<Range<usize>> {
+        self.span.clone().filter(|_| self.text == Text::Scene)
     }
 
     /// Line and column of the first character concerned, counted from 1, the column in characters. `None` where the
@@ -89,7 +108,7 @@ impl fmt::Display for Diagnostic {
                     .line_start(place.line)
                     .annotation(AnnotationKind::Primary.span(place.span.clone()).label(&self.message.label)),
             ),
-            None => group.element(Origin::path(&self.source.name)),
+            None => group.element(annotate_snippets::Origin::path(&self.source.name)),
         };
         let group = group.element(Level::HELP.message(normalize_untrusted_str(&self.message.help)));
         f.write_str(&Renderer::plain().render(&[group]))
@@ -124,16 +143,27 @@ impl fmt::Display for Faults {
 
 impl std::error::Error for Faults {}
 
-/// Collects what is found while one file is read and checked.
+/// Collects what is found while one file, and the scene beside it, are read and checked.
 pub(crate) struct Findings {
-    source: Arc<Source>,
+    file: Arc<Source>,
+    scene: Arc<Source>,
+    /// Which of the two is being looked at.
+    text: Text,
     diagnostics: Vec<Diagnostic>,
     errors: usize,
 }
 
 impl Findings {
-    pub(crate) fn new(source: Arc<Source>) -> Self {
-        Findings { source, diagnostics: Vec::new(), errors: 0 }
+    pub(crate) fn new(file: Arc<Source>, scene: Arc<Source>) -> Self {
+        Findings { file, scene, text: Text::File, diagnostics: Vec::new(), errors: 0 }
+    }
+
+    /// What `look` finds stands in `text`.
+    pub(crate) fn within<T>(&mut self, text: Text, look: impl FnOnce(&mut Self) -> T) -> T {
+        let before = std::mem::replace(&mut self.text, text);
+        let seen = look(self);
+        self.text = before;
+        seen
     }
 
     pub(crate) fn error(&mut self, span: Range<usize>, message: Message) {
@@ -146,7 +176,15 @@ impl Findings {
     }
 
     fn push(&mut self, severity: Severity, span: Range<usize>, message: Message) {
-        self.diagnostics.push(Diagnostic::new(severity, message, Arc::clone(&self.source), Some(span)));
+        let (text, source) = (self.text, Arc::clone(self.source()));
+        self.diagnostics.push(Diagnostic { severity, message, text, source, span: Some(span) });
+    }
+
+    fn source(&self) -> &Arc<Source> {
+        match self.text {
+            Text::File => &self.file,
+            Text::Scene => &self.scene,
+        }
     }
 
     /// Number of errors so far.
@@ -156,12 +194,13 @@ impl Findings {
 
     /// The line on which a range starts, counted from 1.
     pub(crate) fn line(&self, span: &Range<usize>) -> usize {
-        self.source.place(span).line
+        self.source().place(span).line
     }
 
-    /// Everything found, in the file's order.
+    /// Everything found: about the file, in its order, then about the scene.
     pub(crate) fn into_sorted(mut self) -> Vec<Diagnostic> {
-        self.diagnostics.sort_by_key(|diagnostic| diagnostic.span.as_ref().map(|span| span.start));
+        let place = |diagnostic: &Diagnostic| diagnostic.span.as_ref().map(|span| span.start);
+        self.diagnostics.sort_by_key(|diagnostic| (diagnostic.text == Text::Scene, place(diagnostic)));
         self.diagnostics
     }
 }

@@ -25,6 +25,8 @@ pub(crate) struct LinkTable {
     pub(crate) com: Field<[f64; 3]>,
     pub(crate) inertia: Field<Inertia>,
     pub(crate) actuated: Field<bool>,
+    /// The value at which the scene holds the joint.
+    pub(crate) locked: Option<f64>,
 }
 
 /// Khalil-Kleinfinger parameters: the link's frame stands in its parent's at Rx(alpha) Tx(a) Rz(theta) Tz(b).
@@ -75,9 +77,15 @@ impl LinkTable {
             com: reader.vector("com"),
             inertia: reader.table("inertia", &INERTIA, inertia),
             actuated: reader.flag("actuated"),
+            locked: None,
             item,
             header,
         }
+    }
+
+    /// Whether the link is part of its parent's body; a joint of unreadable kind is taken for one that moves.
+    pub(crate) fn is_rigid(&self) -> bool {
+        self.locked.is_some() || self.joint.value() == Some(&JointKind::Fixed)
     }
 
     /// Where faults of the link as a whole are shown.

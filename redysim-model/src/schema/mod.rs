@@ -6,13 +6,16 @@
 mod cut;
 mod link;
 mod reader;
+mod scene;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
 pub(crate) use link::{Dh, LinkTable, Origin};
+pub(crate) use scene::{Entry, SceneTable};
 
 use crate::diagnostic::Findings;
 use crate::diagnostic::messages::quoted;
 use crate::model::Outline;
+use crate::scene::Functions;
 use reader::{Reader, Shape};
 use std::ops::Range;
 use toml::Spanned;
@@ -73,13 +76,15 @@ pub(crate) struct Document {
     /// Whether each link of the file is in `links`.
     pub(crate) links_complete: bool,
     pub(crate) loops: Vec<LoopTable>,
+    /// What is asked of the model, by the file or beside it.
+    pub(crate) scene: SceneTable,
 }
 
-const MODEL: Shape = Shape { owner: "A model", keys: &["name", "gravity", "link", "loop"] };
+const MODEL: Shape = Shape { owner: "A model", keys: &["name", "gravity", "link", "loop", "functions", "locked"] };
 
 impl Document {
-    /// Reads the file's tree.
-    pub(crate) fn read(root: &DeTable<'_>, findings: &mut Findings) -> Document {
+    /// Reads the file's tree, and that of the scene beside it.
+    pub(crate) fn read(root: &DeTable<'_>, scene: &DeTable<'_>, findings: &mut Findings) -> Document {
         let name = root.get("name").and_then(|name| name.get_ref().as_str()).filter(|name| !name.trim().is_empty());
         let item = name.map_or("the model".into(), |name| format!("model {}", quoted(name)));
         let first_key = root.keys().map(Spanned::span).min_by_key(|span| span.start);
@@ -92,9 +97,19 @@ impl Document {
         let links = reader.tables("link");
         let loops = reader.tables("loop");
         let links_complete = links.as_ref().is_some_and(|links| links.iter().all(Option::is_some));
-        let links = entries(links).map(|(i, table)| LinkTable::read(table, i, findings)).collect();
+        let mut links: Vec<_> = entries(links).map(|(i, table)| LinkTable::read(table, i, findings)).collect();
         let loops = entries(loops).map(|(i, table)| LoopTable::read(table, i, findings)).collect();
-        Document { item, place, name, gravity, links, links_complete, loops }
+        let scene = SceneTable::read([root, scene], &item, links_complete.then_some(&links), findings);
+        for lock in &scene.locked.said {
+            links[lock.link].locked = Some(lock.value);
+        }
+        Document { item, place, name, gravity, links, links_complete, loops, scene }
+    }
+
+    /// The joints that the scene locks.
+    pub(crate) fn locks(&self) -> Vec<&str> {
+        let locked = self.links.iter().filter(|link| link.locked.is_some());
+        locked.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect()
     }
 
     /// What can be said of the model whatever its faults.
@@ -102,14 +117,14 @@ impl Document {
         let name = |name: Option<&Spanned<String>>, link: &LinkTable| {
             name.map_or(link.item.clone(), |name| name.get_ref().clone())
         };
-        let moving: Vec<&LinkTable> =
-            self.links.iter().filter(|link| link.joint.value().is_none_or(|joint| joint.dof() > 0)).collect();
+        let moving: Vec<&LinkTable> = self.links.iter().filter(|link| !link.is_rigid()).collect();
         Outline {
             name: self.name.value().cloned().unwrap_or_default(),
             links: self.links.iter().map(|link| name(link.name.spanned(), link)).collect(),
             joints: moving.iter().map(|link| name(link.joint_name(), link)).collect(),
             actuated: moving.iter().map(|link| link.actuated.value_or(true).unwrap_or(true)).collect(),
             loop_rows: Vec::new(),
+            functions: self.scene.functions.said.value().map_or(Functions::ALL, |given| given.set()),
         }
     }
 }

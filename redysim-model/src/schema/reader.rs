@@ -49,6 +49,16 @@ impl<'a, 'f> Reader<'a, 'f> {
         Self { table, place, item, misspelt: Vec::new(), prefix: String::new(), findings }.without_unknown_keys(shape)
     }
 
+    /// Opens a table again of which the unknown keys are reported already.
+    pub(super) fn known(table: &'a DeTable<'a>, item: &'f str, findings: &'f mut Findings) -> Self {
+        Self { table, place: 0..0, item, misspelt: Vec::new(), prefix: String::new(), findings }
+    }
+
+    /// What messages call the item that the table describes.
+    pub(super) fn item(&self) -> &'f str {
+        self.item
+    }
+
     fn without_unknown_keys(mut self, shape: &Shape) -> Self {
         for key in self.table.keys().filter(|key| !shape.keys.contains(&key.get_ref().as_ref())) {
             let absent = shape.keys.iter().copied().filter(|key| !self.table.contains_key(*key));
@@ -155,7 +165,11 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 
     /// What `read` makes of the value under `key`; faulty if it reports any error.
-    fn field<T>(&mut self, key: &str, read: impl FnOnce(&mut Self, &str, &'a Value<'a>) -> Option<T>) -> Field<T> {
+    pub(super) fn field<T>(
+        &mut self,
+        key: &str,
+        read: impl FnOnce(&mut Self, &str, &'a Value<'a>) -> Option<T>,
+    ) -> Field<T> {
         let table = self.table;
         let Some(value) = table.get(key) else {
             return self.absent(key);
@@ -186,7 +200,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         }
     }
 
-    fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+    pub(super) fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
         let (number, text) = match value.get_ref() {
             DeValue::Float(float) => (float.as_str().parse().unwrap_or(f64::NAN), float.as_str()),
             DeValue::Integer(integer) => (integer_value(integer), integer.as_str()),
@@ -195,7 +209,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.finite(path, value, number, text)
     }
 
-    fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+    pub(super) fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
         let DeValue::String(text) = value.get_ref() else {
             if !matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_)) {
                 return self.wrong_type(path, value, "an angle");
@@ -233,12 +247,16 @@ impl<'a, 'f> Reader<'a, 'f> {
         Some(number)
     }
 
-    fn wrong_type<T>(&mut self, path: &str, value: &Value<'_>, wanted: &str) -> Option<T> {
+    pub(super) fn wrong_type<T>(&mut self, path: &str, value: &Value<'_>, wanted: &str) -> Option<T> {
         self.fault(value, messages::wrong_type(self.item, path, wanted, &described(value.get_ref())))
     }
 
-    fn fault<T>(&mut self, value: &Value<'_>, message: Message) -> Option<T> {
-        self.findings.error(value.span(), message);
+    pub(super) fn fault<T>(&mut self, value: &Value<'_>, message: Message) -> Option<T> {
+        self.fault_at(value.span(), message)
+    }
+
+    pub(super) fn fault_at<T>(&mut self, place: Range<usize>, message: Message) -> Option<T> {
+        self.findings.error(place, message);
         None
     }
 

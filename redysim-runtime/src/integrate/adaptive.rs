@@ -4,7 +4,7 @@
 use core::marker::PhantomData;
 
 use super::interval::Interval;
-use super::method::{Method, SAFETY, Stepper, root};
+use super::method::{Method, Stepper};
 use super::progress::Progress;
 use super::stiffness::StiffnessTest;
 use super::tolerance::{Absolute, Tolerances};
@@ -64,7 +64,7 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
         self
     }
 
-    /// Sets the size of the first step to try, > 0; unless told, it follows from the derivative at the start.
+    /// Sets the size of the first step to try, > 0; unless told, it follows from the derivatives at the start.
     pub fn initial_step(mut self, size: S) -> Self {
         self.initial_step = Some(size);
         self
@@ -126,12 +126,13 @@ impl<S: Real, M: Method> Integrator<S> for Adaptive<'_, S, M> {
         let largest = self.max_step.unwrap_or(S::from_f64(0.1) * interval.length());
 
         let mut stepper = M::start(ode, interval.from, start)?;
-        let mut size = self.initial_step.unwrap_or_else(|| {
-            // A first-order step of this size would change the state by 0.8 rtol^(1/exponent) of itself.
-            let y = &stepper.progress().y;
-            let rate = self.tolerances.norm(stepper.rate(), y, y);
-            S::from_f64(SAFETY) * rtol.powf(root(stepper.error_exponent())) / rate
-        });
+        let mut size = match self.initial_step {
+            Some(size) => size,
+            None => {
+                let reach = interval.advance(S::zero(), largest.minimum(interval.length()));
+                stepper.first_size(ode, reach, &self.tolerances)?
+            }
+        };
         let mut stiffness = StiffnessTest::new(self.stiffness_limit);
         loop {
             let from = stepper.progress().t;

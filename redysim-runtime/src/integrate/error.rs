@@ -90,6 +90,14 @@ pub enum IntegrationError<S> {
         /// The time.
         t: S,
     },
+    /// The equations of an implicit step were not solved: the iteration does not converge, or the matrix of the linear
+    /// equations is singular.
+    NotConverged {
+        /// The time at which the step begins.
+        t: S,
+        /// The size of the step, with its sign.
+        step: S,
+    },
     /// The tolerances ask for a step below the spacing of floating-point times, or a given step is below it.
     StepTooSmall {
         /// The time that was reached.
@@ -186,6 +194,12 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             Self::Refused { t } => write!(
                 f,
                 "the equation refused the state at t = {t:?}; a closed-loop simulation has the reason in `last_error`"
+            ),
+            Self::NotConverged { t, step } => write!(
+                f,
+                "from t = {t:?} the equations of an implicit step of {step:?} are not solved by iteration; take smaller \
+                 steps, or Radau5 or Ode15s if the equation is stiff, and look for a jump of the derivative or a wrong \
+                 tangent there"
             ),
             Self::StepTooSmall { t, step } => write!(
                 f,

@@ -54,9 +54,7 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Explicit<S, Y, STAGES> {
         let (Some(&node), Some(rate)) = (self.tableau.nodes.get(stage), self.stages.get_mut(stage)) else {
             return Ok(());
         };
-        let Progress { t, t_new, .. } = self.progress;
-        // t + h may differ from t_new by a rounding error, and must not lie beyond the interval.
-        let t = if node == 1.0 { t_new } else { t + (t_new - t) * S::from_f64(node) };
+        let t = self.progress.time_at(node);
         self.progress.evaluate(ode, t, rate)
     }
 

@@ -11,7 +11,7 @@ const LARGEST_GROWTH: f64 = 5.0;
 /// from then on the size is halved.
 const SMALLEST_SHRINKAGE: f64 = 0.1;
 /// A new step aims at an error of 0.8^order of the tolerance, so that it rarely has to be tried again.
-pub(super) const SAFETY: f64 = 0.8;
+const SAFETY: f64 = 0.8;
 
 /// A method of integration: how it begins. With [`FixedStep`](super::FixedStep) it is an integrator with steps of one
 /// size, with [`Adaptive`](super::Adaptive) one that chooses them.
@@ -42,8 +42,25 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     /// The same, to be changed by the driver.
     fn progress_mut(&mut self) -> &mut Progress<S, Y>;
 
-    /// The derivative at the state.
+    /// The derivative at the state; after the first step only where the method needs it.
     fn rate(&self) -> &Y;
+
+    /// The size of a first step that the tolerances will probably allow; `reach`, with its sign, is the largest that may
+    /// be. Unless told, the one with which a first-order step would change the state by 0.8 rtol^(1/exponent) of itself.
+    ///
+    /// # Errors
+    /// If a derivative is infinite or not a number.
+    fn first_size(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        reach: S,
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<S, IntegrationError<S>> {
+        let _ = (ode, reach);
+        let y = &self.progress().y;
+        let rate = tolerances.norm(self.rate(), y, y);
+        Ok(S::from_f64(SAFETY) * tolerances.relative().powf(root(self.error_exponent())) / rate)
+    }
 
     /// Computes a step to `t_new`. What is solved by iteration is solved well within the tolerances.
     ///
@@ -103,16 +120,21 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     /// The factor to the size of a step whose error was 1/`ratio` times the tolerance, after `failures` earlier
     /// failures of the same step.
     fn shrinkage(&mut self, ratio: S, failures: u32) -> S {
-        if failures > 0 {
-            return S::from_f64(0.5);
-        }
-        (S::from_f64(SAFETY) * ratio.powf(root(self.error_exponent()))).maximum(S::from_f64(SMALLEST_SHRINKAGE))
+        usual_shrinkage(ratio, failures, self.error_exponent())
     }
 
     /// The factor from the size of an accepted step, whose error was 1/`ratio` times the tolerance, to the next.
     fn growth(&mut self, ratio: S) -> S {
         (S::from_f64(SAFETY) * ratio.powf(root(self.error_exponent()))).minimum(S::from_f64(LARGEST_GROWTH))
     }
+}
+
+/// What [`Stepper::shrinkage`] is unless told.
+pub(super) fn usual_shrinkage<S: Real>(ratio: S, failures: u32, error_exponent: u32) -> S {
+    if failures > 0 {
+        return S::from_f64(0.5);
+    }
+    (S::from_f64(SAFETY) * ratio.powf(root(error_exponent))).maximum(S::from_f64(SMALLEST_SHRINKAGE))
 }
 
 /// 1/`exponent`.

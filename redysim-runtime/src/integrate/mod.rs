@@ -1,20 +1,23 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
-//! [`Ode4`], [`Ode5`], [`Dop8`] and [`SemiImplicitEuler`] take steps of one given size; [`Ode45`] and [`Dop853`] choose their steps from
-//! tolerances, as MATLAB's `ode45` does. Each is an [`Integrator`], and gives the solution between its steps, too. What is
-//! integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
+//! [`Ode4`], [`Ode5`], [`Dop8`] and [`SemiImplicitEuler`] take steps of one given size; [`Ode45`] and [`Dop853`] choose
+//! their steps from tolerances, as MATLAB's `ode45` does. [`Ode15s`] and [`Radau5`] are for stiff equations, [`Gauss4`] and
+//! [`Gauss6`] for long conservative motion. Each is an [`Integrator`], and gives the solution between its steps, too. What
+//! is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
 //! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
 //! [`watch`](Integrator::watch) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be, and
 //! where an equation is stiff, explicit methods say so.
 //!
-//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and its like, the
+//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and [`collocation`], the
 //! solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
 //! `tolerance`. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another method of any kind
 //! another [`Method`](method::Method).
 
 mod adaptive;
 mod asked;
+pub mod collocation;
+mod complex;
 mod dormand_prince;
 mod dormand_prince_853;
 mod error;
@@ -24,6 +27,7 @@ mod fixed;
 mod implicit;
 mod interval;
 pub mod method;
+mod ndf;
 mod observer;
 mod ode4;
 pub mod progress;
@@ -37,11 +41,14 @@ mod tolerance;
 use core::ops::ControlFlow;
 
 pub use adaptive::Adaptive;
+pub use collocation::gauss::{Gauss4, Gauss6, GaussLegendre2, GaussLegendre3};
+pub use collocation::radau::{Radau5, RadauIIA};
 pub use dormand_prince::{DormandPrince, Ode5, Ode45};
 pub use dormand_prince_853::{Dop8, Dop853, DormandPrince853};
 pub use error::IntegrationError;
 pub use events::{Direction, Event, Occurrence};
 pub use fixed::FixedStep;
+pub use ndf::{Bdf, Ndf, Ode15s};
 pub use observer::Observer;
 pub use ode4::{Ode4, RungeKutta4};
 pub use semi_implicit_euler::{SemiImplicitEuler, SymplecticEuler};

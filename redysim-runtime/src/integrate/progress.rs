@@ -52,13 +52,33 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         self.t_new - self.t
     }
 
+    /// The time `node` steps after the start of the attempted step.
+    pub fn time_at(&self, node: f64) -> S {
+        // t + h may differ from t_new by a rounding error, and must not lie beyond the interval.
+        if node == 1.0 { self.t_new } else { self.t + self.step_size() * S::from_f64(node) }
+    }
+
     /// Writes y + h · `increment` to `y_new`, and what was added to `increment`.
     pub fn advance_by_increment(&mut self) {
         let h = self.step_size();
+        for increment in self.increment.as_mut() {
+            *increment = h * *increment;
+        }
+        self.add_increment();
+    }
+
+    /// Writes y + `addition` to `y_new`, and what was added to `increment`.
+    pub fn advance_by(&mut self, addition: &Y) {
+        self.increment.clone_from(addition);
+        self.add_increment();
+    }
+
+    /// Writes y + `increment` to `y_new`, and what was added to `increment`.
+    pub fn add_increment(&mut self) {
         let increments = self.increment.as_mut().iter_mut().zip(self.carry.as_ref());
         let states = self.y_new.as_mut().iter_mut().zip(self.y.as_ref());
         for ((new, &old), (increment, &carry)) in states.zip(increments) {
-            *increment = h * *increment + carry;
+            *increment += carry;
             *new = old + *increment;
         }
     }

@@ -6,9 +6,11 @@ use crate::{Real, Vector};
 ///
 /// The solution between the ends is the method's continuous extension: for [`Ode5`](crate::Ode5) and
 /// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, for [`Dop853`](crate::Dop853) one of
-/// degree 7 and order 7, for [`Ode4`](crate::Ode4) the cubic through values and derivatives at both ends. It agrees with the neighbouring steps in value and in derivative (where
-/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations, but with [`Dop853`](crate::Dop853) three for each step within which
-/// somebody looks.
+/// degree 7 and order 7, for [`Ode4`](crate::Ode4) the cubic through values and derivatives at both ends, for
+/// [`Ode15s`](crate::Ode15s) the polynomial through the ends of the last steps, for [`Radau5`](crate::Radau5) and
+/// [`Gauss4`](crate::Gauss4) the collocation polynomial. It agrees with the neighbouring steps in value and, for the explicit
+/// methods, in derivative (where [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and
+/// costs no evaluations, but with `Dop853` three for each step within which somebody looks.
 pub struct Step<'a, S, Y> {
     t: S,
     y: &'a Y,
@@ -73,7 +75,7 @@ impl<'a, S: Real, Y: Vector<S>> Step<'a, S, Y> {
 }
 
 /// c₁ x + c₂ x² + …
-fn without_constant<S: Real>(coefficients: &[f64], x: S) -> S {
+pub(super) fn without_constant<S: Real>(coefficients: &[f64], x: S) -> S {
     coefficients.iter().rfold(S::zero(), |sum, &coefficient| x * (S::from_f64(coefficient) + sum))
 }
 

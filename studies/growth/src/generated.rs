@@ -23,7 +23,7 @@ pub fn code(text: &str, passes: &Passes) -> Code {
     let loaded = Model::from_toml(text.to_owned(), "model.toml").unwrap_or_else(|faults| panic!("{faults}"));
     let name = format_ident!("Robot");
     let Generated { tokens, operations } =
-        implementation_with(&loaded.model, &name, &quote!(::redysim::runtime), passes);
+        implementation_with(&loaded.model, &name, &quote!(::redysim::runtime), &loaded.scene, passes);
     let seconds = begun.elapsed().as_secs_f64();
     let flops = ["inverse_dynamics", "forward_dynamics", "mass_matrix"]
         .map(|function| operations.iter().find(|(name, _)| *name == function).map_or(0, |(_, count)| count.flops()));

@@ -1,7 +1,7 @@
 //! Messages about the mechanism that the file describes.
 
 use super::super::Message;
-use super::{did_you_mean, message, nearest, quoted, rounded};
+use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
 use crate::tree::Joint;
 
 pub(crate) fn blank_name(item: &str, key: &str) -> Message {
@@ -26,21 +26,13 @@ pub(crate) fn duplicate_name(what: &str, name: &str, first_line: usize) -> Messa
     )
 }
 
-pub(crate) fn unknown_link<'a>(
-    item: &str,
-    key: &str,
-    name: &str,
-    links: impl Iterator<Item = &'a str> + Clone,
-) -> Message {
-    const MOST: usize = 20;
-    let mut all = std::iter::once("base").chain(links);
-    let meant = did_you_mean(nearest(name, all.clone()));
-    let shown: Vec<_> = all.by_ref().take(MOST).collect();
-    let more = if all.next().is_some() { ", …" } else { "" };
+pub(crate) fn unknown_link<'a>(item: &str, key: &str, name: &str, links: impl Iterator<Item = &'a str>) -> Message {
+    let all: Vec<_> = std::iter::once("base").chain(links).collect();
+    let meant = did_you_mean(nearest(name, all.iter().copied()));
     message(
         format!("{item}: `{key}` names {}, but there is no such link", quoted(name)),
         "no such link",
-        format!("{meant}The links are: {}{more}", shown.join(", ")),
+        format!("{meant}The links are: {}", shortened(&all)),
     )
 }
 
@@ -166,14 +158,14 @@ pub(crate) fn nothing_moves(item: &str) -> Message {
 }
 
 /// `link_a` and `link_b` are one link, or fixed to each other.
-pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str) -> Message {
+pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str, locks: Vec<&str>) -> Message {
     let title = match link_a == link_b {
         true => format!("{item}: it joins {} to itself", quoted(link_a)),
         false => {
             format!("{item}: it joins {} and {}, which fixed joints make one body", quoted(link_a), quoted(link_b))
         }
     };
-    message(title, "the same body", "a loop must join two bodies that move against each other")
+    message(title, "the same body", "a loop must join two bodies that move against each other").with_locks(&locks)
 }
 
 /// Newton's method did not close the loops from any start.

@@ -5,14 +5,27 @@
 
 mod mechanism;
 mod reading;
+mod scene;
 
 pub(crate) use mechanism::*;
 pub(crate) use reading::*;
+pub(crate) use scene::*;
 
 use super::Message;
 
 fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> Message {
     Message { title, label: label.into(), help: help.into() }
+}
+
+impl Message {
+    /// With the joints that the scene locks, where that may be why.
+    pub(crate) fn with_locks(mut self, locks: &[&str]) -> Message {
+        if !locks.is_empty() {
+            let names: Vec<_> = locks.iter().map(|name| quoted(name)).collect();
+            self.help += &format!("; with {} locked", names.join(", "));
+        }
+        self
+    }
 }
 
 /// A name or value of the file between backticks; long ones are cut, odd characters escaped.
@@ -33,8 +46,15 @@ pub(crate) fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) 
     candidates.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
 }
 
+/// Names, as many as one reads.
+fn shortened(names: &[&str]) -> String {
+    const MOST: usize = 20;
+    let more = if names.len() > MOST { ", …" } else { "" };
+    format!("{}{more}", names[..names.len().min(MOST)].join(", "))
+}
+
 /// "did you mean `x`? ", or nothing.
-fn did_you_mean(name: Option<&str>) -> String {
+pub(crate) fn did_you_mean(name: Option<&str>) -> String {
     name.map_or(String::new(), |name| format!("did you mean {}? ", quoted(name)))
 }
 

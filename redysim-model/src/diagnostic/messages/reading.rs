@@ -10,6 +10,8 @@ const EXAMPLES: &[(&str, &str, &str)] = &[
     ("gravity", "gravity = [0.0, 0.0, -9.81]", "m/s², in the base frame"),
     ("link", "[[link]]", "one such table for each link"),
     ("loop", "[[loop]]", "one such table for each cut joint"),
+    ("functions", "functions = [\"inverse_dynamics\", \"mass_matrix\"]", "only these are generated; default: all"),
+    ("locked", "locked = { joint6 = \"90 deg\" }", "joints and the coordinates at which they are held"),
     ("joint_name", "joint_name = \"elbow\"", ""),
     ("parent", "parent = \"base\"", "the link that carries this one; `base` is the ground"),
     ("joint", "joint = \"revolute\"", ""),
@@ -43,7 +45,8 @@ const EXAMPLES: &[(&str, &str, &str)] = &[
 /// "write for example …" for a key, or for an element of it such as `com[1]`.
 fn example(path: &str) -> String {
     let key = path.split('[').next().unwrap_or(path);
-    match EXAMPLES.iter().find(|(known, ..)| *known == key) {
+    let of = |key| EXAMPLES.iter().find(|(known, ..)| *known == key);
+    match of(key).or_else(|| of(key.split('.').next().unwrap_or(key))) {
         Some((_, example, "")) => format!("write for example `{example}`"),
         Some((_, example, meaning)) => format!("write for example `{example}` ({meaning})"),
         None => format!("see `{key}` in the description of the model file"),

@@ -2,7 +2,7 @@
 //! complex shifts. G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins (2013), sections 7.4 and
 //! 7.5.
 
-use super::complex::Complex;
+use crate::integrate::complex::Complex;
 use crate::{Real, Vector};
 
 /// A row of complex elements.
@@ -97,7 +97,7 @@ impl<S: Real, R: AsRef<[Complex<S>]> + AsMut<[Complex<S>]>> Rows<'_, S, R> {
                 }
             }
             for i in below + 1..len {
-                let factor = self.at(i, column).divide(self.at(below, column));
+                let factor = self.at(i, column) / self.at(below, column);
                 for j in column..len {
                     self.set(i, j, self.at(i, j) - factor * self.at(below, j));
                 }
@@ -122,7 +122,7 @@ impl<S: Real, R: AsRef<[Complex<S>]> + AsMut<[Complex<S>]>> Rows<'_, S, R> {
         let root = (half * half + b * c).sqrt();
         let (plus, minus) = (half + root, half - root);
         let far = if plus.abs() > minus.abs() { plus } else { minus };
-        if far.abs() == S::zero() { d } else { d - (b * c).divide(far) }
+        if far.abs() == S::zero() { d } else { d - b * c / far }
     }
 
     /// One step of the QR algorithm on the rows `first` to `last`: a rotation that the shift asks for, and those that

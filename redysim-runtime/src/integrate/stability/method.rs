@@ -1,6 +1,7 @@
 //! What limits the steps of each method.
 
 use super::{Linearised, StabilityFunction, spectral_radius};
+use crate::integrate::complex::Complex;
 use crate::integrate::method::Method;
 use crate::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4, Tableau};
 use crate::integrate::{DormandPrince, DormandPrince853, IntegrationError, RungeKutta4, SymplecticEuler};
@@ -104,5 +105,5 @@ impl LinearStability for SymplecticEuler {
 }
 
 fn magnitude<S: Real>((re, im): (S, S)) -> S {
-    super::Complex { re, im }.abs()
+    Complex { re, im }.abs()
 }

@@ -4,7 +4,6 @@
 //! eigenvalue λ of it: for a Runge-Kutta method where |R(h λ)| ≤ 1, with the [`StabilityFunction`] R. A gain of a
 //! controller moves an eigenvalue as far to the left as it is large, which is why stiff joints ask for small steps.
 
-mod complex;
 mod eigenvalues;
 mod method;
 mod participation;
@@ -15,7 +14,7 @@ pub use method::LinearStability;
 pub use polynomial::StabilityFunction;
 pub use warning::StepWarning;
 
-use complex::Complex;
+use crate::integrate::complex::Complex;
 use eigenvalues::{Row, eigenvalues, matrix};
 
 use super::implicit::jacobian::jacobian;

@@ -1,6 +1,6 @@
 //! Which component of the state an eigenvalue belongs to.
 
-use super::complex::Complex;
+use crate::integrate::complex::Complex;
 use crate::integrate::implicit::lu::Lu;
 use crate::integrate::progress::zeros;
 use crate::vector::entry;

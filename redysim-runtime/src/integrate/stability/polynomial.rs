@@ -1,6 +1,6 @@
 //! Where an explicit Runge-Kutta method is stable.
 
-use super::complex::Complex;
+use crate::integrate::complex::Complex;
 use crate::integrate::tableau::Tableau;
 
 /// How much |R| may exceed 1: rounding, and a growth that no run is long enough to show.

@@ -1,0 +1,256 @@
+//! What is integrated, and what counts as error.
+
+use std::time::Instant;
+
+use redysim::integrate::Observer;
+use redysim::{
+    Assembly, ClosedLoop, ClosedLoopSimulation, ForwardSimulation, Free, IntegrationError, Integrator, Mechanism, Ode,
+    Ode15s, ProportionalDerivative, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector,
+};
+use std::ops::ControlFlow;
+
+use super::models::{DOF, DoublePendulum, Fourbar, Gripper, Kr5};
+use crate::common::Failure;
+use crate::common::reference::Reference;
+
+/// One run of one method.
+pub struct Run {
+    /// rad, or a share of the energy.
+    pub error: f64,
+    /// Evaluations of the right-hand side; a Jacobian counts as one for each component of the state.
+    pub evaluations: f64,
+    /// Wall time, ms.
+    pub milliseconds: f64,
+}
+
+/// A motion that any method can be tried on.
+pub trait Scene {
+    /// Its name, as files have it.
+    fn name(&self) -> &'static str;
+    /// What it is.
+    fn title(&self) -> &'static str;
+    /// What its error is.
+    fn quantity(&self) -> &'static str {
+        "error of the joint angles at the end, rad"
+    }
+    /// Length of the motion, s.
+    fn duration(&self) -> f64;
+    /// Largest number of steps of one size that is tried.
+    fn most_steps(&self) -> u64;
+    /// Integrates with `method`.
+    fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>>
+    where
+        Self: Sized;
+}
+
+/// Integrates `ode` often enough to time it; `error` judges the end.
+fn timed<O: Ode<f64, Y>, Y: Vector<f64>>(
+    mut ode: O,
+    method: &impl Integrator<f64>,
+    duration: f64,
+    start: &Y,
+    error: impl Fn(&Y) -> f64,
+) -> Result<Run, IntegrationError<f64>> {
+    let (mut best, mut spent) = (f64::INFINITY, 0.0);
+    loop {
+        let begun = Instant::now();
+        let Solution { y, statistics, .. } = method.integrate(&mut ode, (0.0, duration), start.clone())?;
+        let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
+        best = best.min(milliseconds);
+        spent += milliseconds;
+        if spent > 20.0 {
+            let columns = start.as_ref().len() as u64;
+            let evaluations = (statistics.evaluations + columns * statistics.jacobians) as f64;
+            return Ok(Run { error: error(&y), evaluations, milliseconds: best });
+        }
+    }
+}
+
+fn largest_difference(found: &[f64], expected: &[f64]) -> f64 {
+    found.iter().zip(expected).map(|(found, expected)| (found - expected).abs()).fold(0.0, f64::max)
+}
+
+/// A tree that is let go or driven, judged by where its joints are at the end.
+pub struct Motion<M: Mechanism<f64> + 'static, L> {
+    name: &'static str,
+    title: &'static str,
+    mechanism: &'static M,
+    law: L,
+    start: (M::Coordinates, M::Velocities),
+    duration: f64,
+    most_steps: u64,
+    end: Vec<f64>,
+}
+
+impl<M: TreeDynamics<f64>, L: TorqueLaw<f64, M> + Clone> Scene for Motion<M, L> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+    fn title(&self) -> &'static str {
+        self.title
+    }
+    fn duration(&self) -> f64 {
+        self.duration
+    }
+    fn most_steps(&self) -> u64 {
+        self.most_steps
+    }
+    fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>> {
+        let simulation = ForwardSimulation::new(self.mechanism, self.law.clone());
+        let start = simulation.state(&self.start.0, &self.start.1);
+        timed(simulation, method, self.duration, &start, |end| largest_difference(end.as_ref(), &self.end))
+    }
+}
+
+/// The last row of a reference up to `duration`.
+fn end_of(text: &str, joints: usize, duration: f64) -> Result<Vec<f64>, Failure> {
+    let reference = Reference::motion("quad precision", text, joints)?.until(duration);
+    Ok(reference.q.last().cloned().unwrap_or_default())
+}
+
+/// KR5 let go at q = 0, for a second.
+pub fn kr5() -> Result<impl Scene, Failure> {
+    let text = include_str!("../../tests/reference/golden_ref_kuka.csv");
+    Ok(Motion {
+        name: "kr5_free_fall",
+        title: "KR5, free fall of 1 s",
+        mechanism: &Kr5,
+        law: Free,
+        start: ([0.0; DOF], [0.0; DOF]),
+        duration: 1.0,
+        most_steps: 100_000,
+        end: end_of(text, DOF, 1.0)?,
+    })
+}
+
+/// The gripper let go 60° below the horizontal, for a second.
+pub fn gripper() -> Result<impl Scene, Failure> {
+    let text = include_str!("../../tests/reference/golden_ref_gripper_paper.csv");
+    Ok(Motion {
+        name: "gripper_free_fall",
+        title: "Gripper, free fall of 1 s",
+        mechanism: &Gripper,
+        law: Free,
+        start: ([-std::f64::consts::FRAC_PI_3, 0.0, 0.0, 0.0], [0.0; Gripper::NV]),
+        duration: 1.0,
+        most_steps: 100_000,
+        end: end_of(text, Gripper::NV, 1.0)?,
+    })
+}
+
+/// The law of the stiff scene: the same gains on all joints, far too many for the hand of 8 g.
+pub type Pd = ProportionalDerivative<[f64; DOF], [f64; DOF]>;
+
+/// kp = 1000 N m/rad and kd = 100 N m s/rad towards 0.5 rad.
+pub const STIFF: Pd = ProportionalDerivative { target: [0.5; DOF], kp: [1e3; DOF], kd: [1e2; DOF] };
+
+/// KR5 under a stiff PD control, for a second. As exact counts what two methods of different kinds agree on.
+pub fn stiff() -> Result<impl Scene, Failure> {
+    let mut scene = Motion {
+        name: "kr5_stiff_pd",
+        title: "KR5 under PD control, kp = 1000, kd = 100, 1 s",
+        mechanism: &Kr5,
+        law: STIFF,
+        start: ([0.0; DOF], [0.0; DOF]),
+        duration: 1.0,
+        most_steps: 20_000,
+        end: vec![0.0; DOF],
+    };
+    let mut simulation = ForwardSimulation::new(scene.mechanism, scene.law);
+    let start = simulation.state(&scene.start.0, &scene.start.1);
+    let span = (0.0, scene.duration);
+    let judge = Radau5::new().rtol(1e-12).atol(1e-14).integrate(&mut simulation, span, start)?;
+    let other = Ode15s::new().rtol(1e-11).atol(1e-13).integrate(&mut simulation, span, start)?;
+    scene.end = judge.y[..DOF].to_vec();
+    let apart = largest_difference(&other.y[..DOF], &scene.end);
+    if apart > 1e-8 {
+        return Err(Failure(format!("Radau5 and Ode15s differ by {apart:.1e} rad at the end of the stiff scene")));
+    }
+    Ok(scene)
+}
+
+/// The paper's four-bar let go from rest, its loop held by projection, for 0.68 s.
+pub struct FourbarFall {
+    start: Assembly<f64, [f64; 3], [f64; 3]>,
+    end: Vec<f64>,
+}
+
+/// See [`FourbarFall`].
+pub fn fourbar() -> Result<FourbarFall, Failure> {
+    let text = include_str!("../../tests/reference/golden_ref_hoken_rest_consistent.csv");
+    let rows = Reference::loop_motion("quad precision", text, Fourbar::NV, 2)?.until(0.68);
+    let start = ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &[0.0; 3], &[0])?;
+    Ok(FourbarFall { start, end: rows.q.last().cloned().unwrap_or_default() })
+}
+
+impl Scene for FourbarFall {
+    fn name(&self) -> &'static str {
+        "fourbar_free_fall"
+    }
+    fn title(&self) -> &'static str {
+        "Four-bar, free fall of 0.68 s, with projection"
+    }
+    fn duration(&self) -> f64 {
+        0.68
+    }
+    fn most_steps(&self) -> u64 {
+        50_000
+    }
+    fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>> {
+        let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+        let start = simulation.assembled(&self.start);
+        timed(simulation, method, self.duration(), &start, |end| largest_difference(end, &self.end))
+    }
+}
+
+/// A double pendulum that swings for 100 s, judged by its energy at the ends of all steps.
+pub struct LongSwing;
+
+/// Remembers how far the energy strays.
+struct Energies {
+    start: f64,
+    worst: f64,
+}
+
+impl Energies {
+    fn of(y: &[f64; 5]) -> f64 {
+        DoublePendulum::energy(&[y[0], y[1]], &[y[2], y[3]]).total()
+    }
+}
+
+impl Observer<f64, [f64; 5]> for Energies {
+    fn looks_within(&self, _from: f64, _to: f64) -> bool {
+        false
+    }
+
+    fn step(&mut self, step: &Step<'_, f64, [f64; 5]>) -> ControlFlow<()> {
+        self.worst = self.worst.max((Self::of(step.end().1) - self.start).abs() / self.start.abs());
+        ControlFlow::Continue(())
+    }
+}
+
+impl Scene for LongSwing {
+    fn name(&self) -> &'static str {
+        "double_pendulum_swing"
+    }
+    fn title(&self) -> &'static str {
+        "Double pendulum, 100 s of swinging"
+    }
+    fn quantity(&self) -> &'static str {
+        "largest error of the energy, as a share of it"
+    }
+    fn duration(&self) -> f64 {
+        100.0
+    }
+    fn most_steps(&self) -> u64 {
+        1_000_000
+    }
+    fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>> {
+        let hanging = -std::f64::consts::FRAC_PI_2;
+        let mut simulation = ForwardSimulation::new(&DoublePendulum, Free);
+        let start = simulation.state(&[hanging + 0.3, 0.1], &[0.0; 2]);
+        let mut energies = Energies { start: Energies::of(&start), worst: 0.0 };
+        method.run(&mut simulation, (0.0, self.duration()), start, &mut energies)?;
+        timed(simulation, method, self.duration(), &start, |_| energies.worst)
+    }
+}

@@ -1,0 +1,60 @@
+//! Accuracy against speed: every integrator on five scenes, every way to compute KR5's dynamics, and every way to keep a
+//! loop closed. Writes pictures and tables; `docs/accuracy.md` says what they mean.
+//!
+//! `cargo run --release --example accuracy_vs_speed`
+//!
+//! It takes some minutes, and builds itself twice again: for this machine's instructions, and with the feature
+//! `deterministic`. The names of parts (`kr5`, `gripper`, `fourbar`, `stiff`,
+//! `swing`, `drift`, `evaluation`) may follow behind `--`, to have those alone.
+
+mod common;
+
+mod accuracy {
+    pub mod drift;
+    pub mod evaluation;
+    pub mod models;
+    pub mod scene;
+    pub mod work_precision;
+}
+
+#[allow(dead_code, reason = "tests use more of it")]
+#[path = "../tests/common/double_double.rs"]
+mod double_double;
+
+use accuracy::{drift, evaluation, scene, work_precision};
+use common::{Failure, Outputs};
+
+fn main() -> Result<(), Failure> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [flag, build] = arguments.as_slice()
+        && flag == "--evaluate"
+    {
+        evaluation::print_lines(&evaluation::measure(build)?);
+        return Ok(());
+    }
+    let asked = |part: &str| arguments.is_empty() || arguments.iter().any(|argument| argument == part);
+    let mut outputs = Outputs::of("accuracy")?;
+    if asked("kr5") {
+        work_precision::report(&scene::kr5()?, &mut outputs)?;
+    }
+    if asked("gripper") {
+        work_precision::report(&scene::gripper()?, &mut outputs)?;
+    }
+    if asked("fourbar") {
+        work_precision::report(&scene::fourbar()?, &mut outputs)?;
+    }
+    if asked("stiff") {
+        work_precision::report(&scene::stiff()?, &mut outputs)?;
+    }
+    if asked("swing") {
+        work_precision::report(&scene::LongSwing, &mut outputs)?;
+    }
+    if asked("drift") {
+        drift::report(&mut outputs)?;
+    }
+    if asked("evaluation") {
+        evaluation::report(&mut outputs)?;
+    }
+    outputs.print();
+    Ok(())
+}

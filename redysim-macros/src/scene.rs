@@ -1,0 +1,154 @@
+//! What is asked of a mechanism beside its model: `functions = [mass_matrix], locked = { joint6 = "0 deg" }`.
+//!
+//! It is written out as TOML, in which model files say the same, so that one reader knows all keys and all faults. For each
+//! piece of that text the place in the declaration is kept.
+
+use proc_macro2::Span;
+use std::ops::Range;
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::punctuated::Punctuated;
+use syn::{Ident, Lit, Result, Token, braced, bracketed, token};
+
+/// A scene as TOML, and where each piece of it comes from.
+#[derive(Default)]
+pub struct SceneText {
+    pub text: String,
+    pieces: Vec<(Range<usize>, Span)>,
+}
+
+impl SceneText {
+    /// Where the piece of the text that begins with `range` stands in the declaration.
+    pub fn span_of(&self, range: &Range<usize>) -> Option<Span> {
+        let holds = |piece: &&(Range<usize>, Span)| piece.0.contains(&range.start);
+        self.pieces.iter().filter(holds).min_by_key(|(piece, _)| piece.len()).map(|(_, span)| *span)
+    }
+
+    fn push(&mut self, text: &str, span: Span) {
+        let start = self.text.len();
+        self.text += text;
+        self.pieces.push((start..self.text.len(), span));
+    }
+
+    fn add(&mut self, value: &Value) {
+        match value {
+            Value::Plain(text, span) => self.push(text, *span),
+            Value::Array(values, span) => {
+                let start = self.text.len();
+                self.text.push('[');
+                for value in values {
+                    self.add(value);
+                    self.text.push(',');
+                }
+                self.text.push(']');
+                self.pieces.push((start..self.text.len(), *span));
+            }
+            Value::Table(pairs, span) => {
+                let start = self.text.len();
+                self.text.push('{');
+                for (index, pair) in pairs.iter().enumerate() {
+                    self.text.push_str(if index == 0 { "" } else { "," });
+                    self.add_pair(pair);
+                }
+                self.text.push('}');
+                self.pieces.push((start..self.text.len(), *span));
+            }
+        }
+    }
+
+    fn add_pair(&mut self, Pair { key: (key, span), value }: &Pair) {
+        self.push(key, *span);
+        self.text.push('=');
+        self.add(value);
+    }
+}
+
+impl Parse for SceneText {
+    fn parse(input: ParseStream) -> Result<Self> {
+        let mut scene = SceneText::default();
+        for pair in Punctuated::<Pair, Token![,]>::parse_terminated(input)? {
+            scene.add_pair(&pair);
+            scene.text.push('\n');
+        }
+        Ok(scene)
+    }
+}
+
+struct Pair {
+    key: (String, Span),
+    value: Value,
+}
+
+impl Parse for Pair {
+    fn parse(input: ParseStream) -> Result<Self> {
+        let key = if input.peek(Ident::peek_any) {
+            let ident = Ident::parse_any(input)?;
+            (quoted(&ident.unraw().to_string()), ident.span())
+        } else {
+            let name: syn::LitStr = input.parse().map_err(|error| what_is_meant(error.span()))?;
+            (quoted(&name.value()), name.span())
+        };
+        input.parse::<Token![=]>().map_err(|_| what_is_meant(key.1))?;
+        Ok(Pair { key, value: input.parse()? })
+    }
+}
+
+fn what_is_meant(span: Span) -> syn::Error {
+    syn::Error::new(span, "after the path of the model only `functions = [..]` and `locked = { .. }` can stand")
+}
+
+/// A value as TOML has them; a name stands for itself as a string.
+enum Value {
+    Plain(String, Span),
+    Array(Vec<Value>, Span),
+    Table(Vec<Pair>, Span),
+}
+
+impl Parse for Value {
+    fn parse(input: ParseStream) -> Result<Self> {
+        if input.peek(token::Bracket) {
+            let content;
+            let bracket = bracketed!(content in input);
+            let values = Punctuated::<Value, Token![,]>::parse_terminated(&content)?;
+            return Ok(Value::Array(values.into_iter().collect(), bracket.span.join()));
+        }
+        if input.peek(token::Brace) {
+            let content;
+            let brace = braced!(content in input);
+            let pairs = Punctuated::<Pair, Token![,]>::parse_terminated(&content)?;
+            return Ok(Value::Table(pairs.into_iter().collect(), brace.span.join()));
+        }
+        if input.peek(Ident) {
+            let name: Ident = input.parse()?;
+            return Ok(Value::Plain(quoted(&name.unraw().to_string()), name.span()));
+        }
+        let minus: Option<Token![-]> = input.parse()?;
+        let sign = if minus.is_some() { "-" } else { "" };
+        let literal: Lit = input.parse()?;
+        let text = match &literal {
+            Lit::Int(number) => format!("{sign}{}", number.base10_digits()),
+            // TOML wants digits after the point.
+            Lit::Float(number) => format!("{sign}{}{}", number.base10_digits(), trailing_zero(number.base10_digits())),
+            Lit::Bool(flag) if minus.is_none() => flag.value.to_string(),
+            Lit::Str(text) if minus.is_none() => quoted(&text.value()),
+            _ => {
+                return Err(syn::Error::new(literal.span(), "expected a number, a string, a name, `[..]` or `{ .. }`"));
+            }
+        };
+        Ok(Value::Plain(text, literal.span()))
+    }
+}
+
+fn trailing_zero(digits: &str) -> &'static str {
+    if digits.ends_with('.') { "0" } else { "" }
+}
+
+/// A string of TOML.
+fn quoted(text: &str) -> String {
+    let escaped = text.chars().map(|c| match c {
+        '"' | '\\' => format!("\\{c}"),
+        c if c.is_control() => format!("\\u{:04X}", u32::from(c)),
+        c => c.to_string(),
+    });
+    format!("\"{}\"", escaped.collect::<String>())
+}

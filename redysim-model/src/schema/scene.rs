@@ -1,0 +1,162 @@
+//! What is asked of a model, at the top of its file or beside it.
+
+use super::reader::{Reader, Shape};
+use super::{Field, LinkTable};
+use crate::diagnostic::{Findings, Text, messages};
+use crate::lock::by_name;
+use crate::model::JointKind;
+use crate::scene::{FUNCTIONS, Functions};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// What the scene beside the file says or, key by key, what the file says where that is silent.
+#[derive(Debug)]
+pub(crate) struct SceneTable {
+    pub(crate) functions: Entry<Field<FunctionNames>>,
+    /// The joints that are locked. One whose value is faulty is among them, at zero: what is around the model counts joints.
+    pub(crate) locked: Entry<Vec<Lock>>,
+}
+
+/// A joint held at a value.
+#[derive(Clone, Debug)]
+pub(crate) struct Lock {
+    /// Index of the link in the document.
+    pub(crate) link: usize,
+    /// The coordinate, rad or m.
+    pub(crate) value: f64,
+    /// The place of the joint's name.
+    pub(crate) place: Range<usize>,
+}
+
+/// What one of the two texts says under a key.
+#[derive(Debug)]
+pub(crate) struct Entry<T> {
+    pub(crate) text: Text,
+    pub(crate) said: T,
+}
+
+/// Names of functions, each with its place.
+#[derive(Clone, Debug)]
+pub(crate) struct FunctionNames(pub(crate) Vec<Spanned<&'static str>>);
+
+impl FunctionNames {
+    /// As a set.
+    pub(crate) fn set(&self) -> Functions {
+        Functions::of(self.0.iter().map(|name| *name.get_ref())).unwrap_or_default()
+    }
+}
+
+const SCENE: Shape = Shape { owner: "A scene", keys: &["functions", "locked"] };
+
+impl SceneTable {
+    /// Reads the keys of a scene from the file and from what is beside it. `links` are there if all can be read.
+    pub(super) fn read(
+        [file, beside]: [&DeTable<'_>; 2],
+        item: &str,
+        links: Option<&Vec<LinkTable>>,
+        findings: &mut Findings,
+    ) -> SceneTable {
+        let in_file = Keys::read(Reader::known(file, item, findings), links);
+        let beside = findings
+            .within(Text::Scene, |findings| Keys::read(Reader::new(beside, 0..0, item, &SCENE, findings), links));
+        SceneTable {
+            functions: match beside.functions {
+                Field::Missing => Entry { text: Text::File, said: in_file.functions },
+                said => Entry { text: Text::Scene, said },
+            },
+            locked: match beside.locked {
+                None => Entry { text: Text::File, said: in_file.locked.unwrap_or_default() },
+                Some(said) => Entry { text: Text::Scene, said },
+            },
+        }
+    }
+}
+
+/// What one text says.
+struct Keys {
+    functions: Field<FunctionNames>,
+    locked: Option<Vec<Lock>>,
+}
+
+impl Keys {
+    fn read(mut reader: Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Keys {
+        Keys { functions: functions(&mut reader), locked: locked(&mut reader, links) }
+    }
+}
+
+fn functions(reader: &mut Reader<'_, '_>) -> Field<FunctionNames> {
+    reader.field("functions", |reader, path, value| {
+        let DeValue::Array(array) = value.get_ref() else {
+            return reader.wrong_type(path, value, "an array of names of functions");
+        };
+        if array.is_empty() {
+            return reader.fault(value, messages::no_functions(reader.item()));
+        }
+        let mut names: Vec<Spanned<&'static str>> = Vec::new();
+        for (index, value) in array.iter().enumerate() {
+            let path = format!("{path}[{index}]");
+            let DeValue::String(text) = value.get_ref() else {
+                reader.wrong_type::<()>(&path, value, "the name of a function");
+                continue;
+            };
+            match FUNCTIONS.iter().find(|known| **known == text.as_ref()) {
+                None => _ = reader.fault::<()>(value, messages::unknown_function(reader.item(), text)),
+                Some(name) if names.iter().any(|other| other.get_ref() == name) => {
+                    _ = reader.fault::<()>(value, messages::repeated_function(reader.item(), name));
+                }
+                Some(name) => names.push(Spanned::new(value.span(), name)),
+            }
+        }
+        Some(FunctionNames(names))
+    })
+}
+
+/// The locked joints. Where links cannot be read, one of them may be meant by any name, so nothing is said of names.
+fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option<Vec<Lock>> {
+    let mut locks: Vec<Lock> = Vec::new();
+    let field = reader.field("locked", |reader, path, value| {
+        let DeValue::Table(table) = value.get_ref() else {
+            return reader.wrong_type(path, value, "a table of joints and values");
+        };
+        let links = links?;
+        let mut pairs: Vec<_> = table.iter().collect();
+        pairs.sort_by_key(|(name, _)| name.span().start);
+        for (name, value) in pairs {
+            let (name, place) = (name.get_ref().as_ref(), name.span());
+            let Some(link) = joint(name, place.clone(), links, reader) else { continue };
+            if locks.iter().any(|lock| lock.link == link) {
+                reader.fault_at::<()>(place.clone(), messages::locked_twice(reader.item(), name));
+                continue;
+            }
+            let path = format!("{path}.{name}");
+            let value = match links[link].joint.value() {
+                Some(JointKind::Prismatic) => reader.a_number(&path, value),
+                _ => reader.an_angle(&path, value),
+            };
+            locks.push(Lock { link, value: value.unwrap_or_default(), place });
+        }
+        Some(())
+    });
+    (!field.is_missing()).then_some(locks)
+}
+
+/// The link whose joint is meant by `name`, if it is one that moves.
+fn joint(name: &str, place: Range<usize>, links: &[LinkTable], reader: &mut Reader<'_, '_>) -> Option<usize> {
+    let names = links.iter().map(|link| {
+        let joint = link.joint_name().map(|name| name.get_ref().as_str());
+        (joint, link.name.value().map(String::as_str))
+    });
+    let readable = names.clone().all(|(joint, link)| joint.is_some() && link.is_some());
+    match by_name(name, names.clone()) {
+        Some(link) if links[link].joint.value() == Some(&JointKind::Fixed) => {
+            reader.fault_at(place, messages::locked_fixed(reader.item(), name))
+        }
+        None if readable => {
+            let moving = links.iter().zip(names).filter(|(link, _)| !link.is_rigid());
+            let moving: Vec<&str> = moving.filter_map(|(_, (joint, _))| joint).collect();
+            reader.fault_at(place, messages::locked_unknown(reader.item(), name, &moving))
+        }
+        found => found,
+    }
+}

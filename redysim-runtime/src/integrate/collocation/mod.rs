@@ -1,0 +1,31 @@
+//! Collocation methods: a step follows the polynomial u that starts at the state and satisfies the equation, u̇ = f(t, u),
+//! at the nodes t + c_i h (E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
+//! Springer (1993), section II.7). All stages depend on each other and are found by iteration; between the ends of the
+//! step, u is the solution, and continued beyond its end it is where the iteration of the next step begins.
+//!
+//! [`gauss`] has the methods for long conservative motion, [`radau`] the one for stiff equations.
+
+pub mod gauss;
+mod newton;
+pub mod radau;
+mod radau_tableau;
+
+use super::step::{weighted_sum, without_constant};
+use crate::{Real, Vector};
+
+/// Writes u(1 + c_i r) − u(1), what the polynomial u(θ) = y + `scale` Σ p_k(θ) `stages`_k of the last step says of the
+/// stages of the next one, to `starts`. The next step is r = `ratio` times as long, and the p_k have the coefficients
+/// `dense`, of θ, θ², …
+fn extrapolate<S: Real, Y: Vector<S>, const STAGES: usize>(
+    (dense, nodes): (&[&[f64]; STAGES], &[f64; STAGES]),
+    ratio: S,
+    scale: S,
+    stages: &[Y; STAGES],
+    starts: &mut [Y; STAGES],
+) {
+    for (start, &node) in starts.iter_mut().zip(nodes) {
+        let theta = S::one() + ratio * S::from_f64(node);
+        let weight = |p: &&[f64]| scale * (without_constant(p, theta) - without_constant(p, S::one()));
+        weighted_sum(dense.iter().map(weight), stages, start);
+    }
+}

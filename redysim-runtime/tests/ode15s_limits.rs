@@ -1,0 +1,264 @@
+//! Numerical differentiation formulas where something is in their way: corrections of the state, jumps, poles, bad numbers.
+
+use redysim_runtime::IntegrationError::{self, *};
+use redysim_runtime::integrate::{Accepted, Adaptive, Bdf, FixedStep};
+use redysim_runtime::{Integrator, Ode, Ode15s, Solution, Statistics};
+
+type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
+
+/// Runs a right-hand side that breaks the test if it is called without end.
+fn run(method: &impl Integrator<f64>, to: f64, mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2]) -> (Outcome, u32) {
+    let mut calls = 0;
+    let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
+        calls += 1;
+        assert!(calls < 100_000, "this does not end");
+        *dydt = f(t, y);
+    };
+    let outcome = method.integrate(&mut counted, (0.0, to), [1.0, 1.0]);
+    (outcome, calls)
+}
+
+#[test]
+fn a_derivative_that_is_not_finite_at_the_start_is_named() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let (outcome, calls) = run(&Ode15s::new(), 1.0, |_, _| [1.0, bad]);
+        assert_eq!((outcome, calls), (Err(NonFiniteDerivative { t: 0.0, component: 1 }), 1));
+    }
+}
+
+#[test]
+fn a_derivative_that_ceases_to_be_finite_is_named_with_its_time() {
+    let (outcome, calls) = run(&Ode15s::new(), 1.0, |t, _| [if t > 0.55 { f64::NAN } else { 1.0 }, 0.0]);
+    assert!(matches!(outcome, Err(NonFiniteDerivative { t, component: 0 }) if (t - 0.55).abs() < 1e-14), "{outcome:?}");
+    println!("{calls} evaluations until the step was smallest");
+    assert!(calls < 1000);
+}
+
+/// ẏ = −2√y has the solution (1 − t)². A first step over the whole interval asks for roots of negative numbers.
+#[test]
+fn a_trial_beyond_the_domain_only_makes_the_step_smaller() {
+    let mut left_domain = false;
+    let method = Ode15s::new().initial_step(0.95).max_step(0.95).rtol(1e-6).atol(1e-9);
+    let (outcome, _) = run(&method, 0.95, |_, y| {
+        left_domain |= y[0] < 0.0;
+        [-2.0 * y[0].sqrt(), 0.0]
+    });
+    let solution = outcome.unwrap();
+    assert!(left_domain && solution.statistics.rejected > 0);
+    assert!((solution.y[0] - 0.0025).abs() < 1e-5, "{:?}", solution.y);
+}
+
+/// ẏ = y² has a pole at t = 1.
+#[test]
+fn a_singularity_stops_the_steps_with_bounded_work() {
+    let (outcome, calls) = run(&Ode15s::new().rtol(1e-8), 2.0, |_, y| [y[0] * y[0], 0.0]);
+    println!("{outcome:?} after {calls} evaluations");
+    let Err(StepTooSmall { t, step } | NotConverged { t, step }) = outcome else { panic!("{outcome:?}") };
+    assert!((t - 1.0).abs() < 1e-4 && step < 1e-14);
+    assert!(calls < 20_000);
+}
+
+#[test]
+fn a_jump_is_crossed_or_reported_but_never_waited_at() {
+    let jump = |height: f64| move |t: f64, _: &[f64; 2]| [if t < 0.3 { 0.0 } else { height }, 0.0];
+    let (outcome, calls) = run(&Ode15s::new(), 1.0, jump(1.0));
+    // No estimate holds across a jump.
+    let y = outcome.unwrap().y;
+    assert!((y[0] - 1.7).abs() < 2e-2, "{y:?}");
+    assert!(calls < 500);
+    let (outcome, calls) = run(&Ode15s::new().rtol(1e-13).atol(1e-13), 1.0, jump(1e9));
+    assert!(matches!(outcome, Err(StepTooSmall { t, .. }) if (t - 0.3).abs() < 1e-14), "{outcome:?}");
+    assert!(calls < 1000);
+}
+
+#[test]
+fn a_state_that_overflows_is_reported() {
+    let (outcome, calls) = run(&Ode15s::new(), 10.0, |_, y| [y[0], 1e308]);
+    assert!(matches!(outcome, Err(NonFiniteState { component: 1, .. })), "{outcome:?}");
+    assert!(calls < 1000);
+}
+
+#[test]
+fn steps_are_counted_before_they_become_too_many() {
+    let (outcome, calls) = run(&Ode15s::new().max_steps(50), 1e3, |t, y| [y[1], -y[0] + t.sin()]);
+    assert!(matches!(outcome, Err(TooManySteps { limit: 50, t }) if t > 0.0 && t < 1e3), "{outcome:?}");
+    assert!(calls < 50 * 8);
+}
+
+/// A problem whose tangents are `tangent` of its state.
+struct Told {
+    tangent: f64,
+    calls: u32,
+}
+
+impl Ode<f64, [f64; 1]> for Told {
+    fn derivative(&mut self, t: f64, y: &[f64; 1], dydt: &mut [f64; 1]) {
+        self.calls += 1;
+        dydt[0] = -1e6 * (y[0] - t.cos());
+    }
+
+    fn tangent(&mut self, _t: f64, _y: &[f64; 1], direction: &[f64; 1], slope: &mut [f64; 1]) -> bool {
+        slope[0] = self.tangent * direction[0];
+        true
+    }
+}
+
+#[test]
+fn wrong_tangents_are_reported_or_cost_steps_but_never_the_solution() {
+    let run = |tangent: f64, max_steps: u64| {
+        let mut told = Told { tangent, calls: 0 };
+        let method = Ode15s::new().rtol(1e-6).atol(1e-6).max_steps(max_steps);
+        (method.integrate(&mut told, (0.0, 1.0), [2.0]), told.calls)
+    };
+    for tangent in [f64::NAN, f64::INFINITY] {
+        let (outcome, calls) = run(tangent, 1000);
+        assert!(matches!(outcome, Err(NonFiniteDerivative { t: 0.0, component: 0 })), "{outcome:?}");
+        assert!(calls < 10);
+    }
+    // Right, nearly right, and useless: as if there were none, the iteration converges for h < 10⁻⁶ only.
+    assert!((run(-1e6, 1000).0.unwrap().y[0] - 1.0_f64.cos()).abs() < 1e-5);
+    assert!((run(-1.2e6, 1000).0.unwrap().y[0] - 1.0_f64.cos()).abs() < 1e-5);
+    let (outcome, calls) = run(0.0, 3000);
+    assert!(matches!(outcome, Err(TooManySteps { t, .. }) if t > 1e-4 && t < 0.1), "{outcome:?}");
+    assert!(calls < 30_000);
+}
+
+/// The first step of order 1 of ẏ = y has the matrix 1 − h.
+#[test]
+fn a_singular_matrix_asks_for_another_step_size() {
+    let mut growth = |_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = y[0];
+    let method = Adaptive::<f64, Bdf>::new().rtol(1e-6).initial_step(1.0).max_step(1.0);
+    let end = method.integrate(&mut growth, (0.0, 2.0), [1.0]).unwrap();
+    assert!(end.statistics.rejected > 0);
+    assert!((end.y[0] / 2.0_f64.exp() - 1.0).abs() < 1e-4, "{:?}", end.y);
+
+    let outcome = FixedStep::<f64, Bdf>::new(1.0).integrate(&mut growth, (0.0, 2.0), [1.0]);
+    assert_eq!(outcome, Err(NotConverged { t: 0.0, step: 1.0 }));
+}
+
+/// With steps of one size the formulas stay at order 1: BDF is the implicit Euler method.
+#[test]
+fn steps_of_one_size_are_those_of_the_implicit_euler_method() {
+    let mut decay = |_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = -1e3 * y[0];
+    let end = FixedStep::<f64, Bdf>::new(0.01).integrate(&mut decay, (0.0, 0.1), [1.0]).unwrap();
+    assert!((end.y[0] * 11.0_f64.powi(10) - 1.0).abs() < 1e-12, "{:?}", end.y);
+}
+
+/// A pendulum in Cartesian coordinates, [x, y, ẋ, ẏ], of length 1 and weight 1: accelerations of the two times
+/// differentiated constraint. Each accepted step is corrected if `projected`.
+struct Pendulum {
+    projected: bool,
+}
+
+impl Ode<f64, [f64; 4]> for Pendulum {
+    fn derivative(&mut self, _t: f64, s: &[f64; 4], dsdt: &mut [f64; 4]) {
+        let [x, y, vx, vy] = *s;
+        let tension = (vx * vx + vy * vy - y) / (x * x + y * y);
+        *dsdt = [vx, vy, -tension * x, -tension * y - 1.0];
+    }
+
+    fn accepted(&mut self, _t: f64, _step: f64, s: &mut [f64; 4]) -> Accepted {
+        if !self.projected {
+            return Accepted::AsItIs;
+        }
+        let length = s[0].hypot(s[1]);
+        let [x, y] = [s[0] / length, s[1] / length];
+        let radial = x * s[2] + y * s[3];
+        *s = [x, y, s[2] - radial * x, s[3] - radial * y];
+        Accepted::Corrected
+    }
+}
+
+/// Were the past forgotten with each correction, order 1 would take a thousand steps and more.
+#[test]
+fn small_corrections_leave_the_order_high() {
+    for tolerance in [1e-3, 1e-5, 1e-7, 1e-9] {
+        let steps = |projected: bool| {
+            let method = Ode15s::new().rtol(tolerance).atol(tolerance);
+            let end = method.integrate(&mut Pendulum { projected }, (0.0, 10.0), [1.0, 0.0, 0.0, 0.0]).unwrap();
+            let took = end.statistics;
+            assert_eq!(took.corrections, if projected { took.steps } else { 0 });
+            let energy = 0.5 * (end.y[2] * end.y[2] + end.y[3] * end.y[3]) + end.y[1];
+            println!("tolerance {tolerance:e}: energy {energy:.1e}, {took:?}");
+            took.steps as f64
+        };
+        let (with, without) = (steps(true), steps(false));
+        assert!(with < 1.03 * without, "{with} steps with corrections, {without} without");
+    }
+}
+
+/// A point that a stiff force keeps near the unit circle, on which it turns: what is corrected is what is stiff.
+struct Rim {
+    stiffness: f64,
+    projected: bool,
+}
+
+impl Ode<f64, [f64; 2]> for Rim {
+    fn derivative(&mut self, _t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
+        let pull = self.stiffness * (1.0 - y[0].hypot(y[1]));
+        *dydt = [pull * y[0] - y[1], pull * y[1] + y[0]];
+    }
+
+    fn accepted(&mut self, _t: f64, _step: f64, y: &mut [f64; 2]) -> Accepted {
+        if !self.projected {
+            return Accepted::AsItIs;
+        }
+        let radius = y[0].hypot(y[1]);
+        *y = y.map(|y| y / radius);
+        Accepted::Corrected
+    }
+}
+
+#[test]
+fn corrections_of_what_is_stiff_cost_no_steps() {
+    for stiffness in [1e1, 1e2, 1e3, 1e4] {
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let steps = |projected: bool| {
+                let method = Ode15s::new().rtol(tolerance).atol(tolerance);
+                let end = method.integrate(&mut Rim { stiffness, projected }, (0.0, 10.0), [1.0, 0.0]).unwrap();
+                let error = (end.y[0] - 10.0_f64.cos()).hypot(end.y[1] - 10.0_f64.sin());
+                println!("stiffness {stiffness:e}, tolerance {tolerance:e}: {error:.1e}, {:?}", end.statistics);
+                assert!(error < 100.0 * tolerance, "{error:e}");
+                end.statistics.steps as f64
+            };
+            let (with, without) = (steps(true), steps(false));
+            assert!(with < 1.15 * without, "{with} steps with corrections, {without} without");
+        }
+    }
+}
+
+/// ẏ = −y that is moved by 1 at the end of the first step beyond t = 1.
+struct Kicked {
+    at: Option<(f64, f64)>,
+}
+
+impl Ode<f64, [f64; 1]> for Kicked {
+    fn derivative(&mut self, _t: f64, y: &[f64; 1], dydt: &mut [f64; 1]) {
+        dydt[0] = -y[0];
+    }
+
+    fn accepted(&mut self, t: f64, _step: f64, y: &mut [f64; 1]) -> Accepted {
+        if t < 1.0 || self.at.is_some() {
+            return Accepted::AsItIs;
+        }
+        y[0] += 1.0;
+        self.at = Some((t, y[0]));
+        Accepted::Corrected
+    }
+}
+
+#[test]
+fn after_a_large_correction_the_past_is_that_of_another_solution() {
+    for tolerance in [1e-3, 1e-6, 1e-9] {
+        let mut kicked = Kicked { at: None };
+        let method = Ode15s::new().rtol(tolerance).atol(tolerance);
+        let end = method.integrate(&mut kicked, (0.0, 3.0), [1.0]).unwrap();
+        let (t, y) = kicked.at.expect("it was kicked");
+        let error = (end.y[0] - y * (t - 3.0).exp()).abs();
+        let Statistics { steps, rejected, evaluations, .. } = end.statistics;
+        println!("tolerance {tolerance:e}: {error:.1e}, {steps} steps, {rejected} rejected, {evaluations} evaluations");
+        assert!(error < 10.0 * tolerance, "{error:e}");
+        // With the past of the other solution it would take twice as many.
+        assert!(rejected <= 10, "{rejected}");
+    }
+}

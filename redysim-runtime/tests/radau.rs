@@ -1,0 +1,372 @@
+//! Radau IIA of order 5: coefficients, accuracy on stiff and other problems, and what it costs.
+
+#[allow(dead_code)]
+mod mechanisms;
+#[allow(dead_code)]
+mod order_conditions;
+
+use mechanisms::{Arm, distance};
+use order_conditions::{defect, dot, values};
+use redysim_runtime::integrate::collocation::radau::RADAU_IIA_5;
+use redysim_runtime::integrate::{Accepted, FixedStep, RadauIIA};
+use redysim_runtime::{
+    ForwardSimulation, Free, IntegrationError, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Scalar,
+    Statistics, Step,
+};
+
+/// ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), with the solution 1/(1 + t²), tan(sin t).
+fn nonlinear<S: Scalar>(t: S, y: &[S; 2], dydt: &mut [S; 2]) {
+    dydt[0] = S::from_f64(-2.0) * t * y[0] * y[0];
+    dydt[1] = t.sin_cos().1 * (S::one() + y[1] * y[1]);
+}
+
+fn exact(t: f64) -> [f64; 2] {
+    [1.0 / (1.0 + t * t), t.sin().tan()]
+}
+
+fn error_at<S: Real>(t: S, y: &[S; 2]) -> f64 {
+    exact(t.to_f64()).into_iter().zip(y).map(|(exact, y)| (y.to_f64() - exact).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_coefficients_satisfy_every_order_condition_up_to_five_and_not_six() {
+    let rows = RADAU_IIA_5.matrix.each_ref().map(|row| row.as_slice());
+    let [.., weights] = RADAU_IIA_5.matrix;
+    for order in 1..=5 {
+        assert!(defect(rows, order, &weights, 1.0) < 1e-15, "order {order}");
+    }
+    assert!(defect(rows, 6, &weights, 1.0) > 1e-5);
+    for (row, &node) in rows.iter().zip(&RADAU_IIA_5.nodes) {
+        for power in 1..=3 {
+            let integral = dot(row, &RADAU_IIA_5.nodes.map(|c| c.powi(power - 1)));
+            assert!((integral - node.powi(power) / f64::from(power)).abs() < 1e-15, "C({power})");
+        }
+    }
+}
+
+/// p_k is 1 at its node and 0 at the others and at 0.
+#[test]
+fn the_polynomial_passes_through_the_stages() {
+    for (k, node) in RADAU_IIA_5.nodes.into_iter().enumerate() {
+        for (j, value) in values(RADAU_IIA_5.dense, node).into_iter().enumerate() {
+            assert!((value - f64::from(u8::from(j == k))).abs() < 1e-14, "p_{j} is {value} at node {k}");
+        }
+    }
+}
+
+/// e z/h + f(t, y) vanishes for z of polynomials up to degree 3: then only the fourth power of h is left.
+#[test]
+fn the_estimate_is_blind_to_polynomials_of_degree_three() {
+    for power in 1..=3 {
+        let estimate = dot(&RADAU_IIA_5.error, &RADAU_IIA_5.nodes.map(|c| c.powi(power)));
+        assert!((estimate + f64::from(u8::from(power == 1))).abs() < 1e-14, "t^{power}: {estimate}");
+    }
+    assert!(dot(&RADAU_IIA_5.error, &RADAU_IIA_5.nodes.map(|c| c.powi(4))).abs() > 1e-3);
+}
+
+/// The error at the end, and the largest one within steps of one size.
+fn errors_of_steps<const N: usize>(
+    ode: &mut impl Ode<f64, [f64; N]>,
+    exact: impl Fn(f64) -> [f64; N],
+    h: f64,
+) -> (f64, f64) {
+    let (mut at_end, mut within) = (0.0_f64, 0.0_f64);
+    let look = |step: &Step<'_, f64, [f64; N]>| {
+        let ((from, _), (t, y)) = (step.start(), step.end());
+        at_end = distance(y, &exact(t));
+        for theta in [0.05, 0.3, 0.8] {
+            let t = from + theta * h;
+            within = within.max(distance(&step.at(t), &exact(t)));
+        }
+    };
+    FixedStep::<f64, RadauIIA>::new(h).each_step(ode, (0.0, 3.0), exact(0.0), look).unwrap();
+    (at_end, within)
+}
+
+#[test]
+fn it_converges_with_order_five_and_within_the_steps_with_the_fourth_power() {
+    let [coarse, fine] = [0.05, 0.025].map(|h| errors_of_steps(&mut nonlinear, exact, h).0);
+    let order = (coarse / fine).log2();
+    let [coarse, fine] = [6e-3, 3e-3].map(|h| errors_of_steps(&mut nonlinear, exact, h).1);
+    let power = (coarse / fine).log2();
+    println!("measured order {order:.3}, power within {power:.3}");
+    assert!((order - 5.0).abs() < 0.2, "{order}");
+    assert!((power - 4.0).abs() < 0.2, "{power}");
+}
+
+/// The decompositions of the first step serve the second, which is shorter by 4·10⁻⁵, but the equations are its own.
+#[test]
+fn a_step_that_is_a_little_shorter_is_as_accurate() {
+    let mut growth = |_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = y[0];
+    let to = 0.02 * (1.0 - 2e-5);
+    let end = FixedStep::<f64, RadauIIA>::new(0.01).integrate(&mut growth, (0.0, to), [1.0]).unwrap();
+    assert_eq!((end.statistics.steps, end.statistics.decompositions), (2, 2));
+    assert!((end.y[0] - to.exp()).abs() < 1e-12, "{}", end.y[0] - to.exp());
+}
+
+/// ẏ = λ (y − cos t) − sin t, with the solution cos t.
+fn prothero_robinson(lambda: f64) -> impl FnMut(f64, &[f64; 1], &mut [f64; 1]) {
+    move |t, y, dydt| dydt[0] = lambda * (y[0] - t.cos()) - t.sin()
+}
+
+/// The order of the stages is 3: where λ is large, so is that of the steps, but their error is that much smaller.
+#[test]
+fn the_errors_of_a_stiff_equation_shrink_with_its_stiffness_and_the_third_power_of_the_step() {
+    let cosine = |t: f64| [t.cos()];
+    let [coarse, fine] = [0.1, 0.05].map(|h| errors_of_steps(&mut prothero_robinson(-1e6), cosine, h));
+    let stiffer = errors_of_steps(&mut prothero_robinson(-1e7), cosine, 0.1);
+    let (order, power) = ((coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2());
+    println!("{coarse:?}, {fine:?}, stiffer {stiffer:?}: order {order:.3}, power within {power:.3}");
+    assert!((order - 3.0).abs() < 0.3, "{order}");
+    assert!((power - 4.0).abs() < 0.3, "{power}");
+    assert!((coarse.0 / stiffer.0 - 10.0).abs() < 2.0, "{coarse:?} {stiffer:?}");
+}
+
+fn radau(tolerance: f64) -> Radau5<'static, f64> {
+    Radau5::new().rtol(tolerance).atol(tolerance)
+}
+
+/// With error proportional to tolerance and to h⁶ in each step, the number of steps grows with the tolerance to the power
+/// −1/6.
+#[test]
+fn the_error_is_in_proportion_to_the_tolerance_with_steps_of_order_six() {
+    let measure = |tolerance: f64| {
+        let end = radau(tolerance).max_step(3.0).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
+        (error_at(end.t, &end.y), end.statistics)
+    };
+    for digits in 3..=12 {
+        let tolerance = 10.0_f64.powi(-digits);
+        let (error, statistics) = measure(tolerance);
+        println!("tolerance {tolerance:e}: error {error:e}, {statistics:?}");
+        assert!(error < tolerance, "error {error:e} for tolerance {tolerance:e}");
+        assert!(statistics.evaluations < 10 * statistics.steps + 50, "two turns of the iteration, and rarely a third");
+    }
+    let [coarse, fine] = [1e-8, 1e-12].map(|tolerance| measure(tolerance).1.steps as f64);
+    let p = (1e4_f64).ln() / (fine / coarse).ln();
+    println!("steps grow with the power −1/{p:.3}");
+    assert!((p - 6.0).abs() < 0.2, "{p}");
+}
+
+#[test]
+fn integration_backward_in_time_returns_to_the_start() {
+    let forward = radau(1e-11).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
+    let back = radau(1e-11).integrate(&mut nonlinear, (3.0, 0.0), forward.y).unwrap();
+    assert_eq!(back.t, 0.0);
+    assert!(error_at(0.0, &back.y) < 1e-9, "{:?}", back.y);
+}
+
+/// A. Prothero and A. Robinson's equation, from its solution and from far off it.
+#[test]
+fn a_fast_decay_costs_no_steps() {
+    for lambda in [-1e2, -1e4, -1e6, -1e9] {
+        for start in [1.0, 2.0] {
+            let end = radau(1e-8).integrate(&mut prothero_robinson(lambda), (0.0, 10.0), [start]).unwrap();
+            let error = (end.y[0] - 10.0_f64.cos()).abs();
+            println!("λ = {lambda:e} from {start}: error {error:e}, {:?}", end.statistics);
+            assert!(error < 2e-7, "{error:e}");
+            assert!(end.statistics.steps < 150, "{:?}", end.statistics);
+        }
+    }
+}
+
+/// H. H. Robertson's reactions: reference values from section IV.10 of *Solving Ordinary Differential Equations II*.
+#[test]
+fn the_reactions_of_robertson_end_where_the_reference_does() {
+    let mut reactions = |_t: f64, y: &[f64; 3], rate: &mut [f64; 3]| {
+        let (slow, fast, medium) = (0.04 * y[0], 3e7 * y[1] * y[1], 1e4 * y[1] * y[2]);
+        *rate = [medium - slow, slow - medium - fast, fast];
+    };
+    let method = Radau5::new().rtol(1e-8).atol(1e-14).max_step(1e12);
+    let end = method.integrate(&mut reactions, (0.0, 1e11), [1.0, 0.0, 0.0]).unwrap();
+    println!("{:?}, {:?}", end.y, end.statistics);
+    let reference = [0.208_334_014_970_125_5e-7, 0.833_336_077_033_471_3e-13, 0.999_999_979_166_505];
+    for (y, reference) in end.y.into_iter().zip(reference) {
+        assert!((y / reference - 1.0).abs() < 1e-6, "{y:e} instead of {reference:e}");
+    }
+    assert!(end.statistics.steps < 800, "{:?}", end.statistics);
+}
+
+/// The oscillator of B. van der Pol with μ = 1000, against the same at the tightest tolerance, over more than one
+/// period of slow motion with jumps between.
+#[test]
+fn the_relaxations_of_van_der_pol_are_followed() {
+    let mut oscillator =
+        |_t: f64, y: &[f64; 2], rate: &mut [f64; 2]| *rate = [y[1], 1000.0 * (1.0 - y[0] * y[0]) * y[1] - y[0]];
+    let mut end = |tolerance: f64| {
+        let method = Radau5::new().rtol(tolerance).atol(0.1 * tolerance);
+        method.integrate(&mut oscillator, (0.0, 2000.0), [2.0, 0.0]).unwrap()
+    };
+    let reference = end(1e-13).y;
+    println!("reference {reference:?}");
+    // E. Hairer's page of test problems gives y₁(2000) = 1.706167732170469 for μ = 1000.
+    assert!((reference[0] - 1.706_167_732_170_469).abs() < 1e-10, "{reference:?}");
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let end = end(tolerance);
+        let error = (end.y[0] - reference[0]).abs();
+        println!("tolerance {tolerance:e}: error {error:e}, {:?}", end.statistics);
+        assert!(error < 30.0 * tolerance, "{error:e} for {tolerance:e}");
+        assert!(end.statistics.steps < 2200 && end.statistics.rejected < 60, "{:?}", end.statistics);
+    }
+}
+
+/// A robot arm with a stiff servo: damping that explicit steps must follow to the end.
+#[test]
+fn a_stiff_servo_costs_far_fewer_evaluations_than_explicit_steps_need() {
+    let law = || ProportionalDerivative { target: [1.0, 1.0], kp: [1e5, 1e5], kd: [1e4, 1e4] };
+    let start = ForwardSimulation::new(&Arm, law()).state(&[0.0, 0.0], &[0.0, 0.0]);
+    let implicit = Radau5::new().rtol(1e-6).atol(1e-8);
+    let implicit = implicit.integrate(&mut ForwardSimulation::new(&Arm, law()), (0.0, 1.0), start).unwrap();
+    let explicit = Ode45::new().rtol(1e-6).atol(1e-8).stiffness_limit(None);
+    let explicit = explicit.integrate(&mut ForwardSimulation::new(&Arm, law()), (0.0, 1.0), start).unwrap();
+    println!("{:?}\n{:?}\n{:?}\n{:?}", implicit.statistics, explicit.statistics, implicit.y, explicit.y);
+    assert!((0..4).all(|i| (implicit.y[i] - explicit.y[i]).abs() < 1e-5));
+    assert!(100 * implicit.statistics.evaluations < explicit.statistics.evaluations);
+}
+
+/// The same equation without its tangents.
+struct Differences<O>(O);
+
+impl<O: Ode<f64, Y>, Y> Ode<f64, Y> for Differences<O> {
+    fn derivative(&mut self, t: f64, y: &Y, dydt: &mut Y) {
+        self.0.derivative(t, y, dydt);
+    }
+}
+
+#[test]
+fn tangents_and_differences_lead_to_the_same_motion() {
+    let law = || ProportionalDerivative { target: [1.0, 1.0], kp: [1e3, 1e3], kd: [1e2, 1e2] };
+    let mut exact = ForwardSimulation::new(&Arm, law());
+    let start = exact.state(&[0.0, 0.0], &[0.0, 0.0]);
+    let with = radau(1e-8).integrate(&mut exact, (0.0, 1.0), start).unwrap();
+    let without =
+        radau(1e-8).integrate(&mut Differences(ForwardSimulation::new(&Arm, law())), (0.0, 1.0), start).unwrap();
+    println!("{:?}\n{:?}\n{:e}", with.statistics, without.statistics, distance(&with.y, &without.y));
+    assert!(distance(&with.y, &without.y) < 1e-7);
+    assert_eq!(with.statistics.steps, without.statistics.steps);
+    assert!(without.statistics.evaluations >= with.statistics.evaluations + 5 * without.statistics.jacobians);
+}
+
+#[test]
+fn jacobians_and_decompositions_are_kept_while_they_serve() {
+    let mut linear = |_t: f64, y: &[f64; 2], rate: &mut [f64; 2]| *rate = [-1000.0 * (y[0] - y[1]), -y[1]];
+    let end = radau(1e-6).integrate(&mut linear, (0.0, 10.0), [2.0, 1.0]).unwrap();
+    println!("{:?}", end.statistics);
+    assert_eq!(end.statistics.jacobians, 1, "of a linear equation one is enough");
+    let Statistics { steps, rejected, decompositions, .. } = end.statistics;
+    assert!(decompositions < 2 * (steps + rejected), "some sizes are kept");
+}
+
+#[test]
+fn a_correction_after_each_step_is_gone_on_from() {
+    struct Circle;
+    impl Ode<f64, [f64; 2]> for Circle {
+        fn derivative(&mut self, _t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
+            *dydt = [-y[1], y[0]];
+        }
+        fn accepted(&mut self, _t: f64, _step: f64, y: &mut [f64; 2]) -> Accepted {
+            let radius = y[0].hypot(y[1]);
+            *y = y.map(|y| y / radius);
+            Accepted::Corrected
+        }
+    }
+    let mut last = [1.0, 0.0];
+    let end = radau(1e-5)
+        .each_step(&mut Circle, (0.0, 3.0), last, |step| {
+            assert_eq!(*step.start().1, last);
+            assert_eq!(step.at(step.end().0), *step.end().1);
+            last = *step.end().1;
+        })
+        .unwrap();
+    assert_eq!(end.statistics.corrections, end.statistics.steps);
+    assert!((end.y[1] / end.y[0] - 3.0_f64.tan()).abs() < 1e-4, "{:?}", end.y);
+}
+
+fn run(
+    method: Radau5<'_, f64>,
+    to: f64,
+    mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2],
+) -> (Result<[f64; 2], IntegrationError<f64>>, u32) {
+    let mut calls = 0;
+    let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
+        calls += 1;
+        assert!(calls < 100_000, "this does not end");
+        *dydt = f(t, y);
+    };
+    let outcome = method.integrate(&mut counted, (0.0, to), [1.0, 1.0]).map(|end| end.y);
+    (outcome, calls)
+}
+
+#[test]
+fn whatever_goes_wrong_is_a_typed_error_with_bounded_work() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let (outcome, calls) = run(Radau5::new(), 1.0, |_, _| [1.0, bad]);
+        assert_eq!(outcome, Err(IntegrationError::NonFiniteDerivative { t: 0.0, component: 1 }));
+        assert_eq!(calls, 1);
+    }
+    // From a time on, and from a state on, close to the start.
+    let (outcome, calls) = run(Radau5::new(), 1.0, |t, _| [if t > 0.55 { f64::NAN } else { 1.0 }, 0.0]);
+    println!("{outcome:?} after {calls} evaluations");
+    assert!(matches!(outcome, Err(IntegrationError::NonFiniteDerivative { t, .. }) if (t - 0.55).abs() < 1e-12));
+    assert!(calls < 2000);
+    let (outcome, calls) = run(Radau5::new(), 2.0, |_, y| [y[0] * y[0], 0.0]);
+    println!("{outcome:?} after {calls} evaluations");
+    assert!(outcome.is_err() && calls < 10_000);
+    let (outcome, calls) = run(radau(1e-13), 1.0, |t, _| [if t < 0.3 { 0.0 } else { 1e9 }, 0.0]);
+    println!("{outcome:?} after {calls} evaluations");
+    assert!(matches!(outcome, Err(IntegrationError::StepTooSmall { t, .. }) if (t - 0.3).abs() < 1e-12), "{outcome:?}");
+    assert!(calls < 2000);
+}
+
+/// λ/h − J = 0 for the first step that is tried: a smaller one is taken.
+#[test]
+fn a_singular_matrix_makes_the_step_smaller() {
+    let mut growth = |_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = RADAU_IIA_5.real.value * y[0];
+    struct Tangent<F>(F);
+    impl<F: FnMut(f64, &[f64; 1], &mut [f64; 1])> Ode<f64, [f64; 1]> for Tangent<F> {
+        fn derivative(&mut self, t: f64, y: &[f64; 1], dydt: &mut [f64; 1]) {
+            (self.0)(t, y, dydt);
+        }
+        fn tangent(&mut self, _t: f64, _y: &[f64; 1], direction: &[f64; 1], slope: &mut [f64; 1]) -> bool {
+            slope[0] = RADAU_IIA_5.real.value * direction[0];
+            true
+        }
+    }
+    let method = radau(1e-6).initial_step(1.0).max_step(1.0);
+    let end = method.integrate(&mut Tangent(&mut growth), (0.0, 3.0), [1.0]).unwrap();
+    assert!(end.statistics.rejected > 0);
+    let exact = (3.0 * RADAU_IIA_5.real.value).exp();
+    assert!((end.y[0] / exact - 1.0).abs() < 1e-4, "{} instead of {exact}", end.y[0]);
+}
+
+#[test]
+fn single_precision_is_as_accurate_as_it_can_be() {
+    let from = exact(0.0).map(|y| y as f32);
+    let end = Radau5::new().rtol(2e-5_f32).atol(1e-6).integrate(&mut nonlinear, (0.0, 3.0), from).unwrap();
+    assert!(error_at(end.t, &end.y) < 5e-5, "{:?}", end.y);
+}
+
+#[cfg(feature = "alloc")]
+#[test]
+fn vectors_give_the_same_bits_as_arrays() {
+    let mut array = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| nonlinear(t, y, dydt);
+    let mut vector = |t: f64, y: &Vec<f64>, dydt: &mut Vec<f64>| {
+        let mut rate = [0.0; 2];
+        nonlinear(t, &[y[0], y[1]], &mut rate);
+        dydt.copy_from_slice(&rate);
+    };
+    let from = exact(0.0);
+    let (array, vector) = (
+        radau(1e-8).integrate(&mut array, (0.0, 3.0), from).unwrap(),
+        radau(1e-8).integrate(&mut vector, (0.0, 3.0), from.to_vec()).unwrap(),
+    );
+    assert_eq!((array.y.to_vec(), array.statistics), (vector.y, vector.statistics));
+    let mut nothing = |_t: f64, _y: &Vec<f64>, _dydt: &mut Vec<f64>| {};
+    assert!(Radau5::new().integrate(&mut nothing, (0.0, 1.0), vec![]).is_ok());
+}
+
+#[test]
+fn rest_is_no_trouble() {
+    let mut arm = ForwardSimulation::new(&Arm, Free);
+    let start = arm.state(&[0.0, 0.0], &[0.0, 0.0]);
+    assert_eq!(Radau5::new().integrate(&mut arm, (0.0, 10.0), start).unwrap().y, [0.0; 5]);
+}

@@ -1,0 +1,52 @@
+//! Chains of rods, in numbers and proportions that make dynamics ill-conditioned.
+
+use redysim_model::spatial::{Mat3, Pose, Vec3};
+use redysim_model::{Inertia, JointKind, Link, Model, Tree};
+
+/// A rod of a chain.
+#[derive(Clone, Copy)]
+pub struct Rod {
+    /// What its joint turns about.
+    pub axis: [f64; 3],
+    /// kg
+    pub mass: f64,
+    /// m
+    pub length: f64,
+}
+
+/// The axis of every rod in a planar chain.
+pub const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// Axes that alternate, as in a chain of universal joints.
+pub fn universal(index: usize) -> [f64; 3] {
+    if index.is_multiple_of(2) { Z } else { [0.0, 1.0, 0.0] }
+}
+
+/// Axes that are parallel to no side of a rod.
+pub fn oblique(index: usize) -> [f64; 3] {
+    if index.is_multiple_of(2) { [0.0, 0.6, 0.8] } else { [0.6, 0.8, 0.0] }
+}
+
+/// A chain of `count` rods along x, each hinged at the end of the one before.
+pub fn chain(count: usize, rod: impl Fn(usize) -> Rod) -> Tree {
+    let link = |index: usize| {
+        let Rod { axis, mass, length } = rod(index);
+        let start = index.checked_sub(1).map_or(0.0, |parent| rod(parent).length);
+        let inertia = mass * length * length;
+        Link {
+            name: format!("link{index}"),
+            joint_name: format!("joint{index}"),
+            parent: index.checked_sub(1),
+            joint: JointKind::Revolute,
+            placement: Pose { rotation: Mat3::identity(), position: Vec3([start, 0.0, 0.0]) },
+            axis: Vec3(axis),
+            offset: 0.0,
+            mass,
+            com: Vec3([length / 2.0, 0.0, 0.0]),
+            inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },
+            actuated: false,
+        }
+    };
+    let links = (0..count).map(link).collect();
+    Tree::new(&Model { name: "chain".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
+}

@@ -1,0 +1,76 @@
+//! No more than a scene needs: what is not asked for is not there, and what is there is what the whole mechanism has.
+
+mod common;
+
+use common::random::{Random, State};
+use redysim::{InverseDynamics, Mechanism, OperationCount, Operations, redysim};
+
+redysim! {
+    /// Six joints in a row, with everything.
+    struct Kr5("models/kr5.toml");
+}
+
+redysim! {
+    /// For a controller.
+    struct Few("models/kr5.toml", functions = [mass_matrix, inverse_dynamics]);
+}
+
+/// The same, declared by the derive.
+#[derive(Mechanism)]
+#[mechanism("models/kr5.toml", functions = [mass_matrix, inverse_dynamics])]
+struct FewByDerive;
+
+redysim! {
+    /// A function that needs fewer sines and cosines than the others together.
+    struct Weight("models/kr5.toml", functions = [gravity_forces]);
+}
+
+redysim! {
+    /// A scene that the model file itself asks for.
+    struct FromFile("models/test/scene.toml");
+}
+
+redysim! {
+    /// The declaration wins over the file.
+    struct FromDeclaration("models/test/scene.toml", functions = [energy]);
+}
+
+/// A number's array of fixed length, as many elements as a posture has angles.
+fn angles<const Q: usize, const A: usize>(_: redysim::Posture<f64, Q, A>) -> usize {
+    A
+}
+
+#[test]
+fn a_scene_of_few_functions_computes_the_same_bits() {
+    let mut random = Random::new(1);
+    for _ in 0..100 {
+        let State { q, v, a } = random.state(6);
+        let [q, v, a] = [q, v, a].map(|x| <[f64; 6]>::try_from(x).unwrap());
+        assert_eq!(Few::inverse_dynamics(&q, &v, &a), Kr5::inverse_dynamics(&q, &v, &a));
+        assert_eq!(Few::mass_matrix(&q), Kr5::mass_matrix(&q));
+        assert_eq!(InverseDynamics::inverse_dynamics(&FewByDerive, &q, &v, &a), Kr5::inverse_dynamics(&q, &v, &a));
+        assert_eq!(Few::mass_matrix_at(&Few::posture(&q)), Kr5::mass_matrix(&q));
+        assert_eq!(Weight::gravity_forces(&q), Kr5::gravity_forces(&q));
+    }
+}
+
+#[test]
+fn operations_are_counted_for_what_is_there() {
+    let Operations { inverse_dynamics, mass_matrix, .. } = Kr5::OPS;
+    assert_eq!(Few::OPS, Operations { inverse_dynamics, mass_matrix, ..Operations::NONE });
+    assert_eq!(FromFile::OPS.energy, OperationCount::NONE);
+    assert_ne!(FromFile::OPS.mass_matrix, OperationCount::NONE);
+}
+
+#[test]
+fn the_declaration_wins_over_the_file() {
+    assert_eq!(FromDeclaration::OPS.mass_matrix, OperationCount::NONE);
+    assert_ne!(FromDeclaration::OPS.energy, OperationCount::NONE);
+}
+
+/// The sixth link turns about its own axis, and the first about the vertical: neither changes how gravity pulls.
+#[test]
+fn a_posture_has_the_angles_that_the_scene_needs() {
+    assert_eq!(angles(Weight::posture(&[0.0; 6])), Weight::OPS.gravity_forces.trig as usize);
+    assert!(angles(Weight::posture(&[0.0; 6])) < angles(Kr5::posture(&[0.0; 6])));
+}
