@@ -8,6 +8,7 @@ pub mod comparison;
 pub mod double_double;
 pub mod dual;
 pub mod kane;
+pub mod methods;
 #[cfg(feature = "generic")]
 pub mod models;
 pub mod random;
