@@ -1,6 +1,6 @@
 //! What the documentation of a generated function says.
 
-use crate::functions::{Function, Shape};
+use crate::functions::{Function, Shape, Signature};
 use crate::pruning::Pruning;
 use redysim_model::{JointKind, JointRange, Model};
 use redysim_runtime::OperationCount;
@@ -12,7 +12,7 @@ pub fn paragraphs(function: &Function, model: &Model) -> Vec<String> {
     paragraphs.extend(remark.map(str::to_string));
     paragraphs.push(cost(&expressions.count()));
     if let Some(pruning) = pruning {
-        paragraphs.push(pruned(pruning, signature.shape));
+        paragraphs.push(pruned(pruning, signature));
         paragraphs.push(ranges(model));
     }
     paragraphs
@@ -25,7 +25,7 @@ pub fn warning(function: &Function) -> Option<String> {
         "`{}` is not pruned: the tolerance {tolerance:?} did not hold, the worst error of {states} sampled states was {worst:.1e} \
          of {}",
         function.signature.name,
-        scale(function.signature.shape),
+        scale(&function.signature),
     ))
 }
 
@@ -37,7 +37,7 @@ fn cost(count: &OperationCount) -> String {
     )
 }
 
-fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, shape: Shape) -> String {
+fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, signature: &Signature) -> String {
     if !holds {
         return format!("Not pruned: a tolerance of {tolerance:?} did not hold in {states} sampled states.");
     }
@@ -46,15 +46,16 @@ fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, shape: 
          states within the ranges below is {worst:.1e} of {}.",
         before.flops(),
         before.trig,
-        scale(shape),
+        scale(signature),
     )
 }
 
 /// What the error is a share of.
-fn scale(shape: Shape) -> &'static str {
-    match shape {
+fn scale(signature: &Signature) -> &'static str {
+    match signature.shape {
         Shape::Matrix => "√(M_ii M_jj) at its largest",
-        _ => "each joint's scale: the force stated for it, else its largest value",
+        _ if signature.name == "forward_dynamics" => "each joint's largest acceleration",
+        _ => "each joint's force: the one stated for it, else its largest",
     }
 }
 
@@ -94,7 +95,7 @@ mod tests {
             warning(&function).as_deref(),
             Some(
                 "`inverse_dynamics` is not pruned: the tolerance 0.01 did not hold, the worst error of 100000 sampled states \
-                 was 2.0e-2 of each joint's scale: the force stated for it, else its largest value"
+                 was 2.0e-2 of each joint's force: the one stated for it, else its largest"
             )
         );
         assert!(paragraphs(&function, &model).iter().any(|line| line.starts_with("Not pruned: a tolerance of 0.01")));

@@ -170,3 +170,28 @@ fn without_a_range_nothing_is_pruned_and_that_is_said() {
     );
     assert!(source_file_with(&model("kr5"), "Kr5", &scene).unwrap().contains("// Warning: nothing is pruned"));
 }
+
+#[test]
+fn a_function_for_which_the_tolerance_does_not_hold_is_left_whole() {
+    let model = model("test/too_fast");
+    let whole = trace_with(&Tree::new(&model), &Passes::all()).swap_remove(1);
+    let function = traced(&model, &["forward_dynamics"], 0.01).swap_remove(0);
+    assert_eq!(function.pruning.map(|pruning| pruning.holds), Some(false));
+    assert_eq!(function.expressions.count(), whole.expressions.count());
+}
+
+/// At one position and at rest, at rates that overflow, and far away.
+#[test]
+fn odd_ranges_do_no_harm() {
+    let still = JointRange { position: [0.3, 0.3], velocity: 0.0, acceleration: 0.0, force: None };
+    let fast = JointRange { velocity: 1e100, acceleration: 1e100, ..still };
+    let far = JointRange { position: [-1e100, 1e100], velocity: 1.0, acceleration: 1.0, force: Some(1e-100) };
+    let functions = ["inverse_dynamics", "forward_dynamics", "mass_matrix", "gravity_forces"];
+    for range in [still, fast, far] {
+        for function in traced(&with_range(model("gripper"), range), &functions, 0.01) {
+            let pruning = function.pruning.unwrap();
+            assert!(!pruning.holds || pruning.worst <= 0.01);
+            assert!(function.expressions.count().flops() <= pruning.before.flops());
+        }
+    }
+}
