@@ -81,7 +81,7 @@ pub use redysim_runtime::*;
 /// The generic path: the same recursions, driven by a model that is read at run time.
 #[cfg(feature = "generic")]
 pub mod generic {
-    pub use redysim_model::{Diagnostic, Faults, GenericMechanism, Loaded, Model, Severity};
+    pub use redysim_model::{Diagnostic, Faults, GenericMechanism, JointRange, Loaded, Model, Severity};
 }
 
 /// The README's program, so that it is known to run.

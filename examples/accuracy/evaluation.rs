@@ -1,16 +1,16 @@
 //! Error against time per call: what a scalar, an instruction set or a tolerance buys.
 
-use std::f64::consts::PI;
 use std::hint::black_box;
 use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
+use redysim::generic::JointRange;
 use redysim::generic::{GenericMechanism, Model};
 use redysim::runtime::lanes::{F32x16, F64x8, Lanes};
 use redysim::{ForwardDynamics, InverseDynamics, Real, Vector};
 
-use super::models::{DOF, Kr5};
+use super::models::{DOF, Kr5, pruned};
 use crate::common::csv::Csv;
 use crate::common::figure::{Figure, Panel};
 use crate::common::speed::{median, remark_debug};
@@ -20,6 +20,8 @@ use crate::double_double::{DoubleDouble, exact};
 
 /// One way to compute KR5's dynamics: time per state, ns, and error, of inverse and of forward dynamics.
 pub struct Measured {
+    /// One of [`GROUPS`].
+    group: &'static str,
     name: String,
     nanoseconds: [f64; 2],
     error: [f64; 2],
@@ -40,21 +42,23 @@ struct Judge {
 }
 
 impl Judge {
-    /// States spread evenly over ±π rad, ±3 rad/s and ±10 rad/s², given to the functions as they are and judged by the
-    /// generic path over double-double.
+    /// States spread evenly over the ranges of the joints, judged by the generic path over double-double.
     fn new(generic: &GenericMechanism) -> Self {
         const GOLDEN: f64 = 1.618_033_988_749_895;
+        let ranges: Vec<JointRange> = generic.model().moving_links().filter_map(|link| link.range).collect();
         let mut count = 0.0;
         // Numbers that `f32` has, so that its error is that of the arithmetic.
-        let mut next = |bound: f64| {
+        let mut between = |low: f64, high: f64| {
             count += 1.0;
-            f64::from((bound * (2.0 * (count * GOLDEN).fract() - 1.0)) as f32)
+            f64::from((low + (high - low) * (count * GOLDEN).fract()) as f32)
         };
         let mut samples = Vec::new();
         let mut expected = [Vec::new(), Vec::new()];
         let mut scale = [[0.0_f64; DOF]; 2];
         for _ in 0..SAMPLES {
-            let [q, v, a] = [PI, 3.0, 10.0].map(|bound| [0.0; DOF].map(|_| next(bound)));
+            let q: [f64; DOF] = std::array::from_fn(|i| between(ranges[i].position[0], ranges[i].position[1]));
+            let v: [f64; DOF] = std::array::from_fn(|i| between(-ranges[i].velocity, ranges[i].velocity));
+            let a: [f64; DOF] = std::array::from_fn(|i| between(-ranges[i].acceleration, ranges[i].acceleration));
             let [wide_q, wide_v, wide_a] = [&q, &v, &a].map(|values| exact(values));
             let torques: Vec<DoubleDouble> = generic.inverse_dynamics(&wide_q, &wide_v, &wide_a);
             let tau: [f64; DOF] = std::array::from_fn(|i| f64::from(torques[i].to_f64() as f32));
@@ -85,7 +89,12 @@ impl Judge {
         (0..SAMPLES).map(worst).fold(0.0, f64::max)
     }
 
-    fn scalar<S: Real, M: InverseDynamics<S> + ForwardDynamics<S>>(&self, name: &str, mechanism: &M) -> Measured {
+    fn scalar<S: Real, M: InverseDynamics<S> + ForwardDynamics<S>>(
+        &self,
+        group: &'static str,
+        name: &str,
+        mechanism: &M,
+    ) -> Measured {
         let vector = |values: &[f64; DOF]| M::Velocities::from_fn(DOF, |i| S::from_f64(values[i]));
         let coordinates = |values: &[f64; DOF]| M::Coordinates::from_fn(DOF, |i| S::from_f64(values[i]));
         let states = |function: usize| {
@@ -100,6 +109,7 @@ impl Judge {
         let tau = |index: usize| mechanism.inverse_dynamics(&inverse[index].0, &inverse[index].1, &inverse[index].2);
         let a = |index: usize| mechanism.forward_dynamics(&forward[index].0, &forward[index].1, &forward[index].2);
         Measured {
+            group,
             name: name.to_owned(),
             error: [self.error(0, |index| numbers(tau(index))), self.error(1, |index| numbers(a(index)))],
             nanoseconds: [
@@ -131,6 +141,7 @@ impl Judge {
         let lane =
             |values: [L; DOF], sample: usize| values.map(|value| Into::<[T; W]>::into(value)[sample % W].to_f64());
         Measured {
+            group: LANES,
             name: name.to_owned(),
             error: [
                 self.error(0, |sample| lane(tau(sample / W), sample)),
@@ -162,24 +173,30 @@ fn per_state(width: usize, mut call: impl FnMut(usize)) -> f64 {
 
 /// What this build has to measure: everything, or, where it is another build of the same program, what differs.
 pub fn measure(build: &str) -> Result<Vec<Measured>, Failure> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/kr5.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/test/kr5_ranges.toml");
     let generic = GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model);
     let judge = Judge::new(&generic);
     Ok(match build {
-        DETERMINISTIC => vec![judge.scalar::<f64, _>("f64, deterministic", &Kr5)],
+        DETERMINISTIC => vec![judge.scalar::<f64, _>(COMPILED, "f64, deterministic", &Kr5)],
         NATIVE => vec![
-            judge.scalar::<f64, _>("f64, fused multiply-add", &Kr5),
-            judge.scalar::<f32, _>("f32, fused multiply-add", &Kr5),
+            judge.scalar::<f64, _>(FUSED, "f64, fused multiply-add", &Kr5),
+            judge.scalar::<f32, _>(FUSED, "f32, fused multiply-add", &Kr5),
             judge.lanes::<f64, F64x8, 8>("f64 × 8, this machine"),
             judge.lanes::<f32, F32x16, 16>("f32 × 16, this machine"),
         ],
         _ => {
             vec![
-                judge.scalar::<f64, _>("f64, generic path", &generic),
-                judge.scalar::<f64, _>("f64", &Kr5),
-                judge.scalar::<f32, _>("f32", &Kr5),
+                judge.scalar::<f64, _>(GENERIC, "f64, generic path", &generic),
+                judge.scalar::<f64, _>(COMPILED, "f64", &Kr5),
+                judge.scalar::<f32, _>(COMPILED, "f32", &Kr5),
                 judge.lanes::<f64, F64x8, 8>("f64 × 8"),
                 judge.lanes::<f32, F32x16, 16>("f32 × 16"),
+                judge.scalar::<f64, _>(PRUNED, "f64, pruned at 1e-6", &pruned::To1e6),
+                judge.scalar::<f64, _>(PRUNED, "f64, pruned at 1e-5", &pruned::To1e5),
+                judge.scalar::<f64, _>(PRUNED, "f64, pruned at 1e-4", &pruned::To1e4),
+                judge.scalar::<f64, _>(PRUNED, "f64, pruned at 1e-3", &pruned::To1e3),
+                judge.scalar::<f64, _>(PRUNED, "f64, pruned at 1e-2", &pruned::To1e2),
+                judge.scalar::<f64, _>(PRUNED, "f64, pruned at 1e-1", &pruned::To1e1),
             ]
         }
     })
@@ -191,16 +208,18 @@ pub const DETERMINISTIC: &str = "deterministic";
 
 /// Prints what [`parsed`] reads.
 pub fn print_lines(measured: &[Measured]) {
-    for Measured { name, nanoseconds: [inverse, forward], error: [of_inverse, of_forward] } in measured {
-        println!("{name};{inverse};{forward};{of_inverse:e};{of_forward:e}");
+    for Measured { group, name, nanoseconds: [inverse, forward], error: [of_inverse, of_forward] } in measured {
+        println!("{group};{name};{inverse};{forward};{of_inverse:e};{of_forward:e}");
     }
 }
 
 fn parsed(line: &str) -> Option<Measured> {
     let mut parts = line.split(';');
+    let group = parts.next()?;
+    let group = GROUPS.into_iter().find(|known| *known == group)?;
     let name = parts.next()?.to_owned();
     let mut number = || parts.next()?.parse().ok();
-    Some(Measured { name, nanoseconds: [number()?, number()?], error: [number()?, number()?] })
+    Some(Measured { group, name, nanoseconds: [number()?, number()?], error: [number()?, number()?] })
 }
 
 /// Builds this program again in another way, and runs it for its measurements.
@@ -252,11 +271,10 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     remark_debug();
     let panel = |function: usize, title: &str| {
         let start = Panel::new(title, "error", "1").logarithmic().over("time per state [ns]");
-        all.iter().enumerate().fold(start, |panel, (index, way)| {
-            let group = GROUPS.iter().position(|group| way.name.contains(group)).unwrap_or(0);
-            let colour = if group == 0 { 1 } else { group + 1 };
-            let _ = index;
-            panel.dots(GROUP_NAMES[group], colour, &[(way.nanoseconds[function], way.error[function])])
+        GROUPS.iter().enumerate().fold(start, |panel, (colour, group)| {
+            let ways = all.iter().filter(|way| way.group == *group);
+            let points: Vec<(f64, f64)> = ways.map(|way| (way.nanoseconds[function], way.error[function])).collect();
+            panel.scatter(group, colour, &points)
         })
     };
     let panels = vec![panel(0, "Inverse dynamics"), panel(1, "Forward dynamics")];
@@ -268,6 +286,10 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     outputs.numbers("evaluation", "the same in numbers", &csv)
 }
 
-/// What the names of the ways have in common, and what the legend calls it.
-const GROUPS: [&str; 6] = ["\0", "generic", "fused", "×", "pruned", "f32"];
-const GROUP_NAMES: [&str; 6] = ["compiled f64", "generic f64", "fused multiply-add", "lanes", "pruned", "compiled f32"];
+/// What the ways have in common, as the legend calls it.
+const GENERIC: &str = "generic path";
+const COMPILED: &str = "compiled";
+const FUSED: &str = "fused";
+const LANES: &str = "lanes";
+const PRUNED: &str = "pruned";
+const GROUPS: [&str; 5] = [GENERIC, COMPILED, FUSED, LANES, PRUNED];

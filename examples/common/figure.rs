@@ -41,6 +41,8 @@ pub enum Mark {
     Line,
     /// A line with a dot at every point.
     Dots,
+    /// A dot at every point.
+    Scatter,
     /// Hollow circles at a few points, so that a line below can be seen.
     Circles,
 }
@@ -79,6 +81,12 @@ impl Panel {
     /// Adds a line with a dot at every point, in colour number `colour`; of no points, for the legend alone.
     pub fn dots(mut self, name: &str, colour: usize, points: &[(f64, f64)]) -> Self {
         self.curves.push(Curve { name: name.to_owned(), points: points.to_vec(), colour, mark: Mark::Dots });
+        self
+    }
+
+    /// Adds dots in colour number `colour`.
+    pub fn scatter(mut self, name: &str, colour: usize, points: &[(f64, f64)]) -> Self {
+        self.curves.push(Curve { name: name.to_owned(), points: points.to_vec(), colour, mark: Mark::Scatter });
         self
     }
 

@@ -114,12 +114,12 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, last: bool, shared_legend: bool) -
     }
     for curve in &panel.curves {
         let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| point.1.is_finite()).collect();
-        if curve.mark != Mark::Circles {
+        if matches!(curve.mark, Mark::Line | Mark::Dots) {
             chart.draw_series(LineSeries::new(points.iter().copied(), line_style(curve)))?;
         }
         match curve.mark {
             Mark::Line => {}
-            Mark::Dots => {
+            Mark::Dots | Mark::Scatter => {
                 chart.draw_series(
                     points.iter().map(|&point| Circle::new(point, 3 * FINE, line_style(curve).filled())),
                 )?;
@@ -184,13 +184,13 @@ fn draw_legend(area: &Area<'_>, panel: &Panel, x: i32) -> Drawn {
     for (curve, x, row) in legend_places(panel, x) {
         let y = (HEAD * (row + 1) - 13) * FINE;
         let (from, to) = (x * FINE, (x + SAMPLE) * FINE);
-        if curve.mark != Mark::Circles {
+        if matches!(curve.mark, Mark::Line | Mark::Dots) {
             area.draw(&PathElement::new([(from, y), (to, y)], line_style(curve)))?;
         }
         let middle = ((from + to) / 2, y);
         match curve.mark {
             Mark::Line => {}
-            Mark::Dots => area.draw(&Circle::new(middle, 3 * FINE, line_style(curve).filled()))?,
+            Mark::Dots | Mark::Scatter => area.draw(&Circle::new(middle, 3 * FINE, line_style(curve).filled()))?,
             Mark::Circles => area.draw(&Circle::new(middle, 3 * FINE, circle_style(curve)))?,
         }
         let style = font(15, &INK).pos(Pos::new(HPos::Left, VPos::Center));
