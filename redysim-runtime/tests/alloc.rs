@@ -5,10 +5,11 @@
 mod mechanisms;
 
 use mechanisms::Arm;
+use redysim_runtime::integrate::Accepted;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    ForwardDynamics, ForwardSimulation, Free, IntegrationError, Integrator, LinkState, Mechanism, Ode5, Ode15s, Ode45,
-    Proportional, ProportionalDerivative, TorqueLaw,
+    ForwardDynamics, ForwardSimulation, Free, Gauss4, IntegrationError, Integrator, LinkState, Mechanism, Ode, Ode5,
+    Ode15s, Ode45, Proportional, ProportionalDerivative, Radau5, Solution, TorqueLaw,
 };
 
 /// The arm with sizes known only at run time.
@@ -130,4 +131,39 @@ fn a_state_without_components_is_no_trouble() {
         let end = end.unwrap();
         assert_eq!((end.t, end.y.len()), (1.0, 0));
     }
+}
+
+/// What a derivative lacks is not a number: it must not pass for a component that stands still.
+#[test]
+fn a_derivative_that_is_too_short_is_reported() {
+    fn outcome(method: impl Integrator<f64>) -> Result<Solution<f64, Vec<f64>>, IntegrationError<f64>> {
+        let mut short = |_t: f64, y: &Vec<f64>, dydt: &mut Vec<f64>| *dydt = vec![-y[0]];
+        method.integrate(&mut short, (0.0, 1.0), vec![1.0, 1.0])
+    }
+    let expected = Err(IntegrationError::NonFiniteDerivative { t: 0.0, component: 1 });
+    assert_eq!(outcome(Ode5::new(0.1)), expected);
+    assert_eq!(outcome(Ode45::new()), expected);
+    assert_eq!(outcome(Ode15s::new()), expected);
+    assert_eq!(outcome(Radau5::new()), expected);
+    assert_eq!(outcome(Gauss4::new(0.1)), expected);
+}
+
+/// A correction that leaves a part of the state out.
+struct Forgetful;
+
+impl Ode<f64, Vec<f64>> for Forgetful {
+    fn derivative(&mut self, _t: f64, _y: &Vec<f64>, dydt: &mut Vec<f64>) {
+        dydt.fill(1.0);
+    }
+
+    fn accepted(&mut self, _t: f64, _step: f64, y: &mut Vec<f64>) -> Accepted {
+        y.truncate(1);
+        Accepted::Corrected
+    }
+}
+
+#[test]
+fn a_corrected_state_that_is_too_short_is_reported() {
+    let outcome = Ode5::new(0.5).integrate(&mut Forgetful, (0.0, 1.0), vec![1.0, 1.0]);
+    assert_eq!(outcome, Err(IntegrationError::NonFiniteState { t: 0.5, component: 1 }));
 }

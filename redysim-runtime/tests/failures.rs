@@ -1,7 +1,10 @@
 //! Every typed error, provoked, with bounded work.
 
+use std::ops::ControlFlow::{Break, Continue};
+
 use redysim_runtime::IntegrationError::{self, *};
-use redysim_runtime::{Integrator, Ode5, Ode45, Solution};
+use redysim_runtime::integrate::Accepted;
+use redysim_runtime::{Event, Gauss4, Integrator, Ode, Ode5, Ode45, Solution};
 
 type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
 
@@ -189,6 +192,39 @@ fn a_state_that_overflows_is_reported() {
     assert!(matches!(outcome, Err(NonFiniteState { component: 1, .. })), "{outcome:?}");
 }
 
+/// The stages of the step are finite, its end is not.
+#[test]
+fn an_end_that_overflows_is_not_a_solution() {
+    let (outcome, _) = run(&Gauss4::new(1.5), 1.5, |_, _| [1e308, 0.0]);
+    assert!(outcome.is_ok(), "{outcome:?}");
+    let mut steep = |_t: f64, _y: &[f64; 1], dydt: &mut [f64; 1]| *dydt = [1e308];
+    let outcome = Gauss4::new(1.5).integrate(&mut steep, (0.0, 1.5), [0.5e308]);
+    assert_eq!(outcome, Err(NonFiniteState { t: 1.5, component: 0 }));
+}
+
+/// Moves the state to where there is none, but only within a step, where an event ends the integration.
+struct Lost;
+
+impl Ode<f64, [f64; 2]> for Lost {
+    fn derivative(&mut self, _t: f64, _y: &[f64; 2], dydt: &mut [f64; 2]) {
+        *dydt = [1.0, 1.0];
+    }
+
+    fn accepted(&mut self, t: f64, _step: f64, y: &mut [f64; 2]) -> Accepted {
+        if t < 1.0 {
+            y[1] = f64::NAN;
+        }
+        Accepted::Corrected
+    }
+}
+
+#[test]
+fn a_stop_that_is_corrected_to_no_number_is_reported() {
+    let events = &mut [Event::rising(&|_, y: &[f64; 2]| y[0] - 0.5)];
+    let outcome = Ode5::new(1.0).watch(&mut Lost, (0.0, 1.0), [0.0; 2], events, |_| Continue(()), |_| Break(()));
+    assert!(matches!(outcome, Err(NonFiniteState { t, component: 1 }) if (t - 0.5).abs() < 1e-9), "{outcome:?}");
+}
+
 #[test]
 fn steps_are_counted_before_they_become_too_many() {
     let outcome = Ode5::new(1e-300).integrate(&mut never, (0.0, 1.0), [0.0; 2]);
@@ -204,7 +240,7 @@ fn steps_are_counted_before_they_become_too_many() {
 
 #[test]
 fn messages_name_the_rule_the_value_and_the_way_out() {
-    let cases: [(IntegrationError<f64>, &[&str]); 12] = [
+    let cases: [(IntegrationError<f64>, &[&str]); 18] = [
         (BadInterval { from: 1.0, to: 1.5 }, &["interval", "1.0", "1.5", "length"]),
         (BadRelativeTolerance { value: 1e-17, smallest: 2e-14 }, &["relative", "1e-17", "2e-14", "larger"]),
         (BadAbsoluteTolerance { component: None, value: -1.0 }, &["absolute", "-1.0", "positive"]),
@@ -213,9 +249,15 @@ fn messages_name_the_rule_the_value_and_the_way_out() {
         (BadStep { option: "maximum step", value: -0.1 }, &["maximum step", "-0.1", "positive"]),
         (AskedTimeOutside { t: 2.0, from: 0.0, to: 1.0 }, &["t = 2.0", "0.0 to 1.0", "interval"]),
         (AskedTimesOutOfOrder { t: 2.0, previous: 3.0 }, &["t = 2.0", "3.0", "sort"]),
+        (NonFiniteState { t: 0.5, component: 4 }, &["component 4", "state", "t = 0.5", "start"]),
         (NonFiniteDerivative { t: 0.5, component: 4 }, &["component 4", "derivative", "t = 0.5"]),
+        (NoCoordinates, &["0 coordinates", "coordinate_rates", "Ode4"]),
+        (NoEigenvalues { t: 0.5 }, &["eigenvalues", "t = 0.5", "another state"]),
+        (NonFiniteEvent { t: 0.5, event: 2 }, &["event 2", "t = 0.5", "finite"]),
+        (Refused { t: 0.5 }, &["refused", "t = 0.5", "last_error"]),
         (NotConverged { t: 0.5, step: 1e-3 }, &["t = 0.5", "0.001", "iteration", "tangent", "smaller"]),
         (StepTooSmall { t: 0.5, step: 1e-16 }, &["t = 0.5", "1e-16", "singularity"]),
+        (Stiff { t: 0.5, step: 1e-3, remaining: 12345 }, &["stiff", "t = 0.5", "0.001", "12345", "Radau5"]),
         (TooManySteps { t: 0.5, limit: 7 }, &["t = 0.5", "7 steps", "max_steps"]),
     ];
     for (error, words) in cases {

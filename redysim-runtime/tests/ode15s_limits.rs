@@ -134,6 +134,9 @@ fn a_singular_matrix_asks_for_another_step_size() {
 
     let outcome = FixedStep::<f64, Bdf>::new(1.0).integrate(&mut growth, (0.0, 2.0), [1.0]);
     assert_eq!(outcome, Err(NotConverged { t: 0.0, step: 1.0 }));
+    let mut decay = |_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = -y[0];
+    let outcome = FixedStep::<f64, Bdf>::new(1.0).integrate(&mut decay, (2.0, 0.0), [1.0]);
+    assert_eq!(outcome, Err(NotConverged { t: 2.0, step: -1.0 }));
 }
 
 /// With steps of one size the formulas stay at order 1: BDF is the implicit Euler method.

@@ -235,7 +235,10 @@ pub trait Integrator<S: Real> {
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
         let mut watch = Watch::new(events, start.clone(), on_step, on_event);
         let solution = self.run(ode, interval, start, &mut watch)?;
-        Ok(watch.stopped().map_or(solution.clone(), |(t, y)| Solution { t, y, ..solution }))
+        Ok(match watch.stopped() {
+            Some((t, y)) => Solution { t, y, ..solution },
+            None => solution,
+        })
     }
 
     /// Integrates over `interval`, for the end alone.

@@ -96,7 +96,7 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         self.check_state(t)?;
         self.statistics.evaluations += 1;
         ode.derivative(t, &self.y_new, rate);
-        match first_non_finite(rate) {
+        match first_lacking(rate, self.y.as_ref().len()) {
             None => Ok(()),
             Some(component) => Err(IntegrationError::NonFiniteDerivative { t, component }),
         }
@@ -104,6 +104,9 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
 
     /// Takes the attempted step as good, and lets the equation correct its end. What `y + increment` has rounded away
     /// is kept for the steps to come.
+    ///
+    /// # Errors
+    /// If the equation refuses the end, or a component of it is infinite or not a number.
     pub(super) fn finish(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
         let states = self.y_new.as_ref().iter().zip(self.y.as_ref());
         let increments = self.increment.as_ref().iter().zip(self.carry.as_mut());
@@ -115,13 +118,11 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         let accepted = ode.accepted(self.t_new, self.step_size().abs(), &mut self.y_new);
         self.corrected = accepted == Accepted::Corrected;
         match accepted {
-            Accepted::AsItIs => Ok(()),
-            Accepted::Refused => Err(IntegrationError::Refused { t: self.t_new }),
-            Accepted::Corrected => {
-                self.statistics.corrections += 1;
-                self.check_state(self.t_new)
-            }
+            Accepted::AsItIs => {}
+            Accepted::Refused => return Err(IntegrationError::Refused { t: self.t_new }),
+            Accepted::Corrected => self.statistics.corrections += 1,
         }
+        self.check_state(self.t_new)
     }
 
     /// Makes the end of the finished step the state; tells whether it was corrected.
@@ -141,8 +142,16 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
     }
 
     /// Checks `y_new`, the state at `t`.
-    pub(super) fn check_state(&self, t: S) -> Result<(), IntegrationError<S>> {
-        match first_non_finite(&self.y_new) {
+    fn check_state(&self, t: S) -> Result<(), IntegrationError<S>> {
+        self.check(t, &self.y_new)
+    }
+
+    /// Checks `state`, a state at `t`.
+    ///
+    /// # Errors
+    /// If a component of it is infinite or not a number.
+    pub(super) fn check(&self, t: S, state: &Y) -> Result<(), IntegrationError<S>> {
+        match first_lacking(state, self.y.as_ref().len()) {
             None => Ok(()),
             Some(component) => Err(IntegrationError::NonFiniteState { t, component }),
         }
@@ -156,6 +165,8 @@ pub(super) fn zeros<S: Real, Y: Vector<S>>(like: &Y) -> Y {
     zero
 }
 
-fn first_non_finite<S: Real, Y: Vector<S>>(y: &Y) -> Option<usize> {
-    y.as_ref().iter().position(|value| !value.is_finite())
+/// The first of `len` components that is infinite or not a number; what a `Vec` lacks is not a number.
+fn first_lacking<S: Real, Y: Vector<S>>(y: &Y, len: usize) -> Option<usize> {
+    let y = y.as_ref();
+    y.iter().position(|value| !value.is_finite()).or((y.len() < len).then_some(y.len()))
 }

@@ -168,8 +168,11 @@ where
             latest = t;
             let direction = if crossing.rising { Direction::Rising } else { Direction::Falling };
             if (self.on_event)(Occurrence { event: index, t, y: &y, direction }).is_break() {
-                if t != to && ode.accepted(t, (t - from).abs(), &mut y) == Accepted::Refused {
-                    return Err(IntegrationError::Refused { t });
+                if t != to {
+                    if ode.accepted(t, (t - from).abs(), &mut y) == Accepted::Refused {
+                        return Err(IntegrationError::Refused { t });
+                    }
+                    stepper.progress().check(t, &y)?;
                 }
                 let _ = (self.on_step)(&stepper.step().until(t, &y));
                 self.stopped = Some((t, y));

@@ -225,7 +225,7 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
             converged = self.newton.solve(ode, &mut self.progress, &self.equation, tolerances)?;
         }
         if !converged {
-            return Err(IntegrationError::NotConverged { t, step: step.abs() });
+            return Err(IntegrationError::NotConverged { t, step });
         }
         self.differences.correct(&self.newton.correction);
         self.allow(tolerances);
