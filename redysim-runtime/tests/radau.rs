@@ -8,7 +8,7 @@ mod order_conditions;
 use mechanisms::{Arm, distance};
 use order_conditions::{defect, dot, values};
 use redysim_runtime::integrate::collocation::radau::RADAU_IIA_5;
-use redysim_runtime::integrate::{Accepted, FixedStep, RadauIIA};
+use redysim_runtime::integrate::{Accepted, FixedStep, Ndf, RadauIIA};
 use redysim_runtime::{
     ForwardSimulation, Free, IntegrationError, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Scalar,
     Statistics, Step,
@@ -102,6 +102,26 @@ fn a_step_that_is_a_little_shorter_is_as_accurate() {
     let end = FixedStep::<f64, RadauIIA>::new(0.01).integrate(&mut growth, (0.0, to), [1.0]).unwrap();
     assert_eq!((end.statistics.steps, end.statistics.decompositions), (2, 2));
     assert!((end.y[0] - to.exp()).abs() < 1e-12, "{}", end.y[0] - to.exp());
+}
+
+/// A spring and a damper released at rest at zero: differences over a part of the state alone would see no damping. In
+/// the end the rate is of rounding size.
+#[test]
+fn steps_of_one_size_have_differences_also_where_components_are_zero() {
+    for damping in [250.0, 1e4, 1e6] {
+        let mut joint = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
+            *dydt = [y[1], 1e4 * (1.0 - y[0]) - damping * y[1]];
+        };
+        let root = (damping * damping / 4.0 - 1e4_f64).sqrt();
+        // The slow eigenvalue −c/2 + √(c²/4 − k), without cancellation, and the fast one, which has died down.
+        let slow = -1e4 / (damping / 2.0 + root);
+        let fast = -damping / 2.0 - root;
+        let exact = 1.0 - (0.5 * slow).exp() * fast / (fast - slow);
+        let end = FixedStep::<f64, RadauIIA>::new(0.01).integrate(&mut joint, (0.0, 0.5), [0.0, 0.0]).unwrap();
+        assert!((end.y[0] - exact).abs() < 1e-4, "damping {damping}: {} instead of {exact}", end.y[0]);
+        let end = FixedStep::<f64, Ndf>::new(0.001).integrate(&mut joint, (0.0, 0.5), [0.0, 0.0]).unwrap();
+        assert!((end.y[0] - exact).abs() < 1e-2, "damping {damping}: {} instead of {exact}", end.y[0]);
+    }
 }
 
 /// ẏ = λ (y − cos t) − sin t, with the solution cos t.

@@ -3,6 +3,9 @@
 use super::IntegrationError;
 use crate::{Real, Vector};
 
+/// How far from roundoff an iteration may stop, in roundoff units.
+const ROUNDOFF_UNITS: f64 = 1024.0;
+
 /// |e_i| ≤ max(rtol |y_i|, atol_i).
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances<'a, S> {
@@ -17,9 +20,11 @@ pub(super) enum Absolute<'a, S> {
 }
 
 impl<S: Real> Tolerances<'_, S> {
-    /// What steps of a given size solve by iteration, they solve to roundoff.
+    /// What steps of a given size solve by iteration, they solve nearly to roundoff. Components below 1 count as 1: one
+    /// that comes to rest has the rounding errors of others in it, and differences of the derivative need some room.
     pub(super) fn roundoff() -> Self {
-        Self { relative: S::EPSILON, absolute: Absolute::All(S::EPSILON * S::EPSILON) }
+        let relative = S::from_f64(ROUNDOFF_UNITS) * S::EPSILON;
+        Self { relative, absolute: Absolute::All(relative) }
     }
 
     /// rtol.
