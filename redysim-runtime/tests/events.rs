@@ -9,8 +9,8 @@ use std::ops::ControlFlow::{self, Break, Continue};
 use mechanisms::{GRAVITY, Pendulum};
 use redysim_runtime::integrate::Direction;
 use redysim_runtime::{
-    Dop8, Dop853, Event, ForwardSimulation, Free, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode45,
-    SemiImplicitEuler, Solution, Step,
+    Dop8, Dop853, Event, ForwardSimulation, Free, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4,
+    Ode5, Ode45, Radau5, SemiImplicitEuler, Solution, Step,
 };
 
 /// When, and whether upward.
@@ -105,24 +105,55 @@ fn all_passages_of_a_pendulum_are_found_at_every_tolerance_as_exact_as_the_steps
     worst(&SemiImplicitEuler::new(0.001));
 }
 
-/// From the true state at the start of one coarse step, at which its extension errs by 10⁻⁴ and its end by 10⁻⁵.
-#[test]
-fn times_converge_as_the_steps_do_and_not_as_the_extension_does() {
-    let time = |h: f64| {
+/// With which power of the step the error of an event's time shrinks, and the most evaluations that one took: from the
+/// true state at the start of one coarse step.
+fn power_of_times<M: Integrator<f64>>(method: impl Fn(f64) -> M) -> (f64, u64) {
+    let mut evaluations = 0;
+    let [coarse, fine] = [0.8, 0.4].map(|h: f64| {
         let mut oscillator = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[1], -y[0]];
         let level = (0.6 * h).sin();
         let value = move |_: f64, y: &[f64; 2]| y[0] - level;
         let events = &mut [Event::rising(&value)];
-        let end =
-            Ode5::new(h).watch(&mut oscillator, (0.0, h), [0.0, 1.0], events, |_| Continue(()), |_| Break(())).unwrap();
-        println!("{:?}", end.statistics);
-        assert!(end.statistics.evaluations <= 6 * 6 + 7);
+        let method = method(h);
+        let end = method.watch(&mut oscillator, (0.0, h), [0.0, 1.0], events, |_| Continue(()), |_| Break(())).unwrap();
+        evaluations = evaluations.max(end.statistics.evaluations);
         (end.t - 0.6 * h).abs()
+    });
+    println!("errors of the time {coarse:.1e}, {fine:.1e}, {evaluations} evaluations");
+    ((coarse / fine).log2(), evaluations)
+}
+
+/// Steps of order p err with the power p + 1; extensions are of order 4, 2, 3 and 3.
+#[test]
+fn times_converge_as_the_steps_do_and_not_as_the_extension_does() {
+    let (power, evaluations) = power_of_times(Ode5::new);
+    assert!(power > 5.7, "{power}");
+    assert!(evaluations <= 6 * 6 + 7);
+    let (power, _) = power_of_times(Gauss4::new);
+    assert!(power > 4.7, "{power}");
+    let (power, _) = power_of_times(Gauss6::new);
+    assert!(power > 6.5, "{power}");
+    let (power, _) = power_of_times(|h| Radau5::new().rtol(1e-9).atol(1e-2).initial_step(h).max_step(h));
+    assert!(power > 5.6, "{power}");
+}
+
+/// Newton's rule knows nothing of a function that jumps: its time stays that of the extension.
+#[test]
+fn a_jump_of_the_function_is_found_as_exactly_as_the_extension_is() {
+    let mut oscillator = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[1], -y[0]];
+    let mut times = vec![];
+    let note = |o: Occurrence<'_, f64, [f64; 2]>| -> ControlFlow<()> {
+        times.push(o.t);
+        Continue(())
     };
-    let p = (time(0.8) / time(0.4)).log2();
-    println!("the error of the time shrinks with the power {p:.2}");
-    // 6 for a step 0.6 h of order 5, here a little more; an extension of order 4 would have 5.
-    assert!(p > 5.7, "{p}");
+    let events = &mut [Event::falling(&|_, y: &[f64; 2]| if y[0] > 0.3 { 1.0 } else { -1.0 })];
+    let method = Ode45::new().rtol(1e-10).atol(1e-10);
+    method.watch(&mut oscillator, (0.0, 20.0), [1.0, 0.0], events, |_| Continue(()), note).unwrap();
+    assert_eq!(times.len(), 3);
+    for (turn, t) in (0..).zip(times) {
+        let exact = 0.3_f64.acos() + TAU * f64::from(turn);
+        assert!((t - exact).abs() < 1e-8, "{:e}", t - exact);
+    }
 }
 
 #[test]

@@ -169,7 +169,7 @@ impl<S: Real, M: Method> Integrator<S> for Adaptive<'_, S, M> {
             };
             let rest = (interval.to - stepper.progress().t_new).abs();
             let suspects = stiffness.suspects(&mut stepper, rest, &self.tolerances);
-            let flow = super::show(&mut stepper, ode, observer)?;
+            let flow = super::show(&mut stepper, ode, observer, &self.tolerances)?;
             stepper.accept();
             let Progress { t, y, statistics, .. } = stepper.progress();
             if flow.is_break() || *t == interval.to {

@@ -2,7 +2,7 @@
 
 use core::mem::swap;
 
-use super::method::Stepper;
+use super::method::{Stepper, step_aside};
 use super::progress::{Progress, zeros};
 use super::step::{Step, weighted_sum};
 use super::tableau::{ErrorEstimate, Tableau};
@@ -125,11 +125,13 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
         Ok(())
     }
 
-    fn state_at(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), t: S) -> Result<Option<Y>, IntegrationError<S>> {
-        let mut aside = self.clone();
-        let outcome = aside.attempt(ode, t, &Tolerances::roundoff());
-        self.progress.statistics = aside.progress.statistics;
-        outcome.map(|()| Some(aside.progress.y_new))
+    fn state_at(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        t: S,
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<Option<Y>, IntegrationError<S>> {
+        step_aside(self, ode, t, tolerances)
     }
 
     fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {

@@ -61,7 +61,7 @@ impl<S: Real, M: Method> Integrator<S> for FixedStep<S, M> {
                 return Err(IntegrationError::StepTooSmall { t, step: self.step });
             }
             stepper.attempt(ode, t, &tolerances)?;
-            let flow = super::show(&mut stepper, ode, observer)?;
+            let flow = super::show(&mut stepper, ode, observer, &tolerances)?;
             stepper.accept();
             if flow.is_break() {
                 break;

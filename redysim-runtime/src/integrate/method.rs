@@ -95,13 +95,18 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
         None
     }
 
-    /// The state at which a step of the method from the start of the attempted one to `t`, within it, arrives; `None`, as
-    /// unless told, if the continuous extension is as good. The attempted step stays what it is.
+    /// The state at which a step of the method from the start of the attempted one to `t`, within it, arrives; `None` if
+    /// it cannot be had and, as unless told, if the continuous extension is as good. The attempted step stays what it is.
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.
-    fn state_at(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), t: S) -> Result<Option<Y>, IntegrationError<S>> {
-        let _ = (ode, t);
+    fn state_at(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        t: S,
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<Option<Y>, IntegrationError<S>> {
+        let _ = (ode, t, tolerances);
         Ok(None)
     }
 
@@ -126,6 +131,26 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     /// The factor from the size of an accepted step, whose error was 1/`ratio` times the tolerance, to the next.
     fn growth(&mut self, ratio: S) -> S {
         (S::from_f64(SAFETY) * ratio.powf(root(self.error_exponent()))).minimum(S::from_f64(LARGEST_GROWTH))
+    }
+}
+
+/// What [`Stepper::state_at`] is for methods whose continuous extension is of lower order than their steps.
+///
+/// # Errors
+/// If a derivative is infinite or not a number.
+pub(super) fn step_aside<S: Real, Y: Vector<S>>(
+    stepper: &mut (impl Stepper<S, Y> + Clone),
+    ode: &mut (impl Ode<S, Y> + ?Sized),
+    t: S,
+    tolerances: &Tolerances<'_, S>,
+) -> Result<Option<Y>, IntegrationError<S>> {
+    let mut aside = stepper.clone();
+    let outcome = aside.attempt(ode, t, tolerances);
+    stepper.progress_mut().statistics = aside.progress().statistics;
+    match outcome {
+        Ok(()) => Ok(Some(aside.progress().y_new.clone())),
+        Err(IntegrationError::NotConverged { .. }) => Ok(None),
+        Err(fault) => Err(fault),
     }
 }
 

@@ -73,7 +73,8 @@ pub trait Ode<S, Y> {
     /// Called once for each accepted step, with its end `t`, its size `step` > 0 and the state `y` there, which may be
     /// corrected in place: brought back to what an invariant of the equation demands. What an integration shows as the
     /// end of the step is the corrected state, and from there it goes on; within the step the solution is that of the
-    /// method. Unless told, nothing happens.
+    /// method. Where an event ends the integration within a step, it is called once more, for the state there, which is
+    /// earlier. Unless told, nothing happens.
     fn accepted(&mut self, t: S, step: S, y: &mut Y) -> Accepted {
         let _ = (t, step, y);
         Accepted::AsItIs
@@ -204,10 +205,9 @@ pub trait Integrator<S: Real> {
     ///
     /// Crossings are found on the continuous extension, by nine samples of each step, and by a search for the minimum
     /// where a function comes near zero between them; one that crosses zero twice within a sixteenth of a step may be
-    /// missed. Explicit methods then refine time and state by steps of their own, so that both are as exact as the ends of
-    /// steps: up to six steps for each crossing, and usually two or
-    /// three. The steps of the integration are the same as
-    /// without events.
+    /// missed. Methods whose extension is of lower order than their steps, all but [`Ode15s`] and [`SemiImplicitEuler`], then
+    /// refine time and state by steps of their own, so that both are as exact as the ends of steps: up to six steps for
+    /// each crossing, and usually two or three. The steps of the integration are the same as without events.
     ///
     /// # Errors
     /// As [`each_step_until`](Self::each_step_until), and for a function that is infinite or not a number.
@@ -273,9 +273,10 @@ pub struct Statistics {
     pub steps: u64,
     /// Attempted steps that were rejected and tried again with a smaller size.
     pub rejected: u64,
-    /// Evaluations of the right-hand side, those after corrections and those for differences included.
+    /// Evaluations of the right-hand side, those after corrections, for differences and for events included;
+    /// [tangents](Ode::tangent) are not.
     pub evaluations: u64,
-    /// Accepted steps whose end was corrected by [`Ode::accepted`].
+    /// Accepted steps whose end was corrected by [`Ode::accepted`]; a state at which an event ends the integration is none.
     pub corrections: u64,
     /// Evaluations of the Jacobian ∂f/∂y.
     pub jacobians: u64,
@@ -288,11 +289,12 @@ fn show<S: Real, Y: Vector<S>>(
     stepper: &mut impl Stepper<S, Y>,
     ode: &mut (impl Ode<S, Y> + ?Sized),
     observer: &mut impl Observer<S, Y>,
+    tolerances: &Tolerances<'_, S>,
 ) -> Result<ControlFlow<()>, IntegrationError<S>> {
     let progress = stepper.progress();
     if observer.looks_within(progress.t, progress.t_new) {
         stepper.look_within(ode)?;
     }
     stepper.progress_mut().finish(ode)?;
-    observer.look(stepper, ode)
+    observer.look(stepper, ode, tolerances)
 }

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::method::Stepper;
-use super::{IntegrationError, Ode, Step};
+use super::{IntegrationError, Ode, Step, Tolerances};
 use crate::{Real, Vector};
 
 /// Is shown every accepted step of an integration.
@@ -27,12 +27,13 @@ pub trait Observer<S, Y> {
         &mut self,
         stepper: &mut impl Stepper<S, Y>,
         ode: &mut (impl Ode<S, Y> + ?Sized),
+        tolerances: &Tolerances<'_, S>,
     ) -> Result<ControlFlow<()>, IntegrationError<S>>
     where
         S: Real,
         Y: Vector<S>,
     {
-        let _ = ode;
+        let _ = (ode, tolerances);
         Ok(self.step(&stepper.step()))
     }
 }

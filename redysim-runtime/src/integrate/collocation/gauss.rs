@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use super::extrapolate;
 use crate::integrate::fixed::FixedStep;
-use crate::integrate::method::{Method, Stepper};
+use crate::integrate::method::{Method, Stepper, step_aside};
 use crate::integrate::progress::{Progress, zeros};
 use crate::integrate::step::{Step, weighted_sum};
 use crate::integrate::tolerance::Tolerances;
@@ -289,6 +289,15 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Gauss<S, Y, S
 
     fn error_exponent(&self) -> u32 {
         2 * STAGES as u32
+    }
+
+    fn state_at(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        t: S,
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<Option<Y>, IntegrationError<S>> {
+        step_aside(self, ode, t, tolerances)
     }
 
     fn step(&self) -> Step<'_, S, Y> {

@@ -7,7 +7,7 @@ use super::extrapolate;
 use super::newton::{LARGEST_TURN, Newton, Outcome};
 pub use super::radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
 use crate::integrate::adaptive::Adaptive;
-use crate::integrate::method::{Method, Stepper, root, usual_shrinkage};
+use crate::integrate::method::{Method, Stepper, root, step_aside, usual_shrinkage};
 use crate::integrate::progress::{Progress, zeros};
 use crate::integrate::step::{Step, weighted_sum};
 use crate::integrate::tolerance::Tolerances;
@@ -37,7 +37,8 @@ const LARGEST_RATIO: f64 = 1000.0;
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.
 /// Between the ends of the steps, where the order is 3, nothing controls the error: it is about the power 2/3 of the
-/// tolerance, and more where the equation is so stiff that steps become long; a largest step keeps it small. Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more.
+/// tolerance, and more where the equation is so stiff that steps become long; a largest step keeps it small. Each step
+/// costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Radau5};
@@ -232,6 +233,15 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
 
     fn error_exponent(&self) -> u32 {
         6
+    }
+
+    fn state_at(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        t: S,
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<Option<Y>, IntegrationError<S>> {
+        step_aside(self, ode, t, tolerances)
     }
 
     fn step(&self) -> Step<'_, S, Y> {

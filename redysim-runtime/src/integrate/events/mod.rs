@@ -7,7 +7,7 @@ mod root;
 use core::ops::ControlFlow;
 
 use super::method::Stepper;
-use super::{Accepted, IntegrationError, Observer, Ode, Step};
+use super::{Accepted, IntegrationError, Observer, Ode, Step, Tolerances};
 use crate::{Real, Vector};
 use crossings::{Crossing, Nodes};
 
@@ -26,7 +26,8 @@ pub enum Direction {
 ///
 /// A crossing is where the function, which was not zero, reaches zero or changes its sign. So a function that is zero at
 /// the start, as after an impact, is not reported before it has been somewhere else, and a zero at the very end of a step
-/// is reported once. Where the function only touches zero, it may or may not be reported: do not rely on it.
+/// is reported once. Where the function only touches zero, it may or may not be reported: do not rely on it. The function
+/// should be smooth; where it jumps over zero, time and state are those of the solution within the step (see [`Step`]).
 #[derive(Clone)]
 pub struct Event<'e, S, Y> {
     value: &'e dyn Fn(S, &Y) -> S,
@@ -148,6 +149,7 @@ where
         &mut self,
         stepper: &mut impl Stepper<S, Y>,
         ode: &mut (impl Ode<S, Y> + ?Sized),
+        tolerances: &Tolerances<'_, S>,
     ) -> Result<ControlFlow<()>, IntegrationError<S>> {
         let step = stepper.step();
         let (from, to) = (step.start().0, step.end().0);
@@ -159,7 +161,7 @@ where
         let mut latest = from;
         while let Some((index, crossing)) = self.next(&stepper.step())? {
             let Some(event) = self.events.get(index) else { break };
-            let (mut t, mut y) = refine::refine(event.value, index, &crossing, stepper, ode)?;
+            let (mut t, mut y) = refine::refine(event.value, index, &crossing, stepper, ode, tolerances)?;
             // Refined times of different events may change places by as much as the solution within the step errs.
             if (t < latest) == (to > from) && t != latest {
                 t = latest;

@@ -3,19 +3,23 @@
 use super::crossings::Crossing;
 use super::finite;
 use crate::integrate::method::Stepper;
-use crate::integrate::{IntegrationError, Ode};
+use crate::integrate::{IntegrationError, Ode, Tolerances};
 use crate::{Real, Vector};
 
 /// Steps of the method for one event at most.
 const STEPS: u32 = 6;
+/// How far from the crossing the slope is taken, as a part of the step.
+const DISTANCE: f64 = 1e-3;
+/// What may be left of the change of the value over that distance: where more is, the value jumps.
+const REST: f64 = 0.1;
 
 /// Time and state of a crossing that the continuous extension has.
 ///
 /// An extension may be of lower order than the step it belongs to: that of the pair of orders 5 and 4 errs by h⁵ where the
 /// step errs by h⁶. So a method that says so takes steps of its own from the start of the step to the event, whose time
-/// follows by Newton's rule, with the slope of the extension and then that between two such steps: two or
-/// three of them.
+/// follows by Newton's rule, with the slope of the extension and then that between two such steps: two or three of them.
 /// The function has then reached or passed zero, so that who starts again from there does not meet the same crossing.
+/// Where the function jumps over zero, Newton's rule leads astray, and the crossing of the extension stands.
 ///
 /// # Errors
 /// If a derivative or a value of the event is infinite or not a number.
@@ -25,11 +29,13 @@ pub fn refine<S: Real, Y: Vector<S>>(
     crossing: &Crossing<S>,
     stepper: &mut impl Stepper<S, Y>,
     ode: &mut (impl Ode<S, Y> + ?Sized),
+    tolerances: &Tolerances<'_, S>,
 ) -> Result<(S, Y), IntegrationError<S>> {
     let (from, to) = (stepper.progress().t, stepper.progress().t_new);
     // Positive before the crossing.
     let sign = if crossing.rising { -S::one() } else { S::one() };
-    let mut slope = sign * slope_within(value, crossing.t, from, to, stepper);
+    let (change, distance) = change_within(value, crossing.t, from, to, stepper);
+    let mut slope = sign * change / distance;
     let mut t = crossing.t;
     // Aiming a few roundings of time beyond zero, so that it is passed.
     let beyond = S::from_f64(4.0) * S::EPSILON * from.abs().maximum(to.abs());
@@ -40,7 +46,7 @@ pub fn refine<S: Real, Y: Vector<S>>(
         if t == to {
             break;
         }
-        let Some(y) = stepper.state_at(ode, t)? else { return Ok((t, stepper.step().at(t))) };
+        let Some(y) = stepper.state_at(ode, t, tolerances)? else { break };
         let error = finite(sign * value(t, &y), event, t)?;
         if let Some((t_previous, previous)) = previous
             && t != t_previous
@@ -60,8 +66,8 @@ pub fn refine<S: Real, Y: Vector<S>>(
         t = clamped(t + correction + beyond, from, to);
     }
     Ok(match best {
-        Some(Trial { t, y, .. }) => (t, y),
-        None => (t, stepper.step().at(t)),
+        Some(Trial { t, y, error }) if error.abs() <= S::from_f64(REST) * change.abs() => (t, y),
+        _ => (crossing.t, stepper.step().at(crossing.t)),
     })
 }
 
@@ -81,18 +87,18 @@ impl<S: Real, Y> Trial<S, Y> {
     }
 }
 
-/// The slope of the value along the extension.
-fn slope_within<S: Real, Y: Vector<S>>(
+/// How the value changes about a crossing of the extension, and over what time.
+fn change_within<S: Real, Y: Vector<S>>(
     value: &dyn Fn(S, &Y) -> S,
     t: S,
     from: S,
     to: S,
     stepper: &impl Stepper<S, Y>,
-) -> S {
+) -> (S, S) {
     let step = stepper.step();
-    let distance = S::from_f64(1e-3) * (to - from);
+    let distance = S::from_f64(DISTANCE) * (to - from);
     let (before, after) = (clamped(t - distance, from, to), clamped(t + distance, from, to));
-    (value(after, &step.at(after)) - value(before, &step.at(before))) / (after - before)
+    (value(after, &step.at(after)) - value(before, &step.at(before)), after - before)
 }
 
 fn clamped<S: Real>(t: S, from: S, to: S) -> S {
