@@ -258,7 +258,7 @@ fn messages_name_the_rule_the_value_and_the_way_out() {
         (NotConverged { t: 0.5, step: 1e-3 }, &["t = 0.5", "0.001", "iteration", "tangent", "smaller"]),
         (StepTooSmall { t: 0.5, step: 1e-16 }, &["t = 0.5", "1e-16", "singularity"]),
         (Stiff { t: 0.5, step: 1e-3, remaining: 12345 }, &["stiff", "t = 0.5", "0.001", "12345", "Radau5"]),
-        (TooManySteps { t: 0.5, limit: 7 }, &["t = 0.5", "7 steps", "max_steps"]),
+        (TooManySteps { t: 0.5, limit: 7 }, &["t = 0.5", "7 steps", "max_steps", "jumps"]),
     ];
     for (error, words) in cases {
         let message = (&error as &dyn std::error::Error).to_string();

@@ -4,7 +4,7 @@
 mod mechanisms;
 
 use mechanisms::{Arm, distance};
-use redysim_runtime::integrate::method::Method;
+use redysim_runtime::integrate::method::EstimatesErrors;
 use redysim_runtime::integrate::{Adaptive, Bdf, Ndf};
 use redysim_runtime::{
     ForwardSimulation, Free, Integrator, Ode, Ode15s, Ode45, ProportionalDerivative, Statistics, Step,
@@ -313,7 +313,7 @@ fn single_precision_is_as_accurate_as_it_can_be() {
 
 #[test]
 fn backward_differentiation_formulas_are_an_option_that_takes_more_steps() {
-    fn steps<M: Method>() -> u64 {
+    fn steps<M: EstimatesErrors>() -> u64 {
         let method = Adaptive::<f64, M>::new().rtol(1e-7);
         method.integrate(&mut prothero_robinson(-1e4), (0.0, 10.0), [1.0]).unwrap().statistics.steps
     }

@@ -4,7 +4,7 @@
 use core::marker::PhantomData;
 
 use super::interval::Interval;
-use super::method::{Method, Stepper};
+use super::method::{EstimatesErrors, Stepper};
 use super::progress::Progress;
 use super::stiffness::StiffnessTest;
 use super::tolerance::{Absolute, Tolerances};
@@ -22,6 +22,16 @@ const STRETCH: f64 = 1.1;
 ///
 /// A derivative that is infinite or not a number at an attempted step makes the step smaller; only where that does not
 /// help, it is an error.
+///
+/// Only methods that estimate their errors can choose their steps:
+///
+/// ```compile_fail
+/// use redysim_runtime::Integrator;
+/// use redysim_runtime::integrate::{Adaptive, RungeKutta4};
+///
+/// let mut decay = |_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = -y[0];
+/// let end = Adaptive::<f64, RungeKutta4>::new().integrate(&mut decay, (0.0, 1.0), [1.0]);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Adaptive<'a, S, M> {
     tolerances: Tolerances<'a, S>,
@@ -77,7 +87,9 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
         self
     }
 
-    /// Gives up after `max_steps` steps, accepted or rejected; 10⁸ unless told.
+    /// Gives up after `max_steps` steps, accepted or rejected; 10⁸ unless told. Where a derivative jumps to and fro, as
+    /// with friction by the sign of a velocity, steps stay as small as the tolerances, so that runs may be that long: a
+    /// smaller limit ends them soon.
     pub fn max_steps(mut self, max_steps: u64) -> Self {
         self.max_steps = max_steps;
         self
@@ -112,7 +124,7 @@ pub(super) fn check_step<S: Real>(option: &'static str, size: Option<S>) -> Resu
     }
 }
 
-impl<S: Real, M: Method> Integrator<S> for Adaptive<'_, S, M> {
+impl<S: Real, M: EstimatesErrors> Integrator<S> for Adaptive<'_, S, M> {
     fn run<Y: Vector<S>>(
         &self,
         ode: &mut (impl Ode<S, Y> + ?Sized),

@@ -3,7 +3,7 @@
 use super::adaptive::Adaptive;
 use super::explicit::Explicit;
 use super::fixed::FixedStep;
-use super::method::Method;
+use super::method::{EstimatesErrors, Method};
 use super::tableau::DORMAND_PRINCE;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
@@ -44,6 +44,8 @@ pub type Ode45<'a, S> = Adaptive<'a, S, DormandPrince>;
 /// The method of [`DORMAND_PRINCE`].
 #[derive(Clone, Copy, Debug)]
 pub enum DormandPrince {}
+
+impl EstimatesErrors for DormandPrince {}
 
 impl Method for DormandPrince {
     type Stepper<S: Real, Y: Vector<S>> = Explicit<S, Y, 7>;

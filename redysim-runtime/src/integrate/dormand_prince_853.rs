@@ -3,7 +3,7 @@
 use super::adaptive::Adaptive;
 use super::explicit::Explicit;
 use super::fixed::FixedStep;
-use super::method::Method;
+use super::method::{EstimatesErrors, Method};
 use super::tableau::DORMAND_PRINCE_853;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
@@ -47,6 +47,8 @@ pub type Dop853<'a, S> = Adaptive<'a, S, DormandPrince853>;
 /// The method of [`DORMAND_PRINCE_853`].
 #[derive(Clone, Copy, Debug)]
 pub enum DormandPrince853 {}
+
+impl EstimatesErrors for DormandPrince853 {}
 
 impl Method for DormandPrince853 {
     type Stepper<S: Real, Y: Vector<S>> = Explicit<S, Y, 16>;

@@ -214,8 +214,8 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             ),
             Self::TooManySteps { t, limit } => write!(
                 f,
-                "the end is not within {limit} steps of t = {t:?}; loosen the tolerance, take larger steps, or raise \
-                 max_steps"
+                "the end is not within {limit} steps of t = {t:?}; loosen the tolerance, take larger steps, raise \
+                 max_steps, or smooth a derivative that jumps to and fro there"
             ),
         }
     }

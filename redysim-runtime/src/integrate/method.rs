@@ -14,7 +14,7 @@ const SMALLEST_SHRINKAGE: f64 = 0.1;
 const SAFETY: f64 = 0.8;
 
 /// A method of integration: how it begins. With [`FixedStep`](super::FixedStep) it is an integrator with steps of one
-/// size, with [`Adaptive`](super::Adaptive) one that chooses them.
+/// size, with [`Adaptive`](super::Adaptive), if it [`EstimatesErrors`], one that chooses them.
 pub trait Method {
     /// What takes its steps.
     type Stepper<S: Real, Y: Vector<S>>: Stepper<S, Y>;
@@ -29,6 +29,9 @@ pub trait Method {
         y: Y,
     ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>>;
 }
+
+/// A method that estimates the errors of its steps, so that [`Adaptive`](super::Adaptive) can choose them.
+pub trait EstimatesErrors: Method {}
 
 /// Takes the steps of a [`Method`].
 ///
@@ -73,7 +76,7 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
         tolerances: &Tolerances<'_, S>,
     ) -> Result<(), IntegrationError<S>>;
 
-    /// The estimated error of the attempted step, as the tolerances measure it.
+    /// The estimated error of the attempted step, as the tolerances measure it; zero where nothing estimates it.
     fn error(&mut self, tolerances: &Tolerances<'_, S>) -> S;
 
     /// The power of the step size that the estimated error goes with.

@@ -7,7 +7,7 @@ use super::extrapolate;
 use super::newton::{LARGEST_TURN, Newton, Outcome};
 pub use super::radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
 use crate::integrate::adaptive::Adaptive;
-use crate::integrate::method::{Method, Stepper, root, step_aside, usual_shrinkage};
+use crate::integrate::method::{EstimatesErrors, Method, Stepper, root, step_aside, usual_shrinkage};
 use crate::integrate::progress::{Progress, zeros};
 use crate::integrate::step::{Step, weighted_sum};
 use crate::integrate::tolerance::Tolerances;
@@ -55,6 +55,8 @@ pub type Radau5<'a, S> = Adaptive<'a, S, RadauIIA>;
 /// The method of [`RADAU_IIA_5`].
 #[derive(Clone, Copy, Debug)]
 pub enum RadauIIA {}
+
+impl EstimatesErrors for RadauIIA {}
 
 impl Method for RadauIIA {
     type Stepper<S: Real, Y: Vector<S>> = Radau<S, Y>;

@@ -11,7 +11,7 @@ mod newton;
 mod stepper;
 
 use super::adaptive::Adaptive;
-use super::method::Method;
+use super::method::{EstimatesErrors, Method};
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
 use formulas::{BACKWARD_DIFFERENTIATION, HIGHEST_ORDER, NUMERICAL_DIFFERENTIATION};
@@ -84,6 +84,8 @@ const fn up_to<const MAX_ORDER: usize>(kappas: &'static [f64; HIGHEST_ORDER]) ->
     kappas.split_at(MAX_ORDER).0
 }
 
+impl<const MAX_ORDER: usize> EstimatesErrors for Ndf<MAX_ORDER> {}
+
 impl<const MAX_ORDER: usize> Method for Ndf<MAX_ORDER> {
     type Stepper<S: Real, Y: Vector<S>> = NdfStepper<S, Y>;
 
@@ -95,6 +97,8 @@ impl<const MAX_ORDER: usize> Method for Ndf<MAX_ORDER> {
         NdfStepper::new(const { up_to::<MAX_ORDER>(&NUMERICAL_DIFFERENTIATION) }, ode, t, y)
     }
 }
+
+impl<const MAX_ORDER: usize> EstimatesErrors for Bdf<MAX_ORDER> {}
 
 impl<const MAX_ORDER: usize> Method for Bdf<MAX_ORDER> {
     type Stepper<S: Real, Y: Vector<S>> = NdfStepper<S, Y>;
