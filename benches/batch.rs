@@ -1,7 +1,7 @@
 //! States per second in batches: in lanes, and from 513 states on, on all cores.
 //!
-//! `cargo bench --bench batch -- kr5/inverse`; a name is `robot/function/scalar/states`. Times are for a batch, elements per
-//! second are states.
+//! `cargo bench --bench batch -- kr5/inverse`; a name is `robot/function/scalar/states`. Times are for a batch,
+//! elements per second are states.
 
 #[allow(dead_code)]
 #[path = "../tests/common/random.rs"]

@@ -1,8 +1,8 @@
 //! KR5 under computed torque at 1 kHz: it starts beside the motion it should follow, and is led onto it.
 //!
 //! The controller is discrete: every millisecond it takes a sample and sets torques, which stay until the next one. Two
-//! controllers drive the same robot. One knows it exactly; the other takes it for the robot of the paper's Table 2, whose
-//! masses, centres of mass and inertias are different.
+//! controllers drive the same robot. One knows it exactly; the other takes it for the robot of the paper's Table 2,
+//! whose masses, centres of mass and inertias are different.
 //!
 //! `cargo run --release --example controller`
 

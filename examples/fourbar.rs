@@ -1,5 +1,5 @@
-//! The four-bar of the ReDySim paper: its Figures 10 and 11, against references; its closure and energy with and without
-//! projection; and what its functions cost.
+//! The four-bar of the ReDySim paper: its Figures 10 and 11, against references; its closure and energy with and
+//! without projection; and what its functions cost.
 //!
 //! `cargo run --release --example fourbar`
 

@@ -59,9 +59,9 @@
 //! The same lanes can be used without `std`: [`lanes::F64x8`] and its like are scalars, so that
 //! `Kr5::inverse_dynamics` of `[F64x8; 6]` works on eight states.
 //!
-//! Where to look: [`Mechanism`](trait@Mechanism) and the traits beside it for what a mechanism can do; [`Ode45`] and [`Ode5`],
-//! and for stiff equations [`Ode15s`], with [`ForwardSimulation`] for motion in time; [`TorqueLaw`] and [`Trajectory`] for what drives it; [`closed_loop`] for
-//! mechanisms with loops.
+//! Where to look: [`Mechanism`](trait@Mechanism) and the traits beside it for what a mechanism can do; [`Ode45`] and
+//! [`Ode5`], and for stiff equations [`Ode15s`], with [`ForwardSimulation`] for motion in time; [`TorqueLaw`] and
+//! [`Trajectory`] for what drives it; [`closed_loop`] for mechanisms with loops.
 //!
 //! # Features
 //!

@@ -1,5 +1,5 @@
-//! Two and three rods released from the horizontal: a motion that doubles every error in less than a second. It is right
-//! for as long as double precision allows, and keeps its energy ever after.
+//! Two and three rods released from the horizontal: a motion that doubles every error in less than a second. It is
+//! right for as long as double precision allows, and keeps its energy ever after.
 #![cfg(feature = "generic")]
 
 mod common;

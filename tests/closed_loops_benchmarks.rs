@@ -1,5 +1,5 @@
-//! Benchmark problems of the IFToMM library with closed loops: Andrews' squeezing mechanism (A03), and forty windows in a
-//! row (A02), which fold flat and open again.
+//! Benchmark problems of the IFToMM library with closed loops: Andrews' squeezing mechanism (A03), and forty windows in
+//! a row (A02), which fold flat and open again.
 #![cfg(feature = "generic")]
 
 mod common;

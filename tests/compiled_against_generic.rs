@@ -41,7 +41,8 @@ fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &i
         kinetic.add(&rounded([ours.kinetic]), &rounded([theirs.kinetic]));
         potential.add(&rounded([ours.potential]), &rounded([theirs.potential]));
     }
-    // The roundoff of constants is that of the largest terms, 1e-16 of them; the smallest components that count are 1e-6.
+    // The roundoff of constants is that of the largest terms, 1e-16 of them; the smallest components that count are
+    // 1e-6.
     let all = [inverse, matrix, gravity, kinetic, potential];
     all.iter().for_each(|comparison| comparison.assert_within(1e-12));
     // A few components of the bias are smaller than what its terms cancel to.
@@ -73,8 +74,8 @@ fn assert_same_kinematics(compiled: &impl TreeDynamics<DoubleDouble>, generic: &
 
 /// The same in `f64`, for fifteen samples of a thousand states.
 ///
-/// Where a force is a small difference of large terms, neither path has all its digits, and of some 6,000 components of a
-/// sample the worst is a matter of luck: most samples stay below 1e-12 in inverse dynamics, some have one or two
+/// Where a force is a small difference of large terms, neither path has all its digits, and of some 6,000 components of
+/// a sample the worst is a matter of luck: most samples stay below 1e-12 in inverse dynamics, some have one or two
 /// components beyond. What roundoff can do at most is bounded in `roundings.rs`.
 fn assert_same_dynamics_in_f64(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDynamics<f64>) {
     let sample = |seed: u64| {

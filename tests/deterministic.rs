@@ -1,5 +1,5 @@
-//! With the feature `deterministic`, the same program gives the same bits on every target: the sums below were pinned on
-//! x86-64, and hold with any `-C target-cpu`.
+//! With the feature `deterministic`, the same program gives the same bits on every target: the sums below were pinned
+//! on x86-64, and hold with any `-C target-cpu`.
 
 mod common;
 

@@ -1,4 +1,5 @@
-//! Where numbers are extreme: starts at which everything is zero, angles and speeds of 10⁶, and input that is no number.
+//! Where numbers are extreme: starts at which everything is zero, angles and speeds of 10⁶, and input that is no
+//! number.
 #![cfg(feature = "generic")]
 
 mod common;
@@ -65,8 +66,8 @@ fn deviations(q: [f64; DOF], v: [f64; DOF]) -> [f64; 2] {
     })
 }
 
-/// An angle of a million radians is itself known to 6e-11 rad only, and where two parallel axes share one angle, their sum
-/// is rounded to as much. Sine and cosine lose nothing there: `redysim-runtime/tests/trigonometry.rs`.
+/// An angle of a million radians is itself known to 6e-11 rad only, and where two parallel axes share one angle, their
+/// sum is rounded to as much. Sine and cosine lose nothing there: `redysim-runtime/tests/trigonometry.rs`.
 #[test]
 fn a_million_radians_cost_what_the_angles_are_rounded_to_and_a_million_radians_per_second_nothing() {
     let mut random = Random::new(9);

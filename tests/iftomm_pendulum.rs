@@ -1,5 +1,5 @@
-//! Problem A01 of the IFToMM benchmark library, the simple pendulum, against elliptic functions: where it is, and when it
-//! passes an angle close to where it turns.
+//! Problem A01 of the IFToMM benchmark library, the simple pendulum, against elliptic functions: where it is, and when
+//! it passes an angle close to where it turns.
 #![cfg(feature = "generic")]
 
 use std::ops::ControlFlow;

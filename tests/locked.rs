@@ -84,8 +84,8 @@ fn joint_forces_mass_matrix_and_energies_are_those_of_the_whole_robot() {
     [forces, gravity, masses, energies, stump].iter().for_each(|comparison| comparison.assert_within(1e-12));
 }
 
-/// A lock is a constraint force at the joint that keeps its acceleration zero: the other rows of M a + C v + g = τ, solved by
-/// LU for the other accelerations.
+/// A lock is a constraint force at the joint that keeps its acceleration zero: the other rows of M a + C v + g = τ,
+/// solved by LU for the other accelerations.
 #[test]
 fn accelerations_are_those_under_the_constraint() {
     let mut random = Random::new(8);

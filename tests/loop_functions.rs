@@ -1,4 +1,5 @@
-//! Residual, Jacobian and bias of every loop model: compiled as generic, consistent with each other, and no row too many.
+//! Residual, Jacobian and bias of every loop model: compiled as generic, consistent with each other, and no row too
+//! many.
 //!
 //! As in `compiled_against_generic.rs` everything runs in double-double, so that nothing but mistakes is left to see.
 #![cfg(feature = "generic")]

@@ -102,9 +102,9 @@ fn where_a_shipped_start_is_open_the_residual_says_so() {
     assert!(largest(&closed) < 1e-15, "{closed:?}");
 }
 
-/// Along the trajectories of ReDySim's inverse dynamics, the loops are closed in position, velocity and acceleration, and
-/// the joint forces of the tree are those of the actuators and of the cuts: τ = Sᵀ τ_actuated + Jᵀ λ. This holds the
-/// order and the sign of the rows.
+/// Along the trajectories of ReDySim's inverse dynamics, the loops are closed in position, velocity and acceleration,
+/// and the joint forces of the tree are those of the actuators and of the cuts: τ = Sᵀ τ_actuated + Jᵀ λ. This holds
+/// the order and the sign of the rows.
 #[test]
 fn reference_forces_at_the_cuts_balance_the_joint_forces() {
     fn check<const NV: usize>(name: &str, actuated: &[usize], text: &str) {
@@ -129,8 +129,8 @@ fn reference_forces_at_the_cuts_balance_the_joint_forces() {
     check::<7>("three_rrr", &[0, 3, 5], include_str!("reference/golden_octave_ID_3-RRR_Parallel_robot.csv"));
 }
 
-/// Along free motions in quadruple precision without stabilisation: the residual stays what it was at the start, and the
-/// multipliers are the reference's.
+/// Along free motions in quadruple precision without stabilisation: the residual stays what it was at the start, and
+/// the multipliers are the reference's.
 #[test]
 fn multipliers_along_free_motions_are_the_references() {
     fn check<const NV: usize, const NC: usize>(name: &str, gap: f64, text: &str) {
@@ -214,8 +214,8 @@ fn the_n_fourbar_moves_as_its_exact_solution() {
     }
 }
 
-/// The four-bar in space has one row more than the planar one, but the same loop: what does not depend on the axes of the
-/// base frame is the same.
+/// The four-bar in space has one row more than the planar one, but the same loop: what does not depend on the axes of
+/// the base frame is the same.
 #[test]
 fn the_spatial_fourbar_has_the_rank_and_the_forces_of_the_planar_one() {
     let (planar, spatial) = (generic("fourbar"), generic("test/fourbar_spatial"));

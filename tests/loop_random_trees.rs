@@ -1,9 +1,9 @@
 //! On random trees with random loops, residual, Jacobian and bias are those of plain homogeneous transforms.
 //!
-//! The other formulation knows the model alone: it multiplies 4×4 matrices from the base to each side of a cut, and gets
-//! Jacobian and bias by differentiating its own residual with dual numbers. From the library it takes only which rows it
-//! keeps and which two directions across the axis of a revolute cut it measures along; both are checked on the way. Held
-//! against it are the generic functions and the expressions of which compiled ones are written.
+//! The other formulation knows the model alone: it multiplies 4×4 matrices from the base to each side of a cut, and
+//! gets Jacobian and bias by differentiating its own residual with dual numbers. From the library it takes only which
+//! rows it keeps and which two directions across the axis of a revolute cut it measures along; both are checked on the
+//! way. Held against it are the generic functions and the expressions of which compiled ones are written.
 #![cfg(feature = "generic")]
 
 mod common;

@@ -1,5 +1,5 @@
-//! What a robot does not have costs nothing: space around a planar mechanism, the extent of a point mass, gravity where there
-//! is none, a joint that is locked.
+//! What a robot does not have costs nothing: space around a planar mechanism, the extent of a point mass, gravity where
+//! there is none, a joint that is locked.
 
 use redysim::OperationCount;
 use redysim_codegen::functions::trace;
@@ -29,8 +29,8 @@ fn with_links(mut model: Model, change: impl Fn(usize, &mut Link)) -> Model {
 
 const PLANAR: [&str; 7] = ["gripper", "fourbar", "fourbar_gui", "slider_crank", "three_rrr", "leg", "andrews"];
 
-/// A body in the plane has a mass, a place of it, and one moment. What a drawing program adds (thickness, links one above the
-/// other, a tensor with nine elements) does nothing in the plane.
+/// A body in the plane has a mass, a place of it, and one moment. What a drawing program adds (thickness, links one
+/// above the other, a tensor with nine elements) does nothing in the plane.
 #[test]
 fn a_planar_mechanism_in_space_costs_planar_code() {
     for name in PLANAR {

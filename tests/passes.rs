@@ -147,8 +147,8 @@ fn small_tilts_and_offsets_cost_no_digits() {
     }
 }
 
-/// A robot in the coordinates of a map computes what it computes at the origin. (Positions and potential energy lose what
-/// large coordinates lose.)
+/// A robot in the coordinates of a map computes what it computes at the origin. (Positions and potential energy lose
+/// what large coordinates lose.)
 #[test]
 fn a_robot_far_from_the_origin_keeps_its_inertias() {
     let mut moved = model("kr5");
@@ -217,8 +217,8 @@ fn turned(link: &Link, turn: Mat3<f64>) -> Inertia {
 }
 
 /// Whatever frames a model has, they are chosen anew. On numbers that were round before the frames were turned, a
-/// product by chance equal to another may differ from it by roundoff afterwards, and of two ways that cost the same on a
-/// neighbourhood another may be taken: for that, one operation in a thousand is allowed, and one, beside KR5.
+/// product by chance equal to another may differ from it by roundoff afterwards, and of two ways that cost the same on
+/// a neighbourhood another may be taken: for that, one operation in a thousand is allowed, and one, beside KR5.
 #[test]
 fn frames_placed_anyhow_cost_what_denavit_hartenberg_frames_cost() {
     for (name, by_chance) in [("peers/kr5", 0), ("kr5", 0), ("peers/gripper", 1), ("peers/humanoid30", 6)] {

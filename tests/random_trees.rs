@@ -1,6 +1,7 @@
 //! On random trees the recursions, the base parameters and the traced expressions agree with Kane's equations.
 //!
-//! Two hundred trees of up to twelve joints: revolute, prismatic and fixed, branching, oblique, links in scrambled order.
+//! Two hundred trees of up to twelve joints: revolute, prismatic and fixed, branching, oblique, links in scrambled
+//! order.
 
 mod common;
 
@@ -22,8 +23,8 @@ const STATES: usize = 3;
 struct Errors(BTreeMap<String, f64>);
 
 impl Errors {
-    /// |computed − expected| / |expected| in the norm of the largest component. The terms of a component are as large as
-    /// the largest component, and so are their roundings; one component alone may be their small difference.
+    /// |computed − expected| / |expected| in the norm of the largest component. The terms of a component are as large
+    /// as the largest component, and so are their roundings; one component alone may be their small difference.
     fn add(&mut self, what: &str, computed: &[f64], expected: &[f64], tolerance: f64) {
         assert_eq!(computed.len(), expected.len(), "{what}");
         let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
@@ -50,7 +51,8 @@ fn axis(random: &mut Random) -> Vector3<f64> {
     }
 }
 
-/// A body of a few kilogrammes and decimetres: R diag(b + c, a + c, a + b) Rᵀ is a possible inertia for positive a, b, c.
+/// A body of a few kilogrammes and decimetres: R diag(b + c, a + c, a + b) Rᵀ is a possible inertia for positive a, b,
+/// c.
 fn inertia(random: &mut Random) -> Inertia {
     let [a, b, c] = [0; 3].map(|_| 0.01 + random.within(0.009));
     let turned = rotation(random);

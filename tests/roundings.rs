@@ -2,9 +2,9 @@
 //!
 //! A sum of terms t is right to about u Σ|t|, where u is half the distance from 1 to the next number, and cancellation
 //! can make the sum far smaller than its terms. So a value is held against the largest that its terms become over the
-//! run: a joint force against the largest of its joint, an element of the mass matrix against √(M_ii M_jj) with their largest values, an energy
-//! against the largest energy. Along a chain of six joints some sixty operations follow one another; their errors add
-//! up like a random walk, √60 u, and 16 u is allowed.
+//! run: a joint force against the largest of its joint, an element of the mass matrix against √(M_ii M_jj) with their
+//! largest values, an energy against the largest energy. Along a chain of six joints some sixty operations follow one
+//! another; their errors add up like a random walk, √60 u, and 16 u is allowed.
 #![cfg(feature = "generic")]
 
 mod common;

@@ -1,5 +1,5 @@
-//! A robot under a controller with large gains: fixed steps are stable up to the predicted size, explicit methods say that
-//! the equation is stiff, and implicit ones take it in a few hundred evaluations.
+//! A robot under a controller with large gains: fixed steps are stable up to the predicted size, explicit methods say
+//! that the equation is stiff, and implicit ones take it in a few hundred evaluations.
 #![cfg(feature = "generic")]
 
 mod common;

@@ -1,5 +1,5 @@
-//! A pruned mechanism is wrong by less than its tolerance, measured in states that the generator has not seen, and it is
-//! cheaper.
+//! A pruned mechanism is wrong by less than its tolerance, measured in states that the generator has not seen, and it
+//! is cheaper.
 
 mod common;
 

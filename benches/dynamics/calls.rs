@@ -48,7 +48,8 @@ fn timed<S: Numbers, A, R>(
     group.finish();
 }
 
-/// Inverse dynamics, forward dynamics and the mass matrix. `path` is the scalar, or what else tells the way of computing.
+/// Inverse dynamics, forward dynamics and the mass matrix. `path` is the scalar, or what else tells the way of
+/// computing.
 pub fn main_functions<S: Numbers, M>(criterion: &mut Criterion, robot: &str, path: &str, mechanism: &M)
 where
     M: InverseDynamics<S> + ForwardDynamics<S> + MassMatrix<S>,

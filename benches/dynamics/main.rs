@@ -1,8 +1,8 @@
 //! Time of every function, for every scalar, on the robots that other programs are compared on.
 //!
 //! `cargo bench --bench dynamics -- kr5/inverse` runs those whose name has `kr5/inverse` in it; a name is
-//! `robot/function/scalar`. Times are for a call, which works on as many states as the scalar has lanes; elements per second
-//! are states. `RUSTFLAGS="-C target-cpu=native"` lets the compiler use the vectors that this machine has.
+//! `robot/function/scalar`. Times are for a call, which works on as many states as the scalar has lanes; elements per
+//! second are states. `RUSTFLAGS="-C target-cpu=native"` lets the compiler use the vectors that this machine has.
 
 mod calls;
 mod numbers;

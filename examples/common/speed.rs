@@ -147,7 +147,8 @@ struct State<M: TreeDynamics<f64>> {
     input: M::Velocities,
 }
 
-/// States spread evenly over ±π rad, ±3 rad/s and ±10 rad/s² or N m: multiples of the golden ratio, without whole parts.
+/// States spread evenly over ±π rad, ±3 rad/s and ±10 rad/s² or N m: multiples of the golden ratio, without whole
+/// parts.
 fn states<M: TreeDynamics<f64>>(mechanism: &M) -> Vec<State<M>> {
     const GOLDEN: f64 = 1.618_033_988_749_895;
     let (nq, nv) = (mechanism.nq(), mechanism.nv());

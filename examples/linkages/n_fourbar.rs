@@ -111,8 +111,8 @@ struct Exact {
     doubt: f64,
 }
 
-/// While its cranks stay parallel, the mechanism is the pendulum α̈ = c sin α, c = g ((N+1)/2 + N) / ((N+1)/3 + N), which
-/// turns over: with 1 + 4 c = w² and k² = 4 c / w², (α + π)/2 is the amplitude of w t/2 + K(k).
+/// While its cranks stay parallel, the mechanism is the pendulum α̈ = c sin α, c = g ((N+1)/2 + N) / ((N+1)/3 + N),
+/// which turns over: with 1 + 4 c = w² and k² = 4 c / w², (α + π)/2 is the amplitude of w t/2 + K(k).
 fn exact(windows: u32) -> Result<Exact, Failure> {
     let n = f64::from(windows);
     let c = 9.81 * ((n + 1.0) / 2.0 + n) / ((n + 1.0) / 3.0 + n);

@@ -81,7 +81,8 @@ pub fn compare(studies: &Studies) -> Result<(), Failure> {
 }
 
 /// With φ from the start, falling, and s = sin φ: (2/3 + 4 s²) φ̇² / 2 = 9.81 s, since links of equal length let the
-/// coupler turn back as far as the crank turns on. At φ = 90° the slider is in the crank's pivot, and the position singular.
+/// coupler turn back as far as the crank turns on. At φ = 90° the slider is in the crank's pivot, and the position
+/// singular.
 fn slider_crank(motion: &LoopMotion) -> Result<(), Failure> {
     let mut equation = |_t: f64, y: &[f64; 2], rate: &mut [f64; 2]| {
         let (sin, cos) = y[0].sin_cos();

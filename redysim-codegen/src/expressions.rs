@@ -48,8 +48,8 @@ impl Expressions {
         uses
     }
 
-    /// Whether unrolled code of this would be too long: past some 3,000 operations it no longer fits the instruction cache
-    /// of 32 KB, and every operation costs about twice as much.
+    /// Whether unrolled code of this would be too long: past some 3,000 operations it no longer fits the instruction
+    /// cache of 32 KB, and every operation costs about twice as much.
     pub fn is_long(&self) -> bool {
         self.count().flops() > 3000
     }

@@ -163,8 +163,8 @@ pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
 
 /// Traces and simplifies the given functions and no others, in the order of [`SIGNATURES`].
 ///
-/// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to be
-/// unrolled is traced without them as well, and the shorter code is taken.
+/// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to
+/// be unrolled is traced without them as well, and the shorter code is taken.
 pub fn trace_of(tree: &Tree, functions: &Functions, passes: &Passes) -> Vec<Function> {
     let trees = Trees::new(tree, passes);
     let even = passes.even();
@@ -180,8 +180,8 @@ pub fn trace_of(tree: &Tree, functions: &Functions, passes: &Passes) -> Vec<Func
     SIGNATURES.iter().filter(|signature| functions.contains(signature.name)).map(shortest).collect()
 }
 
-/// Traces and simplifies the functions that a scene asks for, and prunes those that compute joint forces, accelerations and
-/// the mass matrix if it has a tolerance.
+/// Traces and simplifies the functions that a scene asks for, and prunes those that compute joint forces, accelerations
+/// and the mass matrix if it has a tolerance.
 ///
 /// Energies, link kinematics and loops are exact in any case, and so are functions that are too long to be unrolled.
 ///

@@ -8,8 +8,8 @@
 //! folded as they arise, equal values are one node, and [passes] over the graph collect what is left. The graph is then
 //! written out as Rust over `S: Scalar`, in blocks that a compiler can take.
 //!
-//! A [scene](redysim_model::Scene) asks for less: for some of the functions only, or for joint forces that may be wrong by a
-//! tolerance, for which terms are left out that do not matter within the ranges of the joints.
+//! A [scene](redysim_model::Scene) asks for less: for some of the functions only, or for joint forces that may be wrong
+//! by a tolerance, for which terms are left out that do not matter within the ranges of the joints.
 //!
 //! ```
 //! use redysim_codegen::source_file;

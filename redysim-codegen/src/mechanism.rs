@@ -27,7 +27,8 @@ pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Gen
     implementation_with(model, name, runtime, &Scene::default(), &Passes::default())
 }
 
-/// The same with no more than what is asked of the mechanism, and with the given passes only, to see what the others gain.
+/// The same with no more than what is asked of the mechanism, and with the given passes only, to see what the others
+/// gain.
 pub fn implementation_with(
     model: &Model,
     name: &Ident,

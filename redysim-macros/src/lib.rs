@@ -20,9 +20,10 @@ use proc_macro::TokenStream;
 /// that calls the macro. An edited model is compiled again.
 ///
 /// The type has the constants `NAME`, `NQ`, `NV`, `NL`, `NC`, `LINK_NAMES`, `JOINT_NAMES`, `LOOP_NAMES`, `ACTUATED` and
-/// `OPS`, the functions `inverse_dynamics`, `forward_dynamics`, `mass_matrix`, `bias_forces`, `gravity_forces`, `energy`,
-/// `link_kinematics`, `loop_residual`, `loop_jacobian` and `loop_bias`, all over any `S: Scalar`, and the traits that have
-/// them. Unless the declaration derives traits itself, the type is `Clone`, `Copy`, `Debug` and `Default`.
+/// `OPS`, the functions `inverse_dynamics`, `forward_dynamics`, `mass_matrix`, `bias_forces`, `gravity_forces`,
+/// `energy`, `link_kinematics`, `loop_residual`, `loop_jacobian` and `loop_bias`, all over any `S: Scalar`, and the
+/// traits that have them. Unless the declaration derives traits itself, the type is `Clone`, `Copy`, `Debug` and
+/// `Default`.
 ///
 /// After the path may stand what is asked of the model, so that nothing else is generated and compiled:
 ///
@@ -36,10 +37,10 @@ use proc_macro::TokenStream;
 ///   that they make up; `OPS` has no operations for the others.
 /// - `locked = { joint6 = "0 deg", slide = 0.3 }`: joints, by their names or those of their links, are held at these
 ///   coordinates, as if they were fixed there.
-/// - `tolerance = 1e-3`: joint forces, accelerations and the mass matrix may be wrong by this share of each joint's scale
-///   while every joint stays within the `range` that the model file gives it, and terms that do not matter then are left
-///   out. The documentation of each function states its operations before and after, the ranges, and the worst error of
-///   100,000 sampled states; the compiler warns where the tolerance did not hold and a function is left whole.
+/// - `tolerance = 1e-3`: joint forces, accelerations and the mass matrix may be wrong by this share of each joint's
+///   scale while every joint stays within the `range` that the model file gives it, and terms that do not matter then
+///   are left out. The documentation of each function states its operations before and after, the ranges, and the worst
+///   error of 100,000 sampled states; the compiler warns where the tolerance did not hold and a function is left whole.
 ///
 /// A model file may say the same at its top, with names in quotes: `functions = ["inverse_dynamics"]`. Each key that is
 /// given here wins over the file's.
@@ -57,8 +58,8 @@ pub fn redysim(input: TokenStream) -> TokenStream {
 
 /// Makes a unit struct the mechanism of a model file: `#[derive(Mechanism)] #[mechanism("models/kr5.toml")]`.
 ///
-/// The same code as [`redysim!`], for a type whose declaration stands outside the macro. After the path may stand what is
-/// asked of the model, as there: `#[mechanism("models/kr5.toml", functions = [inverse_dynamics])]`.
+/// The same code as [`redysim!`], for a type whose declaration stands outside the macro. After the path may stand what
+/// is asked of the model, as there: `#[mechanism("models/kr5.toml", functions = [inverse_dynamics])]`.
 #[proc_macro_derive(Mechanism, attributes(mechanism))]
 pub fn mechanism(input: TokenStream) -> TokenStream {
     match syn::parse(input) {

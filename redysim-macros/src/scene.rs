@@ -1,7 +1,7 @@
 //! What is asked of a mechanism beside its model: `functions = [mass_matrix], locked = { joint6 = "0 deg" }`.
 //!
-//! It is written out as TOML, in which model files say the same, so that one reader knows all keys and all faults. For each
-//! piece of that text the place in the declaration is kept.
+//! It is written out as TOML, in which model files say the same, so that one reader knows all keys and all faults. For
+//! each piece of that text the place in the declaration is kept.
 
 use proc_macro2::Span;
 use std::ops::Range;

@@ -180,8 +180,8 @@ fn reach(tree: &Tree, body: usize) -> f64 {
     lengths.fold(0.0, |reach, length| reach.max(length.abs()))
 }
 
-/// A rotation without the roundoff of quarter turns. An element is ±1 only where the others in its row and column vanish:
-/// the cosine of a small tilt is as near to 1 as roundoff.
+/// A rotation without the roundoff of quarter turns. An element is ±1 only where the others in its row and column
+/// vanish: the cosine of a small tilt is as near to 1 as roundoff.
 fn snapped(mut rotation: Mat3<f64>) -> Mat3<f64> {
     let elements = rotation.0.as_flattened_mut();
     elements.iter_mut().filter(|element| element.abs() < ROTATION_ROUNDOFF).for_each(|element| *element = 0.0);

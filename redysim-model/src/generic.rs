@@ -13,8 +13,8 @@ use redysim_runtime::{
 /// A mechanism whose model is known only at run time.
 ///
 /// It implements the traits of [`redysim_runtime`] as compiled types do, with `Vec` for arrays, and is the oracle that
-/// specialised code is tested against. The lengths of the vectors are known only at run time, too: a vector that has not
-/// one element for each joint is a fault of the program and panics, with a message that names it.
+/// specialised code is tested against. The lengths of the vectors are known only at run time, too: a vector that has
+/// not one element for each joint is a fault of the program and panics, with a message that names it.
 #[derive(Clone, Debug)]
 pub struct GenericMechanism {
     model: Model,

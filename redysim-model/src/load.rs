@@ -101,8 +101,8 @@ impl Model {
         Model::from_toml_with(text, file_name, "")
     }
 
-    /// Checks the text of a model file with a scene beside it: TOML with the keys `functions`, `locked` and `tolerance`, each
-    /// of which wins over that of the file.
+    /// Checks the text of a model file with a scene beside it: TOML with the keys `functions`, `locked` and
+    /// `tolerance`, each of which wins over that of the file.
     ///
     /// # Errors
     ///

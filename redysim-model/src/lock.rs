@@ -10,8 +10,8 @@ use std::fmt;
 impl Model {
     /// The model with joints held at these values of their coordinates, rad or m: each as if it were fixed there.
     ///
-    /// A joint is meant by its name or by that of its link. The link stays among the links; its coordinate is none any more,
-    /// and the link becomes part of its parent's body.
+    /// A joint is meant by its name or by that of its link. The link stays among the links; its coordinate is none any
+    /// more, and the link becomes part of its parent's body.
     ///
     /// # Errors
     ///
@@ -76,8 +76,8 @@ impl Link {
     }
 }
 
-/// The index of the link whose joint has this name, or else which has it itself. `names` are the joint's and the link's, as
-/// far as they can be read.
+/// The index of the link whose joint has this name, or else which has it itself. `names` are the joint's and the
+/// link's, as far as they can be read.
 pub(crate) fn by_name<'a>(
     name: &str,
     names: impl Iterator<Item = (Option<&'a str>, Option<&'a str>)> + Clone,

@@ -49,8 +49,8 @@ pub struct Link {
     pub range: Option<JointRange>,
 }
 
-/// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function is
-/// made.
+/// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function
+/// is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointRange {
     /// The least and the largest coordinate.
@@ -59,7 +59,8 @@ pub struct JointRange {
     pub velocity: f64,
     /// The largest acceleration in either direction.
     pub acceleration: f64,
-    /// The force of which a tolerance is a share, N m or N; if there is none, the largest that occurs within these ranges.
+    /// The force of which a tolerance is a share, N m or N; if there is none, the largest that occurs within these
+    /// ranges.
     pub force: Option<f64>,
 }
 

@@ -2,11 +2,11 @@
 //!
 //! Mass on the axis of a joint that turns belongs to both bodies: whichever carries it, it moves the same. Of such mass
 //! the moments ∫1, ∫z and ∫z² enter, which are three of a body's ten parameters: the mass m, the first moment h_z and
-//! the second moment Σ_zz (of which an inertia tensor has diag(1, 1, 0)). Moved to the parent they leave a body with seven. For
-//! a joint that moves along z, all second moments about the body's origin can go. Kinetic and potential energy of the
-//! whole mechanism, hence M, C and g, stay exactly the same (Gautier & Khalil, "Direct calculation of minimum set of
-//! inertial parameters of serial robots", IEEE Trans. Robotics and Automation 6(3), 1990). Energies and wrenches of
-//! single links do not, and a body left over need not be a possible one.
+//! the second moment Σ_zz (of which an inertia tensor has diag(1, 1, 0)). Moved to the parent they leave a body with
+//! seven. For a joint that moves along z, all second moments about the body's origin can go. Kinetic and potential
+//! energy of the whole mechanism, hence M, C and g, stay exactly the same (Gautier & Khalil, "Direct calculation of
+//! minimum set of inertial parameters of serial robots", IEEE Trans. Robotics and Automation 6(3), 1990). Energies and
+//! wrenches of single links do not, and a body left over need not be a possible one.
 
 use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;

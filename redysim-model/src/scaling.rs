@@ -1,8 +1,8 @@
 //! Another unit of length, in which a constant of the mechanism becomes 1.
 //!
 //! With lengths in a unit L and masses in a unit 1/L², moments of inertia, energies and the forces of joints that turn
-//! are the same numbers as in m and kg, so nothing has to be converted on the way in or out; but a length L, a mass 1/L²
-//! or a first moment 1/L is 1, and multiplies nothing.
+//! are the same numbers as in m and kg, so nothing has to be converted on the way in or out; but a length L, a mass
+//! 1/L² or a first moment 1/L is 1, and multiplies nothing.
 
 use crate::pseudo::PseudoInertia;
 use crate::tree::{Joint, Tree};

@@ -16,8 +16,9 @@ pub const FUNCTIONS: [&str; 10] = [
 
 /// What is asked of a mechanism. By default, everything.
 ///
-/// A model file may have a scene, under its keys `functions`, `locked` and `tolerance`; `redysim!` may be given another, of which each
-/// key wins over the file's. Locked joints are no part of this: a model that is loaded has them fixed already.
+/// A model file may have a scene, under its keys `functions`, `locked` and `tolerance`; `redysim!` may be given
+/// another, of which each key wins over the file's. Locked joints are no part of this: a model that is loaded has them
+/// fixed already.
 ///
 /// ```
 /// use redysim_model::{Functions, Scene};
@@ -31,8 +32,8 @@ pub const FUNCTIONS: [&str; 10] = [
 pub struct Scene {
     /// The functions that are wanted.
     pub functions: Functions,
-    /// The share of each joint's largest force by which joint forces, and of the largest of each of their results by which
-    /// the mass matrix and accelerations, may be wrong within the ranges of the joints. `None` prunes nothing.
+    /// The share of each joint's largest force by which joint forces, and of the largest of each of their results by
+    /// which the mass matrix and accelerations, may be wrong within the ranges of the joints. `None` prunes nothing.
     pub tolerance: Option<f64>,
 }
 

@@ -229,8 +229,8 @@ impl Tree {
         depths.into_iter().max().unwrap_or(0)
     }
 
-    /// Coordinates spread over ±3 by a fixed rule, the same for every `position`: what holds at a few of them holds, but
-    /// for freak coincidences, at all.
+    /// Coordinates spread over ±3 by a fixed rule, the same for every `position`: what holds at a few of them holds,
+    /// but for freak coincidences, at all.
     pub fn sample(&self, position: usize) -> Vec<f64> {
         let golden = 0.618_033_988_749_895;
         (0..self.dof()).map(|joint| (golden * (position * self.dof() + joint + 1) as f64).fract() * 6.0 - 3.0).collect()

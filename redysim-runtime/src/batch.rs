@@ -2,8 +2,8 @@
 //! controllers, learning and identification. Needs the feature `std`.
 //!
 //! States and results are slices of arrays that the caller owns. Any number of states will do; each result has the bits
-//! that [`Scalar`] lanes of any width, and so plain numbers too, give for its state, on however many threads. Nothing is
-//! allocated beyond what the thread pool of `rayon` does when it is handed work; up to [`SERIAL`] states stay on the
+//! that [`Scalar`] lanes of any width, and so plain numbers too, give for its state, on however many threads. Nothing
+//! is allocated beyond what the thread pool of `rayon` does when it is handed work; up to [`SERIAL`] states stay on the
 //! caller's thread. To choose the number of threads, call these functions within `rayon::ThreadPool::install`.
 //!
 //! A rollout over many time steps is best done in one [`map`], whose function takes all the steps, so that threads are

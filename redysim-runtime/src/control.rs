@@ -1,7 +1,7 @@
 //! Torque laws: what the actuators do.
 //!
-//! The given laws treat each joint by itself, with one gain for each, and subtract coordinates from coordinates: they are
-//! for revolute and prismatic joints. Torques are N m (N for a prismatic joint), proportional gains N m/rad (N/m),
+//! The given laws treat each joint by itself, with one gain for each, and subtract coordinates from coordinates: they
+//! are for revolute and prismatic joints. Torques are N m (N for a prismatic joint), proportional gains N m/rad (N/m),
 //! derivative gains N m s/rad (N s/m), unless said otherwise. One gain for all joints is written `[50.0; Kr5::NV]`, or
 //! for any mechanism [`uniform`]. A gain or a target that a `Vec` lacks counts as NaN, which integrators report.
 
@@ -158,9 +158,9 @@ where
 
 /// Computed torque: τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), with the error e = q_d(t) − q.
 ///
-/// For a model that is right it leaves the linear error dynamics ë + Kd ė + Kp e = 0, the same for every joint and every
-/// pose. It takes one inverse dynamics; no matrix is formed. The gains multiply accelerations: Kp 1/s², Kd 1/s. Kd = 2√Kp
-/// is critically damped.
+/// For a model that is right it leaves the linear error dynamics ë + Kd ė + Kp e = 0, the same for every joint and
+/// every pose. It takes one inverse dynamics; no matrix is formed. The gains multiply accelerations: Kp 1/s², Kd 1/s.
+/// Kd = 2√Kp is critically damped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ComputedTorque<'m, M, T, V> {
     /// The mechanism as the controller knows it.

@@ -105,8 +105,8 @@ pub trait LinkKinematics<S: Scalar>: Mechanism<S> {
 
 /// The closure of the loops of a mechanism `M`: conditions on its coordinates that the cut joints set.
 ///
-/// A compiled type is its own closure; who knows a better one (a closed form, or conditions that no cut joint describes)
-/// implements this for a type of their own.
+/// A compiled type is its own closure; who knows a better one (a closed form, or conditions that no cut joint
+/// describes) implements this for a type of their own.
 pub trait LoopClosure<S: Scalar, M: Mechanism<S>> {
     /// One value for each row: `[S; NC]`.
     type Rows: Vector<S>;

@@ -3,8 +3,8 @@
 /// Coordinates of a mechanism with the sines and cosines of its angles: what a compiled type computes by `posture(&q)`,
 /// and its functions `…_at` take.
 ///
-/// Half of the time of a small mechanism's inverse dynamics goes into sines and cosines. A controller that wants inverse
-/// dynamics, mass matrix and kinematics at one position computes them once:
+/// Half of the time of a small mechanism's inverse dynamics goes into sines and cosines. A controller that wants
+/// inverse dynamics, mass matrix and kinematics at one position computes them once:
 ///
 /// ```text
 /// let at = Kr5::posture(&q);
@@ -12,8 +12,8 @@
 /// let inertia = Kr5::mass_matrix_at(&at);
 /// ```
 ///
-/// `Q` is the number of coordinates, `A` that of angles: the joint angles with their offsets, and sums of them where that
-/// is cheaper. Angles of single joints come first, in the order of the coordinates, then sums.
+/// `Q` is the number of coordinates, `A` that of angles: the joint angles with their offsets, and sums of them where
+/// that is cheaper. Angles of single joints come first, in the order of the coordinates, then sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Posture<S, const Q: usize, const A: usize> {
     /// The coordinates, rad or m.

@@ -104,8 +104,8 @@ where
         let Some(da) = self.mechanism.forward_dynamics_tangent((&q, &v, &tau), (&dq, &dv, &dtau)) else {
             return false;
         };
-        // N(q) v is linear in v; what it does with q matters to joints of more than one freedom only, of which there are
-        // none, so that N is constant.
+        // N(q) v is linear in v; what it does with q matters to joints of more than one freedom only, of which there
+        // are none, so that N is constant.
         let drates = self.mechanism.coordinate_rates(&q, &dv);
         write(drates.as_ref().iter().chain(da.as_ref()).chain(once(&(dot(&dtau, &v) + dot(&tau, &dv)))), slope);
         true

@@ -33,9 +33,9 @@ impl<S, Q, V, F: Fn(S) -> Motion<Q, V>> Trajectory<S, Q, V> for F {
 ///
 /// θ(t) = θ₀ + (θ₁ − θ₀)/T · (t − T/(2π) sin(2πt/T)), 0 ≤ t ≤ T,
 ///
-/// with vanishing velocity and acceleration at both ends, and rest before and after. For joints whose velocities are the
-/// rates of their coordinates (revolute and prismatic ones). Source: eq. (1) of S. V. Shah, P. V. Nandihal and S. K.
-/// Saha, *Recursive dynamics simulator (ReDySim)*, Theor. Appl. Mech. Lett. 2, 063011 (2012).
+/// with vanishing velocity and acceleration at both ends, and rest before and after. For joints whose velocities are
+/// the rates of their coordinates (revolute and prismatic ones). Source: eq. (1) of S. V. Shah, P. V. Nandihal and S.
+/// K. Saha, *Recursive dynamics simulator (ReDySim)*, Theor. Appl. Mech. Lett. 2, 063011 (2012).
 ///
 /// ```
 /// use redysim_runtime::{Cycloid, Trajectory};

@@ -173,7 +173,8 @@ fn the_energy_of_a_double_pendulum_has_no_slope() {
     let (six, largest) = energy_slope(Gauss6::new(0.01), 1000.0);
     println!("Gauss6: slope {six:e} per s, largest error {largest:e}");
     assert!(six.abs() < 1e-15 && largest < 1e-11);
-    // Ode4 loses energy in proportion to the fifth power of its step: 1024 times as much with steps four times as large.
+    // Ode4 loses energy in proportion to the fifth power of its step: 1024 times as much with steps four times as
+    // large.
     let [long, short] = [0.01, 0.0025].map(|step| energy_slope(Ode4::new(step), 200.0).0);
     println!("Ode4: slopes {long:e} and {short:e} per s, ratio {}", long / short);
     assert!((long / short / 1024.0 - 1.0).abs() < 0.2);
@@ -184,8 +185,8 @@ fn kepler(_t: f64, y: &[f64; 4], rate: &mut [f64; 4]) {
     *rate = [y[2], y[3], -y[0] / r3, -y[1] / r3];
 }
 
-/// The largest energy errors in the first and in the last of 100 revolutions of eccentricity 0.6, with steps of 1/200 of
-/// one.
+/// The largest energy errors in the first and in the last of 100 revolutions of eccentricity 0.6, with steps of 1/200
+/// of one.
 fn energy_errors_of_a_planet<M: Integrator<f64>>(method: impl Fn(f64) -> M) -> (f64, f64) {
     let period = std::f64::consts::TAU;
     let (mut first, mut last) = (0.0_f64, 0.0_f64);

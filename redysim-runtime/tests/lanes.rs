@@ -4,8 +4,8 @@ use redysim_runtime::lanes::{F32x8, F32x16, F64x2, F64x4, F64x8, Lanes, pack, un
 use redysim_runtime::scalar::FUSED;
 use redysim_runtime::{Real, Scalar};
 
-/// Numbers of all sizes, angles that every path of the reduction takes, two between quarter turns, of which either may be
-/// taken for the nearest, and what is not finite.
+/// Numbers of all sizes, angles that every path of the reduction takes, two between quarter turns, of which either may
+/// be taken for the nearest, and what is not finite.
 const NUMBERS: [f64; 20] = [
     0.3,
     -1.7,

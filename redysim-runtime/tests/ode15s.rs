@@ -170,8 +170,8 @@ fn van_der_pols_oscillator_costs_what_it_costs_in_matlab() {
     }
 }
 
-/// With ÿ = ∂f/∂t + (∂f/∂y) f known, the error ½ h² |ÿ| / |y| of the first step is 0.8² of the tolerance: on the solution
-/// cos t both parts are in ÿ = −1, and off it, at y(0) = 2 with λ = −10, in ÿ = −1 + 100.
+/// With ÿ = ∂f/∂t + (∂f/∂y) f known, the error ½ h² |ÿ| / |y| of the first step is 0.8² of the tolerance: on the
+/// solution cos t both parts are in ÿ = −1, and off it, at y(0) = 2 with λ = −10, in ÿ = −1 + 100.
 #[test]
 fn the_first_step_follows_from_the_second_derivative() {
     for (lambda, start, second) in [(-1e6, 1.0, 1.0), (-10.0, 1.0, 1.0), (-10.0, 2.0, 99.0)] {

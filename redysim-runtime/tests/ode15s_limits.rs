@@ -1,4 +1,5 @@
-//! Numerical differentiation formulas where something is in their way: corrections of the state, jumps, poles, bad numbers.
+//! Numerical differentiation formulas where something is in their way: corrections of the state, jumps, poles, bad
+//! numbers.
 
 use redysim_runtime::IntegrationError::{self, *};
 use redysim_runtime::integrate::{Accepted, Adaptive, Bdf, FixedStep};

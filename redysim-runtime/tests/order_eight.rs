@@ -40,8 +40,8 @@ fn steps_of_order_eight_converge_with_order_eight() {
     assert!((p - 8.0).abs() < 0.2, "{p}");
 }
 
-/// The extension is of order 7: what it does wrong within one step shrinks with h⁸. It is seen from the true solution at
-/// the start of the step, so that errors of earlier steps do not hide it.
+/// The extension is of order 7: what it does wrong within one step shrinks with h⁸. It is seen from the true solution
+/// at the start of the step, so that errors of earlier steps do not hide it.
 #[test]
 fn the_extension_of_order_eight_is_of_order_seven() {
     let local = |h: f64| {

@@ -146,8 +146,8 @@ fn radau(tolerance: f64) -> Radau5<'static, f64> {
     Radau5::new().rtol(tolerance).atol(tolerance)
 }
 
-/// With error proportional to tolerance and to h⁶ in each step, the number of steps grows with the tolerance to the power
-/// −1/6.
+/// With error proportional to tolerance and to h⁶ in each step, the number of steps grows with the tolerance to the
+/// power −1/6.
 #[test]
 fn the_error_is_in_proportion_to_the_tolerance_with_steps_of_order_six() {
     let measure = |tolerance: f64| {

@@ -60,8 +60,8 @@ fn the_error_is_of_order_one_also_between_the_steps_and_backward() {
     }
 }
 
-/// (q² + v² − h q v)/2 is invariant, so that the energy stays within h/2 of itself, while the explicit method multiplies
-/// it by 1 + h² in every step.
+/// (q² + v² − h q v)/2 is invariant, so that the energy stays within h/2 of itself, while the explicit method
+/// multiplies it by 1 + h² in every step.
 #[test]
 fn the_energy_of_an_oscillator_swings_but_does_not_grow() {
     let h = 0.1;

@@ -92,8 +92,8 @@ fn fast_swings_long_runs_and_tight_tolerances_are_not_stiff() {
             Dop853::new().rtol(rtol).stiffness_limit(Some(0)).integrate(&mut fast, (0.0, 20.0), [1.0, 0.0]).unwrap();
         println!("{:?}", end.statistics);
     }
-    // Velocities that do not count make a swing look stiff whenever it turns back, again and again: what saves it is that
-    // the eigenvalues are asked.
+    // Velocities that do not count make a swing look stiff whenever it turns back, again and again: what saves it is
+    // that the eigenvalues are asked.
     let mut jacobians = 0;
     for rtol in [1e-2, 3e-3, 1e-3] {
         let tolerances = [1e-9, 1e9];

@@ -1,7 +1,8 @@
 //! Andrews' squeezing mechanism: what the model file does not hold, and published numbers.
 //!
-//! Coordinates are the published ones, (β, Θ, γ, Φ, δ, Ω, ε), as in `models/andrews.toml`. Source: F. Mazzia, C. Magherini,
-//! *Test Set for Initial Value Problem Solvers*, chapter "Andrews' squeezing mechanism"; IFToMM benchmark library, A03.
+//! Coordinates are the published ones, (β, Θ, γ, Φ, δ, Ω, ε), as in `models/andrews.toml`. Source: F. Mazzia, C.
+//! Magherini, *Test Set for Initial Value Problem Solvers*, chapter "Andrews' squeezing mechanism"; IFToMM benchmark
+//! library, A03.
 
 /// The moment that drives β, N m.
 pub const DRIVE: f64 = 0.033;

@@ -44,8 +44,8 @@ impl Random {
         State { q: self.vector(dof, PI), v: self.vector(dof, 3.0), a: self.vector(dof, 10.0) }
     }
 
-    /// Links of a tree that grows from the ground, then put in any order: mostly each on the one before, so that chains get
-    /// long, else on any, or on the ground. `link` makes the `n`th to grow, given its parent's place in the result.
+    /// Links of a tree that grows from the ground, then put in any order: mostly each on the one before, so that chains
+    /// get long, else on any, or on the ground. `link` makes the `n`th to grow, given its parent's place in the result.
     pub fn tree<L>(&mut self, count: usize, mut link: impl FnMut(&mut Self, usize, Option<usize>) -> L) -> Vec<L> {
         let mut order: Vec<usize> = (0..count).collect();
         for index in (1..count).rev() {

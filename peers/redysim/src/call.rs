@@ -10,8 +10,9 @@ pub struct State<V> {
 
 /// Exports `function`, from a state to a result, as the C function `name`.
 ///
-/// The arguments are references, which tell the compiler that state and result lie apart: then it writes the result where
-/// the timer wants it. Otherwise it would copy it there, in wider pieces than it was written in, which waits for memory.
+/// The arguments are references, which tell the compiler that state and result lie apart: then it writes the result
+/// where the timer wants it. Otherwise it would copy it there, in wider pieces than it was written in, which waits for
+/// memory.
 macro_rules! export {
     ($name:expr, $state:ty => $result:ty, $function:expr) => {
         const _: () = {

@@ -1,7 +1,7 @@
 //! The two tasks that the ReDySim paper timed, on the gripper as ReDySim ships it.
 //!
-//! The state that the timer hands over is not used, but comes from outside: it is added to the start with weight zero, so
-//! that nothing can be worked out in advance.
+//! The state that the timer hands over is not used, but comes from outside: it is added to the start with weight zero,
+//! so that nothing can be worked out in advance.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 

@@ -43,8 +43,8 @@ impl Emitter<'_> {
     /// }
     /// ```
     ///
-    /// An array from a closure would not have to be set to zero first, but where the compiler does not inline the closure,
-    /// what goes from body to body goes through memory.
+    /// An array from a closure would not have to be set to zero first, but where the compiler does not inline the
+    /// closure, what goes from body to body goes through memory.
     pub fn rolled_sweep(&self, number: usize) -> Statement {
         let rolled = self.rolled.as_ref().expect("only loops are rolled");
         let sweep = &rolled.sweeps[number];

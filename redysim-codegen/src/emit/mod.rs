@@ -1,4 +1,5 @@
-//! Expressions as Rust: one `let` for each value that has a name or more than one use, and loops where bodies are alike.
+//! Expressions as Rust: one `let` for each value that has a name or more than one use, and loops where bodies are
+//! alike.
 
 mod angles;
 mod blocks;
@@ -202,8 +203,8 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// Products whose only use is a sum with something that is not such a product itself, or is the earlier of two: with the
-/// sum they are one operation.
+/// Products whose only use is a sum with something that is not such a product itself, or is the earlier of two: with
+/// the sum they are one operation.
 fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
     let mut fused = vec![false; graph.len()];
     for index in (0..graph.len()).filter(|&index| uses[index] > 0) {

@@ -3,7 +3,8 @@
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 
-/// Additions and subtractions that are only part of one larger sum; if `by_body`, of one in the same step of a recursion.
+/// Additions and subtractions that are only part of one larger sum; if `by_body`, of one in the same step of a
+/// recursion.
 pub fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
     let mut inner = vec![false; graph.len()];
     for index in (0..graph.len()).rev() {

@@ -1,7 +1,7 @@
 //! Expressions evaluated in many states at once, and the derivatives of their outputs by every value in them.
 //!
-//! Each value has a column, one number for each state. What is done for a node is a loop by index over plain slices: macros
-//! run without optimisation, where iterators and operators of other types take several times as long.
+//! Each value has a column, one number for each state. What is done for a node is a loop by index over plain slices:
+//! macros run without optimisation, where iterators and operators of other types take several times as long.
 
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Node};

@@ -55,8 +55,8 @@ fn share_of(error: f64, scale: f64) -> f64 {
     if share.is_nan() { f64::INFINITY } else { share }
 }
 
-/// What the error of each output is a share of: for joint forces, the force that the joint's range states; for an element
-/// of the mass matrix, √(M_ii M_jj); else its largest size.
+/// What the error of each output is a share of: for joint forces, the force that the joint's range states; for an
+/// element of the mass matrix, √(M_ii M_jj); else its largest size.
 pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
     match shape {
         Shape::Vector if states.forces.is_none() => {
@@ -72,7 +72,8 @@ pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Of the blocks of states with these numbers; `both` has the outputs of the whole function, then those of the pruned one.
+/// Of the blocks of states with these numbers; `both` has the outputs of the whole function, then those of the pruned
+/// one.
 fn extremes(both: &Expressions, states: &States, blocks: Range<usize>, seed: u64) -> Extremes {
     let live = live(both);
     let mut values = Columns::new(both.graph.len(), BLOCK);

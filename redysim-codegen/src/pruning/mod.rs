@@ -1,13 +1,14 @@
 //! Terms that do not matter within the ranges of the joints, left out.
 //!
-//! What a value does to an output is, to first order, its change times the derivative of the output by it. Both are known in
-//! a sample of states, corners of the ranges among them, so that the effect of leaving something out is a column of numbers,
-//! and effects add up with their signs. Rounds of this go on until nothing more can be left out; then the error is measured in
-//! a hundred thousand other states, without any approximation. Where it exceeds the tolerance, all is done again for less.
+//! What a value does to an output is, to first order, its change times the derivative of the output by it. Both are
+//! known in a sample of states, corners of the ranges among them, so that the effect of leaving something out is a
+//! column of numbers, and effects add up with their signs. Rounds of this go on until nothing more can be left out;
+//! then the error is measured in a hundred thousand other states, without any approximation. Where it exceeds the
+//! tolerance, all is done again for less.
 //!
-//! Published precedent: "customized" dynamics of the PUMA 560, in which terms below 1 % of the largest torque were left out
-//! (Armstrong, Khatib & Burdick, "The explicit dynamic model and inertial parameters of the PUMA 560 arm", Proc. IEEE Int.
-//! Conf. on Robotics and Automation, 1986).
+//! Published precedent: "customized" dynamics of the PUMA 560, in which terms below 1 % of the largest torque were left
+//! out (Armstrong, Khatib & Burdick, "The explicit dynamic model and inertial parameters of the PUMA 560 arm", Proc.
+//! IEEE Int. Conf. on Robotics and Automation, 1986).
 
 mod columns;
 mod measure;
@@ -36,13 +37,15 @@ pub struct Pruning {
     pub worst: f64,
     /// In how many states that was looked for.
     pub states: usize,
-    /// Whether the tolerance holds, with a tenth of it to spare for other states. If not, the function is left whole, and `worst` is that of the last attempt.
+    /// Whether the tolerance holds, with a tenth of it to spare for other states. If not, the function is left whole,
+    /// and `worst` is that of the last attempt.
     pub holds: bool,
 }
 
 /// States in which the error of a pruned function is measured.
 const MEASURED: usize = 100_000;
-/// The part of the tolerance that a pruned function may use up in these; the rest is for states in which it was not measured.
+/// The part of the tolerance that a pruned function may use up in these; the rest is for states in which it was not
+/// measured.
 const USED: f64 = 0.9;
 /// Rounds at most; each sees what the one before has made possible.
 const ROUNDS: usize = 6;
@@ -76,8 +79,8 @@ pub fn pruned(
         let few = in_states(MEASURED / 20);
         if few.holds { in_states(MEASURED) } else { few }
     };
-    // The sample may miss the worst states. So what is aimed at there is found by bisection, between the largest aim with which
-    // the bound holds elsewhere and the smallest with which it does not.
+    // The sample may miss the worst states. So what is aimed at there is found by bisection, between the largest aim
+    // with which the bound holds elsewhere and the smallest with which it does not.
     let (mut aim, mut held, mut broken) = (bound, 0.0, f64::INFINITY);
     let mut least: Option<(Expressions, Pruning)> = None;
     let mut last = Pruning { tolerance, before, worst: f64::INFINITY, states: 0, holds: false };

@@ -1,5 +1,5 @@
-//! What may stand in the place of a value: one of its operands, or a number. So a term of a sum, a factor near 1, or the
-//! small change of a cosine is left out.
+//! What may stand in the place of a value: one of its operands, or a number. So a term of a sum, a factor near 1, or
+//! the small change of a cosine is left out.
 
 use super::columns::{Columns, sign};
 use crate::expressions::{Expressions, PRICE_PER_PAIR};

@@ -1,5 +1,5 @@
-//! One round of pruning: the replacements that save most for the error they make, as long as all of them together stay within
-//! the error allowed.
+//! One round of pruning: the replacements that save most for the error they make, as long as all of them together stay
+//! within the error allowed.
 
 use super::columns::{Columns, derivatives, evaluate, live, sign};
 use super::replacement::{Replacement, Simplification, candidates};

@@ -55,8 +55,8 @@ pub struct Sweep {
     pub start: usize,
     /// The nodes of the template, in order.
     pub template: Vec<usize>,
-    /// Nodes of the template whose value in the group before is read, or that of the last group after the loop. Each with
-    /// its value before the loop, if any.
+    /// Nodes of the template whose value in the group before is read, or that of the last group after the loop. Each
+    /// with its value before the loop, if any.
     pub carried: Vec<(usize, Option<Edge>)>,
     /// Nodes of the template of which other code reads the values of several groups.
     pub kept: Vec<usize>,

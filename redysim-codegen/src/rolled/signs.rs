@@ -3,7 +3,8 @@
 //! With a sign for each value, a sum asks that both of its terms carry the sign of the sum, a product has the product
 //! of the signs of its factors, and a product with a constant may have either, since the constant takes it. Values
 //! whose signs hang together are joined into classes, in the order of the operations. Where a sign is wanted before
-//! anything is known of it, it becomes an unknown, and a class that closes on itself gives an equation for the unknowns.
+//! anything is known of it, it becomes an unknown, and a class that closes on itself gives an equation for the
+//! unknowns.
 
 use super::{Place, TEMPLATE};
 use crate::graph::{Edge, Graph, Node};

@@ -12,8 +12,8 @@ use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::{AxisMass, take_from_parent};
 use redysim_model::tree::Joint;
 
-/// A mass on an axis is at most so many times the largest of its kind in the robot: where a body is a small lever, a large
-/// mass would be wanted, and its digits would be those that the others lose.
+/// A mass on an axis is at most so many times the largest of its kind in the robot: where a body is a small lever, a
+/// large mass would be wanted, and its digits would be those that the others lose.
 const LARGEST: f64 = 8.0;
 
 /// The tree, of base parameters, with masses on its axes where they lower the cost.
@@ -53,8 +53,8 @@ enum Kind {
 }
 
 impl Kind {
-    /// The largest of this kind in the robot. Base parameters have moved most of the mass to the ground; its moments there
-    /// depend on where the robot stands.
+    /// The largest of this kind in the robot. Base parameters have moved most of the mass to the ground; its moments
+    /// there depend on where the robot stands.
     fn largest(self, tree: &Tree) -> f64 {
         let least = if let Kind::Mass = self { tree.ground.mass } else { 0.0 };
         let values = tree.bodies.iter().flat_map(|body| match self {

@@ -111,8 +111,8 @@ fn matrix_price(tree: &Tree) -> u32 {
     mass_matrix(tree).price()
 }
 
-/// What inverse dynamics and the mass matrix cost, without the passes over expressions: these take most of the time, and
-/// what they gain differs little from choice to choice.
+/// What inverse dynamics and the mass matrix cost, without the passes over expressions: these take most of the time,
+/// and what they gain differs little from choice to choice.
 fn inverse_dynamics(tree: &Tree) -> Expressions {
     traced(tree, &Passes::none(), 3, |x| denoc::inverse_dynamics(tree, x[0], x[1], x[2]))
 }

@@ -52,8 +52,8 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     findings
 }
 
-/// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank is,
-/// unless lengths and directions conspire (augmenting paths).
+/// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank
+/// is, unless lengths and directions conspire (augmenting paths).
 fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
     fn pair(row: usize, jacobian: &[Vec<f64>], seen: &mut [bool], rows_of: &mut [Option<usize>]) -> bool {
         for column in 0..rows_of.len() {

@@ -42,8 +42,8 @@ impl<S: Scalar> Spatial<S> {
     }
 }
 
-/// The symmetric 6×6 matrix [J H; Hᵀ M] that takes the acceleration (ω̇, a) of a body to the wrench (n, f) it needs, with
-/// the joints it carries free to move.
+/// The symmetric 6×6 matrix [J H; Hᵀ M] that takes the acceleration (ω̇, a) of a body to the wrench (n, f) it needs,
+/// with the joints it carries free to move.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArticulatedInertia<S> {
     /// J, moment for angular acceleration.

@@ -1,8 +1,8 @@
 //! Closed loops: how far the two sides of each cut joint are apart, and how that changes.
 //!
 //! The rows of a cut are the point of side b minus the point of side a, in the base frame; then what keeps directions
-//! aligned: sums of products aᵢ·bⱼ of axes of the two sides ([`CutKind::alignments`]). Rows that vanish at every position
-//! are left out ([`Cut::rows`](crate::tree::Cut::rows)), so that a planar mechanism costs planar code.
+//! aligned: sums of products aᵢ·bⱼ of axes of the two sides ([`CutKind::alignments`]). Rows that vanish at every
+//! position are left out ([`Cut::rows`](crate::tree::Cut::rows)), so that a planar mechanism costs planar code.
 
 use super::joint::{JointFrame, joint_frames};
 use crate::model::CutKind;

@@ -41,7 +41,8 @@ pub(crate) enum Text {
     Scene,
 }
 
-/// One finding about a model file, or about the scene beside it. Its `Display` is the whole picture: title, place, source line with carets, help.
+/// One finding about a model file, or about the scene beside it. Its `Display` is the whole picture: title, place,
+/// source line with carets, help.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
     severity: Severity,

@@ -14,7 +14,8 @@ use toml::de::{DeTable, DeValue};
 #[derive(Debug)]
 pub(crate) struct SceneTable {
     pub(crate) functions: Entry<Field<FunctionNames>>,
-    /// The joints that are locked. One whose value is faulty is among them, at zero: what is around the model counts joints.
+    /// The joints that are locked. One whose value is faulty is among them, at zero: what is around the model counts
+    /// joints.
     pub(crate) locked: Entry<Vec<Lock>>,
     pub(crate) tolerance: Entry<Field<f64>>,
 }

@@ -34,8 +34,8 @@ pub struct Assembly<S, Q, V> {
 
 impl<M, C> ClosedLoop<'_, M, C> {
     /// Closes the loops from the guess `q` and fits the velocities to the guess `v`, with the coordinates `held` (and
-    /// their velocities) as they are; the others move as little as they can, in the metric of M (or, where that does not close them, of the
-    /// coordinates themselves).
+    /// their velocities) as they are; the others move as little as they can, in the metric of M (or, where that does
+    /// not close them, of the coordinates themselves).
     ///
     /// It stays on the branch of the guess: no coordinate moves by more than 0.2 rad (or m) in one iteration, and none
     /// of them widens the gap. The result is closed to 10⁻¹⁴ of the mechanism's size.

@@ -60,7 +60,8 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     /// # Errors
     /// [`LoopError::Unreachable`], [`LoopError::LostRank`] if the independent coordinates do not determine the others,
     /// [`LoopError::PullsApart`] if they contradict each other, [`LoopError::Unsupported`] if there are too few
-    /// actuators, [`LoopError::WrongTrajectory`], [`LoopError::RepeatedCoordinate`], [`LoopError::BadCoordinate`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    /// actuators, [`LoopError::WrongTrajectory`], [`LoopError::RepeatedCoordinate`], [`LoopError::BadCoordinate`],
+    /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn at<S: Real, I: Vector<S>>(
         &mut self,

@@ -4,8 +4,8 @@
 //! [`LoopClosure`](crate::LoopClosure) says how far its cut joints are apart. [`ClosedLoop`] puts both together:
 //! [`assemble`](ClosedLoop::assemble) closes the loops from a guess, [`dynamics`](ClosedLoop::dynamics) gives
 //! accelerations and constraint forces, [`project`](ClosedLoop::project) takes away drift, [`ClosedLoopSimulation`]
-//! moves the mechanism in time with any integrator, and [`ClosedLoopInverse`] finds the joint forces for a trajectory of
-//! the independent coordinates.
+//! moves the mechanism in time with any integrator, and [`ClosedLoopInverse`] finds the joint forces for a trajectory
+//! of the independent coordinates.
 //!
 //! Everything stands on one decomposition: the rows of J in the metric of M, split into a part
 //! that is independent and a part that is not. So redundant rows and singular positions are ordinary cases.

@@ -31,8 +31,8 @@ impl<M, C> ClosedLoop<'_, M, C> {
     /// singular position does not determine.
     ///
     /// # Errors
-    /// [`LoopError::NoConvergence`] if more than 10⁻⁶ of the mechanism's size (3·10⁻³ in `f32`) stays open; [`LoopError::SingularInertia`]
-    /// and [`LoopError::NotFinite`].
+    /// [`LoopError::NoConvergence`] if more than 10⁻⁶ of the mechanism's size (3·10⁻³ in `f32`) stays open;
+    /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
     pub fn project<S: Real>(
         &self,
         q: &M::Coordinates,

@@ -117,8 +117,8 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     }
 
     /// The parts of a state at which the derivative is taken, and the loops there: the state itself, or, with the
-    /// projection near a singular position or with redundant rows, the nearest one that keeps the loops closed: in a state
-    /// that is slightly open rows contradict each other, and the rank may be another.
+    /// projection near a singular position or with redundant rows, the nearest one that keeps the loops closed: in a
+    /// state that is slightly open rows contradict each other, and the rank may be another.
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     fn taken_at(&self, state: &M::State) -> Result<(M::Coordinates, M::Velocities, Linearised<S, M, C>), LoopError<S>>
     where

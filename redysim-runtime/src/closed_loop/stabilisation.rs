@@ -10,15 +10,15 @@ const LARGEST_PRODUCT: f64 = 1.3;
 /// How a simulation keeps its loops closed against the errors of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stabilisation<S> {
-    /// After each accepted step, position and velocity go to the nearest ones that close the loops: at the ends of steps
-    /// the residual stays at rounding size. At asked times within a step it is as small as the method is accurate; where
-    /// that matters, [`ClosedLoop::project`](super::ClosedLoop::project) closes a state.
+    /// After each accepted step, position and velocity go to the nearest ones that close the loops: at the ends of
+    /// steps the residual stays at rounding size. At asked times within a step it is as small as the method is
+    /// accurate; where that matters, [`ClosedLoop::project`](super::ClosedLoop::project) closes a state.
     #[default]
     Projection,
     /// Baumgarte's feedback, critically damped: J a = −J̇ q̇ − 2 α J q̇ − α² r. It changes no state, and leaves a
     /// residual that depends on α and the step. Steps with α h ≥ 1.3 are refused. It is not for motion through singular
-    /// positions: there it goes wrong, and the smaller the steps, the sooner; nor backward in time, where feedback drives
-    /// apart what it should hold.
+    /// positions: there it goes wrong, and the smaller the steps, the sooner; nor backward in time, where feedback
+    /// drives apart what it should hold.
     Baumgarte {
         /// α, 1/s.
         alpha: S,

@@ -96,8 +96,8 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
     }
 
     /// Sets how many steps may lie ahead of an explicit method whose steps are small for stability, not for accuracy;
-    /// with more of them to the end it gives up with [`IntegrationError::Stiff`]. 10⁴ unless told; `None` lets it crawl.
-    /// Implicit methods do not ask.
+    /// with more of them to the end it gives up with [`IntegrationError::Stiff`]. 10⁴ unless told; `None` lets it
+    /// crawl. Implicit methods do not ask.
     pub fn stiffness_limit(mut self, steps: Option<u64>) -> Self {
         self.stiffness_limit = steps;
         self

@@ -105,8 +105,8 @@ pub enum IntegrationError<S> {
         /// The size of the step that was to follow.
         step: S,
     },
-    /// Steps of an explicit method are small for stability, not for accuracy, and the rest of the interval would take very
-    /// many of them.
+    /// Steps of an explicit method are small for stability, not for accuracy, and the rest of the interval would take
+    /// very many of them.
     Stiff {
         /// The time that was reached.
         t: S,
@@ -178,8 +178,8 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                  by zero, a singular mass matrix or a bad force there"
             ),
             Self::NoCoordinates => f.write_str(
-                "the method treats coordinates and velocities differently, but the equation has 0 coordinates; simulate \
-                 a mechanism, implement Ode::coordinate_rates, or take a method for any equation, such as Ode4",
+                "the method treats coordinates and velocities differently, but the equation has 0 coordinates; \
+                 simulate a mechanism, implement Ode::coordinate_rates, or take a method for any equation, such as Ode4",
             ),
             Self::NoEigenvalues { t } => write!(
                 f,
@@ -197,9 +197,9 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             ),
             Self::NotConverged { t, step } => write!(
                 f,
-                "from t = {t:?} the equations of an implicit step of {step:?} are not solved by iteration; take smaller \
-                 steps, or Radau5 or Ode15s if the equation is stiff, and look for a jump of the derivative or a wrong \
-                 tangent there"
+                "from t = {t:?} the equations of an implicit step of {step:?} are not solved by iteration; take \
+                 smaller steps, or Radau5 or Ode15s if the equation is stiff, and look for a jump of the derivative or \
+                 a wrong tangent there"
             ),
             Self::StepTooSmall { t, step } => write!(
                 f,
@@ -208,9 +208,9 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             ),
             Self::Stiff { t, step, remaining } => write!(
                 f,
-                "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the rest of \
-                 the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, lower the \
-                 gains or dampings, or let it go on with stiffness_limit(None)"
+                "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the rest \
+                 of the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, lower \
+                 the gains or dampings, or let it go on with stiffness_limit(None)"
             ),
             Self::TooManySteps { t, limit } => write!(
                 f,

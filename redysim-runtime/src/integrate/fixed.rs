@@ -12,9 +12,9 @@ use crate::{Real, Vector};
 
 /// A method with steps of one given size: see [`Ode5`](super::Ode5) and its like.
 ///
-/// Step k ends at t₀ + k h, computed by one product, so that times do not drift. Where the interval is no multiple of h,
-/// the last step is shorter, so that the end is hit exactly; a rest of rounding size lengthens the last step instead.
-/// Nothing estimates the error: halve the step and compare.
+/// Step k ends at t₀ + k h, computed by one product, so that times do not drift. Where the interval is no multiple of
+/// h, the last step is shorter, so that the end is hit exactly; a rest of rounding size lengthens the last step
+/// instead. Nothing estimates the error: halve the step and compare.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedStep<S, M> {
     step: S,

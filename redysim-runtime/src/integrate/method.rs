@@ -48,8 +48,9 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     /// The derivative at the state; after the first step only where the method needs it.
     fn rate(&self) -> &Y;
 
-    /// The size of a first step that the tolerances will probably allow; `reach`, with its sign, is the largest that may
-    /// be. Unless told, the one with which a first-order step would change the state by 0.8 rtol^(1/exponent) of itself.
+    /// The size of a first step that the tolerances will probably allow; `reach`, with its sign, is the largest that
+    /// may be. Unless told, the one with which a first-order step would change the state by 0.8 rtol^(1/exponent) of
+    /// itself.
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.
@@ -91,15 +92,16 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
         Ok(())
     }
 
-    /// h |λ| for the largest eigenvalue λ of the Jacobian, as far as the attempted step shows it, and how large it may be
-    /// for a damped motion, λ < 0; `None`, as unless told, if nothing limits it or the method cannot tell.
+    /// h |λ| for the largest eigenvalue λ of the Jacobian, as far as the attempted step shows it, and how large it may
+    /// be for a damped motion, λ < 0; `None`, as unless told, if nothing limits it or the method cannot tell.
     fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {
         let _ = tolerances;
         None
     }
 
-    /// The state at which a step of the method from the start of the attempted one to `t`, within it, arrives; `None` if
-    /// it cannot be had and, as unless told, if the continuous extension is as good. The attempted step stays what it is.
+    /// The state at which a step of the method from the start of the attempted one to `t`, within it, arrives; `None`
+    /// if it cannot be had and, as unless told, if the continuous extension is as good. The attempted step stays what
+    /// it is.
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.

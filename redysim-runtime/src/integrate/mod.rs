@@ -1,16 +1,16 @@
 //! Integration of ordinary differential equations ẏ = f(t, y), forward or backward in time, without allocation.
 //!
 //! [`Ode4`], [`Ode5`], [`Dop8`] and [`SemiImplicitEuler`] take steps of one given size; [`Ode45`] and [`Dop853`] choose
-//! their steps from tolerances, as MATLAB's `ode45` does. [`Ode15s`] and [`Radau5`] are for stiff equations, [`Gauss4`] and
-//! [`Gauss6`] for long conservative motion. Each is an [`Integrator`], and gives the solution between its steps, too. What
-//! is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism, or a
-//! [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
+//! their steps from tolerances, as MATLAB's `ode45` does. [`Ode15s`] and [`Radau5`] are for stiff equations, [`Gauss4`]
+//! and [`Gauss6`] for long conservative motion. Each is an [`Integrator`], and gives the solution between its steps,
+//! too. What is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism,
+//! or a [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
-//! [`watch`](Integrator::watch) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be, and
-//! where an equation is stiff, explicit methods say so.
+//! [`watch`](Integrator::watch) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be,
+//! and where an equation is stiff, explicit methods say so.
 //!
-//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and [`collocation`], the
-//! solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
+//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and [`collocation`],
+//! the solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
 //! `tolerance`. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another method of any kind
 //! another [`Method`](method::Method).
 
@@ -132,8 +132,9 @@ impl<S, Y, F: FnMut(S, &Y, &mut Y)> Ode<S, Y> for F {
 /// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
 /// ```
 pub trait Integrator<S: Real> {
-    /// Integrates from `start` at the first time of `interval` to the second, earlier or later, and shows every accepted
-    /// step to `observer`, who may end the integration after it. All other functions are this one with an observer.
+    /// Integrates from `start` at the first time of `interval` to the second, earlier or later, and shows every
+    /// accepted step to `observer`, who may end the integration after it. All other functions are this one with an
+    /// observer.
     ///
     /// # Errors
     /// What [`IntegrationError`] lists; the number of evaluations is bounded in every case.
@@ -197,17 +198,18 @@ pub trait Integrator<S: Real> {
         asked.fault().map_or(Ok(solution), Err)
     }
 
-    /// Integrates over `interval` and looks for `events`: every crossing of zero of their functions is shown to `on_event`,
-    /// in order of time, also several in one step, before `on_step` is shown the step in which they are.
-    /// [`ControlFlow::Break`] from `on_event` ends the solution at the event: `on_step` is shown the step up to there, and
-    /// the [`Solution`] has the time and the state of the event, corrected by [`Ode::accepted`] like that at the end of a
-    /// step. Break from `on_step` ends it after that step.
+    /// Integrates over `interval` and looks for `events`: every crossing of zero of their functions is shown to
+    /// `on_event`, in order of time, also several in one step, before `on_step` is shown the step in which they are.
+    /// [`ControlFlow::Break`] from `on_event` ends the solution at the event: `on_step` is shown the step up to there,
+    /// and the [`Solution`] has the time and the state of the event, corrected by [`Ode::accepted`] like that at the
+    /// end of a step. Break from `on_step` ends it after that step.
     ///
     /// Crossings are found on the continuous extension, by nine samples of each step, and by a search for the minimum
     /// where a function comes near zero between them; one that crosses zero twice within a sixteenth of a step may be
-    /// missed. Methods whose extension is of lower order than their steps, all but [`Ode15s`] and [`SemiImplicitEuler`], then
-    /// refine time and state by steps of their own, so that both are as exact as the ends of steps: up to six steps for
-    /// each crossing, and usually two or three. The steps of the integration are the same as without events.
+    /// missed. Methods whose extension is of lower order than their steps, all but [`Ode15s`] and
+    /// [`SemiImplicitEuler`], then refine time and state by steps of their own, so that both are as exact as the ends
+    /// of steps: up to six steps for each crossing, and usually two or three. The steps of the integration are the same
+    /// as without events.
     ///
     /// # Errors
     /// As [`each_step_until`](Self::each_step_until), and for a function that is infinite or not a number.
@@ -276,7 +278,8 @@ pub struct Statistics {
     /// Evaluations of the right-hand side, those after corrections, for differences and for events included;
     /// [tangents](Ode::tangent) are not.
     pub evaluations: u64,
-    /// Accepted steps whose end was corrected by [`Ode::accepted`]; a state at which an event ends the integration is none.
+    /// Accepted steps whose end was corrected by [`Ode::accepted`]; a state at which an event ends the integration is
+    /// none.
     pub corrections: u64,
     /// Evaluations of the Jacobian ∂f/∂y.
     pub jacobians: u64,

@@ -14,12 +14,12 @@ use crate::{Real, Vector};
 ///
 /// v_new = v + h a(t, q, v), q_new = q + h N(q) v_new.
 ///
-/// It is of order 1: a baseline, and what many simulators of contact use. Where forces come from a potential and the mass
-/// matrix is constant, it is symplectic: the energy swings by O(h) but does not drift, which it would with the explicit
-/// method of Euler. Coordinates are what [`Ode::coordinate_rates`] says; everything else, velocities and the work of
-/// actuators, takes the explicit step. Each step costs one evaluation. Between the ends of its steps the solution is
-/// linear in time, as accurate as the method. E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical Integration*, 2nd
-/// ed., Springer (2006), section I.1.
+/// It is of order 1: a baseline, and what many simulators of contact use. Where forces come from a potential and the
+/// mass matrix is constant, it is symplectic: the energy swings by O(h) but does not drift, which it would with the
+/// explicit method of Euler. Coordinates are what [`Ode::coordinate_rates`] says; everything else, velocities and the
+/// work of actuators, takes the explicit step. Each step costs one evaluation. Between the ends of its steps the
+/// solution is linear in time, as accurate as the method. E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical
+/// Integration*, 2nd ed., Springer (2006), section I.1.
 ///
 /// ```
 /// # #[allow(dead_code)]

@@ -10,8 +10,8 @@ use crate::{Real, Vector};
 /// [`Radau5`](crate::Radau5), [`Gauss4`](crate::Gauss4) and [`Gauss6`](crate::Gauss6) the collocation polynomial, whose
 /// degree and order are the number of stages; for [`Ode15s`](crate::Ode15s) the polynomial through the ends of the last
 /// steps. It agrees with the neighbouring steps in value and, for the explicit methods, in derivative (where
-/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations, but with
-/// `Dop853` three for each step within which somebody looks.
+/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations, but
+/// with `Dop853` three for each step within which somebody looks.
 pub struct Step<'a, S, Y> {
     t: S,
     y: &'a Y,

@@ -22,11 +22,11 @@ const CONFIRMED: f64 = 0.8;
 /// The estimate is that of E. Hairer and G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer
 /// (1996), section IV.2: two stages at the end of a step differ by Δy in the state and Δf in the derivative, and |Δf| /
 /// |Δy| tends to the largest eigenvalue where that is not resolved. It may also be large by chance, as where an
-/// oscillation turns back, so that the eigenvalues of the Jacobian have the last word: only an equation whose motions are
-/// damped at the limit of stability is stiff, however fast it swings.
+/// oscillation turns back, so that the eigenvalues of the Jacobian have the last word: only an equation whose motions
+/// are damped at the limit of stability is stiff, however fast it swings.
 ///
-/// Nothing is looked at while the rest of the interval takes fewer steps than the limit. After that six in a hundred steps
-/// cost two sums over their stages, and the eigenvalues, if ever, one Jacobian.
+/// Nothing is looked at while the rest of the interval takes fewer steps than the limit. After that six in a hundred
+/// steps cost two sums over their stages, and the eigenvalues, if ever, one Jacobian.
 pub(super) struct StiffnessTest<S> {
     /// The number of steps that are too many for the rest of the interval; none if `None`.
     limit: Option<u64>,

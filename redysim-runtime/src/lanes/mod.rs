@@ -1,8 +1,8 @@
 //! Several numbers side by side as one scalar, so that one call of a mechanism's function works on many states at once.
 //!
-//! Every operation is done in all lanes by one instruction where the target has vectors that wide (AVX-512 has 8 × `f64`
-//! and 16 × `f32`, AVX half of that, SSE2 and NEON a quarter), else by a few. Each lane holds the bits that the same
-//! operations on plain numbers would give.
+//! Every operation is done in all lanes by one instruction where the target has vectors that wide (AVX-512 has 8 ×
+//! `f64` and 16 × `f32`, AVX half of that, SSE2 and NEON a quarter), else by a few. Each lane holds the bits that the
+//! same operations on plain numbers would give.
 //!
 //! ```
 //! use redysim_runtime::Scalar;

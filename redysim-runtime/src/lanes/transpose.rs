@@ -1,4 +1,5 @@
-//! From states, each of which lies together, to lanes, in which the same entry of several states lies together, and back.
+//! From states, each of which lies together, to lanes, in which the same entry of several states lies together, and
+//! back.
 
 use super::Lanes;
 

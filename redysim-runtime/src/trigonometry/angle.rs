@@ -59,9 +59,9 @@ macro_rules! angles {
 
             #[inline(always)]
             fn one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
-                // A call that is not inlined takes the address of its lanes, which would keep these lanes in memory from
-                // where they are put together; and to read as a whole what was just written in parts stalls. Negative
-                // lanes are other lanes, made only when they are needed.
+                // A call that is not inlined takes the address of its lanes, which would keep these lanes in memory
+                // from where they are put together; and to read as a whole what was just written in parts stalls.
+                // Negative lanes are other lanes, made only when they are needed.
                 (-self).negatives_one_by_one(function)
             }
         }

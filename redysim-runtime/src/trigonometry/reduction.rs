@@ -1,8 +1,8 @@
 //! The reduction of angles for which subtracting π/2 in a few parts is not enough.
 //!
 //! Up to 2²⁰ quarter turns π/2 is subtracted in four parts, with the roundoff of every difference kept; beyond, the
-//! digits of 2/π are multiplied that make the fraction of a quarter turn (M. H. Payne and R. N. Hanek, *Radian reduction
-//! for trigonometric functions*, SIGNUM Newsletter 18, 1983).
+//! digits of 2/π are multiplied that make the fraction of a quarter turn (M. H. Payne and R. N. Hanek, *Radian
+//! reduction for trigonometric functions*, SIGNUM Newsletter 18, 1983).
 
 use super::double::ROUNDER;
 

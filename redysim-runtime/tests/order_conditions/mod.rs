@@ -49,8 +49,8 @@ pub fn trees(order: usize) -> BTreeSet<Tree> {
     if order == 1 { [Tree(vec![])].into() } else { trees(order - 1).iter().flat_map(Tree::grown).collect() }
 }
 
-/// The largest violation of b·Φ(t) = θ^order / γ(t) over all trees of one order, of the method with the given rows of a,
-/// which may end where only zeros follow.
+/// The largest violation of b·Φ(t) = θ^order / γ(t) over all trees of one order, of the method with the given rows of
+/// a, which may end where only zeros follow.
 pub fn defect<const STAGES: usize>(rows: [&[f64]; STAGES], order: usize, b: &[f64], theta: f64) -> f64 {
     let exact = |tree: &Tree| theta.powi(order as i32) / tree.density();
     trees(order).iter().map(|tree| (dot(b, &tree.elementary_weights(rows)) - exact(tree)).abs()).fold(0.0, f64::max)

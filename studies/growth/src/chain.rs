@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-/// The model file of a chain of `count` links: revolute joints whose axes turn by ±90° from link to link, general centres
-/// of mass and inertias. No two links have the same numbers, and all have the same zeros.
+/// The model file of a chain of `count` links: revolute joints whose axes turn by ±90° from link to link, general
+/// centres of mass and inertias. No two links have the same numbers, and all have the same zeros.
 pub fn model(count: usize) -> String {
     let mut spread = Spread(0.0);
     let mut text = format!("name = \"chain{count}\"\ngravity = [0.0, 0.0, -9.81]\n");

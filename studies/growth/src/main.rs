@@ -1,8 +1,8 @@
 //! How operations, code, compile time and time per call grow with the number of joints.
 //!
-//! `cargo run --release` builds chains of 5 to 100 links with all functions, in the dev profile, in release, and in release
-//! for this machine's processor, and prints tables in Markdown; `cargo run --release -- 10 80` those of 10 and 80 links
-//! only. Leave the machine alone meanwhile.
+//! `cargo run --release` builds chains of 5 to 100 links with all functions, in the dev profile, in release, and in
+//! release for this machine's processor, and prints tables in Markdown; `cargo run --release -- 10 80` those of 10 and
+//! 80 links only. Leave the machine alone meanwhile.
 
 mod chain;
 mod generated;

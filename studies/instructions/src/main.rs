@@ -1,7 +1,8 @@
-//! Calls every measured function once at each of a few states. `run` counts the instructions within the functions of this
-//! file that are named `counted_…`, calls included.
+//! Calls every measured function once at each of a few states. `run` counts the instructions within the functions of
+//! this file that are named `counted_…`, calls included.
 //!
-//! Without an argument it prints what can be counted, and the number of calls; with the name of a function it calls that.
+//! Without an argument it prints what can be counted, and the number of calls; with the name of a function it calls
+//! that.
 
 use redysim::redysim;
 use std::hint::black_box;

@@ -1,7 +1,7 @@
 //! The largest errors of sine and cosine, in units in the last place of the true value, against MPFR.
 //!
-//! `cargo run --release -- [arguments per range]`, with and without `RUSTFLAGS="-C target-cpu=native"`. All arguments are
-//! also sent through every width of lanes, which must give the same bits; so one table holds for all.
+//! `cargo run --release -- [arguments per range]`, with and without `RUSTFLAGS="-C target-cpu=native"`. All arguments
+//! are also sent through every width of lanes, which must give the same bits; so one table holds for all.
 
 mod arguments;
 mod single;

@@ -27,15 +27,16 @@ const ROUNDOFF_UNITS: f64 = 1024.0;
 ///
 /// It is symmetric, so that a step of −h undoes one of h, conserves quadratic invariants, and in canonical coordinates
 /// is symplectic: the energy of an oscillation oscillates, but does not drift (E. Hairer, C. Lubich and G. Wanner,
-/// *Geometric Numerical Integration*, 2nd ed., Springer (2006), sections II.1.3, IV.2 and IX). A state [q, q̇] is canonical
-/// where the mass matrix is constant; elsewhere the motion forward and backward in time being alike keeps the energy of
-/// regular motion from drifting.
+/// *Geometric Numerical Integration*, 2nd ed., Springer (2006), sections II.1.3, IV.2 and IX). A state [q, q̇] is
+/// canonical where the mass matrix is constant; elsewhere the motion forward and backward in time being alike keeps the
+/// energy of regular motion from drifting.
 ///
 /// The stages are iterated until they no longer change, two evaluations each time, and roundoff is kept from adding up
-/// as E. Hairer, R. I. McLachlan and A. Razakarivony demand, *Achieving Brouwer's law with implicit Runge-Kutta methods*,
-/// BIT 48 (2008), so that what remains of it is a random walk. The iteration contracts where h ‖∂f/∂y‖ is below 2;
-/// where it does not, [`IntegrationError::NotConverged`] asks for smaller steps, or for
-/// [`Radau5`](crate::Radau5). Between the ends of its steps the solution is a quadratic polynomial, accurate to order 2.
+/// as E. Hairer, R. I. McLachlan and A. Razakarivony demand, *Achieving Brouwer's law with implicit Runge-Kutta
+/// methods*, BIT 48 (2008), so that what remains of it is a random walk. The iteration contracts where h ‖∂f/∂y‖ is
+/// below 2; where it does not, [`IntegrationError::NotConverged`] asks for smaller steps, or for
+/// [`Radau5`](crate::Radau5). Between the ends of its steps the solution is a quadratic polynomial, accurate to
+/// order 2.
 ///
 /// ```
 /// use redysim_runtime::{Gauss4, Integrator};

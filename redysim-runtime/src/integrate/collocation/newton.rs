@@ -1,9 +1,9 @@
 //! Simplified Newton iteration for the stages of Radau IIA: *Solving Ordinary Differential Equations II*, section IV.8.
 //!
 //! The stages y + z_i solve z = h (a ⊗ I) F(z). With the Jacobian J of one state for all stages, Newton's correction
-//! satisfies (h⁻¹ a⁻¹ ⊗ I − I ⊗ J) Δz = F(z) − h⁻¹ (a⁻¹ ⊗ I) z, 3n equations. A left eigenvector w of a⁻¹, with eigenvalue λ,
-//! takes n of them out, (λ/h I − J) Δu = Σ w_i f_i − λ/h Σ w_i z_i, and Δz = Σ v Δu over the right eigenvectors v, of which
-//! those of the complex eigenvalues are conjugate, so that one real and one complex system do.
+//! satisfies (h⁻¹ a⁻¹ ⊗ I − I ⊗ J) Δz = F(z) − h⁻¹ (a⁻¹ ⊗ I) z, 3n equations. A left eigenvector w of a⁻¹, with
+//! eigenvalue λ, takes n of them out, (λ/h I − J) Δu = Σ w_i f_i − λ/h Σ w_i z_i, and Δz = Σ v Δu over the right
+//! eigenvectors v, of which those of the complex eigenvalues are conjugate, so that one real and one complex system do.
 
 use core::array::from_fn;
 
@@ -25,8 +25,8 @@ const REST: f64 = 0.03;
 const ROUNDOFF_UNITS: f64 = 10.0;
 /// An iteration that contracts as fast needs no newer Jacobian.
 const FAST: f64 = 1e-3;
-/// Decompositions serve step sizes that differ by so much: it costs no more than that in the speed of convergence. Sizes
-/// that are meant to be equal differ by the rounding of times.
+/// Decompositions serve step sizes that differ by so much: it costs no more than that in the speed of convergence.
+/// Sizes that are meant to be equal differ by the rounding of times.
 const SAME_SIZE: f64 = 1e-4;
 
 /// Vectors of complex numbers in place of `Y`.

@@ -31,8 +31,8 @@ const LARGEST_RATIO: f64 = 1000.0;
 /// stages are found by simplified Newton iteration, which takes the Jacobian ∂f/∂y from [`Ode::tangent`] or from
 /// differences, keeps it as long as the iteration converges fast, and decomposes one real and one complex matrix of the
 /// size of the state for each new step size or Jacobian. The start of the iteration, the solution between the ends of a
-/// step, accurate to order 3, and the sizes of the steps come from the collocation polynomial and from the errors of the
-/// last two steps.
+/// step, accurate to order 3, and the sizes of the steps come from the collocation polynomial and from the errors of
+/// the last two steps.
 ///
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.
@@ -146,8 +146,8 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
         }
     }
 
-    /// Solves for the stages. Where the iteration fails with a Jacobian of an earlier state, it begins anew with that of
-    /// this state.
+    /// Solves for the stages. Where the iteration fails with a Jacobian of an earlier state, it begins anew with that
+    /// of this state.
     fn solve(
         &mut self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
@@ -272,8 +272,8 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
     }
 
     /// The smaller of what the error of this step says, and of what the errors of the last two predict if their change
-    /// goes on (K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods*, ACM
-    /// Trans. Math. Softw. 20 (1994)).
+    /// goes on (K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods*,
+    /// ACM Trans. Math. Softw. 20 (1994)).
     fn growth(&mut self, ratio: S) -> S {
         let power = |ratio: S| ratio.powf(root(self.error_exponent()));
         let turns = S::from_f64(f64::from(2 * LARGEST_TURN + 1) / f64::from(2 * LARGEST_TURN + self.attempted.turns));

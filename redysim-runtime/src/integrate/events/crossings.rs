@@ -3,8 +3,8 @@
 use super::root::root;
 use crate::Real;
 
-/// Parts into which a step is divided to look for changes of sign. Steps of the methods follow the solution, so that one
-/// is a small part of its swings.
+/// Parts into which a step is divided to look for changes of sign. Steps of the methods follow the solution, so that
+/// one is a small part of its swings.
 const PARTS: usize = 8;
 /// Where a parabola through three nodes falls below this part of the smallest value, its minimum is looked for: the
 /// function might reach zero there and come back.
@@ -42,8 +42,8 @@ impl<S: Real> Nodes<S> {
             let t = if k == PARTS { to } else { from + S::from_f64(k as f64) * part };
             *node = (t, at(t)?);
             if node.1 == S::zero() && k < PARTS {
-                // A zero has no sign: the one beside it tells where the function goes. From the start of the step it may
-                // cross on its way back; elsewhere this is a crossing, if it came from the other side.
+                // A zero has no sign: the one beside it tells where the function goes. From the start of the step it
+                // may cross on its way back; elsewhere this is a crossing, if it came from the other side.
                 let t = t + S::from_f64(1.0 / 64.0) * part;
                 *node = (t, at(t)?);
             }

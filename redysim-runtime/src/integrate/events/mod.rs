@@ -22,12 +22,14 @@ pub enum Direction {
     Any,
 }
 
-/// A function of time and state whose crossings of zero are looked for: see [`Integrator::watch`](super::Integrator::watch).
+/// A function of time and state whose crossings of zero are looked for: see
+/// [`Integrator::watch`](super::Integrator::watch).
 ///
-/// A crossing is where the function, which was not zero, reaches zero or changes its sign. So a function that is zero at
-/// the start, as after an impact, is not reported before it has been somewhere else, and a zero at the very end of a step
-/// is reported once. Where the function only touches zero, it may or may not be reported: do not rely on it. The function
-/// should be smooth; where it jumps over zero, time and state are those of the solution within the step (see [`Step`]).
+/// A crossing is where the function, which was not zero, reaches zero or changes its sign. So a function that is zero
+/// at the start, as after an impact, is not reported before it has been somewhere else, and a zero at the very end of a
+/// step is reported once. Where the function only touches zero, it may or may not be reported: do not rely on it. The
+/// function should be smooth; where it jumps over zero, time and state are those of the solution within the step (see
+/// [`Step`]).
 #[derive(Clone)]
 pub struct Event<'e, S, Y> {
     value: &'e dyn Fn(S, &Y) -> S,

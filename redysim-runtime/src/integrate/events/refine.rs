@@ -15,11 +15,11 @@ const REST: f64 = 0.1;
 
 /// Time and state of a crossing that the continuous extension has.
 ///
-/// An extension may be of lower order than the step it belongs to: that of the pair of orders 5 and 4 errs by h⁵ where the
-/// step errs by h⁶. So a method that says so takes steps of its own from the start of the step to the event, whose time
-/// follows by Newton's rule, with the slope of the extension and then that between two such steps: two or three of them.
-/// The function has then reached or passed zero, so that who starts again from there does not meet the same crossing.
-/// Where the function jumps over zero, Newton's rule leads astray, and the crossing of the extension stands.
+/// An extension may be of lower order than the step it belongs to: that of the pair of orders 5 and 4 errs by h⁵ where
+/// the step errs by h⁶. So a method that says so takes steps of its own from the start of the step to the event, whose
+/// time follows by Newton's rule, with the slope of the extension and then that between two such steps: two or three of
+/// them. The function has then reached or passed zero, so that who starts again from there does not meet the same
+/// crossing. Where the function jumps over zero, Newton's rule leads astray, and the crossing of the extension stands.
 ///
 /// # Errors
 /// If a derivative or a value of the event is infinite or not a number.

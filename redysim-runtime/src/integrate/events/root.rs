@@ -6,8 +6,8 @@ use crate::Real;
 /// zero: the first number, seen from `a`, at which it does not have the sign of `fa`, to within rounding of `b`.
 ///
 /// The method is ITP of I. F. D. Oliveira and R. H. C. Takahashi, *An enhancement of the bisection method average
-/// performance preserving minmax optimality*, ACM Trans. Math. Softw. 47 (2021): never more than one evaluation more than
-/// bisection, 54 for `f64`, and usually about eight.
+/// performance preserving minmax optimality*, ACM Trans. Math. Softw. 47 (2021): never more than one evaluation more
+/// than bisection, 54 for `f64`, and usually about eight.
 ///
 /// # Errors
 /// What `f` says.

@@ -4,8 +4,8 @@ use crate::integrate::progress::{Progress, zeros};
 use crate::integrate::{IntegrationError, Ode, Tolerances};
 use crate::{Real, Vector};
 
-/// Evaluates ∂f/∂y at the state that is reached, where the derivative is `rate`, by rows: from the tangents of the equation,
-/// or from forward differences where it has none. `y_new` of the progress is used up.
+/// Evaluates ∂f/∂y at the state that is reached, where the derivative is `rate`, by rows: from the tangents of the
+/// equation, or from forward differences where it has none. `y_new` of the progress is used up.
 ///
 /// # Errors
 /// If an element is infinite or not a number.

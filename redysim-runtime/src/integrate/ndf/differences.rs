@@ -78,11 +78,11 @@ impl<S: Real, Y: Vector<S>> Differences<S, Y> {
         }
     }
 
-    /// Goes on with steps of another size, where it differs by more than `rounding`. The new differences are those of the
-    /// polynomial through the old points: ∇*^r = Σ_j ∇^j (R U)_jr with R_jq = w_j(−q ρ), U_qr = w_q(−r) = (−1)^q C(r, q),
-    /// where ρ is the ratio of the sizes and w_j is [`newton_polynomial`] (section 2.1 of the paper, "The quasi-constant
-    /// step size"). (R U)_jr vanishes for j < r, since differences annihilate polynomials of lower degree, so that each
-    /// column can be replaced once those before it are.
+    /// Goes on with steps of another size, where it differs by more than `rounding`. The new differences are those of
+    /// the polynomial through the old points: ∇*^r = Σ_j ∇^j (R U)_jr with R_jq = w_j(−q ρ), U_qr = w_q(−r) = (−1)^q
+    /// C(r, q), where ρ is the ratio of the sizes and w_j is [`newton_polynomial`] (section 2.1 of the paper, "The
+    /// quasi-constant step size"). (R U)_jr vanishes for j < r, since differences annihilate polynomials of lower
+    /// degree, so that each column can be replaced once those before it are.
     pub fn resize(&mut self, size: S, rounding: S) {
         if (size - self.size).abs() <= rounding {
             return;

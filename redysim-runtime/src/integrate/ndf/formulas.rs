@@ -5,9 +5,9 @@ use crate::Real;
 /// The highest order there are formulas of; those of BDF from order 7 on are not stable.
 pub const HIGHEST_ORDER: usize = 5;
 
-/// κ of the numerical differentiation formulas of orders 1 to 5, which allow steps larger than those of BDF by 26, 26, 26,
-/// 12 and 0 %, with hardly less stability: L. F. Shampine, M. W. Reichelt, *The MATLAB ODE Suite*, SIAM J. Sci. Comput.
-/// 18 (1997), table 1.
+/// κ of the numerical differentiation formulas of orders 1 to 5, which allow steps larger than those of BDF by 26, 26,
+/// 26, 12 and 0 %, with hardly less stability: L. F. Shampine, M. W. Reichelt, *The MATLAB ODE Suite*, SIAM J. Sci.
+/// Comput. 18 (1997), table 1.
 pub const NUMERICAL_DIFFERENTIATION: [f64; HIGHEST_ORDER] = [-0.1850, -1.0 / 9.0, -0.0823, -0.0415, 0.0];
 
 /// κ = 0: the backward differentiation formulas.
@@ -20,8 +20,8 @@ pub const GAMMA: [f64; HIGHEST_ORDER] = [1.0, 3.0 / 2.0, 11.0 / 6.0, 25.0 / 12.0
 ///
 /// Σ_{m=1}^k (1/m) ∇^m y_{n+1} − h f(t_{n+1}, y_{n+1}) − κ γ_k (y_{n+1} − ŷ) = 0 with ŷ = Σ_{m=0}^k ∇^m y_n.
 ///
-/// In the correction d = y_{n+1} − ŷ = ∇^{k+1} y_{n+1} it is (1 − κ) γ_k d + Σ_{m=1}^k γ_m ∇^m y_n = h f(t_{n+1}, ŷ + d)
-/// (section 2.1 of the paper).
+/// In the correction d = y_{n+1} − ŷ = ∇^{k+1} y_{n+1} it is (1 − κ) γ_k d + Σ_{m=1}^k γ_m ∇^m y_n = h f(t_{n+1}, ŷ +
+/// d) (section 2.1 of the paper).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Formula {
     /// (1 − κ) γ_k, which d is multiplied by.

@@ -1,7 +1,7 @@
 //! Numerical differentiation formulas of orders 1 to 5 with steps and order from tolerances, for stiff equations.
 //!
-//! The coefficients are in [`formulas`], the past of the solution in [`differences`], the equation for the end of a step
-//! in [`newton`], the choice of size and order in [`stepper`].
+//! The coefficients are in [`formulas`], the past of the solution in [`differences`], the equation for the end of a
+//! step in [`newton`], the choice of size and order in [`stepper`].
 
 #[cfg(test)]
 mod convergence;
@@ -21,16 +21,16 @@ use stepper::NdfStepper;
 /// `ode15s`, ReDySim's choice 1. For stiff equations, those whose fast motions have long died down.
 ///
 /// The formula of order k is Σ_{m=1}^k (1/m) ∇^m y_{n+1} − h f(t_{n+1}, y_{n+1}) − κ γ_k ∇^{k+1} y_{n+1} = 0, with
-/// backward differences ∇, γ_k = Σ_{j=1}^k 1/j and the κ of L. F. Shampine, M. W. Reichelt, *The MATLAB ODE Suite*, SIAM
-/// J. Sci. Comput. 18 (1997), section 2. It is solved by a simplified Newton iteration with the Jacobian ∂f/∂y from
-/// [`Ode::tangent`] or else from differences; a new Jacobian is evaluated only where the iteration does not converge, and
-/// a matrix decomposed only for that and for another size or order. A step of n components costs one or two evaluations
-/// and n² operations, a Jacobian n tangents or n + 1 evaluations, a decomposition n³/3 operations; there is room for two
-/// matrices and 18 vectors.
+/// backward differences ∇, γ_k = Σ_{j=1}^k 1/j and the κ of L. F. Shampine, M. W. Reichelt, *The MATLAB ODE Suite*,
+/// SIAM J. Sci. Comput. 18 (1997), section 2. It is solved by a simplified Newton iteration with the Jacobian ∂f/∂y
+/// from [`Ode::tangent`] or else from differences; a new Jacobian is evaluated only where the iteration does not
+/// converge, and a matrix decomposed only for that and for another size or order. A step of n components costs one or
+/// two evaluations and n² operations, a Jacobian n tangents or n + 1 evaluations, a decomposition n³/3 operations;
+/// there is room for two matrices and 18 vectors.
 ///
-/// Size and order change only where the estimated error pays for it, and not before k + 2 steps of one size. Between the
-/// ends of its steps the solution is the polynomial of degree k through the ends of the last k steps, continuous, and
-/// accurate to order k; its derivative jumps a little from step to step.
+/// Size and order change only where the estimated error pays for it, and not before k + 2 steps of one size. Between
+/// the ends of its steps the solution is the polynomial of degree k through the ends of the last k steps, continuous,
+/// and accurate to order k; its derivative jumps a little from step to step.
 ///
 /// The formulas of orders 1 and 2 are stable wherever the equation is. Those of orders 3, 4 and 5 are not along the
 /// imaginary axis: for oscillations that hardly die down there is [`Ndf<2>`](Ndf), which goes no further than order 2.

@@ -27,12 +27,13 @@ pub struct Equation<S, Y> {
     pub known: Y,
     /// c = h / ((1 − κ) γ_k).
     pub factor: S,
-    /// c as far as the matrix needs it: without the rounding errors of times, so that it stays the same from step to step.
+    /// c as far as the matrix needs it: without the rounding errors of times, so that it stays the same from step to
+    /// step.
     pub matrix_factor: S,
 }
 
-/// Solves an [`Equation`] by d ← d + (I − c J)⁻¹ (c f(y + predicted + d) − known − d), with a Jacobian J and a decomposed
-/// matrix of earlier steps as long as they do.
+/// Solves an [`Equation`] by d ← d + (I − c J)⁻¹ (c f(y + predicted + d) − known − d), with a Jacobian J and a
+/// decomposed matrix of earlier steps as long as they do.
 pub struct Newton<S, Y: Vector<S>> {
     /// J; `None` before it was evaluated.
     jacobian: Option<Y::Of<Y>>,
@@ -56,7 +57,8 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
         self.jacobian.as_ref()
     }
 
-    /// Room for another Jacobian, taken from the one there is. Until [`set_jacobian`](Self::set_jacobian) there is none.
+    /// Room for another Jacobian, taken from the one there is. Until [`set_jacobian`](Self::set_jacobian) there is
+    /// none.
     pub fn take_jacobian(&mut self) -> Y::Of<Y> {
         self.matrix = None;
         let (zero, len) = (&self.change, self.change.as_ref().len());
@@ -68,8 +70,8 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
         self.jacobian = Some(jacobian);
     }
 
-    /// Iterates from d = 0 until the tolerances are met, and leaves y + predicted + d in `y_new` of the progress. `false` if
-    /// it does not converge, or not soon enough.
+    /// Iterates from d = 0 until the tolerances are met, and leaves y + predicted + d in `y_new` of the progress.
+    /// `false` if it does not converge, or not soon enough.
     ///
     /// # Errors
     /// If the state or its derivative becomes infinite or not a number.

@@ -142,8 +142,8 @@ impl<S: Real, Y: Vector<S>> NdfStepper<S, Y> {
         Some(S::from_f64(formula.error) * tolerances.norm(difference?, &self.progress.y, &self.progress.y_new))
     }
 
-    /// The order among the first `candidates` of this one, the one below and the one above that allows the largest step,
-    /// and the factor to its size, each `limited`, where the error is 1/`ratio` times the tolerance.
+    /// The order among the first `candidates` of this one, the one below and the one above that allows the largest
+    /// step, and the factor to its size, each `limited`, where the error is 1/`ratio` times the tolerance.
     fn best(&self, ratio: S, candidates: usize, limited: impl Fn(S) -> S) -> (usize, S) {
         let order = self.differences.order();
         let [lower, higher] = self.neighbours;
@@ -263,12 +263,12 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
 
     fn renew(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
         let small = self.is_correction_small();
-        // A small correction moves the whole past along: y_n changes and ∇^j y_n, j ≥ 1, stay. For the formula that is an
-        // error like those of steps, and where it is of their order the method keeps its own: E. Eich, *Convergence
+        // A small correction moves the whole past along: y_n changes and ∇^j y_n, j ≥ 1, stay. For the formula that is
+        // an error like those of steps, and where it is of their order the method keeps its own: E. Eich, *Convergence
         // results for a coordinate projection method applied to mechanical systems with algebraic constraints*, SIAM J.
-        // Numer. Anal. 30 (1993). The next correction d changes by at most about what was corrected, so that the estimate
-        // of the error notices if that is too much. After one that is no error of a step the past is that of another
-        // solution, and nothing but the derivative is left of it.
+        // Numer. Anal. 30 (1993). The next correction d changes by at most about what was corrected, so that the
+        // estimate of the error notices if that is too much. After one that is no error of a step the past is that of
+        // another solution, and nothing but the derivative is left of it.
         if self.progress.take_correction() && !small {
             self.evaluate(ode)?;
             self.differences.restart(&self.rate);

@@ -1,6 +1,6 @@
 //! All eigenvalues of a small matrix: reduction to Hessenberg form by eliminations, then the QR algorithm with single
-//! complex shifts. G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins (2013), sections 7.4 and
-//! 7.5.
+//! complex shifts. G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins (2013), sections 7.4
+//! and 7.5.
 
 use crate::integrate::complex::Complex;
 use crate::{Real, Vector};

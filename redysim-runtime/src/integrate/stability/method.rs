@@ -73,7 +73,8 @@ impl LinearStability for SymplecticEuler {
                 (coordinates..len)
                     .fold(unit(i, j) + h * own, |sum, k| sum + h * equation.element(i, k) * explicit(k, j))
             });
-            // What grows as e^(α t) may grow somewhat faster in steps of order 1; what is not stable soon outgrows that.
+            // What grows as e^(α t) may grow somewhat faster in steps of order 1; what is not stable soon outgrows
+            // that.
             let grown = S::from_f64(core::f64::consts::E).powf(S::from_f64(2.0) * h * growth);
             radius.is_some_and(|radius| radius <= grown * S::from_f64(1.0 + SLACK))
         };

@@ -1,7 +1,7 @@
 //! How large the steps of a method may be before its own errors grow: known before an integration runs.
 //!
-//! Near a state an equation behaves as its Jacobian does, and a method with a fixed step h is stable where it damps every
-//! eigenvalue λ of it: for a Runge-Kutta method where |R(h λ)| ≤ 1, with the [`StabilityFunction`] R. A gain of a
+//! Near a state an equation behaves as its Jacobian does, and a method with a fixed step h is stable where it damps
+//! every eigenvalue λ of it: for a Runge-Kutta method where |R(h λ)| ≤ 1, with the [`StabilityFunction`] R. A gain of a
 //! controller moves an eigenvalue as far to the left as it is large, which is why stiff joints ask for small steps.
 
 mod eigenvalues;
@@ -89,10 +89,10 @@ impl<S: Real, Y: Vector<S>> Linearised<S, Y> {
 
 /// Estimates the largest stable step of `method` for an equation, in the state `y` at `t`, before it runs.
 ///
-/// All eigenvalues of the Jacobian count, also those of undamped oscillations: of two that differ in size the smaller one
-/// may limit the step. What grows by itself is no fault of the method and limits nothing; where it also swings, it is
-/// taken as if it only swung. The answer holds near `y`: where inertia or gains change along the motion, ask in several
-/// states. It costs one [tangent](Ode::tangent) or evaluation for each component, and about 25 n³ operations.
+/// All eigenvalues of the Jacobian count, also those of undamped oscillations: of two that differ in size the smaller
+/// one may limit the step. What grows by itself is no fault of the method and limits nothing; where it also swings, it
+/// is taken as if it only swung. The answer holds near `y`: where inertia or gains change along the motion, ask in
+/// several states. It costs one [tangent](Ode::tangent) or evaluation for each component, and about 25 n³ operations.
 ///
 /// # Errors
 /// If the state, its derivative or the Jacobian is infinite or not a number, if the method needs coordinates and the

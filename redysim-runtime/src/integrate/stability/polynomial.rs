@@ -10,8 +10,8 @@ const TRIAL: f64 = 0.02;
 
 /// The stability function R of an explicit Runge-Kutta method: one step of ẏ = λ y multiplies y by R(h λ).
 ///
-/// R(z) = 1 + z b·(I − z A)⁻¹ 1 = 1 + Σ z^(k+1) b·Aᵏ 1, a polynomial, since A is strictly lower triangular: E. Hairer and
-/// G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer (1996), section IV.2.
+/// R(z) = 1 + z b·(I − z A)⁻¹ 1 = 1 + Σ z^(k+1) b·Aᵏ 1, a polynomial, since A is strictly lower triangular: E. Hairer
+/// and G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer (1996), section IV.2.
 ///
 /// ```
 /// use redysim_runtime::integrate::{stability::StabilityFunction, tableau::RUNGE_KUTTA_4};

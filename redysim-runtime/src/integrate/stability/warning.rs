@@ -29,8 +29,8 @@ impl<S: fmt::Debug + Copy> fmt::Display for StepWarning<'_, S> {
         let (re, im) = stable.eigenvalue;
         write!(
             f,
-            ", whose motion has the eigenvalue {re:?} + {im:?}i 1/s: take steps of at most {:?} s, lower the gain, or take \
-             an implicit method, such as Ode15s or Radau5",
+            ", whose motion has the eigenvalue {re:?} + {im:?}i 1/s: take steps of at most {:?} s, lower the gain, or \
+             take an implicit method, such as Ode15s or Radau5",
             stable.step
         )
     }

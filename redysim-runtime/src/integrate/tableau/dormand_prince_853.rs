@@ -323,8 +323,8 @@ const fn extension() -> [[f64; 7]; STAGES] {
         let last = if k == MAIN - 1 { 1.0 } else { 0.0 };
         let terms = [b, first - b, 2.0 * b - first - last, FURTHER[0][k], FURTHER[1][k], FURTHER[2][k], FURTHER[3][k]];
         let mut polynomial = [0.0; 7];
-        // Horner's rule from the innermost term on, by turns with the factors θ and 1 − θ. The outermost factor θ is left
-        // out: there is no constant coefficient.
+        // Horner's rule from the innermost term on, by turns with the factors θ and 1 − θ. The outermost factor θ is
+        // left out: there is no constant coefficient.
         let mut term = terms.len() - 1;
         polynomial[0] = terms[term];
         while term > 0 {

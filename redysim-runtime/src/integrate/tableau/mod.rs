@@ -6,9 +6,9 @@ pub use dormand_prince_853::DORMAND_PRINCE_853;
 
 /// An explicit Runge-Kutta method of `STAGES` stages with an error estimate and a continuous extension.
 ///
-/// Stage k evaluates f_k = f(t + c_k h, y + h Σ_j a_kj f_j). The last main stage is taken at the end of the step, so that
-/// its row of a gives the new state and its derivative is the first stage of the next step ("first same as last"). Every
-/// explicit method can be written so: one whose last stage lies elsewhere gets its weights b as one more row.
+/// Stage k evaluates f_k = f(t + c_k h, y + h Σ_j a_kj f_j). The last main stage is taken at the end of the step, so
+/// that its row of a gives the new state and its derivative is the first stage of the next step ("first same as last").
+/// Every explicit method can be written so: one whose last stage lies elsewhere gets its weights b as one more row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tableau<const STAGES: usize> {
     /// a, below the diagonal: row k has k entries.
@@ -33,9 +33,9 @@ pub struct Tableau<const STAGES: usize> {
 pub enum ErrorEstimate<const STAGES: usize> {
     /// h Σ d_k f_k, the difference from an embedded formula of lower order.
     Embedded([f64; STAGES]),
-    /// e² / √(e² + 0.01 ẽ²) of the differences e and ẽ from two embedded formulas. The one of lower order guards against
-    /// an e that is small by chance: E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*,
-    /// 2nd ed., Springer (1993), section II.10.
+    /// e² / √(e² + 0.01 ẽ²) of the differences e and ẽ from two embedded formulas. The one of lower order guards
+    /// against an e that is small by chance: E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential
+    /// Equations I*, 2nd ed., Springer (1993), section II.10.
     Stretched {
         /// d of the formula of higher order.
         higher: [f64; STAGES],
@@ -44,8 +44,8 @@ pub enum ErrorEstimate<const STAGES: usize> {
     },
 }
 
-/// The pair of orders 5 and 4 of J. R. Dormand and P. J. Prince, *A family of embedded Runge-Kutta formulae*, J. Comput.
-/// Appl. Math. 6 (1980), table 2, with the continuous extension of order 4 of L. F. Shampine, *Some practical
+/// The pair of orders 5 and 4 of J. R. Dormand and P. J. Prince, *A family of embedded Runge-Kutta formulae*, J.
+/// Comput. Appl. Math. 6 (1980), table 2, with the continuous extension of order 4 of L. F. Shampine, *Some practical
 /// Runge-Kutta formulas*, Math. Comp. 46 (1986).
 pub const DORMAND_PRINCE: Tableau<7> = Tableau {
     rows: [
@@ -81,9 +81,9 @@ pub const DORMAND_PRINCE: Tableau<7> = Tableau {
     ],
 };
 
-/// The classical method of order 4 of W. Kutta, *Beitrag zur näherungsweisen Integration totaler Differentialgleichungen*,
-/// Z. Math. Phys. 46 (1901), with the derivative at the end of the step as fifth stage. The continuous extension is the
-/// cubic Hermite polynomial through both ends; there is no estimate of the error.
+/// The classical method of order 4 of W. Kutta, *Beitrag zur näherungsweisen Integration totaler
+/// Differentialgleichungen*, Z. Math. Phys. 46 (1901), with the derivative at the end of the step as fifth stage. The
+/// continuous extension is the cubic Hermite polynomial through both ends; there is no estimate of the error.
 pub const RUNGE_KUTTA_4: Tableau<5> = Tableau {
     rows: [&[], &[1.0 / 2.0], &[0.0, 1.0 / 2.0], &[0.0, 0.0, 1.0], &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0]],
     nodes: [0.0, 1.0 / 2.0, 1.0 / 2.0, 1.0, 1.0],
