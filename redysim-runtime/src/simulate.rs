@@ -1,7 +1,5 @@
 //! Forward simulation: a mechanism and a torque law as an ordinary differential equation.
 
-use core::iter::once;
-
 use crate::vector::entry;
 use crate::{ForwardDynamics, Mechanism, Ode, Real, TorqueLaw, Vector};
 
@@ -60,12 +58,19 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     where
         M: Mechanism<S>,
     {
-        let (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
-        M::State::from_fn(nq + nv + 1, |i| match i.checked_sub(nq) {
-            None => entry(q, i),
-            Some(i) if i < nv => entry(v, i),
-            Some(_) => S::zero(),
-        })
+        let sizes @ (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
+        M::State::from_fn(nq + nv + 1, |i| component(i, sizes, (q, v, S::zero())))
+    }
+
+    /// Writes [q, v, energy], or their rates, to `state`. What a `Vec` lacks is NaN.
+    fn write<S: Real>(&self, parts: (&M::Coordinates, &M::Velocities, S), state: &mut M::State)
+    where
+        M: Mechanism<S>,
+    {
+        let sizes = (self.mechanism.nq(), self.mechanism.nv());
+        for (i, element) in state.as_mut().iter_mut().enumerate() {
+            *element = component(i, sizes, parts);
+        }
     }
 
     /// The parts of a state. What a `Vec` lacks is NaN.
@@ -93,7 +98,7 @@ where
         let tau = self.law.torque(t, &q, &v);
         let rates = self.mechanism.coordinate_rates(&q, &v);
         let accelerations = self.mechanism.forward_dynamics(&q, &v, &tau);
-        write(rates.as_ref().iter().chain(accelerations.as_ref()).chain(once(&dot(&tau, &v))), rate);
+        self.write((&rates, &accelerations, dot(&tau, &v)), rate);
     }
 
     fn tangent(&mut self, t: S, state: &M::State, direction: &M::State, slope: &mut M::State) -> bool {
@@ -107,25 +112,37 @@ where
         // N(q) v is linear in v; what it does with q matters to joints of more than one freedom only, of which there
         // are none, so that N is constant.
         let drates = self.mechanism.coordinate_rates(&q, &dv);
-        write(drates.as_ref().iter().chain(da.as_ref()).chain(once(&(dot(&dtau, &v) + dot(&tau, &dv)))), slope);
+        self.write((&drates, &da, dot(&dtau, &v) + dot(&tau, &dv)), slope);
         true
     }
 
     fn coordinate_rates(&mut self, _t: S, state: &M::State, rates: &mut M::State) -> usize {
         let SimulationState { q, v, .. } = self.split(state);
-        write(self.mechanism.coordinate_rates(&q, &v).as_ref().iter(), rates);
-        self.mechanism.nq()
+        let coordinate_rates = self.mechanism.coordinate_rates(&q, &v);
+        let nq = self.mechanism.nq();
+        for (i, rate) in rates.as_mut().iter_mut().enumerate().take(nq) {
+            *rate = entry(&coordinate_rates, i);
+        }
+        nq
     }
 }
 
-fn write<'a, S: Real + 'a, Y: Vector<S>>(values: impl Iterator<Item = &'a S>, state: &mut Y) {
-    for (element, &value) in state.as_mut().iter_mut().zip(values) {
-        *element = value;
+/// Component `i` of [q, v, energy] with `nq` and `nv` coordinates and velocities.
+fn component<S: Real, Q: Vector<S>, V: Vector<S>>(
+    i: usize,
+    (nq, nv): (usize, usize),
+    (q, v, energy): (&Q, &V, S),
+) -> S {
+    match i.checked_sub(nq) {
+        None => entry(q, i),
+        Some(i) if i < nv => entry(v, i),
+        Some(_) => energy,
     }
 }
 
-fn dot<S: Real, V: Vector<S>>(a: &V, b: &V) -> S {
-    a.as_ref().iter().zip(b.as_ref()).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+/// The power of the joint forces `tau`.
+fn dot<S: Real, V: Vector<S>>(tau: &V, v: &V) -> S {
+    v.as_ref().iter().enumerate().fold(S::zero(), |sum, (i, &v)| sum + entry(tau, i) * v)
 }
 
 /// The derivative of a law's joint forces along `(dq, dv)`: what the law says, or else central differences.

@@ -12,8 +12,8 @@ use redysim_runtime::{
     Ode15s, Ode45, Proportional, ProportionalDerivative, Radau5, Solution, TorqueLaw,
 };
 
-/// The arm with sizes known only at run time.
-struct DynamicArm;
+/// The arm with sizes known only at run time, and as many accelerations as it says.
+struct DynamicArm(usize);
 
 impl Mechanism<f64> for DynamicArm {
     type Coordinates = Vec<f64>;
@@ -47,7 +47,8 @@ impl Mechanism<f64> for DynamicArm {
 
 impl ForwardDynamics<f64> for DynamicArm {
     fn forward_dynamics(&self, q: &Vec<f64>, v: &Vec<f64>, tau: &Vec<f64>) -> Vec<f64> {
-        Arm.forward_dynamics(&[q[0], q[1]], &[v[0], v[1]], &[tau[0], tau[1]]).to_vec()
+        let accelerations = Arm.forward_dynamics(&[q[0], q[1]], &[v[0], v[1]], &[tau[0], tau[1]]);
+        accelerations[..self.0].to_vec()
     }
 
     fn forward_dynamics_tangent(
@@ -77,7 +78,7 @@ fn compare(method: impl Integrator<f64>) {
     let (kp, kd, target) = ([10.0, 20.0], [1.0, 2.0], [1.0, 1.0]);
     let mut fixed = ForwardSimulation::new(&Arm, ProportionalDerivative { target, kp, kd });
     let law = ProportionalDerivative { target: target.to_vec(), kp: kp.to_vec(), kd: kd.to_vec() };
-    let mut dynamic = ForwardSimulation::new(&DynamicArm, law);
+    let mut dynamic = ForwardSimulation::new(&DynamicArm(2), law);
 
     let array = answers(|output: &mut dyn FnMut(f64, &[f64; 5])| {
         let start = fixed.state(&Q, &V);
@@ -104,7 +105,7 @@ fn a_missing_gain_or_target_counts_as_not_a_number() {
     let torque = TorqueLaw::<f64, DynamicArm>::torque(&mut short_gain, 0.0, &Q.to_vec(), &V.to_vec());
     assert!(torque.len() == 2 && torque[0] == -0.5 && torque[1].is_nan());
 
-    let mut simulation = ForwardSimulation::new(&DynamicArm, short_gain);
+    let mut simulation = ForwardSimulation::new(&DynamicArm(2), short_gain);
     let start = simulation.state(&Q.to_vec(), &V.to_vec());
     let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
     assert!(matches!(error, IntegrationError::NonFiniteDerivative { t: 0.0, .. }), "{error}");
@@ -112,7 +113,7 @@ fn a_missing_gain_or_target_counts_as_not_a_number() {
 
 #[test]
 fn a_start_of_the_wrong_length_is_reported() {
-    let mut simulation = ForwardSimulation::new(&DynamicArm, Free);
+    let mut simulation = ForwardSimulation::new(&DynamicArm(2), Free);
     let start = simulation.state(&vec![0.1], &V.to_vec());
     assert_eq!(start.len(), 5);
     let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
@@ -146,6 +147,14 @@ fn a_derivative_that_is_too_short_is_reported() {
     assert_eq!(outcome(Ode15s::new()), expected);
     assert_eq!(outcome(Radau5::new()), expected);
     assert_eq!(outcome(Gauss4::new(0.1)), expected);
+}
+
+#[test]
+fn accelerations_that_are_too_few_are_reported() {
+    let mut simulation = ForwardSimulation::new(&DynamicArm(1), Free);
+    let start = simulation.state(&Q.to_vec(), &V.to_vec());
+    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
+    assert_eq!(error, IntegrationError::NonFiniteDerivative { t: 0.0, component: 3 });
 }
 
 /// A correction that leaves a part of the state out.

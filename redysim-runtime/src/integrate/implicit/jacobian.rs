@@ -2,6 +2,7 @@
 
 use crate::integrate::progress::{Progress, zeros};
 use crate::integrate::{IntegrationError, Ode, Tolerances};
+use crate::vector::entry;
 use crate::{Real, Vector};
 
 /// Evaluates ∂f/∂y at the state that is reached, where the derivative is `rate`, by rows: from the tangents of the
@@ -30,7 +31,8 @@ pub fn jacobian<S: Real, Y: Vector<S>>(
         if !has_tangent {
             difference(ode, progress, rate, j, tolerances, &mut column)?;
         }
-        for (component, (row, &element)) in rows.as_mut().iter_mut().zip(column.as_ref()).enumerate() {
+        for (component, row) in rows.as_mut().iter_mut().enumerate() {
+            let element = entry(&column, component);
             if !element.is_finite() {
                 return Err(IntegrationError::NonFiniteDerivative { t, component });
             }
