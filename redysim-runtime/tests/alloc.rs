@@ -176,3 +176,25 @@ fn a_corrected_state_that_is_too_short_is_reported() {
     let outcome = Ode5::new(0.5).integrate(&mut Forgetful, (0.0, 1.0), vec![1.0, 1.0]);
     assert_eq!(outcome, Err(IntegrationError::NonFiniteState { t: 0.5, component: 1 }));
 }
+
+/// A tangent that leaves a part of the slope out.
+struct ShortTangent;
+
+impl Ode<f64, Vec<f64>> for ShortTangent {
+    fn derivative(&mut self, _t: f64, y: &Vec<f64>, dydt: &mut Vec<f64>) {
+        dydt[0] = -y[0];
+        dydt[1] = -1e6 * y[1];
+    }
+
+    fn tangent(&mut self, _t: f64, _y: &Vec<f64>, direction: &Vec<f64>, slope: &mut Vec<f64>) -> bool {
+        *slope = vec![-direction[0]];
+        true
+    }
+}
+
+#[test]
+fn a_tangent_that_is_too_short_is_reported() {
+    let expected = Err(IntegrationError::NonFiniteDerivative { t: 0.0, component: 1 });
+    assert_eq!(Ode15s::new().integrate(&mut ShortTangent, (0.0, 1.0), vec![1.0, 1.0]), expected);
+    assert_eq!(Radau5::new().integrate(&mut ShortTangent, (0.0, 1.0), vec![1.0, 1.0]), expected);
+}
