@@ -5,11 +5,12 @@
 //!
 //! It takes some minutes, and builds itself twice again: for this machine's instructions, and with the feature
 //! `deterministic`. The names of parts (`kr5`, `gripper`, `fourbar`, `stiff`,
-//! `swing`, `drift`, `evaluation`) may follow behind `--`, to have those alone.
+//! `swing`, `iftomm`, `drift`, `evaluation`) may follow behind `--`, to have those alone.
 
 mod common;
 
 mod accuracy {
+    pub mod benchmarks;
     pub mod drift;
     pub mod evaluation;
     pub mod models;
@@ -21,7 +22,7 @@ mod accuracy {
 #[path = "../tests/common/double_double.rs"]
 mod double_double;
 
-use accuracy::{drift, evaluation, scene, work_precision};
+use accuracy::{benchmarks, drift, evaluation, scene, work_precision};
 use common::{Failure, Outputs};
 
 fn main() -> Result<(), Failure> {
@@ -48,6 +49,9 @@ fn main() -> Result<(), Failure> {
     }
     if asked("swing") {
         work_precision::report(&scene::LongSwing, &mut outputs)?;
+    }
+    if asked("iftomm") {
+        benchmarks::report(&mut outputs)?;
     }
     if asked("drift") {
         drift::report(&mut outputs)?;

@@ -1,7 +1,11 @@
-//! Compiled functions allocate nothing.
+//! Compiled functions and integrators allocate nothing.
 
-use redysim::{LinkState, redysim};
+mod common;
+
+use common::methods::{WithMethod, every_adaptive, every_fixed};
+use redysim::{Event, ForwardSimulation, Free, Integrator, LinkState, redysim};
 use std::hint::black_box;
+use std::ops::ControlFlow;
 
 redysim! {
     /// Six joints in a row.
@@ -49,4 +53,33 @@ fn functions_allocate_nothing() {
     assert_nothing_allocated!(Kr5, f32);
     assert_nothing_allocated!(Gantry, f64);
     assert_nothing_allocated!(Gantry, f32);
+}
+
+/// A fall of KR5 with an event on the way.
+struct Fall;
+
+impl WithMethod for Fall {
+    fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
+        let mut fall = ForwardSimulation::new(&Kr5, Free);
+        let start = fall.state(&[0.1; Kr5::NV], &[0.0; Kr5::NV]);
+        let passing = |_t: f64, y: &[f64; 2 * Kr5::NV + 1]| y[1] + 0.1;
+        let mut passages = 0;
+        let run = || {
+            let events = &mut [Event::any(&passing)];
+            let on_event = |_: redysim::Occurrence<'_, f64, _>| {
+                passages += 1;
+                ControlFlow::Continue(())
+            };
+            let end = method.watch(&mut fall, (0.0, 0.3), start, events, |_| ControlFlow::Continue(()), on_event);
+            black_box(end.is_ok());
+        };
+        assert_eq!(allocations(run), 0, "{name}");
+        assert_eq!(passages, 1, "{name} finds the passage");
+    }
+}
+
+#[test]
+fn integrators_allocate_nothing() {
+    every_fixed(1e-3, &mut Fall);
+    every_adaptive(1e-6, 1e-8, &mut Fall);
 }

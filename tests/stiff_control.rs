@@ -9,7 +9,7 @@ use redysim::integrate::FixedStep;
 use redysim::integrate::stability::{LinearStability, largest_stable_step};
 use redysim::{
     Dop853, ForwardSimulation, IntegrationError, Integrator, Ode4, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5,
-    Solution,
+    Solution, TorqueLaw,
 };
 
 const DOF: usize = Kr5::NV;
@@ -22,7 +22,7 @@ fn held(kp: f64, kd: f64) -> ForwardSimulation<'static, Kr5, Law> {
 }
 
 /// KR5 held against its weight, with gains of each joint's size, those of the wrist times `wrist`.
-fn balanced(wrist: f64) -> ForwardSimulation<'static, Kr5, impl FnMut(f64, &[f64; DOF], &[f64; DOF]) -> [f64; DOF]> {
+fn balanced(wrist: f64) -> ForwardSimulation<'static, Kr5, impl TorqueLaw<f64, Kr5>> {
     const KP: [f64; DOF] = [2000.0, 2000.0, 2000.0, 50.0, 50.0, 20.0];
     const KD: [f64; DOF] = [200.0, 200.0, 200.0, 5.0, 5.0, 0.5];
     let weight = Kr5::gravity_forces(&HOLD);

@@ -12,10 +12,13 @@ use crate::common::{Failure, Outputs, instants};
 /// Steps, s.
 const STEPS: [f64; 6] = [2e-2, 1e-2, 4e-3, 2e-3, 1e-3, 4e-4];
 
+/// A way to keep loops closed: its name, and what it is with steps of a size.
+type Way = (&'static str, fn(f64) -> Stabilisation<f64>);
+
 /// The four-bar let go from rest, for 5 s by [`Ode4`].
 pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     headline("Four-bar, 5 s of free motion by Ode4: the worst gap of the loop, and drift of the energy");
-    let ways: [(&str, fn(f64) -> Stabilisation<f64>); 4] = [
+    let ways: [Way; 4] = [
         ("projection", |_| Stabilisation::Projection),
         ("Baumgarte, α = 20/s", |_| Stabilisation::Baumgarte { alpha: 20.0 }),
         ("Baumgarte, α = 0.5/h", |step| Stabilisation::Baumgarte { alpha: 0.5 / step }),

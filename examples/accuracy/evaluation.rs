@@ -13,9 +13,10 @@ use redysim::{ForwardDynamics, InverseDynamics, Real, Vector};
 use super::models::{DOF, Kr5, pruned};
 use crate::common::csv::Csv;
 use crate::common::figure::{Figure, Panel};
+use crate::common::reference::Reference;
 use crate::common::speed::{median, remark_debug};
 use crate::common::table::{Table, headline, remark, tiny};
-use crate::common::{Context, Failure, Outputs};
+use crate::common::{Context, Failure, Outputs, Rows, column, peak};
 use crate::double_double::{DoubleDouble, exact};
 
 /// One way to compute KR5's dynamics: time per state, ns, and error, of inverse and of forward dynamics.
@@ -171,10 +172,15 @@ fn per_state(width: usize, mut call: impl FnMut(usize)) -> f64 {
     median((0..BATCHES).map(|_| batch()).collect())
 }
 
+/// KR5 on the generic path.
+fn generic() -> Result<GenericMechanism, Failure> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/test/kr5_ranges.toml");
+    Ok(GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model))
+}
+
 /// What this build has to measure: everything, or, where it is another build of the same program, what differs.
 pub fn measure(build: &str) -> Result<Vec<Measured>, Failure> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/test/kr5_ranges.toml");
-    let generic = GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model);
+    let generic = generic()?;
     let judge = Judge::new(&generic);
     Ok(match build {
         DETERMINISTIC => vec![judge.scalar::<f64, _>(COMPILED, "f64, deterministic", &Kr5)],
@@ -268,6 +274,19 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     table.print();
     remark("Error: the largest of 1,024 states and six joints, as a share of the joint's largest value, judged by the");
     remark("generic path over double-double. Lanes: per state. Plain names: built for any x86-64 or AArch64 machine.");
+    let generic = generic()?;
+    let deviations = [
+        from_reference::<f64, _>(&generic)?,
+        from_reference::<f64, _>(&Kr5)?,
+        from_reference::<f32, _>(&Kr5)?,
+        from_reference::<f64, _>(&pruned::To1e3)?,
+    ]
+    .map(tiny);
+    let [generic, double, single, pruned] = deviations;
+    remark(&format!(
+        "Inverse dynamics against an independent program in quadruple precision: generic {generic}, f64 {double},"
+    ));
+    remark(&format!("f32 {single}, pruned at 1e-3 {pruned} of the joint's peak."));
     remark_debug();
     let panel = |function: usize, title: &str| {
         let start = Panel::new(title, "error", "1").logarithmic().over("time per state [ns]");
@@ -284,6 +303,24 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
         &Figure { columns: 2, panels, shared_legend: true },
     )?;
     outputs.numbers("evaluation", "the same in numbers", &csv)
+}
+
+/// The largest deviation of inverse dynamics from a program of its own in quadruple precision, at five instants of the
+/// paper's motion, as a share of the joint's largest force.
+fn from_reference<S: Real, M: InverseDynamics<S>>(mechanism: &M) -> Result<f64, Failure> {
+    let text = include_str!("../../tests/reference/kane_quad_ID_kr5.csv");
+    let reference = Reference::joint_forces("quad precision", text, DOF)?;
+    let peaks: Vec<f64> = (0..DOF).map(|joint| peak(column(&reference.tau, joint))).collect();
+    let mut worst = 0.0_f64;
+    for (row, expected) in reference.tau.iter().enumerate() {
+        let of_row = |rows: &Rows| M::Velocities::from_fn(DOF, |i| S::from_f64(rows[row][i]));
+        let q = M::Coordinates::from_fn(DOF, |i| S::from_f64(reference.q[row][i]));
+        let found = mechanism.inverse_dynamics(&q, &of_row(&reference.v), &of_row(&reference.a));
+        for ((found, expected), peak) in found.as_ref().iter().zip(expected).zip(&peaks) {
+            worst = worst.max((found.to_f64() - expected).abs() / peak);
+        }
+    }
+    Ok(worst)
 }
 
 /// What the ways have in common, as the legend calls it.

@@ -159,7 +159,7 @@ pub fn stiff() -> Result<impl Scene, Failure> {
     let mut simulation = ForwardSimulation::new(scene.mechanism, scene.law);
     let start = simulation.state(&scene.start.0, &scene.start.1);
     let span = (0.0, scene.duration);
-    let judge = Radau5::new().rtol(1e-12).atol(1e-14).integrate(&mut simulation, span, start)?;
+    let judge = Radau5::new().rtol(3e-14).atol(1e-16).integrate(&mut simulation, span, start)?;
     let other = Ode15s::new().rtol(1e-11).atol(1e-13).integrate(&mut simulation, span, start)?;
     scene.end = judge.y[..DOF].to_vec();
     let apart = largest_difference(&other.y[..DOF], &scene.end);

@@ -199,8 +199,8 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
                  that its joint moves a mass and an inertia"
             ),
             Self::NotFinite => f.write_str(
-                "a position, a velocity or a force is infinite or not a number; look at the start and at the torque law, \
-                 and, without the projection, for a singular position",
+                "a position, a velocity or a force is infinite or not a number; look at the start and at the torque \
+                 law, and, without the projection, for a singular position",
             ),
         }
     }

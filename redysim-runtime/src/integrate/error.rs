@@ -179,7 +179,8 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             ),
             Self::NoCoordinates => f.write_str(
                 "the method treats coordinates and velocities differently, but the equation has 0 coordinates; \
-                 simulate a mechanism, implement Ode::coordinate_rates, or take a method for any equation, such as Ode4",
+                 simulate a mechanism, implement Ode::coordinate_rates, or take a method for any equation, such as \
+                 Ode4",
             ),
             Self::NoEigenvalues { t } => write!(
                 f,
@@ -209,8 +210,8 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             Self::Stiff { t, step, remaining } => write!(
                 f,
                 "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the rest \
-                 of the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, lower \
-                 the gains or dampings, or let it go on with stiffness_limit(None)"
+                 of the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, \
+                 lower the gains or dampings, or let it go on with stiffness_limit(None)"
             ),
             Self::TooManySteps { t, limit } => write!(
                 f,

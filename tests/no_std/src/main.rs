@@ -6,8 +6,8 @@
 use core::ops::ControlFlow;
 
 use redysim::{
-    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation, Free, Integrator, Motion,
-    Ode5, Ode45, ProportionalDerivative, SemiImplicitEuler, redysim,
+    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation, Free, Gauss6, Integrator,
+    Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler, redysim,
 };
 
 redysim! {
@@ -42,7 +42,8 @@ extern "C" fn main() -> i32 {
         !(is_held_by_gravity_forces()
             && kept
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
-            && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)),
+            && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
+            && implicit_methods_agree().is_some_and(|agree| agree)),
     )
 }
 
@@ -81,6 +82,17 @@ fn stops_at_an_event_with_stable_steps() -> Option<bool> {
     let method = SemiImplicitEuler::new(0.5 * warning.stable.step);
     let end = method.integrate(&mut held, (0.0, 0.1), start).ok()?;
     Some(stopped && warning.joint.is_some() && end.y[2] < 1.0)
+}
+
+fn implicit_methods_agree() -> Option<bool> {
+    let law = ProportionalDerivative { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
+    let mut held = ForwardSimulation::new(&Kr5, law);
+    let start = held.state(&[0.1_f64; 6], &[0.0; 6]);
+    let bdf = Ode15s::new().rtol(1e-6).atol(1e-8).integrate(&mut held, (0.0, 0.1), start).ok()?;
+    let radau = Radau5::new().rtol(1e-6).atol(1e-8).integrate(&mut held, (0.0, 0.1), start).ok()?;
+    let gauss = Gauss6::new(1e-3).integrate(&mut ForwardSimulation::new(&Kr5, Free), (0.0, 0.1), start).ok()?;
+    let apart = bdf.y[1] - radau.y[1];
+    Some(-1e-4 < apart && apart < 1e-4 && gauss.y[1] < 0.1)
 }
 
 fn stays_closed_when_it_turns() -> Option<bool> {
