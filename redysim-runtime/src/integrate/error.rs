@@ -209,8 +209,8 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
             ),
             Self::Stiff { t, step, remaining } => write!(
                 f,
-                "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the rest \
-                 of the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, \
+                "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the \
+                 rest of the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, \
                  lower the gains or dampings, or let it go on with stiffness_limit(None)"
             ),
             Self::TooManySteps { t, limit } => write!(
