@@ -168,10 +168,9 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
                 "the mechanism cannot follow its trajectory to t = {t:?} s: with coordinate {coordinate} moved on, \
                  a gap of {gap:?} m remains; stay within the reach of the links, or ask for nearer instants"
             ),
-            Self::BadCoordinate { coordinate, count } => write!(
-                f,
-                "there is no coordinate {coordinate}; the mechanism's {count} coordinates are counted from 0"
-            ),
+            Self::BadCoordinate { coordinate, count } => {
+                write!(f, "there is no coordinate {coordinate}; the mechanism's {count} coordinates are counted from 0")
+            }
             Self::RepeatedCoordinate { coordinate } => {
                 write!(f, "coordinate {coordinate} is prescribed twice; name each independent coordinate once")
             }
