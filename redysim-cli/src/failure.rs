@@ -60,8 +60,9 @@ impl Failure {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown = self.message.strip_prefix("error: ").unwrap_or(&self.message);
-        write!(f, "error: {}", shown.trim_end())?;
+        // A model's faults begin with their own severity, which is a warning where one stands first in the file.
+        let own = ["error: ", "warning: "].iter().any(|severity| self.message.starts_with(severity));
+        write!(f, "{}{}", if own { "" } else { "error: " }, self.message.trim_end())?;
         match &self.help {
             Some(help) => write!(f, "\n  = help: {help}"),
             None => Ok(()),

@@ -7,6 +7,7 @@
 mod commands;
 mod failure;
 mod output;
+mod summary;
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! Files that are there whole or not at all.
+//! Files that are there whole or not at all, and what is printed.
 
 use std::fs;
 use std::io::{self, Write};
@@ -22,6 +22,20 @@ pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failu
         let _ = fs::remove_file(&draft);
         Failure::file("write", path, &error)
     })
+}
+
+/// Prints what was asked for. A reader that has seen enough, as `head` does, is no failure.
+///
+/// # Errors
+/// If the output cannot be written.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::outside(format!("cannot write the output: {error}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What is there already, and must not be lost.

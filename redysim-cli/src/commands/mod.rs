@@ -7,12 +7,17 @@ pub mod generate;
 use std::path::Path;
 
 use crate::failure::Failure;
-use redysim_model::{Loaded, Model};
+use redysim_model::{Faults, Loaded, Model};
 
 /// Reads a model, prints its warnings unless `quiet`, and says every fault at once.
 pub fn load(path: &Path, quiet: bool) -> Result<Loaded, Failure> {
-    let loaded = Model::load(path)
-        .map_err(|faults| if path.exists() { Failure::input(faults) } else { Failure::outside(faults) })?;
+    loaded(path, Model::load(path), quiet)
+}
+
+/// The same of a model that is read already.
+pub fn loaded(path: &Path, read: Result<Loaded, Faults>, quiet: bool) -> Result<Loaded, Failure> {
+    let loaded =
+        read.map_err(|faults| if path.exists() { Failure::input(faults) } else { Failure::outside(faults) })?;
     if !quiet {
         for warning in &loaded.warnings {
             eprintln!("{warning}\n");
