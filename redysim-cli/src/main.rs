@@ -8,11 +8,12 @@ mod commands;
 mod failure;
 mod output;
 mod summary;
+mod urdf;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{check, completions, generate};
+use commands::{check, completions, generate, import};
 
 /// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
 #[derive(Parser)]
@@ -29,6 +30,7 @@ struct Cli {
 enum Command {
     Check(check::Arguments),
     Generate(generate::Arguments),
+    Import(import::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -37,6 +39,7 @@ fn main() -> ExitCode {
     let done = match command {
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Generate(arguments) => generate::run(&arguments, quiet),
+        Command::Import(arguments) => import::run(&arguments, quiet),
         Command::Completions(arguments) => completions::run(&arguments),
     };
     match done {

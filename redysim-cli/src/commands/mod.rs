@@ -3,6 +3,7 @@
 pub mod check;
 pub mod completions;
 pub mod generate;
+pub mod import;
 
 use std::path::Path;
 
