@@ -6,6 +6,7 @@
 
 mod commands;
 mod failure;
+mod number;
 mod output;
 mod summary;
 mod urdf;

@@ -1,5 +1,6 @@
 //! What a model is allowed to say, but rarely means: most often a slip of units.
 
+use crate::number::rounded;
 use redysim_model::spatial::Vec3;
 use redysim_model::{JointKind, Link, Mobility, Model};
 
@@ -104,10 +105,4 @@ fn own_length(link: &Link) -> f64 {
 
 fn length(vector: Vec3<f64>) -> f64 {
     vector.dot(vector).sqrt()
-}
-
-/// As many digits as one reads.
-pub(super) fn rounded(value: f64) -> String {
-    let short: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    if short != 0.0 && !(1e-4..1e6).contains(&short.abs()) { format!("{short:e}") } else { format!("{short}") }
 }

@@ -1,7 +1,7 @@
 //! The summary as a text.
 
-use super::suspicions::rounded;
 use super::{LinkSummary, Summary};
+use crate::number::rounded;
 use std::fmt::{Display, Formatter, Result};
 
 impl Display for Summary {

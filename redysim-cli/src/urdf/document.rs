@@ -20,6 +20,9 @@ const READ: [(&str, &[&str]); 3] = [
     ("joint", &["origin", "parent", "child", "axis", "limit", "mimic"]),
 ];
 
+/// The joints of URDF.
+const KINDS: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+
 impl<'a> Document<'a> {
     /// Parses the text of the file.
     ///
@@ -75,8 +78,13 @@ impl<'a> Document<'a> {
 
     fn check_joint(&self, joint: Node) -> Result<(), Failure> {
         let item = self.item(joint)?;
-        if joint.attribute("type").is_none() {
-            return Err(self.fault(joint, format!("{item}: it has no `type`")));
+        match joint.attribute("type") {
+            None => return Err(self.fault(joint, format!("{item}: it has no `type`"))),
+            Some(kind) if !KINDS.contains(&kind) => {
+                let message = format!("{item}: its `type` cannot be `{}`", kind.escape_debug());
+                return Err(self.fault(joint, message).help(format!("the types are: {}", KINDS.join(", "))));
+            }
+            Some(_) => {}
         }
         for end in ["parent", "child"] {
             let node = self.required(&item, joint, end)?;

@@ -4,6 +4,9 @@ use redysim_model::inertia::Sym3;
 use redysim_model::rotation::roll_pitch_yaw;
 use redysim_model::spatial::{Pose, Vec3};
 
+/// An inertia of so many kg m² for a kg (a radius of gyration of 10 nm) is roundoff.
+const NOISE: f64 = 1e-16;
+
 /// A rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertial {
@@ -31,6 +34,15 @@ impl Inertial {
             com: Vec3(inertial.origin.xyz.0),
             inertia: if turned { inertia.rotated(roll_pitch_yaw(inertial.origin.rpy.0)) } else { inertia },
         }
+    }
+
+    /// Without an inertia that is nothing but the roundoff of the program that wrote it, and whether there was one. Left
+    /// in, its elements would not fit each other, and the inertia be none of a body.
+    pub fn without_noise(self) -> (Self, bool) {
+        let Sym3 { xx, yy, zz, xy, yz, xz } = self.inertia;
+        let largest = [xx, yy, zz, xy, yz, xz].into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let noise = 0.0 < largest && largest < NOISE * self.mass;
+        (Inertial { inertia: if noise { Sym3::zero() } else { self.inertia }, ..self }, noise)
     }
 
     /// Whether there is anything that resists motion.

@@ -13,6 +13,7 @@ use redysim_model::{Diagnostic, JointKind, Model};
 use robot::Robot;
 
 use crate::failure::Failure;
+use crate::number::rounded;
 
 /// A model file, and what a person should know about it.
 pub struct Imported {
@@ -24,11 +25,20 @@ pub struct Imported {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Imports the text of the URDF file at `path`; fixed links become parts of their parents if `fuse`.
+/// What is done with a robot beside writing it down.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Fixed links become parts of their parents.
+    pub fuse_fixed: bool,
+    /// Angles that are nearly multiples of 90° are made so.
+    pub quarter_turns: bool,
+}
+
+/// Imports the text of the URDF file at `path`.
 ///
 /// # Errors
 /// If the file is no URDF, its robot is no tree, or no mechanism can be as it says. Messages have the file's line.
-pub fn import(text: &str, path: &Path, fuse: bool) -> Result<Imported, Failure> {
+pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Failure> {
     let file = path.display().to_string();
     let document = Document::parse(text, &file)?;
     let mut robot = Robot::read(&document)?;
@@ -36,8 +46,11 @@ pub fn import(text: &str, path: &Path, fuse: bool) -> Result<Imported, Failure> 
         robot.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         robot.notes.push(format!("the robot has no name: it is called `{}` after its file", robot.name));
     }
+    if options.quarter_turns {
+        robot = robot.with_quarter_turns();
+    }
     robot = robot.without_reserved_name().without_massless_motion();
-    if fuse {
+    if options.fuse_fixed {
         robot = robot.fused();
     }
     let limited = robot.links.iter().filter(|link| link.limit.is_some()).count();
@@ -68,7 +81,7 @@ fn head(robot: &Robot, path: &Path) -> Vec<String> {
     let first = format!(
         "From {name}, by redysim import: {} links, {moving} moving joints, {} kg.",
         robot.links.len(),
-        robot.mass()
+        rounded(robot.mass())
     );
     let notes = robot.notes.iter().map(|note| format!("- {note}"));
     [first, String::new()].into_iter().chain(notes).collect()

@@ -1,6 +1,7 @@
 //! The robot of a URDF as a tree of links that stands on the ground.
 
 use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_2;
 
 use redysim_model::JointKind;
 use redysim_model::rotation::{roll_pitch_yaw, sin_cos};
@@ -10,6 +11,9 @@ use urdf_rs::{JointLimit, JointType};
 use super::document::Document;
 use super::inertial::Inertial;
 use crate::failure::Failure;
+
+/// An angle this close to a multiple of 90° was probably rounded.
+const NEARLY: f64 = 1e-5;
 
 /// A robot whose root is the ground.
 pub struct Robot {
@@ -100,7 +104,36 @@ impl Robot {
         };
         let links: Vec<Link> = urdf.joints.iter().map(link).collect();
         notes.extend(links.iter().flat_map(|link| &link.remarks).cloned());
-        Ok(Robot { name: urdf.name.clone(), links, notes })
+        Ok(Robot { name: urdf.name.clone(), links, notes }.without_noise())
+    }
+
+    /// No inertia is mere roundoff.
+    fn without_noise(mut self) -> Self {
+        for link in &mut self.links {
+            let (clean, noise) = link.inertial.without_noise();
+            link.inertial = clean;
+            if noise {
+                self.notes.push(format!("the inertia of link `{}` is roundoff: it is zero here", link.name));
+            }
+        }
+        self
+    }
+
+    /// Angles of joints that are nearly multiples of 90° are made so: their zeros leave the generated code.
+    pub fn with_quarter_turns(mut self) -> Self {
+        let (mut count, mut largest) = (0, 0.0_f64);
+        for angle in self.links.iter_mut().flat_map(|link| &mut link.origin.rpy) {
+            let exact = (*angle / FRAC_PI_2).round() * FRAC_PI_2;
+            let off = (exact - *angle).abs();
+            if off > 0.0 && off < NEARLY {
+                (count, largest, *angle) = (count + 1, largest.max(off), exact);
+            }
+        }
+        if count > 0 {
+            self.notes
+                .push(format!("{count} angles are multiples of 90° here; the furthest was off by {largest:.1e} rad"));
+        }
+        self
     }
 
     /// No link has the name of the ground.
@@ -187,6 +220,9 @@ fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot) -> Result<&'u str, Fa
     }
     let roots: Vec<&str> =
         urdf.links.iter().map(|link| link.name.as_str()).filter(|name| !carried.contains_key(name)).collect();
+    if urdf.joints.is_empty() && !urdf.links.is_empty() {
+        return Err(document.fault_at("robot", "", "the robot has no joints: nothing of it moves"));
+    }
     match roots.as_slice() {
         [root] => on_root(document, urdf, root).map(|()| *root),
         [] if urdf.links.is_empty() => Err(document.fault_at("robot", "", "the robot has no links")),
