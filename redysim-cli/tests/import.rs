@@ -208,6 +208,10 @@ fn what_is_lost_is_said_in_the_file_and_to_the_person() {
     }
     assert!(run.stderr.contains("warning: link `base_link`: `origin.rpy[1]` is 1.5708 rad"), "{}", run.stderr);
     assert!(run.stdout.contains("# limits: position = [-1.0, 1.0], velocity = 2.0, force = 40.0"), "{}", run.stdout);
+    let fused = import(LOSSY, &["--fuse-fixed"]).1;
+    for said in said.iter().chain(&["link `tool` is a part of finger", "link `puck` is a part of the ground"]) {
+        assert!(fused.stdout.contains(said) && fused.stderr.contains(said), "{said}:\n{}", fused.stdout);
+    }
     let kinds: Vec<usize> = mechanism.model().links.iter().map(|link| link.joint.dof()).collect();
     assert_eq!(kinds, [1, 1, 0, 0]);
     let quiet = import(LOSSY, &["--quiet"]).1;

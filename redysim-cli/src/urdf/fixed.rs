@@ -22,8 +22,7 @@ impl Robot {
                 "joint `{joint_name}` moves no mass, for neither `{name}` nor a link further out has any: it is fixed at zero here"
             );
             (link.kind, link.limit) = (JointKind::Fixed, None);
-            link.remarks.push(remark.clone());
-            self.notes.push(remark);
+            link.remarks.push(remark);
         }
         self
     }
@@ -59,10 +58,10 @@ impl Robot {
                 }
                 _ => {}
             }
-            let remark = format!("link `{}` is a part of {whole}", link.name);
+            let remarks = link.remarks.iter().cloned().chain([format!("link `{}` is a part of {whole}", link.name)]);
             match carrier {
-                Some(carrier) => fused[carrier].remarks.push(remark),
-                None => notes.push(remark),
+                Some(carrier) => fused[carrier].remarks.extend(remarks),
+                None => notes.extend(remarks),
             }
         }
         let mut places = vec![None; links.len()];

@@ -49,7 +49,10 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     if options.quarter_turns {
         robot = robot.with_quarter_turns();
     }
-    robot = robot.without_reserved_name().without_massless_motion();
+    robot = robot.without_reserved_name().without_massless_motion().with_mimics_said();
+    if robot.links.iter().all(|link| link.kind == JointKind::Fixed) {
+        return Err(document.fault_at("robot", "", "every joint is fixed here: nothing of the robot moves"));
+    }
     if options.fuse_fixed {
         robot = robot.fused();
     }
@@ -60,6 +63,8 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
             .push(format!("the limits of {limited} joints limit nothing here: they are kept as ranges or comments"));
     }
     robot.notes.extend(document.left_out().into_iter().map(|what| format!("left out: {what}")));
+    let remarks = robot.links.iter().flat_map(|link| &link.remarks).cloned();
+    let notes = robot.notes.iter().cloned().chain(remarks).collect();
     let written = model_file::write(&robot, &head(&robot, path));
     let lines = &written.lines;
     let loaded = Model::from_toml(written.text.clone(), file.clone()).map_err(|faults| {
@@ -71,7 +76,7 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
         });
         Failure::input(shown.collect::<Vec<_>>().join("\nerror: "))
     })?;
-    Ok(Imported { text: written.text, notes: robot.notes, warnings: loaded.warnings })
+    Ok(Imported { text: written.text, notes, warnings: loaded.warnings })
 }
 
 /// What stands at the head of the model file.

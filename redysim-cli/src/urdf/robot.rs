@@ -21,7 +21,7 @@ pub struct Robot {
     pub name: String,
     /// All links but the root, in the order of the file's joints.
     pub links: Vec<Link>,
-    /// What the file says that this does not.
+    /// What the file says that this does not, beside the remarks of the links.
     pub notes: Vec<String>,
 }
 
@@ -38,6 +38,8 @@ pub struct Link {
     pub inertial: Inertial,
     /// Of a joint that moves and has limits.
     pub limit: Option<JointLimit>,
+    /// Of which joint, and how, this one is a multiple in the URDF.
+    pub mimics: Option<String>,
     /// What a reader of the model should know.
     pub remarks: Vec<String>,
 }
@@ -100,10 +102,10 @@ impl Robot {
             axis: joint.axis.xyz.0,
             inertial: inertial_of(&joint.child.link),
             limit: limit(joint),
-            remarks: remark(joint).into_iter().collect(),
+            mimics: mimics(joint),
+            remarks: not_here(joint).into_iter().collect(),
         };
         let links: Vec<Link> = urdf.joints.iter().map(link).collect();
-        notes.extend(links.iter().flat_map(|link| &link.remarks).cloned());
         Ok(Robot { name: urdf.name.clone(), links, notes }.without_noise())
     }
 
@@ -136,6 +138,16 @@ impl Robot {
         self
     }
 
+    /// Says of each joint that mimics another what it is here.
+    pub fn with_mimics_said(mut self) -> Self {
+        for link in &mut self.links {
+            let Some(mimics) = &link.mimics else { continue };
+            let here = if link.kind == JointKind::Fixed { "fixed" } else { "free here, with an actuator of its own" };
+            link.remarks.push(format!("joint `{}` {mimics}: it is {here}", link.joint_name));
+        }
+        self
+    }
+
     /// No link has the name of the ground.
     pub fn without_reserved_name(mut self) -> Self {
         let taken = |name: &str| self.links.iter().any(|link| link.name == name);
@@ -156,27 +168,21 @@ fn kind(joint: &urdf_rs::Joint) -> JointKind {
     }
 }
 
-/// What a joint is in the URDF and not here.
-fn remark(joint: &urdf_rs::Joint) -> Option<String> {
-    let unknown = match joint.joint_type {
-        JointType::Floating => Some("floating"),
-        JointType::Planar => Some("planar"),
-        JointType::Spherical => Some("spherical"),
-        _ => None,
+/// What a joint is in the URDF that there is none of here.
+fn not_here(joint: &urdf_rs::Joint) -> Option<String> {
+    let kind = match joint.joint_type {
+        JointType::Floating => "floating",
+        JointType::Planar => "planar",
+        JointType::Spherical => "spherical",
+        _ => return None,
     };
-    let mimic = joint.mimic.as_ref().filter(|_| kind(joint) != JointKind::Fixed);
-    match (unknown, mimic) {
-        (Some(kind), _) => Some(format!("joint `{}` is {kind} in the URDF: it is fixed at zero here", joint.name)),
-        (_, Some(mimic)) => {
-            let (factor, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
-            Some(format!(
-                "joint `{}` mimics `{}` in the URDF ({factor} times its value, plus {offset}): it is free here, with an \
-                 actuator of its own",
-                joint.name, mimic.joint
-            ))
-        }
-        _ => None,
-    }
+    Some(format!("joint `{}` is {kind} in the URDF: it is fixed at zero here", joint.name))
+}
+
+fn mimics(joint: &urdf_rs::Joint) -> Option<String> {
+    let mimic = joint.mimic.as_ref()?;
+    let (factor, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+    Some(format!("mimics `{}` in the URDF ({factor} times its value, plus {offset})", mimic.joint))
 }
 
 /// The limits, of which a continuous joint has no positions.
