@@ -49,6 +49,6 @@ mod shape;
 mod source;
 mod trees;
 
-pub use mechanism::{Generated, implementation, implementation_with, stub};
+pub use mechanism::{Generated, implementation, implementation_with, operations, stub};
 pub use pruning::Pruning;
 pub use source::{InvalidName, source_file, source_file_with};

@@ -36,16 +36,11 @@ pub fn implementation_with(
     scene: &Scene,
     passes: &Passes,
 ) -> Generated {
+    let (functions, warnings) = functions(model, scene, passes);
     let tree = Tree::new(model);
-    let (functions, unpruned) = match trace_scene(model, scene, passes) {
-        Ok(functions) => (functions, None),
-        Err(no_range) => (trace_of(&tree, &scene.functions, passes), Some(format!("nothing is pruned: {no_range}"))),
-    };
-    let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
     let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
     let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.coordinate].to_string()).collect();
-    let operations: Vec<_> =
-        functions.iter().map(|function| (function.signature.name, function.expressions.count())).collect();
+    let operations = operations_of(&functions);
     let outline = Outline::new(model, scene);
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
     let writer = Writer { model, bodies: &bodies, angles: &angles, outline: &outline, runtime };
@@ -53,6 +48,29 @@ pub fn implementation_with(
         std::iter::once(writer.posture()).chain(functions.iter().map(|function| writer.function(function)));
     let tokens = type_impls(&outline, name, runtime, &operations, definitions.collect());
     Generated { tokens, operations, warnings }
+}
+
+/// What the functions of a compiled mechanism cost, and what was asked for and cannot be, without the code.
+pub fn operations(model: &Model, scene: &Scene) -> (Vec<(&'static str, OperationCount)>, Vec<String>) {
+    let (functions, warnings) = functions(model, scene, &Passes::default());
+    (operations_of(&functions), warnings)
+}
+
+/// The functions that a scene asks for, and what of it cannot be.
+fn functions(model: &Model, scene: &Scene, passes: &Passes) -> (Vec<Function>, Vec<String>) {
+    let (functions, unpruned) = match trace_scene(model, scene, passes) {
+        Ok(functions) => (functions, None),
+        Err(no_range) => {
+            let unpruned = format!("nothing is pruned: {no_range}");
+            (trace_of(&Tree::new(model), &scene.functions, passes), Some(unpruned))
+        }
+    };
+    let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
+    (functions, warnings)
+}
+
+fn operations_of(functions: &[Function]) -> Vec<(&'static str, OperationCount)> {
+    functions.iter().map(|function| (function.signature.name, function.expressions.count())).collect()
 }
 
 /// The `impl`s of a type whose model has faults: everything has its type and nothing has a meaning, so that the faults

@@ -1,0 +1,111 @@
+//! `redysim check MODEL`: every fault and warning where it stands, then what the model is.
+
+use std::path::PathBuf;
+
+use crate::failure::Failure;
+use crate::output::print;
+use crate::summary::Summary;
+use redysim_model::{Diagnostic, Model, Severity};
+use serde::Serialize;
+
+/// Show every fault and warning of a model, then what it is.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  redysim check models/kr5.toml
+  redysim check models/fourbar.toml --json | jq .summary.mobility
+
+With --quiet only faults are shown; the exit code is 0 for a model without faults, 1 for one with.
+
+--json prints one object, whose keys stay as they are:
+  file      the model file
+  valid     whether it has no errors
+  errors, warnings
+            lists of { title, help, file, line, column }; line and column count from 1, and are null where the file
+            could not be read
+  summary   null for a faulty model; else { name, gravity, mass, dof, mobility, loop_conditions, loop_rank,
+            actuated, passive, links: [{ name, parent, joint, kind, actuated, mass }],
+            loops: [{ name, kind, link_a, link_b, conditions }],
+            operations: [{ function, flops, additions, multiplications, divisions, sine_cosine_pairs }],
+            suspicions }, in SI units")]
+pub struct Arguments {
+    /// The model file.
+    model: PathBuf,
+    /// Print everything as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report<'a> {
+    file: String,
+    valid: bool,
+    errors: Vec<Finding<'a>>,
+    warnings: Vec<Finding<'a>>,
+    summary: Option<&'a Summary>,
+}
+
+/// A diagnostic for programs.
+#[derive(Serialize)]
+struct Finding<'a> {
+    title: &'a str,
+    help: &'a str,
+    file: &'a str,
+    line: Option<usize>,
+    column: Option<usize>,
+}
+
+impl<'a> Finding<'a> {
+    fn of(diagnostic: &'a Diagnostic) -> Self {
+        let (line, column) = diagnostic.position().unzip();
+        Finding { title: diagnostic.title(), help: diagnostic.help(), file: diagnostic.file(), line, column }
+    }
+}
+
+/// Checks the model.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
+    let (diagnostics, summary) = match Model::load(&arguments.model) {
+        Ok(loaded) => {
+            let summary = (arguments.json || !quiet).then(|| Summary::of(&loaded));
+            (loaded.warnings, Ok(summary))
+        }
+        Err(faults) => {
+            let errors = faults.errors().count();
+            (faults.diagnostics, Err(errors))
+        }
+    };
+    if arguments.json {
+        print_json(arguments, &diagnostics, summary.as_ref().ok().and_then(Option::as_ref))?;
+    } else {
+        let shown = diagnostics.iter().filter(|found| !quiet || found.severity() == Severity::Error);
+        shown.for_each(|found| eprintln!("{found}\n"));
+    }
+    match summary {
+        Ok(Some(summary)) if !arguments.json => print(&summary.to_string())?,
+        Ok(_) => {}
+        Err(errors) => return Err(faulty(arguments, errors)),
+    }
+    Ok(())
+}
+
+fn faulty(arguments: &Arguments, errors: usize) -> Failure {
+    let file = arguments.model.display();
+    if !arguments.model.is_file() {
+        return Failure::outside(format!("{file} could not be read"));
+    }
+    Failure::input(format!("{file} has {errors} error{}", if errors == 1 { "" } else { "s" }))
+}
+
+fn print_json(arguments: &Arguments, diagnostics: &[Diagnostic], summary: Option<&Summary>) -> Result<(), Failure> {
+    let of = |severity| diagnostics.iter().filter(move |found| found.severity() == severity).map(Finding::of).collect();
+    let report = Report {
+        file: arguments.model.display().to_string(),
+        valid: summary.is_some(),
+        errors: of(Severity::Error),
+        warnings: of(Severity::Warning),
+        summary,
+    };
+    let text = serde_json::to_string_pretty(&report).map_err(Failure::outside)?;
+    print(&(text + "\n"))
+}

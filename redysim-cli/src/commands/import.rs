@@ -1,0 +1,65 @@
+//! `redysim import ROBOT.urdf`: a model file from a URDF.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::failure::Failure;
+use crate::output::{print, write_file};
+use crate::urdf::{Imported, Options, import};
+
+/// Make a model file from a URDF, and say what gets lost.
+///
+/// Joints keep their order, names, origins and axes; inertias are turned into the links' axes. Continuous joints become
+/// revolute; the root link becomes the ground. A model has no visuals, collisions, transmissions, damping or friction, and
+/// no floating, planar or mimic joints: what of that is in the file is said, here and in the model's head. Limits stay as
+/// comments.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  redysim import panda.urdf -o models/panda.toml
+  redysim import ur5.urdf --fuse-fixed | less
+  xacro robot.urdf.xacro > robot.urdf && redysim import robot.urdf -o robot.toml && redysim check robot.toml")]
+pub struct Arguments {
+    /// The URDF file.
+    robot: PathBuf,
+    /// Write to this file instead of printing.
+    #[arg(long, short)]
+    output: Option<PathBuf>,
+    /// Keep fixed links as links of their own (this is what happens anyway).
+    #[arg(long, conflicts_with = "fuse_fixed")]
+    keep_fixed: bool,
+    /// Make fixed links parts of the links that carry them; their frames are lost.
+    #[arg(long)]
+    fuse_fixed: bool,
+    /// Take angles that are within 1e-5 rad of a multiple of 90 deg, such as 1.5708, for it: compiled code gets shorter.
+    #[arg(long)]
+    quarter_turns: bool,
+    /// Overwrite a file that is there already.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Imports the robot.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
+    let path = &arguments.robot;
+    let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let byte = error.utf8_error().valid_up_to() + 1;
+        Failure::input(format!("{} is not UTF-8 (byte {byte})", path.display())).help("save the file as UTF-8")
+    })?;
+    let options = Options { fuse_fixed: arguments.fuse_fixed, quarter_turns: arguments.quarter_turns };
+    let Imported { text, notes, warnings } = import(&text, path, options)?;
+    match &arguments.output {
+        Some(output) => write_file(output, text.as_bytes(), arguments.force)?,
+        None => print(&text)?,
+    }
+    if !quiet {
+        notes.iter().for_each(|note| eprintln!("note: {note}"));
+        let warned = warnings.iter().map(|warning| format!("warning: {}", warning.title()));
+        warned.for_each(|warning| eprintln!("{warning}"));
+        if let Some(output) = &arguments.output {
+            eprintln!("\nThe model is in {0}: redysim check {0}", output.display());
+        }
+    }
+    Ok(())
+}

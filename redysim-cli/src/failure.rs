@@ -1,0 +1,73 @@
+//! Why a command ends without doing what it was asked for.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// One clear message, what to do about it, and the exit code that scripts see.
+#[derive(Debug)]
+pub struct Failure {
+    kind: Kind,
+    message: String,
+    help: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// What was given is at fault.
+    Input,
+    /// The world outside is.
+    Outside,
+}
+
+impl Failure {
+    /// A model, scenario or table is at fault.
+    pub fn input(message: impl fmt::Display) -> Self {
+        Self { kind: Kind::Input, message: message.to_string(), help: None }
+    }
+
+    /// Something outside the program is at fault.
+    pub fn outside(message: impl fmt::Display) -> Self {
+        Self { kind: Kind::Outside, message: message.to_string(), help: None }
+    }
+
+    /// A file or folder could not be read or written (`doing`: "read", "write", "make the folder").
+    pub fn file(doing: &str, path: &Path, error: &io::Error) -> Self {
+        let failure = Self::outside(format!("cannot {doing} {}: {error}", path.display()));
+        match error.kind() {
+            io::ErrorKind::NotFound => failure.help("is the path right? It is taken from the current folder"),
+            io::ErrorKind::PermissionDenied => failure.help("its permissions forbid it"),
+            io::ErrorKind::StorageFull => failure.help("make room on the disk, or write elsewhere with --output"),
+            _ => failure,
+        }
+    }
+
+    /// Adds what to do.
+    pub fn help(mut self, help: impl fmt::Display) -> Self {
+        self.help = Some(help.to_string());
+        self
+    }
+
+    /// 1 for input, 3 for what is outside; 2 is the command line's own.
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self.kind {
+            Kind::Input => 1,
+            Kind::Outside => 3,
+        })
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A model's faults begin with their own severity, which is a warning where one stands first in the file.
+        let own = ["error: ", "warning: "].iter().any(|severity| self.message.starts_with(severity));
+        write!(f, "{}{}", if own { "" } else { "error: " }, self.message.trim_end())?;
+        match &self.help {
+            Some(help) => write!(f, "\n  = help: {help}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}

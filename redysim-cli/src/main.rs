@@ -1,0 +1,53 @@
+//! The command `redysim`: what ReDySim's user does with `inputs.m`, `runinv`, `runfor`, `plot_*` and `animate`, on any
+//! mechanism in TOML, without writing Rust; and the way from there to compiled code.
+//!
+//! Exit codes: 0 all is well; 1 the input is at fault (a model, a scenario, a table); 2 the command line is; 3 something
+//! outside is (a file that cannot be read or written, an integration that cannot go on); 130 interrupted.
+
+mod commands;
+mod failure;
+mod number;
+mod output;
+mod summary;
+mod urdf;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use commands::{check, completions, generate, import};
+
+/// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
+#[derive(Parser)]
+#[command(name = "redysim", version, propagate_version = true, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Print nothing but errors and what was asked for.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Check(check::Arguments),
+    Generate(generate::Arguments),
+    Import(import::Arguments),
+    Completions(completions::Arguments),
+}
+
+fn main() -> ExitCode {
+    let Cli { command, quiet } = Cli::parse();
+    let done = match command {
+        Command::Check(arguments) => check::run(&arguments, quiet),
+        Command::Generate(arguments) => generate::run(&arguments, quiet),
+        Command::Import(arguments) => import::run(&arguments, quiet),
+        Command::Completions(arguments) => completions::run(&arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            failure.exit_code()
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! What a model is, for a person to check at a glance and for programs to read.
+
+mod suspicions;
+mod table;
+
+use redysim_model::{CutKind, JointKind, Link, Loaded, Mobility, Model, Tree};
+use redysim_runtime::OperationCount;
+use serde::{Serialize, Serializer};
+
+/// A model in numbers. The names of the fields are the keys of `redysim check --json`: they stay.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    /// Name of the mechanism.
+    pub name: String,
+    /// Acceleration of gravity in the base frame, m/s².
+    pub gravity: [f64; 3],
+    /// Mass of all links, kg.
+    pub mass: f64,
+    /// Joint velocities of the tree, NV.
+    pub dof: usize,
+    /// Independent joint velocities, with the loops closed.
+    pub mobility: usize,
+    /// Conditions of all loops together, NC.
+    pub loop_conditions: usize,
+    /// How many of them are independent.
+    pub loop_rank: usize,
+    /// Names of the joints that have an actuator.
+    pub actuated: Vec<String>,
+    /// Names of the joints that move and have none.
+    pub passive: Vec<String>,
+    /// The links, in the file's order.
+    pub links: Vec<LinkSummary>,
+    /// The loops, in the file's order.
+    pub loops: Vec<LoopSummary>,
+    /// Operations of each compiled function.
+    pub operations: Vec<FunctionSummary>,
+    /// What is allowed, but rarely meant.
+    pub suspicions: Vec<String>,
+}
+
+/// A link and its joint.
+#[derive(Debug, Serialize)]
+pub struct LinkSummary {
+    /// Name of the link.
+    pub name: String,
+    /// Name of the link that carries it, or "base".
+    pub parent: String,
+    /// Name of the joint.
+    pub joint: String,
+    /// "revolute", "prismatic" or "fixed".
+    pub kind: &'static str,
+    /// Whether the joint has an actuator; null where it does not move.
+    pub actuated: Option<bool>,
+    /// Mass, kg.
+    pub mass: f64,
+}
+
+/// A cut joint.
+#[derive(Debug, Serialize)]
+pub struct LoopSummary {
+    /// Name of the loop.
+    pub name: String,
+    /// "revolute", "spherical" or "weld".
+    pub kind: &'static str,
+    /// The link on side a, or "base".
+    pub link_a: String,
+    /// The link on side b, or "base".
+    pub link_b: String,
+    /// Its conditions that do not hold at every position.
+    pub conditions: usize,
+}
+
+/// What a compiled function costs.
+#[derive(Debug, Serialize)]
+pub struct FunctionSummary {
+    /// Name of the function.
+    pub function: &'static str,
+    /// Its operations.
+    #[serde(flatten, serialize_with = "counts")]
+    pub count: OperationCount,
+}
+
+fn counts<S: Serializer>(count: &OperationCount, serializer: S) -> Result<S::Ok, S::Error> {
+    use serde::ser::SerializeMap;
+    let OperationCount { additions, multiplications, divisions, trig } = *count;
+    let mut map = serializer.serialize_map(Some(5))?;
+    map.serialize_entry("flops", &count.flops())?;
+    map.serialize_entry("additions", &additions)?;
+    map.serialize_entry("multiplications", &multiplications)?;
+    map.serialize_entry("divisions", &divisions)?;
+    map.serialize_entry("sine_cosine_pairs", &trig)?;
+    map.end()
+}
+
+impl Summary {
+    /// Of a checked model and what is asked of it: this traces every function.
+    pub fn of(loaded: &Loaded) -> Summary {
+        let model = &loaded.model;
+        let found = Mobility::of(model);
+        let (operations, unpruned) = redysim_codegen::operations(model, &loaded.scene);
+        let mut suspicions = suspicions::of(model, &found);
+        suspicions.extend(unpruned);
+        let joints = |actuated: bool| {
+            let chosen = model.moving_links().filter(move |link| link.actuated == actuated);
+            chosen.map(|link| link.joint_name.clone()).collect()
+        };
+        Summary {
+            name: model.name.clone(),
+            gravity: model.gravity.0,
+            mass: model.links.iter().map(|link| link.mass).sum(),
+            dof: model.dof(),
+            mobility: found.mobility,
+            loop_conditions: found.conditions,
+            loop_rank: found.rank,
+            actuated: joints(true),
+            passive: joints(false),
+            links: model.links.iter().map(|link| link_summary(model, link)).collect(),
+            loops: loop_summaries(model),
+            operations: operations
+                .into_iter()
+                .filter(|(function, _)| !model.loops.is_empty() || !function.starts_with("loop_"))
+                .map(|(function, count)| FunctionSummary { function, count })
+                .collect(),
+            suspicions,
+        }
+    }
+}
+
+fn link_summary(model: &Model, link: &Link) -> LinkSummary {
+    LinkSummary {
+        name: link.name.clone(),
+        parent: link_name(model, link.parent),
+        joint: link.joint_name.clone(),
+        kind: kind(link.joint),
+        actuated: (link.joint.dof() > 0).then_some(link.actuated),
+        mass: link.mass,
+    }
+}
+
+fn loop_summaries(model: &Model) -> Vec<LoopSummary> {
+    let cuts = Tree::new(model).cuts;
+    let summary = |(cut, rows): (&redysim_model::Loop, usize)| LoopSummary {
+        name: cut.name.clone(),
+        kind: cut_kind(cut.joint),
+        link_a: link_name(model, cut.a.link),
+        link_b: link_name(model, cut.b.link),
+        conditions: rows,
+    };
+    let conditions = cuts.iter().map(|cut| cut.rows.iter().filter(|kept| **kept).count());
+    model.loops.iter().zip(conditions).map(summary).collect()
+}
+
+fn link_name(model: &Model, link: Option<usize>) -> String {
+    link.map_or("base".to_string(), |link| model.links[link].name.clone())
+}
+
+fn kind(joint: JointKind) -> &'static str {
+    JointKind::ALL.iter().find(|(_, kind)| *kind == joint).map_or("", |(name, _)| name)
+}
+
+fn cut_kind(joint: CutKind) -> &'static str {
+    CutKind::ALL.iter().find(|(_, kind)| *kind == joint).map_or("", |(name, _)| name)
+}

@@ -1,0 +1,108 @@
+//! What a model is allowed to say, but rarely means: most often a slip of units.
+
+use crate::number::rounded;
+use redysim_model::spatial::Vec3;
+use redysim_model::{JointKind, Link, Mobility, Model};
+
+/// Beyond this, the heaviest link is suspiciously heavier than the lightest.
+const MASS_RATIO: f64 = 1e5;
+/// A radius of gyration is suspicious beyond so many sizes of the mechanism, and below such a part of it.
+const GYRATION: [f64; 2] = [1e-4, 2.0];
+/// Gravity on Earth, m/s², from the equator to the poles with some room.
+const EARTH: [f64; 2] = [9.7, 9.9];
+
+/// One line for each thing that looks odd.
+pub fn of(model: &Model, mobility: &Mobility) -> Vec<String> {
+    let mut found = Vec::new();
+    found.extend(gravity(model));
+    found.extend(mass_range(model));
+    let size = size(model);
+    if size > 0.0 {
+        found.extend(model.links.iter().filter_map(|link| far_com(link, size)));
+        found.extend(model.links.iter().filter_map(|link| odd_inertia(link, size)));
+    }
+    found.extend(under_actuated(model, mobility));
+    found
+}
+
+fn gravity(model: &Model) -> Option<String> {
+    let size = length(model.gravity);
+    if size == 0.0 {
+        return Some("there is no gravity".into());
+    }
+    let on_earth = EARTH[0] <= size && size <= EARTH[1];
+    (!on_earth).then(|| format!("gravity is {} m/s²: Earth's is 9.81 m/s²", rounded(size)))
+}
+
+fn mass_range(model: &Model) -> Option<String> {
+    let heavy = model.links.iter().filter(|link| link.mass > 0.0);
+    let lightest = heavy.clone().min_by(|a, b| a.mass.total_cmp(&b.mass))?;
+    let heaviest = heavy.max_by(|a, b| a.mass.total_cmp(&b.mass))?;
+    (heaviest.mass > MASS_RATIO * lightest.mass).then(|| {
+        format!(
+            "link `{}` has {} kg, link `{}` only {} kg: kg and g?",
+            heaviest.name,
+            rounded(heaviest.mass),
+            lightest.name,
+            rounded(lightest.mass)
+        )
+    })
+}
+
+fn far_com(link: &Link, size: f64) -> Option<String> {
+    let distance = length(link.com);
+    (distance > size).then(|| {
+        format!(
+            "link `{}`: its centre of mass is {} m from its frame, further than the whole mechanism reaches, {} m: m and mm?",
+            link.name,
+            rounded(distance),
+            rounded(size)
+        )
+    })
+}
+
+/// The largest moment is at least a third of the trace: enough to tell units apart, without eigenvalues.
+fn odd_inertia(link: &Link, size: f64) -> Option<String> {
+    let trace = link.inertia.xx + link.inertia.yy + link.inertia.zz;
+    if trace <= 0.0 || link.mass <= 0.0 {
+        return None;
+    }
+    let gyration = (trace / (2.0 * link.mass)).sqrt();
+    let odd = gyration < GYRATION[0] * size || gyration > GYRATION[1] * size;
+    odd.then(|| {
+        format!(
+            "link `{}`: with this `mass` and `inertia` its radius of gyration is {} m, in a mechanism of {} m: \
+             kg m² and another unit?",
+            link.name,
+            rounded(gyration),
+            rounded(size)
+        )
+    })
+}
+
+fn under_actuated(model: &Model, mobility: &Mobility) -> Option<String> {
+    let actuated = model.moving_links().filter(|link| link.actuated).count();
+    (actuated < mobility.mobility)
+        .then(|| format!("{actuated} joints are actuated, but the mobility is {}", mobility.mobility))
+}
+
+/// How far the mechanism reaches when it is stretched: the longest way from the ground over the origins of the links'
+/// frames, or over the points of its cuts.
+fn size(model: &Model) -> f64 {
+    let reach = |link: Option<usize>| {
+        let chain = std::iter::successors(link, |&link| model.links[link].parent);
+        chain.map(|link| own_length(&model.links[link])).sum::<f64>()
+    };
+    let ends = (0..model.links.len()).map(|link| reach(Some(link)));
+    let sides = model.loops.iter().flat_map(|cut| [&cut.a, &cut.b]);
+    ends.chain(sides.map(|side| reach(side.link) + length(side.point))).fold(0.0, f64::max)
+}
+
+fn own_length(link: &Link) -> f64 {
+    let offset = if link.joint == JointKind::Prismatic { link.offset.abs() } else { 0.0 };
+    length(link.placement.position) + offset
+}
+
+fn length(vector: Vec3<f64>) -> f64 {
+    vector.dot(vector).sqrt()
+}

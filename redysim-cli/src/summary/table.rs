@@ -1,0 +1,82 @@
+//! The summary as a text.
+
+use super::{LinkSummary, Summary};
+use crate::number::rounded;
+use std::fmt::{Display, Formatter, Result};
+
+impl Display for Summary {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let row = |f: &mut Formatter<'_>, name: &str, value: String| writeln!(f, "  {name:<11}{value}");
+        writeln!(f, "{}", self.name)?;
+        row(f, "links", format!("{}, {} kg in all", self.links.len(), rounded(self.mass)))?;
+        row(f, "joints", self.kinds())?;
+        row(f, "mobility", self.mobility.to_string())?;
+        row(f, "actuated", self.actuators())?;
+        row(f, "gravity", self.gravity_text())?;
+        for each in &self.loops {
+            let sides = format!("{} – {}", each.link_a, each.link_b);
+            row(f, "loop", format!("{}: {}, {sides}, {} conditions", each.name, each.kind, each.conditions))?;
+        }
+        if !self.loops.is_empty() {
+            row(f, "loop rank", format!("{} of {}", self.loop_rank, self.loop_conditions))?;
+        }
+        writeln!(f)?;
+        self.write_links(f)?;
+        writeln!(f, "\n  {:<20}{:>8}{:>18}", "compiled function", "flops", "sine-cosine pairs")?;
+        for each in &self.operations {
+            writeln!(f, "  {:<20}{:>8}{:>18}", each.function, each.count.flops(), each.count.trig)?;
+        }
+        if !self.suspicions.is_empty() {
+            writeln!(f, "\n  Is this meant?")?;
+        }
+        for suspicion in &self.suspicions {
+            writeln!(f, "  - {suspicion}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Summary {
+    /// "5 revolute, 1 prismatic".
+    fn kinds(&self) -> String {
+        let count = |kind: &str| self.links.iter().filter(|link| link.kind == kind).count();
+        let kinds = ["revolute", "prismatic", "fixed"].map(|kind| (kind, count(kind)));
+        let there = kinds.iter().filter(|(_, count)| *count > 0);
+        there.map(|(kind, count)| format!("{count} {kind}")).collect::<Vec<_>>().join(", ")
+    }
+
+    fn actuators(&self) -> String {
+        let (actuated, passive) = (self.actuated.len(), self.passive.len());
+        if passive == 0 {
+            format!("all {actuated} joints")
+        } else {
+            format!("{actuated} of {} joints", actuated + passive)
+        }
+    }
+
+    fn gravity_text(&self) -> String {
+        let [x, y, z] = self.gravity;
+        format!("[{x}, {y}, {z}] m/s²")
+    }
+
+    fn write_links(&self, f: &mut Formatter<'_>) -> Result {
+        let columns: [(&str, fn(&LinkSummary) -> String); 6] = [
+            ("link", |link| link.name.clone()),
+            ("on", |link| link.parent.clone()),
+            ("joint", |link| link.joint.clone()),
+            ("kind", |link| link.kind.to_string()),
+            ("actuator", |link| link.actuated.map_or("", |actuated| if actuated { "yes" } else { "no" }).to_string()),
+            ("mass, kg", |link| rounded(link.mass)),
+        ];
+        let widths = columns.map(|(title, cell)| {
+            let cells = self.links.iter().map(|link| cell(link).chars().count());
+            cells.chain([title.chars().count()]).max().unwrap_or(0) + 2
+        });
+        let mut line = |cells: [String; 6]| {
+            let padded = cells.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect::<String>();
+            writeln!(f, "  {}", padded.trim_end())
+        };
+        line(columns.map(|(title, _)| title.to_string()))?;
+        self.links.iter().try_for_each(|link| line(columns.map(|(_, cell)| cell(link))))
+    }
+}

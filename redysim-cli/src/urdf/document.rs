@@ -1,0 +1,212 @@
+//! The URDF as XML: on which line things stand, and what of it a model has no place for.
+
+use std::collections::BTreeMap;
+
+use roxmltree::{Document as Xml, Node};
+
+use crate::failure::Failure;
+
+/// A URDF file whose form is right: well-formed, with the elements and numbers that a robot needs.
+pub struct Document<'a> {
+    file: &'a str,
+    text: &'a str,
+    xml: Xml<'a>,
+}
+
+/// What is read of a robot, a link and a joint. Limits are, too, where they are whole.
+const READ: [(&str, &[&str]); 3] = [
+    ("robot", &["link", "joint"]),
+    ("link", &["inertial"]),
+    ("joint", &["origin", "parent", "child", "axis", "limit", "mimic"]),
+];
+
+/// The joints of URDF.
+const KINDS: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+
+impl<'a> Document<'a> {
+    /// Parses the text of the file.
+    ///
+    /// # Errors
+    /// The first fault of form, with its line.
+    pub fn parse(text: &'a str, file: &'a str) -> Result<Self, Failure> {
+        let xml = Xml::parse(text).map_err(|error| broken(file, &error))?;
+        let document = Document { file, text, xml };
+        let robot = document.xml.root_element();
+        if robot.tag_name().name() != "robot" {
+            let message = format!("the file has a <{}>, not a <robot>", robot.tag_name().name());
+            return Err(document.fault(robot, message).help("give a URDF; other formats are not read"));
+        }
+        if let Some(node) = document.xml.descendants().find(is_xacro) {
+            let message = format!("<xacro:{}> is a macro that is not expanded", node.tag_name().name());
+            return Err(document.fault(node, message).help("expand it first: xacro robot.urdf.xacro > robot.urdf"));
+        }
+        children(robot, "link").try_for_each(|link| document.check_link(link))?;
+        children(robot, "joint").try_for_each(|joint| document.check_joint(joint))?;
+        Ok(document)
+    }
+
+    /// A fault at an element, with its line.
+    fn fault(&self, node: Node, message: impl std::fmt::Display) -> Failure {
+        Failure::input(format!("{}:{}: {message}", self.file, self.line(node)))
+    }
+
+    /// A fault at the link or joint of this name.
+    pub fn fault_at(&self, tag: &str, name: &str, message: impl std::fmt::Display) -> Failure {
+        Failure::input(format!("{}:{}: {message}", self.file, self.line_of(tag, name)))
+    }
+
+    fn line(&self, node: Node) -> u32 {
+        self.xml.text_pos_at(node.range().start).row
+    }
+
+    /// The line of the last link or joint of this name; the first line if there is none.
+    pub fn line_of(&self, tag: &str, name: &str) -> u32 {
+        let named = children(self.xml.root_element(), tag).filter(|node| node.attribute("name") == Some(name));
+        named.last().map_or(1, |node| self.line(node))
+    }
+
+    fn check_link(&self, link: Node) -> Result<(), Failure> {
+        let item = self.item(link)?;
+        let Some(inertial) = child(link, "inertial") else { return Ok(()) };
+        self.check_origin(&item, inertial)?;
+        let mass = self.required(&item, inertial, "mass")?;
+        self.numbers(&item, mass, "value", 1, true)?;
+        let inertia = self.required(&item, inertial, "inertia")?;
+        let elements = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+        elements.iter().try_for_each(|element| self.numbers(&item, inertia, element, 1, true))
+    }
+
+    fn check_joint(&self, joint: Node) -> Result<(), Failure> {
+        let item = self.item(joint)?;
+        match joint.attribute("type") {
+            None => return Err(self.fault(joint, format!("{item}: it has no `type`"))),
+            Some(kind) if !KINDS.contains(&kind) => {
+                let message = format!("{item}: its `type` cannot be `{}`", kind.escape_debug());
+                return Err(self.fault(joint, message).help(format!("the types are: {}", KINDS.join(", "))));
+            }
+            Some(_) => {}
+        }
+        for end in ["parent", "child"] {
+            let node = self.required(&item, joint, end)?;
+            if node.attribute("link").is_none() {
+                return Err(self.fault(node, format!("{item}: its <{end}> has no `link`")));
+            }
+        }
+        self.check_origin(&item, joint)?;
+        child(joint, "axis").map_or(Ok(()), |axis| self.numbers(&item, axis, "xyz", 3, true))
+    }
+
+    /// "link `arm`".
+    fn item(&self, node: Node) -> Result<String, Failure> {
+        let tag = node.tag_name().name();
+        match node.attribute("name") {
+            Some(name) => Ok(format!("{tag} `{}`", name.escape_debug())),
+            None => Err(self.fault(node, format!("a <{tag}> has no `name`"))),
+        }
+    }
+
+    fn check_origin(&self, item: &str, owner: Node) -> Result<(), Failure> {
+        let Some(origin) = child(owner, "origin") else { return Ok(()) };
+        self.numbers(item, origin, "xyz", 3, false)?;
+        self.numbers(item, origin, "rpy", 3, false)
+    }
+
+    fn required<'n>(&self, item: &str, owner: Node<'n, 'a>, tag: &str) -> Result<Node<'n, 'a>, Failure> {
+        let owner_tag = owner.tag_name().name();
+        child(owner, tag).ok_or_else(|| self.fault(owner, format!("{item}: its <{owner_tag}> has no <{tag}>")))
+    }
+
+    /// An attribute that is `count` finite numbers.
+    fn numbers(&self, item: &str, node: Node, attribute: &str, count: usize, needed: bool) -> Result<(), Failure> {
+        let tag = node.tag_name().name();
+        let Some(text) = node.attribute(attribute) else {
+            let missing = || self.fault(node, format!("{item}: its <{tag}> has no `{attribute}`"));
+            return if needed { Err(missing()) } else { Ok(()) };
+        };
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let finite = |word: &&str| word.parse::<f64>().is_ok_and(f64::is_finite);
+        if words.len() == count && words.iter().all(finite) {
+            return Ok(());
+        }
+        let wanted = if count == 1 { "a finite number".into() } else { format!("{count} finite numbers") };
+        let found = text.escape_debug();
+        Err(self.fault(node, format!("{item}: `{attribute}` of its <{tag}> must be {wanted}, found \"{found}\"")))
+    }
+
+    /// The elements that nothing is read of.
+    fn unread(&self) -> impl Iterator<Item = Node<'_, 'a>> {
+        let robot = self.xml.root_element();
+        let owners = robot.children().filter(Node::is_element).chain([robot]);
+        owners.flat_map(|owner| {
+            let of_owner = READ.iter().find(|(tag, _)| *tag == owner.tag_name().name());
+            let read = of_owner.map_or(&[] as &[&str], |(_, read)| read);
+            let keeps = move |node: &Node| read.contains(&node.tag_name().name()) && !is_partial_limit(*node);
+            // Nothing is read of what is unread itself.
+            let inside = if of_owner.is_some() { Some(owner.children()) } else { None };
+            inside.into_iter().flatten().filter(|node| node.is_element()).filter(move |node| !keeps(node))
+        })
+    }
+
+    /// What is left out, in words: "12 <visual> (the first on line 7)".
+    pub fn left_out(&self) -> Vec<String> {
+        let mut found = BTreeMap::<String, (usize, u32)>::new();
+        for node in self.unread() {
+            let line = self.line(node);
+            let (count, first) = found.entry(described(node)).or_insert((0, line));
+            (*count, *first) = (*count + 1, line.min(*first));
+        }
+        let text = |(what, (count, line))| match count {
+            1 => format!("{what}, on line {line}"),
+            _ => format!("{what}, {count} of them, the first on line {line}"),
+        };
+        found.into_iter().map(text).collect()
+    }
+
+    /// The text with spaces for what is left out, so that no fault in it stands in the way.
+    pub fn text_to_read(&self) -> String {
+        let mut bytes = self.text.as_bytes().to_vec();
+        for node in self.unread() {
+            bytes[node.range()].iter_mut().filter(|byte| **byte != b'\n').for_each(|byte| *byte = b' ');
+        }
+        // Elements begin and end with ASCII, so that whole characters are replaced.
+        String::from_utf8(bytes).unwrap_or_default()
+    }
+}
+
+/// Damping and friction are no part of a model, and worth more words than a picture.
+fn described(node: Node) -> String {
+    let (tag, owner) = (node.tag_name().name(), node.parent().map_or("", |owner| owner.tag_name().name()));
+    match (owner, tag) {
+        ("joint", "dynamics") => "<dynamics>: the joints have no damping and no friction here".into(),
+        ("joint", "limit") => "<limit> without a velocity".into(),
+        ("robot", _) => format!("<{tag}>"),
+        _ => format!("<{tag}> of a {owner}"),
+    }
+}
+
+/// A limit of which not all can be read.
+fn is_partial_limit(node: Node) -> bool {
+    let number = |name: &str| node.attribute(name).map(|text| text.trim().parse::<f64>().is_ok_and(|x| !x.is_nan()));
+    let all = ["lower", "upper", "effort"].iter().all(|name| number(name).unwrap_or(true));
+    node.tag_name().name() == "limit" && !(all && number("velocity") == Some(true))
+}
+
+fn is_xacro(node: &Node) -> bool {
+    node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"))
+}
+
+fn children<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> impl Iterator<Item = Node<'n, 'a>> {
+    node.children().filter(move |child| child.tag_name().name() == tag)
+}
+
+fn child<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> Option<Node<'n, 'a>> {
+    children(node, tag).next()
+}
+
+fn broken(file: &str, error: &roxmltree::Error) -> Failure {
+    // The parser's message ends with the position that stands in front here.
+    let (message, place) = (error.to_string(), error.pos());
+    let message = message.strip_suffix(&format!(" at {place}")).unwrap_or(&message);
+    Failure::input(format!("{file}:{}:{}: XML: {message}", place.row, place.col))
+        .help("a URDF is an XML file: correct it first")
+}

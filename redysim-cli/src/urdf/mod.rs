@@ -1,0 +1,93 @@
+//! From a URDF to a model file, with what gets lost on the way.
+
+mod document;
+mod fixed;
+mod inertial;
+mod model_file;
+mod robot;
+
+use std::path::Path;
+
+use document::Document;
+use redysim_model::{Diagnostic, JointKind, Model};
+use robot::Robot;
+
+use crate::failure::Failure;
+use crate::number::rounded;
+
+/// A model file, and what a person should know about it.
+pub struct Imported {
+    /// The text of the model file.
+    pub text: String,
+    /// What is left out or done otherwise.
+    pub notes: Vec<String>,
+    /// What the checks of a model find odd.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// What is done with a robot beside writing it down.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Fixed links become parts of their parents.
+    pub fuse_fixed: bool,
+    /// Angles that are nearly multiples of 90° are made so.
+    pub quarter_turns: bool,
+}
+
+/// Imports the text of the URDF file at `path`.
+///
+/// # Errors
+/// If the file is no URDF, its robot is no tree, or no mechanism can be as it says. Messages have the file's line.
+pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Failure> {
+    let file = path.display().to_string();
+    let document = Document::parse(text, &file)?;
+    let mut robot = Robot::read(&document)?;
+    if robot.name.trim().is_empty() {
+        robot.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        robot.notes.push(format!("the robot has no name: it is called `{}` after its file", robot.name));
+    }
+    if options.quarter_turns {
+        robot = robot.with_quarter_turns();
+    }
+    robot = robot.without_reserved_name().without_massless_motion().with_mimics_said();
+    if robot.links.iter().all(|link| link.kind == JointKind::Fixed) {
+        return Err(document.fault_at("robot", "", "every joint is fixed here: nothing of the robot moves"));
+    }
+    if options.fuse_fixed {
+        robot = robot.fused();
+    }
+    let limited = robot.links.iter().filter(|link| link.limit.is_some()).count();
+    if limited > 0 {
+        robot
+            .notes
+            .push(format!("the limits of {limited} joints limit nothing here: they are kept as ranges or comments"));
+    }
+    robot.notes.extend(document.left_out().into_iter().map(|what| format!("left out: {what}")));
+    let remarks = robot.links.iter().flat_map(|link| &link.remarks).cloned();
+    let notes = robot.notes.iter().cloned().chain(remarks).collect();
+    let written = model_file::write(&robot, &head(&robot, path));
+    let lines = &written.lines;
+    let loaded = Model::from_toml(written.text.clone(), file.clone()).map_err(|faults| {
+        let link_of = |line: usize| lines.iter().rposition(|&first| first <= line).map(|index| &robot.links[index]);
+        let shown = faults.errors().map(|error| {
+            let link = error.position().and_then(|(line, _)| link_of(line));
+            let line = link.map_or(1, |link| document.line_of("joint", &link.joint_name));
+            format!("{file}:{line}: {}\n  = help: {}", error.title(), error.help())
+        });
+        Failure::input(shown.collect::<Vec<_>>().join("\nerror: "))
+    })?;
+    Ok(Imported { text: written.text, notes, warnings: loaded.warnings })
+}
+
+/// What stands at the head of the model file.
+fn head(robot: &Robot, path: &Path) -> Vec<String> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let moving = robot.links.iter().filter(|link| link.kind != JointKind::Fixed).count();
+    let first = format!(
+        "From {name}, by redysim import: {} links, {moving} moving joints, {} kg.",
+        robot.links.len(),
+        rounded(robot.mass())
+    );
+    let notes = robot.notes.iter().map(|note| format!("- {note}"));
+    [first, String::new()].into_iter().chain(notes).collect()
+}

@@ -1,0 +1,117 @@
+//! The robot as the text of a model file.
+
+use std::fmt::Write;
+
+use redysim_model::inertia::Sym3;
+use redysim_model::{JointKind, rotation};
+use urdf_rs::JointLimit;
+
+use super::robot::{Link, Robot};
+
+/// The text, and the line on which each link begins.
+pub struct ModelFile {
+    pub text: String,
+    pub lines: Vec<usize>,
+}
+
+/// Writes `robot`, with `head` as comments before it.
+pub fn write(robot: &Robot, head: &[String]) -> ModelFile {
+    let mut text = String::new();
+    for line in head {
+        text += format!("# {}", one_line(line)).trim_end();
+        text += "\n";
+    }
+    text += &format!("name = {}\n", quoted(&robot.name));
+    text += "gravity = [0.0, 0.0, -9.81]    # m/s², in the base frame: not from the URDF, which has none\n";
+    let mut lines = Vec::new();
+    for link in &robot.links {
+        text += "\n";
+        lines.push(text.matches('\n').count() + 1);
+        // Writing to a text cannot fail.
+        let _ = write_link(&mut text, link, robot);
+    }
+    ModelFile { text, lines }
+}
+
+fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result {
+    writeln!(text, "[[link]]")?;
+    for remark in &link.remarks {
+        writeln!(text, "# {}", one_line(remark))?;
+    }
+    writeln!(text, "name = {}", quoted(&link.name))?;
+    writeln!(text, "joint_name = {}", quoted(&link.joint_name))?;
+    writeln!(text, "parent = {}", quoted(link.parent.map_or("base", |parent| &robot.links[parent].name)))?;
+    writeln!(text, "joint = \"{}\"", kind(link.kind))?;
+    writeln!(text, "origin = {}", origin(link))?;
+    if link.kind != JointKind::Fixed {
+        writeln!(text, "axis = {}", vector(link.axis))?;
+    }
+    if let Some(limit) = &link.limit {
+        writeln!(text, "{}", range(limit))?;
+    }
+    writeln!(text, "mass = {:?}", link.inertial.mass + 0.0)?;
+    if link.inertial.com.0 != [0.0; 3] {
+        writeln!(text, "com = {}", vector(link.inertial.com.0))?;
+    }
+    if link.inertial.inertia != Sym3::zero() {
+        writeln!(text, "inertia = {}", inertia(link.inertial.inertia))?;
+    }
+    Ok(())
+}
+
+fn kind(kind: JointKind) -> &'static str {
+    JointKind::ALL.iter().find(|(_, known)| *known == kind).map_or("", |(name, _)| name)
+}
+
+fn origin(link: &Link) -> String {
+    let xyz = (link.origin.xyz != [0.0; 3]).then(|| format!("xyz = {}", vector(link.origin.xyz)));
+    let rpy = (link.origin.rpy != [0.0; 3]).then(|| format!("rpy = [{}]", link.origin.rpy.map(angle).join(", ")));
+    let entries: Vec<String> = xyz.into_iter().chain(rpy).collect();
+    if entries.is_empty() { "{}".into() } else { format!("{{ {} }}", entries.join(", ")) }
+}
+
+/// Quarter turns as what they are.
+fn angle(radians: f64) -> String {
+    let (sin, cos) = rotation::sin_cos(radians);
+    if radians != 0.0 && (sin == 0.0 || cos == 0.0) {
+        return format!("\"{} deg\"", (radians.to_degrees() / 90.0).round() * 90.0);
+    }
+    format!("{:?}", radians + 0.0)
+}
+
+fn inertia(i: Sym3<f64>) -> String {
+    let elements = [("xx", i.xx), ("yy", i.yy), ("zz", i.zz), ("xy", i.xy), ("yz", i.yz), ("xz", i.xz)];
+    let there = elements.into_iter().filter(|(_, value)| *value != 0.0);
+    let entries: Vec<String> = there.map(|(name, value)| format!("{name} = {value:?}")).collect();
+    format!("{{ {} }}", entries.join(", "))
+}
+
+/// A range wants an acceleration, which most URDFs do not give: then what they give is kept beside it.
+fn range(limit: &JointLimit) -> String {
+    let JointLimit { lower, upper, effort, velocity, acceleration, .. } = *limit;
+    let force = if effort.is_finite() && effort > 0.0 { format!(", force = {effort:?}") } else { String::new() };
+    let whole = lower.is_finite() && upper.is_finite() && lower < upper;
+    let moves = |largest: f64| largest.is_finite() && largest > 0.0;
+    if whole && moves(velocity) && moves(acceleration) {
+        return format!(
+            "range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}, acceleration = {acceleration:?}{force} }}"
+        );
+    }
+    let position = if whole { format!("position = [{lower:?}, {upper:?}], ") } else { String::new() };
+    format!("# limits: {position}velocity = {velocity:?}{force}; a `range` needs an acceleration, too")
+}
+
+fn vector(v: [f64; 3]) -> String {
+    let [x, y, z] = v.map(|x| x + 0.0);
+    format!("[{x:?}, {y:?}, {z:?}]")
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.into()).to_string()
+}
+
+/// A comment must not end before its line does.
+fn one_line(text: &str) -> String {
+    text.chars().flat_map(|c| if c.is_control() { c.escape_debug().collect() } else { vec![c] }).collect()
+}

@@ -1,0 +1,262 @@
+//! The robot of a URDF as a tree of links that stands on the ground.
+
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_2;
+
+use redysim_model::JointKind;
+use redysim_model::rotation::{roll_pitch_yaw, sin_cos};
+use redysim_model::spatial::{Mat3, Pose, Vec3};
+use urdf_rs::{JointLimit, JointType};
+
+use super::document::Document;
+use super::inertial::Inertial;
+use crate::failure::Failure;
+
+/// An angle this close to a multiple of 90° was probably rounded.
+const NEARLY: f64 = 1e-5;
+
+/// A robot whose root is the ground.
+pub struct Robot {
+    /// Its name; empty if the file gives none.
+    pub name: String,
+    /// All links but the root, in the order of the file's joints.
+    pub links: Vec<Link>,
+    /// What the file says that this does not, beside the remarks of the links.
+    pub notes: Vec<String>,
+}
+
+/// A link and the joint that carries it.
+#[derive(Clone, Debug)]
+pub struct Link {
+    pub name: String,
+    pub joint_name: String,
+    /// `None` is the ground.
+    pub parent: Option<usize>,
+    pub kind: JointKind,
+    pub origin: Origin,
+    pub axis: [f64; 3],
+    pub inertial: Inertial,
+    /// Of a joint that moves and has limits.
+    pub limit: Option<JointLimit>,
+    /// Of which joint, and how, this one is a multiple in the URDF.
+    pub mimics: Option<String>,
+    /// What a reader of the model should know.
+    pub remarks: Vec<String>,
+}
+
+/// Where a joint stands, as files write it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Origin {
+    pub xyz: [f64; 3],
+    pub rpy: [f64; 3],
+}
+
+impl Origin {
+    pub fn pose(self) -> Pose<f64> {
+        Pose { rotation: roll_pitch_yaw(self.rpy), position: Vec3(self.xyz) }
+    }
+
+    /// The origin of a pose. Yaw comes first, and roll from what it leaves, so that they fit each other even where only
+    /// their sum is determined, at a pitch of 90°.
+    pub fn of(pose: Pose<f64>) -> Self {
+        let nearest = |x: f64| if (x - x.round()).abs() < 4.0 * f64::EPSILON { x.round() + 0.0 } else { x };
+        let Mat3(r) = Mat3::from_fn(|i, j| nearest(pose.rotation.0[i][j]));
+        let yaw = r[1][0].atan2(r[0][0]);
+        let pitch = (-r[2][0]).atan2(r[0][0].hypot(r[1][0]));
+        let (sin, cos) = sin_cos(yaw);
+        let roll = (sin * r[0][2] - cos * r[1][2]).atan2(cos * r[1][1] - sin * r[0][1]);
+        Origin { xyz: pose.position.0, rpy: [roll, pitch, yaw] }
+    }
+}
+
+impl Robot {
+    /// The robot of a document.
+    ///
+    /// # Errors
+    /// If the links and joints are no tree.
+    pub fn read(document: &Document) -> Result<Robot, Failure> {
+        let urdf = urdf_rs::read_from_string(&document.text_to_read())
+            .map_err(|error| document.fault_at("robot", "", format!("URDF: {error}")))?;
+        unique(document, "link", urdf.links.iter().map(|link| link.name.as_str()))?;
+        unique(document, "joint", urdf.joints.iter().map(|joint| joint.name.as_str()))?;
+        let root = root(document, &urdf)?;
+        let inertial_of = |name: &str| {
+            let link = urdf.links.iter().find(|link| link.name == name);
+            link.map_or(Inertial::none(), |link| Inertial::of(&link.inertial))
+        };
+        let carried_by: HashMap<&str, usize> =
+            urdf.joints.iter().enumerate().map(|(index, joint)| (joint.child.link.as_str(), index)).collect();
+        let mut notes = Vec::new();
+        notes.push(match inertial_of(root).mass {
+            0.0 => format!("the root link `{root}` is the ground, called `base` here"),
+            mass => format!(
+                "the root link `{root}` is fixed to the ground, called `base` here: its {mass} kg never move and are left out"
+            ),
+        });
+        let link = |joint: &urdf_rs::Joint| Link {
+            name: joint.child.link.clone(),
+            joint_name: joint.name.clone(),
+            parent: carried_by.get(joint.parent.link.as_str()).copied(),
+            kind: kind(joint),
+            origin: Origin { xyz: joint.origin.xyz.0, rpy: joint.origin.rpy.0 },
+            axis: joint.axis.xyz.0,
+            inertial: inertial_of(&joint.child.link),
+            limit: limit(joint),
+            mimics: mimics(joint),
+            remarks: not_here(joint).into_iter().collect(),
+        };
+        let links: Vec<Link> = urdf.joints.iter().map(link).collect();
+        Ok(Robot { name: urdf.name.clone(), links, notes }.without_noise())
+    }
+
+    /// No inertia is mere roundoff.
+    fn without_noise(mut self) -> Self {
+        for link in &mut self.links {
+            let (clean, noise) = link.inertial.without_noise();
+            link.inertial = clean;
+            if noise {
+                self.notes.push(format!("the inertia of link `{}` is roundoff: it is zero here", link.name));
+            }
+        }
+        self
+    }
+
+    /// Angles of joints that are nearly multiples of 90° are made so: their zeros leave the generated code.
+    pub fn with_quarter_turns(mut self) -> Self {
+        let (mut count, mut largest) = (0, 0.0_f64);
+        for angle in self.links.iter_mut().flat_map(|link| &mut link.origin.rpy) {
+            let exact = (*angle / FRAC_PI_2).round() * FRAC_PI_2;
+            let off = (exact - *angle).abs();
+            if off > 0.0 && off < NEARLY {
+                (count, largest, *angle) = (count + 1, largest.max(off), exact);
+            }
+        }
+        if count > 0 {
+            self.notes
+                .push(format!("{count} angles are multiples of 90° here; the furthest was off by {largest:.1e} rad"));
+        }
+        self
+    }
+
+    /// Says of each joint that mimics another what it is here.
+    pub fn with_mimics_said(mut self) -> Self {
+        for link in &mut self.links {
+            let Some(mimics) = &link.mimics else { continue };
+            let here = if link.kind == JointKind::Fixed { "fixed" } else { "free here, with an actuator of its own" };
+            link.remarks.push(format!("joint `{}` {mimics}: it is {here}", link.joint_name));
+        }
+        self
+    }
+
+    /// No link has the name of the ground.
+    pub fn without_reserved_name(mut self) -> Self {
+        let taken = |name: &str| self.links.iter().any(|link| link.name == name);
+        let Some(index) = self.links.iter().position(|link| link.name == "base") else { return self };
+        let free = (0..).map(|n| if n == 0 { "base_link".into() } else { format!("base_link{n}") }).find(|n| !taken(n));
+        let name = free.unwrap_or_default();
+        self.notes.push(format!("link `base` is called `{name}` here: `base` is the ground"));
+        self.links[index].name = name;
+        self
+    }
+}
+
+fn kind(joint: &urdf_rs::Joint) -> JointKind {
+    match joint.joint_type {
+        JointType::Revolute | JointType::Continuous => JointKind::Revolute,
+        JointType::Prismatic => JointKind::Prismatic,
+        JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => JointKind::Fixed,
+    }
+}
+
+/// What a joint is in the URDF that there is none of here.
+fn not_here(joint: &urdf_rs::Joint) -> Option<String> {
+    let kind = match joint.joint_type {
+        JointType::Floating => "floating",
+        JointType::Planar => "planar",
+        JointType::Spherical => "spherical",
+        _ => return None,
+    };
+    Some(format!("joint `{}` is {kind} in the URDF: it is fixed at zero here", joint.name))
+}
+
+fn mimics(joint: &urdf_rs::Joint) -> Option<String> {
+    let mimic = joint.mimic.as_ref()?;
+    let (factor, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+    Some(format!("mimics `{}` in the URDF ({factor} times its value, plus {offset})", mimic.joint))
+}
+
+/// The limits, of which a continuous joint has no positions.
+fn limit(joint: &urdf_rs::Joint) -> Option<JointLimit> {
+    if kind(joint) == JointKind::Fixed || joint.limit == JointLimit::default() {
+        return None;
+    }
+    let mut limit = joint.limit.clone();
+    if joint.joint_type == JointType::Continuous {
+        (limit.lower, limit.upper) = (f64::NEG_INFINITY, f64::INFINITY);
+    }
+    Some(limit)
+}
+
+fn unique<'n>(document: &Document, tag: &str, names: impl Iterator<Item = &'n str>) -> Result<(), Failure> {
+    let mut seen = HashMap::new();
+    for name in names {
+        if seen.insert(name, ()).is_some() {
+            let message = format!("there are two {tag}s of the name `{}`", name.escape_debug());
+            return Err(document.fault_at(tag, name, message).help("give one of them another name"));
+        }
+    }
+    Ok(())
+}
+
+/// The link that no joint carries, if the links and joints are a tree on it.
+fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot) -> Result<&'u str, Failure> {
+    let mut carried: HashMap<&str, &str> = HashMap::new();
+    for joint in &urdf.joints {
+        for end in [&joint.parent.link, &joint.child.link] {
+            if !urdf.links.iter().any(|link| &link.name == end) {
+                let message = format!("joint `{}` names the link `{end}`, but there is no such link", joint.name);
+                return Err(document.fault_at("joint", &joint.name, message));
+            }
+        }
+        if let Some(other) = carried.insert(&joint.child.link, &joint.name) {
+            let message = format!("link `{}` hangs on two joints, `{other}` and `{}`", joint.child.link, joint.name);
+            let help = "a URDF is a tree: leave one of the joints out, and add it to the imported model as a [[loop]]";
+            return Err(document.fault_at("joint", &joint.name, message).help(help));
+        }
+    }
+    let roots: Vec<&str> =
+        urdf.links.iter().map(|link| link.name.as_str()).filter(|name| !carried.contains_key(name)).collect();
+    if urdf.joints.is_empty() && !urdf.links.is_empty() {
+        return Err(document.fault_at("robot", "", "the robot has no joints: nothing of it moves"));
+    }
+    match roots.as_slice() {
+        [root] => on_root(document, urdf, root).map(|()| *root),
+        [] if urdf.links.is_empty() => Err(document.fault_at("robot", "", "the robot has no links")),
+        [] => Err(document
+            .fault_at("robot", "", "no link is the root: each hangs on another, in a circle")
+            .help("the link that stands on the ground must be no joint's child")),
+        [first, others @ ..] => {
+            let message = format!("the robot has {} roots: `{first}`, `{}`", roots.len(), others.join("`, `"));
+            Err(document.fault_at("link", others[0], message).help("join them: one link carries all others"))
+        }
+    }
+}
+
+/// Every link hangs on the root in the end.
+fn on_root(document: &Document, urdf: &urdf_rs::Robot, root: &str) -> Result<(), Failure> {
+    let mut reached = vec![root];
+    let mut next = 0;
+    while let Some(&link) = reached.get(next) {
+        reached.extend(
+            urdf.joints.iter().filter(|joint| joint.parent.link == link).map(|joint| joint.child.link.as_str()),
+        );
+        next += 1;
+    }
+    match urdf.links.iter().find(|link| !reached.contains(&link.name.as_str())) {
+        None => Ok(()),
+        Some(link) => {
+            let message = format!("link `{}` hangs on itself, in a circle, and not on the root `{root}`", link.name);
+            Err(document.fault_at("link", &link.name, message))
+        }
+    }
+}

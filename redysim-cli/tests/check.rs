@@ -1,0 +1,162 @@
+//! `redysim check`, as a person and a program call it.
+
+mod common;
+
+use common::{model, redysim, root};
+use redysim_model::{GenericMechanism, Model};
+use redysim_runtime::MassMatrix;
+use serde_json::Value;
+
+fn json(arguments: &[&str]) -> (Value, i32) {
+    let run = redysim(&[&["check", "--json"], arguments].concat());
+    (serde_json::from_str(&run.stdout).unwrap_or_else(|error| panic!("{error}: {}", run.stdout)), run.code)
+}
+
+#[test]
+fn the_summary_of_the_fourbar_is_that_of_a_fourbar() {
+    let (report, code) = json(&[&model("fourbar.toml")]);
+    let summary = &report["summary"];
+    assert_eq!(code, 0);
+    assert_eq!(report["valid"], true);
+    // Grübler: three moving links, four revolutes: 3·3 − 2·4 = 1.
+    assert_eq!(summary["mobility"], 1);
+    assert_eq!(summary["dof"], 3);
+    assert_eq!((&summary["loop_rank"], &summary["loop_conditions"]), (&Value::from(2), &Value::from(2)));
+    assert_eq!(summary["mass"], 1.5 + 3.0 + 5.0);
+    assert_eq!(summary["actuated"], Value::from(vec!["crank"]));
+    assert_eq!(summary["loops"][0]["kind"], "revolute");
+}
+
+/// Bricard's linkage: six revolutes in space, which Grübler would have rigid, and which moves.
+#[test]
+fn the_mobility_of_bricards_linkage_is_one() {
+    let (report, _) = json(&[&model("test/bricard.toml")]);
+    let summary = &report["summary"];
+    assert_eq!((&summary["mobility"], &summary["loop_rank"]), (&Value::from(1), &Value::from(4)));
+    assert_eq!(report["warnings"][0]["file"], model("test/bricard.toml"));
+    assert!(report["warnings"][0]["line"].is_number());
+}
+
+#[test]
+fn operation_counts_are_those_of_the_compiled_functions() {
+    let (report, _) = json(&[&model("kr5.toml")]);
+    let operations = report["summary"]["operations"].as_array().unwrap();
+    // README's table, which a test of the facade holds against the macro.
+    let flops = |function: &str| operations.iter().find(|each| each["function"] == function).unwrap()["flops"].clone();
+    assert_eq!(flops("inverse_dynamics"), 333);
+    assert_eq!(flops("forward_dynamics"), 591);
+    assert_eq!(flops("mass_matrix"), 159);
+    assert!(operations.iter().all(|each| !each["function"].as_str().unwrap().starts_with("loop_")));
+}
+
+#[test]
+fn every_faulty_model_has_its_faults_in_json_and_the_exit_code_1() {
+    let folder = root().join("models/fail");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let (report, code) = json(&[path.to_str().unwrap()]);
+        let faults = Model::load(&path).unwrap_err();
+        assert_eq!(code, 1, "{}", path.display());
+        assert_eq!((&report["valid"], &report["summary"]), (&Value::Bool(false), &Value::Null));
+        let titles: Vec<_> = faults.errors().map(|error| Value::from(error.title())).collect();
+        let found: Vec<_> = report["errors"].as_array().unwrap().iter().map(|error| error["title"].clone()).collect();
+        assert_eq!(found, titles);
+        for (error, found) in faults.errors().zip(report["errors"].as_array().unwrap()) {
+            assert_eq!(error.position().map(|(line, _)| line as u64), found["line"].as_u64());
+        }
+        seen += 1;
+    }
+    assert!(seen > 20);
+}
+
+#[test]
+fn faults_are_shown_where_they_stand() {
+    let run = redysim(&["check", &model("fail/bad_unit.toml")]);
+    assert_eq!((run.code, run.stdout.as_str()), (1, ""));
+    assert!(run.stderr.contains("bad_unit.toml:9:25") && run.stderr.contains("^^^^"), "{}", run.stderr);
+    assert!(run.stderr.ends_with("bad_unit.toml has 3 errors\n"), "{}", run.stderr);
+}
+
+#[test]
+fn a_file_that_is_not_there_is_the_worlds_fault() {
+    let run = redysim(&["check", "nowhere.toml"]);
+    assert_eq!(run.code, 3);
+    assert!(run.stderr.contains("nowhere.toml"), "{}", run.stderr);
+    let (report, code) = json(&["nowhere.toml"]);
+    assert_eq!((code, &report["errors"][0]["line"]), (3, &Value::Null));
+}
+
+#[test]
+fn quiet_says_nothing_of_a_good_model() {
+    let run = redysim(&["check", "--quiet", &model("kr5_table2.toml")]);
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+    let run = redysim(&["check", &model("kr5_table2.toml")]);
+    assert!(run.stderr.contains("triangle inequality") && run.stdout.contains("39.83 kg"));
+}
+
+const SLIPS: &str = r#"
+name = "slips"
+gravity = [0.0, 0.0, -9810.0]
+
+[[link]]
+name = "upper"
+parent = "base"
+joint = "revolute"
+origin = { xyz = [0.0, 0.0, 0.3] }
+axis = [0.0, 1.0, 0.0]
+mass = 2000.0
+com = [150.0, 0.0, 0.0]
+inertia = { xx = 0.1, yy = 20.0, zz = 20.0 }
+
+[[link]]
+name = "fore"
+parent = "upper"
+joint = "revolute"
+origin = { xyz = [0.4, 0.0, 0.0] }
+axis = [0.0, 1.0, 0.0]
+actuated = false
+mass = 0.01
+com = [0.1, 0.0, 0.0]
+inertia = { xx = 10.0, yy = 1000.0, zz = 1000.0 }
+"#;
+
+#[test]
+fn slips_of_units_are_suspicious() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("slips.toml");
+    std::fs::write(&path, SLIPS).unwrap();
+    let (report, code) = json(&[path.to_str().unwrap()]);
+    let suspicions: Vec<&str> =
+        report["summary"]["suspicions"].as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect();
+    let wanted =
+        ["gravity is 9810 m/s²", "kg and g?", "`upper`: its centre of mass is 150 m", "`fore`", "1 joints are"];
+    assert_eq!((code, suspicions.len()), (0, wanted.len()), "{suspicions:#?}");
+    for (line, wanted) in suspicions.iter().zip(wanted) {
+        assert!(line.contains(wanted), "`{wanted}` in `{line}`");
+    }
+}
+
+/// What is suspicious is a matter of taste; that the shipped models are not is none.
+#[test]
+fn shipped_models_are_above_suspicion() {
+    for name in ["kr5.toml", "gripper.toml", "fourbar.toml", "three_rrr.toml", "leg.toml", "slider_crank.toml"] {
+        let (report, _) = json(&[&model(name)]);
+        assert_eq!(report["summary"]["suspicions"], Value::Array(vec![]), "{name}");
+    }
+}
+
+#[test]
+fn links_are_those_of_the_model() {
+    let (report, _) = json(&[&model("test/puma560.toml")]);
+    let mechanism = GenericMechanism::new(Model::load(model("test/puma560.toml")).unwrap().model);
+    let links = report["summary"]["links"].as_array().unwrap();
+    assert_eq!(links.len(), mechanism.model().links.len());
+    assert_eq!(mechanism.mass_matrix(&vec![0.0; mechanism.tree().dof()]).len(), report["summary"]["dof"]);
+    for (link, found) in mechanism.model().links.iter().zip(links) {
+        assert_eq!((found["name"].as_str(), found["mass"].as_f64()), (Some(link.name.as_str()), Some(link.mass)));
+    }
+}

@@ -1,0 +1,269 @@
+//! `redysim import`: a URDF and the model made of it are one mechanism, and what is not in the model is said.
+
+mod common;
+mod import_faults;
+mod kinematics;
+
+use common::{Run, redysim};
+use kinematics::{Numbers, positions, tree, urdf};
+use redysim_model::{GenericMechanism, Model};
+use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy};
+use std::fs;
+
+/// Imports the text of a URDF; the model, which has no faults, and what was said.
+fn import(urdf: &str, options: &[&str]) -> (GenericMechanism, Run) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.urdf");
+    fs::write(&path, urdf).unwrap();
+    let run = redysim(&[&["import", path.to_str().unwrap()], options].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let model = Model::from_toml(run.stdout.clone(), "robot.toml").unwrap_or_else(|faults| panic!("{faults}")).model;
+    (GenericMechanism::new(model), run)
+}
+
+/// A link on a joint with the given inside.
+fn pendulum(inside_of_joint: &str, inertial: &str) -> String {
+    format!(
+        "<robot name=\"pendulum\"><link name=\"world\"/><link name=\"rod\">{inertial}</link>\
+         <joint name=\"hinge\" type=\"continuous\"><parent link=\"world\"/><child link=\"rod\"/>{inside_of_joint}</joint></robot>"
+    )
+}
+
+/// nᵀ R I Rᵀ n + m |n × c|²: the moment about the joint's axis, by hand.
+#[test]
+fn inertias_are_turned_into_the_links_axes() {
+    let angle: f64 = 0.7;
+    let urdf = pendulum(
+        "<axis xyz=\"0 0 2\"/>",
+        &format!(
+            "<inertial><origin xyz=\"0.3 -0.4 5\" rpy=\"{angle} 0 0\"/><mass value=\"2\"/>\
+             <inertia ixx=\"9\" iyy=\"3\" izz=\"7\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
+        ),
+    );
+    let (mechanism, _) = import(&urdf, &[]);
+    let moment = 3.0 * angle.sin().powi(2) + 7.0 * angle.cos().powi(2);
+    let expected = moment + 2.0 * 0.25;
+    assert!((mechanism.mass_matrix(&vec![0.4])[0][0] - expected).abs() < 1e-14);
+    let inertia = mechanism.model().links[0].inertia;
+    // Of R diag(9, 3, 7) Rᵀ about x: yz = (3 − 7) sin cos.
+    assert!((inertia.yz + 4.0 * angle.sin() * angle.cos()).abs() < 1e-15 && inertia.xx == 9.0);
+}
+
+#[test]
+fn what_a_urdf_leaves_out_is_what_urdf_says() {
+    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+    let (mechanism, _) = import(&pendulum("", inertial), &[]);
+    // The axis is x unless given; the origin is the parent's.
+    assert_eq!(mechanism.model().links[0].axis.0, [1.0, 0.0, 0.0]);
+    assert_eq!(mechanism.model().links[0].placement.position.0, [0.0; 3]);
+    assert_eq!(mechanism.model().links[0].joint_name, "hinge");
+    assert_eq!(mechanism.model().gravity.0, [0.0, 0.0, -9.81]);
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-13 * (1.0 + a.abs().max(b.abs()))
+}
+
+/// Origins, centres of mass, and with them the potential energy, against quaternions in this test.
+#[test]
+fn every_link_is_where_the_urdf_has_it() {
+    let mut numbers = Numbers::new(1);
+    for round in 0..20 {
+        let joints = tree(&mut numbers, 3 + round);
+        let (mechanism, _) = import(&urdf(&joints), &["--keep-fixed"]);
+        let moving: Vec<usize> = (0..joints.len()).filter(|&index| joints[index].kind != "fixed").collect();
+        let q: Vec<f64> = moving.iter().map(|_| numbers.within(3.0)).collect();
+        let all: Vec<f64> = (0..joints.len())
+            .map(|joint| moving.iter().position(|&m| m == joint).map_or(0.0, |place| q[place]))
+            .collect();
+        let states = mechanism.link_kinematics(&q, &vec![0.0; q.len()]);
+        let mut potential = 0.0;
+        for (((joint, state), link), (origin, com)) in
+            joints.iter().zip(&states).zip(&mechanism.model().links).zip(positions(&joints, &all))
+        {
+            assert_eq!((&link.name, link.mass), (&joint.link, joint.mass));
+            for axis in 0..3 {
+                assert!(close(state.origin[axis], origin[axis]), "{}: {:?} {origin:?}", link.name, state.origin);
+                assert!(close(state.com[axis], com[axis]), "{}: {:?} {com:?}", link.name, state.com);
+            }
+            potential += joint.mass * 9.81 * com[2];
+        }
+        assert!(close(mechanism.energy(&q, &vec![0.0; q.len()]).potential, potential));
+    }
+}
+
+/// Fused, the same forces; moving links stay where they are, and the mass that moves is there.
+#[test]
+fn fusing_changes_nothing_that_moves() {
+    let mut numbers = Numbers::new(2);
+    for round in 0..20 {
+        let joints = tree(&mut numbers, 4 + round);
+        let (kept, _) = import(&urdf(&joints), &[]);
+        let (fused, run) = import(&urdf(&joints), &["--fuse-fixed"]);
+        let n = kept.tree().dof();
+        let [q, v, a] = [0; 3].map(|_| (0..n).map(|_| numbers.within(3.0)).collect::<Vec<f64>>());
+        let forces = (kept.inverse_dynamics(&q, &v, &a), fused.inverse_dynamics(&q, &v, &a));
+        let largest = forces.0.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        for (a, b) in forces.0.iter().zip(&forces.1) {
+            assert!((a - b).abs() < 1e-12 * largest, "{:?}", forces);
+        }
+        let (all, moving) = (kept.link_kinematics(&q, &v), fused.link_kinematics(&q, &v));
+        let names: Vec<&str> = kept.model().links.iter().map(|link| link.name.as_str()).collect();
+        for (link, state) in fused.model().links.iter().zip(&moving) {
+            let before = &all[names.iter().position(|name| *name == link.name).unwrap()];
+            assert!((0..3).all(|axis| close(before.origin[axis], state.origin[axis])), "{}", link.name);
+        }
+        assert_eq!(fused.model().links.len(), n);
+        for joint in joints.iter().filter(|joint| joint.kind == "fixed") {
+            assert!(run.stdout.contains(&format!("link `{}` is a part of", joint.link)), "{}", run.stdout);
+        }
+        let carried = |index: usize| {
+            std::iter::successors(Some(index), |&at| joints[at].parent).any(|at| joints[at].kind != "fixed")
+        };
+        let mass = |chosen: &dyn Fn(usize) -> bool| -> f64 {
+            (0..joints.len()).filter(|&index| chosen(index)).map(|index| joints[index].mass).sum()
+        };
+        assert!(close(fused.model().links.iter().map(|link| link.mass).sum(), mass(&carried)));
+        assert!(close(kept.model().links.iter().map(|link| link.mass).sum(), mass(&|_| true)));
+    }
+}
+
+/// Two equal rods end to end are one of twice the mass and length, with (2m)(2l)²/12.
+#[test]
+fn two_rods_fused_are_a_longer_rod() {
+    let (mass, length) = (3.0, 0.8);
+    let moment = mass * length * length / 12.0;
+    let rod = |name: &str| {
+        format!(
+            "<link name=\"{name}\"><inertial><origin xyz=\"{} 0 0\"/><mass value=\"{mass}\"/><inertia ixx=\"0\" \
+             iyy=\"{moment}\" izz=\"{moment}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>",
+            length / 2.0
+        )
+    };
+    let joint = |name: &str, kind: &str, parent: &str, child: &str, inside: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{inside}</joint>"
+        )
+    };
+    let urdf = [
+        "<robot name=\"rods\"><link name=\"world\"/>".to_string(),
+        rod("inner"),
+        rod("outer"),
+        joint("hinge", "continuous", "world", "inner", "<axis xyz=\"0 0 1\"/>"),
+        joint("weld", "fixed", "inner", "outer", &format!("<origin xyz=\"{length} 0 0\" rpy=\"1.2 0 0\"/>")),
+        "</robot>".into(),
+    ]
+    .concat();
+    let (mechanism, _) = import(&urdf, &["--fuse-fixed"]);
+    let link = &mechanism.model().links[0];
+    assert_eq!((link.name.as_str(), link.mass), ("inner", 2.0 * mass));
+    assert!(close(link.com[0], length) && link.com[1] == 0.0);
+    assert!(close(link.inertia.zz, 2.0 * mass * (2.0 * length).powi(2) / 12.0), "{:?}", link.inertia);
+    assert!(link.inertia.xx.abs() < 1e-15);
+}
+
+const LOSSY: &str = r#"<?xml version="1.0"?>
+<robot name="lossy">
+  <material name="red"/>
+  <link name="torso"><inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="base">
+    <visual><geometry><teapot/></geometry></visual>
+    <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+  <link name="finger"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="tool"/>
+  <link name="puck"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="waist" type="prismatic"><parent link="torso"/><child link="base"/><axis xyz="0 0 1"/>
+    <origin rpy="0 1.5708 0"/>
+    <limit lower="-1" upper="1" effort="40" velocity="2"/><dynamics damping="0.1"/></joint>
+  <joint name="knuckle" type="revolute"><parent link="base"/><child link="finger"/><mimic joint="waist" multiplier="2"/>
+    <limit lower="-1" upper="1" effort="40"/></joint>
+  <joint name="spin" type="continuous"><parent link="finger"/><child link="tool"/></joint>
+  <joint name="loose" type="floating"><parent link="torso"/><child link="puck"/></joint>
+  <transmission name="t"/>
+  <transmission name="u"/>
+  <gazebo><plugin/></gazebo>
+</robot>
+"#;
+
+#[test]
+fn what_is_lost_is_said_in_the_file_and_to_the_person() {
+    let (mechanism, run) = import(LOSSY, &[]);
+    let said = [
+        "its 5 kg never move",
+        "link `base` is called `base_link` here",
+        "joint `knuckle` mimics `waist` in the URDF (2 times its value, plus 0)",
+        "joint `spin` moves no mass",
+        "joint `loose` is floating in the URDF: it is fixed at zero here",
+        "the limits of 1 joints",
+        "left out: <dynamics>: the joints have no damping and no friction here, on line 14",
+        "left out: <gazebo>, on line 21",
+        "left out: <limit> without a velocity, on line 16",
+        "left out: <material>, on line 3",
+        "left out: <transmission>, 2 of them, the first on line 19",
+        "left out: <visual> of a link, on line 6",
+    ];
+    for said in said {
+        assert!(run.stdout.contains(said) && run.stderr.contains(said), "{said}:\n{}\n{}", run.stdout, run.stderr);
+    }
+    assert!(run.stderr.contains("warning: link `base_link`: `origin.rpy[1]` is 1.5708 rad"), "{}", run.stderr);
+    assert!(run.stdout.contains("# limits: position = [-1.0, 1.0], velocity = 2.0, force = 40.0"), "{}", run.stdout);
+    let fused = import(LOSSY, &["--fuse-fixed"]).1;
+    for said in said.iter().chain(&["link `tool` is a part of finger", "link `puck` is a part of the ground"]) {
+        assert!(fused.stdout.contains(said) && fused.stderr.contains(said), "{said}:\n{}", fused.stdout);
+    }
+    let kinds: Vec<usize> = mechanism.model().links.iter().map(|link| link.joint.dof()).collect();
+    assert_eq!(kinds, [1, 1, 0, 0]);
+    let quiet = import(LOSSY, &["--quiet"]).1;
+    assert_eq!((quiet.stderr.as_str(), quiet.stdout), ("", run.stdout));
+}
+
+#[test]
+fn rounded_quarter_turns_are_exact_where_asked_for() {
+    let (mechanism, run) = import(LOSSY, &["--quarter-turns"]);
+    assert_eq!(mechanism.model().links[0].placement.rotation.0[2], [-1.0, 0.0, 0.0]);
+    assert!(
+        run.stderr.contains("1 angles are multiples of 90° here; the furthest was off by 3.7e-6 rad"),
+        "{}",
+        run.stderr
+    );
+    assert!(!run.stderr.contains("warning"), "{}", run.stderr);
+}
+
+#[test]
+fn limits_with_an_acceleration_are_a_range() {
+    let urdf = pendulum(
+        "<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>",
+        "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>",
+    );
+    let urdf = urdf.replace("<robot", "<robot version=\"1.2\"").replace("continuous", "revolute");
+    let (mechanism, _) = import(&urdf, &[]);
+    let range = mechanism.model().links[0].range.unwrap();
+    assert_eq!((range.position, range.velocity, range.acceleration), ([-1.0, 2.0], 3.0, 7.0));
+    assert_eq!(range.force, Some(40.0));
+}
+
+#[test]
+fn odd_names_stay_what_they_are() {
+    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+    let urdf = pendulum("<limit velocity=\"1\"/>", inertial)
+        .replace("hinge", "a &quot;b&quot; \\ ' # é&#10;x")
+        .replace("rod", "&lt;]]&gt;");
+    let (mechanism, _) = import(&urdf, &[]);
+    assert_eq!(mechanism.model().links[0].joint_name, "a \"b\" \\ ' # é\nx");
+    assert_eq!(mechanism.model().links[0].name, "<]]>");
+}
+
+#[test]
+fn an_existing_model_stays_unless_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    let [robot, model] = ["robot.urdf", "robot.toml"].map(|name| folder.path().join(name).display().to_string());
+    fs::write(&robot, LOSSY).unwrap();
+    fs::write(&model, "mine").unwrap();
+    let run = redysim(&["import", &robot, "-o", &model]);
+    assert_eq!((run.code, fs::read_to_string(&model).unwrap().as_str()), (3, "mine"));
+    let run = redysim(&["import", &robot, "-o", &model, "--force"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(Model::load(&model).is_ok());
+    assert_eq!(redysim(&["check", "--quiet", &model]).code, 0);
+}

@@ -1,0 +1,119 @@
+//! What is no robot gets one clear message with its line, and leaves no file behind.
+
+use crate::common::redysim;
+use std::fs;
+
+const BODY: &str =
+    "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+
+/// Links a, b, c with bodies on lines 2 to 4, then these joints (name, parent, child) from line 5.
+fn robot(joints: &[[&str; 3]]) -> String {
+    let link = |name: &str| format!("<link name=\"{name}\">{BODY}</link>\n");
+    let joint = |[name, parent, child]: &[&str; 3]| {
+        format!(
+            "<joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/><child link=\"{child}\"/></joint>\n"
+        )
+    };
+    let (links, joints): (String, String) = (["a", "b", "c"].map(link).concat(), joints.iter().map(joint).collect());
+    format!("<robot name=\"r\">\n{links}{joints}</robot>\n")
+}
+
+fn refused(urdf: &str, wanted: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let [robot, model] = ["robot.urdf", "robot.toml"].map(|name| folder.path().join(name).display().to_string());
+    fs::write(&robot, urdf).unwrap();
+    let run = redysim(&["import", &robot, "-o", &model]);
+    assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{}", run.stderr);
+    for wanted in wanted {
+        assert!(run.stderr.contains(wanted), "`{wanted}` in:\n{}", run.stderr);
+    }
+    assert_eq!(run.stderr.matches("error:").count(), 1, "{}", run.stderr);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "a file is left");
+}
+
+#[test]
+fn a_chain_is_accepted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.urdf");
+    fs::write(&path, robot(&[["j", "a", "b"], ["k", "b", "c"]])).unwrap();
+    assert_eq!(redysim(&["import", path.to_str().unwrap()]).code, 0);
+}
+
+#[test]
+fn broken_xml_is_shown_where_it_breaks() {
+    refused("<robot name=\"r\">\n<link name=\"a\">\n</robot>", &["robot.urdf:3:", "XML", "'link'"]);
+    refused("", &["robot.urdf:1:1", "XML"]);
+    refused("no XML at all", &["robot.urdf:1:1", "XML"]);
+    refused("<sdf>\n<model/></sdf>", &["robot.urdf:1:", "<sdf>", "not a <robot>"]);
+}
+
+#[test]
+fn loops_circles_and_several_roots_are_no_tree() {
+    refused(
+        &robot(&[["j", "a", "b"], ["k", "a", "c"], ["l", "b", "c"]]),
+        &["robot.urdf:7:", "link `c`", "`k` and `l`"],
+    );
+    refused(&robot(&[["j", "a", "b"]]), &["robot.urdf:4:", "2 roots: `a`, `c`"]);
+    refused(&robot(&[["j", "a", "b"], ["k", "b", "c"], ["l", "c", "a"]]), &["no link is the root", "circle"]);
+    refused(&robot(&[["j", "b", "c"], ["k", "c", "b"]]), &["robot.urdf:3:", "link `b` hangs on itself"]);
+}
+
+#[test]
+fn names_are_known_and_used_once() {
+    refused(&robot(&[["j", "a", "b"], ["k", "bb", "c"]]), &["robot.urdf:6:", "joint `k` names the link `bb`"]);
+    refused(&robot(&[["j", "a", "b"], ["j", "b", "c"]]), &["robot.urdf:6:", "two joints of the name `j`"]);
+    let twice = robot(&[["j", "a", "b"], ["k", "b", "c"]]).replace("<link name=\"c\">", "<link name=\"b\">");
+    refused(&twice, &["robot.urdf:4:", "two links of the name `b`"]);
+    refused(
+        &robot(&[["j", "a", "b"]]).replace("<link name=\"b\">", "<link>"),
+        &["robot.urdf:3:", "a <link> has no `name`"],
+    );
+}
+
+#[test]
+fn numbers_are_numbers() {
+    let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
+    let with = |from: &str, to: &str| good.replacen(from, to, 1);
+    refused(&with("value=\"1\"", "value=\"one\""), &["robot.urdf:2:", "link `a`", "`value` of its <mass>", "\"one\""]);
+    refused(&with("value=\"1\"", "value=\"inf\""), &["robot.urdf:2:", "a finite number"]);
+    refused(&with("<mass value=\"1\"/>", ""), &["robot.urdf:2:", "its <inertial> has no <mass>"]);
+    refused(&with("iyy=\"1\" ", ""), &["robot.urdf:2:", "its <inertia> has no `iyy`"]);
+    refused(
+        &with("</joint>", "<axis xyz=\"0 0\"/></joint>"),
+        &["robot.urdf:5:", "joint `j`", "3 finite numbers", "\"0 0\""],
+    );
+    refused(&with("</joint>", "<origin rpy=\"0 0 0 x\"/></joint>"), &["robot.urdf:5:", "`rpy` of its <origin>"]);
+    refused(&with(" type=\"continuous\"", ""), &["robot.urdf:5:", "no `type`"]);
+    refused(
+        &with("continuous", "helical"),
+        &["robot.urdf:5:", "joint `j`: its `type` cannot be `helical`", "continuous, prismatic"],
+    );
+}
+
+#[test]
+fn what_no_mechanism_can_be_is_shown_with_its_line() {
+    let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
+    let heavy =
+        good.replace("<link name=\"c\"><inertial><mass value=\"1\"", "<link name=\"c\"><inertial><mass value=\"-1\"");
+    refused(&heavy, &["robot.urdf:6:", "link `c`: `mass` is -1.0 kg, which is negative"]);
+    refused(&good.replacen("</joint>", "<axis xyz=\"0 0 0\"/></joint>", 1), &["robot.urdf:5:", "link `b`", "`axis`"]);
+    refused(&good.replace("continuous", "fixed"), &["every joint is fixed"]);
+    refused(&format!("<robot name=\"r\"><link name=\"a\">{BODY}</link></robot>"), &["no joints"]);
+    refused("<robot name=\"r\"/>", &["no links"]);
+}
+
+#[test]
+fn macros_are_expanded_first() {
+    let urdf = "<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:arm/></robot>";
+    refused(urdf, &["robot.urdf:2:", "<xacro:arm>", "expand it first"]);
+}
+
+#[test]
+fn a_file_that_is_not_utf8_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.urdf");
+    fs::write(&path, b"<robot name=\"\xff\"/>").unwrap();
+    let run = redysim(&["import", path.to_str().unwrap()]);
+    assert!(run.code == 1 && run.stderr.contains("not UTF-8 (byte 14)"), "{}", run.stderr);
+    assert_eq!(redysim(&["import", "nowhere.urdf"]).code, 3);
+}

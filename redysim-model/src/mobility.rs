@@ -1,0 +1,114 @@
+//! How many independent velocities closed loops leave.
+
+use crate::generic::GenericMechanism;
+use crate::model::Model;
+use redysim_runtime::LoopClosure;
+use redysim_runtime::closed_loop::{ClosedLoop, LoopError};
+
+/// Positions from which the loops are closed, and how many of them have to succeed.
+pub(crate) const STARTS: usize = 6;
+const SUCCESSES: usize = 2;
+/// A smaller element of the Jacobian is none.
+const ROUNDOFF: f64 = 1e-12;
+
+/// The conditions that the loops of a mechanism set, and what they leave.
+///
+/// ```
+/// use redysim_model::{Mobility, Model};
+///
+/// # let pendulum = "name = 'pendulum'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
+/// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 1.0\ncom = [0.5, 0, 0]";
+/// let pendulum = Model::from_toml(pendulum, "pendulum.toml").unwrap().model;
+/// assert_eq!(Mobility::of(&pendulum), Mobility { conditions: 0, rank: 0, mobility: 1, gap: None });
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mobility {
+    /// Conditions that the loops set: NC.
+    pub conditions: usize,
+    /// How many of them are independent: the largest rank of the loops' Jacobian at closed positions. Where no closed
+    /// position was found, what the rank is unless lengths and directions conspire.
+    pub rank: usize,
+    /// Independent joint velocities: NV − rank.
+    pub mobility: usize,
+    /// The smallest gap that was left, m, where the loops could not be closed from any start.
+    pub gap: Option<f64>,
+}
+
+impl Mobility {
+    /// Of a checked model. The loops are closed from a few positions, the same in every run.
+    pub fn of(model: &Model) -> Mobility {
+        if model.loops.is_empty() {
+            return Mobility { conditions: 0, rank: 0, mobility: model.dof(), gap: None };
+        }
+        Mobility::found(&GenericMechanism::new(model.clone())).0
+    }
+
+    /// The same, with a closed position at which the rank was found.
+    pub(crate) fn found(mechanism: &GenericMechanism) -> (Mobility, Option<Vec<f64>>) {
+        let conditions = LoopClosure::<f64, _>::nc(mechanism);
+        let (rank, gap, position) = match closed_position(mechanism) {
+            // A position may be singular; the rank of the mechanism is the largest.
+            Ok((q, rank)) => (rank, None, Some(q)),
+            // Without a closed position, the structure alone says what the conditions could determine.
+            Err(gap) => (structural_rank(&mechanism.loop_jacobian(&mechanism.tree().sample(1))), Some(gap), None),
+        };
+        (Mobility { conditions, rank, mobility: mechanism.tree().dof() - rank, gap }, position)
+    }
+}
+
+/// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank is,
+/// unless lengths and directions conspire (augmenting paths).
+pub(crate) fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
+    fn pair(row: usize, jacobian: &[Vec<f64>], seen: &mut [bool], rows_of: &mut [Option<usize>]) -> bool {
+        for column in 0..rows_of.len() {
+            if jacobian[row][column].abs() < ROUNDOFF || std::mem::replace(&mut seen[column], true) {
+                continue;
+            }
+            if rows_of[column].is_none_or(|other| pair(other, jacobian, seen, rows_of)) {
+                rows_of[column] = Some(row);
+                return true;
+            }
+        }
+        false
+    }
+    let columns = jacobian.first().map_or(0, Vec::len);
+    let mut rows_of = vec![None; columns];
+    (0..jacobian.len()).filter(|&row| pair(row, jacobian, &mut vec![false; columns], &mut rows_of)).count()
+}
+
+/// A closed position at which the rank of the loops is largest, and that rank; or the smallest gap that any start leaves.
+fn closed_position(mechanism: &GenericMechanism) -> Result<(Vec<f64>, usize), f64> {
+    let loops = ClosedLoop::new(mechanism);
+    let (mut closed, mut smallest) = (Vec::<(Vec<f64>, usize)>::new(), f64::INFINITY);
+    let rest = vec![0.0; mechanism.tree().dof()];
+    let starts = (0..STARTS).map(|start| if start == 0 { rest.clone() } else { mechanism.tree().sample(start) });
+    for start in starts {
+        match loops.assemble(&start, &rest, &[]) {
+            Ok(assembly) => closed.push((assembly.q, assembly.rank)),
+            Err(LoopError::CannotClose { gap, .. } | LoopError::NoConvergence { gap, .. }) => {
+                smallest = smallest.min(gap)
+            }
+            Err(_) => {}
+        }
+        // No position has a larger rank than a full one.
+        let full = closed.last().is_some_and(|(_, rank)| *rank == LoopClosure::<f64, _>::nc(mechanism));
+        if full || closed.len() == SUCCESSES {
+            break;
+        }
+    }
+    closed.into_iter().max_by_key(|(_, rank)| *rank).ok_or(smallest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::structural_rank;
+
+    #[test]
+    fn rows_that_share_their_only_column_have_one_between_them() {
+        assert_eq!(structural_rank(&[vec![1.0, 0.0, 0.0], vec![2.0, 0.0, 0.0]]), 1);
+        assert_eq!(structural_rank(&[vec![1.0, 1.0, 0.0], vec![2.0, 0.0, 0.0], vec![0.0, 3.0, 1.0]]), 3);
+        // Dependent by value, not by structure.
+        assert_eq!(structural_rank(&[vec![1.0, 1.0], vec![1.0, 1.0]]), 2);
+        assert_eq!(structural_rank(&[]), 0);
+    }
+}
