@@ -6,12 +6,16 @@
 
 mod commands;
 mod failure;
+mod interrupt;
 mod output;
+mod progress;
+mod results;
+mod scenario;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{check, completions, generate};
+use commands::{check, completions, forward, generate, inverse};
 
 /// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
 #[derive(Parser)]
@@ -27,6 +31,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Check(check::Arguments),
+    Inverse(inverse::Arguments),
+    Forward(forward::Arguments),
     Generate(generate::Arguments),
     Completions(completions::Arguments),
 }
@@ -35,6 +41,8 @@ fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::parse();
     let done = match command {
         Command::Check(arguments) => check::run(&arguments, quiet),
+        Command::Inverse(arguments) => inverse::run(&arguments, quiet),
+        Command::Forward(arguments) => forward::run(&arguments, quiet),
         Command::Generate(arguments) => generate::run(&arguments, quiet),
         Command::Completions(arguments) => completions::run(&arguments),
     };

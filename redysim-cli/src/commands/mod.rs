@@ -2,7 +2,9 @@
 
 pub mod check;
 pub mod completions;
+pub mod forward;
 pub mod generate;
+pub mod inverse;
 
 use std::path::Path;
 

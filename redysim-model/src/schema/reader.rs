@@ -365,6 +365,11 @@ impl<'a, 'f> Reader<'a, 'f> {
         None
     }
 
+    /// Reports a fault of the table as a whole. Always `None`.
+    pub fn fault_of_table<T>(&mut self, message: Message) -> Option<T> {
+        self.fault_at(self.place.clone(), message)
+    }
+
     fn path(&self, key: &str) -> String {
         format!("{}{key}", self.prefix)
     }
