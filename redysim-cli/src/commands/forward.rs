@@ -191,6 +191,11 @@ fn summary(scenario: &Scenario, forward: &Forward, record: &Record, ended: Ended
 
 fn ended(error: Option<&IntegrationError<f64>>, said: impl FnOnce(&IntegrationError<f64>) -> String) -> Ended {
     match error {
+        Some(
+            error @ (IntegrationError::BadRelativeTolerance { .. }
+            | IntegrationError::BadStep { .. }
+            | IntegrationError::TooManySteps { .. }),
+        ) => Ended::Failed(Failure::input(said(error))),
         Some(error) => Ended::Failed(Failure::outside(said(error))),
         None if interrupt::asked() => Ended::Interrupted,
         None => Ended::Complete,

@@ -132,7 +132,9 @@ fn read(
     let mechanism = match commands::load(&model_path, quiet) {
         Ok(loaded) => GenericMechanism::new(loaded.model),
         Err(fault) => {
-            *failure = Some(fault);
+            let told = model_path.is_file();
+            let why = "the path of the model is taken from the folder of the scenario";
+            *failure = Some(if told { fault } else { fault.help(why) });
             return None;
         }
     };

@@ -175,7 +175,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.field(key, |reader, path, value| {
             let number = reader.a_number(path, value)?;
             if number <= 0.0 {
-                return reader.fault(value, messages::not_positive(reader.item, path, number));
+                return reader.fault(value, messages::not_positive(reader.manual, reader.item, path, number));
             }
             Some(number)
         })

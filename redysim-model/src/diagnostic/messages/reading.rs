@@ -128,6 +128,11 @@ pub(crate) fn not_finite(manual: &Manual, item: &str, path: &str, found: &str) -
     )
 }
 
+pub(crate) fn not_positive(manual: &Manual, item: &str, path: &str, found: f64) -> Message {
+    let title = format!("{item}: `{path}` is {found:?}, which is not above zero");
+    message(title, "not above zero", example(manual, path))
+}
+
 pub(crate) fn out_of_range(item: &str, path: &str, found: &str, allowed: &RangeInclusive<f64>) -> Message {
     message(
         format!("{item}: `{path}` is {}, with which nothing can be computed", quoted(found)),
