@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 /// One clear message, what to do about it, and the exit code that scripts see.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Failure {
     kind: Kind,
     message: String,
@@ -19,6 +19,8 @@ enum Kind {
     Input,
     /// The world outside is.
     Outside,
+    /// Ctrl-C.
+    Interrupted,
 }
 
 impl Failure {
@@ -32,6 +34,11 @@ impl Failure {
         Self { kind: Kind::Outside, message: message.to_string(), help: None }
     }
 
+    /// Somebody pressed Ctrl-C.
+    pub fn interrupted(message: impl fmt::Display) -> Self {
+        Self { kind: Kind::Interrupted, message: message.to_string(), help: None }
+    }
+
     /// A file or folder could not be read or written (`doing`: "read", "write", "make the folder").
     pub fn file(doing: &str, path: &Path, error: &io::Error) -> Self {
         let failure = Self::outside(format!("cannot {doing} {}: {error}", path.display()));
@@ -43,17 +50,24 @@ impl Failure {
         }
     }
 
+    /// Says more.
+    pub fn and(mut self, more: &str) -> Self {
+        self.message += more;
+        self
+    }
+
     /// Adds what to do.
     pub fn help(mut self, help: impl fmt::Display) -> Self {
         self.help = Some(help.to_string());
         self
     }
 
-    /// 1 for input, 3 for what is outside; 2 is the command line's own.
+    /// 1 for input, 3 for what is outside, 130 for Ctrl-C; 2 is the command line's own.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self.kind {
             Kind::Input => 1,
             Kind::Outside => 3,
+            Kind::Interrupted => 130,
         })
     }
 }
@@ -62,7 +76,8 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A model's faults begin with their own severity, which is a warning where one stands first in the file.
         let own = ["error: ", "warning: "].iter().any(|severity| self.message.starts_with(severity));
-        write!(f, "{}{}", if own { "" } else { "error: " }, self.message.trim_end())?;
+        let what = if self.kind == Kind::Interrupted { "interrupted: " } else { "error: " };
+        write!(f, "{}{}", if own { "" } else { what }, self.message.trim_end())?;
         match &self.help {
             Some(help) => write!(f, "\n  = help: {help}"),
             None => Ok(()),

@@ -6,15 +6,19 @@
 
 mod commands;
 mod failure;
+mod interrupt;
 mod number;
 mod output;
+mod progress;
+mod results;
+mod scenario;
 mod summary;
 mod urdf;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{check, completions, generate, import};
+use commands::{check, completions, forward, generate, import, inverse};
 
 /// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
 #[derive(Parser)]
@@ -30,6 +34,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Check(check::Arguments),
+    Inverse(inverse::Arguments),
+    Forward(forward::Arguments),
     Generate(generate::Arguments),
     Import(import::Arguments),
     Completions(completions::Arguments),
@@ -39,6 +45,8 @@ fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::parse();
     let done = match command {
         Command::Check(arguments) => check::run(&arguments, quiet),
+        Command::Inverse(arguments) => inverse::run(&arguments, quiet),
+        Command::Forward(arguments) => forward::run(&arguments, quiet),
         Command::Generate(arguments) => generate::run(&arguments, quiet),
         Command::Import(arguments) => import::run(&arguments, quiet),
         Command::Completions(arguments) => completions::run(&arguments),

@@ -3,6 +3,7 @@
 mod check;
 pub mod denoc;
 mod diagnostic;
+pub mod document;
 pub mod frames;
 pub mod generic;
 pub mod inertia;

@@ -149,7 +149,7 @@ fn scene_source(text: String) -> Arc<Source> {
 }
 
 /// Reports the first syntax error of each line; the parser stumbles on over the rest of a broken line.
-fn report_syntax(errors: &[Error], source: &Source, findings: &mut Findings) {
+pub(crate) fn report_syntax(errors: &[Error], source: &Source, findings: &mut Findings) {
     let mut lines = Vec::new();
     for error in errors {
         let span = error.span().unwrap_or(Range::default());

@@ -45,5 +45,5 @@ pub use operations::{OperationCount, Operations};
 pub use posture::Posture;
 pub use scalar::{Real, Scalar};
 pub use simulate::{ForwardSimulation, SimulationState};
-pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError};
+pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
 pub use vector::Vector;

@@ -2,8 +2,10 @@
 
 pub mod check;
 pub mod completions;
+pub mod forward;
 pub mod generate;
 pub mod import;
+pub mod inverse;
 
 use std::path::Path;
 

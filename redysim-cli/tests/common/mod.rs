@@ -1,8 +1,132 @@
-//! Calls the command.
-#![allow(dead_code, reason = "each test file uses a part of it")]
+//! The program as a user calls it, and what it writes.
+#![allow(dead_code, reason = "each test uses a part")]
 
-use std::path::PathBuf;
-use std::process::Command;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The repository.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
+}
+
+/// An empty folder of a test's own.
+pub fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The program, to be called in `folder`.
+pub fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_redysim"));
+    command.args(arguments).current_dir(folder);
+    command
+}
+
+/// Calls the program in `folder`.
+pub fn call(folder: &Path, arguments: &[&str]) -> Output {
+    program(folder, arguments).output().unwrap()
+}
+
+/// Calls the program in `folder`, which must go well.
+pub fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let output = call(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Calls the program in `folder`, which must end with `code`, and returns what it says.
+pub fn fail(folder: &Path, arguments: &[&str], code: i32) -> String {
+    let output = call(folder, arguments);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+    assert!(!said.contains("panicked"), "{said}");
+    said
+}
+
+/// Writes a scenario of a model of this repository, and returns its path.
+pub fn scenario(folder: &Path, model: &str, rest: &str) -> String {
+    let path = folder.join("trial.toml");
+    let model = root().join("models").join(model);
+    fs::write(&path, format!("model = '{}'\n{rest}", model.display())).unwrap();
+    path.display().to_string()
+}
+
+/// A scenario of this repository with tolerances that leave nothing but rounding.
+pub fn tight(folder: &Path, name: &str) -> String {
+    let text = fs::read_to_string(root().join(format!("scenarios/{name}.toml"))).unwrap();
+    let text = text.replace("../models", &root().join("models").display().to_string());
+    let shipped = "method = \"Ode45\", rtol = 1e-4, atol = 1e-6";
+    assert!(text.contains(shipped), "{name} has ReDySim's tolerances");
+    let path = folder.join(format!("{name}.toml"));
+    fs::write(&path, text.replace(shipped, "method = \"Dop853\", rtol = 1e-13, atol = 1e-14")).unwrap();
+    path.display().to_string()
+}
+
+/// The names in `folder`, in order.
+pub fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// A table of numbers.
+pub struct Table {
+    pub headers: Vec<String>,
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// Reads comma-separated values with names above.
+    pub fn csv(path: &Path) -> Table {
+        let text = fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let mut lines = text.lines();
+        let headers = lines.next().unwrap().split(',').map(str::to_owned).collect();
+        Table { headers, rows: lines.map(|line| numbers(line.split(','))).collect() }
+    }
+
+    /// Reads numbers between spaces.
+    pub fn dat(path: &Path) -> Table {
+        let text = fs::read_to_string(path).unwrap();
+        Table { headers: vec![], rows: text.lines().map(|line| numbers(line.split_whitespace())).collect() }
+    }
+
+    /// A reference: its first line says what the columns are.
+    pub fn reference(name: &str) -> Table {
+        Table::csv(&root().join("tests/reference").join(name))
+    }
+
+    /// The columns `range` of each row.
+    pub fn columns(&self, range: std::ops::Range<usize>) -> Vec<Vec<f64>> {
+        self.rows.iter().map(|row| row[range.clone()].to_vec()).collect()
+    }
+
+    /// The column of a name.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let index = self.headers.iter().position(|header| header == name);
+        let index = index.unwrap_or_else(|| panic!("no `{name}` among {:?}", self.headers));
+        self.rows.iter().map(|row| row[index]).collect()
+    }
+}
+
+fn numbers<'a>(cells: impl Iterator<Item = &'a str>) -> Vec<f64> {
+    cells.map(|cell| cell.parse().unwrap()).collect()
+}
+
+/// The largest difference between two tables, which must have the same shape.
+pub fn deviation(found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
+    assert_eq!(found.len(), expected.len(), "as many rows");
+    let pairs = found.iter().zip(expected).flat_map(|(found, expected)| {
+        assert_eq!(found.len(), expected.len(), "as many columns");
+        found.iter().zip(expected)
+    });
+    // What is no number counts as infinite, so that it cannot hide.
+    let sizes = pairs.map(|(found, expected)| (found - expected).abs());
+    sizes.fold(0.0, |most, size| if size.is_nan() { f64::INFINITY } else { f64::max(most, size) })
+}
 
 /// What the command printed, and its exit code.
 pub struct Run {
@@ -16,11 +140,6 @@ pub fn redysim(arguments: &[&str]) -> Run {
     let output = Command::new(env!("CARGO_BIN_EXE_redysim")).args(arguments).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     Run { stdout: text(output.stdout), stderr: text(output.stderr), code: output.status.code().unwrap() }
-}
-
-/// The repository.
-pub fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// The path of a model file of the repository.

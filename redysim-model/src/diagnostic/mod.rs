@@ -20,15 +20,15 @@ pub enum Severity {
     Warning,
 }
 
-/// The words of a finding; all of them are written in [`messages`].
+/// The words of a finding. Those about model files are all written in `diagnostic::messages`.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Message {
+pub struct Message {
     /// Which item breaks which rule, with the value found.
-    pub(crate) title: String,
+    pub title: String,
     /// The fault in a few words, beside the caret.
-    pub(crate) label: String,
+    pub label: String,
     /// What to do.
-    pub(crate) help: String,
+    pub help: String,
 }
 
 /// Which of the texts that describe a mechanism a finding is about.

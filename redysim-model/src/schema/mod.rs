@@ -5,7 +5,7 @@
 
 mod cut;
 mod link;
-mod reader;
+pub(crate) mod reader;
 mod scene;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
@@ -23,7 +23,7 @@ use toml::de::{DeTable, DeValue};
 
 /// What the file says under a key.
 #[derive(Debug)]
-pub(crate) enum Field<T> {
+pub enum Field<T> {
     /// Nothing.
     Missing,
     /// Something that is no `T`; a fault has been reported, and checks of this field are to keep silent.
@@ -34,24 +34,25 @@ pub(crate) enum Field<T> {
 
 impl<T> Field<T> {
     /// The value, if there is one.
-    pub(crate) fn value(&self) -> Option<&T> {
+    pub fn value(&self) -> Option<&T> {
         self.spanned().map(Spanned::get_ref)
     }
 
     /// The value with its place, if there is one.
-    pub(crate) fn spanned(&self) -> Option<&Spanned<T>> {
+    pub fn spanned(&self) -> Option<&Spanned<T>> {
         match self {
             Field::Value(value) => Some(value),
             Field::Missing | Field::Faulty => None,
         }
     }
 
-    pub(crate) fn is_missing(&self) -> bool {
+    /// Whether the file says nothing.
+    pub fn is_missing(&self) -> bool {
         matches!(self, Field::Missing)
     }
 
     /// The value, or `default` where the file says nothing; `None` where it is faulty.
-    pub(crate) fn value_or(&self, default: T) -> Option<T>
+    pub fn value_or(&self, default: T) -> Option<T>
     where
         T: Clone,
     {

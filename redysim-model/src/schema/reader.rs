@@ -1,6 +1,7 @@
 //! Reads the keys of one table, reporting what is not as it should be.
 
 use super::{Field, Table};
+use crate::diagnostic::messages::{MODEL_FILE, Manual};
 use crate::diagnostic::{Findings, Message, messages};
 use crate::units::{self, NotAnAngle};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -9,14 +10,19 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
 /// The keys that a kind of table may have.
-pub(super) struct Shape {
+#[derive(Debug)]
+pub struct Shape {
     /// What has the keys, with its article.
-    pub(super) owner: &'static str,
-    pub(super) keys: &'static [&'static str],
+    pub owner: &'static str,
+    /// The keys.
+    pub keys: &'static [&'static str],
 }
 
 /// One table, and whose it is.
-pub(super) struct Reader<'a, 'f> {
+///
+/// What it reads is a [`Field`]; what is not as it should be is reported with its place. Keys are called by their `path` in
+/// messages: `dh.a` is `a` in the table `dh`, `com[1]` an element of `com`.
+pub struct Reader<'a, 'f> {
     table: &'a DeTable<'a>,
     /// A place for what the table lacks.
     place: Range<usize>,
@@ -26,10 +32,12 @@ pub(super) struct Reader<'a, 'f> {
     misspelt: Vec<&'static str>,
     /// Stands before a key in messages: empty, or `dh.` in the table `dh`.
     prefix: String,
+    manual: &'static Manual,
     findings: &'f mut Findings,
 }
 
-type Value<'a> = Spanned<DeValue<'a>>;
+/// A value and its place.
+pub type Value<'a> = Spanned<DeValue<'a>>;
 
 /// What a number other than zero may be, so that products of a mass and two lengths, and their reciprocals, are finite.
 const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
@@ -46,20 +54,32 @@ impl<'a, 'f> Reader<'a, 'f> {
         shape: &Shape,
         findings: &'f mut Findings,
     ) -> Self {
-        Self { table, place, item, misspelt: Vec::new(), prefix: String::new(), findings }.without_unknown_keys(shape)
+        Self::of_file(&MODEL_FILE, table, place, item, findings).without_unknown_keys(shape)
     }
 
     /// Opens a table again of which the unknown keys are reported already.
     pub(super) fn known(table: &'a DeTable<'a>, item: &'f str, findings: &'f mut Findings) -> Self {
-        Self { table, place: 0..0, item, misspelt: Vec::new(), prefix: String::new(), findings }
+        Self::of_file(&MODEL_FILE, table, 0..0, item, findings)
+    }
+
+    /// Opens a table of any kind of file. Unknown keys are not looked for.
+    pub(crate) fn of_file(
+        manual: &'static Manual,
+        table: &'a DeTable<'a>,
+        place: Range<usize>,
+        item: &'f str,
+        findings: &'f mut Findings,
+    ) -> Self {
+        Self { table, place, item, misspelt: Vec::new(), prefix: String::new(), manual, findings }
     }
 
     /// What messages call the item that the table describes.
-    pub(super) fn item(&self) -> &'f str {
+    pub fn item(&self) -> &'f str {
         self.item
     }
 
-    fn without_unknown_keys(mut self, shape: &Shape) -> Self {
+    /// Reports the keys that tables of this kind do not have.
+    pub(crate) fn without_unknown_keys(mut self, shape: &Shape) -> Self {
         for key in self.table.keys().filter(|key| !shape.keys.contains(&key.get_ref().as_ref())) {
             let absent = shape.keys.iter().copied().filter(|key| !self.table.contains_key(*key));
             let meant = messages::nearest(key.get_ref(), absent);
@@ -76,33 +96,36 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 
     /// Reports a key that must be there and is not.
-    pub(super) fn required<T>(&mut self, key: &str, field: Field<T>) -> Field<T> {
+    pub fn required<T>(&mut self, key: &str, field: Field<T>) -> Field<T> {
         if field.is_missing() {
-            self.findings.error(self.place.clone(), messages::missing_key(self.item, &self.path(key)));
+            self.findings.error(self.place.clone(), messages::missing_key(self.manual, self.item, &self.path(key)));
         }
         field
     }
 
-    pub(super) fn text(&mut self, key: &str) -> Field<String> {
+    /// A text.
+    pub fn text(&mut self, key: &str) -> Field<String> {
         self.field(key, |reader, path, value| match value.get_ref() {
             DeValue::String(text) => Some(text.to_string()),
             _ => reader.wrong_type(path, value, "a string"),
         })
     }
 
-    pub(super) fn flag(&mut self, key: &str) -> Field<bool> {
+    /// True or false.
+    pub fn flag(&mut self, key: &str) -> Field<bool> {
         self.field(key, |reader, path, value| match value.get_ref() {
             DeValue::Boolean(flag) => Some(*flag),
             _ => reader.wrong_type(path, value, "true or false"),
         })
     }
 
-    pub(super) fn number(&mut self, key: &str) -> Field<f64> {
+    /// A finite number.
+    pub fn number(&mut self, key: &str) -> Field<f64> {
         self.field(key, Self::a_number)
     }
 
     /// In radians.
-    pub(super) fn angle(&mut self, key: &str) -> Field<f64> {
+    pub fn angle(&mut self, key: &str) -> Field<f64> {
         self.field(key, Self::an_angle)
     }
 
@@ -131,7 +154,7 @@ impl<'a, 'f> Reader<'a, 'f> {
                     }
                     Some([least, largest])
                 }
-                _ => reader.fault(value, messages::wrong_length(reader.item, path, "2 numbers", elements.len())),
+                _ => reader.wrong_length(path, value, "2 numbers", elements.len()),
             }
         })
     }
@@ -148,55 +171,85 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 
     /// A number above zero.
-    pub(super) fn positive(&mut self, key: &str) -> Field<f64> {
+    pub fn positive(&mut self, key: &str) -> Field<f64> {
         self.field(key, |reader, path, value| {
             let number = reader.a_number(path, value)?;
             if number <= 0.0 {
-                return reader.fault(value, messages::not_positive(reader.item, path, number));
+                return reader.fault(value, messages::not_positive(reader.manual, reader.item, path, number));
             }
             Some(number)
         })
     }
 
     /// A number, or in radians one with a unit of angle. Unlike of an angle, more than a turn of it is nothing odd.
-    fn rate(&mut self, path: &str, value: &Value<'_>, turns: bool) -> Option<f64> {
+    pub fn rate(&mut self, path: &str, value: &Value<'_>, turns: bool) -> Option<f64> {
         match value.get_ref() {
             DeValue::String(_) if turns => self.an_angle(path, value),
             _ => self.a_number(path, value),
         }
     }
 
-    /// One of the names in `choices`. Those in `planned` are known, but not supported.
-    pub(super) fn choice<T: Copy>(&mut self, key: &str, choices: &[(&str, T)], planned: &[&str]) -> Field<T> {
-        self.field(key, |reader, path, value| {
-            let DeValue::String(text) = value.get_ref() else {
-                return reader.wrong_type(path, value, "a string");
-            };
-            let chosen = choices.iter().find(|(name, _)| name == text).map(|(_, choice)| *choice);
+    /// The `found` one of the names in `choices`.
+    pub fn one_of<T: Copy>(&mut self, path: &str, value: &Value<'_>, found: &str, choices: &[(&str, T)]) -> Option<T> {
+        let chosen = choices.iter().find(|(name, _)| *name == found).map(|(_, choice)| *choice);
+        chosen.or_else(|| {
             let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
-            chosen.or_else(|| match planned.contains(&text.as_ref()) {
-                true => reader.fault(value, messages::unsupported_joint(reader.item, text, &names)),
-                false => reader.fault(value, messages::unknown_choice(reader.item, path, text, &names)),
-            })
+            self.fault(value, messages::unknown_choice(self.item, path, found, &names))
+        })
+    }
+
+    /// Reports that an array has `found` elements instead of `wanted`, as "3 numbers". Always `None`.
+    pub fn wrong_length<T>(&mut self, path: &str, value: &Value<'_>, wanted: &str, found: usize) -> Option<T> {
+        self.fault(value, messages::wrong_length(self.manual, self.item, path, wanted, found))
+    }
+
+    /// One of the names in `choices`. Those in `planned` are known, but not supported.
+    pub fn choice<T: Copy>(&mut self, key: &str, choices: &[(&str, T)], planned: &[&str]) -> Field<T> {
+        self.field(key, |reader, path, value| {
+            // A kind may be called by a number, too.
+            let text = match value.get_ref() {
+                DeValue::String(text) => text.as_ref(),
+                DeValue::Integer(number) => number.as_str(),
+                _ => return reader.wrong_type(path, value, "a string"),
+            };
+            if planned.contains(&text) {
+                let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+                return reader.fault(value, messages::unsupported_joint(reader.item, text, &names));
+            }
+            reader.one_of(path, value, text, choices)
         })
     }
 
     /// A table within this one.
-    pub(super) fn table<T>(&mut self, key: &str, shape: &Shape, read: impl FnOnce(Reader<'_, '_>) -> T) -> Field<T> {
+    pub fn table<T>(&mut self, key: &str, shape: &Shape, read: impl FnOnce(Reader<'_, '_>) -> T) -> Field<T> {
+        self.field(key, |reader, path, value| Some(read(reader.within(path, value)?.without_unknown_keys(shape))))
+    }
+
+    /// A table within this one whose kind, named under the key `tag`, says which keys it has; `usual` is meant where it
+    /// names none. A kind is a name with what it stands for.
+    pub fn table_of_kind<T, K: Copy>(
+        &mut self,
+        key: &str,
+        tag: &str,
+        kinds: &[(&str, (K, &Shape))],
+        usual: (K, &Shape),
+        read: impl FnOnce(Reader<'_, '_>, K) -> T,
+    ) -> Field<T> {
         self.field(key, |reader, path, value| {
-            let DeValue::Table(table) = value.get_ref() else {
-                return reader.wrong_type(path, value, "a table");
-            };
-            let inner = Reader {
-                table,
-                place: value.span(),
-                item: reader.item,
-                misspelt: Vec::new(),
-                prefix: format!("{path}."),
-                findings: reader.findings,
-            };
-            Some(read(inner.without_unknown_keys(shape)))
+            let mut inner = reader.within(path, value)?;
+            let (kind, shape) = inner.choice(tag, kinds, &[]).value_or(usual)?;
+            Some(read(inner.without_unknown_keys(shape), kind))
         })
+    }
+
+    /// A reader of the table that `value` must be.
+    fn within<'b>(&'b mut self, path: &str, value: &'b Value<'a>) -> Option<Reader<'b, 'b>> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return self.wrong_type(path, value, "a table");
+        };
+        let (item, manual, prefix) = (self.item, self.manual, format!("{path}."));
+        let inner = Reader::of_file(manual, table, value.span(), item, self.findings);
+        Some(Reader { prefix, ..inner })
     }
 
     /// The tables of an array of tables; `None` stands for what is no table, or no array.
@@ -216,11 +269,7 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 
     /// What `read` makes of the value under `key`; faulty if it reports any error.
-    pub(super) fn field<T>(
-        &mut self,
-        key: &str,
-        read: impl FnOnce(&mut Self, &str, &'a Value<'a>) -> Option<T>,
-    ) -> Field<T> {
+    pub fn field<T>(&mut self, key: &str, read: impl FnOnce(&mut Self, &str, &'a Value<'a>) -> Option<T>) -> Field<T> {
         let table = self.table;
         let Some(value) = table.get(key) else {
             return self.absent(key);
@@ -247,11 +296,12 @@ impl<'a, 'f> Reader<'a, 'f> {
         let elements: Vec<_> = read.collect();
         match elements.as_slice() {
             [x, y, z] => Some([(*x)?, (*y)?, (*z)?]),
-            _ => self.fault(value, messages::wrong_length(self.item, path, wanted, elements.len())),
+            _ => self.wrong_length(path, value, wanted, elements.len()),
         }
     }
 
-    pub(super) fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+    /// A finite number.
+    pub fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
         let (number, text) = match value.get_ref() {
             DeValue::Float(float) => (float.as_str().parse().unwrap_or(f64::NAN), float.as_str()),
             DeValue::Integer(integer) => (integer_value(integer), integer.as_str()),
@@ -260,7 +310,8 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.finite(path, value, number, text)
     }
 
-    pub(super) fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+    /// An angle, in radians: a number, or one with a unit.
+    pub fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
         let DeValue::String(text) = value.get_ref() else {
             if !matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_)) {
                 return self.wrong_type(path, value, "an angle");
@@ -290,7 +341,7 @@ impl<'a, 'f> Reader<'a, 'f> {
 
     fn finite(&mut self, path: &str, value: &Value<'_>, number: f64, text: &str) -> Option<f64> {
         if !number.is_finite() {
-            return self.fault(value, messages::not_finite(self.item, path, text));
+            return self.fault(value, messages::not_finite(self.manual, self.item, path, text));
         }
         if number != 0.0 && !MAGNITUDES.contains(&number.abs()) {
             return self.fault(value, messages::out_of_range(self.item, path, text, &MAGNITUDES));
@@ -298,17 +349,25 @@ impl<'a, 'f> Reader<'a, 'f> {
         Some(number)
     }
 
-    pub(super) fn wrong_type<T>(&mut self, path: &str, value: &Value<'_>, wanted: &str) -> Option<T> {
-        self.fault(value, messages::wrong_type(self.item, path, wanted, &described(value.get_ref())))
+    /// Reports that a value is not of the kind `wanted`, a noun with its article. Always `None`.
+    pub fn wrong_type<T>(&mut self, path: &str, value: &Value<'_>, wanted: &str) -> Option<T> {
+        self.fault(value, messages::wrong_type(self.manual, self.item, path, wanted, &described(value.get_ref())))
     }
 
-    pub(super) fn fault<T>(&mut self, value: &Value<'_>, message: Message) -> Option<T> {
+    /// Reports a fault of a value. Always `None`.
+    pub fn fault<T>(&mut self, value: &Value<'_>, message: Message) -> Option<T> {
         self.fault_at(value.span(), message)
     }
 
-    pub(super) fn fault_at<T>(&mut self, place: Range<usize>, message: Message) -> Option<T> {
+    /// Reports a fault at a place. Always `None`.
+    pub fn fault_at<T>(&mut self, place: Range<usize>, message: Message) -> Option<T> {
         self.findings.error(place, message);
         None
+    }
+
+    /// Reports a fault of the table as a whole. Always `None`.
+    pub fn fault_of_table<T>(&mut self, message: Message) -> Option<T> {
+        self.fault_at(self.place.clone(), message)
     }
 
     fn path(&self, key: &str) -> String {

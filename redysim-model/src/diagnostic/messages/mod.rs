@@ -8,6 +8,7 @@ mod reading;
 mod scene;
 
 pub(crate) use mechanism::*;
+pub use reading::Manual;
 pub(crate) use reading::*;
 pub(crate) use scene::*;
 

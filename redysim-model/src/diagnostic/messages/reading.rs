@@ -4,7 +4,17 @@ use super::super::Message;
 use super::{did_you_mean, message, nearest, quoted};
 use std::ops::RangeInclusive;
 
-/// For every key an example that may be copied, and what it means. `dh.a` is `a` in the table `dh`.
+/// What messages know of a kind of file.
+#[derive(Debug)]
+pub struct Manual {
+    /// What it is called: "the model file".
+    pub file: &'static str,
+    /// For every key an example that may be copied, and what it means. `dh.a` is `a` in the table `dh`.
+    pub examples: &'static [(&'static str, &'static str, &'static str)],
+}
+
+pub(crate) const MODEL_FILE: Manual = Manual { file: "the model file", examples: EXAMPLES };
+
 const EXAMPLES: &[(&str, &str, &str)] = &[
     ("name", "name = \"arm\"", ""),
     ("gravity", "gravity = [0.0, 0.0, -9.81]", "m/s², in the base frame"),
@@ -53,13 +63,13 @@ const EXAMPLES: &[(&str, &str, &str)] = &[
 ];
 
 /// "write for example …" for a key, or for an element of it such as `com[1]`.
-fn example(path: &str) -> String {
+fn example(manual: &Manual, path: &str) -> String {
     let key = path.split('[').next().unwrap_or(path);
-    let of = |key| EXAMPLES.iter().find(|(known, ..)| *known == key);
+    let of = |key| manual.examples.iter().find(|(known, ..)| *known == key);
     match of(key).or_else(|| of(key.split('.').next().unwrap_or(key))) {
         Some((_, example, "")) => format!("write for example `{example}`"),
         Some((_, example, meaning)) => format!("write for example `{example}` ({meaning})"),
-        None => format!("see `{key}` in the description of the model file"),
+        None => format!("see `{key}` in the description of {}", manual.file),
     }
 }
 
@@ -89,33 +99,38 @@ pub(crate) fn unknown_key(item: &str, path: &str, meant: Option<&str>, owner: &s
     message(format!("{item}: unknown key {}", quoted(path)), "unknown key", help)
 }
 
-pub(crate) fn missing_key(item: &str, path: &str) -> Message {
-    message(format!("{item}: `{path}` is missing"), format!("`{path}` is missing"), example(path))
+pub(crate) fn missing_key(manual: &Manual, item: &str, path: &str) -> Message {
+    message(format!("{item}: `{path}` is missing"), format!("`{path}` is missing"), example(manual, path))
 }
 
 /// `wanted` and `found` are nouns with their article.
-pub(crate) fn wrong_type(item: &str, path: &str, wanted: &str, found: &str) -> Message {
+pub(crate) fn wrong_type(manual: &Manual, item: &str, path: &str, wanted: &str, found: &str) -> Message {
     let help = match (wanted, found.starts_with("the string")) {
-        ("a number", true) => format!("{}, without quotes: only angles may have a unit", example(path)),
-        _ => example(path),
+        ("a number", true) => format!("{}, without quotes: only angles may have a unit", example(manual, path)),
+        _ => example(manual, path),
     };
     message(format!("{item}: `{path}` must be {wanted}, found {found}"), format!("not {wanted}"), help)
 }
 
-pub(crate) fn wrong_length(item: &str, path: &str, wanted: &str, found: usize) -> Message {
+pub(crate) fn wrong_length(manual: &Manual, item: &str, path: &str, wanted: &str, found: usize) -> Message {
     message(
         format!("{item}: `{path}` must have {wanted}, found {found}"),
         format!("{found} instead of {wanted}"),
-        example(path),
+        example(manual, path),
     )
 }
 
-pub(crate) fn not_finite(item: &str, path: &str, found: &str) -> Message {
+pub(crate) fn not_finite(manual: &Manual, item: &str, path: &str, found: &str) -> Message {
     message(
         format!("{item}: `{path}` is {}, which is not a finite number", quoted(found)),
         "not a finite number",
-        example(path),
+        example(manual, path),
     )
+}
+
+pub(crate) fn not_positive(manual: &Manual, item: &str, path: &str, found: f64) -> Message {
+    let title = format!("{item}: `{path}` is {found:?}, which is not above zero");
+    message(title, "not above zero", example(manual, path))
 }
 
 pub(crate) fn out_of_range(item: &str, path: &str, found: &str, allowed: &RangeInclusive<f64>) -> Message {

@@ -101,11 +101,3 @@ pub(crate) fn negative_range(item: &str, path: &str, largest: f64) -> Message {
         "give the largest size of it, which holds in both directions",
     )
 }
-
-pub(crate) fn not_positive(item: &str, path: &str, number: f64) -> Message {
-    message(
-        format!("{item}: `{path}` is {}, which is not above zero", rounded(number)),
-        "not above zero",
-        "give the force of which the tolerance is a share, N m or N, or leave it out: then it is the largest that occurs",
-    )
-}

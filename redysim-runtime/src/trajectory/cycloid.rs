@@ -1,33 +1,10 @@
-//! Motions prescribed in advance: coordinates, velocities and accelerations as functions of time.
+//! From rest to rest along a cycloid.
 
 use core::f64::consts::TAU;
-use core::fmt;
 
+use super::{Motion, Trajectory, TrajectoryError};
 use crate::vector::entry;
 use crate::{Real, Vector};
-
-/// A motion at one time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Motion<Q, V> {
-    /// Joint coordinates, rad or m.
-    pub q: Q,
-    /// Joint velocities, rad/s or m/s.
-    pub v: V,
-    /// Joint accelerations, rad/s² or m/s².
-    pub a: V,
-}
-
-/// A motion prescribed for every time. Every closure `Fn(S) -> Motion<Q, V>` is one.
-pub trait Trajectory<S, Q, V> {
-    /// The motion at time `t`, s.
-    fn at(&self, t: S) -> Motion<Q, V>;
-}
-
-impl<S, Q, V, F: Fn(S) -> Motion<Q, V>> Trajectory<S, Q, V> for F {
-    fn at(&self, t: S) -> Motion<Q, V> {
-        self(t)
-    }
-}
 
 /// The cycloidal motion of ReDySim from rest to rest, every joint by
 ///
@@ -97,38 +74,3 @@ impl<S: Real, V: Vector<S>> Trajectory<S, V, V> for Cycloid<S, V> {
         }
     }
 }
-
-/// Why a trajectory cannot be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum TrajectoryError<S> {
-    /// The duration is zero, negative, infinite or not a number.
-    BadDuration {
-        /// The given duration, s.
-        duration: S,
-    },
-    /// Start and end have different numbers of joints.
-    DifferentLengths {
-        /// Joints at the start.
-        from: usize,
-        /// Joints at the end.
-        to: usize,
-    },
-}
-
-impl<S: fmt::Debug> fmt::Display for TrajectoryError<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::BadDuration { duration } => {
-                write!(f, "the duration of a motion must be positive and finite, but it is {duration:?} s")
-            }
-            Self::DifferentLengths { from, to } => write!(
-                f,
-                "a motion must start and end with the same joints, but {from} joints start and {to} end; give one \
-                 coordinate for each joint to both"
-            ),
-        }
-    }
-}
-
-impl<S: fmt::Debug> core::error::Error for TrajectoryError<S> {}

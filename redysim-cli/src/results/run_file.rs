@@ -1,0 +1,114 @@
+//! The scenario as it was run: with every setting that it left open, and how it went.
+//!
+//! It is a scenario itself, beside copies of the model and the tables that it names, so that the run can be done again from
+//! the folder alone.
+
+use toml_edit::{Array, DocumentMut, Item, Table, value};
+
+use super::folder::RUN_FILE;
+use super::{Folder, Summary};
+use crate::failure::Failure;
+use crate::scenario::{Actuation, Integrator, Scenario, Tolerances};
+
+/// Writes it, and copies what it names.
+pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
+    let mut document: DocumentMut =
+        scenario.text.parse().map_err(|error| Failure::outside(format!("cannot copy the scenario: {error}")))?;
+    folder.copy("model.toml", &scenario.model_path)?;
+    document["model"] = value("model.toml");
+    keep(&mut document["name"], value(&scenario.name));
+    let name = |joint: &usize| scenario.joints[*joint].name.as_str();
+    let initial = &mut document["initial"];
+    keep(&mut initial["q"], numbers(&scenario.initial.q));
+    keep(&mut initial["v"], numbers(&scenario.initial.v));
+    if scenario.loops() {
+        keep(&mut initial["assemble"], value(scenario.initial.assemble));
+        keep(&mut initial["held"], value(scenario.initial.held.iter().map(name).collect::<Array>()));
+    }
+    if let Some(trajectory) = &scenario.trajectory {
+        let table = &mut document["trajectory"];
+        keep(&mut table["kind"], value("cycloid"));
+        keep(&mut table["joints"], value(trajectory.joints.iter().map(name).collect::<Array>()));
+        if let Some(path) = &trajectory.table {
+            folder.copy("trajectory.csv", path)?;
+            table["file"] = value("trajectory.csv");
+        }
+    }
+    if let Some(span) = scenario.inverse {
+        keep(&mut document["inverse"]["start"], value(span.start));
+    }
+    if let Some(forward) = &scenario.forward {
+        let table = &mut document["forward"];
+        keep(&mut table["start"], value(forward.span.start));
+        settings(&mut table["integrator"], forward.integrator);
+        keep(&mut table["torque"]["law"], value("free"));
+        if let Actuation::Table(forces) = &forward.torque {
+            folder.copy("torque.csv", &forces.path)?;
+            table["torque"]["file"] = value("torque.csv");
+        }
+        if scenario.loops() {
+            keep(&mut table["stabilisation"], value(if forward.projection { "projection" } else { "none" }));
+        }
+    }
+    document.remove("run");
+    document["run"] = Item::Table(how_it_went(summary));
+    folder.write(RUN_FILE, document.to_string().as_bytes())
+}
+
+/// What the scenario says stays, and what it leaves open is filled in.
+fn keep(item: &mut Item, resolved: Item) {
+    if item.is_none() {
+        *item = resolved;
+    }
+}
+
+fn settings(table: &mut Item, integrator: Integrator) {
+    table["method"] = value(integrator.name());
+    if let Integrator::Adaptive(_, Tolerances { rtol, atol, .. }) = integrator {
+        keep(&mut table["rtol"], number(rtol));
+        keep(&mut table["atol"], number(atol));
+    }
+}
+
+fn numbers(values: &[f64]) -> Item {
+    value(values.iter().copied().collect::<Array>())
+}
+
+fn how_it_went(summary: &Summary) -> Table {
+    let mut table = Table::new();
+    table.decor_mut().set_prefix("\n# How it went.\n");
+    table["command"] = value(summary.command);
+    table["redysim"] = value(env!("CARGO_PKG_VERSION"));
+    table["ended"] = value(summary.ended.to_string());
+    let (from, to, count) = summary.instants;
+    table["from"] = value(from);
+    table["until"] = value(to);
+    table["instants"] = integer(count as u64);
+    table["seconds"] = value(summary.seconds);
+    if let Some(statistics) = summary.statistics {
+        table["steps"] = integer(statistics.steps);
+        table["rejected"] = integer(statistics.rejected);
+        table["evaluations"] = integer(statistics.evaluations);
+        table["corrections"] = integer(statistics.corrections);
+        table["jacobians"] = integer(statistics.jacobians);
+        table["decompositions"] = integer(statistics.decompositions);
+    }
+    table["energy_drift"] = number(summary.drift);
+    if let Some(gap) = summary.gap {
+        table["worst_gap"] = number(gap);
+    }
+    let [q, v] = &summary.start;
+    table["start_q"] = numbers(q);
+    table["start_v"] = numbers(v);
+    table
+}
+
+/// A number that may be very small, with an exponent.
+fn number(number: f64) -> Item {
+    format!("{number:?}").parse().map_or_else(|_| value(number), Item::Value)
+}
+
+/// TOML counts to 2⁶³.
+fn integer(count: u64) -> Item {
+    value(i64::try_from(count).unwrap_or(i64::MAX))
+}

@@ -1,0 +1,153 @@
+//! The moving joints of a model, and values for each of them.
+
+use redysim_model::document::{Field, Reader, Value};
+use redysim_model::{JointKind, Model};
+use toml::de::DeValue;
+
+/// A moving joint.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Whether it turns; else it slides.
+    pub turns: bool,
+    /// Whether it has an actuator.
+    pub actuated: bool,
+}
+
+impl Joint {
+    /// The unit of its coordinate.
+    pub fn unit(&self) -> &'static str {
+        if self.turns { "rad" } else { "m" }
+    }
+
+    /// The unit of its force.
+    pub fn unit_of_force(&self) -> &'static str {
+        if self.turns { "N m" } else { "N" }
+    }
+}
+
+/// The moving joints, in the model's order: joint `i` has the coordinate `i`.
+pub fn of_model(model: &Model) -> Vec<Joint> {
+    let joint = |link: &redysim_model::Link| Joint {
+        name: link.joint_name.clone(),
+        turns: link.joint == JointKind::Revolute,
+        actuated: link.actuated,
+    };
+    model.moving_links().map(joint).collect()
+}
+
+/// What the values for joints are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Coordinates: angles may have a unit.
+    Coordinate,
+    /// Rates of coordinates: likewise, and more than a turn is nothing odd.
+    Rate,
+    /// Gains: plain numbers, and one number is that of all joints.
+    Gain,
+}
+
+/// One value for each of the joints `of`, indices into `joints`: an array in their order, or a table by their names, in which
+/// missing ones are zero.
+pub fn values(
+    reader: &mut Reader<'_, '_>,
+    key: &str,
+    quantity: Quantity,
+    joints: &[Joint],
+    of: &[usize],
+) -> Field<Vec<f64>> {
+    reader.field(key, |reader, path, value| list(reader, path, value, quantity, joints, of))
+}
+
+/// Values for every point of a motion: an array of what [`values`] reads.
+pub fn points(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint], of: &[usize]) -> Field<Vec<Vec<f64>>> {
+    reader.field(key, |reader, path, value| {
+        let DeValue::Array(array) = value.get_ref() else {
+            return reader.wrong_type(path, value, "an array with the coordinates of each point");
+        };
+        let read = array
+            .iter()
+            .enumerate()
+            .map(|(k, value)| list(reader, &format!("{path}[{k}]"), value, Quantity::Coordinate, joints, of));
+        // Every point is read, so that each fault among them is reported.
+        read.collect::<Vec<_>>().into_iter().collect()
+    })
+}
+
+/// Some of the joints, by their names.
+pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<Vec<usize>> {
+    reader.field(key, |reader, path, value| {
+        let DeValue::Array(array) = value.get_ref() else {
+            return reader.wrong_type(path, value, "an array of names of joints");
+        };
+        let mut found = Vec::new();
+        for (k, value) in array.iter().enumerate() {
+            let path = format!("{path}[{k}]");
+            let DeValue::String(name) = value.get_ref() else {
+                return reader.wrong_type(&path, value, "the name of a joint");
+            };
+            let joint = index(reader, &path, value, name, joints)?;
+            if found.contains(&joint) {
+                let message = redysim_model::document::Message {
+                    title: format!("{}: `{path}` names the joint `{name}` again", reader.item()),
+                    label: "named before".into(),
+                    help: "name each joint once".into(),
+                };
+                return reader.fault(value, message);
+            }
+            found.push(joint);
+        }
+        Some(found)
+    })
+}
+
+fn index(reader: &mut Reader<'_, '_>, path: &str, value: &Value<'_>, name: &str, joints: &[Joint]) -> Option<usize> {
+    let choices: Vec<_> = joints.iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index)).collect();
+    reader.one_of(path, value, name, &choices)
+}
+
+fn list(
+    reader: &mut Reader<'_, '_>,
+    path: &str,
+    value: &Value<'_>,
+    quantity: Quantity,
+    joints: &[Joint],
+    of: &[usize],
+) -> Option<Vec<f64>> {
+    match value.get_ref() {
+        DeValue::Array(array) if array.len() != of.len() => {
+            let names: Vec<_> = of.iter().map(|&joint| joints[joint].name.as_str()).collect();
+            let wanted = format!("{} values, one for each of {}", of.len(), names.join(", "));
+            reader.wrong_length(path, value, &wanted, array.len())
+        }
+        DeValue::Array(array) => {
+            let pairs = array.iter().zip(of).enumerate();
+            let read =
+                pairs.map(|(i, (value, &joint))| one(reader, &format!("{path}[{i}]"), value, quantity, &joints[joint]));
+            read.collect::<Vec<_>>().into_iter().collect()
+        }
+        DeValue::Table(table) => {
+            let mut values = vec![0.0; of.len()];
+            let known: Vec<Joint> = of.iter().map(|&joint| joints[joint].clone()).collect();
+            for (name, value) in table {
+                let path = format!("{path}.{}", name.get_ref());
+                let at = index(reader, &path, value, name.get_ref(), &known)?;
+                values[at] = one(reader, &path, value, quantity, &known[at])?;
+            }
+            Some(values)
+        }
+        DeValue::Integer(_) | DeValue::Float(_) if quantity == Quantity::Gain => {
+            Some(vec![reader.a_number(path, value)?; of.len()])
+        }
+        _ => reader.wrong_type(path, value, "an array with a value for each joint, or a table by their names"),
+    }
+}
+
+fn one(reader: &mut Reader<'_, '_>, path: &str, value: &Value<'_>, quantity: Quantity, joint: &Joint) -> Option<f64> {
+    match quantity {
+        Quantity::Coordinate if joint.turns => reader.an_angle(path, value),
+        Quantity::Rate => reader.rate(path, value, joint.turns),
+        Quantity::Coordinate | Quantity::Gain => reader.a_number(path, value),
+    }
+}

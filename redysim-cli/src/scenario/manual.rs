@@ -1,0 +1,53 @@
+//! What messages know of scenarios.
+
+use redysim_model::document::Manual;
+
+/// For every key an example that may be copied.
+pub const MANUAL: Manual = Manual {
+    file: "the scenario",
+    examples: &[
+        ("name", "name = \"swing\"", "what the results are called"),
+        ("model", "model = \"../models/kr5.toml\"", "from the folder of the scenario"),
+        ("initial", "initial = { q = [0, \"60 deg\"], v = [0, 0] }", ""),
+        (
+            "initial.q",
+            "q = [0, \"60 deg\"]",
+            "rad or m, or an angle with a unit; or by name: q = { joint2 = \"60 deg\" }",
+        ),
+        ("initial.v", "v = [0, \"60 deg\"]", "rad/s or m/s, or degrees a second"),
+        ("initial.assemble", "assemble = false", "start as given, though loops may not be closed"),
+        ("initial.held", "held = [\"crank\"]", "what stays where it is while loops are closed"),
+        ("trajectory", "trajectory = { from = [0, 0], to = [\"60 deg\", 1], duration = 2.0 }", ""),
+        ("trajectory.kind", "kind = \"cycloid\"", "or constant-speed, minimum-jerk, cubic, csv"),
+        ("trajectory.from", "from = [0, 0]", "rad or m"),
+        ("trajectory.to", "to = [\"60 deg\", 1]", "rad or m"),
+        ("trajectory.duration", "duration = 2.0", "s"),
+        ("trajectory.speed", "speed = [\"270 deg\"]", "rad/s or m/s, or degrees a second"),
+        ("trajectory.times", "times = [0.0, 1.0, 3.0]", "s"),
+        ("trajectory.points", "points = [[0, 0], [\"30 deg\", 1], [0, 0]]", "the coordinates at each of the times"),
+        ("trajectory.file", "file = \"motion.csv\"", "from the folder of the scenario"),
+        ("trajectory.joints", "joints = [\"crank\"]", "which are prescribed"),
+        ("inverse", "inverse = { end = 1.0, step = 0.01 }", "s"),
+        ("inverse.start", "start = 0.0", "s"),
+        ("inverse.end", "end = 1.0", "s"),
+        ("inverse.step", "step = 0.01", "s, from one row of the results to the next"),
+        ("forward", "forward = { end = 1.0, step = 0.01 }", "s"),
+        ("forward.start", "start = 0.0", "s"),
+        ("forward.end", "end = 1.0", "s"),
+        ("forward.step", "step = 0.01", "s, from one row of the results to the next"),
+        ("forward.integrator", "integrator = { method = \"Ode45\", rtol = 1e-6, atol = 1e-8 }", ""),
+        ("forward.integrator.method", "method = \"Ode45\"", ""),
+        ("forward.integrator.rtol", "rtol = 1e-6", ""),
+        ("forward.integrator.atol", "atol = 1e-8", "in the units of the state"),
+        ("forward.integrator.step", "step = 0.001", "s, of the integration"),
+        ("forward.integrator.max_step", "max_step = 0.01", "s"),
+        ("forward.torque", "torque = { law = \"pd\", target = [0, 0], kp = 49.0, kd = 14.0 }", ""),
+        ("forward.torque.law", "law = \"free\"", "or p, pd, tracking-pd, computed-torque, csv"),
+        ("forward.torque.target", "target = [0, \"90 deg\"]", "rad or m"),
+        ("forward.torque.kp", "kp = 49.0", "of all joints, or one of each: [49.0, 20.0]"),
+        ("forward.torque.kd", "kd = 14.0", "of all joints, or one of each: [14.0, 8.0]"),
+        ("forward.torque.file", "file = \"forces.csv\"", "from the folder of the scenario"),
+        ("forward.torque.joints", "joints = [\"crank\"]", "which are driven"),
+        ("forward.stabilisation", "stabilisation = \"projection\"", "or none"),
+    ],
+};

@@ -1,0 +1,71 @@
+//! From when to when, and the instants that are written.
+
+use redysim_model::document::{Message, Reader};
+
+/// Nothing that is written has more rows: they are kept in memory.
+const MOST: f64 = 1e7;
+/// An end that misses an instant by this part of a step is one.
+const ROUNDING: f64 = 1e-6;
+
+/// The instants of a run: `start` + k · `step`, up to `end`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The first instant, s.
+    pub start: f64,
+    /// No instant is later, s.
+    pub end: f64,
+    /// From one to the next, s.
+    pub step: f64,
+}
+
+impl Span {
+    /// Reads `start` (0 unless told), `end` and `step`.
+    pub fn read(reader: &mut Reader<'_, '_>) -> Option<Span> {
+        let start = reader.number("start");
+        let end = reader.number("end");
+        let end = reader.required("end", end);
+        let step = reader.positive("step");
+        let step = reader.required("step", step);
+        let (start, spanned) = (start.value_or(0.0)?, end.spanned()?);
+        let span = Span { start, end: *spanned.get_ref(), step: *step.value()? };
+        let count = span.count();
+        let item = reader.item();
+        let fault = if span.end <= start {
+            Message {
+                title: format!(
+                    "{item}: the run must end after its start, but `end` is {:?} s and `start` {start:?} s",
+                    span.end
+                ),
+                label: "not after the start".into(),
+                help: "give the time at which it ends, s, not how long it takes".into(),
+            }
+        } else if count < 1.0 {
+            Message {
+                title: format!("{item}: there is no instant but the first, since `step` is {:?} s", span.step),
+                label: format!("less than a step from {start:?} s"),
+                help: "give a `step`, s, that goes at least once into the run".into(),
+            }
+        } else if count > MOST {
+            Message {
+                title: format!(
+                    "{item}: steps of {:?} s are {count:.0} rows, and no more than {MOST:.0} are kept",
+                    span.step
+                ),
+                label: "too far for this step".into(),
+                help: "give a larger `step`: it sets what is written, not how exactly the motion is computed".into(),
+            }
+        } else {
+            return Some(span);
+        };
+        reader.fault_at(spanned.span(), fault)
+    }
+
+    fn count(&self) -> f64 {
+        ((self.end - self.start) / self.step + ROUNDING).floor()
+    }
+
+    /// The instants, s. Each is one product away from the start, so that they do not drift.
+    pub fn instants(&self) -> Vec<f64> {
+        (0..=self.count() as u64).map(|k| self.start + k as f64 * self.step).collect()
+    }
+}

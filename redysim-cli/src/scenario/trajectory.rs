@@ -1,0 +1,217 @@
+//! Prescribed motions.
+
+use std::path::{Path, PathBuf};
+
+use redysim_model::document::{Message, Reader, Shape};
+use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
+use toml::Spanned;
+
+use super::joints::{Joint, Quantity, points, some, values};
+use super::table::Table;
+use crate::failure::Failure;
+
+/// A prescribed motion of some joints; its components are in the order of `joints`.
+#[derive(Clone, Debug)]
+pub struct Prescribed {
+    /// The coordinates that it prescribes.
+    pub joints: Vec<usize>,
+    /// The table that it is read from, if it is.
+    pub table: Option<PathBuf>,
+    motion: Kind,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    Cycloid(Cycloid<f64, Vec<f64>>),
+    /// q = q₀ + q̇ t.
+    ConstantSpeed {
+        from: Vec<f64>,
+        speed: Vec<f64>,
+    },
+    ViaPoints(ViaPoints<f64, Vec<f64>, Vec<f64>>),
+}
+
+#[derive(Clone, Copy)]
+enum Tag {
+    Cycloid,
+    ConstantSpeed,
+    Via(Smooth),
+    Table,
+}
+
+/// Which motion through points.
+#[derive(Clone, Copy)]
+enum Smooth {
+    LeastJerk,
+    Cubic,
+}
+
+const SMOOTH: [(&str, Smooth); 2] = [("minimum-jerk", Smooth::LeastJerk), ("cubic", Smooth::Cubic)];
+const CYCLOID: Shape = Shape { owner: "A cycloid", keys: &["kind", "joints", "from", "to", "duration"] };
+const CONSTANT_SPEED: Shape = Shape { owner: "A motion of constant speed", keys: &["kind", "joints", "from", "speed"] };
+const VIA: Shape = Shape { owner: "A motion through points", keys: &["kind", "joints", "times", "points"] };
+const TABLE: Shape = Shape { owner: "A motion from a table", keys: &["kind", "joints", "file", "through"] };
+const KINDS: [(&str, (Tag, &Shape)); 5] = [
+    ("cycloid", (Tag::Cycloid, &CYCLOID)),
+    ("constant-speed", (Tag::ConstantSpeed, &CONSTANT_SPEED)),
+    ("minimum-jerk", (Tag::Via(Smooth::LeastJerk), &VIA)),
+    ("cubic", (Tag::Via(Smooth::Cubic), &VIA)),
+    ("csv", (Tag::Table, &TABLE)),
+];
+
+impl Prescribed {
+    /// Reads the table `trajectory`, if there is one, of the joints `usual` unless it names others. A table of numbers is
+    /// looked for in `folder`, and must cover all `spans`; what is wrong with it goes to `failure`.
+    pub fn read(
+        reader: &mut Reader<'_, '_>,
+        joints: &[Joint],
+        usual: &[usize],
+        folder: &Path,
+        failure: &mut Option<Failure>,
+    ) -> Option<Option<Prescribed>> {
+        let field = reader.table_of_kind("trajectory", "kind", &KINDS, KINDS[0].1, |mut reader, tag| {
+            let chosen = some(&mut reader, "joints", joints).value_or(usual.to_vec())?;
+            let coordinates = |reader: &mut Reader<'_, '_>, key: &str| {
+                let field = values(reader, key, Quantity::Coordinate, joints, &chosen);
+                reader.required(key, field).value().cloned()
+            };
+            let motion = match tag {
+                Tag::Cycloid => {
+                    let (from, to) = (coordinates(&mut reader, "from"), coordinates(&mut reader, "to"));
+                    let duration = reader.positive("duration");
+                    let duration = reader.required("duration", duration);
+                    let spanned = duration.spanned()?;
+                    let cycloid = Cycloid::new(from?, to?, *spanned.get_ref());
+                    Kind::Cycloid(accepted(&mut reader, spanned, cycloid)?)
+                }
+                Tag::ConstantSpeed => {
+                    let from = coordinates(&mut reader, "from");
+                    let speed = values(&mut reader, "speed", Quantity::Rate, joints, &chosen);
+                    let speed = reader.required("speed", speed);
+                    Kind::ConstantSpeed { from: from?, speed: speed.value()?.clone() }
+                }
+                Tag::Via(smooth) => {
+                    let times = numbers(&mut reader, "times");
+                    let times = reader.required("times", times);
+                    let points = points(&mut reader, "points", joints, &chosen);
+                    let points = reader.required("points", points);
+                    let spanned = times.spanned()?;
+                    let through = smooth.through(spanned.get_ref().clone(), points.value()?.clone());
+                    Kind::ViaPoints(accepted(&mut reader, spanned, through)?)
+                }
+                Tag::Table => {
+                    let file = reader.text("file");
+                    let file = reader.required("file", file);
+                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(Smooth::LeastJerk)?;
+                    let path = folder.join(file.value()?);
+                    let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
+                    match Table::read(&path).and_then(|table| from_table(&table, &of, smooth)) {
+                        Ok(through) => {
+                            let motion = Kind::ViaPoints(through);
+                            return Some(Prescribed { joints: chosen, table: Some(path), motion });
+                        }
+                        Err(fault) => {
+                            *failure = Some(fault);
+                            return None;
+                        }
+                    }
+                }
+            };
+            Some(Prescribed { joints: chosen, table: None, motion })
+        });
+        if field.is_missing() { Some(None) } else { Some(Some(field.value()?.clone()?)) }
+    }
+
+    /// Fails unless a table, where the motion comes from one, goes from `start` to `end`.
+    pub fn cover(&self, start: f64, end: f64) -> Result<(), Failure> {
+        self.table.as_ref().map_or(Ok(()), |path| Table::read(path)?.cover(start, end))
+    }
+
+    /// The motion with one component for each of `count` coordinates; those that it does not prescribe are zero.
+    pub fn spread(&self, count: usize) -> Spread<'_> {
+        Spread { prescribed: self, count }
+    }
+}
+
+impl Trajectory<f64, Vec<f64>, Vec<f64>> for Prescribed {
+    fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
+        match &self.motion {
+            Kind::Cycloid(cycloid) => cycloid.at(t),
+            Kind::ViaPoints(through) => through.at(t),
+            Kind::ConstantSpeed { from, speed } => Motion {
+                q: from.iter().zip(speed).map(|(from, speed)| from + speed * t).collect(),
+                v: speed.clone(),
+                a: vec![0.0; speed.len()],
+            },
+        }
+    }
+}
+
+/// See [`Prescribed::spread`].
+#[derive(Clone, Copy, Debug)]
+pub struct Spread<'a> {
+    prescribed: &'a Prescribed,
+    count: usize,
+}
+
+impl Trajectory<f64, Vec<f64>, Vec<f64>> for Spread<'_> {
+    fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
+        let Motion { q, v, a } = self.prescribed.at(t);
+        let [q, v, a] = [q, v, a].map(|values| super::spread(&self.prescribed.joints, &values, self.count));
+        Motion { q, v, a }
+    }
+}
+
+impl Smooth {
+    fn through(
+        self,
+        times: Vec<f64>,
+        points: Vec<Vec<f64>>,
+    ) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, TrajectoryError<f64>> {
+        match self {
+            Smooth::LeastJerk => ViaPoints::minimum_jerk(times, points),
+            Smooth::Cubic => ViaPoints::cubic(times, points),
+        }
+    }
+}
+
+/// Numbers, as many as there are.
+fn numbers(reader: &mut Reader<'_, '_>, key: &str) -> redysim_model::document::Field<Vec<f64>> {
+    reader.field(key, |reader, path, value| {
+        let toml::de::DeValue::Array(array) = value.get_ref() else {
+            return reader.wrong_type(path, value, "an array of numbers");
+        };
+        let read = array.iter().enumerate().map(|(i, value)| reader.a_number(&format!("{path}[{i}]"), value));
+        read.collect::<Vec<_>>().into_iter().collect()
+    })
+}
+
+/// What was made of the value at a place, or a fault there.
+fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, TrajectoryError<f64>>) -> Option<T> {
+    made.map_err(|error| {
+        let title = format!("{}: {error}", reader.item());
+        let help = "times are in s, and as many as there are points".to_owned();
+        reader.fault_at::<()>(at.span(), Message { title, label: "here".into(), help })
+    })
+    .ok()
+}
+
+/// With velocities and accelerations in the table, its rows are passed as they say; else as smoothly as can be.
+fn from_table(table: &Table, joints: &[&Joint], smooth: Smooth) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, Failure> {
+    let [q, v, a] =
+        [("q", ""), ("v", "/s"), ("a", "/s^2")].map(|(symbol, per)| table.of_joints(symbol, joints, Some(per)));
+    let through = match (q?, v?, a?) {
+        (None, ..) => return Err(table.fault("it has no coordinates", "add a column `q <joint> [rad]` for each joint")),
+        (Some(q), None, None) => smooth.through(table.t.clone(), q),
+        (Some(q), Some(v), Some(a)) => {
+            let rows = q.into_iter().zip(v).zip(a).map(|((q, v), a)| Motion { q, v, a });
+            ViaPoints::through(table.t.clone(), rows.collect())
+        }
+        (Some(_), v, _) => {
+            let (there, missing) = if v.is_some() { ("velocities", "a") } else { ("accelerations", "v") };
+            let message = format!("it has {there}, but no column `{missing} <joint> […]`");
+            return Err(table.fault(&message, "give velocities and accelerations, or neither"));
+        }
+    };
+    through.map_err(|error| table.fault(&error.to_string(), "look at the column `t [s]`"))
+}

@@ -1,0 +1,309 @@
+//! Bad input gives one clear message and the right exit code, and leaves nothing behind.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{call, fail, names, program, scenario, scratch, succeed};
+
+const SWING: &str = "initial = { q = [0, 1] }\n[forward]\nend = 1.0\nstep = 0.1\n";
+const LIFT: &str = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
+
+/// Runs a scenario of two links that must fail with `code`, say every one of `words`, and leave nothing.
+fn refuses(name: &str, command: &str, rest: &str, code: i32, words: &[&str]) {
+    let folder = scratch(&format!("faults-{name}"));
+    refuses_in(&folder, command, &scenario(&folder, "two_link.toml", rest), code, words);
+}
+
+fn refuses_in(folder: &Path, command: &str, path: &str, code: i32, words: &[&str]) {
+    let before = names(folder);
+    let said = fail(folder, &[command, path], code);
+    println!("{said}\n");
+    for word in words {
+        assert!(said.contains(word), "no `{word}` in: {said}");
+    }
+    assert_eq!(said.lines().filter(|line| line.starts_with("error")).count(), 1, "one message: {said}");
+    assert_eq!(names(folder), before, "nothing is left");
+}
+
+#[test]
+fn a_missing_scenario() {
+    let folder = scratch("faults-no-scenario");
+    refuses_in(&folder, "forward", "nowhere.toml", 3, &["cannot read nowhere.toml", "help"]);
+    fs::create_dir(folder.join("folder.toml")).unwrap();
+    refuses_in(&folder, "forward", "folder.toml", 3, &["cannot read folder.toml"]);
+}
+
+#[test]
+fn a_missing_model() {
+    let folder = scratch("faults-no-model");
+    fs::write(folder.join("trial.toml"), format!("model = 'nowhere.toml'\n{SWING}")).unwrap();
+    refuses_in(
+        &folder,
+        "forward",
+        "trial.toml",
+        3,
+        &["cannot read the model file", "nowhere.toml", "folder of the scenario"],
+    );
+    fs::write(folder.join("trial.toml"), SWING).unwrap();
+    refuses_in(&folder, "forward", "trial.toml", 1, &["`model` is missing", "trial.toml:1:1"]);
+}
+
+#[test]
+fn a_model_with_a_fault() {
+    let folder = scratch("faults-model");
+    fs::write(
+        folder.join("model.toml"),
+        "name = 'x'\ngravity = [0, 0, 0]\n[[link]]\nname = 'a'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 0, 1]\nmass = -1\n",
+    )
+    .unwrap();
+    fs::write(folder.join("trial.toml"), format!("model = 'model.toml'\n{SWING}")).unwrap();
+    refuses_in(&folder, "forward", "trial.toml", 1, &["model.toml:8:8", "mass"]);
+}
+
+#[test]
+fn what_is_no_toml() {
+    refuses("toml", "forward", "[forward\nend = 1", 1, &["trial.toml:2:", "TOML"]);
+}
+
+#[test]
+fn a_wrong_number_of_joints() {
+    let swing = SWING.replace("[0, 1]", "[0, 1, 2]");
+    refuses(
+        "joints",
+        "forward",
+        &swing,
+        1,
+        &["`initial.q` must have 2 values, one for each of joint1, joint2, found 3", "trial.toml:2:17", "^"],
+    );
+    let swing = SWING.replace("[0, 1]", "{ joint7 = 1 }");
+    refuses("joint", "forward", &swing, 1, &["`joint7`", "joint1, joint2"]);
+    let lift = LIFT.replace("from = [0, 0]", "from = [0]");
+    refuses("from", "inverse", &lift, 1, &["`trajectory.from` must have 2 values", "trial.toml:3:8"]);
+}
+
+#[test]
+fn values_that_are_none() {
+    for (value, word) in [
+        ("nan", "not a finite number"),
+        ("'60 grad'", "unit"),
+        ("'x'", "not a number with a unit"),
+        ("true", "an angle"),
+    ] {
+        refuses("values", "forward", &SWING.replace("[0, 1]", &format!("[0, {value}]")), 1, &["`initial.q[1]`", word]);
+    }
+}
+
+#[test]
+fn an_unknown_key_is_said_with_the_one_that_was_meant() {
+    refuses(
+        "key",
+        "forward",
+        &SWING.replace("step", "stepp"),
+        1,
+        &["unknown key `forward.stepp`", "did you mean `step`?"],
+    );
+    let lift = LIFT.replace("duration = 1.0", "duration = 1.0\nspeed = [1, 1]");
+    refuses("kind", "inverse", &lift, 1, &["unknown key `trajectory.speed`", "A cycloid has:"]);
+}
+
+#[test]
+fn an_unknown_integrator() {
+    let swing = |settings: &str| format!("{SWING}integrator = {{ {settings} }}\n");
+    refuses(
+        "integrator",
+        "forward",
+        &swing("method = 'Ode54'"),
+        1,
+        &["`forward.integrator.method` cannot be `Ode54`", "Ode45", "Radau5"],
+    );
+    refuses("number", "forward", &swing("method = 7"), 1, &["cannot be `7`"]);
+    refuses("step", "forward", &swing("method = 'Ode4'"), 1, &["`forward.integrator.step` is missing"]);
+    refuses("tolerance", "forward", &swing("rtol = 0.0"), 1, &["`forward.integrator.rtol` is 0.0", "`rtol = 1e-6`"]);
+    refuses("roundoff", "forward", &swing("rtol = 1e-18"), 1, &["at least 2.2", "1e-18"]);
+}
+
+#[test]
+fn an_unknown_law_or_one_without_a_trajectory() {
+    let swing = |law: &str| format!("{SWING}torque = {{ {law} }}\n");
+    refuses("law", "forward", &swing("law = 'pid'"), 1, &["cannot be `pid`", "did you mean `pd`?"]);
+    refuses("gain", "forward", &swing("law = 'p', target = [0, 0]"), 1, &["`forward.torque.kp` is missing"]);
+    let law = "law = 'tracking-pd', kp = 1, kd = 1";
+    refuses("untracked", "forward", &swing(law), 1, &["follows a trajectory", "add a table `[trajectory]`"]);
+}
+
+#[test]
+fn a_run_without_length() {
+    refuses(
+        "end",
+        "forward",
+        &SWING.replace("end = 1.0", "end = 0.0"),
+        1,
+        &["must end after its start", "trial.toml:4:7"],
+    );
+    refuses("short", "forward", &SWING.replace("end = 1.0", "end = 0.01"), 1, &["no instant but the first"]);
+    refuses("many", "forward", &SWING.replace("end = 1.0", "end = 1e9"), 1, &["rows", "give a larger `step`"]);
+    refuses("neither", "inverse", SWING, 1, &["does not say at which instants"]);
+    refuses("nor", "forward", LIFT, 1, &["does not say which motion"]);
+}
+
+/// A table whose text has a fault.
+fn refuses_table(name: &str, text: &str, words: &[&str]) {
+    let folder = scratch(&format!("faults-table-{name}"));
+    fs::write(folder.join("forces.csv"), text).unwrap();
+    let rest = format!("{SWING}torque = {{ law = 'csv', file = 'forces.csv' }}\n");
+    refuses_in(&folder, "forward", &scenario(&folder, "two_link.toml", &rest), 1, words);
+}
+
+#[test]
+fn a_table_with_a_fault() {
+    const HEADER: &str = "t [s],tau joint1 [N m],tau joint2 [N m]\n";
+    let with = |rows: &str| format!("{HEADER}{rows}");
+    refuses_table("gap", &with("0,0,0\n1,,0\n"), &["forces.csv, line 3: `tau joint1 [N m]` is empty"]);
+    refuses_table("nan", &with("0,0,0\n1,0,NaN\n"), &["forces.csv, line 3: `tau joint2 [N m]` is `NaN`"]);
+    refuses_table("word", &with("0,0,x\n1,0,0\n"), &["line 2: `tau joint2 [N m]` is `x`"]);
+    refuses_table("order", &with("0,0,0\n0.7,0,0\n0.5,0,0\n"), &["line 4: t = 0.5 s comes after 0.7 s"]);
+    refuses_table("short-row", &with("0,0,0\n1,0\n"), &["line 3", "2 numbers", "names 3"]);
+    refuses_table("ends", &with("0,0,0\n0.5,0,0\n"), &["from 0.0 s to 0.5 s", "the run from 0.0 s to 1.0 s"]);
+    refuses_table("one-row", &with("0,0,0\n"), &["1 rows"]);
+    refuses_table("empty", "", &["line 1", "`t [s]`"]);
+    refuses_table("no-time", "tau joint1 [N m]\n0\n1\n", &["line 1", "the first column must be the time"]);
+    refuses_table("column", "t [s],tau joint1 [N m]\n0,0\n1,0\n", &["no column `tau joint2 [N m]`"]);
+    refuses_table(
+        "unit",
+        "t [s],tau joint1 [N],tau joint2 [N m]\n0,0,0\n1,0,0\n",
+        &["unit that is not understood", "`tau joint1 [N m]`"],
+    );
+    refuses_table("twice", "t [s],tau joint1 [N m],tau joint2 [N m],tau joint1 [N m]\n0,0,0,0\n1,0,0,0\n", &["twice"]);
+    refuses_table("symbol", "t [s],q joint1 [rad]\n0,0\n1,0\n", &["no forces"]);
+}
+
+#[test]
+fn a_missing_table() {
+    let rest = format!("{SWING}torque = {{ law = 'csv', file = 'nowhere.csv' }}\n");
+    refuses("no-table", "forward", &rest, 3, &["cannot read", "nowhere.csv", "folder of the scenario"]);
+}
+
+#[test]
+fn a_table_of_velocities_without_accelerations() {
+    let folder = scratch("faults-velocities");
+    fs::write(
+        folder.join("motion.csv"),
+        "t [s],q joint1 [rad],q joint2 [rad],v joint1 [rad/s],v joint2 [rad/s]\n0,0,0,0,0\n1,0,0,0,0\n",
+    )
+    .unwrap();
+    let rest = "[trajectory]\nkind = 'csv'\nfile = 'motion.csv'\n[inverse]\nend = 1.0\nstep = 0.1\n";
+    refuses_in(
+        &folder,
+        "inverse",
+        &scenario(&folder, "two_link.toml", rest),
+        1,
+        &["velocities, but no column `a <joint>"],
+    );
+}
+
+#[test]
+fn points_out_of_order() {
+    let rest = "[trajectory]\nkind = 'cubic'\ntimes = [0, 2, 1]\npoints = [[0, 0], [1, 1], [0, 0]]\n[inverse]\nend = 1.0\nstep = 0.1\n";
+    refuses("order", "inverse", rest, 1, &["must follow each other in time", "trial.toml:4:9"]);
+    refuses("count", "inverse", &rest.replace("[0, 2, 1]", "[0, 1]"), 1, &["3 points came with 2 times"]);
+}
+
+#[test]
+fn a_tree_that_is_only_half_prescribed() {
+    let lift = LIFT.replace("from = [0, 0]\nto = [1, 1]", "joints = ['joint2']\nfrom = [0]\nto = [1]");
+    refuses("half", "inverse", &lift, 1, &["does not prescribe the joint `joint1`"]);
+}
+
+#[test]
+fn loops_that_cannot_close() {
+    let folder = scratch("faults-loops");
+    let open = "initial = { q = [0, 0.9844, 4.3144], assemble = false }\n[forward]\nend = 1.0\nstep = 0.1\n";
+    refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", open), 1, &["open", "crank-coupler"]);
+    let held = open.replace("assemble = false", "held = ['crank', 'rocker', 'coupler']");
+    refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", &held), 1, &["the start", "crank-coupler"]);
+}
+
+#[test]
+fn a_result_is_not_overwritten_unless_it_must_be() {
+    let folder = scratch("faults-exists");
+    let path = scenario(&folder, "two_link.toml", SWING);
+    succeed(&folder, &["forward", &path]);
+    assert_eq!(names(&folder), ["results", "trial.toml"]);
+    let result = folder.join("results/trial");
+    let before = fs::read(result.join("run.toml")).unwrap();
+    let said = fail(&folder, &["forward", &path], 3);
+    assert!(said.contains("there already") && said.contains("--force"), "{said}");
+    assert_eq!(fs::read(result.join("run.toml")).unwrap(), before);
+    succeed(&folder, &["forward", &path, "--force"]);
+    assert_ne!(fs::read(result.join("run.toml")).unwrap(), before, "the times differ");
+    assert_eq!(names(&folder.join("results")), ["trial"]);
+}
+
+#[test]
+fn what_is_no_result_is_never_overwritten() {
+    let folder = scratch("faults-mine");
+    let path = scenario(&folder, "two_link.toml", SWING);
+    fs::create_dir(folder.join("mine")).unwrap();
+    fs::write(folder.join("mine/thesis.txt"), "years of work").unwrap();
+    let said = fail(&folder, &["forward", &path, "-o", "mine", "--force"], 3);
+    assert!(said.contains("it is no result"), "{said}");
+    assert_eq!(names(&folder.join("mine")), ["thesis.txt"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made() {
+    let folder = scratch("faults-unwritable");
+    let path = scenario(&folder, "two_link.toml", SWING);
+    let before = names(&folder);
+    // A file is no folder, whoever asks.
+    let said = fail(&folder, &["forward", &path, "-o", "trial.toml/run"], 3);
+    assert!(said.contains("cannot make the folder trial.toml/run"), "{said}");
+    let said = fail(&folder, &["forward", &path, "-o", "/"], 3);
+    assert!(said.contains("--output"), "{said}");
+    assert_eq!(names(&folder), before);
+}
+
+/// A disk that is full after a kilobyte, as far as the program can tell.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_nothing_half_written() {
+    let folder = scratch("faults-full");
+    let path = scenario(&folder, "two_link.toml", &SWING.replace("step = 0.1", "step = 0.001"));
+    let before = names(&folder);
+    let command = format!("trap '' XFSZ; ulimit -f 8; exec '{}' forward '{path}'", env!("CARGO_BIN_EXE_redysim"));
+    let output = std::process::Command::new("bash").args(["-c", &command]).current_dir(&folder).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("cannot write"), "{said}");
+    assert_eq!(names(&folder), before, "{said}");
+}
+
+/// A force without bound ends the motion; what was computed before is kept, and it is said.
+#[test]
+fn a_motion_that_cannot_go_on_is_kept_as_far_as_it_went() {
+    let folder = scratch("faults-singular");
+    // Springs that push: the coordinates grow like exp(10⁴ t).
+    let rest = format!(
+        "{SWING}torque = {{ law = 'p', target = [0, 0], kp = -1e6 }}\nintegrator = {{ method = 'Ode4', step = 0.1 }}\n"
+    );
+    let said = fail(
+        &folder,
+        &["forward", &scenario(&folder, "two_link.toml", &rest.replace("end = 1.0", "end = 100.0")), "-o", "run"],
+        3,
+    );
+    assert!(said.contains("infinite or not a number") && said.contains("is kept"), "{said}");
+    let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    assert!(run.contains("ended = \"failed\""), "{run}");
+    assert!(!fs::read_to_string(folder.join("run/statevar.csv")).unwrap().contains("NaN"));
+}
+
+#[test]
+fn the_command_line_itself() {
+    let folder = scratch("faults-command");
+    for arguments in [&["forward"][..], &["inverse", "x.toml", "--format", "xml"], &["backward", "x.toml"]] {
+        assert_eq!(call(&folder, arguments).status.code(), Some(2), "{arguments:?}");
+    }
+    assert!(program(&folder, &["forward", "--help"]).output().unwrap().status.success());
+}

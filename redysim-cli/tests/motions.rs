@@ -1,0 +1,216 @@
+//! Every trajectory, torque law and integrator of a scenario, against closed forms.
+
+mod common;
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+
+use common::{Table, deviation, fail, scenario, scratch, succeed};
+
+/// The trajectory of two joints that a scenario's `trajectory` gives at the instants 0, 0.1, … 2 s, by rows of q, v, a.
+fn prescribed(name: &str, trajectory: &str) -> Table {
+    let folder = scratch(name);
+    prescribed_in(&folder, trajectory)
+}
+
+fn prescribed_in(folder: &Path, trajectory: &str) -> Table {
+    let rest = format!("[trajectory]\n{trajectory}\n[inverse]\nend = 2.0\nstep = 0.1\n");
+    succeed(folder, &["inverse", &scenario(folder, "two_link.toml", &rest), "-o", "run"]);
+    Table::csv(&folder.join("run/traj.csv"))
+}
+
+/// Compares the motion of the second joint with q, v, a as functions of time.
+fn follows(found: &Table, expected: impl Fn(f64) -> [f64; 3]) {
+    let names = ["q joint2 [rad]", "v joint2 [rad/s]", "a joint2 [rad/s^2]"];
+    assert_eq!(found.rows.len(), 21);
+    for (t, k) in found.column("t [s]").into_iter().zip(0..) {
+        for (name, expected) in names.into_iter().zip(expected(t)) {
+            let found = found.column(name)[k];
+            assert!(
+                (found - expected).abs() < 1e-13 * (1.0 + expected.abs()),
+                "{name} at {t} s: {found}, not {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_cycloid_is_meant_where_no_kind_is_named() {
+    let found = prescribed("cycloid", "from = [0, '30 deg']\nto = [1, '90 deg']\nduration = 2.0");
+    let way = PI / 3.0;
+    follows(&found, |t| {
+        let (sin, cos) = (PI * t).sin_cos();
+        [PI / 6.0 + way * (t / 2.0 - sin / (2.0 * PI)), way * (1.0 - cos) / 2.0, way * PI * sin / 2.0]
+    });
+}
+
+#[test]
+fn a_constant_speed_is_constant() {
+    let found = prescribed("constant-speed", "kind = 'constant-speed'\nfrom = [0, 0.5]\nspeed = [0, '-270 deg']");
+    follows(&found, |t| [0.5 - 1.5 * PI * t, -1.5 * PI, 0.0]);
+}
+
+#[test]
+fn least_jerk_is_the_polynomial_of_flash_and_hogan() {
+    let found = prescribed("minimum-jerk", "kind = 'minimum-jerk'\ntimes = [0, 2]\npoints = [[0, 1], [0, 3]]");
+    follows(&found, |t| {
+        let s = t / 2.0;
+        let q = 1.0 + 2.0 * s.powi(3) * (10.0 - 15.0 * s + 6.0 * s * s);
+        [q, 30.0 * s * s * (1.0 - s) * (1.0 - s), 30.0 * s * (1.0 - s) * (1.0 - 2.0 * s)]
+    });
+}
+
+/// Through points that are symmetric in time, at rest in the middle of their way back: two cubics at rest at three points.
+#[test]
+fn a_cubic_passes_its_points() {
+    let found = prescribed("cubic", "kind = 'cubic'\ntimes = [0, 1, 2]\npoints = [[0, 0], [0, 1], [0, 0]]");
+    follows(&found, |t| {
+        let (s, side) = if t < 1.0 { (t, 1.0) } else { (2.0 - t, -1.0) };
+        [s * s * (3.0 - 2.0 * s), side * 6.0 * s * (1.0 - s), 6.0 - 12.0 * s]
+    });
+}
+
+#[test]
+fn a_table_of_states_is_passed_as_it_says() {
+    let folder = scratch("table-of-states");
+    // A cubic has no fifth power: rows half a second apart say all of it.
+    let cubic = |t: f64| [t * t * t - t, 3.0 * t * t - 1.0, 6.0 * t];
+    let mut text =
+        "t [s],q joint2 [deg],v joint2 [rad/s],a joint2 [rad/s^2],q joint1 [rad],v joint1 [rad/s],a joint1 [rad/s^2]\n"
+            .to_owned();
+    for k in 0..=4 {
+        let t = 0.5 * f64::from(k);
+        let [q, v, a] = cubic(t);
+        text += &format!("{t},{},{v},{a},0,0,0\n", q.to_degrees());
+    }
+    fs::write(folder.join("motion.csv"), text).unwrap();
+    follows(&prescribed_in(&folder, "kind = 'csv'\nfile = 'motion.csv'"), cubic);
+}
+
+#[test]
+fn results_are_a_trajectory_again() {
+    let folder = scratch("results-again");
+    let first = prescribed_in(&folder, "from = [0, 0]\nto = [1, 2]\nduration = 2.0");
+    fs::rename(folder.join("run"), folder.join("first")).unwrap();
+    let second = prescribed_in(&folder, "kind = 'csv'\nfile = 'first/traj.csv'");
+    assert_eq!(first.rows, second.rows);
+}
+
+#[test]
+fn a_table_of_coordinates_alone_is_passed_from_rest_to_rest() {
+    let folder = scratch("table-of-coordinates");
+    fs::write(folder.join("motion.csv"), "t [s],q joint1 [rad],q joint2 [rad]\n0,0,1\n2,0,3\n").unwrap();
+    let found = prescribed_in(&folder, "kind = 'csv'\nfile = 'motion.csv'");
+    let through = prescribed("through", "kind = 'minimum-jerk'\ntimes = [0, 2]\npoints = [[0, 1], [0, 3]]");
+    assert_eq!(found.rows, through.rows);
+}
+
+/// A slider of 2 kg on a table, no gravity along it: the equation of a mass alone.
+const SLIDER: &str = "name = 'slider'\ngravity = [0, 0, -9.81]\n[[link]]\nname = 'mass'\nparent = 'base'\njoint = 'prismatic'\n\
+                      axis = [1, 0, 0]\nmass = 2.0\n";
+
+/// The motion of the slider by `forward`, from 1 m at rest unless `initial` says else.
+fn slides(name: &str, forward: &str, rest: &str) -> Table {
+    let folder = scratch(name);
+    fs::write(folder.join("slider.toml"), SLIDER).unwrap();
+    fs::write(folder.join("forces.csv"), "t [s],tau mass [N]\n0,0\n1,4\n2,4\n").unwrap();
+    let text =
+        format!("model = 'slider.toml'\ninitial = {{ q = [1] }}\n{rest}[forward]\nend = 2.0\nstep = 0.1\n{forward}\n");
+    fs::write(folder.join("trial.toml"), text).unwrap();
+    succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
+    Table::csv(&folder.join("run/statevar.csv"))
+}
+
+fn moves(found: &Table, most: f64, expected: impl Fn(f64) -> [f64; 2]) {
+    let exact: Vec<Vec<f64>> = found.column("t [s]").into_iter().map(|t| expected(t).to_vec()).collect();
+    let worst = deviation(&found.columns(1..3), &exact);
+    assert!(worst < most, "off by {worst:e}");
+}
+
+const TIGHT: &str = "integrator = { method = 'Dop853', rtol = 1e-12, atol = 1e-13 }\n";
+
+#[test]
+fn a_spring_swings() {
+    let found = slides("p", &format!("{TIGHT}torque = {{ law = 'p', target = [0], kp = 8 }}"), "");
+    moves(&found, 1e-10, |t| [(2.0 * t).cos(), -2.0 * (2.0 * t).sin()]);
+}
+
+#[test]
+fn a_critically_damped_spring_creeps() {
+    let found =
+        slides("pd", &format!("{TIGHT}torque = {{ law = 'pd', target = [0.5], kp = [8], kd = {{ mass = 8 }} }}"), "");
+    // m ẍ + 8 ẋ + 8 (x − 1/2) = 0 with m = 2: a double root −2.
+    moves(&found, 1e-10, |t| [0.5 + 0.5 * (1.0 + 2.0 * t) * (-2.0 * t).exp(), -2.0 * t * (-2.0 * t).exp()]);
+}
+
+/// The target runs ahead at 1 m/s from 1 m: the error obeys the same equation.
+const AHEAD: &str = "trajectory = { kind = 'constant-speed', from = [1], speed = [1] }\n";
+
+#[test]
+fn a_tracking_law_follows() {
+    let found = slides("tracking", &format!("{TIGHT}torque = {{ law = 'tracking-pd', kp = 8, kd = 8 }}"), AHEAD);
+    // e = 1 t·exp(−2 t), from rest 1 m/s too slow.
+    moves(&found, 1e-10, |t| [1.0 + t - t * (-2.0 * t).exp(), 1.0 - (1.0 - 2.0 * t) * (-2.0 * t).exp()]);
+}
+
+#[test]
+fn computed_torque_leaves_its_own_equation_whatever_the_mass() {
+    let found = slides("computed", &format!("{TIGHT}torque = {{ law = 'computed-torque', kp = 4, kd = 4 }}"), AHEAD);
+    moves(&found, 1e-10, |t| [1.0 + t - t * (-2.0 * t).exp(), 1.0 - (1.0 - 2.0 * t) * (-2.0 * t).exp()]);
+}
+
+#[test]
+fn forces_of_a_table_lie_on_straight_lines_between_its_rows() {
+    let found = slides("forces", &format!("{TIGHT}torque = {{ law = 'csv', file = 'forces.csv' }}"), "");
+    // 4 t N on 2 kg for a second, then 4 N.
+    moves(&found, 1e-9, |t| match t - 1.0 {
+        more if more > 0.0 => [1.0 + 1.0 / 3.0 + more + more * more, 1.0 + 2.0 * more],
+        _ => [1.0 + t.powi(3) / 3.0, t * t],
+    });
+}
+
+#[test]
+fn every_integrator_swings_as_exactly_as_it_should() {
+    let adaptive = ["Ode45", "Dop853", "Ode15s", "Radau5", "0", "1"];
+    let fixed = [
+        ("SemiImplicitEuler", 1e-2),
+        ("Euler", 1e-2),
+        ("Ode4", 1e-8),
+        ("Ode5", 1e-10),
+        ("Gauss4", 1e-8),
+        ("Gauss6", 1e-6),
+        ("2", 1e-10),
+    ];
+    let swing = |name: &str, settings: &str| {
+        let method = if name.parse::<u8>().is_ok() { name.to_owned() } else { format!("'{name}'") };
+        let law = "torque = { law = 'p', target = [0], kp = 8 }";
+        slides(&format!("by-{name}"), &format!("integrator = {{ method = {method}, {settings} }}\n{law}"), "")
+    };
+    for name in adaptive {
+        moves(&swing(name, "rtol = 1e-8, atol = 1e-10"), 3e-6, |t| [(2.0 * t).cos(), -2.0 * (2.0 * t).sin()]);
+    }
+    for (name, most) in fixed {
+        moves(&swing(name, "step = 0.005"), most, |t| [(2.0 * t).cos(), -2.0 * (2.0 * t).sin()]);
+    }
+}
+
+#[test]
+fn energy_is_what_the_actuators_give() {
+    slides("work", &format!("{TIGHT}torque = {{ law = 'csv', file = 'forces.csv' }}"), "");
+    let energy = Table::csv(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("work/run/energy.csv"));
+    // 3 m/s at the end: 9 J.
+    let last = |name: &str| *energy.column(name).last().unwrap();
+    assert!((last("work [J]") - 9.0).abs() < 1e-8, "{}", last("work [J]"));
+    assert!((last("kinetic [J]") - 9.0).abs() < 1e-8);
+    assert!(last("drift [J]").abs() < 1e-8);
+}
+
+#[test]
+fn computed_torque_is_refused_where_joints_have_no_actuator() {
+    let folder = scratch("computed-of-loops");
+    let rest = "initial = { q = [0, 0.9844, 4.3144] }\ntrajectory = { kind = 'constant-speed', from = [0], speed = [1] }\n\
+                [forward]\nend = 1.0\nstep = 0.1\ntorque = { law = 'computed-torque', kp = 1, kd = 1 }\n";
+    let said = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 1);
+    assert!(said.contains("the model has closed loops") && said.contains("tracking-pd"), "{said}");
+}

@@ -1,0 +1,99 @@
+//! What the program writes, against numbers that none of this project's code computed.
+
+mod common;
+
+use common::{Table, deviation, scratch, succeed, tight};
+
+/// What a fall may be off by, in every number of it.
+const OFF: f64 = 1e-8;
+
+/// The fall of a scenario at tight tolerances, against a reference in quadruple precision: coordinates, velocities and
+/// energies, and with loops the multipliers, for the first `instants`; the rest by no more than a hundred times as much.
+fn falls(scenario: &str, reference: &str, joints: usize, rows: usize, instants: usize) {
+    let folder = scratch(&format!("falls-{scenario}"));
+    succeed(&folder, &["forward", &tight(&folder, scenario), "-o", "run"]);
+    let read = |name: &str| Table::csv(&folder.join("run").join(name));
+    let reference = Table::reference(reference);
+    let found = read("statevar.csv");
+    assert!(deviation(&found.columns(0..1), &reference.columns(0..1)) < 1e-12, "the same instants");
+    let near = |what: &str, found: &[Vec<f64>], expected: &[Vec<f64>]| {
+        let [first, all] = [instants.min(found.len()), found.len()].map(|k| deviation(&found[..k], &expected[..k]));
+        println!("{scenario}: {what} {first:e}, to the end {all:e}");
+        assert!(first < OFF && all < 100.0 * OFF, "{scenario}: {what} {first:e}, to the end {all:e}");
+    };
+    near("states", &found.columns(1..1 + 2 * joints), &reference.columns(1..1 + 2 * joints));
+    let energies = read("energy.csv").columns(1..3);
+    near("energies", &energies, &reference.columns(2 * joints + 2..2 * joints + 4));
+    if rows > 0 {
+        let first = 2 * joints + 4;
+        near("multipliers", &read("lambda.csv").columns(1..1 + rows), &reference.columns(first..first + rows));
+    }
+}
+
+/// The motion is chaotic: what rounding does to it grows by 10⁶ in the last second.
+#[test]
+fn kr5_falls_as_in_quadruple_precision() {
+    falls("kuka", "golden_ref_kuka.csv", 6, 0, 226);
+}
+
+#[test]
+fn the_gripper_falls_as_in_quadruple_precision() {
+    falls("gripper", "golden_ref_gripper_paper.csv", 4, 0, usize::MAX);
+}
+
+#[test]
+fn two_links_fall_as_in_quadruple_precision() {
+    falls("two_link", "golden_ref_link2.csv", 2, 0, usize::MAX);
+}
+
+#[test]
+fn three_links_fall_as_in_quadruple_precision() {
+    falls("three_link", "golden_ref_link3.csv", 3, 0, usize::MAX);
+}
+
+#[test]
+fn the_fourbar_falls_as_in_quadruple_precision() {
+    falls("fourbar", "golden_ref_hoken_rest_consistent.csv", 3, 2, usize::MAX);
+}
+
+/// The forces of a scenario's motion, against ReDySim's own: motion, forces of the actuated joints, and multipliers, each
+/// as a part of the largest in its column.
+fn takes(scenario: &str, reference: &str, joints: usize, actuated: &[usize], rows: usize) {
+    let folder = scratch(&format!("takes-{scenario}"));
+    succeed(&folder, &["inverse", &format!("{}/scenarios/{scenario}.toml", common::root().display()), "-o", "run"]);
+    let read = |name: &str| Table::csv(&folder.join("run").join(name));
+    let reference = Table::reference(reference);
+    let motion = read("traj.csv");
+    let worst = deviation(&motion.columns(0..3 * joints + 1), &reference.columns(0..3 * joints + 1));
+    println!("{scenario}: motion {worst:e}");
+    assert!(worst < 1e-11, "{scenario}: motion {worst:e}");
+    let tau = read("tor.csv");
+    let multipliers = (rows > 0).then(|| read("lambda.csv"));
+    for (k, expected) in (3 * joints + 1..reference.rows[0].len()).enumerate() {
+        let found = match (actuated.get(k), &multipliers) {
+            (Some(joint), _) => tau.columns(joint + 1..joint + 2),
+            (None, Some(lambda)) => lambda.columns(1 + k - actuated.len()..2 + k - actuated.len()),
+            (None, None) => panic!("a force of no joint"),
+        };
+        let expected = reference.columns(expected..expected + 1);
+        let peak = deviation(&expected, &vec![vec![0.0]; expected.len()]);
+        let worst = deviation(&found, &expected) / peak;
+        println!("{scenario}: force {k} {worst:e} of {peak}");
+        assert!(worst < 1e-12, "{scenario}: force {k} is off by {worst:e} of its peak");
+    }
+}
+
+#[test]
+fn kr5_takes_the_torques_of_redysim() {
+    takes("kuka", "golden_octave_ID_KUKA_Robot.csv", 6, &[0, 1, 2, 3, 4, 5], 0);
+}
+
+#[test]
+fn the_gripper_takes_the_torques_of_redysim() {
+    takes("gripper", "golden_octave_ID_Robotic_Gripper.csv", 4, &[0, 1, 2, 3], 0);
+}
+
+#[test]
+fn the_fourbar_takes_the_torque_and_multipliers_of_redysim() {
+    takes("fourbar", "golden_octave_ID_Hoken_Fourbar.csv", 3, &[0], 2);
+}

@@ -1,0 +1,220 @@
+//! What a run leaves behind: its files, their columns, and all that is needed to do it again.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{Table, deviation, names, root, scenario, scratch, succeed};
+
+fn shipped(name: &str) -> String {
+    root().join(format!("scenarios/{name}.toml")).display().to_string()
+}
+
+#[test]
+fn the_files_of_a_run() {
+    let folder = scratch("files");
+    let always = ["energy.csv", "kinematics.csv", "model.toml", "run.toml", "statevar.csv", "timevar.csv", "tor.csv"];
+    succeed(&folder, &["forward", &shipped("gripper"), "-o", "tree"]);
+    assert_eq!(names(&folder.join("tree")), always);
+    succeed(&folder, &["inverse", &shipped("fourbar"), "-o", "loops"]);
+    let mut expected = [&always[..], &["lambda.csv", "traj.csv"]].concat();
+    expected.sort_unstable();
+    assert_eq!(names(&folder.join("loops")), expected);
+}
+
+#[test]
+fn columns_have_names_and_units() {
+    let folder = scratch("columns");
+    succeed(&folder, &["inverse", &shipped("fourbar"), "-o", "run"]);
+    let headers = |name: &str| Table::csv(&folder.join("run").join(name)).headers;
+    assert_eq!(headers("timevar.csv"), ["t [s]"]);
+    let motion = [
+        "t [s]",
+        "q crank [rad]",
+        "q rocker [rad]",
+        "q coupler [rad]",
+        "v crank [rad/s]",
+        "v rocker [rad/s]",
+        "v coupler [rad/s]",
+    ];
+    assert_eq!(headers("statevar.csv"), motion);
+    assert_eq!(headers("traj.csv")[..7], motion);
+    assert_eq!(headers("traj.csv")[7..], ["a crank [rad/s^2]", "a rocker [rad/s^2]", "a coupler [rad/s^2]"]);
+    assert_eq!(headers("tor.csv"), ["t [s]", "tau crank [N m]", "tau rocker [N m]", "tau coupler [N m]"]);
+    assert_eq!(headers("lambda.csv"), ["t [s]", "lambda crank-coupler 1 [N]", "lambda crank-coupler 2 [N]"]);
+    assert_eq!(headers("energy.csv"), ["t [s]", "kinetic [J]", "potential [J]", "total [J]", "work [J]", "drift [J]"]);
+    let of_crank = [
+        "x crank [m]",
+        "y crank [m]",
+        "z crank [m]",
+        "com_x crank [m]",
+        "com_y crank [m]",
+        "com_z crank [m]",
+        "r11 crank [1]",
+        "r12 crank [1]",
+        "r13 crank [1]",
+        "r21 crank [1]",
+        "r22 crank [1]",
+        "r23 crank [1]",
+        "r31 crank [1]",
+        "r32 crank [1]",
+        "r33 crank [1]",
+    ];
+    assert_eq!(headers("kinematics.csv")[1..16], of_crank);
+    assert_eq!(headers("kinematics.csv").len(), 1 + 3 * 15);
+}
+
+/// A slider and a spatial loop: a rod held to the ground at its end by a weld, so that rows align directions, too.
+#[test]
+fn sliding_joints_and_rows_of_directions_have_units_of_their_own() {
+    let folder = scratch("units");
+    let model = "name = 'm'\ngravity = [0, 0, -9.81]\n[[link]]\nname = 'a'\njoint_name = 'rail'\nparent = 'base'\njoint = 'prismatic'\n\
+                 axis = [1, 0, 0]\nmass = 1.0\ninertia = { xx = 1, yy = 1, zz = 1 }\n[[link]]\nname = 'b'\nparent = 'a'\n\
+                 joint = 'revolute'\naxis = [0, 0, 1]\nmass = 1.0\ninertia = { xx = 1, yy = 1, zz = 1 }\nactuated = false\n[[loop]]\nname = 'hold'\n\
+                 joint = 'weld'\nlink_a = 'base'\npoint_a = [0, 0, 0]\nlink_b = 'b'\npoint_b = [0, 0, 0]\n";
+    fs::write(folder.join("model.toml"), model).unwrap();
+    fs::write(folder.join("trial.toml"), "model = 'model.toml'\n[forward]\nend = 0.2\nstep = 0.1\n").unwrap();
+    succeed(&folder, &["--quiet", "forward", "trial.toml", "-o", "run"]);
+    let headers = |name: &str| Table::csv(&folder.join("run").join(name)).headers;
+    assert_eq!(headers("statevar.csv"), ["t [s]", "q rail [m]", "q b [rad]", "v rail [m/s]", "v b [rad/s]"]);
+    assert_eq!(headers("tor.csv"), ["t [s]", "tau rail [N]", "tau b [N m]"]);
+    assert_eq!(headers("lambda.csv"), ["t [s]", "lambda hold 1 [N]", "lambda hold 2 [N m]"]);
+}
+
+/// A pendulum's link is where its angle says.
+#[test]
+fn kinematics_are_those_of_the_angles() {
+    let folder = scratch("kinematics");
+    succeed(&folder, &["inverse", &shipped("two_link"), "-o", "run"]);
+    let (motion, places) =
+        (Table::csv(&folder.join("run/statevar.csv")), Table::csv(&folder.join("run/kinematics.csv")));
+    let [q1, q2] = ["q joint1 [rad]", "q joint2 [rad]"].map(|name| motion.column(name));
+    for k in 0..q1.len() {
+        let at = |name: &str| places.column(name)[k];
+        let angle = q1[k] + q2[k];
+        let expected = [
+            ("x link2 [m]", 0.3 * q1[k].cos()),
+            ("y link2 [m]", 0.3 * q1[k].sin()),
+            ("com_x link2 [m]", 0.3 * q1[k].cos() + 0.125 * angle.cos()),
+            ("r11 link2 [1]", angle.cos()),
+            ("r12 link2 [1]", -angle.sin()),
+            ("r21 link2 [1]", angle.sin()),
+            ("r33 link2 [1]", 1.0),
+        ];
+        for (name, expected) in expected {
+            assert!((at(name) - expected).abs() < 1e-14, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_run_can_be_done_again_from_its_folder_alone() {
+    let folder = scratch("again");
+    fs::write(folder.join("forces.csv"), "t [s],tau joint1 [N m],tau joint2 [N m]\n0,0,0\n1,1,-1\n").unwrap();
+    let rest = "initial = { q = { joint2 = '60 deg' } }\n[forward]\nend = 1.0\nstep = 0.1\ntorque = { law = 'csv', file = 'forces.csv' }\n";
+    succeed(&folder, &["forward", &scenario(&folder, "two_link.toml", rest), "-o", "first"]);
+    // Elsewhere, without the files that the scenario named.
+    let elsewhere = scratch("again-elsewhere");
+    for name in names(&folder.join("first")) {
+        fs::copy(folder.join("first").join(&name), elsewhere.join(&name)).unwrap();
+    }
+    fs::remove_dir_all(&folder).unwrap();
+    succeed(&elsewhere, &["forward", "run.toml", "-o", "second"]);
+    for table in ["statevar.csv", "tor.csv", "energy.csv", "model.toml", "torque.csv"] {
+        let read = |path: &Path| fs::read_to_string(path).unwrap();
+        assert_eq!(read(&elsewhere.join(table)), read(&elsewhere.join("second").join(table)), "{table}");
+    }
+}
+
+#[test]
+fn the_run_says_what_was_left_open_and_how_it_went() {
+    let folder = scratch("resolved");
+    let rest = "# mine\ninitial = { q = [0, 0.9844, 4.3144] }\n[forward]\nend = 0.5\nstep = 0.1\n";
+    let said = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);
+    let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    let words = [
+        "# mine",
+        "model = \"model.toml\"",
+        "name = \"trial\"",
+        "held = [\"crank\"]",
+        "assemble = true",
+        "method = \"Ode45\"",
+        "rtol = 0.001",
+        "atol = 1e-6",
+        "law = \"free\"",
+        "stabilisation = \"projection\"",
+        "redysim = \"0.1.0\"",
+        "ended = \"complete\"",
+        "steps = ",
+        "energy_drift = ",
+        "worst_gap = ",
+    ];
+    for word in words {
+        assert!(run.contains(word), "no `{word}` in: {run}");
+    }
+    let words = [
+        "the start moves rocker by -2.694e-5 rad, coupler by 3.919e-5 rad",
+        "steps",
+        "evaluations",
+        "s of computing",
+        "energy drift",
+        "worst gap",
+        "written to run",
+    ];
+    for word in words {
+        assert!(said.contains(word), "no `{word}` in: {said}");
+    }
+    let quiet = succeed(&folder, &["forward", &folder.join("trial.toml").display().to_string(), "-o", "quiet", "-q"]);
+    assert_eq!(quiet, "");
+}
+
+#[test]
+fn redysims_files_have_redysims_columns() {
+    let folder = scratch("dat");
+    for (scenario, command) in [("gripper", "forward"), ("gripper", "inverse"), ("fourbar", "inverse")] {
+        for format in ["csv", "dat"] {
+            let name = format!("{scenario}-{command}-{format}");
+            succeed(&folder, &[command, &shipped(scenario), "-o", &name, "--format", format]);
+        }
+        let csv = |table: &str| Table::csv(&folder.join(format!("{scenario}-{command}-csv/{table}.csv")));
+        let dat = |table: &str| Table::dat(&folder.join(format!("{scenario}-{command}-dat/{table}.dat"))).rows;
+        assert_eq!(dat("timevar"), csv("timevar").rows);
+        let energy = csv("energy");
+        let columns = |row: &Vec<f64>| vec![row[2], row[1], 0.0 - row[4], row[3] - row[4]];
+        assert!(deviation(&dat("envar"), &energy.rows.iter().map(columns).collect::<Vec<_>>()) < 1e-15);
+        let (states, motion) = (dat("statevar"), csv("statevar"));
+        let count = motion.headers.len() - 1;
+        assert_eq!(states.iter().map(|row| row[..count].to_vec()).collect::<Vec<_>>(), motion.columns(1..count + 1));
+        if command == "forward" {
+            assert_eq!(states[0].len(), count + 1, "and the energy of the actuators");
+        } else {
+            assert_eq!(states, csv("traj").columns(1..1 + 3 * count / 2), "and accelerations");
+        }
+        let forces = match scenario {
+            "fourbar" => csv("tor")
+                .rows
+                .iter()
+                .zip(csv("lambda").rows)
+                .map(|(tau, lambda)| vec![tau[1], lambda[1], lambda[2]])
+                .collect(),
+            _ => csv("tor").columns(1..5),
+        };
+        assert_eq!(dat("tor"), forces);
+    }
+    assert!(!names(&folder.join("fourbar-inverse-dat")).iter().any(|name| name.ends_with(".csv")));
+}
+
+/// ReDySim's own three-RRR starts with gaps; its free motion leaves them as they are.
+#[test]
+fn loops_may_stay_open_where_that_is_asked_for() {
+    let folder = scratch("open");
+    let rest = "initial = { q = [1.0467, 5.4206, -2.5357, 4.1883, -2.0939, 5.7637, -0.9869], assemble = false }\n[forward]\nend = 2.0\nstep = 0.01\n\
+                stabilisation = 'none'\nintegrator = { method = 'Dop853', rtol = 1e-13, atol = 1e-14 }\n";
+    succeed(&folder, &["forward", &scenario(&folder, "three_rrr.toml", rest), "-o", "run"]);
+    let reference = Table::reference("golden_ref_rrr3.csv");
+    let worst = deviation(&Table::csv(&folder.join("run/statevar.csv")).columns(1..15), &reference.columns(1..15));
+    assert!(worst < 1e-8, "{worst:e}");
+    let worst = deviation(&Table::csv(&folder.join("run/lambda.csv")).columns(1..5), &reference.columns(18..22));
+    assert!(worst < 1e-8 * 100.0, "{worst:e} of forces of 10 to 100 N");
+}

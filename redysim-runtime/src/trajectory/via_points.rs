@@ -1,0 +1,191 @@
+//! Motion through points.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use super::spline::{Smoothness, least_acceleration, least_jerk, smooth};
+use super::{Motion, Trajectory, TrajectoryError};
+use crate::vector::entry;
+use crate::{Real, Vector};
+
+/// A motion through points at given times; between two of them every joint moves by the polynomial of degree 5 that has
+/// both points' coordinates, velocities and accelerations. Before the first point and after the last it stands there.
+///
+/// [`minimum_jerk`](Self::minimum_jerk) and [`cubic`](Self::cubic) find velocities and accelerations themselves,
+/// [`through`](Self::through) takes them as they are. For joints whose velocities are the rates of their coordinates
+/// (revolute and prismatic ones). `T` holds the times, `[S; N]` or `Vec<S>`, and says how many points there are.
+///
+/// ```
+/// use redysim_runtime::{Trajectory, ViaPoints};
+///
+/// // Out in 1 s, past a point that is not the middle, and back in 2 s.
+/// let there_and_back = ViaPoints::minimum_jerk([0.0, 1.0, 3.0], [[0.0], [0.7], [0.0]])?;
+/// assert_eq!(there_and_back.at(1.0).q, [0.7]);
+/// assert!(there_and_back.at(1.0).v[0] > 0.1);
+/// assert_eq!(there_and_back.at(3.0).v, [0.0]);
+/// # Ok::<(), redysim_runtime::TrajectoryError<f64>>(())
+/// ```
+#[derive(Clone)]
+pub struct ViaPoints<S, V: Clone, T: Vector<S>> {
+    times: T,
+    points: T::Of<Motion<V, V>>,
+    scalar: PhantomData<S>,
+}
+
+impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
+    /// The motion that has the given coordinates, velocities and accelerations at the given times, s.
+    ///
+    /// # Errors
+    /// [`TrajectoryError`], for fewer than two points, a point without a time, points with different joints, or times
+    /// that do not grow.
+    pub fn through(times: T, points: T::Of<Motion<V, V>>) -> Result<Self, TrajectoryError<S>> {
+        check(&times, points.as_ref())?;
+        Ok(Self { times, points, scalar: PhantomData })
+    }
+
+    /// The motion of least jerk, ∫ q⃛² dt, from rest at the first point to rest at the last, through those between
+    /// without a stop: its fourth derivative is continuous. Between two points alone it is
+    /// q₀ + (q₁ − q₀)(10 s³ − 15 s⁴ + 6 s⁵) with s = (t − t₀)/(t₁ − t₀). T. Flash and N. Hogan, *The coordination of arm
+    /// movements*, J. Neurosci. 5 (1985).
+    ///
+    /// # Errors
+    /// As [`through`](Self::through).
+    pub fn minimum_jerk(times: T, q: T::Of<V>) -> Result<Self, TrajectoryError<S>> {
+        Self::smoothest(times, q, least_jerk)
+    }
+
+    /// The motion of least acceleration, ∫ q̈² dt, from rest at the first point to rest at the last, through those
+    /// between without a stop: the clamped cubic spline. Its acceleration is continuous between the ends, and jumps at
+    /// both.
+    ///
+    /// # Errors
+    /// As [`through`](Self::through).
+    pub fn cubic(times: T, q: T::Of<V>) -> Result<Self, TrajectoryError<S>> {
+        let mut motion = Self::smoothest(times, q, least_acceleration)?;
+        motion.accelerate_ends();
+        Ok(motion)
+    }
+
+    fn smoothest(times: T, q: T::Of<V>, smoothness: Smoothness<S>) -> Result<Self, TrajectoryError<S>> {
+        let coordinates = q.as_ref();
+        if coordinates.len() != times.as_ref().len() {
+            let (times, points) = (times.as_ref().len(), coordinates.len());
+            return Err(TrajectoryError::DifferentCounts { times, points });
+        }
+        let mut points = T::Of::<Motion<V, V>>::from_fn(coordinates.len(), |k| resting(&coordinates[k]));
+        check(&times, points.as_ref())?;
+        smooth::<S, V, T>(&times, &mut points, smoothness);
+        Ok(Self { times, points, scalar: PhantomData })
+    }
+
+    /// Gives the ends the accelerations of the cubics that begin and end there.
+    fn accelerate_ends(&mut self) {
+        let last = self.points.as_ref().len() - 1;
+        for (end, neighbour) in [(0, 1), (last, last - 1)] {
+            let h = entry(&self.times, neighbour) - entry(&self.times, end);
+            let [of_end, of_neighbour] = [end, neighbour].map(|k| self.points.as_ref()[k].clone());
+            let c = S::from_f64;
+            self.points.as_mut()[end].a = V::from_fn(of_end.q.as_ref().len(), |joint| {
+                let way = entry(&of_neighbour.q, joint) - entry(&of_end.q, joint);
+                let speeds = c(4.0) * entry(&of_end.v, joint) + c(2.0) * entry(&of_neighbour.v, joint);
+                (c(6.0) * way / h - speeds) / h
+            });
+        }
+    }
+
+    /// The first time and the last, s.
+    pub fn span(&self) -> (S, S) {
+        (entry(&self.times, 0), entry(&self.times, self.times.as_ref().len() - 1))
+    }
+}
+
+impl<S: Real, V: Vector<S>, T: Vector<S>> Trajectory<S, V, V> for ViaPoints<S, V, T> {
+    fn at(&self, t: S) -> Motion<V, V> {
+        let (times, points) = (self.times.as_ref(), self.points.as_ref());
+        // NaN is no time before any, so that what becomes of it is NaN.
+        let after = times.partition_point(|&time| time <= t);
+        let standing = match after {
+            0 if t < times[0] => Some(&points[0]),
+            _ if t > times[times.len() - 1] => points.last(),
+            _ => None,
+        };
+        if let Some(point) = standing {
+            return resting(&point.q);
+        }
+        let right = after.clamp(1, times.len() - 1);
+        let left = right - 1;
+        let (from, to) = (&points[left], &points[right]);
+        if t == times[left] {
+            return from.clone();
+        }
+        if t == times[right] {
+            return to.clone();
+        }
+        let h = times[right] - times[left];
+        between(from, to, h, (t - times[left]) / h)
+    }
+}
+
+impl<S: fmt::Debug, V: Clone + fmt::Debug, T: Vector<S> + fmt::Debug> fmt::Debug for ViaPoints<S, V, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ViaPoints").field("times", &self.times).field("points", &self.points.as_ref()).finish()
+    }
+}
+
+/// The polynomial of degree 5 between two points, `h` apart in time, at the part `s` of the way.
+fn between<S: Real, V: Vector<S>>(from: &Motion<V, V>, to: &Motion<V, V>, h: S, s: S) -> Motion<V, V> {
+    let c = S::from_f64;
+    // Coefficients of s⁰ to s⁵: the first three from the start, the others from what these miss at the end.
+    let coefficients = |joint| {
+        let at = |motion: &Motion<V, V>| {
+            [entry(&motion.q, joint), entry(&motion.v, joint) * h, entry(&motion.a, joint) * h * h]
+        };
+        let ([q, v, a], [q_end, v_end, a_end]) = (at(from), at(to));
+        let half = c(0.5) * a;
+        let [way, speed, push] = [q_end - q - v - half, v_end - v - a, c(0.5) * (a_end - a)];
+        let third = c(10.0) * way - c(4.0) * speed + push;
+        let fourth = c(-15.0) * way + c(7.0) * speed - c(2.0) * push;
+        let fifth = c(6.0) * way - c(3.0) * speed + push;
+        [q, v, half, third, fourth, fifth]
+    };
+    // The derivative `order` of the polynomial, by Horner's rule.
+    let derivative = |order: usize, joint: usize| {
+        let coefficients = coefficients(joint);
+        (order..6).rev().fold(S::zero(), |sum, power| {
+            let factor = (0..order).map(|down| (power - down) as f64).product::<f64>();
+            sum * s + c(factor) * coefficients[power]
+        })
+    };
+    let len = from.q.as_ref().len();
+    Motion {
+        q: V::from_fn(len, |joint| derivative(0, joint)),
+        v: V::from_fn(len, |joint| derivative(1, joint) / h),
+        a: V::from_fn(len, |joint| derivative(2, joint) / (h * h)),
+    }
+}
+
+fn resting<S: Real, V: Vector<S>>(q: &V) -> Motion<V, V> {
+    let zero = V::from_fn(q.as_ref().len(), |_| S::zero());
+    Motion { q: q.clone(), v: zero.clone(), a: zero }
+}
+
+fn check<S: Real, V: Vector<S>, T: Vector<S>>(times: &T, points: &[Motion<V, V>]) -> Result<(), TrajectoryError<S>> {
+    let times = times.as_ref();
+    if times.len() != points.len() {
+        return Err(TrajectoryError::DifferentCounts { times: times.len(), points: points.len() });
+    }
+    if points.len() < 2 {
+        return Err(TrajectoryError::TooFewPoints { given: points.len() });
+    }
+    let joints = points[0].q.as_ref().len();
+    let lengths = points.iter().flat_map(|point| [&point.q, &point.v, &point.a]).map(|part| part.as_ref().len());
+    if let Some(to) = lengths.into_iter().find(|&length| length != joints) {
+        return Err(TrajectoryError::DifferentLengths { from: joints, to });
+    }
+    for (k, pair) in times.windows(2).enumerate() {
+        if !(pair[1] > pair[0] && (pair[1] - pair[0]).is_finite()) {
+            return Err(TrajectoryError::TimesOutOfOrder { point: k + 1, previous: pair[0], t: pair[1] });
+        }
+    }
+    Ok(())
+}
