@@ -4,14 +4,16 @@
 //! Exit codes: 0 all is well; 1 the input is at fault (a model, a scenario, a table); 2 the command line is; 3 something
 //! outside is (a file that cannot be read or written, an integration that cannot go on); 130 interrupted.
 
+mod animation;
 mod commands;
 mod failure;
 mod output;
+mod recorded;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{check, completions, generate};
+use commands::{animate, check, completions, generate, plot};
 
 /// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
 #[derive(Parser)]
@@ -28,6 +30,8 @@ struct Cli {
 enum Command {
     Check(check::Arguments),
     Generate(generate::Arguments),
+    Plot(plot::Arguments),
+    Animate(animate::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -36,6 +40,8 @@ fn main() -> ExitCode {
     let done = match command {
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Generate(arguments) => generate::run(&arguments, quiet),
+        Command::Plot(arguments) => plot::run(&arguments, quiet),
+        Command::Animate(arguments) => animate::run(&arguments, quiet),
         Command::Completions(arguments) => completions::run(&arguments),
     };
     match done {

@@ -1,8 +1,10 @@
 //! The subcommands, a file each: what they take, and what they do.
 
+pub mod animate;
 pub mod check;
 pub mod completions;
 pub mod generate;
+pub mod plot;
 
 use std::path::Path;
 
