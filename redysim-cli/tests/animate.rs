@@ -3,6 +3,7 @@
 
 mod results;
 
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
@@ -85,7 +86,7 @@ fn names_cannot_end_the_script_they_stand_in() {
 #[test]
 fn loops_and_their_multipliers_are_there() {
     let folder = tempfile::tempdir().unwrap();
-    turn(folder.path(), &model("fourbar"), 1.0, 100, &[0.0, 0.9844, 4.3144]);
+    turn(folder.path(), &model("fourbar"), TAU, 1.0, 100, &[0.0, 0.9844, 4.3144]);
     let data = data(&page(folder.path()));
     assert_eq!(data["cuts"][0]["name"], "crank-coupler");
     let titles: Vec<_> = data["charts"].as_array().unwrap().iter().map(|chart| chart["title"].clone()).collect();

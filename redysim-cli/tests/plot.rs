@@ -2,6 +2,7 @@
 
 mod results;
 
+use std::f64::consts::TAU;
 use std::fs;
 
 use results::{model, redysim, said, swing, turn};
@@ -10,7 +11,7 @@ use results::{model, redysim, said, swing, turn};
 fn a_run_with_loops_gives_four_pictures_in_both_forms() {
     let folder = tempfile::tempdir().unwrap();
     let (from, to) = (folder.path().join("run"), folder.path().join("pictures"));
-    turn(&from, &model("fourbar"), 1.0, 100, &[0.0, 0.9844, 4.3144]);
+    turn(&from, &model("fourbar"), TAU, 1.0, 100, &[0.0, 0.9844, 4.3144]);
     let output = redysim(["plot", from.to_str().unwrap(), "-o", to.to_str().unwrap()]);
     assert!(output.status.success(), "{}", said(&output));
     for name in ["motion", "torques", "energy", "lambda"] {

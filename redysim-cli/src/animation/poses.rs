@@ -73,11 +73,7 @@ fn computed(table: &Table, model: &Model) -> Result<Poses, Failure> {
 }
 
 /// The poses at as many instants as a page can hold.
-fn frames(
-    t: &[f64],
-    links: usize,
-    pose: impl Fn(usize) -> Result<Vec<Pose>, Failure>,
-) -> Result<Poses, Failure> {
+fn frames(t: &[f64], links: usize, pose: impl Fn(usize) -> Result<Vec<Pose>, Failure>) -> Result<Poses, Failure> {
     let rows = spread(t.len(), FRAMES.min(LINK_FRAMES / links.max(1)).max(100));
     let mut values = Vec::with_capacity(rows.len() * links * 7);
     for &row in &rows {

@@ -59,19 +59,18 @@ impl Group {
 }
 
 impl Recorded {
-    /// All charts that the tables yield, in the order of [`Group::ALL`].
+    /// All charts that the tables yield, those first that are looked at most.
     ///
     /// # Errors
     /// If a table cannot be read.
     pub fn charts(&self) -> Result<Vec<Chart>, Failure> {
+        let motion = self.motion()?;
         let mut charts = Vec::new();
-        if let Some(table) = self.motion()? {
-            charts.extend(by_unit(&table, Group::Motion, &["q"], |unit| match unit {
+        if let Some(table) = &motion {
+            charts.extend(by_unit(table, Group::Motion, &["q"], |unit| match unit {
                 "m" => ("Joint displacements", "displacement"),
                 _ => ("Joint angles", "angle"),
             }));
-            charts.extend(by_unit(&table, Group::Motion, &["v"], |_| ("Joint velocities", "velocity")));
-            charts.extend(by_unit(&table, Group::Motion, &["a"], |_| ("Joint accelerations", "acceleration")));
         }
         if let Some(table) = self.table("tor.csv")? {
             charts.extend(by_unit(&table, Group::Torques, &["tau"], |unit| match unit {
@@ -86,6 +85,10 @@ impl Recorded {
         }
         if let Some(table) = self.table("lambda.csv")? {
             charts.extend(by_unit(&table, Group::Multipliers, &["lambda"], |_| ("Lagrange multipliers", "λ")));
+        }
+        if let Some(table) = &motion {
+            charts.extend(by_unit(table, Group::Motion, &["v"], |_| ("Joint velocities", "velocity")));
+            charts.extend(by_unit(table, Group::Motion, &["a"], |_| ("Joint accelerations", "acceleration")));
         }
         Ok(charts)
     }

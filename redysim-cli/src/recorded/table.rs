@@ -51,7 +51,8 @@ impl Table {
         let mut row = StringRecord::new();
         while reader.read_record(&mut row).map_err(|error| unreadable(path, &error))? {
             let line = row.position().map_or(0, Position::line);
-            let value = |index: usize| number(&row[index]).ok_or_else(|| no_number(path, line, &headers[index], &row[index]));
+            let value =
+                |index: usize| number(&row[index]).ok_or_else(|| no_number(path, line, &headers[index], &row[index]));
             let t = value(0)?;
             if !t.is_finite() || table.t.last().is_some_and(|&before| t < before) {
                 return Err(backwards(path, line, &row[0]));
@@ -122,7 +123,8 @@ fn no_number(path: &Path, line: u64, header: &str, found: &str) -> Failure {
 }
 
 fn backwards(path: &Path, line: u64, found: &str) -> Failure {
-    Failure::input(format!("{}:{line}: time must not run backwards, but t is `{found}` here", path.display())).help(RERUN)
+    Failure::input(format!("{}:{line}: time must not run backwards, but t is `{found}` here", path.display()))
+        .help(RERUN)
 }
 
 fn unreadable(path: &Path, error: &csv::Error) -> Failure {

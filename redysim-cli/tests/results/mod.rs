@@ -7,9 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use redysim_model::{GenericMechanism, JointKind, Model};
-use redysim_runtime::{
-    ClosedLoop, ClosedLoopInverse, InverseDynamics, LinkKinematics, MechanicalEnergy, Motion,
-};
+use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LinkKinematics, MechanicalEnergy, Motion};
 
 /// A model of the repository.
 pub fn model(name: &str) -> PathBuf {
@@ -50,12 +48,12 @@ pub fn swing(folder: &Path, model: &Path, seconds: f64, rows: usize) {
     write(folder, model, &mechanism, &instants.collect::<Vec<_>>());
 }
 
-/// The first joint turns once in `seconds`, and the loops make the others follow.
-pub fn turn(folder: &Path, model: &Path, seconds: f64, rows: usize, guess: &[f64]) {
+/// In `seconds` the first joint turns by `angle` from where it is in `guess`, and the loops make the others follow.
+pub fn turn(folder: &Path, model: &Path, angle: f64, seconds: f64, rows: usize, guess: &[f64]) {
     let mechanism = GenericMechanism::new(Model::load(model).unwrap().model);
     let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&mechanism), &[0], guess.to_vec());
-    let speed = std::f64::consts::TAU / seconds;
-    let crank = |t: f64| Motion { q: vec![speed * t], v: vec![speed], a: vec![0.0] };
+    let (start, speed) = (guess[0], angle / seconds);
+    let crank = |t: f64| Motion { q: vec![start + speed * t], v: vec![speed], a: vec![0.0] };
     let instants = (0..=rows).map(|row| {
         let t = seconds * row as f64 / rows as f64;
         let at = inverse.at(t, &crank).unwrap();

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import { colour } from "./palette.js";
 import { indexAt } from "./motion.js";
 
-const HEIGHT = 150;
+const HEIGHT = 132;
 const GRID = { stroke: "#e6e9ed", width: 1 };
 
 export class Charts {
@@ -43,9 +43,10 @@ class Chart {
       scales: { x: { time: false } },
       series: [{}, ...series],
       axes: [
-        { ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
-        { ...axis, size: 58, values: (_, ticks) => ticks.map(short) },
+        { ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) },
+        { ...axis, size: 58, space: 22, values: (_, ticks) => ticks.map(short) },
       ],
+      padding: [8, 16, 0, 0],
       cursor: { show: false },
       legend: { live: true },
     };
@@ -70,7 +71,7 @@ class Chart {
   show(time) {
     this.time = time;
     this.now.style.transform = `translateX(${this.plot.valToPos(time, "x")}px)`;
-    this.plot.setLegend({ idx: indexAt(this.t, time) }, false);
+    this.plot.setLegend({ idxs: this.plot.series.map(() => indexAt(this.t, time)) }, false);
   }
 
   #pointer(seek) {

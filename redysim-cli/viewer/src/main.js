@@ -51,11 +51,13 @@ window.redysim = {
   pause: () => player.pause(),
   /** Name, origin and centre of mass of every link in the base frame, m, as they are drawn. */
   links: () => animation.bodies.slice(1).map(drawn),
+  /** Where the camera is, m. */
+  camera: () => stage.camera.position.toArray(),
 };
 
 function show() {
   stage?.show();
-  charts?.show(motion.time);
+  charts.show(motion.time);
 }
 
 function drawn({ name, com }, link) {
@@ -73,9 +75,9 @@ function drawn({ name, com }, link) {
 }
 
 function facts() {
-  const count = (number, what) => `${number} ${what}${number === 1 ? "" : "s"}`;
+  const count = (number, one, many = `${one}s`) => `${number} ${number === 1 ? one : many}`;
   const { bodies, joints, cuts } = animation;
-  const parts = [count(bodies.length - 1, "link"), `${count(joints.length, "joint")} that move${joints.length === 1 ? "s" : ""}`];
+  const parts = [count(bodies.length - 1, "link"), count(joints.length, "joint that moves", "joints that move")];
   if (cuts.length) parts.push(count(cuts.length, "cut joint"));
   return parts.join(" · ");
 }
@@ -87,6 +89,7 @@ function makeStage() {
     // Without WebGL the curves are still of use.
     console.warn(error);
     at("no-webgl").hidden = false;
+    at("stage").classList.add("no-webgl");
     return null;
   }
 }

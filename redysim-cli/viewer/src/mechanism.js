@@ -17,7 +17,7 @@ export class Mechanism {
     this.root = new Group();
     this.layers = { axes: [], coms: [], names: [], trace: [] };
     this.rails = [];
-    this.thick = 0.022 * size;
+    this.thick = thickness(bodies, size);
     const mark = comMark();
     this.groups = bodies.map((body, index) => this.#body(body, index, mark));
     bodies.forEach((body, index) => body.joint?.rail && this.#rail(body.joint.rail, index));
@@ -132,6 +132,13 @@ export class Mechanism {
       this.root.add(line);
     });
   }
+}
+
+/** Radius of the links: seen from where all is seen, and slender even where links are many and short. */
+function thickness(bodies, size) {
+  const lengths = bodies.slice(1).flatMap(({ ends }) => ends.map((end) => Math.hypot(...end))).filter((length) => length > 0);
+  const middle = lengths.sort((a, b) => a - b)[lengths.length >> 1] ?? size;
+  return Math.max(Math.min(0.022 * size, 0.11 * middle), 0.004 * size);
 }
 
 /** Lays a rod of length 1 between two points. */

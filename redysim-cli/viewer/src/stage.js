@@ -103,7 +103,7 @@ export class Stage {
     // Below the middle of the motion, on whole cells of the base frame.
     const middle = center.clone().addScaledVector(this.up, -center.dot(this.up));
     level.position.copy(middle.divideScalar(cell).round().multiplyScalar(cell)).addScaledVector(this.up, height);
-    const base = new AxesHelper(0.22 * radius);
+    const base = new AxesHelper(0.22 * radius).setColors("#cc3311", "#117733", "#0044aa");
     base.material.depthTest = false;
     base.renderOrder = 1;
     this.ground.add(level, base);
@@ -209,8 +209,8 @@ function everyPoint({ bodies }, motion, see) {
 function reach(animation, motion) {
   const box = new Box3();
   everyPoint(animation, motion, (point) => box.expandByPoint(point));
-  const sphere = box.getBoundingSphere(new Sphere());
-  sphere.radius = Math.max(sphere.radius, 1e-6);
+  const sphere = new Sphere(box.getCenter(new Vector3()), 1e-6);
+  everyPoint(animation, motion, (point) => (sphere.radius = Math.max(sphere.radius, sphere.center.distanceTo(point))));
   return sphere;
 }
 
