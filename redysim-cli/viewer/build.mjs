@@ -1,5 +1,5 @@
-// Builds `dist/viewer.html`, the page that `redysim animate` fills with data. With `--check` it says whether the committed
-// page is what the sources build, and changes nothing.
+// Builds `dist/viewer.html`, the page that `redysim animate` fills with data. With `--check` it says whether the
+// committed page is what the sources build, and changes nothing.
 
 import { readFile, writeFile, mkdir } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
@@ -12,7 +12,7 @@ const page = await assemble();
 if (process.argv.includes("--check")) {
   const committed = await readFile(PAGE, "utf8").catch(() => "");
   if (committed !== page) {
-    console.error("redysim-cli/viewer/dist/viewer.html is not what the sources build: run `npm run build` and commit it");
+    console.error("viewer/dist/viewer.html is not what the sources build: run `npm run build` and commit it");
     process.exit(1);
   }
   console.log(`dist/viewer.html is what the sources build (${Math.round(page.length / 1000)} kB)`);

@@ -1,5 +1,5 @@
-// Plays the page `animation.html` of a results folder in headless Chromium, holds what it draws against `kinematics.csv`,
-// and leaves screenshots beside it: node test.mjs FOLDER
+// Plays the page `animation.html` of a results folder in headless Chromium, holds what it draws against
+// `kinematics.csv`, and leaves screenshots beside it: node test.mjs FOLDER
 
 import assert from "node:assert/strict";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
@@ -34,7 +34,7 @@ await inBrowser([...GL], { width: 1280, height: 800 }, async (page) => {
   await page.screenshot({ path: join(folder, "middle.png") });
 });
 await inBrowser([...GL], { width: 390, height: 844 }, async (page) => {
-  const { width, wide } = await page.evaluate(() => ({ width: innerWidth, wide: document.documentElement.scrollWidth }));
+  const [width, wide] = await page.evaluate(() => [innerWidth, document.documentElement.scrollWidth]);
   assert.ok(wide <= width, `a narrow page must not scroll sideways, but is ${wide} wide in ${width}`);
   await page.screenshot({ path: join(folder, "narrow.png") });
 });
@@ -45,7 +45,7 @@ await inBrowser(["--disable-gpu", "--disable-3d-apis"], { width: 1280, height: 8
 }, /WebGL/);
 console.log(`${folder}: the page does what it must`);
 
-/** The page in a fresh browser, which fails on console errors (but `expected` ones) and on any request but for the page. */
+/** The page in a fresh browser; fails on console errors (but `expected` ones) and on any request but for the page. */
 async function inBrowser(flags, viewport, look, expected) {
   const profile = await mkdtemp(join(tmpdir(), "redysim-viewer-"));
   const browser = await chromium.launchPersistentContext(profile, {
@@ -129,13 +129,14 @@ async function theKeysStepAndJump(page) {
 
 async function aCurveGoesToTheTimePointedAt(page) {
   const box = await page.locator(".u-over").first().boundingBox();
-  assert.match(await page.locator(".u-legend .u-value").nth(1).textContent(), /\d/, "the legend must show the present value");
+  const value = await page.locator(".u-legend .u-value").nth(1).textContent();
+  assert.match(value, /\d/, "the legend must show the present value");
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   const middle = (table.t[0] + table.t.at(-1)) / 2;
   const off = Math.abs((await time(page)) - middle) / (table.t.at(-1) - table.t[0]);
   assert.ok(off < 0.2, `a click into the middle of a curve went to ${await time(page)} s`);
   const line = await page.locator(".now").first().boundingBox();
-  assert.ok(Math.abs(line.x - (box.x + box.width / 2)) < 3, "the line of the present time must be where it was clicked");
+  assert.ok(Math.abs(line.x - (box.x + box.width / 2)) < 3, "the line of the present time must be at the click");
 }
 
 async function theViewTurnsByMouseAndKeys(page) {

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::DrawingError;
-use crate::axis::Axis;
+use crate::axis::{Axis, drawable};
 use crate::figure::{Curve, Figure, Mark, Panel};
 
 /// The backend knows whole pixels only. A picture is drawn this many times as large as it is shown, so that curves are
@@ -138,7 +138,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_lege
         ))?;
     }
     for curve in &panel.curves {
-        let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| point.1.is_finite()).collect();
+        let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| drawable(point.1)).collect();
         if matches!(curve.mark, Mark::Line | Mark::Dots) {
             chart.draw_series(LineSeries::new(points.iter().copied(), line_style(curve)))?;
         }
@@ -227,4 +227,25 @@ fn draw_legend(area: &Area<'_>, panel: &Panel, x: i32) -> Drawn {
 /// About the width of a text; the backend leaves the true one to the viewer's fonts.
 fn text_width(text: &str) -> i32 {
     8 * text.chars().count() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One panel with so many curves.
+    fn height(curves: usize) -> i32 {
+        let panel = (0..curves).fold(Panel::new("Torques", "torque", "N m"), |panel, k| {
+            panel.line(&format!("joint {k}"), k, &[0.0, 1.0], &[0.0, 1.0])
+        });
+        let svg = svg(&Figure { columns: 1, panels: vec![panel], shared_legend: false }).unwrap();
+        let (_, rest) = svg.split_once("height=\"").unwrap();
+        rest.split_once('"').unwrap().0.parse().unwrap()
+    }
+
+    #[test]
+    fn a_long_legend_gets_the_rows_it_needs() {
+        assert_eq!(height(1), height(3));
+        assert!(height(40) > height(3) + 3 * HEAD);
+    }
 }

@@ -32,3 +32,32 @@ pub fn png(figure: &Figure) -> Result<Vec<u8>, DrawingError> {
     resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixels.as_mut());
     pixels.encode_png().map_err(DrawingError::new)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::Panel;
+
+    /// The pixels of a picture with one panel of this title.
+    fn pixels(title: &str) -> Pixmap {
+        let panels = vec![Panel::new(title, "torque", "N m").line("", 1, &[0.0, 1.0], &[0.0, 1.0])];
+        Pixmap::decode_png(&png(&Figure { columns: 1, panels, shared_legend: false }).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn text_is_drawn_where_no_font_is_installed() {
+        for letters in ["Torque τ", "Schräglage", "Момент", "s²"] {
+            let differing = |a: &Pixmap, b: &Pixmap| a.pixels().iter().zip(b.pixels()).filter(|(a, b)| a != b).count();
+            let drawn = differing(&pixels(letters), &pixels(""));
+            assert!(drawn > 100, "{letters}: {drawn} pixels");
+        }
+    }
+
+    #[test]
+    fn values_of_any_size_are_drawn() {
+        for values in [[f64::MAX, f64::MIN], [5e-324, 0.0], [f64::NAN, f64::INFINITY], [0.0, 0.0], [1.0, 1.0 + 1e-15]] {
+            let panels = vec![Panel::new("all", "torque", "N m").line("", 1, &[0.0, 1.0], &values).prefixed()];
+            assert!(png(&Figure { columns: 1, panels, shared_legend: false }).is_ok(), "{values:?}");
+        }
+    }
+}

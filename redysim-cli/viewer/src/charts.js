@@ -90,6 +90,7 @@ class Chart {
 /** A number with four digits, in powers of ten where it is very small or large. */
 function short(value) {
   const size = Math.abs(value);
-  const text = size !== 0 && (size < 1e-3 || size >= 1e5) ? value.toExponential(2) : String(Number(value.toPrecision(4)));
-  return text.replace("-", "−").replace("e-", "e−");
+  const usual = size === 0 || (size >= 1e-3 && size < 1e5);
+  const text = usual ? String(Number(value.toPrecision(4))) : value.toExponential(2).replace(/\.?0+e\+?/, "e");
+  return text.replaceAll("-", "−");
 }

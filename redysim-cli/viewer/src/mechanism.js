@@ -2,7 +2,8 @@
 
 import {
   BoxGeometry, BufferGeometry, CanvasTexture, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Line,
-  LineBasicMaterial, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector3,
+  LineBasicMaterial, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace,
+  Vector3,
 } from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 import { colour, GROUND } from "./palette.js";
@@ -28,7 +29,10 @@ export class Mechanism {
   /** Moves everything to the present time of the motion. */
   update() {
     const { motion, groups } = this;
-    for (let link = 0; link < motion.links; link++) motion.pose(link, groups[link + 1].position, groups[link + 1].quaternion);
+    for (let link = 0; link < motion.links; link++) {
+      const { position, quaternion } = groups[link + 1];
+      motion.pose(link, position, quaternion);
+    }
     this.root.updateMatrixWorld(true);
     for (const { rod, from, body, point } of this.rails) {
       stretch(rod, groups[from].localToWorld(point.clone()), groups[body].position);
@@ -78,7 +82,7 @@ export class Mechanism {
     return group;
   }
 
-  /** A pin along a revolute axis, a block along a prismatic one, a ball for a spherical joint; with its axis as a line. */
+  /** A pin or block along the axis, and the axis as a line; a ball for a spherical joint. */
   #joint(kind, axis, at) {
     const group = new Group();
     group.position.copy(at);
@@ -96,7 +100,8 @@ export class Mechanism {
       group.add(solid);
     }
     if (kind === "revolute" || kind === "prismatic") {
-      const line = new Mesh(new CylinderGeometry(0.12 * r, 0.12 * r, 13 * r, 8), new MeshStandardMaterial({ color: JOINT }));
+      const thread = new CylinderGeometry(0.12 * r, 0.12 * r, 13 * r, 8);
+      const line = new Mesh(thread, new MeshStandardMaterial({ color: JOINT }));
       this.layers.axes.push(line);
       group.add(line);
     }
@@ -136,8 +141,9 @@ export class Mechanism {
 
 /** Radius of the links: seen from where all is seen, and slender even where links are many and short. */
 function thickness(bodies, size) {
-  const lengths = bodies.slice(1).flatMap(({ ends }) => ends.map((end) => Math.hypot(...end))).filter((length) => length > 0);
-  const middle = lengths.sort((a, b) => a - b)[lengths.length >> 1] ?? size;
+  const lengths = bodies.slice(1).flatMap(({ ends }) => ends.map((end) => Math.hypot(...end)));
+  const rods = lengths.filter((length) => length > 0).sort((a, b) => a - b);
+  const middle = rods[rods.length >> 1] ?? size;
   return Math.max(Math.min(0.022 * size, 0.11 * middle), 0.004 * size);
 }
 

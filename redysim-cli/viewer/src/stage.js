@@ -1,8 +1,8 @@
 // The room that the mechanism moves in: camera, light, ground, and how to look around.
 
 import {
-  AxesHelper, Box3, DirectionalLight, GridHelper, Group, HemisphereLight, Mesh, PerspectiveCamera, PlaneGeometry, Quaternion,
-  Scene, ShadowMaterial, Sphere, Spherical, Vector3, WebGLRenderer,
+  AxesHelper, Box3, DirectionalLight, GridHelper, Group, HemisphereLight, Mesh, PerspectiveCamera, PlaneGeometry,
+  Quaternion, Scene, ShadowMaterial, Sphere, Spherical, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
@@ -21,7 +21,7 @@ export class Stage {
     this.renderer.setClearColor("#ffffff");
     this.renderer.shadowMap.enabled = true;
     this.names = new CSS2DRenderer();
-    Object.assign(this.names.domElement.style, { position: "absolute", inset: 0, pointerEvents: "none", overflow: "hidden" });
+    this.names.domElement.className = "names";
     canvas.after(this.names.domElement);
     this.place = place;
     this.scene = new Scene();
@@ -114,11 +114,14 @@ export class Stage {
     const { radius, center } = this.sphere;
     const { front, side } = horizontal(this.up);
     const sun = new DirectionalLight("#ffffff", 2.2);
-    sun.position.copy(center).addScaledVector(this.up, 4 * radius).addScaledVector(front, 2 * radius).addScaledVector(side, radius);
+    const from = this.up.clone().multiplyScalar(4).addScaledVector(front, 2).add(side);
+    sun.position.copy(center).addScaledVector(from, radius);
     sun.target.position.copy(center);
     sun.castShadow = true;
     sun.shadow.mapSize.setScalar(2048);
-    Object.assign(sun.shadow.camera, { left: -2 * radius, right: 2 * radius, top: 2 * radius, bottom: -2 * radius, near: radius / 10, far: 12 * radius });
+    const reach = 2 * radius;
+    const lit = { left: -reach, right: reach, top: reach, bottom: -reach, near: radius / 10, far: 12 * radius };
+    Object.assign(sun.shadow.camera, lit);
     const sky = new HemisphereLight("#ffffff", "#aab2bb", 1.9);
     sky.position.copy(this.up);
     this.scene.add(sun, sun.target, sky);
