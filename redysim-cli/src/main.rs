@@ -4,12 +4,14 @@
 //! Exit codes: 0 all is well; 1 the input is at fault (a model, a scenario, a table); 2 the command line is; 3 something
 //! outside is (a file that cannot be read or written, an integration that cannot go on); 130 interrupted.
 
+mod animation;
 mod commands;
 mod failure;
 mod interrupt;
 mod number;
 mod output;
 mod progress;
+mod recorded;
 mod results;
 mod scenario;
 mod summary;
@@ -18,7 +20,7 @@ mod urdf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{check, completions, forward, generate, import, inverse};
+use commands::{animate, check, completions, forward, generate, import, inverse, plot};
 
 /// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
 #[derive(Parser)]
@@ -38,6 +40,8 @@ enum Command {
     Forward(forward::Arguments),
     Generate(generate::Arguments),
     Import(import::Arguments),
+    Plot(plot::Arguments),
+    Animate(animate::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -49,6 +53,8 @@ fn main() -> ExitCode {
         Command::Forward(arguments) => forward::run(&arguments, quiet),
         Command::Generate(arguments) => generate::run(&arguments, quiet),
         Command::Import(arguments) => import::run(&arguments, quiet),
+        Command::Plot(arguments) => plot::run(&arguments, quiet),
+        Command::Animate(arguments) => animate::run(&arguments, quiet),
         Command::Completions(arguments) => completions::run(&arguments),
     };
     match done {

@@ -1,8 +1,9 @@
 //! What a picture shows, before it is drawn: panels with curves over time, or over what they say.
 
-use super::{Series, column, peak};
+use crate::{Series, column, peak};
 
 /// A picture: panels in rows. Those above each other have the same horizontal axis.
+#[derive(Clone, Debug)]
 pub struct Figure {
     /// How many panels stand beside each other.
     pub columns: usize,
@@ -13,31 +14,39 @@ pub struct Figure {
 }
 
 /// One coordinate system.
+#[derive(Clone, Debug)]
 pub struct Panel {
+    /// What stands above it.
     pub title: String,
     /// What the vertical axis measures.
     pub quantity: String,
+    /// The unit of what it measures.
     pub unit: String,
     /// Whether the vertical axis is logarithmic.
     pub logarithmic: bool,
     /// What the horizontal axis measures, and whether it is logarithmic.
     pub across: (String, bool),
+    /// What is drawn in it.
     pub curves: Vec<Curve>,
 }
 
 /// Values over time, or over what the panel says.
+#[derive(Clone, Debug)]
 pub struct Curve {
     /// As the legend shows it; a curve without a name needs none.
     pub name: String,
+    /// Time, or what the panel says, and value.
     pub points: Vec<(f64, f64)>,
     /// Number in the palette.
     pub colour: usize,
+    /// How it is drawn.
     pub mark: Mark,
 }
 
 /// How a curve is drawn.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
+    /// A line.
     Line,
     /// A line with a dot at every point.
     Dots,
@@ -61,7 +70,7 @@ pub fn joint_grid(quantity: &str, unit: &str, factor: f64, lines: &[Series<'_>],
         let panel = lines.iter().enumerate().fold(panel, draw);
         circles.iter().fold(panel, |panel, run| panel.circles(run.name, run.t, &values(run)))
     };
-    let joints = lines.first().map_or(0, |run| run.rows[0].len());
+    let joints = lines.first().and_then(|run| run.rows.first()).map_or(0, Vec::len);
     Figure { columns: 2, panels: (0..joints).map(panel).collect(), shared_legend: true }
 }
 
@@ -105,7 +114,7 @@ impl Panel {
 
     /// Adds circles at about twenty of the points, in the palette's black.
     pub fn circles(mut self, name: &str, t: &[f64], values: &[f64]) -> Self {
-        let every = ((t.len() - 1) / CIRCLES).max(1);
+        let every = (t.len().saturating_sub(1) / CIRCLES).max(1);
         let points = t.iter().copied().zip(values.iter().copied()).step_by(every).collect();
         self.curves.push(Curve { name: name.to_owned(), points, colour: 0, mark: Mark::Circles });
         self
@@ -115,7 +124,7 @@ impl Panel {
     /// one, which names all its joints.
     pub fn joints(mut self, t: &[f64], rows: &[Vec<f64>]) -> Self {
         let mut groups: Vec<(Vec<usize>, Vec<f64>)> = Vec::new();
-        for joint in 0..rows[0].len() {
+        for joint in 0..rows.first().map_or(0, Vec::len) {
             let values = column(rows, joint);
             match groups.iter_mut().find(|(_, others)| coincide(others, &values)) {
                 Some((joints, _)) => joints.push(joint + 1),

@@ -36,14 +36,19 @@ impl Axis {
     }
 }
 
+/// Whether a coordinate can stand on an axis: it is a number, and so are the differences to others.
+pub fn drawable(value: f64) -> bool {
+    value.abs() < 1e300
+}
+
 /// The range of the values, widened where it is empty.
 fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let range = values.filter(|value| value.is_finite()).fold(None, |range: Option<Range<f64>>, value| {
+    let range = values.filter(|value| drawable(*value)).fold(None, |range: Option<Range<f64>>, value| {
         Some(range.map_or(value..value, |range| range.start.min(value)..range.end.max(value)))
     });
     match range {
         None => 0.0..1.0,
-        Some(Range { start, end }) if end - start > 1e-12 * start.abs().max(end.abs()) => start..end,
+        Some(Range { start, end }) if end - start > (1e-12 * start.abs().max(end.abs())).max(1e-290) => start..end,
         Some(Range { start, .. }) => start - 1.0..start + 1.0,
     }
 }

@@ -4,9 +4,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::Failure;
-use super::axis::Axis;
-use super::figure::{Curve, Figure, Mark, Panel};
+use crate::DrawingError;
+use crate::axis::{Axis, drawable};
+use crate::figure::{Curve, Figure, Mark, Panel};
 
 /// The backend knows whole pixels only. A picture is drawn this many times as large as it is shown, so that curves are
 /// smooth; all lengths below are in shown pixels, times this.
@@ -40,14 +40,25 @@ const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Failure>;
+type Drawn = Result<(), DrawingError>;
+
+impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for DrawingError {
+    fn from(error: DrawingAreaErrorKind<E>) -> Self {
+        DrawingError::new(error)
+    }
+}
 
 /// The figure as an SVG file of 800 pixels in width.
-pub fn svg(figure: &Figure) -> Result<String, Failure> {
+///
+/// # Errors
+///
+/// If the figure cannot be laid out.
+pub fn svg(figure: &Figure) -> Result<String, DrawingError> {
     let rows = figure.panels.len().div_ceil(figure.columns) as i32;
     let shared = figure.panels.first().filter(|_| figure.shared_legend);
-    let legend = shared.map_or(0, |panel| HEAD * (1 + legend_places(panel, LEFT).last().map_or(0, |place| place.2)));
-    let row = HEAD + PLOT + TICK_LABELS;
+    let legend = shared.map_or(0, |panel| legend_height(panel, LEFT));
+    let head = figure.panels.iter().map(|panel| head_height(panel, figure.shared_legend)).max().unwrap_or(HEAD);
+    let row = head + PLOT + TICK_LABELS;
     let height = legend + rows * row + TIME_TITLE;
     let size = |length: i32| (length * FINE) as u32;
     let mut text = String::new();
@@ -65,7 +76,7 @@ pub fn svg(figure: &Figure) -> Result<String, Failure> {
             rest.split_by_breakpoints(&columns, &breaks).iter().zip(&figure.panels).enumerate()
         {
             let last = index + figure.columns >= figure.panels.len();
-            draw_panel(area, panel, last, figure.shared_legend)?;
+            draw_panel(area, panel, head, last, figure.shared_legend)?;
         }
         root.present()?;
     }
@@ -77,13 +88,27 @@ fn font(size: i32, colour: &RGBColor) -> TextStyle<'static> {
     ("sans-serif", size * FINE).into_font().color(colour)
 }
 
-fn draw_panel(area: &Area<'_>, panel: &Panel, last: bool, shared_legend: bool) -> Drawn {
-    let (head, body) = area.split_vertically(HEAD * FINE);
+/// Room above a panel's coordinate system for its title and, unless that is shared, its legend.
+fn head_height(panel: &Panel, shared_legend: bool) -> i32 {
+    if shared_legend { HEAD } else { legend_height(panel, legend_start(panel)) }
+}
+
+/// Where the legend begins behind the panel's title.
+fn legend_start(panel: &Panel) -> i32 {
+    LEFT + 30 + text_width(&panel.title)
+}
+
+fn legend_height(panel: &Panel, left: i32) -> i32 {
+    HEAD * (1 + legend_places(panel, left).last().map_or(0, |place| place.2))
+}
+
+fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_legend: bool) -> Drawn {
+    let (head, body) = area.split_vertically(head * FINE);
     let left_middle = Pos::new(HPos::Left, VPos::Center);
     let bold = ("sans-serif", 16 * FINE).into_font().style(FontStyle::Bold).color(&INK).pos(left_middle);
     head.draw(&Text::new(panel.title.clone(), (LEFT * FINE, (HEAD - 13) * FINE), bold))?;
     if !shared_legend {
-        draw_legend(&head, panel, LEFT + 30 + text_width(&panel.title))?;
+        draw_legend(&head, panel, legend_start(panel))?;
     }
     let below = if last { TICK_LABELS + TIME_TITLE } else { TICK_LABELS };
     let (x, y) = axes(panel);
@@ -113,7 +138,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, last: bool, shared_legend: bool) -
         ))?;
     }
     for curve in &panel.curves {
-        let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| point.1.is_finite()).collect();
+        let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| drawable(point.1)).collect();
         if matches!(curve.mark, Mark::Line | Mark::Dots) {
             chart.draw_series(LineSeries::new(points.iter().copied(), line_style(curve)))?;
         }
@@ -202,4 +227,25 @@ fn draw_legend(area: &Area<'_>, panel: &Panel, x: i32) -> Drawn {
 /// About the width of a text; the backend leaves the true one to the viewer's fonts.
 fn text_width(text: &str) -> i32 {
     8 * text.chars().count() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One panel with so many curves.
+    fn height(curves: usize) -> i32 {
+        let panel = (0..curves).fold(Panel::new("Torques", "torque", "N m"), |panel, k| {
+            panel.line(&format!("joint {k}"), k, &[0.0, 1.0], &[0.0, 1.0])
+        });
+        let svg = svg(&Figure { columns: 1, panels: vec![panel], shared_legend: false }).unwrap();
+        let (_, rest) = svg.split_once("height=\"").unwrap();
+        rest.split_once('"').unwrap().0.parse().unwrap()
+    }
+
+    #[test]
+    fn a_long_legend_gets_the_rows_it_needs() {
+        assert_eq!(height(1), height(3));
+        assert!(height(40) > height(3) + 3 * HEAD);
+    }
 }

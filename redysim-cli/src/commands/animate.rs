@@ -1,0 +1,38 @@
+//! `redysim animate RESULTS`.
+
+use std::path::PathBuf;
+
+use crate::animation;
+use crate::failure::Failure;
+use crate::output;
+use crate::recorded::Recorded;
+
+/// Make a page of HTML, complete in itself, that plays a run in 3D beside its curves.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  redysim animate results/kr5 -o kr5.html")]
+pub struct Arguments {
+    /// The folder of results.
+    results: PathBuf,
+    /// The page [default: animation.html in the results' folder].
+    #[arg(long, short, value_name = "FILE.html")]
+    output: Option<PathBuf>,
+    /// Overwrite a page that is there already.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Makes the page.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
+    let recorded = Recorded::open(&arguments.results)?;
+    let path = arguments.output.clone().unwrap_or_else(|| recorded.folder().join("animation.html"));
+    // Before what takes its time.
+    if path.exists() && !arguments.force {
+        return Err(output::exists(&path));
+    }
+    let page = animation::page(&recorded)?;
+    output::write_file(&path, page.as_bytes(), arguments.force)?;
+    if !quiet {
+        println!("{} ({} kB): open it in a browser", path.display(), page.len().div_ceil(1000));
+    }
+    Ok(())
+}

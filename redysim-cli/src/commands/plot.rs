@@ -1,0 +1,76 @@
+//! `redysim plot RESULTS`.
+
+use std::path::{Path, PathBuf};
+
+use redysim_figures::figure::{Figure, Panel};
+use redysim_figures::{plot, png};
+
+use crate::failure::Failure;
+use crate::output;
+use crate::recorded::{Chart, Group, Recorded};
+
+/// Draw what a run has written: motion, torques, energy and λ, as SVG and PNG.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  redysim plot results/kr5 -o pictures")]
+pub struct Arguments {
+    /// The folder of results.
+    results: PathBuf,
+    /// The folder for the pictures [default: the results' own].
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Overwrite pictures that are there already.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Draws the pictures.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
+    let recorded = Recorded::open(&arguments.results)?;
+    let mut charts = recorded.charts()?;
+    if charts.is_empty() {
+        return Err(Failure::input(format!("{} holds nothing to draw", arguments.results.display()))
+            .help("a run writes statevar.csv or traj.csv, tor.csv, energy.csv and lambda.csv; is this its folder?"));
+    }
+    let mut pictures: Vec<(PathBuf, Vec<u8>)> = Vec::new();
+    let folder = arguments.output.as_deref().unwrap_or(recorded.folder());
+    for (group, name) in Group::ALL {
+        let (of_group, rest) = charts.into_iter().partition(|chart| chart.group == group);
+        charts = rest;
+        if let Some(figure) = figure(of_group) {
+            let svg = plot::svg(&figure).map_err(Failure::outside)?;
+            pictures.push((folder.join(format!("{name}.svg")), svg.into_bytes()));
+            pictures.push((folder.join(format!("{name}.png")), png::png(&figure).map_err(Failure::outside)?));
+        }
+    }
+    write(folder, &pictures, arguments.force)?;
+    if !quiet {
+        pictures.iter().for_each(|(path, _)| println!("{}", path.display()));
+    }
+    Ok(())
+}
+
+/// Writes all of them, or none if one is there already.
+fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
+    if let Some((path, _)) = pictures.iter().find(|(path, _)| path.exists() && !force) {
+        return Err(output::exists(path));
+    }
+    std::fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, &error))?;
+    pictures.iter().try_for_each(|(path, contents)| output::write_file(path, contents, force))
+}
+
+/// The charts below each other; one legend serves them all where they show the same curves.
+fn figure(charts: Vec<Chart>) -> Option<Figure> {
+    let names = |chart: &Chart| chart.curves.iter().map(|curve| curve.name.clone()).collect::<Vec<_>>();
+    let shared_legend = charts.windows(2).all(|pair| names(&pair[0]) == names(&pair[1]));
+    let panels: Vec<Panel> = charts.iter().map(panel).collect();
+    (!panels.is_empty()).then_some(Figure { columns: 1, panels, shared_legend })
+}
+
+fn panel(chart: &Chart) -> Panel {
+    let empty = Panel::new(chart.title, chart.quantity, &chart.unit);
+    let panel = chart.curves.iter().fold(empty, |panel, curve| {
+        // The palette's first colour, black, is for references.
+        panel.line(&curve.name, curve.colour + 1, &chart.t, &curve.values)
+    });
+    panel.prefixed()
+}

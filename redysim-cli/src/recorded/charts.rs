@@ -1,0 +1,132 @@
+//! What of the tables is worth a look: curves that belong into one coordinate system.
+
+use super::thin::with_peaks;
+use super::{Recorded, Table};
+use crate::failure::Failure;
+
+/// Rows of a chart, about: more than a screen has pixels across.
+const ROWS: usize = 2000;
+
+/// A coordinate system with its curves over time.
+#[derive(Debug)]
+pub struct Chart {
+    /// To which picture it belongs.
+    pub group: Group,
+    /// What it shows.
+    pub title: &'static str,
+    /// What its vertical axis measures.
+    pub quantity: &'static str,
+    /// The unit of that.
+    pub unit: String,
+    /// The instants, s.
+    pub t: Vec<f64>,
+    /// The curves.
+    pub curves: Vec<Curve>,
+}
+
+/// A curve of a [`Chart`].
+#[derive(Debug)]
+pub struct Curve {
+    /// As the legend shows it.
+    pub name: String,
+    /// Number of its colour: the same for a joint in all charts.
+    pub colour: usize,
+    /// A value at each of the chart's instants.
+    pub values: Vec<f64>,
+}
+
+/// What is drawn into one picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// Coordinates, velocities and accelerations of the joints.
+    Motion,
+    /// Joint forces.
+    Torques,
+    /// Energies, and their drift.
+    Energy,
+    /// Lagrange multipliers of the loops.
+    Multipliers,
+}
+
+impl Group {
+    /// Every group with the name of its file.
+    pub const ALL: [(Group, &'static str); 4] = [
+        (Group::Motion, "motion"),
+        (Group::Torques, "torques"),
+        (Group::Energy, "energy"),
+        (Group::Multipliers, "lambda"),
+    ];
+}
+
+impl Recorded {
+    /// All charts that the tables yield, those first that are looked at most.
+    ///
+    /// # Errors
+    /// If a table cannot be read.
+    pub fn charts(&self) -> Result<Vec<Chart>, Failure> {
+        let motion = self.motion()?;
+        let mut charts = Vec::new();
+        if let Some(table) = &motion {
+            charts.extend(by_unit(table, Group::Motion, &["q"], |unit| match unit {
+                "m" => ("Joint displacements", "displacement"),
+                _ => ("Joint angles", "angle"),
+            }));
+        }
+        if let Some(table) = self.table("tor.csv")? {
+            charts.extend(by_unit(&table, Group::Torques, &["tau"], |unit| match unit {
+                "N" => ("Joint forces", "force"),
+                _ => ("Joint torques", "torque"),
+            }));
+        }
+        if let Some(table) = self.table("energy.csv")? {
+            let energies = ["kinetic", "potential", "total", "work"];
+            charts.extend(by_unit(&table, Group::Energy, &energies, |_| ("Energy", "energy")));
+            charts.extend(by_unit(&table, Group::Energy, &["drift"], |_| ("Drift of the energy", "drift")));
+        }
+        if let Some(table) = self.table("lambda.csv")? {
+            charts.extend(by_unit(&table, Group::Multipliers, &["lambda"], |_| ("Lagrange multipliers", "λ")));
+        }
+        if let Some(table) = &motion {
+            charts.extend(by_unit(table, Group::Motion, &["v"], |_| ("Joint velocities", "velocity")));
+            charts.extend(by_unit(table, Group::Motion, &["a"], |_| ("Joint accelerations", "acceleration")));
+        }
+        Ok(charts)
+    }
+}
+
+/// The columns of the given quantities, a chart for each unit.
+fn by_unit(
+    table: &Table,
+    group: Group,
+    symbols: &[&str],
+    words: impl Fn(&str) -> (&'static str, &'static str),
+) -> Vec<Chart> {
+    let columns: Vec<_> = symbols.iter().flat_map(|symbol| table.of(symbol)).enumerate().collect();
+    let mut units: Vec<&str> = Vec::new();
+    for (_, column) in &columns {
+        if !units.contains(&column.unit.as_str()) {
+            units.push(&column.unit);
+        }
+    }
+    let chart = |unit: &str| {
+        let shown: Vec<_> = columns.iter().filter(|(_, column)| column.unit == unit).collect();
+        let values: Vec<&[f64]> = shown.iter().map(|(_, column)| column.values.as_slice()).collect();
+        let rows = with_peaks(&values, table.t.len(), ROWS);
+        let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
+        let curve = |(colour, column): &&(usize, &super::table::Column)| Curve {
+            name: if column.name.is_empty() { column.symbol.clone() } else { column.name.clone() },
+            colour: *colour,
+            values: pick(&column.values),
+        };
+        let (title, quantity) = words(unit);
+        Chart {
+            group,
+            title,
+            quantity,
+            unit: unit.replace("^2", "²"),
+            t: pick(&table.t),
+            curves: shown.iter().map(curve).collect(),
+        }
+    };
+    units.into_iter().map(chart).collect()
+}

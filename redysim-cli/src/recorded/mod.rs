@@ -1,0 +1,75 @@
+//! What a run has left behind: the tables of a results folder, and the model that they are about.
+
+mod charts;
+mod table;
+mod thin;
+
+use std::path::{Path, PathBuf};
+
+use redysim_model::Model;
+
+pub use charts::{Chart, Curve, Group};
+pub use table::Table;
+pub use thin::spread;
+
+use crate::commands::load;
+use crate::failure::Failure;
+
+/// A results folder.
+pub struct Recorded {
+    folder: PathBuf,
+}
+
+impl Recorded {
+    /// The results in `folder`, of which nothing is read yet.
+    ///
+    /// # Errors
+    /// If there is no such folder.
+    pub fn open(folder: &Path) -> Result<Self, Failure> {
+        if folder.is_dir() {
+            return Ok(Recorded { folder: folder.to_owned() });
+        }
+        let what = if folder.exists() { "is not a folder" } else { "is not there" };
+        Err(Failure::outside(format!("{} {what}", folder.display()))
+            .help("give the folder of results that a run has written, such as the one after its -o"))
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// One of its tables; `None` if the run has not written it.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is no such table.
+    pub fn table(&self, name: &str) -> Result<Option<Table>, Failure> {
+        let path = self.folder.join(name);
+        if path.exists() { Table::read(&path).map(Some) } else { Ok(None) }
+    }
+
+    /// The coordinates and velocities of the joints: the state of a forward run, the given motion of an inverse one.
+    ///
+    /// # Errors
+    /// If they cannot be read.
+    pub fn motion(&self) -> Result<Option<Table>, Failure> {
+        match self.table("statevar.csv")? {
+            Some(table) => Ok(Some(table)),
+            None => self.table("traj.csv"),
+        }
+    }
+
+    /// The model whose motion it is.
+    ///
+    /// # Errors
+    /// If it is not there or has faults.
+    pub fn model(&self) -> Result<Model, Failure> {
+        let path = self.folder.join("model.toml");
+        if !path.exists() {
+            return Err(Failure::outside(format!("{} holds no model.toml", self.folder.display()))
+                .help("a run writes a copy of its model beside its tables; put it back there"));
+        }
+        // The run has shown the warnings.
+        load(&path, true).map(|loaded| loaded.model)
+    }
+}

@@ -1,0 +1,183 @@
+// The mechanism as solids: links from joint to joint, joints, centres of mass, names, and the traces of free ends.
+
+import {
+  BoxGeometry, BufferGeometry, CanvasTexture, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Line,
+  LineBasicMaterial, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace,
+  Vector3,
+} from "three";
+import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
+import { colour, GROUND } from "./palette.js";
+
+const Y = new Vector3(0, 1, 0);
+const JOINT = "#3b434c";
+
+export class Mechanism {
+  /** `size` is the radius of all that it ever reaches, m. */
+  constructor({ bodies, cuts }, motion, size) {
+    this.motion = motion;
+    this.root = new Group();
+    this.layers = { axes: [], coms: [], names: [], trace: [] };
+    this.rails = [];
+    this.thick = thickness(bodies, size);
+    const mark = comMark();
+    this.groups = bodies.map((body, index) => this.#body(body, index, mark));
+    bodies.forEach((body, index) => body.joint?.rail && this.#rail(body.joint.rail, index));
+    for (const { at, axis, kind } of cuts) this.groups[at.body].add(this.#joint(kind, axis, new Vector3(...at.point)));
+    this.#traces(bodies);
+  }
+
+  /** Moves everything to the present time of the motion. */
+  update() {
+    const { motion, groups } = this;
+    for (let link = 0; link < motion.links; link++) {
+      const { position, quaternion } = groups[link + 1];
+      motion.pose(link, position, quaternion);
+    }
+    this.root.updateMatrixWorld(true);
+    for (const { rod, from, body, point } of this.rails) {
+      stretch(rod, groups[from].localToWorld(point.clone()), groups[body].position);
+    }
+    for (const line of this.layers.trace) line.geometry.setDrawRange(0, motion.frame + 1);
+  }
+
+  setLayer(name, shown) {
+    for (const object of this.layers[name] ?? []) object.visible = shown;
+  }
+
+  #body({ name, joint, ends, com }, index, mark) {
+    const group = new Group();
+    this.root.add(group);
+    const paint = index === 0 ? GROUND : joint.coordinate === null ? "#8b949e" : colour(joint.coordinate);
+    const material = new MeshStandardMaterial({ color: paint, roughness: 0.55 });
+    const thick = index === 0 ? 0.8 * this.thick : this.thick;
+    for (const end of ends) {
+      const to = new Vector3(...end);
+      if (to.length() < 1e-3 * this.thick) continue;
+      const rod = new Mesh(new CapsuleGeometry(thick, to.length(), 6, 20), material);
+      rod.quaternion.setFromUnitVectors(Y, to.clone().normalize());
+      rod.position.copy(to).multiplyScalar(0.5);
+      rod.castShadow = true;
+      group.add(rod);
+    }
+    if (joint) group.add(this.#joint(joint.kind, joint.axis, new Vector3()));
+    if (com) {
+      const sprite = new Sprite(new SpriteMaterial({ map: mark, depthTest: false }));
+      sprite.position.set(...com);
+      sprite.scale.setScalar(2.6 * this.thick);
+      sprite.renderOrder = 2;
+      this.layers.coms.push(sprite);
+      group.add(sprite);
+    }
+    if (index > 0) {
+      const label = document.createElement("span");
+      label.className = "link-name";
+      label.textContent = name;
+      const object = new CSS2DObject(label);
+      const middle = ends.length ? ends[ends.length - 1] : com ?? [0, 0, 0];
+      object.position.set(...middle).multiplyScalar(0.5);
+      object.center.set(0.5, 1.4);
+      this.layers.names.push(object);
+      group.add(object);
+    }
+    return group;
+  }
+
+  /** A pin or block along the axis, and the axis as a line; a ball for a spherical joint. */
+  #joint(kind, axis, at) {
+    const group = new Group();
+    group.position.copy(at);
+    group.quaternion.setFromUnitVectors(Y, new Vector3(...axis).normalize());
+    const r = this.thick;
+    const shapes = {
+      revolute: () => new CylinderGeometry(1.35 * r, 1.35 * r, 3.4 * r, 28),
+      prismatic: () => new BoxGeometry(3 * r, 4.4 * r, 3 * r),
+      spherical: () => new SphereGeometry(1.6 * r, 24, 16),
+    };
+    const shape = shapes[kind];
+    if (shape) {
+      const solid = new Mesh(shape(), new MeshStandardMaterial({ color: JOINT, roughness: 0.5 }));
+      solid.castShadow = true;
+      group.add(solid);
+    }
+    if (kind === "revolute" || kind === "prismatic") {
+      const thread = new CylinderGeometry(0.12 * r, 0.12 * r, 13 * r, 8);
+      const line = new Mesh(thread, new MeshStandardMaterial({ color: JOINT }));
+      this.layers.axes.push(line);
+      group.add(line);
+    }
+    return group;
+  }
+
+  #rail({ body: from, point }, body) {
+    const rod = new Mesh(
+      new CylinderGeometry(0.5 * this.thick, 0.5 * this.thick, 1, 16),
+      new MeshStandardMaterial({ color: "#9aa3ad", roughness: 0.4 }),
+    );
+    this.root.add(rod);
+    this.rails.push({ rod, from, body, point: new Vector3(...point) });
+  }
+
+  /** The paths of the ends of links that carry no others. */
+  #traces(bodies) {
+    const { motion } = this;
+    const [position, rotation] = [new Vector3(), new Quaternion()];
+    bodies.forEach(({ joint, ends, tip }, index) => {
+      if (!tip) return;
+      const end = new Vector3(...ends[ends.length - 1]);
+      const points = [];
+      for (let frame = 0; frame < motion.t.length; frame++) {
+        motion.at(frame, index - 1, position, rotation);
+        points.push(...end.clone().applyQuaternion(rotation).add(position).toArray());
+      }
+      const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
+      const paint = joint.coordinate === null ? GROUND : colour(joint.coordinate);
+      const line = new Line(geometry, new LineBasicMaterial({ color: paint, transparent: true, opacity: 0.7 }));
+      line.frustumCulled = false;
+      this.layers.trace.push(line);
+      this.root.add(line);
+    });
+  }
+}
+
+/** Radius of the links: seen from where all is seen, and slender even where links are many and short. */
+function thickness(bodies, size) {
+  const lengths = bodies.slice(1).flatMap(({ ends }) => ends.map((end) => Math.hypot(...end)));
+  const rods = lengths.filter((length) => length > 0).sort((a, b) => a - b);
+  const middle = rods[rods.length >> 1] ?? size;
+  return Math.max(Math.min(0.022 * size, 0.11 * middle), 0.004 * size);
+}
+
+/** Lays a rod of length 1 between two points. */
+function stretch(rod, from, to) {
+  const along = to.clone().sub(from);
+  const length = along.length();
+  rod.visible = length > 1e-9;
+  if (!rod.visible) return;
+  rod.position.copy(from).addScaledVector(along, 0.5);
+  rod.quaternion.setFromUnitVectors(Y, along.divideScalar(length));
+  rod.scale.set(1, length, 1);
+}
+
+/** The usual mark of a centre of mass: a circle with two of its quarters black. */
+function comMark() {
+  const canvas = Object.assign(document.createElement("canvas"), { width: 128, height: 128 });
+  const draw = canvas.getContext("2d");
+  const sector = (from, to, style) => {
+    draw.fillStyle = style;
+    draw.beginPath();
+    draw.moveTo(64, 64);
+    draw.arc(64, 64, 54, from, to);
+    draw.fill();
+  };
+  sector(0, 2 * Math.PI, "#fff");
+  sector(0, Math.PI / 2, "#111");
+  sector(Math.PI, 1.5 * Math.PI, "#111");
+  draw.lineWidth = 9;
+  draw.strokeStyle = "#111";
+  draw.beginPath();
+  draw.arc(64, 64, 54, 0, 2 * Math.PI);
+  draw.stroke();
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}

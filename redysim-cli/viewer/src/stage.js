@@ -1,0 +1,231 @@
+// The room that the mechanism moves in: camera, light, ground, and how to look around.
+
+import {
+  AxesHelper, Box3, DirectionalLight, GridHelper, Group, HemisphereLight, Mesh, PerspectiveCamera, PlaneGeometry,
+  Quaternion, Scene, ShadowMaterial, Sphere, Spherical, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+import { Mechanism } from "./mechanism.js";
+
+const Y = new Vector3(0, 1, 0);
+/** Angle by which a key turns the view, and factor by which it comes closer. */
+const TURN = Math.PI / 24;
+const ZOOM = 0.9;
+
+export class Stage {
+  /** Throws if the browser has no WebGL. */
+  constructor(place, canvas, animation, motion) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setClearColor("#ffffff");
+    this.renderer.shadowMap.enabled = true;
+    this.names = new CSS2DRenderer();
+    this.names.domElement.className = "names";
+    canvas.after(this.names.domElement);
+    this.place = place;
+    this.scene = new Scene();
+    this.up = upward(animation.gravity);
+    this.sphere = reach(animation, motion);
+    this.mechanism = new Mechanism(animation, motion, this.sphere.radius);
+    this.scene.add(this.mechanism.root);
+    this.#ground(lowest(animation, motion, this.up));
+    this.#light();
+    this.camera = new PerspectiveCamera(30, 1, this.sphere.radius / 50, this.sphere.radius * 100);
+    // The controls turn about the camera's own upward direction, and ask for it only now.
+    this.camera.up.copy(this.up);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => (this.stale = true));
+    this.start = firstView(animation, motion, this.up);
+    new ResizeObserver(() => this.#resize()).observe(place);
+    this.#resize();
+    this.view("start");
+    canvas.addEventListener("keydown", (event) => this.#key(event));
+    this.show();
+  }
+
+  /** Moves the mechanism to the present time. */
+  show() {
+    this.mechanism.update();
+    this.stale = true;
+  }
+
+  /** Draws, if anything has changed since. */
+  draw() {
+    if (!this.stale) return;
+    this.stale = false;
+    this.renderer.render(this.scene, this.camera);
+    this.names.render(this.scene, this.camera);
+  }
+
+  setLayer(name, shown) {
+    if (name === "ground") this.ground.visible = shown;
+    else this.mechanism.setLayer(name, shown);
+    this.stale = true;
+  }
+
+  /** Shows everything from "start", "front", "side" or "top". */
+  view(name) {
+    const { front, side } = horizontal(this.up);
+    // Straight from above, the way up would not be defined.
+    const top = this.up.clone().addScaledVector(front, 1e-3);
+    const from = { start: this.start, front, side, top }[name];
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = (1.12 * this.sphere.radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    this.controls.target.copy(this.sphere.center);
+    this.camera.position.copy(this.sphere.center).addScaledVector(from.clone().normalize(), distance);
+    this.controls.update();
+    this.stale = true;
+  }
+
+  #resize() {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (!width || !height) return;
+    this.renderer.setSize(width, height, false);
+    this.names.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.stale = true;
+  }
+
+  #ground(height) {
+    const { radius, center } = this.sphere;
+    this.ground = new Group();
+    const cell = roundLength(radius / 4);
+    const cells = 2 * Math.ceil((2 * radius) / cell);
+    const grid = new GridHelper(cells * cell, cells, "#b9c1c9", "#dde2e7");
+    const floor = new Mesh(new PlaneGeometry(cells * cell, cells * cell), new ShadowMaterial({ opacity: 0.12 }));
+    floor.rotation.x = -Math.PI / 2;
+    floor.position.y = -1e-3 * radius;
+    floor.receiveShadow = true;
+    const level = new Group().add(grid, floor);
+    level.quaternion.setFromUnitVectors(Y, this.up);
+    // Below the middle of the motion, on whole cells of the base frame.
+    const middle = center.clone().addScaledVector(this.up, -center.dot(this.up));
+    level.position.copy(middle.divideScalar(cell).round().multiplyScalar(cell)).addScaledVector(this.up, height);
+    const base = new AxesHelper(0.22 * radius).setColors("#cc3311", "#117733", "#0044aa");
+    base.material.depthTest = false;
+    base.renderOrder = 1;
+    this.ground.add(level, base);
+    this.scene.add(this.ground);
+  }
+
+  #light() {
+    const { radius, center } = this.sphere;
+    const { front, side } = horizontal(this.up);
+    const sun = new DirectionalLight("#ffffff", 2.2);
+    const from = this.up.clone().multiplyScalar(4).addScaledVector(front, 2).add(side);
+    sun.position.copy(center).addScaledVector(from, radius);
+    sun.target.position.copy(center);
+    sun.castShadow = true;
+    sun.shadow.mapSize.setScalar(2048);
+    const reach = 2 * radius;
+    const lit = { left: -reach, right: reach, top: reach, bottom: -reach, near: radius / 10, far: 12 * radius };
+    Object.assign(sun.shadow.camera, lit);
+    const sky = new HemisphereLight("#ffffff", "#aab2bb", 1.9);
+    sky.position.copy(this.up);
+    this.scene.add(sun, sun.target, sky);
+  }
+
+  /** W, A, S, D turn; plus and minus zoom; 0 shows all: what a mouse can, for keys. */
+  #key(event) {
+    if (event.altKey || event.ctrlKey || event.metaKey) return;
+    const keys = {
+      a: () => this.#turn(-TURN, 0),
+      d: () => this.#turn(TURN, 0),
+      w: () => this.#turn(0, -TURN),
+      s: () => this.#turn(0, TURN),
+      "+": () => this.#zoom(ZOOM),
+      "=": () => this.#zoom(ZOOM),
+      "-": () => this.#zoom(1 / ZOOM),
+      0: () => this.view("start"),
+    };
+    keys[event.key.toLowerCase()]?.();
+  }
+
+  #turn(around, over) {
+    const upright = new Quaternion().setFromUnitVectors(this.up, Y);
+    const offset = this.camera.position.clone().sub(this.controls.target).applyQuaternion(upright);
+    const angles = new Spherical().setFromVector3(offset);
+    angles.theta += around;
+    angles.phi += over;
+    offset.setFromSpherical(angles.makeSafe()).applyQuaternion(upright.invert());
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+  }
+
+  #zoom(factor) {
+    const { camera, controls } = this;
+    camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
+    controls.update();
+  }
+}
+
+/** Against gravity; z where there is none. */
+function upward(gravity) {
+  const down = new Vector3(...gravity);
+  return down.length() > 0 ? down.normalize().negate() : new Vector3(0, 0, 1);
+}
+
+/** Two horizontal directions, along axes of the base frame as far as that can be. */
+function horizontal(up) {
+  const axis = Math.abs(up.z) > 0.9 ? new Vector3(0, -1, 0) : new Vector3(0, 0, 1);
+  const front = axis.addScaledVector(up, -axis.dot(up)).normalize();
+  return { front, side: new Vector3().crossVectors(up, front) };
+}
+
+/** A planar mechanism is looked at along its joint axes, a little from the side; any other one from a corner. */
+function firstView(animation, motion, up) {
+  const { front, side } = horizontal(up);
+  const corner = front.clone().addScaledVector(side, 0.75).addScaledVector(up, 0.55);
+  const axes = [];
+  const [position, rotation] = [new Vector3(), new Quaternion()];
+  motion.seek(motion.start);
+  animation.bodies.forEach(({ joint }, index) => {
+    if (joint?.kind !== "revolute") return;
+    motion.pose(index - 1, position, rotation);
+    axes.push(new Vector3(...joint.axis).applyQuaternion(rotation));
+  });
+  const planar = axes.length > 0 && axes.every((axis) => Math.abs(axis.dot(axes[0])) > 1 - 1e-6);
+  if (!planar) return corner;
+  const across = axes[0].clone();
+  if (Math.abs(across.dot(up)) > 0.9) return corner.addScaledVector(up, 1);
+  if (across.dot(front) < 0 || (across.dot(front) === 0 && across.dot(side) < 0)) across.negate();
+  return across.addScaledVector(up, 0.16).addScaledVector(new Vector3().crossVectors(up, across), 0.16);
+}
+
+/** Calls `see` with every point that any link reaches in some hundred frames. */
+function everyPoint({ bodies }, motion, see) {
+  const [position, rotation, point] = [new Vector3(), new Quaternion(), new Vector3()];
+  for (const end of [[0, 0, 0], ...bodies[0].ends]) see(point.fromArray(end));
+  const every = Math.max(1, Math.floor(motion.t.length / 300));
+  for (let frame = 0; frame < motion.t.length; frame += every) {
+    for (let link = 0; link < motion.links; link++) {
+      motion.at(frame, link, position, rotation);
+      see(point.copy(position));
+      for (const end of bodies[link + 1].ends) see(point.fromArray(end).applyQuaternion(rotation).add(position));
+    }
+  }
+}
+
+/** A sphere around all that the mechanism ever reaches. */
+function reach(animation, motion) {
+  const box = new Box3();
+  everyPoint(animation, motion, (point) => box.expandByPoint(point));
+  const sphere = new Sphere(box.getCenter(new Vector3()), 1e-6);
+  everyPoint(animation, motion, (point) => (sphere.radius = Math.max(sphere.radius, sphere.center.distanceTo(point))));
+  return sphere;
+}
+
+/** The height of the ground: of the base, or below what hangs from it. */
+function lowest(animation, motion, up) {
+  let height = 0;
+  everyPoint(animation, motion, (point) => (height = Math.min(height, point.dot(up))));
+  return height;
+}
+
+/** The largest of 1, 2, 5 times a power of ten that is not above `length`. */
+function roundLength(length) {
+  const power = 10 ** Math.floor(Math.log10(length));
+  return [5, 2, 1].map((digit) => digit * power).find((round) => round <= length) ?? power;
+}

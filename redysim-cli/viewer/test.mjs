@@ -1,0 +1,201 @@
+// Plays the page `animation.html` of a results folder in headless Chromium, holds what it draws against
+// `kinematics.csv`, and leaves screenshots beside it: node test.mjs FOLDER
+
+import assert from "node:assert/strict";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const BROWSER = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const FLAGS = [
+  "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync",
+];
+const GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+/** Poses go into the page in single precision. */
+const TOLERANCE = 2e-6;
+
+const folder = resolve(process.argv[2] ?? ".");
+const table = await kinematics(join(folder, "kinematics.csv"));
+
+await inBrowser([...GL], { width: 1280, height: 800 }, async (page) => {
+  await page.screenshot({ path: join(folder, "start.png") });
+  await theSliderMovesTheLinks(page);
+  await theSpaceBarPlaysAndPauses(page);
+  await theKeysStepAndJump(page);
+  await aCurveGoesToTheTimePointedAt(page);
+  await theViewTurnsByMouseAndKeys(page);
+  await aRunEndsOrRepeats(page);
+  assert.notEqual(await page.title(), "harm");
+  await slide(page, table.t[Math.floor(table.t.length * 0.4)]);
+  await page.check("[data-layer=names]");
+  await page.screenshot({ path: join(folder, "middle.png") });
+});
+await inBrowser([...GL], { width: 390, height: 844 }, async (page) => {
+  const [width, wide] = await page.evaluate(() => [innerWidth, document.documentElement.scrollWidth]);
+  assert.ok(wide <= width, `a narrow page must not scroll sideways, but is ${wide} wide in ${width}`);
+  await page.screenshot({ path: join(folder, "narrow.png") });
+});
+await inBrowser(["--disable-gpu", "--disable-3d-apis"], { width: 1280, height: 800 }, async (page) => {
+  assert.ok(await page.isVisible("#no-webgl"), "without WebGL the page must say so");
+  await theSliderMovesTheLinks(page);
+  await page.screenshot({ path: join(folder, "no_webgl.png") });
+}, /WebGL/);
+console.log(`${folder}: the page does what it must`);
+
+/** The page in a fresh browser; fails on console errors (but `expected` ones) and on any request but for the page. */
+async function inBrowser(flags, viewport, look, expected) {
+  const profile = await mkdtemp(join(tmpdir(), "redysim-viewer-"));
+  const browser = await chromium.launchPersistentContext(profile, {
+    executablePath: BROWSER, headless: true, args: [...FLAGS, ...flags], viewport,
+  });
+  try {
+    const page = await browser.newPage();
+    const faults = [];
+    const url = pathToFileURL(join(folder, "animation.html")).href;
+    page.on("pageerror", (error) => faults.push(String(error)));
+    page.on("console", (line) => line.type() === "error" && !expected?.test(line.text()) && faults.push(line.text()));
+    page.on("request", (request) => {
+      if (request.url() !== url && !/^(data|blob):/.test(request.url())) faults.push(`it asked for ${request.url()}`);
+    });
+    await page.goto(url);
+    await page.waitForFunction(() => window.redysim);
+    await look(page);
+    assert.deepEqual(faults, []);
+  } finally {
+    await browser.close();
+    await rm(profile, { recursive: true, force: true });
+  }
+}
+
+async function slide(page, time) {
+  await page.evaluate((time) => {
+    const slider = document.getElementById("time");
+    slider.value = time;
+    slider.dispatchEvent(new Event("input"));
+  }, time);
+}
+
+async function theSliderMovesTheLinks(page) {
+  const rows = [0, 0.13, 0.5, 0.77, 1].map((part) => Math.round(part * (table.t.length - 1)));
+  for (const row of rows) {
+    await slide(page, table.t[row]);
+    const { time, links } = await page.evaluate(() => ({ time: redysim.time, links: redysim.links() }));
+    assert.ok(Math.abs(time - table.t[row]) < 1e-9, `the slider is at ${table.t[row]} s, the page at ${time} s`);
+    for (const link of links) {
+      near(link.origin, table.point(row, "", link.name), `origin of ${link.name} at ${time} s`);
+      if (link.com) near(link.com, table.point(row, "com_", link.name), `centre of mass of ${link.name} at ${time} s`);
+    }
+  }
+  const moved = rows.map((row) => table.point(row, "com_", table.links.at(-1)).join());
+  assert.ok(new Set(moved).size > 1, "a mechanism that does not move shows nothing");
+}
+
+function near(shown, recorded, what) {
+  const scale = Math.max(1, ...recorded.map(Math.abs));
+  shown.forEach((value, axis) => {
+    const apart = Math.abs(value - recorded[axis]);
+    assert.ok(apart <= TOLERANCE * scale, `${what}: drawn at ${shown}, recorded at ${recorded}`);
+  });
+}
+
+async function theSpaceBarPlaysAndPauses(page) {
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press("Home");
+  const start = await time(page);
+  await page.keyboard.press("Space");
+  await page.waitForFunction((start) => redysim.time > start, start);
+  assert.equal(await page.getAttribute("#play", "aria-label"), "Pause");
+  await page.keyboard.press("Space");
+  const paused = await time(page);
+  await page.waitForTimeout(200);
+  assert.equal(await time(page), paused, "what is paused must stay");
+}
+
+async function theKeysStepAndJump(page) {
+  await page.keyboard.press("End");
+  assert.equal(await time(page), table.t.at(-1));
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await time(page), table.t.at(-2));
+  await page.keyboard.press("Shift+ArrowLeft");
+  assert.equal(await time(page), table.t.at(-12));
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await time(page), table.t.at(-11));
+  await page.keyboard.press("Home");
+  assert.equal(await time(page), table.t[0]);
+}
+
+async function aCurveGoesToTheTimePointedAt(page) {
+  const box = await page.locator(".u-over").first().boundingBox();
+  const value = await page.locator(".u-legend .u-value").nth(1).textContent();
+  assert.match(value, /\d/, "the legend must show the present value");
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  const middle = (table.t[0] + table.t.at(-1)) / 2;
+  const off = Math.abs((await time(page)) - middle) / (table.t.at(-1) - table.t[0]);
+  assert.ok(off < 0.2, `a click into the middle of a curve went to ${await time(page)} s`);
+  const line = await page.locator(".now").first().boundingBox();
+  assert.ok(Math.abs(line.x - (box.x + box.width / 2)) < 3, "the line of the present time must be at the click");
+}
+
+async function theViewTurnsByMouseAndKeys(page) {
+  const canvas = page.locator("#canvas");
+  const camera = () => page.evaluate(() => redysim.camera());
+  const first = await camera();
+  const box = await canvas.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 90, box.y + box.height / 2 + 30, { steps: 3 });
+  await page.mouse.up();
+  assert.ok(distance(await camera(), first) > 0, "dragging must turn the view");
+  await page.mouse.wheel(0, 300);
+  for (const key of ["d", "w", "+"]) {
+    const last = await camera();
+    await canvas.press(key);
+    assert.ok(distance(await camera(), last) > 0, `the key ${key} must change the view`);
+  }
+  await canvas.press("0");
+  const apart = distance(await camera(), first) / Math.hypot(...first);
+  assert.ok(apart < 1e-9, "0 must lead back to the first view");
+  await page.evaluate(() => document.activeElement.blur());
+}
+
+function distance(a, b) {
+  return Math.hypot(...a.map((value, axis) => value - b[axis]));
+}
+
+async function aRunEndsOrRepeats(page) {
+  const nearEnd = table.t.at(-2);
+  await page.uncheck("#repeat");
+  await slide(page, nearEnd);
+  await page.evaluate(() => redysim.play());
+  await page.waitForFunction(() => !redysim.playing);
+  assert.equal(await time(page), table.t.at(-1), "without repetition it must stop at the end");
+  await page.check("#repeat");
+  await slide(page, nearEnd);
+  await page.evaluate(() => redysim.play());
+  await page.waitForFunction((time) => redysim.time < time, nearEnd);
+  await page.evaluate(() => redysim.pause());
+}
+
+function time(page) {
+  return page.evaluate(() => redysim.time);
+}
+
+/** The table: its instants, the names of the links, and their points. */
+async function kinematics(path) {
+  const [head, ...lines] = (await readFile(path, "utf8")).trim().split("\n");
+  const headers = head.split(",");
+  const rows = lines.map((line) => line.split(",").map(Number));
+  const column = (label) => {
+    const index = headers.indexOf(`${label} [m]`);
+    assert.ok(index > 0, `${path} has no column ${label} [m]`);
+    return index;
+  };
+  return {
+    t: rows.map((row) => row[0]),
+    links: headers.filter((header) => header.startsWith("com_x ")).map((header) => header.slice(6, -4)),
+    point: (row, prefix, link) => ["x", "y", "z"].map((axis) => rows[row][column(`${prefix}${axis} ${link}`)]),
+  };
+}
