@@ -1,13 +1,13 @@
 //! `redysim animate`: the page, and what is said where none can be made. What the page does in a browser is tested in
 //! `viewer.rs`.
 
-mod results;
+mod recording;
 
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use results::{model, redysim, said, swing, turn};
+use recording::{model, redysim, said, swing, turn};
 use serde_json::Value;
 
 /// Makes the page of the results in `folder`.

@@ -1,11 +1,11 @@
 //! `redysim plot`: what it draws, and what it says where it cannot.
 
-mod results;
+mod recording;
 
 use std::f64::consts::TAU;
 use std::fs;
 
-use results::{model, redysim, said, swing, turn};
+use recording::{model, redysim, said, swing, turn};
 
 #[test]
 fn a_run_with_loops_gives_four_pictures_in_both_forms() {

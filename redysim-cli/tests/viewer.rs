@@ -1,13 +1,13 @@
 //! The page of `redysim animate` in a browser: `viewer/check` runs this, and says what it needs.
 
-mod results;
+mod recording;
 
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use results::{model, redysim, said, swing, turn};
+use recording::{model, redysim, said, swing, turn};
 
 /// A folder that stays, so that the screenshots can be looked at.
 fn folder(name: &str) -> PathBuf {
