@@ -174,7 +174,7 @@ def row(programs: Path, urdf: Path, folder: Path) -> tuple[str, bool]:
         remarks += [found.remark] if found and found.remark and not remarks else []
     if kept or fused:
         fixed, mimics = (sum(text in line for line in said) for text in ["fixed at zero here", "free here"])
-        remarks += [f"{fixed} joints fixed at zero"] * (fixed > 0) + [f"{mimics} mimic joints free"] * (mimics > 0)
+        remarks += [f"joints fixed at zero: {fixed}"] * (fixed > 0) + [f"mimic joints free: {mimics}"] * (mimics > 0)
     shares = [kept.forces, kept.matrices, kept.accelerations] if kept else [None] * 3
     shares += [max(fused.forces, fused.matrices, fused.accelerations)] if fused else [None]
     numbers = " | ".join("" if share is None else f"{share:.0e}" for share in shares)

@@ -132,8 +132,13 @@ fn slips_of_units_are_suspicious() {
     let (report, code) = json(&[path.to_str().unwrap()]);
     let suspicions: Vec<&str> =
         report["summary"]["suspicions"].as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect();
-    let wanted =
-        ["gravity is 9810 m/s²", "kg and g?", "`upper`: its centre of mass is 150 m", "`fore`", "1 joints are"];
+    let wanted = [
+        "gravity is 9810 m/s²",
+        "kg and g?",
+        "`upper`: its centre of mass is 150 m",
+        "`fore`",
+        "an actuator at 1 joint",
+    ];
     assert_eq!((code, suspicions.len()), (0, wanted.len()), "{suspicions:#?}");
     for (line, wanted) in suspicions.iter().zip(wanted) {
         assert!(line.contains(wanted), "`{wanted}` in `{line}`");

@@ -195,13 +195,13 @@ fn what_is_lost_is_said_in_the_file_and_to_the_person() {
         "joint `knuckle` mimics `waist` in the URDF (2 times its value, plus 0)",
         "joint `spin` moves no mass",
         "joint `loose` is floating in the URDF: it is fixed at zero here",
-        "the limits of 1 joints",
+        "the limits of 1 joint limit nothing",
         "left out: <dynamics>: the joints have no damping and no friction here, on line 14",
         "left out: <gazebo>, on line 21",
         "left out: <limit> without a velocity, on line 16",
         "left out: <material>, on line 3",
         "left out: <transmission>, 2 of them, the first on line 19",
-        "left out: <visual> of a link, on line 6",
+        "left out: <visual> in a <link>, on line 6",
     ];
     for said in said {
         assert!(run.stdout.contains(said) && run.stderr.contains(said), "{said}:\n{}\n{}", run.stdout, run.stderr);
@@ -223,7 +223,7 @@ fn rounded_quarter_turns_are_exact_where_asked_for() {
     let (mechanism, run) = import(LOSSY, &["--quarter-turns"]);
     assert_eq!(mechanism.model().links[0].placement.rotation.0[2], [-1.0, 0.0, 0.0]);
     assert!(
-        run.stderr.contains("1 angles are multiples of 90° here; the furthest was off by 3.7e-6 rad"),
+        run.stderr.contains("1 angle made multiples of 90°, the furthest from 3.7e-6 rad beside it"),
         "{}",
         run.stderr
     );

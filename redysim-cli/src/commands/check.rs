@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::number::counted;
 use crate::output::print;
 use crate::summary::Summary;
 use redysim_model::{Diagnostic, Model, Severity};
@@ -94,7 +95,7 @@ fn faulty(arguments: &Arguments, errors: usize) -> Failure {
     if !arguments.model.is_file() {
         return Failure::outside(format!("{file} could not be read"));
     }
-    Failure::input(format!("{file} has {errors} error{}", if errors == 1 { "" } else { "s" }))
+    Failure::input(format!("{file} has {}", counted(errors, "error")))
 }
 
 fn print_json(arguments: &Arguments, diagnostics: &[Diagnostic], summary: Option<&Summary>) -> Result<(), Failure> {

@@ -1,15 +1,16 @@
 //! What a model is allowed to say, but rarely means: most often a slip of units.
 
-use crate::number::rounded;
+use crate::number::{counted, rounded};
 use redysim_model::spatial::Vec3;
 use redysim_model::{JointKind, Link, Mobility, Model};
+use std::ops::RangeInclusive;
 
 /// Beyond this, the heaviest link is suspiciously heavier than the lightest.
 const MASS_RATIO: f64 = 1e5;
-/// A radius of gyration is suspicious beyond so many sizes of the mechanism, and below such a part of it.
-const GYRATION: [f64; 2] = [1e-4, 2.0];
+/// A radius of gyration as a share of the mechanism's size.
+const GYRATION: RangeInclusive<f64> = 1e-4..=2.0;
 /// Gravity on Earth, m/s², from the equator to the poles with some room.
-const EARTH: [f64; 2] = [9.7, 9.9];
+const EARTH: RangeInclusive<f64> = 9.7..=9.9;
 
 /// One line for each thing that looks odd.
 pub fn of(model: &Model, mobility: &Mobility) -> Vec<String> {
@@ -30,8 +31,7 @@ fn gravity(model: &Model) -> Option<String> {
     if size == 0.0 {
         return Some("there is no gravity".into());
     }
-    let on_earth = EARTH[0] <= size && size <= EARTH[1];
-    (!on_earth).then(|| format!("gravity is {} m/s²: Earth's is 9.81 m/s²", rounded(size)))
+    (!EARTH.contains(&size)).then(|| format!("gravity is {} m/s²: Earth's is 9.81 m/s²", rounded(size)))
 }
 
 fn mass_range(model: &Model) -> Option<String> {
@@ -68,8 +68,7 @@ fn odd_inertia(link: &Link, size: f64) -> Option<String> {
         return None;
     }
     let gyration = (trace / (2.0 * link.mass)).sqrt();
-    let odd = gyration < GYRATION[0] * size || gyration > GYRATION[1] * size;
-    odd.then(|| {
+    (!GYRATION.contains(&(gyration / size))).then(|| {
         format!(
             "link `{}`: with this `mass` and `inertia` its radius of gyration is {} m, in a mechanism of {} m: \
              kg m² and another unit?",
@@ -82,8 +81,9 @@ fn odd_inertia(link: &Link, size: f64) -> Option<String> {
 
 fn under_actuated(model: &Model, mobility: &Mobility) -> Option<String> {
     let actuated = model.moving_links().filter(|link| link.actuated).count();
-    (actuated < mobility.mobility)
-        .then(|| format!("{actuated} joints are actuated, but the mobility is {}", mobility.mobility))
+    (actuated < mobility.mobility).then(|| {
+        format!("the mobility is {}, but there is an actuator at {}", mobility.mobility, counted(actuated, "joint"))
+    })
 }
 
 /// How far the mechanism reaches when it is stretched: the longest way from the ground over the origins of the links'

@@ -4,6 +4,9 @@ use super::{LinkSummary, Summary};
 use crate::number::rounded;
 use std::fmt::{Display, Formatter, Result};
 
+/// A title, and what stands below it.
+type Column = (&'static str, fn(&LinkSummary) -> String);
+
 impl Display for Summary {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let row = |f: &mut Formatter<'_>, name: &str, value: String| writeln!(f, "  {name:<11}{value}");
@@ -60,7 +63,7 @@ impl Summary {
     }
 
     fn write_links(&self, f: &mut Formatter<'_>) -> Result {
-        let columns: [(&str, fn(&LinkSummary) -> String); 6] = [
+        let columns: [Column; 6] = [
             ("link", |link| link.name.clone()),
             ("on", |link| link.parent.clone()),
             ("joint", |link| link.joint.clone()),

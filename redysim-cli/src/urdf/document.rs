@@ -13,10 +13,11 @@ pub struct Document<'a> {
     xml: Xml<'a>,
 }
 
-/// What is read of a robot, a link and a joint. Limits are, too, where they are whole.
-const READ: [(&str, &[&str]); 3] = [
+/// What is read inside of each element, and of others nothing. Limits are read where they are whole.
+const READ: [(&str, &[&str]); 4] = [
     ("robot", &["link", "joint"]),
     ("link", &["inertial"]),
+    ("inertial", &["origin", "mass", "inertia"]),
     ("joint", &["origin", "parent", "child", "axis", "limit", "mimic"]),
 ];
 
@@ -133,18 +134,18 @@ impl<'a> Document<'a> {
         Err(self.fault(node, format!("{item}: `{attribute}` of its <{tag}> must be {wanted}, found \"{found}\"")))
     }
 
-    /// The elements that nothing is read of.
-    fn unread(&self) -> impl Iterator<Item = Node<'_, 'a>> {
-        let robot = self.xml.root_element();
-        let owners = robot.children().filter(Node::is_element).chain([robot]);
-        owners.flat_map(|owner| {
+    /// The elements that nothing is read of; what is inside them counts as one with them.
+    fn unread(&self) -> Vec<Node<'_, 'a>> {
+        let (mut unread, mut open) = (Vec::new(), vec![self.xml.root_element()]);
+        while let Some(owner) = open.pop() {
             let of_owner = READ.iter().find(|(tag, _)| *tag == owner.tag_name().name());
             let read = of_owner.map_or(&[] as &[&str], |(_, read)| read);
-            let keeps = move |node: &Node| read.contains(&node.tag_name().name()) && !is_partial_limit(*node);
-            // Nothing is read of what is unread itself.
-            let inside = if of_owner.is_some() { Some(owner.children()) } else { None };
-            inside.into_iter().flatten().filter(|node| node.is_element()).filter(move |node| !keeps(node))
-        })
+            for node in owner.children().filter(Node::is_element) {
+                let is_read = read.contains(&node.tag_name().name()) && !is_partial_limit(node);
+                if is_read { open.push(node) } else { unread.push(node) }
+            }
+        }
+        unread
     }
 
     /// What is left out, in words: "12 <visual> (the first on line 7)".
@@ -180,7 +181,7 @@ fn described(node: Node) -> String {
         ("joint", "dynamics") => "<dynamics>: the joints have no damping and no friction here".into(),
         ("joint", "limit") => "<limit> without a velocity".into(),
         ("robot", _) => format!("<{tag}>"),
-        _ => format!("<{tag}> of a {owner}"),
+        _ => format!("<{tag}> in a <{owner}>"),
     }
 }
 

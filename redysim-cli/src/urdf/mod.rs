@@ -13,7 +13,7 @@ use redysim_model::{Diagnostic, JointKind, Model};
 use robot::Robot;
 
 use crate::failure::Failure;
-use crate::number::rounded;
+use crate::number::{counted, rounded};
 
 /// A model file, and what a person should know about it.
 pub struct Imported {
@@ -58,9 +58,10 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     }
     let limited = robot.links.iter().filter(|link| link.limit.is_some()).count();
     if limited > 0 {
-        robot
-            .notes
-            .push(format!("the limits of {limited} joints limit nothing here: they are kept as ranges or comments"));
+        robot.notes.push(format!(
+            "the limits of {} limit nothing here: they are kept as ranges or comments",
+            counted(limited, "joint")
+        ));
     }
     robot.notes.extend(document.left_out().into_iter().map(|what| format!("left out: {what}")));
     let remarks = robot.links.iter().flat_map(|link| &link.remarks).cloned();
@@ -84,8 +85,9 @@ fn head(robot: &Robot, path: &Path) -> Vec<String> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let moving = robot.links.iter().filter(|link| link.kind != JointKind::Fixed).count();
     let first = format!(
-        "From {name}, by redysim import: {} links, {moving} moving joints, {} kg.",
-        robot.links.len(),
+        "From {name}, by redysim import: {}, {}, {} kg.",
+        counted(robot.links.len(), "link"),
+        counted(moving, "moving joint"),
         rounded(robot.mass())
     );
     let notes = robot.notes.iter().map(|note| format!("- {note}"));

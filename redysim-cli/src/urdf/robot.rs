@@ -11,6 +11,7 @@ use urdf_rs::{JointLimit, JointType};
 use super::document::Document;
 use super::inertial::Inertial;
 use crate::failure::Failure;
+use crate::number::counted;
 
 /// An angle this close to a multiple of 90° was probably rounded.
 const NEARLY: f64 = 1e-5;
@@ -132,8 +133,8 @@ impl Robot {
             }
         }
         if count > 0 {
-            self.notes
-                .push(format!("{count} angles are multiples of 90° here; the furthest was off by {largest:.1e} rad"));
+            let angles = counted(count, "angle");
+            self.notes.push(format!("{angles} made multiples of 90°, the furthest from {largest:.1e} rad beside it"));
         }
         self
     }

@@ -102,6 +102,20 @@ fn what_no_mechanism_can_be_is_shown_with_its_line() {
     refused("<robot name=\"r\"/>", &["no links"]);
 }
 
+/// Deep nesting must not exhaust the stack, wherever it stands.
+#[test]
+fn deeply_nested_elements_do_no_harm() {
+    let deep = format!("{}{}", "<a>".repeat(100_000), "</a>".repeat(100_000));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.urdf");
+    let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
+    for inside in ["</robot>", "</link>", "</inertial>", "</joint>"] {
+        fs::write(&path, good.replacen(inside, &format!("{deep}{inside}"), 1)).unwrap();
+        let run = redysim(&["import", path.to_str().unwrap()]);
+        assert!(run.code == 0 && run.stderr.contains("left out: <a>"), "{inside}: {} {}", run.code, run.stderr);
+    }
+}
+
 #[test]
 fn macros_are_expanded_first() {
     let urdf = "<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:arm/></robot>";
