@@ -97,3 +97,8 @@ fn the_gripper_takes_the_torques_of_redysim() {
 fn the_fourbar_takes_the_torque_and_multipliers_of_redysim() {
     takes("fourbar", "golden_octave_ID_Hoken_Fourbar.csv", 3, &[0], 2);
 }
+
+#[test]
+fn the_three_rrr_takes_the_torques_and_multipliers_of_redysim() {
+    takes("three_rrr_circle", "golden_octave_ID_3-RRR_Parallel_robot.csv", 7, &[0, 3, 5], 4);
+}

@@ -218,3 +218,28 @@ fn loops_may_stay_open_where_that_is_asked_for() {
     let worst = deviation(&Table::csv(&folder.join("run/lambda.csv")).columns(1..5), &reference.columns(18..22));
     assert!(worst < 1e-8 * 100.0, "{worst:e} of forces of 10 to 100 N");
 }
+
+/// Energy that comes from nowhere, as a part of the largest that there is: of the shipped tolerances.
+#[test]
+fn every_shipped_scenario_runs_and_keeps_its_energy() {
+    let folder = scratch("all");
+    let mut runs = 0;
+    for name in names(&root().join("scenarios")).iter().filter_map(|name| name.strip_suffix(".toml")) {
+        let text = fs::read_to_string(shipped(name)).unwrap();
+        for command in ["inverse", "forward"] {
+            if text.contains(&format!("\n[{command}]\n")) {
+                let run = format!("{name}-{command}");
+                succeed(&folder, &[command, &shipped(name), "-o", &run]);
+                let energy = Table::csv(&folder.join(&run).join("energy.csv"));
+                let size =
+                    |name: &str| energy.column(name).into_iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+                let scale = size("kinetic [J]").max(size("potential [J]"));
+                let most = if command == "inverse" { 1e-7 } else { 2e-2 };
+                println!("{run}: drift {:e} of {scale} J", size("drift [J]"));
+                assert!(size("drift [J]") <= most * scale, "{run}: drift {:e} of {scale} J", size("drift [J]"));
+                runs += 1;
+            }
+        }
+    }
+    assert!(runs >= 20, "{runs} runs");
+}

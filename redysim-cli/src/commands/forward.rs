@@ -62,7 +62,7 @@ fn of_tree(scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<(Recor
     let summary = Summary {
         statistics,
         seconds,
-        drift,
+        drift: drift.max(record.worst_drift()),
         gap: None,
         start: [scenario.initial.q.clone(), scenario.initial.v.clone()],
         ..summary(scenario, forward, &record, ended)
@@ -110,7 +110,7 @@ fn of_loops(scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<(Reco
     let summary = Summary {
         statistics,
         seconds,
-        drift,
+        drift: drift.max(record.worst_drift()),
         gap: Some(gap),
         start: at_start,
         ..summary(scenario, forward, &record, ended)

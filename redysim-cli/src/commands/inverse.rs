@@ -110,7 +110,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, span: Span, quiet: bool) 
         instants: (span.start, record.until(), record.t.len()),
         statistics: None,
         seconds: begun.elapsed().as_secs_f64(),
-        drift: record.drift().into_iter().fold(0.0, |most, drift| f64::max(most, drift.abs())),
+        drift: record.worst_drift(),
         gap: scenario.loops().then_some(worst),
         start: [at_start(&record.q), at_start(&record.v)],
         ended,

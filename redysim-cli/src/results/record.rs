@@ -44,4 +44,9 @@ impl Record {
         let own = |k: usize| self.energy[k].total() - self.work[k];
         (0..self.t.len()).map(|k| own(k) - own(0)).collect()
     }
+
+    /// The largest of these, J.
+    pub fn worst_drift(&self) -> f64 {
+        self.drift().into_iter().fold(0.0, |most, drift| f64::max(most, drift.abs()))
+    }
 }
