@@ -94,6 +94,19 @@ fn loops_and_their_multipliers_are_there() {
 }
 
 #[test]
+fn a_chart_has_the_curves_of_one_unit_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    swing(folder.path(), &model("slider_crank"), 1.0, 10);
+    let data = data(&page(folder.path()));
+    let chart = |unit: &str| data["charts"].as_array().unwrap().iter().find(|chart| chart["unit"] == unit).unwrap();
+    let names = |unit: &str| -> Vec<_> {
+        chart(unit)["curves"].as_array().unwrap().iter().map(|curve| curve["name"].as_str().unwrap()).collect()
+    };
+    assert_eq!(names("rad"), ["crank", "coupler"]);
+    assert_eq!(names("m"), ["slider"]);
+}
+
+#[test]
 fn what_is_missing_or_wrong_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
