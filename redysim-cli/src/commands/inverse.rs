@@ -35,8 +35,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         )
     })?;
     check_joints(&scenario, trajectory)?;
-    let folder = results.folder(&scenario)?;
     interrupt::watch()?;
+    let folder = results.folder(&scenario)?;
     let (record, summary) = along(&scenario, trajectory, span, quiet);
     results::finish(folder, results.format, &scenario, &record, &summary, quiet)
 }
