@@ -256,3 +256,29 @@ fn every_shipped_scenario_runs_and_keeps_its_energy() {
     }
     assert!(runs >= 20, "{runs} runs");
 }
+
+#[test]
+fn the_scenario_of_the_documentation_runs() {
+    let folder = scratch("documented");
+    let text = fs::read_to_string(root().join("docs/scenarios.md")).unwrap();
+    let scenario = text.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let models = root().join("models");
+    fs::write(folder.join("swing.toml"), scenario.replace("../models", &models.display().to_string())).unwrap();
+    for command in ["inverse", "forward"] {
+        succeed(&folder, &[command, "swing.toml", "-o", command]);
+    }
+}
+
+#[test]
+fn forces_that_no_actuator_gives_are_warned_of() {
+    let folder = scratch("passive");
+    let model = fs::read_to_string(root().join("models/two_link.toml")).unwrap();
+    // The last table is that of the second link.
+    fs::write(folder.join("model.toml"), model + "actuated = false\n").unwrap();
+    let lift = "model = 'model.toml'\n[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
+    fs::write(folder.join("trial.toml"), lift).unwrap();
+    let output = common::call(&folder, &["inverse", "trial.toml", "-o", "run"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && said.contains("the joint `joint2` has no actuator"), "{said}");
+    assert!(!said.contains("joint1"), "{said}");
+}
