@@ -134,6 +134,19 @@ fn an_unknown_law_or_one_without_a_trajectory() {
 }
 
 #[test]
+fn a_name_that_leads_elsewhere() {
+    for name in ["../elsewhere", "", "/tmp", "..", "a/b"] {
+        refuses(
+            "name",
+            "forward",
+            &format!("name = '{name}'\n{SWING}"),
+            1,
+            &["no folder can be called", "trial.toml:2:8"],
+        );
+    }
+}
+
+#[test]
 fn a_run_without_length() {
     refuses(
         "end",

@@ -205,6 +205,19 @@ fn redysims_files_have_redysims_columns() {
     assert!(!names(&folder.join("fourbar-inverse-dat")).iter().any(|name| name.ends_with(".csv")));
 }
 
+/// The shipped tolerances take steps longer than from row to row, and the solution within is open by 10⁻⁵ m.
+#[test]
+fn loops_are_closed_in_every_row() {
+    let folder = scratch("closed");
+    succeed(&folder, &["forward", &shipped("fourbar"), "-o", "run"]);
+    for row in Table::csv(&folder.join("run/statevar.csv")).rows {
+        let [crank, rocker, coupler] = [row[1], row[2], row[2] + row[3]].map(f64::sin_cos);
+        let x = -0.0895 + 0.1152 * (rocker.1 + coupler.1) - 0.038 * crank.1;
+        let y = 0.1152 * (rocker.0 + coupler.0) - 0.038 * crank.0;
+        assert!(x.abs() < 1e-14 && y.abs() < 1e-14, "open by {x:e} and {y:e} m at {} s", row[0]);
+    }
+}
+
 /// ReDySim's own three-RRR starts with gaps; its free motion leaves them as they are.
 #[test]
 fn loops_may_stay_open_where_that_is_asked_for() {
@@ -242,4 +255,30 @@ fn every_shipped_scenario_runs_and_keeps_its_energy() {
         }
     }
     assert!(runs >= 20, "{runs} runs");
+}
+
+#[test]
+fn the_scenario_of_the_documentation_runs() {
+    let folder = scratch("documented");
+    let text = fs::read_to_string(root().join("docs/scenarios.md")).unwrap();
+    let scenario = text.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let models = root().join("models");
+    fs::write(folder.join("swing.toml"), scenario.replace("../models", &models.display().to_string())).unwrap();
+    for command in ["inverse", "forward"] {
+        succeed(&folder, &[command, "swing.toml", "-o", command]);
+    }
+}
+
+#[test]
+fn forces_that_no_actuator_gives_are_warned_of() {
+    let folder = scratch("passive");
+    let model = fs::read_to_string(root().join("models/two_link.toml")).unwrap();
+    // The last table is that of the second link.
+    fs::write(folder.join("model.toml"), model + "actuated = false\n").unwrap();
+    let lift = "model = 'model.toml'\n[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
+    fs::write(folder.join("trial.toml"), lift).unwrap();
+    let output = common::call(&folder, &["inverse", "trial.toml", "-o", "run"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && said.contains("the joint `joint2` has no actuator"), "{said}");
+    assert!(!said.contains("joint1"), "{said}");
 }

@@ -32,8 +32,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         let message = format!("{} does not say which motion is to be computed", results.scenario.display());
         Failure::input(message).help("add a table, as in: forward = { end = 1.0, step = 0.01 }")
     })?;
-    let folder = results.folder(&scenario)?;
     interrupt::watch()?;
+    let folder = results.folder(&scenario)?;
     let (record, summary) =
         if scenario.loops() { of_loops(&scenario, forward, quiet)? } else { of_tree(&scenario, forward, quiet)? };
     results::finish(folder, results.format, &scenario, &record, &summary, quiet)

@@ -35,9 +35,12 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         )
     })?;
     check_joints(&scenario, trajectory)?;
-    let folder = results.folder(&scenario)?;
     interrupt::watch()?;
+    let folder = results.folder(&scenario)?;
     let (record, summary) = along(&scenario, trajectory, span, quiet);
+    if !quiet {
+        warn_of_passive(&scenario, &record);
+    }
     results::finish(folder, results.format, &scenario, &record, &summary, quiet)
 }
 
@@ -51,6 +54,19 @@ fn check_joints(scenario: &Scenario, trajectory: &Prescribed) -> Result<(), Fail
                 .help("name all joints among its `joints`: without loops nothing else tells how they move"))
         }
         _ => Ok(()),
+    }
+}
+
+/// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be.
+fn warn_of_passive(scenario: &Scenario, record: &Record) {
+    for (index, joint) in scenario.joints.iter().enumerate().filter(|(_, joint)| !joint.actuated) {
+        let most = record.tau.iter().fold(0.0, |most: f64, row| most.max(row[index].abs()));
+        if most > 0.0 {
+            let (name, unit) = (&joint.name, joint.unit_of_force());
+            eprintln!(
+                "warning: the joint `{name}` has no actuator, but the motion takes up to {most:.3e} {unit} there"
+            );
+        }
     }
 }
 

@@ -139,7 +139,7 @@ fn kinematics(mechanism: &GenericMechanism, record: &Record) -> Rows {
     record.q.iter().zip(&record.v).map(row).collect()
 }
 
-/// "lambda <loop> <k> [unit]" for each row: the first three rows of a cut, as far as they are kept, are forces.
+/// `lambda <loop> <k> [unit]` for each row: the first three rows of a cut, as far as they are kept, are forces.
 fn lambda_headers(mechanism: &GenericMechanism) -> Vec<String> {
     let loops = mechanism.model().loops.iter().zip(&mechanism.tree().cuts);
     let headers = loops.flat_map(|(each, cut)| {

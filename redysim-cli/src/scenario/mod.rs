@@ -11,7 +11,8 @@ mod trajectory;
 use std::path::{Path, PathBuf};
 
 use redysim_model::GenericMechanism;
-use redysim_model::document::{self, Field, Reader, Shape};
+use redysim_model::document::{self, Field, Message, Reader, Shape};
+use toml::de::DeValue;
 
 use crate::commands;
 use crate::failure::Failure;
@@ -125,7 +126,7 @@ fn read(
 ) -> Option<Scenario> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let stem = path.file_stem().map_or("scenario".into(), |stem| stem.to_string_lossy().into_owned());
-    let name = reader.text("name").value_or(stem);
+    let name = name(&mut reader).value_or(stem);
     let model = reader.text("model");
     let model_path = folder.join(reader.required("model", model).value()?);
     // What the rest of the scenario says depends on the joints.
@@ -158,6 +159,22 @@ fn read(
     let (inverse, forward) = (asked(inverse)?, asked(forward)?);
     let (name, initial, trajectory) = (name?, initial?, trajectory?);
     Some(Scenario { name, text, model_path, mechanism, joints, initial, trajectory, inverse, forward })
+}
+
+/// The scenario's name, after which a folder is called.
+fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
+    reader.field("name", |reader, path, value| {
+        let DeValue::String(name) = value.get_ref() else {
+            return reader.wrong_type(path, value, "a string");
+        };
+        let is_plain = Path::new(name.as_ref()).file_name().is_some_and(|plain| plain == name.as_ref());
+        if is_plain {
+            return Some(name.to_string());
+        }
+        let title = format!("{}: `{path}` is `{name}`, after which no folder can be called", reader.item());
+        let help = "the results go to a folder of this name: give one without / and not empty".to_owned();
+        reader.fault(value, Message { title, label: "no name of a folder".into(), help })
+    })
 }
 
 fn initial(reader: &mut Reader<'_, '_>, joints: &[Joint], all: &[usize], actuated: &[usize]) -> Option<Initial> {

@@ -16,7 +16,7 @@ pub struct Table {
     rows: Vec<Vec<f64>>,
 }
 
-/// "q joint1 [rad]", taken apart.
+/// `q joint1 [rad]`, taken apart.
 struct Header {
     symbol: String,
     name: String,
