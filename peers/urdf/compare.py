@@ -186,6 +186,8 @@ def main() -> None:
     built, *files = sys.argv[1:]
     programs, folder = Path(built) / "cargo/release", Path(built) / "models"
     folder.mkdir(parents=True, exist_ok=True)
+    print(f"# Imported robots beside Pinocchio {pinocchio.__version__}\n")
+    print(f"The largest difference at {STATES} random states; how it is found is in [peers/README.md](../README.md).\n")
     print("| robot | joints | inverse dynamics | mass matrix | forward dynamics | all, fused | |")
     print("|---|---|---|---|---|---|---|")
     agree = True

@@ -9,6 +9,7 @@ mod robot;
 use std::path::Path;
 
 use document::Document;
+use model_file::ModelFile;
 use redysim_model::{Diagnostic, JointKind, Model};
 use robot::Robot;
 
@@ -67,17 +68,23 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     let remarks = robot.links.iter().flat_map(|link| &link.remarks).cloned();
     let notes = robot.notes.iter().cloned().chain(remarks).collect();
     let written = model_file::write(&robot, &head(&robot, path));
-    let lines = &written.lines;
     let loaded = Model::from_toml(written.text.clone(), file.clone()).map_err(|faults| {
-        let link_of = |line: usize| lines.iter().rposition(|&first| first <= line).map(|index| &robot.links[index]);
         let shown = faults.errors().map(|error| {
-            let link = error.position().and_then(|(line, _)| link_of(line));
-            let line = link.map_or(1, |link| document.line_of("joint", &link.joint_name));
+            let line = error.position().map_or(1, |(line, _)| urdf_line(line, &written, &robot, &document));
             format!("{file}:{line}: {}\n  = help: {}", error.title(), error.help())
         });
         Failure::input(shown.collect::<Vec<_>>().join("\nerror: "))
     })?;
     Ok(Imported { text: written.text, notes, warnings: loaded.warnings })
+}
+
+/// The line of the URDF from which a line of the model file comes: of the link for what it weighs, else of its joint.
+fn urdf_line(line: usize, written: &ModelFile, robot: &Robot, document: &Document) -> u32 {
+    let Some(index) = written.lines.iter().rposition(|&first| first <= line) else { return 1 };
+    let text = written.text.lines().nth(line - 1).unwrap_or_default();
+    let link = &robot.links[index];
+    let weighs = ["name", "mass", "com", "inertia"].iter().any(|key| text.starts_with(key));
+    if weighs { document.line_of("link", &link.name) } else { document.line_of("joint", &link.joint_name) }
 }
 
 /// What stands at the head of the model file.

@@ -95,7 +95,7 @@ fn what_no_mechanism_can_be_is_shown_with_its_line() {
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     let heavy =
         good.replace("<link name=\"c\"><inertial><mass value=\"1\"", "<link name=\"c\"><inertial><mass value=\"-1\"");
-    refused(&heavy, &["robot.urdf:6:", "link `c`: `mass` is -1.0 kg, which is negative"]);
+    refused(&heavy, &["robot.urdf:4:", "link `c`: `mass` is -1.0 kg, which is negative"]);
     refused(&good.replacen("</joint>", "<axis xyz=\"0 0 0\"/></joint>", 1), &["robot.urdf:5:", "link `b`", "`axis`"]);
     refused(&good.replace("continuous", "fixed"), &["every joint is fixed"]);
     refused(&format!("<robot name=\"r\"><link name=\"a\">{BODY}</link></robot>"), &["no joints"]);
