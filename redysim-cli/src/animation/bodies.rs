@@ -64,7 +64,7 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
         };
         let com = link.com.0;
         let mut ends = ends(model, Some(index));
-        if ends.iter().all(|end| length(*end) == 0.0) {
+        if ends.is_empty() {
             // No joint says where it ends: a uniform rod with this centre of mass ends at twice its distance.
             ends.push(com.map(|x| 2.0 * x));
         }
@@ -104,8 +104,4 @@ fn foot(link: &Link) -> [f64; 3] {
         JointKind::Revolute | JointKind::Fixed => 0.0,
     };
     (link.placement.position + link.placement.rotation * Vec3(link.axis.0.map(|x| x * slid))).0
-}
-
-fn length(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

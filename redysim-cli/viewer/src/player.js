@@ -57,7 +57,8 @@ export class Player {
   advance(seconds) {
     if (!this.playing) return;
     const { motion } = this;
-    let time = motion.time + seconds * this.speed;
+    // A page that was out of sight does not make up for it.
+    let time = motion.time + Math.min(seconds, 0.5) * this.speed;
     if (time >= motion.end) {
       if (this.repeat.checked && motion.end > motion.start) {
         time = motion.start + ((time - motion.start) % (motion.end - motion.start));
