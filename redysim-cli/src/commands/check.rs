@@ -16,19 +16,19 @@ Examples:
   redysim check models/kr5.toml
   redysim check models/fourbar.toml --json | jq .summary.mobility
 
-With --quiet only faults are shown; the exit code is 0 for a model without faults, 1 for one with.
+With --quiet only faults are shown; the exit code is 0 for a model without faults.
 
---json prints one object, whose keys stay as they are:
-  file      the model file
-  valid     whether it has no errors
-  errors, warnings
-            lists of { title, help, file, line, column }; line and column count from 1, and are null where the file
-            could not be read
-  summary   null for a faulty model; else { name, gravity, mass, dof, mobility, loop_conditions, loop_rank,
-            actuated, passive, links: [{ name, parent, joint, kind, actuated, mass }],
-            loops: [{ name, kind, link_a, link_b, conditions }],
-            operations: [{ function, flops, additions, multiplications, divisions, sine_cosine_pairs }],
-            suspicions }, in SI units")]
+--json prints one object, in SI units, whose keys stay as they are:
+  file, valid        the model file, and whether it has no errors
+  errors, warnings   [{ title, help, file, line, column }]; line and column count
+                     from 1 and are null where the file could not be read
+  summary            null for a faulty model; else an object:
+    name, gravity, mass, dof, mobility, loop_conditions, loop_rank,
+    actuated, passive (names of joints), suspicions (texts),
+    links       [{ name, parent, joint, kind, actuated, mass }]
+    loops       [{ name, kind, link_a, link_b, conditions }]
+    operations  [{ function, flops, additions, multiplications, divisions,
+                   sine_cosine_pairs }]")]
 pub struct Arguments {
     /// The model file.
     model: PathBuf,

@@ -48,7 +48,7 @@ impl Robot {
             }
             carriers[index] = (carrier, placed);
             let part = link.inertial.seen_from(placed);
-            let whole = carrier.map_or("the ground", |carrier| links[carrier].name.as_str());
+            let whole = carrier.map_or("the ground".into(), |carrier| format!("`{}`", links[carrier].name));
             match carrier {
                 Some(carrier) if !part.is_none() => {
                     fused[carrier].inertial = fused[carrier].inertial.and(part);
