@@ -148,7 +148,7 @@ impl<'a> Document<'a> {
         unread
     }
 
-    /// What is left out, in words: "12 <visual> (the first on line 7)".
+    /// What is left out, in words: `<visual> in a <link>, 12 of them, the first on line 7`.
     pub fn left_out(&self) -> Vec<String> {
         let mut found = BTreeMap::<String, (usize, u32)>::new();
         for node in self.unread() {
