@@ -24,6 +24,11 @@ pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failu
     })
 }
 
+/// Says something to whoever listens: that nobody does (a closed pipe) is no reason to end.
+pub fn say(text: &str) {
+    let _ = writeln!(io::stdout(), "{text}");
+}
+
 /// What is there already, and must not be lost.
 pub fn exists(path: &Path) -> Failure {
     Failure::outside(format!("{} is there already", path.display()))
