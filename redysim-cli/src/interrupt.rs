@@ -1,4 +1,4 @@
-//! Ctrl-C ends a computation, not the program: what was computed is kept.
+//! Ctrl-C, or a request to terminate, ends a computation, not the program: what was computed is kept.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

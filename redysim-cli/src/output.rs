@@ -38,6 +38,11 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Says something beside what was asked for: that it cannot be said is no reason to end.
+pub fn say(text: &str) {
+    let _ = print(&format!("{text}\n"));
+}
+
 /// What is there already, and must not be lost.
 pub fn exists(path: &Path) -> Failure {
     Failure::outside(format!("{} is there already", path.display()))

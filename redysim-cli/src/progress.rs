@@ -2,13 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// How far a computation is. It shows itself only when that takes longer than a second, and only on a terminal.
 pub struct Progress {
-    total: u64,
     begun: Instant,
-    bar: Option<ProgressBar>,
+    shown: bool,
+    /// Hidden at first: it has to know from the start on how fast the computation is.
+    bar: ProgressBar,
     quiet: bool,
 }
 
@@ -17,26 +18,24 @@ const PATIENCE: Duration = Duration::from_secs(1);
 impl Progress {
     /// Nothing of `total` parts is done yet.
     pub fn new(total: usize, quiet: bool) -> Self {
-        Progress { total: total as u64, begun: Instant::now(), bar: None, quiet }
+        let style = ProgressStyle::with_template("{bar:40} {percent:>3} %, {eta} left");
+        let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::hidden());
+        let bar = bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Progress { begun: Instant::now(), shown: false, bar, quiet }
     }
 
     /// So many parts are done.
     pub fn reach(&mut self, done: usize) {
-        if self.bar.is_none() && !self.quiet && self.begun.elapsed() > PATIENCE {
-            let style = ProgressStyle::with_template("{bar:40} {percent:>3} %, {eta} left");
-            self.bar =
-                Some(ProgressBar::new(self.total).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())));
+        if !self.shown && !self.quiet && self.begun.elapsed() > PATIENCE {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            self.shown = true;
         }
-        if let Some(bar) = &self.bar {
-            bar.set_position(done as u64);
-        }
+        self.bar.set_position(done as u64);
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
+        self.bar.finish_and_clear();
     }
 }

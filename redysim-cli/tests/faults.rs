@@ -312,6 +312,26 @@ fn a_motion_that_cannot_go_on_is_kept_as_far_as_it_went() {
     assert!(!fs::read_to_string(folder.join("run/statevar.csv")).unwrap().contains("NaN"));
 }
 
+/// ReDySim's gains for its gripper are stiff.
+#[test]
+fn a_stiff_motion_asks_for_another_integrator() {
+    let folder = scratch("faults-stiff");
+    let text = fs::read_to_string(common::root().join("scenarios/gripper_tracking.toml")).unwrap();
+    let models = common::root().join("models").display().to_string();
+    fs::write(folder.join("trial.toml"), text.replace("../models", &models).replace("Ode15s", "Ode45")).unwrap();
+    refuses_in(&folder, "forward", "trial.toml", 3, &["stiff at t = ", "method = \"Ode15s\""]);
+}
+
+#[cfg(unix)]
+#[test]
+fn that_nobody_listens_is_no_fault() {
+    let folder = scratch("faults-pipe");
+    let path = scenario(&folder, "two_link.toml", SWING);
+    let command = format!("'{}' forward '{path}' | true; exit ${{PIPESTATUS[0]}}", env!("CARGO_BIN_EXE_redysim"));
+    let output = std::process::Command::new("bash").args(["-c", &command]).current_dir(&folder).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
 #[test]
 fn the_command_line_itself() {
     let folder = scratch("faults-command");

@@ -12,6 +12,7 @@ use redysim_runtime::{
 
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::output::say;
 use crate::progress::Progress;
 use crate::results::{self, Ended, Record, Summary};
 use crate::scenario::{Forward, Law, Scenario};
@@ -164,7 +165,7 @@ fn start(
         let told: Vec<_> =
             moved.map(|(joint, (to, from))| format!("{} by {:.3e} {}", joint.name, to - from, joint.unit())).collect();
         if !told.is_empty() {
-            println!("To close the loops, the start moves {}.", told.join(", "));
+            say(&format!("To close the loops, the start moves {}.", told.join(", ")));
         }
     }
     Ok(simulation.assembled(&closed))
@@ -196,6 +197,11 @@ fn ended(error: Option<&IntegrationError<f64>>, said: impl FnOnce(&IntegrationEr
             | IntegrationError::BadStep { .. }
             | IntegrationError::TooManySteps { .. }),
         ) => Ended::Failed(Failure::input(said(error))),
+        Some(error @ IntegrationError::Stiff { .. }) => {
+            let help =
+                "name another in the scenario, as in: integrator = { method = \"Ode15s\", rtol = 1e-6, atol = 1e-8 }";
+            Ended::Failed(Failure::outside(said(error)).help(help))
+        }
         Some(error) => Ended::Failed(Failure::outside(said(error))),
         None if interrupt::asked() => Ended::Interrupted,
         None => Ended::Complete,

@@ -9,6 +9,7 @@ mod tables;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::output::say;
 use crate::scenario::Scenario;
 pub use folder::Folder;
 pub use record::{Record, Rows};
@@ -59,7 +60,7 @@ pub fn finish(
     run_file::write(&folder, scenario, summary)?;
     let target = folder.finish()?;
     if !quiet {
-        println!("{summary}\n  written to {}", target.display());
+        say(&format!("{summary}\n  written to {}", target.display()));
     }
     let kept = format!("{} instants, until {:?} s, are in {}", record.t.len(), record.until(), target.display());
     match &summary.ended {
