@@ -54,14 +54,17 @@ pub fn scenario(folder: &Path, model: &str, rest: &str) -> String {
     path.display().to_string()
 }
 
-/// A scenario of this repository with tolerances that leave nothing but rounding.
-pub fn tight(folder: &Path, name: &str) -> String {
+/// An integrator whose tolerances leave hardly more than rounding.
+pub const TIGHT: &str = "method = \"Dop853\", rtol = 1e-13, atol = 1e-14";
+
+/// A scenario of this repository with another integrator.
+pub fn by(folder: &Path, name: &str, method: &str) -> String {
     let text = fs::read_to_string(root().join(format!("scenarios/{name}.toml"))).unwrap();
     let text = text.replace("../models", &root().join("models").display().to_string());
     let shipped = "method = \"Ode45\", rtol = 1e-4, atol = 1e-6";
     assert!(text.contains(shipped), "{name} has ReDySim's tolerances");
     let path = folder.join(format!("{name}.toml"));
-    fs::write(&path, text.replace(shipped, "method = \"Dop853\", rtol = 1e-13, atol = 1e-14")).unwrap();
+    fs::write(&path, text.replace(shipped, method)).unwrap();
     path.display().to_string()
 }
 
