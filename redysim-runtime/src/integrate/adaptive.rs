@@ -50,7 +50,7 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
             initial_step: None,
             max_step: None,
             max_steps: 100_000_000,
-            stiffness_limit: Some(10_000),
+            stiffness_limit: Some(100_000),
             method: PhantomData,
         }
     }
