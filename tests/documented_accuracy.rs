@@ -1,5 +1,6 @@
-//! The tables of `docs/accuracy.md` that can be exact are: what each method takes, and what its error is.
-#![cfg(feature = "generic")]
+//! The tables of `docs/accuracy.md` that can be exact are: what each method takes, and what its error is. The bits, and so
+//! the steps, are the same on every machine with the feature `deterministic`.
+#![cfg(all(feature = "generic", feature = "deterministic"))]
 
 mod common;
 
@@ -50,8 +51,6 @@ fn table(ode: &mut impl Ode<f64, State>, judge: &impl Integrator<f64>) -> String
     text
 }
 
-/// The bits, and so the steps, are the same on every machine with the feature `deterministic`.
-#[cfg(feature = "deterministic")]
 #[test]
 fn the_tables_of_steps_and_errors_are_what_the_methods_take() {
     let document = include_str!("../docs/accuracy.md");
