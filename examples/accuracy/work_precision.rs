@@ -1,7 +1,7 @@
 //! Error against work, for every method on every scene.
 
 use redysim::{
-    Dop853, Gauss4, Gauss6, IntegrationError, Integrator, Ode4, Ode5, Ode15s, Ode45, Radau5, SemiImplicitEuler,
+    Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator, Ode4, Ode5, Ode15s, Ode45, Radau5, SemiImplicitEuler,
 };
 
 use super::scene::{Run, Scene};
@@ -58,7 +58,7 @@ fn runs<I: Integrator<f64>>(name: &'static str, scene: &impl Scene, methods: imp
 pub fn report(scene: &impl Scene, outputs: &mut Outputs) -> Result<(), Failure> {
     let size = |count: u64| scene.duration() / count as f64;
     let counts = || step_counts(scene.most_steps());
-    let mut progress = Progress::new(scene.name(), 9);
+    let mut progress = Progress::new(scene.name(), 10);
     let mut methods = Vec::new();
     let mut add = |method| {
         methods.push(method);
@@ -67,6 +67,7 @@ pub fn report(scene: &impl Scene, outputs: &mut Outputs) -> Result<(), Failure> 
     add(runs("Euler", scene, counts().map(|count| SemiImplicitEuler::new(size(count)))));
     add(runs("Ode4", scene, counts().map(|count| Ode4::new(size(count)))));
     add(runs("Ode5", scene, counts().map(|count| Ode5::new(size(count)))));
+    add(runs("Dop8", scene, counts().map(|count| Dop8::new(size(count)))));
     add(runs("Gauss4", scene, counts().map(|count| Gauss4::new(size(count)))));
     add(runs("Gauss6", scene, counts().map(|count| Gauss6::new(size(count)))));
     add(runs("Ode45", scene, tolerances().map(|rtol| Ode45::new().rtol(rtol).atol(rtol / 100.0))));

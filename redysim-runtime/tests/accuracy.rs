@@ -1,33 +1,13 @@
 //! Measured orders and accuracy, on problems with known solutions.
 
-use redysim_runtime::{Integrator, Ode5, Ode45, Real, Scalar, Step};
+#[allow(dead_code)]
+mod problems;
 
-/// Two nonlinear equations that depend on time: ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), with the solution
-/// 1/(1 + t²), tan(sin t).
-fn nonlinear<S: Scalar>(t: S, y: &[S; 2], dydt: &mut [S; 2]) {
-    dydt[0] = S::from_f64(-2.0) * t * y[0] * y[0];
-    dydt[1] = t.sin_cos().1 * (S::one() + y[1] * y[1]);
-}
-
-fn exact(t: f64) -> [f64; 2] {
-    [1.0 / (1.0 + t * t), t.sin().tan()]
-}
-
-fn error_at<S: Real>(t: S, y: &[S; 2]) -> f64 {
-    exact(t.to_f64()).into_iter().zip(y).map(|(exact, y)| (y.to_f64() - exact).abs()).fold(0.0, f64::max)
-}
-
-fn start(t: f64) -> [f64; 2] {
-    exact(t)
-}
-
-/// The slope of log(error) over log(size).
-fn order(coarse: (f64, f64), fine: (f64, f64)) -> f64 {
-    (coarse.1 / fine.1).ln() / (coarse.0 / fine.0).ln()
-}
+use problems::{error_at, exact, nonlinear, order};
+use redysim_runtime::{Integrator, Ode4, Ode5, Ode45, Step};
 
 fn end_error_of_ode5(h: f64) -> f64 {
-    let end = Ode5::new(h).integrate(&mut nonlinear, (0.0, 3.0), start(0.0)).unwrap();
+    let end = Ode5::new(h).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
     error_at(end.t, &end.y)
 }
 
@@ -40,7 +20,7 @@ fn dense_error_of_ode5(h: f64) -> f64 {
             largest = largest.max(error_at(t, &step.at(t)));
         }
     };
-    Ode5::new(h).each_step(&mut nonlinear, (0.0, 3.0), start(0.0), look).unwrap();
+    Ode5::new(h).each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();
     largest
 }
 
@@ -49,6 +29,24 @@ fn ode5_converges_with_order_five() {
     let p = order((0.05, end_error_of_ode5(0.05)), (0.025, end_error_of_ode5(0.025)));
     println!("measured order {p:.3}");
     assert!((p - 5.0).abs() < 0.2, "{p}");
+}
+
+#[test]
+fn ode4_converges_with_order_four_and_order_three_within_its_steps() {
+    let errors = |h: f64| {
+        let mut within: f64 = 0.0;
+        let look = |step: &Step<'_, f64, [f64; 2]>| {
+            let t = step.start().0 + 0.4 * h;
+            within = within.max(error_at(t, &step.at(t)));
+        };
+        let end = Ode4::new(h).each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();
+        (error_at(end.t, &end.y), within)
+    };
+    let (coarse, fine) = (errors(0.02), errors(0.01));
+    let [ends, within] = [order((0.02, coarse.0), (0.01, fine.0)), order((0.02, coarse.1), (0.01, fine.1))];
+    println!("measured orders {ends:.3}, {within:.3}");
+    // Over one step a cubic extension errs with h⁴, as the steps before it do.
+    assert!((ends - 4.0).abs() < 0.2 && (within - 4.0).abs() < 0.2, "{ends}, {within}");
 }
 
 /// The extension is of order 4: its error over one step shrinks with h⁵. Errors of the steps before do so too, so the
@@ -65,7 +63,7 @@ fn the_error_between_steps_shrinks_with_the_fifth_power_of_the_step() {
 fn ode45_keeps_its_error_in_proportion_to_the_tolerance_with_work_of_order_five() {
     let measure = |tolerance: f64| {
         let method = Ode45::new().rtol(tolerance).atol(tolerance).max_step(3.0);
-        let end = method.integrate(&mut nonlinear, (0.0, 3.0), start(0.0)).unwrap();
+        let end = method.integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
         (end.statistics.evaluations as f64, error_at(end.t, &end.y))
     };
     for tolerance in [1e-5, 1e-7, 1e-9, 1e-11] {
@@ -90,19 +88,19 @@ fn the_error_per_step_of_ode45_is_within_the_tolerance() {
             worst = worst.max((y1[i] - true_end[i]).abs() / f64::max(rtol * y1[i].abs(), atol));
         }
     };
-    Ode45::new().rtol(rtol).atol(atol).each_step(&mut nonlinear, (0.0, 3.0), start(0.0), look).unwrap();
+    Ode45::new().rtol(rtol).atol(atol).each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();
     println!("worst local error in units of the tolerance: {worst}");
     assert!(worst < 1.0);
 }
 
 #[test]
 fn integration_backward_in_time_returns_to_the_start() {
-    let forward = Ode45::new().rtol(1e-11).atol(1e-11).integrate(&mut nonlinear, (0.0, 3.0), start(0.0)).unwrap();
+    let forward = Ode45::new().rtol(1e-11).atol(1e-11).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
     let back = Ode45::new().rtol(1e-11).atol(1e-11).integrate(&mut nonlinear, (3.0, 0.0), forward.y).unwrap();
     assert_eq!(back.t, 0.0);
     assert!(error_at(0.0, &back.y) < 1e-9, "{:?}", back.y);
 
-    let forward = Ode5::new(0.01).integrate(&mut nonlinear, (0.0, 3.0), start(0.0)).unwrap();
+    let forward = Ode5::new(0.01).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
     let back = Ode5::new(0.01).integrate(&mut nonlinear, (3.0, 0.0), forward.y).unwrap();
     assert_eq!(back.t, 0.0);
     assert!(error_at(0.0, &back.y) < 1e-9, "{:?}", back.y);

@@ -1,12 +1,14 @@
 //! Every typed error, provoked, with bounded work.
 
+#[allow(dead_code)]
+mod problems;
+
 use std::ops::ControlFlow::{Break, Continue};
 
+use problems::run;
 use redysim_runtime::IntegrationError::{self, *};
 use redysim_runtime::integrate::Accepted;
-use redysim_runtime::{Event, Gauss4, Integrator, Ode, Ode5, Ode45, Solution};
-
-type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
+use redysim_runtime::{Event, Gauss4, Integrator, Ode, Ode5, Ode45};
 
 fn still(_t: f64, _y: &[f64; 2], dydt: &mut [f64; 2]) {
     *dydt = [0.0, 0.0];
@@ -15,18 +17,6 @@ fn still(_t: f64, _y: &[f64; 2], dydt: &mut [f64; 2]) {
 /// Neither method may evaluate where the error is in the question itself.
 fn never(t: f64, _y: &[f64; 2], _dydt: &mut [f64; 2]) {
     panic!("evaluated at {t}");
-}
-
-/// Runs a right-hand side that breaks the test if it is called without end.
-fn run(method: &impl Integrator<f64>, to: f64, mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2]) -> (Outcome, u32) {
-    let mut calls = 0;
-    let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
-        calls += 1;
-        assert!(calls < 100_000, "this does not end");
-        *dydt = f(t, y);
-    };
-    let outcome = method.integrate(&mut counted, (0.0, to), [1.0, 1.0]);
-    (outcome, calls)
 }
 
 #[test]

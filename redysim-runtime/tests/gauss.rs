@@ -4,27 +4,16 @@
 mod mechanisms;
 #[allow(dead_code)]
 mod order_conditions;
+#[allow(dead_code)]
+mod problems;
 
 use mechanisms::{Arm, Pendulum, distance};
 use order_conditions::{defect, dot, values};
+use problems::{error_at, exact, nonlinear};
 use redysim_runtime::integrate::collocation::gauss::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, GaussTableau};
 use redysim_runtime::{
-    ForwardSimulation, Free, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Real, Scalar, Step,
+    ForwardSimulation, Free, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Step,
 };
-
-/// ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), with the solution 1/(1 + t²), tan(sin t).
-fn nonlinear<S: Scalar>(t: S, y: &[S; 2], dydt: &mut [S; 2]) {
-    dydt[0] = S::from_f64(-2.0) * t * y[0] * y[0];
-    dydt[1] = t.sin_cos().1 * (S::one() + y[1] * y[1]);
-}
-
-fn exact(t: f64) -> [f64; 2] {
-    [1.0 / (1.0 + t * t), t.sin().tan()]
-}
-
-fn error_at<S: Real>(t: S, y: &[S; 2]) -> f64 {
-    exact(t.to_f64()).into_iter().zip(y).map(|(exact, y)| (y.to_f64() - exact).abs()).fold(0.0, f64::max)
-}
 
 fn matrix<const STAGES: usize>(tableau: &GaussTableau<STAGES>) -> [[f64; STAGES]; STAGES] {
     tableau.skew.map(|skew| std::array::from_fn(|j| tableau.weights[j] * (0.5 + skew[j])))

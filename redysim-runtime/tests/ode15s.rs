@@ -2,8 +2,11 @@
 
 #[allow(dead_code)]
 mod mechanisms;
+#[allow(dead_code)]
+mod problems;
 
 use mechanisms::{Arm, distance};
+use problems::{error_at, exact, nonlinear};
 use redysim_runtime::integrate::method::EstimatesErrors;
 use redysim_runtime::integrate::{Adaptive, Bdf, Ndf};
 use redysim_runtime::{
@@ -27,19 +30,6 @@ fn van_der_pol(_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
     *dydt = [y[1], 1e3 * (1.0 - y[0] * y[0]) * y[1] - y[0]];
 }
 
-/// ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), with the solution 1/(1 + t²), tan(sin t).
-fn nonlinear(t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
-    *dydt = [-2.0 * t * y[0] * y[0], t.cos() * (1.0 + y[1] * y[1])];
-}
-
-fn exact(t: f64) -> [f64; 2] {
-    [1.0 / (1.0 + t * t), t.sin().tan()]
-}
-
-fn error_of_nonlinear(t: f64, y: &[f64; 2]) -> f64 {
-    distance(y, &exact(t))
-}
-
 fn method<'a>(tolerance: f64) -> Ode15s<'a, f64> {
     Ode15s::new().rtol(tolerance).atol(tolerance)
 }
@@ -50,7 +40,7 @@ const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 fn errors_are_in_proportion_to_the_tolerance() {
     for tolerance in TOLERANCES {
         let end = method(tolerance).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
-        let error = error_of_nonlinear(3.0, &end.y);
+        let error = error_at(3.0, &end.y);
         println!("tolerance {tolerance:e}: error {error:.1e}, {:?}", end.statistics);
         assert!(error < 10.0 * tolerance, "error {error:e} for tolerance {tolerance:e}");
         assert!(error > 1e-4 * tolerance, "error {error:e} for tolerance {tolerance:e} is luck or a wrong test");
@@ -225,7 +215,7 @@ fn the_solution_within_steps_is_accurate_and_continuous() {
             }
             for theta in [0.1, 0.3, 0.5, 0.7, 0.9] {
                 let t = from + theta * (to - from);
-                largest = largest.max(error_of_nonlinear(t, &step.at(t)));
+                largest = largest.max(error_at(t, &step.at(t)));
             }
         };
         method(tolerance).each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();

@@ -1,23 +1,13 @@
 //! Numerical differentiation formulas where something is in their way: corrections of the state, jumps, poles, bad
 //! numbers.
 
-use redysim_runtime::IntegrationError::{self, *};
+#[allow(dead_code)]
+mod problems;
+
+use problems::run;
+use redysim_runtime::IntegrationError::*;
 use redysim_runtime::integrate::{Accepted, Adaptive, Bdf, FixedStep};
-use redysim_runtime::{Integrator, Ode, Ode15s, Solution, Statistics};
-
-type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
-
-/// Runs a right-hand side that breaks the test if it is called without end.
-fn run(method: &impl Integrator<f64>, to: f64, mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2]) -> (Outcome, u32) {
-    let mut calls = 0;
-    let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
-        calls += 1;
-        assert!(calls < 100_000, "this does not end");
-        *dydt = f(t, y);
-    };
-    let outcome = method.integrate(&mut counted, (0.0, to), [1.0, 1.0]);
-    (outcome, calls)
-}
+use redysim_runtime::{Integrator, Ode, Ode15s, Statistics};
 
 #[test]
 fn a_derivative_that_is_not_finite_at_the_start_is_named() {

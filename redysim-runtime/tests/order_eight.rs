@@ -2,22 +2,12 @@
 
 #[allow(dead_code)]
 mod mechanisms;
+#[allow(dead_code)]
+mod problems;
 
 use mechanisms::Arm;
+use problems::{error_at, exact, nonlinear};
 use redysim_runtime::{Dop8, Dop853, ForwardSimulation, Free, Integrator, MechanicalEnergy, Ode45, Statistics, Step};
-
-/// ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), nonlinear and not autonomous: 1/(1 + t²), tan(sin t).
-fn nonlinear(t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
-    *dydt = [-2.0 * t * y[0] * y[0], t.cos() * (1.0 + y[1] * y[1])];
-}
-
-fn exact(t: f64) -> [f64; 2] {
-    [1.0 / (1.0 + t * t), t.sin().tan()]
-}
-
-fn error_at(t: f64, y: &[f64; 2]) -> f64 {
-    exact(t).into_iter().zip(y).map(|(exact, y)| (y - exact).abs()).fold(0.0, f64::max)
-}
 
 /// Largest errors at the ends of the steps from 0 to 3, and between them.
 fn errors(h: f64) -> (f64, f64) {

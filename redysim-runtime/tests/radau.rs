@@ -4,29 +4,18 @@
 mod mechanisms;
 #[allow(dead_code)]
 mod order_conditions;
+#[allow(dead_code)]
+mod problems;
 
 use mechanisms::{Arm, distance};
 use order_conditions::{defect, dot, values};
+use problems::{error_at, exact, nonlinear, run};
 use redysim_runtime::integrate::collocation::radau::RADAU_IIA_5;
 use redysim_runtime::integrate::{Accepted, FixedStep, Ndf, RadauIIA};
 use redysim_runtime::{
-    ForwardSimulation, Free, IntegrationError, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Scalar,
+    ForwardSimulation, Free, IntegrationError, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real,
     Statistics, Step,
 };
-
-/// ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), with the solution 1/(1 + t²), tan(sin t).
-fn nonlinear<S: Scalar>(t: S, y: &[S; 2], dydt: &mut [S; 2]) {
-    dydt[0] = S::from_f64(-2.0) * t * y[0] * y[0];
-    dydt[1] = t.sin_cos().1 * (S::one() + y[1] * y[1]);
-}
-
-fn exact(t: f64) -> [f64; 2] {
-    [1.0 / (1.0 + t * t), t.sin().tan()]
-}
-
-fn error_at<S: Real>(t: S, y: &[S; 2]) -> f64 {
-    exact(t.to_f64()).into_iter().zip(y).map(|(exact, y)| (y.to_f64() - exact).abs()).fold(0.0, f64::max)
-}
 
 #[test]
 fn the_coefficients_satisfy_every_order_condition_up_to_five_and_not_six() {
@@ -333,37 +322,22 @@ fn a_correction_after_each_step_is_gone_on_from() {
     assert!((end.y[1] / end.y[0] - 3.0_f64.tan()).abs() < 1e-4, "{:?}", end.y);
 }
 
-fn run(
-    method: Radau5<'_, f64>,
-    to: f64,
-    mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2],
-) -> (Result<[f64; 2], IntegrationError<f64>>, u32) {
-    let mut calls = 0;
-    let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
-        calls += 1;
-        assert!(calls < 100_000, "this does not end");
-        *dydt = f(t, y);
-    };
-    let outcome = method.integrate(&mut counted, (0.0, to), [1.0, 1.0]).map(|end| end.y);
-    (outcome, calls)
-}
-
 #[test]
 fn whatever_goes_wrong_is_a_typed_error_with_bounded_work() {
     for bad in [f64::NAN, f64::INFINITY] {
-        let (outcome, calls) = run(Radau5::new(), 1.0, |_, _| [1.0, bad]);
+        let (outcome, calls) = run(&Radau5::new(), 1.0, |_, _| [1.0, bad]);
         assert_eq!(outcome, Err(IntegrationError::NonFiniteDerivative { t: 0.0, component: 1 }));
         assert_eq!(calls, 1);
     }
     // From a time on, and from a state on, close to the start.
-    let (outcome, calls) = run(Radau5::new(), 1.0, |t, _| [if t > 0.55 { f64::NAN } else { 1.0 }, 0.0]);
+    let (outcome, calls) = run(&Radau5::new(), 1.0, |t, _| [if t > 0.55 { f64::NAN } else { 1.0 }, 0.0]);
     println!("{outcome:?} after {calls} evaluations");
     assert!(matches!(outcome, Err(IntegrationError::NonFiniteDerivative { t, .. }) if (t - 0.55).abs() < 1e-12));
     assert!(calls < 2000);
-    let (outcome, calls) = run(Radau5::new(), 2.0, |_, y| [y[0] * y[0], 0.0]);
+    let (outcome, calls) = run(&Radau5::new(), 2.0, |_, y| [y[0] * y[0], 0.0]);
     println!("{outcome:?} after {calls} evaluations");
     assert!(outcome.is_err() && calls < 10_000);
-    let (outcome, calls) = run(radau(1e-13), 1.0, |t, _| [if t < 0.3 { 0.0 } else { 1e9 }, 0.0]);
+    let (outcome, calls) = run(&radau(1e-13), 1.0, |t, _| [if t < 0.3 { 0.0 } else { 1e9 }, 0.0]);
     println!("{outcome:?} after {calls} evaluations");
     assert!(matches!(outcome, Err(IntegrationError::StepTooSmall { t, .. }) if (t - 0.3).abs() < 1e-12), "{outcome:?}");
     assert!(calls < 2000);

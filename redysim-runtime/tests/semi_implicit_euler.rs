@@ -60,6 +60,31 @@ fn the_error_is_of_order_one_also_between_the_steps_and_backward() {
     }
 }
 
+/// ẍ = 2 cos(t²) − 4 t² x, whose solution is sin(t²).
+struct Chirp;
+
+impl Ode<f64, [f64; 2]> for Chirp {
+    fn derivative(&mut self, t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
+        *dydt = [y[1], 2.0 * (t * t).cos() - 4.0 * t * t * y[0]];
+    }
+
+    fn coordinate_rates(&mut self, _t: f64, y: &[f64; 2], rates: &mut [f64; 2]) -> usize {
+        rates[0] = y[1];
+        1
+    }
+}
+
+#[test]
+fn an_equation_that_depends_on_time_is_solved_with_order_one() {
+    let error = |h: f64| {
+        let end = SemiImplicitEuler::new(h).integrate(&mut Chirp, (0.0, 1.5), [0.0, 0.0]).unwrap();
+        (end.y[0] - 2.25_f64.sin()).abs()
+    };
+    let p = (error(1e-3) / error(5e-4)).log2();
+    println!("measured order {p:.3}");
+    assert!((p - 1.0).abs() < 0.05, "{p}");
+}
+
 /// (q² + v² − h q v)/2 is invariant, so that the energy stays within h/2 of itself, while the explicit method
 /// multiplies it by 1 + h² in every step.
 #[test]

@@ -1,0 +1,40 @@
+// Equations with known solutions, and a right-hand side that counts its calls, for the tests of all methods.
+
+use redysim_runtime::{IntegrationError, Integrator, Real, Scalar, Solution};
+
+/// Two nonlinear equations that depend on time: ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), with the solution
+/// 1/(1 + t²), tan(sin t).
+pub fn nonlinear<S: Scalar>(t: S, y: &[S; 2], dydt: &mut [S; 2]) {
+    dydt[0] = S::from_f64(-2.0) * t * y[0] * y[0];
+    dydt[1] = t.sin_cos().1 * (S::one() + y[1] * y[1]);
+}
+
+/// The solution of [`nonlinear`].
+pub fn exact(t: f64) -> [f64; 2] {
+    [1.0 / (1.0 + t * t), t.sin().tan()]
+}
+
+/// How far `y` is from the solution of [`nonlinear`] at `t`.
+pub fn error_at<S: Real>(t: S, y: &[S; 2]) -> f64 {
+    exact(t.to_f64()).into_iter().zip(y).map(|(exact, y)| (y.to_f64() - exact).abs()).fold(0.0, f64::max)
+}
+
+/// The slope of log(error) over log(size).
+pub fn order(coarse: (f64, f64), fine: (f64, f64)) -> f64 {
+    (coarse.1 / fine.1).ln() / (coarse.0 / fine.0).ln()
+}
+
+pub type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
+
+/// Runs a right-hand side from [1, 1] at 0, which breaks the test if it is called without end; the outcome, and how often
+/// it was called.
+pub fn run(method: &impl Integrator<f64>, to: f64, mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2]) -> (Outcome, u32) {
+    let mut calls = 0;
+    let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
+        calls += 1;
+        assert!(calls < 100_000, "this does not end");
+        *dydt = f(t, y);
+    };
+    let outcome = method.integrate(&mut counted, (0.0, to), [1.0, 1.0]);
+    (outcome, calls)
+}
