@@ -28,8 +28,8 @@ mod trigonometry;
 pub mod vector;
 
 pub use closed_loop::{
-    Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, ConstrainedMotion, Explained, LoopError, LoopForces,
-    Projection, Rows, Stabilisation,
+    Assembly, ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConstrainedMotion,
+    Explained, LoopError, LoopForces, Projection, Rows, Stabilisation,
 };
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
 pub use dual::Dual;

@@ -5,13 +5,15 @@
 //! [`assemble`](ClosedLoop::assemble) closes the loops from a guess, [`dynamics`](ClosedLoop::dynamics) gives
 //! accelerations and constraint forces, [`project`](ClosedLoop::project) takes away drift, [`ClosedLoopSimulation`]
 //! moves the mechanism in time with any integrator, and [`ClosedLoopInverse`] finds the joint forces for a trajectory
-//! of the independent coordinates.
+//! of the independent coordinates, which [`ClosedLoopComputedTorque`] follows under control.
 //!
 //! Everything stands on one decomposition: the rows of J in the metric of M, split into a part
 //! that is independent and a part that is not. So redundant rows and singular positions are ordinary cases.
 
 mod assembly;
 mod closing;
+mod computed_torque;
+mod drive;
 mod dynamics;
 mod error;
 mod explained;
@@ -26,6 +28,7 @@ mod simulation;
 mod stabilisation;
 
 pub use assembly::Assembly;
+pub use computed_torque::ClosedLoopComputedTorque;
 pub use dynamics::ConstrainedMotion;
 pub use error::LoopError;
 pub use explained::Explained;

@@ -42,6 +42,11 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         self.loops
     }
 
+    /// The torque law.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+
     /// What went wrong in the loops when a derivative was evaluated or a step corrected last; `None` if nothing did.
     pub fn last_error(&self) -> Option<LoopError<S>> {
         self.last_error

@@ -6,8 +6,8 @@
 use core::ops::ControlFlow;
 
 use redysim::{
-    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation, Free, Gauss6, Integrator,
-    Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler, redysim,
+    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation,
+    Free, Gauss6, Integrator, Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler, redysim,
 };
 
 redysim! {
@@ -107,5 +107,9 @@ fn stays_closed_when_it_turns() -> Option<bool> {
         .all(|state| Fourbar::loop_residual(&turn.split(state).q).iter().all(|gap| -1e-12 < *gap && *gap < 1e-12));
     let crank = |t: f64| Motion { q: [t], v: [1.0], a: [0.0] };
     let forces = ClosedLoopInverse::new(loops, &[0], assembly.q).at(0.1, &crank).ok()?;
-    Some(closed && forces.redundancy == 0 && forces.rank == 2)
+    let law = ClosedLoopComputedTorque::new(loops, &[0], crank, [[400.0], [40.0]]);
+    let mut driven = ClosedLoopSimulation::new(loops, law);
+    let end = Ode5::new(1e-3).integrate(&mut driven, (0.0, 1.0), start).ok()?;
+    let late = end.y[0] - 1.0;
+    Some(closed && forces.redundancy == 0 && forces.rank == 2 && -1e-6 < late && late < 1e-6)
 }

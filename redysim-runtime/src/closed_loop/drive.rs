@@ -1,0 +1,190 @@
+//! The forces of the actuators for given accelerations of the independent coordinates.
+
+use super::linear::{add_scaled, difference, dot, largest, product, zeros};
+use super::linearised::without;
+use super::row_space::RowSpace;
+use super::{ClosedLoop, LoopError, LoopForces};
+use crate::vector::entry;
+use crate::{InverseDynamics, LoopClosure, Motion, Real, Vector};
+
+/// What a force may miss, as a part of the largest, before it counts as unsupported; likewise speeds.
+const SMALL: f64 = 1e-9;
+
+/// Closed loops, the coordinates that determine all others, and those that have actuators.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drive<'m, M, C> {
+    pub loops: ClosedLoop<'m, M, C>,
+    pub independent: &'m [usize],
+    pub actuated: &'m [usize],
+}
+
+impl<M, C> Drive<'_, M, C> {
+    /// Fails unless coordinates are there, and independent ones but once.
+    pub fn check<S: Real>(&self) -> Result<(), LoopError<S>>
+    where
+        M: InverseDynamics<S>,
+    {
+        let count = self.loops.mechanism.nv();
+        if let Some(&coordinate) = self.independent.iter().chain(self.actuated).find(|&&index| index >= count) {
+            return Err(LoopError::BadCoordinate { coordinate, count });
+        }
+        match repeated(self.independent) {
+            Some(&coordinate) => Err(LoopError::RepeatedCoordinate { coordinate }),
+            None => Ok(()),
+        }
+    }
+
+    /// Fails unless a trajectory has a component for each independent coordinate.
+    pub fn check_length<S: Real, I: Vector<S>>(&self, wanted: &Motion<I, I>) -> Result<(), LoopError<S>> {
+        let wanted = [&wanted.q, &wanted.v, &wanted.a].map(|part| part.as_ref().len());
+        match wanted.into_iter().find(|&given| given != self.independent.len()) {
+            Some(given) => Err(LoopError::WrongTrajectory { given, wanted: self.independent.len() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Motion and forces at the closed position `q` for these velocities and accelerations of the independent coordinates.
+    #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
+    pub fn forces<S: Real, I: Vector<S>>(
+        &self,
+        q: M::Coordinates,
+        v_independent: &I,
+        a_independent: &I,
+    ) -> Result<LoopForces<M::Coordinates, M::Velocities, C::Rows>, LoopError<S>>
+    where
+        M: InverseDynamics<S>,
+        C: LoopClosure<S, M>,
+    {
+        let ClosedLoop { mechanism, closure } = self.loops;
+        let count = mechanism.nv();
+        let jacobian = closure.loop_jacobian(&q);
+        let dependent = self.without_columns(&jacobian, self.independent)?;
+        let needed = count - self.independent.len();
+        if dependent.rank() < needed {
+            return Err(LoopError::LostRank { rank: dependent.rank(), needed, rows: dependent.dependent_rows() });
+        }
+        // J_d x_d = b − J_i x_i.
+        let complete = |given: &I, bias: &C::Rows| {
+            let mut x: M::Velocities = zeros(count);
+            self.prescribe(&mut x, given);
+            for _ in 0..2 {
+                let rates: C::Rows = product(jacobian.as_ref(), x.as_ref());
+                let missing = C::Rows::from_fn(closure.nc(), |row| entry(&rates, row) + entry(bias, row));
+                x = difference(&x, &dependent.combination(&dependent.solve(&missing)));
+            }
+            x
+        };
+        let v = complete(v_independent, &zeros(closure.nc()));
+        let rates: C::Rows = product(jacobian.as_ref(), v.as_ref());
+        let (rate, row) = largest(rates.as_ref().iter().copied());
+        let small = S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON);
+        if rate > small * (S::one() + largest(v.as_ref().iter().copied()).0) {
+            return Err(LoopError::PullsApart { rate, row });
+        }
+        let bias = closure.loop_bias(&q, &v);
+        let a = complete(a_independent, &bias);
+        let rates: C::Rows = product(jacobian.as_ref(), a.as_ref());
+        let misses = (0..closure.nc()).map(|row| entry(&rates, row) + entry(&bias, row));
+        let (rate, row) = largest(misses);
+        if rate > small * (S::one() + largest(a.as_ref().iter().chain(bias.as_ref()).copied()).0) {
+            return Err(LoopError::PullsApart { rate, row });
+        }
+        let of_tree = mechanism.inverse_dynamics(&q, &v, &a);
+        if !largest(of_tree.as_ref().iter().copied()).0.is_finite() {
+            return Err(LoopError::NotFinite);
+        }
+        let rank = self.without_columns(&jacobian, &[])?.rank();
+        let unactuated = self.without_columns(&jacobian, self.actuated)?;
+        let multipliers = self.multipliers(&jacobian, &unactuated, &of_tree);
+        let mut forces = of_tree.clone();
+        for (row, &multiplier) in jacobian.as_ref().iter().zip(multipliers.as_ref()) {
+            add_scaled(forces.as_mut(), -multiplier, row.as_ref());
+        }
+        let (most, _) = largest(of_tree.as_ref().iter().copied());
+        for (coordinate, force) in forces.as_mut().iter_mut().enumerate() {
+            if !self.actuated.contains(&coordinate) {
+                if force.abs() > small * most {
+                    return Err(LoopError::Unsupported { coordinate, force: *force });
+                }
+                *force = S::zero();
+            }
+        }
+        let redundancy = rank - unactuated.rank().min(rank);
+        Ok(LoopForces { motion: Motion { q, v, a }, forces, multipliers, rank, redundancy })
+    }
+
+    /// The shortest [τ; λ]: λ = λ₀ + y, where λ₀ balances the joints without actuators and y is none of their business,
+    /// (1 + P J_a J_aᵀ P) y = P J_a (τ_a − J_aᵀ λ₀), with P onto what they do not feel.
+    fn multipliers<S: Real>(
+        &self,
+        jacobian: &C::Jacobian,
+        unactuated: &RowSpace<S, M, C>,
+        of_tree: &M::Velocities,
+    ) -> C::Rows
+    where
+        M: InverseDynamics<S>,
+        C: LoopClosure<S, M>,
+    {
+        let nc = self.loops.closure.nc();
+        let mut of_unactuated = of_tree.clone();
+        without(&mut of_unactuated, self.actuated);
+        let mut multipliers = unactuated.multipliers(&unactuated.coordinates(&of_unactuated));
+        if unactuated.rank() == nc {
+            return multipliers;
+        }
+        let mut rest = of_tree.clone();
+        for (row, &multiplier) in jacobian.as_ref().iter().zip(multipliers.as_ref()) {
+            add_scaled(rest.as_mut(), -multiplier, row.as_ref());
+        }
+        // Columns of P J_a, one after the other: y is found by the rank-one updates of a recursive least-norm solution.
+        let mut inverse = C::Gram::from_fn(nc, |i| {
+            let unit = C::Rows::from_fn(nc, |j| if i == j { S::one() } else { S::zero() });
+            unactuated.unreachable(&unit)
+        });
+        let distinct =
+            self.actuated.iter().enumerate().filter(|(i, a)| !self.actuated.iter().take(*i).any(|b| b == *a));
+        let mut y: C::Rows = zeros(nc);
+        for (_, &index) in distinct {
+            let column = C::Rows::from_fn(nc, |i| jacobian.as_ref().get(i).map_or(S::zero(), |row| entry(row, index)));
+            let gain: C::Rows = product(inverse.as_ref(), column.as_ref());
+            let size = S::one() + dot(column.as_ref(), gain.as_ref());
+            let missing = (entry(&rest, index) - dot(column.as_ref(), y.as_ref())) / size;
+            add_scaled(y.as_mut(), missing, gain.as_ref());
+            for (row, &factor) in inverse.as_mut().iter_mut().zip(gain.as_ref()) {
+                add_scaled(row.as_mut(), -factor / size, gain.as_ref());
+            }
+        }
+        add_scaled(multipliers.as_mut(), S::one(), y.as_ref());
+        multipliers
+    }
+
+    /// The rows of J without the columns of the coordinates `known`.
+    fn without_columns<S: Real>(
+        &self,
+        jacobian: &C::Jacobian,
+        known: &[usize],
+    ) -> Result<RowSpace<S, M, C>, LoopError<S>>
+    where
+        M: InverseDynamics<S>,
+        C: LoopClosure<S, M>,
+    {
+        let mut rows = jacobian.clone();
+        for row in rows.as_mut() {
+            without(row, known);
+        }
+        RowSpace::new(rows, self.loops.mechanism.nv())
+    }
+
+    fn prescribe<S: Real, V: Vector<S>, I: Vector<S>>(&self, x: &mut V, given: &I) {
+        for (i, &index) in self.independent.iter().enumerate() {
+            if let Some(element) = x.as_mut().get_mut(index) {
+                *element = entry(given, i);
+            }
+        }
+    }
+}
+
+/// The first number that stands there before.
+fn repeated(indices: &[usize]) -> Option<&usize> {
+    indices.iter().enumerate().find(|(i, a)| indices.iter().take(*i).any(|b| b == *a)).map(|(_, a)| a)
+}
