@@ -31,6 +31,16 @@ fn the_summary_of_the_fourbar_is_that_of_a_fourbar() {
     );
 }
 
+/// A coupler on three parallel cranks: the third holds but its own angle that the others do not hold.
+#[test]
+fn the_rank_of_each_loop_is_what_it_adds_to_those_before() {
+    let (report, _) = json(&[&model("test/three_cranks.toml")]);
+    let summary = &report["summary"];
+    let ranks: Vec<_> = summary["loops"].as_array().unwrap().iter().map(|each| each["rank"].clone()).collect();
+    assert_eq!(ranks, [2, 1]);
+    assert_eq!((&summary["loop_rank"], &summary["loop_conditions"]), (&Value::from(3), &Value::from(4)));
+}
+
 /// Bricard's linkage: six revolutes in space, which Grübler would have rigid, and which moves.
 #[test]
 fn the_mobility_of_bricards_linkage_is_one() {

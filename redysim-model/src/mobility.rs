@@ -19,15 +19,18 @@ const ROUNDOFF: f64 = 1e-12;
 /// # let pendulum = "name = 'pendulum'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
 /// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 1.0\ncom = [0.5, 0, 0]";
 /// let pendulum = Model::from_toml(pendulum, "pendulum.toml").unwrap().model;
-/// assert_eq!(Mobility::of(&pendulum), Mobility { conditions: 0, rank: 0, mobility: 1, gap: None });
+/// assert_eq!(Mobility::of(&pendulum), Mobility { mobility: 1, ..Mobility::default() });
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mobility {
     /// Conditions that the loops set: NC.
     pub conditions: usize,
     /// How many of them are independent: the largest rank of the loops' Jacobian at closed positions. Where no closed
     /// position was found, what the rank is unless lengths and directions conspire.
     pub rank: usize,
+    /// Of each loop, in the model's order, how many of its conditions do not follow from those of the loops before it:
+    /// their sum is the rank.
+    pub added: Vec<usize>,
     /// Independent joint velocities: NV − rank.
     pub mobility: usize,
     /// The smallest gap that was left, m, where the loops could not be closed from any start.
@@ -38,7 +41,7 @@ impl Mobility {
     /// Of a checked model. The loops are closed from a few positions, the same in every run.
     pub fn of(model: &Model) -> Mobility {
         if model.loops.is_empty() {
-            return Mobility { conditions: 0, rank: 0, mobility: model.dof(), gap: None };
+            return Mobility { mobility: model.dof(), ..Mobility::default() };
         }
         Mobility::found(&GenericMechanism::new(model.clone())).0
     }
@@ -46,14 +49,43 @@ impl Mobility {
     /// The same, with a closed position at which the rank was found.
     pub(crate) fn found(mechanism: &GenericMechanism) -> (Mobility, Option<Vec<f64>>) {
         let conditions = LoopClosure::<f64, _>::nc(mechanism);
-        let (rank, gap, position) = match closed_position(mechanism) {
+        let (added, gap, position) = match closed_position(mechanism) {
             // A position may be singular; the rank of the mechanism is the largest.
-            Ok((q, rank)) => (rank, None, Some(q)),
+            Ok((q, rank)) if rank == conditions => (conditions_of_loops(mechanism), None, Some(q)),
+            Ok((q, _)) => (added(mechanism, |loops| rank_at(mechanism.model(), loops, &q)), None, Some(q)),
             // Without a closed position, the structure alone says what the conditions could determine.
-            Err(gap) => (structural_rank(&mechanism.loop_jacobian(&mechanism.tree().sample(1))), Some(gap), None),
+            Err(gap) => {
+                let jacobian: Vec<Vec<f64>> = mechanism.loop_jacobian(&mechanism.tree().sample(1));
+                let rows: Vec<usize> = mechanism.tree().loops_of_rows().collect();
+                let count = |loops: usize| rows.iter().filter(|cut| **cut < loops).count();
+                (added(mechanism, |loops| structural_rank(&jacobian[..count(loops)])), Some(gap), None)
+            }
         };
-        (Mobility { conditions, rank, mobility: mechanism.tree().dof() - rank, gap }, position)
+        let rank = added.iter().sum();
+        (Mobility { conditions, rank, added, mobility: mechanism.tree().dof() - rank, gap }, position)
     }
+}
+
+/// How many conditions each loop sets.
+pub(crate) fn conditions_of_loops(mechanism: &GenericMechanism) -> Vec<usize> {
+    let count = |cut| mechanism.tree().loops_of_rows().filter(|other| *other == cut).count();
+    (0..mechanism.model().loops.len()).map(count).collect()
+}
+
+/// By how much each loop raises the `rank` of so many first loops.
+fn added(mechanism: &GenericMechanism, rank: impl Fn(usize) -> usize) -> Vec<usize> {
+    let ranks: Vec<usize> = (0..=mechanism.model().loops.len()).map(rank).collect();
+    ranks.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect()
+}
+
+/// The rank of the first `count` loops at the closed position `q`.
+fn rank_at(model: &Model, count: usize, q: &[f64]) -> usize {
+    if count == 0 {
+        return 0;
+    }
+    let mechanism = GenericMechanism::new(Model { loops: model.loops[..count].to_vec(), ..model.clone() });
+    let rows = LoopClosure::<f64, _>::nc(&mechanism);
+    ClosedLoop::new(&mechanism).assemble(&q.to_vec(), &vec![0.0; q.len()], &[]).map_or(rows, |assembly| assembly.rank)
 }
 
 /// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank is,

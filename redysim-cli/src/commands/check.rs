@@ -26,7 +26,8 @@ With --quiet only faults are shown; the exit code is 0 for a model without fault
     name, gravity, mass, dof, mobility, loop_conditions, loop_rank,
     actuated, passive (names of joints), suspicions (texts),
     links       [{ name, parent, joint, kind, actuated, mass }]
-    loops       [{ name, kind, link_a, link_b, conditions }]
+    loops       [{ name, kind, link_a, link_b, conditions, rank }]; the rank
+                counts what does not follow from the loops before
     operations  [{ function, flops, additions, multiplications, divisions,
                    sine_cosine_pairs }]")]
 pub struct Arguments {

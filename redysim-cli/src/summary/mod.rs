@@ -68,6 +68,8 @@ pub struct LoopSummary {
     pub link_b: String,
     /// Its conditions that do not hold at every position.
     pub conditions: usize,
+    /// How many of these do not follow from the loops before it.
+    pub rank: usize,
 }
 
 /// What a compiled function costs.
@@ -115,7 +117,7 @@ impl Summary {
             actuated: joints(true),
             passive: joints(false),
             links: model.links.iter().map(|link| link_summary(model, link)).collect(),
-            loops: loop_summaries(model),
+            loops: loop_summaries(model, &found.added),
             operations: operations
                 .into_iter()
                 .filter(|(function, _)| !model.loops.is_empty() || !function.starts_with("loop_"))
@@ -137,17 +139,18 @@ fn link_summary(model: &Model, link: &Link) -> LinkSummary {
     }
 }
 
-fn loop_summaries(model: &Model) -> Vec<LoopSummary> {
+fn loop_summaries(model: &Model, added: &[usize]) -> Vec<LoopSummary> {
     let cuts = Tree::new(model).cuts;
-    let summary = |(cut, rows): (&redysim_model::Loop, usize)| LoopSummary {
+    let summary = |((cut, conditions), &rank): ((&redysim_model::Loop, usize), &usize)| LoopSummary {
         name: cut.name.clone(),
         kind: cut_kind(cut.joint),
         link_a: link_name(model, cut.a.link),
         link_b: link_name(model, cut.b.link),
-        conditions: rows,
+        conditions,
+        rank,
     };
     let conditions = cuts.iter().map(|cut| cut.rows.iter().filter(|kept| **kept).count());
-    model.loops.iter().zip(conditions).map(summary).collect()
+    model.loops.iter().zip(conditions).zip(added).map(summary).collect()
 }
 
 fn link_name(model: &Model, link: Option<usize>) -> String {

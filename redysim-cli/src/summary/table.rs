@@ -1,7 +1,7 @@
 //! The summary as a text.
 
 use super::{LinkSummary, Summary};
-use crate::number::rounded;
+use crate::number::{counted, rounded};
 use std::fmt::{Display, Formatter, Result};
 
 /// A title, and what stands below it.
@@ -18,10 +18,11 @@ impl Display for Summary {
         row(f, "gravity", self.gravity_text())?;
         for each in &self.loops {
             let sides = format!("{} – {}", each.link_a, each.link_b);
-            row(f, "loop", format!("{}: {}, {sides}, {} conditions", each.name, each.kind, each.conditions))?;
+            let rank = format!("rank {} of {}", each.rank, counted(each.conditions, "condition"));
+            row(f, "loop", format!("{}: {}, {sides}, {rank}", each.name, each.kind))?;
         }
-        if !self.loops.is_empty() {
-            row(f, "loop rank", format!("{} of {}", self.loop_rank, self.loop_conditions))?;
+        if self.loops.len() > 1 {
+            row(f, "all loops", format!("rank {} of {} conditions", self.loop_rank, self.loop_conditions))?;
         }
         writeln!(f)?;
         self.write_links(f)?;

@@ -3,10 +3,9 @@
 
 use crate::diagnostic::{Message, messages};
 use crate::generic::GenericMechanism;
-use crate::mobility::{Mobility, STARTS, structural_rank};
+use crate::mobility::{Mobility, STARTS, conditions_of_loops, structural_rank};
 use crate::model::Model;
 use redysim_runtime::LoopClosure;
-use redysim_runtime::closed_loop::ClosedLoop;
 
 /// What is odd about the loops of a model without errors: each with the index of the loop, or of none where it is the
 /// mechanism as a whole.
@@ -19,13 +18,13 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     let mut findings: Vec<_> =
         empty.map(|cut| (Some(cut), messages::loop_without_conditions(&model.loops[cut].name))).collect();
     let (found, closed) = Mobility::found(&mechanism);
-    let Mobility { conditions, rank, mobility, gap } = found;
+    let Mobility { conditions, rank, ref added, mobility, gap } = found;
     if let Some(gap) = gap {
         findings.push((None, messages::loops_stay_open(&model.name, STARTS, gap)));
     }
     if let Some(q) = closed.filter(|_| rank < conditions) {
         let structural = structural_rank(&mechanism.loop_jacobian(&q));
-        let (loop_index, dependent) = first_redundant_loop(model, &q);
+        let (loop_index, dependent) = first_redundant_loop(&mechanism, added);
         let counts = [conditions, model.dof() - structural, mobility];
         let message = messages::redundant_rows(&model.loops[loop_index].name, dependent, counts);
         findings.push((Some(loop_index), message));
@@ -39,20 +38,9 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     findings
 }
 
-/// The first loop of which some rows follow from those before at the closed position `q`, and how many.
-fn first_redundant_loop(model: &Model, q: &[f64]) -> (usize, usize) {
-    let rest = vec![0.0; q.len()];
-    let mut before = (0, 0);
-    for last in 0..model.loops.len() {
-        let part = Model { loops: model.loops[..=last].to_vec(), ..model.clone() };
-        let mechanism = GenericMechanism::new(part);
-        let rows = LoopClosure::<f64, _>::nc(&mechanism);
-        let rank = ClosedLoop::new(&mechanism).assemble(&q.to_vec(), &rest, &[]).map_or(rows, |assembly| assembly.rank);
-        let dependent = (rows - before.0).saturating_sub(rank - before.1);
-        if dependent > 0 {
-            return (last, dependent);
-        }
-        before = (rows, rank);
-    }
-    (model.loops.len() - 1, 0)
+/// The first loop of which some conditions follow from those before, and how many.
+fn first_redundant_loop(mechanism: &GenericMechanism, added: &[usize]) -> (usize, usize) {
+    let dependent =
+        conditions_of_loops(mechanism).into_iter().zip(added).map(|(rows, added)| rows.saturating_sub(*added));
+    dependent.enumerate().find(|(_, dependent)| *dependent > 0).unwrap_or((added.len() - 1, 0))
 }
