@@ -1,4 +1,4 @@
-//! Ctrl-C keeps what was computed.
+//! Long runs: how far they are is shown, and Ctrl-C keeps what was computed.
 #![cfg(unix)]
 
 mod common;
@@ -10,13 +10,36 @@ use std::time::Duration;
 
 use common::{Table, names, program, scenario, scratch};
 
+/// Hours of steps.
+const LONG: &str =
+    "initial = { q = [0, 1] }\n[forward]\nend = 1e5\nstep = 0.1\nintegrator = { method = 'Ode5', step = 0.001 }\n";
+
+/// What a terminal shows of the first two seconds of a long run.
+#[cfg(target_os = "linux")]
+fn shown(name: &str, options: &str) -> String {
+    let folder = scratch(name);
+    let path = scenario(&folder, "two_link.toml", LONG);
+    let run = format!("'{}' forward '{path}' -o run {options}", env!("CARGO_BIN_EXE_redysim"));
+    let for_two_seconds = format!("timeout --foreground --signal INT 2 {run}");
+    let mut terminal = Command::new("script");
+    terminal.args(["--quiet", "--return", "--command", &for_two_seconds, "/dev/null"]).current_dir(&folder);
+    let output = terminal.stdin(Stdio::null()).output().unwrap();
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_shows_how_far_a_long_run_is_and_how_long_it_will_take() {
+    let bar = shown("progress", "");
+    assert!(bar.contains("0 %") && bar.contains(" left"), "{bar}");
+    let none = shown("progress-quiet", "--quiet");
+    assert!(!none.contains('%') && none.contains("interrupted: "), "{none}");
+}
+
 #[test]
 fn ctrl_c_keeps_what_was_computed() {
     let folder = scratch("interrupt");
-    // Hours of steps.
-    let rest =
-        "initial = { q = [0, 1] }\n[forward]\nend = 1e5\nstep = 0.1\nintegrator = { method = 'Ode5', step = 0.001 }\n";
-    let path = scenario(&folder, "two_link.toml", rest);
+    let path = scenario(&folder, "two_link.toml", LONG);
     let mut child = program(&folder, &["forward", &path, "-o", "run"]).stderr(Stdio::piped()).spawn().unwrap();
     // The draft is there before the first step; after it, a moment for some steps.
     let mut patience = 600;
@@ -42,6 +65,7 @@ fn ctrl_c_keeps_what_was_computed() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{said}");
     assert!(said.contains("interrupted: ") && said.contains("are in run"), "{said}");
+    assert!(!said.contains('%'), "no terminal, no bar: {said}");
     assert_eq!(names(&folder), ["run", "trial.toml"], "no draft is left");
     let states = Table::csv(&folder.join("run/statevar.csv"));
     assert!(states.rows.len() > 2, "{} rows", states.rows.len());

@@ -186,6 +186,7 @@ fn every_integrator_swings_as_exactly_as_it_should() {
         ("Euler", 1e-2),
         ("Ode4", 1e-8),
         ("Ode5", 1e-10),
+        ("Dop8", 1e-11),
         ("Gauss4", 1e-8),
         ("Gauss6", 1e-6),
         ("2", 1e-10),
@@ -204,6 +205,24 @@ fn every_integrator_swings_as_exactly_as_it_should() {
 }
 
 #[test]
+fn each_kind_of_component_has_its_own_absolute_tolerance() {
+    let law = "torque = { law = 'p', target = [0], kp = 8 }";
+    let error = |name: &str, atol: &str| {
+        let found =
+            slides(name, &format!("integrator = {{ method = 'Ode45', rtol = 1e-13, atol = {atol} }}\n{law}"), "");
+        let exact: Vec<Vec<f64>> = found.column("t [s]").into_iter().map(|t| vec![(2.0 * t).cos()]).collect();
+        deviation(&found.columns(1..2), &exact)
+    };
+    let [tight, uniform] = [error("atol-tight", "1e-11"), error("atol-uniform", "1e-3")];
+    let apart = error("atol-apart", "{ position = 1e-11, velocity = 1e-11, work = 1e-3 }");
+    assert!(tight < 1e-9 && uniform > 1e-6, "{tight:e} {uniform:e}");
+    // The energy is of no use to the motion: it asks for smaller steps only where it is to be exact.
+    assert!(apart < 1e-9, "{apart:e}");
+    let loose = error("atol-loose", "{ position = 1e-3, velocity = 1e-3, work = 1e-11 }");
+    assert!(loose < 1e-6, "the work alone keeps the steps small: {loose:e}");
+}
+
+#[test]
 fn energy_is_what_the_actuators_give() {
     slides("work", &format!("{TIGHT}torque = {{ law = 'csv', file = 'forces.csv' }}"), "");
     let energy = Table::csv(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("work/run/energy.csv"));
@@ -215,10 +234,12 @@ fn energy_is_what_the_actuators_give() {
 }
 
 #[test]
-fn computed_torque_is_refused_where_joints_have_no_actuator() {
-    let folder = scratch("computed-of-loops");
-    let rest = "initial = { q = [0, 0.9844, 4.3144] }\ntrajectory = { kind = 'constant-speed', from = [0], speed = [1] }\n\
-                [forward]\nend = 1.0\nstep = 0.1\ntorque = { law = 'computed-torque', kp = 1, kd = 1 }\n";
-    let said = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 1);
-    assert!(said.contains("the model has closed loops") && said.contains("tracking-pd"), "{said}");
+fn computed_torque_is_refused_where_joints_of_a_tree_have_no_actuator() {
+    let folder = scratch("computed-passive");
+    fs::write(folder.join("slider.toml"), format!("{SLIDER}actuated = false\n")).unwrap();
+    let law = "torque = { law = 'computed-torque', kp = 1, kd = 1 }";
+    let text = format!("model = 'slider.toml'\n{AHEAD}[forward]\nend = 1.0\nstep = 0.1\n{law}\n");
+    fs::write(folder.join("trial.toml"), text).unwrap();
+    let said = fail(&folder, &["forward", "trial.toml", "-o", "run"], 1);
+    assert!(said.contains("the joint `mass` has no actuator") && said.contains("tracking-pd"), "{said}");
 }

@@ -114,14 +114,27 @@ fn a_run_can_be_done_again_from_its_folder_alone() {
     fs::write(folder.join("forces.csv"), "t [s],tau joint1 [N m],tau joint2 [N m]\n0,0,0\n1,1,-1\n").unwrap();
     let rest = "initial = { q = { joint2 = '60 deg' } }\n[forward]\nend = 1.0\nstep = 0.1\ntorque = { law = 'csv', file = 'forces.csv' }\n";
     succeed(&folder, &["forward", &scenario(&folder, "two_link.toml", rest), "-o", "first"]);
-    // Elsewhere, without the files that the scenario named.
-    let elsewhere = scratch("again-elsewhere");
+    again(&folder, &["statevar.csv", "tor.csv", "energy.csv", "model.toml", "torque.csv"]);
+}
+
+#[test]
+fn so_can_one_whose_scenario_names_kinds_alone() {
+    let folder = scratch("kinds");
+    let rest = "initial = { q = [0, 0.9844, 4.3144] }\n[forward]\nend = 0.2\nstep = 0.1\ntorque = 'free'\n\
+                stabilisation = 'none'\nintegrator = 0\n";
+    succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "first"]);
+    again(&folder, &["statevar.csv", "tor.csv", "energy.csv", "lambda.csv"]);
+}
+
+/// Runs the result `first` of `folder` elsewhere, without the files that its scenario named.
+fn again(folder: &Path, tables: &[&str]) {
+    let elsewhere = scratch(&format!("{}-elsewhere", folder.file_name().unwrap().display()));
     for name in names(&folder.join("first")) {
         fs::copy(folder.join("first").join(&name), elsewhere.join(&name)).unwrap();
     }
-    fs::remove_dir_all(&folder).unwrap();
+    fs::remove_dir_all(folder).unwrap();
     succeed(&elsewhere, &["forward", "run.toml", "-o", "second"]);
-    for table in ["statevar.csv", "tor.csv", "energy.csv", "model.toml", "torque.csv"] {
+    for table in tables {
         let read = |path: &Path| fs::read_to_string(path).unwrap();
         assert_eq!(read(&elsewhere.join(table)), read(&elsewhere.join("second").join(table)), "{table}");
     }
@@ -143,7 +156,7 @@ fn the_run_says_what_was_left_open_and_how_it_went() {
         "rtol = 0.001",
         "atol = 1e-6",
         "law = \"free\"",
-        "stabilisation = \"projection\"",
+        "stabilisation = { kind = \"projection\" }",
         "redysim = \"0.1.0\"",
         "ended = \"complete\"",
         "steps = ",

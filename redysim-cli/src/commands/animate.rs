@@ -9,7 +9,7 @@ use crate::recorded::Recorded;
 
 /// Make a page of HTML, complete in itself, that plays a run in 3D beside its curves.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  redysim animate results/kr5 -o kr5.html")]
+#[command(after_help = "Example:\n  redysim animate results/kuka/forward -o kuka.html")]
 pub struct Arguments {
     /// The folder of results.
     results: PathBuf,

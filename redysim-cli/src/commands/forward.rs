@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         Failure::input(message).help("add a table, as in: forward = { end = 1.0, step = 0.01 }")
     })?;
     interrupt::watch()?;
-    let folder = results.folder(&scenario)?;
+    let folder = results.folder(&scenario, "forward")?;
     let (record, summary) =
         if scenario.loops() { of_loops(&scenario, forward, quiet)? } else { of_tree(&scenario, forward, quiet)? };
     results::finish(folder, results.format, &scenario, &record, &summary, quiet)
@@ -75,8 +75,8 @@ fn of_tree(scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<(Recor
 fn of_loops(scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<(Record, Summary), Failure> {
     let mechanism = &scenario.mechanism;
     let loops = ClosedLoop::new(mechanism);
-    let stabilisation = if forward.projection { Stabilisation::Projection } else { Stabilisation::None };
-    let mut simulation = ClosedLoopSimulation::new(loops, law(scenario, forward)).stabilisation(stabilisation);
+    let simulation = ClosedLoopSimulation::new(loops, law(scenario, forward));
+    let mut simulation = simulation.stabilisation(forward.stabilisation);
     let start = start(scenario, forward, &simulation, quiet)?;
     let times = forward.span.instants();
     let mut watch = Watch::new(mechanism, &times, &start, quiet);
@@ -85,7 +85,8 @@ fn of_loops(scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<(Reco
     let at_start = [q, v];
     let solution = forward.integrator.run(&mut simulation, watch.interval(), start, &mut watch);
     let seconds = begun.elapsed().as_secs_f64();
-    let reason = simulation.last_error();
+    // A law that has no forces is why the loops have no accelerations.
+    let reason = simulation.law().last_error().or(simulation.last_error());
     let mut ended = ended(solution.as_ref().err(), |error| match reason {
         // The loops know better than the integrator what went wrong.
         Some(reason) => loops.explain(reason).to_string(),
@@ -96,7 +97,7 @@ fn of_loops(scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<(Reco
     let mut record = Record::default();
     let mut law = law(scenario, forward);
     for (&t, state) in times.iter().zip(&states) {
-        match instant(&mut simulation, &mut law, t, state, forward.projection) {
+        match instant(&mut simulation, &mut law, t, state, forward.stabilisation) {
             Ok((SimulationState { q, v, actuator_energy }, tau, lambda)) => {
                 record.tau.push(tau);
                 record.lambda.push(lambda);
@@ -128,14 +129,17 @@ fn instant(
     law: &mut Law<'_>,
     t: f64,
     state: &Vec<f64>,
-    projection: bool,
+    stabilisation: Stabilisation<f64>,
 ) -> Result<LoopInstant, LoopError<f64>> {
     let mut parts = simulation.split(state);
-    if projection {
+    if stabilisation == Stabilisation::Projection {
         let closed = simulation.loops().project(&parts.q, &parts.v)?;
         (parts.q, parts.v) = (closed.q, closed.v);
     }
     let tau = law.torque(t, &parts.q, &parts.v);
+    if let Some(reason) = law.last_error() {
+        return Err(reason);
+    }
     let state = simulation.state(&parts.q, &parts.v);
     let lambda = simulation.motion(t, &state)?.multipliers;
     Ok((parts, tau, lambda))
@@ -152,10 +156,10 @@ fn start(
     let loops = simulation.loops();
     let failed = |reason| Failure::input(format!("the start: {}", loops.explain(reason)));
     if !initial.assemble {
-        return match forward.projection {
-            true => simulation.start(&initial.q, &initial.v).map_err(failed),
-            // Without projection, loops may be open: they stay as far open as they are.
-            false => Ok(simulation.state(&initial.q, &initial.v)),
+        return match forward.stabilisation {
+            Stabilisation::Projection => simulation.start(&initial.q, &initial.v).map_err(failed),
+            // Without projection, loops may be open: they stay as far open as they are, or feedback closes them.
+            Stabilisation::Baumgarte { .. } | Stabilisation::None => Ok(simulation.state(&initial.q, &initial.v)),
         };
     }
     let closed = loops.assemble(&initial.q, &initial.v, &initial.held).map_err(failed)?;
@@ -192,15 +196,24 @@ fn summary(scenario: &Scenario, forward: &Forward, record: &Record, ended: Ended
 
 fn ended(error: Option<&IntegrationError<f64>>, said: impl FnOnce(&IntegrationError<f64>) -> String) -> Ended {
     match error {
-        Some(
-            error @ (IntegrationError::BadRelativeTolerance { .. }
-            | IntegrationError::BadStep { .. }
-            | IntegrationError::TooManySteps { .. }),
-        ) => Ended::Failed(Failure::input(said(error))),
-        Some(error @ IntegrationError::Stiff { .. }) => {
-            let help =
-                "name another in the scenario, as in: integrator = { method = \"Ode15s\", rtol = 1e-6, atol = 1e-8 }";
-            Ended::Failed(Failure::outside(said(error)).help(help))
+        Some(error @ (IntegrationError::BadRelativeTolerance { .. } | IntegrationError::BadStep { .. })) => {
+            Ended::Failed(Failure::input(said(error)))
+        }
+        // What these say of remedies is for programs.
+        Some(IntegrationError::TooManySteps { t, limit }) => {
+            let message = format!("the end is not within {limit} steps of t = {t:?} s");
+            Ended::Failed(
+                Failure::input(message).help("take larger steps or tolerances in `integrator`, or an earlier `end`"),
+            )
+        }
+        Some(IntegrationError::Stiff { t, step, remaining }) => {
+            let message = format!(
+                "the equation is stiff at t = {t:?} s: stability, not accuracy, keeps the steps at {step:.1e} s, and the rest \
+                 would take about {remaining} of them"
+            );
+            let help = "take an implicit method, as in: integrator = { method = \"Ode15s\", rtol = 1e-6, atol = 1e-8 }, or \
+                        lower gains or dampings";
+            Ended::Failed(Failure::outside(message).help(help))
         }
         Some(error) => Ended::Failed(Failure::outside(said(error))),
         None if interrupt::asked() => Ended::Interrupted,

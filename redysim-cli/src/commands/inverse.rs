@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     })?;
     check_joints(&scenario, trajectory)?;
     interrupt::watch()?;
-    let folder = results.folder(&scenario)?;
+    let folder = results.folder(&scenario, "inverse")?;
     let (record, summary) = along(&scenario, trajectory, span, quiet);
     if !quiet {
         warn_of_passive(&scenario, &record);

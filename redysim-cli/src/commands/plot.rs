@@ -11,7 +11,7 @@ use crate::recorded::{Chart, Group, Recorded};
 
 /// Draw what a run has written: motion, torques, energy and λ, as SVG and PNG.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  redysim plot results/kr5 -o pictures")]
+#[command(after_help = "Example:\n  redysim plot results/kuka/inverse -o pictures")]
 pub struct Arguments {
     /// The folder of results.
     results: PathBuf,

@@ -22,7 +22,7 @@ pub use tables::Format;
 pub struct Arguments {
     /// The scenario file.
     pub scenario: PathBuf,
-    /// The folder that is written; results/<scenario's name> unless told.
+    /// The folder that is written; results/<scenario's name>/forward or …/inverse unless told.
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// How numbers are written: tables with names and units, or ReDySim's own columns.
@@ -36,8 +36,9 @@ pub struct Arguments {
 impl Arguments {
     /// The folder for the results of `scenario`, as a draft. It is made before anything is computed, so that what
     /// cannot be written is said at once.
-    pub fn folder(&self, scenario: &Scenario) -> Result<Folder, Failure> {
-        let target = self.output.clone().unwrap_or_else(|| PathBuf::from("results").join(&scenario.name));
+    pub fn folder(&self, scenario: &Scenario, command: &str) -> Result<Folder, Failure> {
+        let usual = || PathBuf::from("results").join(&scenario.name).join(command);
+        let target = self.output.clone().unwrap_or_else(usual);
         Folder::draft(target, self.force)
     }
 }

@@ -8,7 +8,7 @@ use toml_edit::{Array, DocumentMut, Item, Table, value};
 use super::folder::RUN_FILE;
 use super::{Folder, Summary};
 use crate::failure::Failure;
-use crate::scenario::{Actuation, Integrator, Scenario, Tolerances};
+use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances};
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
@@ -41,13 +41,15 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         let table = &mut document["forward"];
         keep(&mut table["start"], value(forward.span.start));
         settings(&mut table["integrator"], forward.integrator);
+        named(&mut table["torque"], "law");
         keep(&mut table["torque"]["law"], value("free"));
         if let Actuation::Table(forces) = &forward.torque {
             folder.copy("torque.csv", &forces.path)?;
             table["torque"]["file"] = value("torque.csv");
         }
         if scenario.loops() {
-            keep(&mut table["stabilisation"], value(if forward.projection { "projection" } else { "none" }));
+            named(&mut table["stabilisation"], "kind");
+            keep(&mut table["stabilisation"]["kind"], value("projection"));
         }
     }
     document.remove("run");
@@ -62,11 +64,29 @@ fn keep(item: &mut Item, resolved: Item) {
     }
 }
 
+/// A name that stands for a table becomes that table.
+fn named(item: &mut Item, tag: &str) {
+    if let Some(name) = item.as_str().map(str::to_owned) {
+        *item = Item::None;
+        item[tag] = value(name);
+    }
+}
+
 fn settings(table: &mut Item, integrator: Integrator) {
+    if table.is_integer() {
+        *table = Item::None;
+    }
+    named(table, "method");
     table["method"] = value(integrator.name());
     if let Integrator::Adaptive(_, Tolerances { rtol, atol, .. }) = integrator {
         keep(&mut table["rtol"], number(rtol));
-        keep(&mut table["atol"], number(atol));
+        let Absolute { position, velocity, work } = atol;
+        let parts = [("position", position), ("velocity", velocity), ("work", work)];
+        if position == velocity && velocity == work {
+            keep(&mut table["atol"], number(position));
+        } else {
+            parts.into_iter().for_each(|(key, part)| keep(&mut table["atol"][key], number(part)));
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use redysim_model::document::{Field, Reader, Shape};
 use redysim_runtime::integrate::{self, Observer, Solution};
 use redysim_runtime::{
-    Dop853, Gauss4, Gauss6, IntegrationError, Integrator as _, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
+    Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator as _, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
     SemiImplicitEuler,
 };
 
@@ -22,6 +22,7 @@ pub enum Fixed {
     SemiImplicitEuler,
     Ode4,
     Ode5,
+    Dop8,
     Gauss4,
     Gauss6,
 }
@@ -39,13 +40,48 @@ pub enum Adaptive {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     pub rtol: f64,
-    pub atol: f64,
+    pub atol: Absolute,
     /// The largest step, s; a tenth of the run unless told.
     pub max_step: Option<f64>,
 }
 
+/// What a component of the state may be wrong by, however small it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Absolute {
+    /// Of coordinates, rad or m.
+    pub position: f64,
+    /// Of their rates, rad/s or m/s.
+    pub velocity: f64,
+    /// Of the work that the actuators do, J.
+    pub work: f64,
+}
+
+impl Absolute {
+    const fn uniform(value: f64) -> Self {
+        Absolute { position: value, velocity: value, work: value }
+    }
+
+    fn read(reader: &mut Reader<'_, '_>) -> Option<Absolute> {
+        if !reader.has_table("atol") {
+            return reader.positive("atol").value_or(USUAL_ATOL).map(Absolute::uniform);
+        }
+        let parts = reader.table("atol", &ATOL, |mut reader| {
+            ["position", "velocity", "work"].map(|key| reader.positive(key).value_or(USUAL_ATOL))
+        });
+        let [position, velocity, work] = *parts.value()?;
+        Some(Absolute { position: position?, velocity: velocity?, work: work? })
+    }
+
+    /// One for each component of the state [q, q̇, E_act].
+    fn of_state(self, count: usize) -> Vec<f64> {
+        let dof = count / 2;
+        [vec![self.position; dof], vec![self.velocity; dof], vec![self.work; count - 2 * dof]].concat()
+    }
+}
+
 /// MATLAB's defaults.
-const USUAL: Tolerances = Tolerances { rtol: 1e-3, atol: 1e-6, max_step: None };
+const USUAL: Tolerances = Tolerances { rtol: 1e-3, atol: Absolute::uniform(USUAL_ATOL), max_step: None };
+const USUAL_ATOL: f64 = 1e-6;
 
 #[derive(Clone, Copy)]
 enum Method {
@@ -57,6 +93,8 @@ const FIXED: Shape = Shape { owner: "An integrator with steps of one size", keys
 const ADAPTIVE: Shape =
     Shape { owner: "An integrator with steps from tolerances", keys: &["method", "rtol", "atol", "max_step"] };
 
+const ATOL: Shape = Shape { owner: "`atol`", keys: &["position", "velocity", "work"] };
+
 const fn fixed(name: &'static str, method: Fixed) -> (&'static str, (Method, &'static Shape)) {
     (name, (Method::Fixed(method), &FIXED))
 }
@@ -66,10 +104,11 @@ const fn adaptive(name: &'static str, method: Adaptive) -> (&'static str, (Metho
 }
 
 /// The names, and behind them other names of the same: the numbers are those of ReDySim's `int_type`.
-const METHODS: [(&str, (Method, &Shape)); 13] = [
+const METHODS: [(&str, (Method, &Shape)); 14] = [
     fixed("SemiImplicitEuler", Fixed::SemiImplicitEuler),
     fixed("Ode4", Fixed::Ode4),
     fixed("Ode5", Fixed::Ode5),
+    fixed("Dop8", Fixed::Dop8),
     fixed("Gauss4", Fixed::Gauss4),
     fixed("Gauss6", Fixed::Gauss6),
     adaptive("Ode45", Adaptive::Ode45),
@@ -98,13 +137,13 @@ impl Integrator {
                 Some(Integrator::Fixed(method, *reader.required("step", step).value()?))
             }
             Method::Adaptive(method) => {
-                let [rtol, atol, max_step] = ["rtol", "atol", "max_step"].map(|key| reader.positive(key));
+                let [rtol, max_step] = ["rtol", "max_step"].map(|key| reader.positive(key));
+                let atol = Absolute::read(&mut reader);
                 let max_step = match max_step {
                     Field::Missing => None,
                     given => Some(*given.value()?),
                 };
-                let tolerances =
-                    Tolerances { rtol: rtol.value_or(USUAL.rtol)?, atol: atol.value_or(USUAL.atol)?, max_step };
+                let tolerances = Tolerances { rtol: rtol.value_or(USUAL.rtol)?, atol: atol?, max_step };
                 Some(Integrator::Adaptive(method, tolerances))
             }
         });
@@ -135,22 +174,26 @@ impl Integrator {
                 Fixed::SemiImplicitEuler => SemiImplicitEuler::new(step).run(ode, interval, start, observer),
                 Fixed::Ode4 => Ode4::new(step).run(ode, interval, start, observer),
                 Fixed::Ode5 => Ode5::new(step).run(ode, interval, start, observer),
+                Fixed::Dop8 => Dop8::new(step).run(ode, interval, start, observer),
                 Fixed::Gauss4 => Gauss4::new(step).run(ode, interval, start, observer),
                 Fixed::Gauss6 => Gauss6::new(step).run(ode, interval, start, observer),
             },
-            Integrator::Adaptive(method, tolerances) => match method {
-                Adaptive::Ode45 => tolerances.on(Ode45::new()).run(ode, interval, start, observer),
-                Adaptive::Dop853 => tolerances.on(Dop853::new()).run(ode, interval, start, observer),
-                Adaptive::Ode15s => tolerances.on(Ode15s::new()).run(ode, interval, start, observer),
-                Adaptive::Radau5 => tolerances.on(Radau5::new()).run(ode, interval, start, observer),
-            },
+            Integrator::Adaptive(method, tolerances) => {
+                let atol = tolerances.atol.of_state(start.len());
+                match method {
+                    Adaptive::Ode45 => tolerances.on(Ode45::new(), &atol).run(ode, interval, start, observer),
+                    Adaptive::Dop853 => tolerances.on(Dop853::new(), &atol).run(ode, interval, start, observer),
+                    Adaptive::Ode15s => tolerances.on(Ode15s::new(), &atol).run(ode, interval, start, observer),
+                    Adaptive::Radau5 => tolerances.on(Radau5::new(), &atol).run(ode, interval, start, observer),
+                }
+            }
         }
     }
 }
 
 impl Tolerances {
-    fn on<M>(self, method: integrate::Adaptive<'_, f64, M>) -> integrate::Adaptive<'_, f64, M> {
-        let method = method.rtol(self.rtol).atol(self.atol);
+    fn on<'a, M>(self, method: integrate::Adaptive<'a, f64, M>, atol: &'a [f64]) -> integrate::Adaptive<'a, f64, M> {
+        let method = method.rtol(self.rtol).atol_each(atol);
         match self.max_step {
             Some(size) => method.max_step(size),
             None => method,

@@ -12,11 +12,12 @@ use std::path::{Path, PathBuf};
 
 use redysim_model::GenericMechanism;
 use redysim_model::document::{self, Field, Message, Reader, Shape};
+use redysim_runtime::Stabilisation;
 use toml::de::DeValue;
 
 use crate::commands;
 use crate::failure::Failure;
-pub use integrator::{Integrator, Tolerances};
+pub use integrator::{Absolute, Integrator, Tolerances};
 use joints::{Joint, Quantity, values};
 pub use span::Span;
 pub use torque::{Actuation, Law};
@@ -59,8 +60,8 @@ pub struct Forward {
     pub span: Span,
     pub integrator: Integrator,
     pub torque: Actuation,
-    /// Whether each step is brought back to closed loops.
-    pub projection: bool,
+    /// What keeps loops closed.
+    pub stabilisation: Stabilisation<f64>,
 }
 
 const SCENARIO: Shape =
@@ -69,6 +70,9 @@ const INITIAL: Shape = Shape { owner: "`initial`", keys: &["q", "v", "assemble",
 const INVERSE: Shape = Shape { owner: "`inverse`", keys: &["start", "end", "step"] };
 const FORWARD: Shape =
     Shape { owner: "`forward`", keys: &["start", "end", "step", "integrator", "torque", "stabilisation"] };
+
+const PLAIN: Shape = Shape { owner: "This stabilisation", keys: &["kind"] };
+const BAUMGARTE: Shape = Shape { owner: "Baumgarte's stabilisation", keys: &["kind", "alpha"] };
 
 impl Scenario {
     /// Reads a scenario and its model, and prints their warnings unless `quiet`.
@@ -152,9 +156,8 @@ fn read(
         let span = Span::read(&mut reader);
         let integrator = Integrator::read(&mut reader);
         let torque = Actuation::read(&mut reader, &joints, loops, followed, folder, failure);
-        let kinds = [("projection", true), ("none", false)];
-        let projection = reader.choice("stabilisation", &kinds, &[]).value_or(true);
-        Some(Forward { span: span?, integrator: integrator?, torque: torque?, projection: projection? })
+        let stabilisation = stabilisation(&mut reader);
+        Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
     });
     let (inverse, forward) = (asked(inverse)?, asked(forward)?);
     let (name, initial, trajectory) = (name?, initial?, trajectory?);
@@ -190,6 +193,22 @@ fn initial(reader: &mut Reader<'_, '_>, joints: &[Joint], all: &[usize], actuate
         Some(initial) => Some(initial),
         None => Some(Initial { q: rest(), v: rest(), assemble: true, held: actuated.to_vec() }),
     }
+}
+
+fn stabilisation(reader: &mut Reader<'_, '_>) -> Option<Stabilisation<f64>> {
+    let kind = |name, kind| (name, (kind, &PLAIN));
+    let kinds = [
+        kind("projection", Some(Stabilisation::Projection)),
+        kind("none", Some(Stabilisation::None)),
+        ("baumgarte", (None, &BAUMGARTE)),
+    ];
+    let field = reader.table_of_kind("stabilisation", "kind", &kinds, kinds[0].1, |mut reader, kind| {
+        kind.or_else(|| {
+            let alpha = reader.positive("alpha");
+            Some(Stabilisation::Baumgarte { alpha: *reader.required("alpha", alpha).value()? })
+        })
+    });
+    field.value_or(Some(Stabilisation::Projection))?
 }
 
 /// What a table says, if it is there; `None` where it is faulty.

@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 
 use redysim_model::GenericMechanism;
 use redysim_model::document::{Message, Reader, Shape};
-use redysim_runtime::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
+use redysim_runtime::{
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Free, LoopError, Proportional, ProportionalDerivative,
+    TorqueLaw, TrackingPd,
+};
 
 use super::joints::{Joint, Quantity, some, values};
 use super::spread;
@@ -30,10 +33,11 @@ pub enum Actuation {
         kp: Vec<f64>,
         kd: Vec<f64>,
     },
-    /// The same, with the model.
+    /// The same, with the model; of closed loops, for the independent coordinates that the trajectory prescribes.
     ComputedTorque {
         kp: Vec<f64>,
         kd: Vec<f64>,
+        actuated: Vec<usize>,
     },
     /// Forces over time.
     Table(Forces),
@@ -91,7 +95,7 @@ impl Actuation {
             }
             let usual = match (tag, trajectory) {
                 (Tag::TrackingPd | Tag::ComputedTorque, None) => return unfollowed(&mut reader),
-                (Tag::TrackingPd, Some(trajectory)) => &trajectory.joints,
+                (Tag::TrackingPd | Tag::ComputedTorque, Some(trajectory)) => &trajectory.joints,
                 _ => &actuated,
             };
             let chosen = some(&mut reader, "joints", joints).value_or(usual.clone())?;
@@ -116,14 +120,12 @@ impl Actuation {
                     Actuation::Pd { target: target?, kp: kp?, kd: kd? }
                 }
                 Tag::TrackingPd => Actuation::TrackingPd { kp: kp?, kd: of("kd", Quantity::Gain)? },
-                _ => Actuation::ComputedTorque { kp: kp?, kd: of("kd", Quantity::Gain)? },
+                _ => Actuation::ComputedTorque { kp: kp?, kd: of("kd", Quantity::Gain)?, actuated: actuated.clone() },
             };
             let prescribed = trajectory.map_or(&[][..], |trajectory| &trajectory.joints);
             match (tag, chosen.iter().find(|joint| !prescribed.contains(joint))) {
                 (Tag::TrackingPd | Tag::ComputedTorque, Some(&joint)) => astray(&mut reader, &joints[joint]),
-                (Tag::ComputedTorque, None) if loops || chosen.len() < joints.len() => {
-                    underactuated(&mut reader, loops)
-                }
+                (Tag::ComputedTorque, None) if !loops => check_tree(&mut reader, joints, prescribed).map(|()| law),
                 _ => Some(law),
             }
         });
@@ -138,31 +140,27 @@ impl Actuation {
     /// The law as it acts on `mechanism`.
     pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, trajectory: Option<&'a Prescribed>) -> Law<'a> {
         let count = mechanism.model().dof();
-        let follow = |law: fn(Following<'a>) -> Law<'a>, kp: &[f64], kd: &[f64]| {
-            // Reading a scenario has made sure that there is a trajectory to follow.
-            trajectory.map_or(Law::Free(Free), |trajectory| {
-                law(Following { mechanism, trajectory: trajectory.spread(count), kp: kp.to_vec(), kd: kd.to_vec() })
-            })
-        };
-        match self {
-            Actuation::Free => Law::Free(Free),
-            Actuation::P { target, kp } => Law::P(Proportional { target: target.clone(), kp: kp.clone() }),
-            Actuation::Pd { target, kp, kd } => {
+        match (self, trajectory) {
+            (Actuation::P { target, kp }, _) => Law::P(Proportional { target: target.clone(), kp: kp.clone() }),
+            (Actuation::Pd { target, kp, kd }, _) => {
                 Law::Pd(ProportionalDerivative { target: target.clone(), kp: kp.clone(), kd: kd.clone() })
             }
-            Actuation::TrackingPd { kp, kd } => follow(
-                |Following { trajectory, kp, kd, .. }| Law::TrackingPd(TrackingPd { trajectory, kp, kd }),
-                kp,
-                kd,
-            ),
-            Actuation::ComputedTorque { kp, kd } => follow(
-                |Following { mechanism, trajectory, kp, kd }| {
-                    Law::ComputedTorque(ComputedTorque { mechanism, trajectory, kp, kd })
-                },
-                kp,
-                kd,
-            ),
-            Actuation::Table(forces) => Law::Table(forces),
+            (Actuation::TrackingPd { kp, kd }, Some(trajectory)) => {
+                Law::TrackingPd(TrackingPd { trajectory: trajectory.spread(count), kp: kp.clone(), kd: kd.clone() })
+            }
+            (Actuation::ComputedTorque { kp, kd, .. }, Some(trajectory)) if mechanism.model().loops.is_empty() => {
+                let trajectory = trajectory.spread(count);
+                Law::ComputedTorque(ComputedTorque { mechanism, trajectory, kp: kp.clone(), kd: kd.clone() })
+            }
+            (Actuation::ComputedTorque { kp, kd, actuated }, Some(trajectory)) => {
+                let independent = trajectory.joints.as_slice();
+                let gains = [kp, kd].map(|gains| independent.iter().map(|&joint| gains[joint]).collect());
+                let law = ClosedLoopComputedTorque::new(ClosedLoop::new(mechanism), independent, trajectory, gains);
+                Law::LoopComputedTorque(law.actuated(actuated))
+            }
+            (Actuation::Table(forces), _) => Law::Table(forces),
+            // Reading a scenario has made sure that there is a trajectory to follow.
+            (Actuation::Free | Actuation::TrackingPd { .. } | Actuation::ComputedTorque { .. }, _) => Law::Free(Free),
         }
     }
 
@@ -175,14 +173,6 @@ impl Actuation {
     }
 }
 
-/// What a law that follows a trajectory is made of.
-struct Following<'a> {
-    mechanism: &'a GenericMechanism,
-    trajectory: Spread<'a>,
-    kp: Vec<f64>,
-    kd: Vec<f64>,
-}
-
 /// A law on a mechanism.
 pub enum Law<'a> {
     Free(Free),
@@ -190,12 +180,21 @@ pub enum Law<'a> {
     Pd(ProportionalDerivative<Vec<f64>, Vec<f64>>),
     TrackingPd(TrackingPd<Spread<'a>, Vec<f64>>),
     ComputedTorque(ComputedTorque<'a, GenericMechanism, Spread<'a>, Vec<f64>>),
+    LoopComputedTorque(ClosedLoopComputedTorque<'a, f64, GenericMechanism, &'a Prescribed, Vec<f64>>),
     Table(&'a Forces),
 }
 
 type Pair<'a> = (&'a Vec<f64>, &'a Vec<f64>);
 
 impl Law<'_> {
+    /// Why the forces asked for last are not numbers, if the law knows.
+    pub fn last_error(&self) -> Option<LoopError<f64>> {
+        match self {
+            Law::LoopComputedTorque(law) => law.last_error(),
+            _ => None,
+        }
+    }
+
     fn inner(&mut self) -> &mut dyn TorqueLaw<f64, GenericMechanism> {
         match self {
             Law::Free(law) => law,
@@ -203,6 +202,7 @@ impl Law<'_> {
             Law::Pd(law) => law,
             Law::TrackingPd(law) => law,
             Law::ComputedTorque(law) => law,
+            Law::LoopComputedTorque(law) => law,
             Law::Table(law) => law,
         }
     }
@@ -268,14 +268,22 @@ fn astray<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
     })
 }
 
-fn underactuated<T>(reader: &mut Reader<'_, '_>, loops: bool) -> Option<T> {
-    let why = if loops { "closed loops" } else { "a joint without an actuator" };
+/// Computed torque drives every joint of a tree.
+fn check_tree(reader: &mut Reader<'_, '_>, joints: &[Joint], prescribed: &[usize]) -> Option<()> {
+    let passive = joints.iter().find(|joint| !joint.actuated);
+    let free = joints.iter().enumerate().find(|(index, _)| !prescribed.contains(index)).map(|(_, joint)| joint);
+    let (joint, what, help) = match (passive, free) {
+        (Some(joint), _) => (joint, "has no actuator", "take the law `tracking-pd`, or actuate every joint"),
+        (None, Some(joint)) => (joint, "is not prescribed", "name all joints among the `joints` of `[trajectory]`"),
+        (None, None) => return Some(()),
+    };
     reader.fault_of_table(Message {
         title: format!(
-            "{}: computed torque needs an actuator at every joint of a tree, but the model has {why}",
-            reader.item()
+            "{}: computed torque moves every joint of a tree, but the joint `{}` {what}",
+            reader.item(),
+            joint.name
         ),
         label: "not for this model".into(),
-        help: "take the law `tracking-pd`, or actuate every joint".into(),
+        help: help.into(),
     })
 }

@@ -147,6 +147,12 @@ impl Trajectory<f64, Vec<f64>, Vec<f64>> for Prescribed {
     }
 }
 
+impl Trajectory<f64, Vec<f64>, Vec<f64>> for &Prescribed {
+    fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
+        (*self).at(t)
+    }
+}
+
 /// See [`Prescribed::spread`].
 #[derive(Clone, Copy, Debug)]
 pub struct Spread<'a> {

@@ -206,12 +206,7 @@ impl<'a, 'f> Reader<'a, 'f> {
     /// One of the names in `choices`. Those in `planned` are known, but not supported.
     pub fn choice<T: Copy>(&mut self, key: &str, choices: &[(&str, T)], planned: &[&str]) -> Field<T> {
         self.field(key, |reader, path, value| {
-            // A kind may be called by a number, too.
-            let text = match value.get_ref() {
-                DeValue::String(text) => text.as_ref(),
-                DeValue::Integer(number) => number.as_str(),
-                _ => return reader.wrong_type(path, value, "a string"),
-            };
+            let Some(text) = name(value) else { return reader.wrong_type(path, value, "a string") };
             if planned.contains(&text) {
                 let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
                 return reader.fault(value, messages::unsupported_joint(reader.item, text, &names));
@@ -220,13 +215,18 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
+    /// Whether there is a table under `key`.
+    pub fn has_table(&self, key: &str) -> bool {
+        self.table.get(key).is_some_and(|value| matches!(value.get_ref(), DeValue::Table(_)))
+    }
+
     /// A table within this one.
     pub fn table<T>(&mut self, key: &str, shape: &Shape, read: impl FnOnce(Reader<'_, '_>) -> T) -> Field<T> {
         self.field(key, |reader, path, value| Some(read(reader.within(path, value)?.without_unknown_keys(shape))))
     }
 
     /// A table within this one whose kind, named under the key `tag`, says which keys it has; `usual` is meant where it
-    /// names none. A kind is a name with what it stands for.
+    /// names none. A kind is a name with what it stands for. The name alone stands for a table without other keys.
     pub fn table_of_kind<T, K: Copy>(
         &mut self,
         key: &str,
@@ -235,7 +235,12 @@ impl<'a, 'f> Reader<'a, 'f> {
         usual: (K, &Shape),
         read: impl FnOnce(Reader<'_, '_>, K) -> T,
     ) -> Field<T> {
+        let nothing_else = DeTable::new();
         self.field(key, |reader, path, value| {
+            if let Some(text) = name(value) {
+                let (kind, _) = reader.one_of(path, value, text, kinds)?;
+                return Some(read(reader.inside(path, value, &nothing_else), kind));
+            }
             let mut inner = reader.within(path, value)?;
             let (kind, shape) = inner.choice(tag, kinds, &[]).value_or(usual)?;
             Some(read(inner.without_unknown_keys(shape), kind))
@@ -247,9 +252,14 @@ impl<'a, 'f> Reader<'a, 'f> {
         let DeValue::Table(table) = value.get_ref() else {
             return self.wrong_type(path, value, "a table");
         };
+        Some(self.inside(path, value, table))
+    }
+
+    /// A reader of `table`, for which `value` stands.
+    fn inside<'b>(&'b mut self, path: &str, value: &Value<'_>, table: &'b DeTable<'b>) -> Reader<'b, 'b> {
         let (item, manual, prefix) = (self.item, self.manual, format!("{path}."));
         let inner = Reader::of_file(manual, table, value.span(), item, self.findings);
-        Some(Reader { prefix, ..inner })
+        Reader { prefix, ..inner }
     }
 
     /// The tables of an array of tables; `None` stands for what is no table, or no array.
@@ -372,6 +382,15 @@ impl<'a, 'f> Reader<'a, 'f> {
 
     fn path(&self, key: &str) -> String {
         format!("{}{key}", self.prefix)
+    }
+}
+
+/// The name of a kind, which may be a number, too.
+fn name<'v>(value: &'v Value<'_>) -> Option<&'v str> {
+    match value.get_ref() {
+        DeValue::String(text) => Some(text.as_ref()),
+        DeValue::Integer(number) => Some(number.as_str()),
+        _ => None,
     }
 }
 

@@ -1,0 +1,67 @@
+//! Closed loops under control, and what keeps them closed, against closed forms.
+
+mod common;
+
+use common::{Table, deviation, fail, root, scenario, scratch, succeed};
+use redysim_model::{GenericMechanism, Model};
+use redysim_runtime::LoopClosure;
+
+const TIGHT: &str = "integrator = { method = 'Dop853', rtol = 1e-11, atol = 1e-12 }";
+
+/// The motion of the four-bar by a scenario's `forward`, every 0.05 s for half a second.
+fn fourbar(name: &str, top: &str, forward: &str) -> Table {
+    let folder = scratch(name);
+    let rest = format!("{top}\n[forward]\nend = 0.5\nstep = 0.05\n{TIGHT}\n{forward}\n");
+    succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", &rest), "-o", "run"]);
+    Table::csv(&folder.join("run/statevar.csv"))
+}
+
+/// (e₀ + (ė₀ + ω e₀) t) exp(−ω t): what is left of an error that is critically damped.
+fn damped(t: f64, rate: f64, e: f64, speed: f64) -> f64 {
+    (e + (speed + rate * e) * t) * (-rate * t).exp()
+}
+
+#[test]
+fn computed_torque_leaves_the_crank_the_error_of_a_damped_spring() {
+    let top =
+        "initial = { q = [0, 0.9844, 4.3144] }\ntrajectory = { kind = 'constant-speed', from = [0.1], speed = [4] }";
+    let found = fourbar("loops-computed", top, "torque = { law = 'computed-torque', kp = 100, kd = 20 }");
+    let crank: Vec<Vec<f64>> = found.column("q crank [rad]").into_iter().map(|q| vec![q]).collect();
+    let exact = |t: f64| vec![0.1 + 4.0 * t - damped(t, 10.0, 0.1, 4.0)];
+    let exact: Vec<Vec<f64>> = found.column("t [s]").into_iter().map(exact).collect();
+    let worst = deviation(&crank, &exact);
+    assert!(worst < 1e-9, "off by {worst:e}");
+}
+
+/// The rocker cannot go further than where crank and coupler are in line: there its speed no longer says the crank's.
+#[test]
+fn computed_torque_says_where_the_prescribed_joint_determines_nothing() {
+    let folder = scratch("loops-dead-point");
+    let rest = "initial = { q = [0, 0.9844, 4.3144] }\n\
+                trajectory = { kind = 'constant-speed', joints = ['rocker'], from = [0.9844], speed = [4] }\n\
+                [forward]\nend = 2.0\nstep = 0.1\ntorque = { law = 'computed-torque', kp = 100, kd = 20 }\n";
+    let said = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 3);
+    assert!(said.contains("determine 1 of the 2 coordinates") && said.contains("is kept"), "{said}");
+}
+
+/// r̈ + 2 α ṙ + α² r = 0, whatever the mechanism does meanwhile.
+#[test]
+fn baumgartes_feedback_closes_a_loop_that_starts_open() {
+    let top = "initial = { q = [0, 0.9844, 4.3144], assemble = false }";
+    let found = fourbar("loops-baumgarte", top, "stabilisation = { kind = 'baumgarte', alpha = 10 }");
+    let mechanism = GenericMechanism::new(Model::load(root().join("models/fourbar.toml")).unwrap().model);
+    let residuals: Vec<Vec<f64>> = found.columns(1..4).iter().map(|q| mechanism.loop_residual(q)).collect();
+    let expected = |t: f64| residuals[0].iter().map(|&open| damped(t, 10.0, open, 0.0)).collect();
+    let expected: Vec<Vec<f64>> = found.column("t [s]").into_iter().map(expected).collect();
+    assert!(residuals[0].iter().any(|open| open.abs() > 1e-6), "it starts open: {:?}", residuals[0]);
+    let worst = deviation(&residuals, &expected);
+    assert!(worst < 1e-10, "off by {worst:e}");
+}
+
+#[test]
+fn baumgartes_feedback_needs_its_rate() {
+    let folder = scratch("loops-no-rate");
+    let rest = "[forward]\nend = 1.0\nstep = 0.1\nstabilisation = 'baumgarte'\n";
+    let said = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 1);
+    assert!(said.contains("alpha") && said.contains("alpha = 20.0"), "{said}");
+}
