@@ -62,6 +62,16 @@ impl Failure {
         self
     }
 
+    /// What is wrong.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// What to do about it, if anything is known.
+    pub fn advice(&self) -> &str {
+        self.help.as_deref().unwrap_or_default()
+    }
+
     /// 1 for input, 3 for what is outside, 130 for Ctrl-C; 2 is the command line's own.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self.kind {

@@ -195,7 +195,34 @@ fn a_table_with_a_fault() {
 #[test]
 fn a_missing_table() {
     let rest = format!("{SWING}torque = {{ law = 'csv', file = 'nowhere.csv' }}\n");
-    refuses("no-table", "forward", &rest, 3, &["cannot read", "nowhere.csv", "folder of the scenario"]);
+    let words = ["cannot read", "nowhere.csv", "trial.toml:6:", "folder of the scenario"];
+    refuses("no-table", "forward", &rest, 1, &words);
+}
+
+#[test]
+fn every_fault_at_once_and_none_that_follows_from_another() {
+    let rest = "nonsense = 1\n[trajectory]\nkind = 'csv'\nfile = 'motion.csv'\n\
+                [forward]\nend = 1.0\nstepp = 0.1\ntorque = { law = 'csv', file = 'forces.csv' }\n";
+    let words = ["`nonsense`", "motion.csv", "`step`?", "forces.csv", "trial.toml:5:", "trial.toml:9:"];
+    let folder = scratch("faults-all");
+    let said = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", rest)], 1);
+    assert!(words.iter().all(|word| said.contains(word)), "{said}");
+    let law = "torque = { law = 'tracking-pd', kp = 1, kd = 1 }\n";
+    let misspelt = format!("[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduratoin = 1.0\n{SWING}{law}");
+    let folder = scratch("faults-misspelt");
+    let said = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &misspelt)], 1);
+    assert!(said.contains("`duration`?") && !said.contains("there is none"), "{said}");
+}
+
+/// What a run would write may be what the other run reads.
+#[test]
+fn inverse_dynamics_asks_nothing_of_the_forward_run() {
+    let folder = scratch("faults-other-run");
+    let rest = format!("{LIFT}[forward]\nend = 1.0\nstep = 0.1\ntorque = {{ law = 'csv', file = 'run/tor.csv' }}\n");
+    let path = scenario(&folder, "two_link.toml", &rest);
+    refuses_in(&folder, "forward", &path, 1, &["run/tor.csv"]);
+    succeed(&folder, &["inverse", &path, "-o", "run"]);
+    succeed(&folder, &["forward", &path, "-o", "again"]);
 }
 
 #[test]
@@ -244,7 +271,7 @@ fn a_result_is_not_overwritten_unless_it_must_be() {
     let path = scenario(&folder, "two_link.toml", SWING);
     succeed(&folder, &["forward", &path]);
     assert_eq!(names(&folder), ["results", "trial.toml"]);
-    let result = folder.join("results/trial");
+    let result = folder.join("results/trial/forward");
     let before = fs::read(result.join("run.toml")).unwrap();
     let said = fail(&folder, &["forward", &path], 3);
     assert!(said.contains("there already") && said.contains("--force"), "{said}");

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use common::{Table, deviation, fail, scenario, scratch, succeed};
+use common::{Table, call, deviation, fail, scenario, scratch, succeed};
 
 /// The trajectory of two joints that a scenario's `trajectory` gives at the instants 0, 0.1, … 2 s, by rows of q, v, a.
 fn prescribed(name: &str, trajectory: &str) -> Table {
@@ -231,6 +231,37 @@ fn energy_is_what_the_actuators_give() {
     assert!((last("work [J]") - 9.0).abs() < 1e-8, "{}", last("work [J]"));
     assert!((last("kinetic [J]") - 9.0).abs() < 1e-8);
     assert!(last("drift [J]").abs() < 1e-8);
+}
+
+/// Two sliders on one another, of which the second has no actuator.
+fn passive(name: &str, law: &str) -> (Table, String) {
+    let folder = scratch(name);
+    let second = "[[link]]\nname = 'passive'\nparent = 'mass'\njoint = 'prismatic'\naxis = [0, 1, 0]\nmass = 1.0\n\
+                  actuated = false\n";
+    fs::write(folder.join("model.toml"), format!("{SLIDER}{second}")).unwrap();
+    let text = format!(
+        "model = 'model.toml'\ntrajectory = {{ kind = 'constant-speed', from = [1, 1], speed = [1, 1] }}\n\
+         [forward]\nend = 1.0\nstep = 0.1\ntorque = {{ {law} }}\n"
+    );
+    fs::write(folder.join("trial.toml"), text).unwrap();
+    let output = call(&folder, &["forward", "trial.toml", "-o", "run"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    (Table::csv(&folder.join("run/tor.csv")), said)
+}
+
+#[test]
+fn a_tracking_law_drives_what_has_an_actuator() {
+    let (forces, said) = passive("tracking-passive", "law = 'tracking-pd', kp = 10, kd = 8");
+    assert!(forces.column("tau passive [N]").iter().all(|force| *force == 0.0) && said.is_empty(), "{said}");
+    assert!(forces.column("tau mass [N]").iter().any(|force| *force > 1.0));
+}
+
+#[test]
+fn a_spring_at_a_joint_without_actuator_is_warned_of() {
+    let (forces, said) = passive("spring-passive", "law = 'p', joints = ['passive'], target = [1], kp = 10");
+    assert!(said.contains("drives the joint `passive`, which has no actuator") && said.contains("^"), "{said}");
+    assert!(forces.column("tau passive [N]").iter().any(|force| *force > 1.0));
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::interrupt;
 use crate::output::say;
 use crate::progress::Progress;
 use crate::results::{self, Ended, Record, Summary};
-use crate::scenario::{Forward, Law, Scenario};
+use crate::scenario::{Forward, Law, Run, Scenario};
 
 /// Compute how a mechanism moves, and write it into a folder.
 #[derive(clap::Args)]
@@ -28,7 +28,7 @@ pub struct Arguments {
 /// Computes the motion and writes it.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
-    let scenario = Scenario::load(&results.scenario, quiet)?;
+    let scenario = Scenario::load(&results.scenario, Run::Forward, quiet)?;
     let forward = scenario.forward.as_ref().ok_or_else(|| {
         let message = format!("{} does not say which motion is to be computed", results.scenario.display());
         Failure::input(message).help("add a table, as in: forward = { end = 1.0, step = 0.01 }")
@@ -176,7 +176,7 @@ fn start(
 }
 
 fn law<'a>(scenario: &'a Scenario, forward: &'a Forward) -> Law<'a> {
-    forward.torque.law(&scenario.mechanism, scenario.trajectory.as_ref())
+    forward.torque.law(&scenario.mechanism)
 }
 
 fn summary(scenario: &Scenario, forward: &Forward, record: &Record, ended: Ended) -> Summary {

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::results::{self, Ended, Record, Summary};
-use crate::scenario::{Prescribed, Scenario, Span};
+use crate::scenario::{Prescribed, Run, Scenario, Span};
 
 /// Compute the forces that a prescribed motion takes, and write them into a folder.
 #[derive(clap::Args)]
@@ -21,7 +21,7 @@ pub struct Arguments {
 /// Computes the forces and writes them.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
-    let scenario = Scenario::load(&results.scenario, quiet)?;
+    let scenario = Scenario::load(&results.scenario, Run::Inverse, quiet)?;
     let missing = |what: &str, help: &str| {
         Failure::input(format!("{} does not say {what}", results.scenario.display())).help(help)
     };

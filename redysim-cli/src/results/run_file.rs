@@ -29,8 +29,8 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         let table = &mut document["trajectory"];
         keep(&mut table["kind"], value("cycloid"));
         keep(&mut table["joints"], value(trajectory.joints.iter().map(name).collect::<Array>()));
-        if let Some(path) = &trajectory.table {
-            folder.copy("trajectory.csv", path)?;
+        if let Some(read) = &trajectory.table {
+            folder.copy("trajectory.csv", read.path())?;
             table["file"] = value("trajectory.csv");
         }
     }
@@ -43,8 +43,11 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         settings(&mut table["integrator"], forward.integrator);
         named(&mut table["torque"], "law");
         keep(&mut table["torque"]["law"], value("free"));
-        if let Actuation::Table(forces) = &forward.torque {
-            folder.copy("torque.csv", &forces.path)?;
+        if let Some(joints) = forward.torque.joints() {
+            keep(&mut table["torque"]["joints"], value(joints.iter().map(name).collect::<Array>()));
+        }
+        if let Actuation::Table { forces, .. } = &forward.torque {
+            folder.copy("torque.csv", forces.table.path())?;
             table["torque"]["file"] = value("torque.csv");
         }
         if scenario.loops() {

@@ -1,7 +1,11 @@
 //! Scenarios: what is to be computed of a model, in TOML.
 
+mod forces;
+mod forward;
+mod initial;
 mod integrator;
 pub mod joints;
+mod law;
 mod manual;
 mod span;
 mod table;
@@ -12,16 +16,28 @@ use std::path::{Path, PathBuf};
 
 use redysim_model::GenericMechanism;
 use redysim_model::document::{self, Field, Message, Reader, Shape};
-use redysim_runtime::Stabilisation;
 use toml::de::DeValue;
 
 use crate::commands;
 use crate::failure::Failure;
+pub use forward::Forward;
+pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances};
-use joints::{Joint, Quantity, values};
+use joints::Joint;
+pub use law::Law;
 pub use span::Span;
-pub use torque::{Actuation, Law};
+use table::Table;
+pub use torque::Actuation;
 pub use trajectory::Prescribed;
+
+/// What may be computed of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Run {
+    /// The forces that a prescribed motion takes.
+    Inverse,
+    /// The motion that forces make.
+    Forward,
+}
 
 /// What is to be computed of a model.
 pub struct Scenario {
@@ -39,47 +55,22 @@ pub struct Scenario {
     pub initial: Initial,
     /// The motion that is prescribed or followed.
     pub trajectory: Option<Prescribed>,
-    /// What inverse dynamics is asked for.
+    /// What inverse dynamics is asked for, if that is the run.
     pub inverse: Option<Span>,
-    /// What motion is asked for.
+    /// What motion is asked for, if that is the run.
     pub forward: Option<Forward>,
-}
-
-/// A start.
-pub struct Initial {
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    /// Whether closed loops are closed from there.
-    pub assemble: bool,
-    /// The joints that stay where they are while loops are closed.
-    pub held: Vec<usize>,
-}
-
-/// A motion that is to be computed.
-pub struct Forward {
-    pub span: Span,
-    pub integrator: Integrator,
-    pub torque: Actuation,
-    /// What keeps loops closed.
-    pub stabilisation: Stabilisation<f64>,
 }
 
 const SCENARIO: Shape =
     Shape { owner: "A scenario", keys: &["name", "model", "initial", "trajectory", "inverse", "forward", "run"] };
-const INITIAL: Shape = Shape { owner: "`initial`", keys: &["q", "v", "assemble", "held"] };
 const INVERSE: Shape = Shape { owner: "`inverse`", keys: &["start", "end", "step"] };
-const FORWARD: Shape =
-    Shape { owner: "`forward`", keys: &["start", "end", "step", "integrator", "torque", "stabilisation"] };
-
-const PLAIN: Shape = Shape { owner: "This stabilisation", keys: &["kind"] };
-const BAUMGARTE: Shape = Shape { owner: "Baumgarte's stabilisation", keys: &["kind", "alpha"] };
-
 impl Scenario {
-    /// Reads a scenario and its model, and prints their warnings unless `quiet`.
+    /// Reads what a scenario says of a run, and its model, and prints their warnings unless `quiet`. What it says of the other
+    /// run may wait for what this one writes.
     ///
     /// # Errors
     /// Every fault of the scenario at once; or those of the model, or the first of a table.
-    pub fn load(path: &Path, quiet: bool) -> Result<Scenario, Failure> {
+    pub fn load(path: &Path, run: Run, quiet: bool) -> Result<Scenario, Failure> {
         let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
         let text = String::from_utf8(bytes).map_err(|_| {
             Failure::input(format!("{} is not UTF-8", path.display()))
@@ -88,7 +79,7 @@ impl Scenario {
         let mut failure = None;
         let shown = path.display().to_string();
         let read = document::read(text.clone(), shown, &manual::MANUAL, &SCENARIO, "the scenario", |reader| {
-            read(reader, path, text, quiet, &mut failure)
+            read(reader, path, text, run, quiet, &mut failure)
         });
         if let Some(failure) = failure {
             return Err(failure);
@@ -110,13 +101,44 @@ impl Scenario {
 
     /// Fails unless the tables that are used go as far as the runs that use them.
     fn check_tables(&self) -> Result<(), Failure> {
+        let cover = |table: Option<&Table>, span: Span| table.map_or(Ok(()), |table| table.cover(span.start, span.end));
         if let (Some(span), Some(trajectory)) = (self.inverse, &self.trajectory) {
-            trajectory.cover(span.start, span.end)?;
+            cover(trajectory.table.as_ref(), span)?;
         }
         let Some(Forward { span, torque, .. }) = &self.forward else { return Ok(()) };
-        match &self.trajectory {
-            Some(trajectory) if torque.follows() => trajectory.cover(span.start, span.end),
-            _ => torque.cover(span.start, span.end),
+        cover(torque.followed().and_then(|trajectory| trajectory.table.as_ref()), *span)?;
+        match torque {
+            Actuation::Table { forces, .. } => cover(Some(&forces.table), *span),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What a scenario is about.
+pub struct Subject<'s> {
+    joints: &'s [Joint],
+    loops: bool,
+    /// Where the files are that it names.
+    folder: &'s Path,
+}
+
+impl Subject<'_> {
+    /// The joints that have an actuator.
+    fn actuated(&self) -> Vec<usize> {
+        indices(self.joints, |joint| joint.actuated)
+    }
+
+    /// What `read` makes of the table that stands under `file`; its faults are shown there.
+    fn table<T>(&self, reader: &mut Reader<'_, '_>, read: impl FnOnce(Table) -> Result<T, Failure>) -> Option<T> {
+        let file = reader.text("file");
+        let file = reader.required("file", file);
+        let named = file.spanned()?;
+        match Table::read(&self.folder.join(named.get_ref())).and_then(read) {
+            Ok(read) => Some(read),
+            Err(fault) => {
+                let (title, help) = (fault.message().to_owned(), fault.advice().to_owned());
+                reader.fault_at(named.span(), Message { title, label: "named here".into(), help })
+            }
         }
     }
 }
@@ -125,6 +147,7 @@ fn read(
     mut reader: Reader<'_, '_>,
     path: &Path,
     text: String,
+    run: Run,
     quiet: bool,
     failure: &mut Option<Failure>,
 ) -> Option<Scenario> {
@@ -144,21 +167,14 @@ fn read(
         }
     };
     let joints = joints::of_model(mechanism.model());
-    let loops = !mechanism.model().loops.is_empty();
-    let all: Vec<usize> = (0..joints.len()).collect();
-    let actuated = indices(&joints, |joint| joint.actuated);
-    let initial = initial(&mut reader, &joints, &all, &actuated);
-    let independent = if loops { &actuated } else { &all };
-    let trajectory = Prescribed::read(&mut reader, &joints, independent, folder, failure);
-    let followed = trajectory.as_ref().and_then(Option::as_ref);
-    let inverse = reader.table("inverse", &INVERSE, |mut reader| Span::read(&mut reader));
-    let forward = reader.table("forward", &FORWARD, |mut reader| {
-        let span = Span::read(&mut reader);
-        let integrator = Integrator::read(&mut reader);
-        let torque = Actuation::read(&mut reader, &joints, loops, followed, folder, failure);
-        let stabilisation = stabilisation(&mut reader);
-        Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
-    });
+    let subject = Subject { joints: &joints, loops: !mechanism.model().loops.is_empty(), folder };
+    let initial = Initial::read(&mut reader, &subject);
+    let trajectory = Prescribed::read(&mut reader, &subject);
+    let followed = trajectory.as_ref().map(Option::as_ref);
+    let (inverse, forward) = match run {
+        Run::Inverse => (reader.table("inverse", &INVERSE, |mut reader| Span::read(&mut reader)), Field::Missing),
+        Run::Forward => (Field::Missing, Forward::read(&mut reader, &subject, followed)),
+    };
     let (inverse, forward) = (asked(inverse)?, asked(forward)?);
     let (name, initial, trajectory) = (name?, initial?, trajectory?);
     Some(Scenario { name, text, model_path, mechanism, joints, initial, trajectory, inverse, forward })
@@ -178,37 +194,6 @@ fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
         let help = "the results go to a folder of this name: give one without / and not empty".to_owned();
         reader.fault(value, Message { title, label: "no name of a folder".into(), help })
     })
-}
-
-fn initial(reader: &mut Reader<'_, '_>, joints: &[Joint], all: &[usize], actuated: &[usize]) -> Option<Initial> {
-    let rest = || vec![0.0; joints.len()];
-    let field = reader.table("initial", &INITIAL, |mut reader| {
-        let q = values(&mut reader, "q", Quantity::Coordinate, joints, all).value_or(rest());
-        let v = values(&mut reader, "v", Quantity::Rate, joints, all).value_or(rest());
-        let assemble = reader.flag("assemble").value_or(true);
-        let held = joints::some(&mut reader, "held", joints).value_or(actuated.to_vec());
-        Some(Initial { q: q?, v: v?, assemble: assemble?, held: held? })
-    });
-    match asked(field)? {
-        Some(initial) => Some(initial),
-        None => Some(Initial { q: rest(), v: rest(), assemble: true, held: actuated.to_vec() }),
-    }
-}
-
-fn stabilisation(reader: &mut Reader<'_, '_>) -> Option<Stabilisation<f64>> {
-    let kind = |name, kind| (name, (kind, &PLAIN));
-    let kinds = [
-        kind("projection", Some(Stabilisation::Projection)),
-        kind("none", Some(Stabilisation::None)),
-        ("baumgarte", (None, &BAUMGARTE)),
-    ];
-    let field = reader.table_of_kind("stabilisation", "kind", &kinds, kinds[0].1, |mut reader, kind| {
-        kind.or_else(|| {
-            let alpha = reader.positive("alpha");
-            Some(Stabilisation::Baumgarte { alpha: *reader.required("alpha", alpha).value()? })
-        })
-    });
-    field.value_or(Some(Stabilisation::Projection))?
 }
 
 /// What a table says, if it is there; `None` where it is faulty.

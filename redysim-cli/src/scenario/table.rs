@@ -8,6 +8,7 @@ use super::joints::Joint;
 use crate::failure::Failure;
 
 /// A table as it is read.
+#[derive(Clone, Debug)]
 pub struct Table {
     path: PathBuf,
     /// The instants, s, in order.
@@ -17,6 +18,7 @@ pub struct Table {
 }
 
 /// `q joint1 [rad]`, taken apart.
+#[derive(Clone, Debug)]
 struct Header {
     symbol: String,
     name: String,

@@ -1,65 +1,51 @@
 //! What the actuators do.
 
-use std::path::{Path, PathBuf};
-
 use redysim_model::GenericMechanism;
-use redysim_model::document::{Message, Reader, Shape};
+use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Free, LoopError, Proportional, ProportionalDerivative,
-    TorqueLaw, TrackingPd,
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Free, Proportional, ProportionalDerivative, TrackingPd,
 };
 
+use super::forces::Forces;
 use super::joints::{Joint, Quantity, some, values};
-use super::spread;
-use super::table::Table;
-use super::trajectory::{Prescribed, Spread};
-use crate::failure::Failure;
+use super::law::Law;
+use super::trajectory::Prescribed;
+use super::{Subject, spread};
 
-/// A torque law, as the scenario has it: with one entry for each coordinate, zero where no actuator is.
+/// A torque law, as the scenario has it: with one entry for each coordinate, zero for those that it does not drive.
 #[derive(Clone, Debug)]
 pub enum Actuation {
     Free,
     P {
+        joints: Vec<usize>,
         target: Vec<f64>,
         kp: Vec<f64>,
     },
     Pd {
+        joints: Vec<usize>,
         target: Vec<f64>,
         kp: Vec<f64>,
         kd: Vec<f64>,
     },
-    /// A spring and a damper to the scenario's trajectory.
+    /// A spring and a damper to a motion.
     TrackingPd {
+        joints: Vec<usize>,
+        trajectory: Prescribed,
         kp: Vec<f64>,
         kd: Vec<f64>,
     },
-    /// The same, with the model; of closed loops, for the independent coordinates that the trajectory prescribes.
+    /// The same, with the model; of closed loops, for the independent coordinates that are prescribed.
     ComputedTorque {
+        actuated: Vec<usize>,
+        trajectory: Prescribed,
         kp: Vec<f64>,
         kd: Vec<f64>,
-        actuated: Vec<usize>,
     },
     /// Forces over time.
-    Table(Forces),
-}
-
-/// Joint forces over time, with straight lines between the rows of a table.
-#[derive(Clone, Debug)]
-pub struct Forces {
-    /// Where they were read from.
-    pub path: PathBuf,
-    t: Vec<f64>,
-    rows: Vec<Vec<f64>>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Tag {
-    Free,
-    P,
-    Pd,
-    TrackingPd,
-    ComputedTorque,
-    Table,
+    Table {
+        joints: Vec<usize>,
+        forces: Forces,
+    },
 }
 
 const FREE: Shape = Shape { owner: "The law `free`", keys: &["law"] };
@@ -68,183 +54,167 @@ const PD: Shape = Shape { owner: "The law `pd`", keys: &["law", "joints", "targe
 const TRACKING: Shape = Shape { owner: "The law `tracking-pd`", keys: &["law", "joints", "kp", "kd"] };
 const COMPUTED: Shape = Shape { owner: "The law `computed-torque`", keys: &["law", "kp", "kd"] };
 const TABLE: Shape = Shape { owner: "The law `csv`", keys: &["law", "joints", "file"] };
-const LAWS: [(&str, (Tag, &Shape)); 6] = [
-    ("free", (Tag::Free, &FREE)),
-    ("p", (Tag::P, &P)),
-    ("pd", (Tag::Pd, &PD)),
-    ("tracking-pd", (Tag::TrackingPd, &TRACKING)),
-    ("computed-torque", (Tag::ComputedTorque, &COMPUTED)),
-    ("csv", (Tag::Table, &TABLE)),
+const LAWS: [(&str, (Kind, &Shape)); 6] = [
+    ("free", (|_| Some(Actuation::Free), &FREE)),
+    ("p", (|law| law.p(), &P)),
+    ("pd", (|law| law.pd(), &PD)),
+    ("tracking-pd", (|law| law.tracking_pd(), &TRACKING)),
+    ("computed-torque", (|law| law.computed_torque(), &COMPUTED)),
+    ("csv", (|law| law.table(), &TABLE)),
 ];
 
+/// How the keys of a law are read.
+type Kind = fn(Source<'_, '_, '_>) -> Option<Actuation>;
+
+/// What a law is read from.
+struct Source<'s, 'a, 'f> {
+    reader: Reader<'a, 'f>,
+    subject: &'s Subject<'s>,
+    /// The scenario's trajectory, if it has one; `None` where that is faulty.
+    trajectory: Option<Option<&'s Prescribed>>,
+}
+
 impl Actuation {
-    /// Reads the table `torque`; without one, nothing drives the joints. A table of numbers is looked for in `folder`;
-    /// what is wrong with it goes to `failure`.
+    /// Reads the table `torque`; without one, nothing drives the joints. Where `trajectory` is `None`, what is wrong with it
+    /// has been reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
-        joints: &[Joint],
-        loops: bool,
-        trajectory: Option<&Prescribed>,
-        folder: &Path,
-        failure: &mut Option<Failure>,
+        subject: &Subject<'_>,
+        trajectory: Option<Option<&Prescribed>>,
     ) -> Option<Actuation> {
-        let actuated: Vec<usize> = super::indices(joints, |joint| joint.actuated);
-        let field = reader.table_of_kind("torque", "law", &LAWS, LAWS[0].1, |mut reader, tag| {
-            if tag == Tag::Free {
-                return Some(Actuation::Free);
-            }
-            let usual = match (tag, trajectory) {
-                (Tag::TrackingPd | Tag::ComputedTorque, None) => return unfollowed(&mut reader),
-                (Tag::TrackingPd | Tag::ComputedTorque, Some(trajectory)) => &trajectory.joints,
-                _ => &actuated,
-            };
-            let chosen = some(&mut reader, "joints", joints).value_or(usual.clone())?;
-            if tag == Tag::Table {
-                let file = reader.text("file");
-                let file = reader.required("file", file);
-                match Forces::read(&folder.join(file.value()?), joints, &chosen) {
-                    Ok(forces) => return Some(Actuation::Table(forces)),
-                    Err(fault) => *failure = Some(fault),
-                }
-                return None;
-            }
-            let mut of = |key: &str, quantity: Quantity| {
-                let field = values(&mut reader, key, quantity, joints, &chosen);
-                Some(spread(&chosen, reader.required(key, field).value()?, joints.len()))
-            };
-            let kp = of("kp", Quantity::Gain);
-            let law = match tag {
-                Tag::P => Actuation::P { target: of("target", Quantity::Coordinate)?, kp: kp? },
-                Tag::Pd => {
-                    let (target, kd) = (of("target", Quantity::Coordinate), of("kd", Quantity::Gain));
-                    Actuation::Pd { target: target?, kp: kp?, kd: kd? }
-                }
-                Tag::TrackingPd => Actuation::TrackingPd { kp: kp?, kd: of("kd", Quantity::Gain)? },
-                _ => Actuation::ComputedTorque { kp: kp?, kd: of("kd", Quantity::Gain)?, actuated: actuated.clone() },
-            };
-            let prescribed = trajectory.map_or(&[][..], |trajectory| &trajectory.joints);
-            match (tag, chosen.iter().find(|joint| !prescribed.contains(joint))) {
-                (Tag::TrackingPd | Tag::ComputedTorque, Some(&joint)) => astray(&mut reader, &joints[joint]),
-                (Tag::ComputedTorque, None) if !loops => check_tree(&mut reader, joints, prescribed).map(|()| law),
-                _ => Some(law),
-            }
-        });
-        if field.is_missing() { Some(Actuation::Free) } else { field.value()?.clone() }
-    }
-
-    /// Whether it follows the scenario's trajectory.
-    pub fn follows(&self) -> bool {
-        matches!(self, Actuation::TrackingPd { .. } | Actuation::ComputedTorque { .. })
-    }
-
-    /// The law as it acts on `mechanism`.
-    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, trajectory: Option<&'a Prescribed>) -> Law<'a> {
-        let count = mechanism.model().dof();
-        match (self, trajectory) {
-            (Actuation::P { target, kp }, _) => Law::P(Proportional { target: target.clone(), kp: kp.clone() }),
-            (Actuation::Pd { target, kp, kd }, _) => {
-                Law::Pd(ProportionalDerivative { target: target.clone(), kp: kp.clone(), kd: kd.clone() })
-            }
-            (Actuation::TrackingPd { kp, kd }, Some(trajectory)) => {
-                Law::TrackingPd(TrackingPd { trajectory: trajectory.spread(count), kp: kp.clone(), kd: kd.clone() })
-            }
-            (Actuation::ComputedTorque { kp, kd, .. }, Some(trajectory)) if mechanism.model().loops.is_empty() => {
-                let trajectory = trajectory.spread(count);
-                Law::ComputedTorque(ComputedTorque { mechanism, trajectory, kp: kp.clone(), kd: kd.clone() })
-            }
-            (Actuation::ComputedTorque { kp, kd, actuated }, Some(trajectory)) => {
-                let independent = trajectory.joints.as_slice();
-                let gains = [kp, kd].map(|gains| independent.iter().map(|&joint| gains[joint]).collect());
-                let law = ClosedLoopComputedTorque::new(ClosedLoop::new(mechanism), independent, trajectory, gains);
-                Law::LoopComputedTorque(law.actuated(actuated))
-            }
-            (Actuation::Table(forces), _) => Law::Table(forces),
-            // Reading a scenario has made sure that there is a trajectory to follow.
-            (Actuation::Free | Actuation::TrackingPd { .. } | Actuation::ComputedTorque { .. }, _) => Law::Free(Free),
+        let read = |reader: Reader<'_, '_>, law: Kind| law(Source { reader, subject, trajectory });
+        match reader.table_of_kind("torque", "law", &LAWS, LAWS[0].1, read) {
+            Field::Missing => Some(Actuation::Free),
+            field => field.value()?.clone(),
         }
     }
 
-    /// Fails unless a table, where the forces come from one, goes from `start` to `end`.
-    pub fn cover(&self, start: f64, end: f64) -> Result<(), Failure> {
+    /// The joints that the law was told to drive, or does unless told.
+    pub fn joints(&self) -> Option<&[usize]> {
         match self {
-            Actuation::Table(forces) => Table::read(&forces.path)?.cover(start, end),
-            _ => Ok(()),
+            Actuation::Free | Actuation::ComputedTorque { .. } => None,
+            Actuation::P { joints, .. }
+            | Actuation::Pd { joints, .. }
+            | Actuation::TrackingPd { joints, .. }
+            | Actuation::Table { joints, .. } => Some(joints),
         }
     }
-}
 
-/// A law on a mechanism.
-pub enum Law<'a> {
-    Free(Free),
-    P(Proportional<Vec<f64>, Vec<f64>>),
-    Pd(ProportionalDerivative<Vec<f64>, Vec<f64>>),
-    TrackingPd(TrackingPd<Spread<'a>, Vec<f64>>),
-    ComputedTorque(ComputedTorque<'a, GenericMechanism, Spread<'a>, Vec<f64>>),
-    LoopComputedTorque(ClosedLoopComputedTorque<'a, f64, GenericMechanism, &'a Prescribed, Vec<f64>>),
-    Table(&'a Forces),
-}
-
-type Pair<'a> = (&'a Vec<f64>, &'a Vec<f64>);
-
-impl Law<'_> {
-    /// Why the forces asked for last are not numbers, if the law knows.
-    pub fn last_error(&self) -> Option<LoopError<f64>> {
+    /// What the law follows, if it follows a motion.
+    pub fn followed(&self) -> Option<&Prescribed> {
         match self {
-            Law::LoopComputedTorque(law) => law.last_error(),
+            Actuation::TrackingPd { trajectory, .. } | Actuation::ComputedTorque { trajectory, .. } => Some(trajectory),
             _ => None,
         }
     }
 
-    fn inner(&mut self) -> &mut dyn TorqueLaw<f64, GenericMechanism> {
+    /// The law as it acts on `mechanism`.
+    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism) -> Law<'a> {
+        let count = mechanism.model().dof();
         match self {
-            Law::Free(law) => law,
-            Law::P(law) => law,
-            Law::Pd(law) => law,
-            Law::TrackingPd(law) => law,
-            Law::ComputedTorque(law) => law,
-            Law::LoopComputedTorque(law) => law,
-            Law::Table(law) => law,
+            Actuation::Free => Law::total(Free),
+            Actuation::P { target, kp, .. } => Law::total(Proportional { target: target.clone(), kp: kp.clone() }),
+            Actuation::Pd { target, kp, kd, .. } => {
+                Law::total(ProportionalDerivative { target: target.clone(), kp: kp.clone(), kd: kd.clone() })
+            }
+            Actuation::TrackingPd { trajectory, kp, kd, .. } => {
+                Law::total(TrackingPd { trajectory: trajectory.spread(count), kp: kp.clone(), kd: kd.clone() })
+            }
+            Actuation::ComputedTorque { trajectory, kp, kd, .. } if mechanism.model().loops.is_empty() => {
+                let trajectory = trajectory.spread(count);
+                Law::total(ComputedTorque { mechanism, trajectory, kp: kp.clone(), kd: kd.clone() })
+            }
+            Actuation::ComputedTorque { actuated, trajectory, kp, kd } => {
+                let independent = trajectory.joints.as_slice();
+                let gains = [kp, kd].map(|gains| independent.iter().map(|&joint| gains[joint]).collect());
+                let law = ClosedLoopComputedTorque::new(ClosedLoop::new(mechanism), independent, trajectory, gains);
+                Law::OfLoops(law.actuated(actuated))
+            }
+            Actuation::Table { forces, .. } => Law::total(forces),
         }
     }
 }
 
-impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
-    fn torque(&mut self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
-        self.inner().torque(t, q, v)
+impl<'s> Source<'s, '_, '_> {
+    fn p(mut self) -> Option<Actuation> {
+        let joints = self.driven(self.subject.actuated())?;
+        let [target, kp] = [self.targets(&joints), self.gains("kp", &joints)];
+        Some(Actuation::P { joints, target: target?, kp: kp? })
     }
 
-    fn torque_tangent(&mut self, t: f64, at: Pair<'_>, slopes: Pair<'_>) -> Option<Vec<f64>> {
-        self.inner().torque_tangent(t, at, slopes)
-    }
-}
-
-impl Forces {
-    fn read(path: &Path, joints: &[Joint], chosen: &[usize]) -> Result<Forces, Failure> {
-        let table = Table::read(path)?;
-        let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
-        let rows = table.of_joints("tau", &of, None)?;
-        let rows =
-            rows.ok_or_else(|| table.fault("it has no forces", "add a column `tau <joint> [N m]` for each joint"))?;
-        let rows = rows.iter().map(|row| spread(chosen, row, joints.len())).collect();
-        Ok(Forces { path: table.path().to_owned(), t: table.t, rows })
+    fn pd(mut self) -> Option<Actuation> {
+        let joints = self.driven(self.subject.actuated())?;
+        let [target, kp, kd] = [self.targets(&joints), self.gains("kp", &joints), self.gains("kd", &joints)];
+        Some(Actuation::Pd { joints, target: target?, kp: kp?, kd: kd? })
     }
 
-    fn at(&self, t: f64) -> Vec<f64> {
-        let right = self.t.partition_point(|&time| time <= t).clamp(1, self.t.len() - 1);
-        let (from, to) = (&self.rows[right - 1], &self.rows[right]);
-        // Beyond the ends, by rounding or within a last step, the forces are those of the ends.
-        let part = ((t - self.t[right - 1]) / (self.t[right] - self.t[right - 1])).clamp(0.0, 1.0);
-        from.iter().zip(to).map(|(from, to)| from + part * (to - from)).collect()
+    fn tracking_pd(mut self) -> Option<Actuation> {
+        let trajectory = self.followed()?;
+        let actuated = self.subject.actuated();
+        let usual = trajectory.joints.iter().copied().filter(|joint| actuated.contains(joint)).collect();
+        let joints = self.driven(usual)?;
+        let [kp, kd] = [self.gains("kp", &joints), self.gains("kd", &joints)];
+        if let Some(&joint) = joints.iter().find(|joint| !trajectory.joints.contains(joint)) {
+            return astray(&mut self.reader, &self.subject.joints[joint]);
+        }
+        if joints.is_empty() {
+            return idle(&mut self.reader);
+        }
+        Some(Actuation::TrackingPd { joints, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
     }
-}
 
-impl TorqueLaw<f64, GenericMechanism> for &Forces {
-    fn torque(&mut self, t: f64, _q: &Vec<f64>, _v: &Vec<f64>) -> Vec<f64> {
-        self.at(t)
+    fn computed_torque(mut self) -> Option<Actuation> {
+        let trajectory = self.followed()?;
+        let [kp, kd] = ["kp", "kd"].map(|key| self.gains(key, &trajectory.joints));
+        if !self.subject.loops {
+            check_tree(&mut self.reader, self.subject.joints, &trajectory.joints)?;
+        }
+        let actuated = self.subject.actuated();
+        Some(Actuation::ComputedTorque { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
     }
 
-    fn torque_tangent(&mut self, _t: f64, _at: Pair<'_>, (_, dv): Pair<'_>) -> Option<Vec<f64>> {
-        Some(vec![0.0; dv.len()])
+    fn table(mut self) -> Option<Actuation> {
+        let joints = self.driven(self.subject.actuated())?;
+        let forces = self.subject.table(&mut self.reader, |table| Forces::of(table, self.subject.joints, &joints))?;
+        Some(Actuation::Table { joints, forces })
+    }
+
+    /// The motion that the law follows.
+    fn followed(&mut self) -> Option<&'s Prescribed> {
+        self.trajectory?.or_else(|| unfollowed(&mut self.reader))
+    }
+
+    /// The joints that the law drives, `usual` unless it says which.
+    fn driven(&mut self, usual: Vec<usize>) -> Option<Vec<usize>> {
+        let field = some(&mut self.reader, "joints", self.subject.joints);
+        let passive = |joint: &&usize| !self.subject.joints[**joint].actuated;
+        if let Some(named) = field.spanned()
+            && let Some(&joint) = named.get_ref().iter().find(passive)
+        {
+            let name = &self.subject.joints[joint].name;
+            let item = self.reader.item();
+            let message = Message {
+                title: format!("{item}: the torque law drives the joint `{name}`, which has no actuator"),
+                label: "one of these".into(),
+                help: "well if a spring or a damper is there; else leave it out, or give it an actuator".into(),
+            };
+            self.reader.warning(named.span(), message);
+        }
+        field.value_or(usual)
+    }
+
+    fn targets(&mut self, joints: &[usize]) -> Option<Vec<f64>> {
+        self.of("target", Quantity::Coordinate, joints)
+    }
+
+    fn gains(&mut self, key: &str, joints: &[usize]) -> Option<Vec<f64>> {
+        self.of(key, Quantity::Gain, joints)
+    }
+
+    /// What stands under `key` for the joints `of`, as one entry for each coordinate.
+    fn of(&mut self, key: &str, quantity: Quantity, of: &[usize]) -> Option<Vec<f64>> {
+        let field = values(&mut self.reader, key, quantity, self.subject.joints, of);
+        Some(spread(of, self.reader.required(key, field).value()?, self.subject.joints.len()))
     }
 }
 
@@ -253,6 +223,14 @@ fn unfollowed<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
         title: format!("{}: the torque law follows a trajectory, and there is none", reader.item()),
         label: "follows what?".into(),
         help: "add a table `[trajectory]`".into(),
+    })
+}
+
+fn idle<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
+    reader.fault_of_table(Message {
+        title: format!("{}: no joint that the trajectory prescribes has an actuator", reader.item()),
+        label: "drives nothing".into(),
+        help: "prescribe actuated joints, or name those that the law drives under `joints`".into(),
     })
 }
 
@@ -273,7 +251,9 @@ fn check_tree(reader: &mut Reader<'_, '_>, joints: &[Joint], prescribed: &[usize
     let passive = joints.iter().find(|joint| !joint.actuated);
     let free = joints.iter().enumerate().find(|(index, _)| !prescribed.contains(index)).map(|(_, joint)| joint);
     let (joint, what, help) = match (passive, free) {
-        (Some(joint), _) => (joint, "has no actuator", "take the law `tracking-pd`, or actuate every joint"),
+        (Some(joint), _) => {
+            (joint, "has no actuator", "take the law `tracking-pd` for the others, or actuate every joint")
+        }
         (None, Some(joint)) => (joint, "is not prescribed", "name all joints among the `joints` of `[trajectory]`"),
         (None, None) => return Some(()),
     };

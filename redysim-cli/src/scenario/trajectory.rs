@@ -1,11 +1,10 @@
 //! Prescribed motions.
 
-use std::path::{Path, PathBuf};
-
 use redysim_model::document::{Message, Reader, Shape};
 use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
 use toml::Spanned;
 
+use super::Subject;
 use super::joints::{Joint, Quantity, points, some, values};
 use super::table::Table;
 use crate::failure::Failure;
@@ -16,7 +15,7 @@ pub struct Prescribed {
     /// The coordinates that it prescribes.
     pub joints: Vec<usize>,
     /// The table that it is read from, if it is.
-    pub table: Option<PathBuf>,
+    pub table: Option<Table>,
     motion: Kind,
 }
 
@@ -60,17 +59,13 @@ const KINDS: [(&str, (Tag, &Shape)); 5] = [
 ];
 
 impl Prescribed {
-    /// Reads the table `trajectory`, if there is one, of the joints `usual` unless it names others. A table of numbers is
-    /// looked for in `folder`, and must cover all `spans`; what is wrong with it goes to `failure`.
-    pub fn read(
-        reader: &mut Reader<'_, '_>,
-        joints: &[Joint],
-        usual: &[usize],
-        folder: &Path,
-        failure: &mut Option<Failure>,
-    ) -> Option<Option<Prescribed>> {
+    /// Reads the table `trajectory`, if there is one: unless it says which joints it prescribes, those of a tree, and the
+    /// actuated ones of closed loops.
+    pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Option<Prescribed>> {
+        let joints = subject.joints;
+        let usual = if subject.loops { subject.actuated() } else { (0..joints.len()).collect() };
         let field = reader.table_of_kind("trajectory", "kind", &KINDS, KINDS[0].1, |mut reader, tag| {
-            let chosen = some(&mut reader, "joints", joints).value_or(usual.to_vec())?;
+            let chosen = some(&mut reader, "joints", joints).value_or(usual.clone())?;
             let coordinates = |reader: &mut Reader<'_, '_>, key: &str| {
                 let field = values(reader, key, Quantity::Coordinate, joints, &chosen);
                 reader.required(key, field).value().cloned()
@@ -100,31 +95,19 @@ impl Prescribed {
                     Kind::ViaPoints(accepted(&mut reader, spanned, through)?)
                 }
                 Tag::Table => {
-                    let file = reader.text("file");
-                    let file = reader.required("file", file);
-                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(Smooth::LeastJerk)?;
-                    let path = folder.join(file.value()?);
+                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(Smooth::LeastJerk);
                     let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
-                    match Table::read(&path).and_then(|table| from_table(&table, &of, smooth)) {
-                        Ok(through) => {
-                            let motion = Kind::ViaPoints(through);
-                            return Some(Prescribed { joints: chosen, table: Some(path), motion });
-                        }
-                        Err(fault) => {
-                            *failure = Some(fault);
-                            return None;
-                        }
-                    }
+                    let read = subject.table(&mut reader, |table| {
+                        let through = from_table(&table, &of, smooth.unwrap_or(Smooth::LeastJerk))?;
+                        Ok((table, through))
+                    });
+                    let (table, through) = read.filter(|_| smooth.is_some())?;
+                    return Some(Prescribed { joints: chosen, table: Some(table), motion: Kind::ViaPoints(through) });
                 }
             };
             Some(Prescribed { joints: chosen, table: None, motion })
         });
         if field.is_missing() { Some(None) } else { Some(Some(field.value()?.clone()?)) }
-    }
-
-    /// Fails unless a table, where the motion comes from one, goes from `start` to `end`.
-    pub fn cover(&self, start: f64, end: f64) -> Result<(), Failure> {
-        self.table.as_ref().map_or(Ok(()), |path| Table::read(path)?.cover(start, end))
     }
 
     /// The motion with one component for each of `count` coordinates; those that it does not prescribe are zero.

@@ -375,6 +375,11 @@ impl<'a, 'f> Reader<'a, 'f> {
         None
     }
 
+    /// Warns of what is at a place.
+    pub fn warning(&mut self, place: Range<usize>, message: Message) {
+        self.findings.warning(place, message);
+    }
+
     /// Reports a fault of the table as a whole. Always `None`.
     pub fn fault_of_table<T>(&mut self, message: Message) -> Option<T> {
         self.fault_at(self.place.clone(), message)

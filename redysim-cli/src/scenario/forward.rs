@@ -1,0 +1,55 @@
+//! A motion that is to be computed.
+
+use redysim_model::document::{Field, Reader, Shape};
+use redysim_runtime::Stabilisation;
+
+use super::{Actuation, Integrator, Prescribed, Span, Subject};
+
+/// A motion that is to be computed.
+pub struct Forward {
+    pub span: Span,
+    pub integrator: Integrator,
+    pub torque: Actuation,
+    /// What keeps loops closed.
+    pub stabilisation: Stabilisation<f64>,
+}
+
+const FORWARD: Shape =
+    Shape { owner: "`forward`", keys: &["start", "end", "step", "integrator", "torque", "stabilisation"] };
+
+const PLAIN: Shape = Shape { owner: "This stabilisation", keys: &["kind"] };
+const BAUMGARTE: Shape = Shape { owner: "Baumgarte's stabilisation", keys: &["kind", "alpha"] };
+
+impl Forward {
+    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None`, if what is wrong with that has been
+    /// reported.
+    pub fn read(
+        reader: &mut Reader<'_, '_>,
+        subject: &Subject<'_>,
+        trajectory: Option<Option<&Prescribed>>,
+    ) -> Field<Option<Forward>> {
+        reader.table("forward", &FORWARD, |mut reader| {
+            let span = Span::read(&mut reader);
+            let integrator = Integrator::read(&mut reader);
+            let torque = Actuation::read(&mut reader, subject, trajectory);
+            let stabilisation = stabilisation(&mut reader);
+            Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
+        })
+    }
+}
+
+fn stabilisation(reader: &mut Reader<'_, '_>) -> Option<Stabilisation<f64>> {
+    let kind = |name, kind| (name, (kind, &PLAIN));
+    let kinds = [
+        kind("projection", Some(Stabilisation::Projection)),
+        kind("none", Some(Stabilisation::None)),
+        ("baumgarte", (None, &BAUMGARTE)),
+    ];
+    let field = reader.table_of_kind("stabilisation", "kind", &kinds, kinds[0].1, |mut reader, kind| {
+        kind.or_else(|| {
+            let alpha = reader.positive("alpha");
+            Some(Stabilisation::Baumgarte { alpha: *reader.required("alpha", alpha).value()? })
+        })
+    });
+    field.value_or(Some(Stabilisation::Projection))?
+}

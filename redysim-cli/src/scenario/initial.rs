@@ -1,0 +1,38 @@
+//! Where a mechanism starts.
+
+use redysim_model::document::{Reader, Shape};
+
+use super::joints::{Quantity, some, values};
+use super::{Subject, asked};
+
+/// A start.
+pub struct Initial {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    /// Whether closed loops are closed from there.
+    pub assemble: bool,
+    /// The joints that stay where they are while loops are closed.
+    pub held: Vec<usize>,
+}
+
+const INITIAL: Shape = Shape { owner: "`initial`", keys: &["q", "v", "assemble", "held"] };
+
+impl Initial {
+    /// Reads the table `initial`; without one, all coordinates and velocities are zero.
+    pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Initial> {
+        let (joints, actuated) = (subject.joints, subject.actuated());
+        let all: Vec<usize> = (0..joints.len()).collect();
+        let rest = || vec![0.0; joints.len()];
+        let field = reader.table("initial", &INITIAL, |mut reader| {
+            let q = values(&mut reader, "q", Quantity::Coordinate, joints, &all).value_or(rest());
+            let v = values(&mut reader, "v", Quantity::Rate, joints, &all).value_or(rest());
+            let assemble = reader.flag("assemble").value_or(true);
+            let held = some(&mut reader, "held", joints).value_or(actuated.clone());
+            Some(Initial { q: q?, v: v?, assemble: assemble?, held: held? })
+        });
+        match asked(field)? {
+            Some(initial) => Some(initial),
+            None => Some(Initial { q: rest(), v: rest(), assemble: true, held: actuated }),
+        }
+    }
+}

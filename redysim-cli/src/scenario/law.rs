@@ -1,0 +1,47 @@
+//! Torque laws as they act on a mechanism.
+
+use redysim_model::GenericMechanism;
+use redysim_runtime::{ClosedLoopComputedTorque, LoopError, TorqueLaw};
+
+use super::trajectory::Prescribed;
+
+/// A law on a mechanism.
+pub enum Law<'a> {
+    /// One that has forces in every state.
+    Total(Box<dyn TorqueLaw<f64, GenericMechanism> + 'a>),
+    /// One that has none where the loops do not let the mechanism move as is wanted.
+    OfLoops(ClosedLoopComputedTorque<'a, f64, GenericMechanism, &'a Prescribed, Vec<f64>>),
+}
+
+type Pair<'a> = (&'a Vec<f64>, &'a Vec<f64>);
+
+impl<'a> Law<'a> {
+    /// A law that has forces in every state.
+    pub fn total(law: impl TorqueLaw<f64, GenericMechanism> + 'a) -> Self {
+        Law::Total(Box::new(law))
+    }
+
+    /// Why the forces asked for last are not numbers, if the law knows.
+    pub fn last_error(&self) -> Option<LoopError<f64>> {
+        match self {
+            Law::Total(_) => None,
+            Law::OfLoops(law) => law.last_error(),
+        }
+    }
+}
+
+impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
+    fn torque(&mut self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
+        match self {
+            Law::Total(law) => law.torque(t, q, v),
+            Law::OfLoops(law) => law.torque(t, q, v),
+        }
+    }
+
+    fn torque_tangent(&mut self, t: f64, at: Pair<'_>, slopes: Pair<'_>) -> Option<Vec<f64>> {
+        match self {
+            Law::Total(law) => law.torque_tangent(t, at, slopes),
+            Law::OfLoops(law) => law.torque_tangent(t, at, slopes),
+        }
+    }
+}
