@@ -148,16 +148,27 @@ fn scene_source(text: String) -> Arc<Source> {
     Arc::new(Source { name: "scene".into(), text })
 }
 
+/// More lines that are no TOML are not listed: the file is of another kind.
+const MOST_SYNTAX_ERRORS: usize = 10;
+
 /// Reports the first syntax error of each line; the parser stumbles on over the rest of a broken line.
 pub(crate) fn report_syntax(errors: &[Error], source: &Source, findings: &mut Findings) {
+    let start = source.text.len() - source.text.trim_start_matches('\u{feff}').trim_start().len();
+    if source.text[start..].starts_with('<') {
+        return findings.error(start..start + 1, messages::xml());
+    }
     let mut lines = Vec::new();
     for error in errors {
         let span = error.span().unwrap_or(Range::default());
         let line = source.place(&span).line;
-        if !lines.contains(&line) {
-            lines.push(line);
-            findings.error(span, messages::syntax(error.message()));
+        if lines.contains(&line) {
+            continue;
         }
+        if lines.len() == MOST_SYNTAX_ERRORS {
+            return findings.error(span, messages::more_is_no_toml());
+        }
+        lines.push(line);
+        findings.error(span, messages::syntax(error.message()));
     }
 }
 

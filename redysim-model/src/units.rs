@@ -11,17 +11,19 @@ pub(crate) enum NotAnAngle<'a> {
     Unit(&'a str),
 }
 
-/// Reads an angle with a unit, in radians. Multiples of 90 deg become k · π/2, which [`crate::rotation`] knows.
-pub(crate) fn angle(text: &str) -> Result<f64, NotAnAngle<'_>> {
+/// Reads an angle with a unit, in radians. Multiples of 90 deg become k · π/2, which [`crate::rotation`] knows. What the
+/// angle is `per`, as "/s", may follow the unit.
+pub(crate) fn angle<'t>(text: &'t str, per: &str) -> Result<f64, NotAnAngle<'t>> {
     let text = text.trim();
     let digits = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c))).unwrap_or(text.len());
     let (number, unit) = text.split_at(digits);
     let number: f64 = number.parse().map_err(|_| NotAnAngle::Number)?;
-    match unit.trim_start() {
+    let unit = unit.trim_start();
+    match unit.strip_suffix(per).unwrap_or(unit) {
         "deg" if number % 90.0 == 0.0 => Ok(number / 90.0 * FRAC_PI_2),
         "deg" => Ok(number.to_radians()),
         "rad" => Ok(number),
-        unit => Err(NotAnAngle::Unit(unit)),
+        _ => Err(NotAnAngle::Unit(unit)),
     }
 }
 
@@ -32,16 +34,25 @@ mod tests {
 
     #[test]
     fn angles_have_a_unit() {
-        assert_eq!(angle("90 deg"), Ok(FRAC_PI_2));
-        assert_eq!(angle(" -270deg "), Ok(-3.0 * FRAC_PI_2));
-        assert_eq!(angle("1.8e2 deg"), Ok(PI));
-        assert_eq!(angle("30 deg"), Ok(30_f64.to_radians()));
-        assert_eq!(angle("1.5 rad"), Ok(1.5));
-        assert_eq!(angle("90 °"), Err(NotAnAngle::Unit("°")));
-        assert_eq!(angle("90 grad"), Err(NotAnAngle::Unit("grad")));
-        assert_eq!(angle("90"), Err(NotAnAngle::Unit("")));
+        assert_eq!(angle("90 deg", ""), Ok(FRAC_PI_2));
+        assert_eq!(angle(" -270deg ", ""), Ok(-3.0 * FRAC_PI_2));
+        assert_eq!(angle("1.8e2 deg", ""), Ok(PI));
+        assert_eq!(angle("30 deg", ""), Ok(30_f64.to_radians()));
+        assert_eq!(angle("1.5 rad", ""), Ok(1.5));
+        assert_eq!(angle("90 °", ""), Err(NotAnAngle::Unit("°")));
+        assert_eq!(angle("90 grad", ""), Err(NotAnAngle::Unit("grad")));
+        assert_eq!(angle("90", ""), Err(NotAnAngle::Unit("")));
+        assert_eq!(angle("90 deg/s", ""), Err(NotAnAngle::Unit("deg/s")));
         for text in ["", "deg", "nan deg", "ninety deg", "1.2.3 deg", "π rad"] {
-            assert_eq!(angle(text), Err(NotAnAngle::Number), "{text}");
+            assert_eq!(angle(text, ""), Err(NotAnAngle::Number), "{text}");
         }
+    }
+
+    #[test]
+    fn rates_may_say_per_second() {
+        assert_eq!(angle("90 deg/s", "/s"), Ok(FRAC_PI_2));
+        assert_eq!(angle("90 deg", "/s"), Ok(FRAC_PI_2));
+        assert_eq!(angle("2 rad/s^2", "/s^2"), Ok(2.0));
+        assert_eq!(angle("2 rad/s^2", "/s"), Err(NotAnAngle::Unit("rad/s^2")));
     }
 }

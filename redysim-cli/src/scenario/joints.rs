@@ -147,7 +147,7 @@ fn list(
 fn one(reader: &mut Reader<'_, '_>, path: &str, value: &Value<'_>, quantity: Quantity, joint: &Joint) -> Option<f64> {
     match quantity {
         Quantity::Coordinate if joint.turns => reader.an_angle(path, value),
-        Quantity::Rate => reader.rate(path, value, joint.turns),
+        Quantity::Rate => reader.rate(path, value, joint.turns, "/s"),
         Quantity::Coordinate | Quantity::Gain => reader.a_number(path, value),
     }
 }

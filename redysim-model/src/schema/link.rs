@@ -137,8 +137,8 @@ fn origin(mut reader: Reader<'_, '_>) -> Origin {
 /// Of a joint that turns, in radians.
 fn range(mut reader: Reader<'_, '_>, turns: bool) -> JointRange {
     let position = reader.bounds("position", turns);
-    let [velocity, acceleration] = ["velocity", "acceleration"].map(|key| {
-        let largest = reader.largest(key, turns);
+    let [velocity, acceleration] = [("velocity", "/s"), ("acceleration", "/s^2")].map(|(key, per)| {
+        let largest = reader.largest(key, turns, per);
         reader.required(key, largest).value_or(0.0).unwrap_or_default()
     });
     let position = reader.required("position", position).value_or([0.0; 2]).unwrap_or_default();

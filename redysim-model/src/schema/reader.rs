@@ -144,7 +144,8 @@ impl<'a, 'f> Reader<'a, 'f> {
             let DeValue::Array(array) = value.get_ref() else {
                 return reader.wrong_type(path, value, "an array of 2 numbers");
             };
-            let read = array.iter().enumerate().map(|(i, value)| reader.rate(&format!("{path}[{i}]"), value, turns));
+            let read =
+                array.iter().enumerate().map(|(i, value)| reader.rate(&format!("{path}[{i}]"), value, turns, ""));
             let elements: Vec<_> = read.collect();
             match elements.as_slice() {
                 [least, largest] => {
@@ -159,10 +160,10 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
-    /// The largest size of a rate: of a joint that turns, in radians.
-    pub(super) fn largest(&mut self, key: &str, turns: bool) -> Field<f64> {
+    /// The largest size of a rate `per` something: of a joint that turns, in radians.
+    pub(super) fn largest(&mut self, key: &str, turns: bool, per: &str) -> Field<f64> {
         self.field(key, |reader, path, value| {
-            let largest = reader.rate(path, value, turns)?;
+            let largest = reader.rate(path, value, turns, per)?;
             if largest < 0.0 {
                 return reader.fault(value, messages::negative_range(reader.item, path, largest));
             }
@@ -181,10 +182,11 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
-    /// A number, or in radians one with a unit of angle. Unlike of an angle, more than a turn of it is nothing odd.
-    pub fn rate(&mut self, path: &str, value: &Value<'_>, turns: bool) -> Option<f64> {
+    /// A number, or in radians one with a unit of angle, which may be followed by what it is `per`, as "/s". Unlike of an
+    /// angle, more than a turn of it is nothing odd.
+    pub fn rate(&mut self, path: &str, value: &Value<'_>, turns: bool, per: &str) -> Option<f64> {
         match value.get_ref() {
-            DeValue::String(_) if turns => self.an_angle(path, value),
+            DeValue::String(_) if turns => self.turned(path, value, per),
             _ => self.a_number(path, value),
         }
     }
@@ -322,6 +324,11 @@ impl<'a, 'f> Reader<'a, 'f> {
 
     /// An angle, in radians: a number, or one with a unit.
     pub fn an_angle(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
+        self.turned(path, value, "")
+    }
+
+    /// An angle `per` something.
+    fn turned(&mut self, path: &str, value: &Value<'_>, per: &str) -> Option<f64> {
         let DeValue::String(text) = value.get_ref() else {
             if !matches!(value.get_ref(), DeValue::Float(_) | DeValue::Integer(_)) {
                 return self.wrong_type(path, value, "an angle");
@@ -330,10 +337,10 @@ impl<'a, 'f> Reader<'a, 'f> {
             self.doubt(path, value, radians);
             return Some(radians);
         };
-        match units::angle(text) {
+        match units::angle(text, per) {
             Ok(radians) => self.finite(path, value, radians, text),
             Err(NotAnAngle::Number) => self.fault(value, messages::not_an_angle(self.item, path, text)),
-            Err(NotAnAngle::Unit(unit)) => self.fault(value, messages::bad_unit(self.item, path, text, unit)),
+            Err(NotAnAngle::Unit(unit)) => self.fault(value, messages::bad_unit(self.item, path, text, unit, per)),
         }
     }
 

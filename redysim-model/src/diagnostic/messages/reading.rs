@@ -93,6 +93,18 @@ pub(crate) fn syntax(reason: &str) -> Message {
     message(format!("TOML: {reason}"), reason, help)
 }
 
+pub(crate) fn more_is_no_toml() -> Message {
+    message("TOML: more lines are faulty".into(), "and below", "is this the right file?")
+}
+
+pub(crate) fn xml() -> Message {
+    message(
+        "this is XML, not TOML".into(),
+        "TOML does not begin like this",
+        "of a URDF, `redysim import` makes a model file",
+    )
+}
+
 /// `owner` has the keys `keys`; `meant` is the one that was probably meant.
 pub(crate) fn unknown_key(item: &str, path: &str, meant: Option<&str>, owner: &str, keys: &[&str]) -> Message {
     let help = format!("{}{owner} has: {}", did_you_mean(meant), keys.join(", "));
@@ -149,7 +161,7 @@ pub(crate) fn not_an_angle(item: &str, path: &str, found: &str) -> Message {
     )
 }
 
-pub(crate) fn bad_unit(item: &str, path: &str, found: &str, unit: &str) -> Message {
+pub(crate) fn bad_unit(item: &str, path: &str, found: &str, unit: &str, per: &str) -> Message {
     let (title, label) = match unit {
         "" => (format!("{item}: `{path}` is \"{found}\", which has no unit"), "no unit".into()),
         _ => (
@@ -157,7 +169,9 @@ pub(crate) fn bad_unit(item: &str, path: &str, found: &str, unit: &str) -> Messa
             format!("{} is not a unit of angle", quoted(unit)),
         ),
     };
-    message(title, label, "the units of angle are deg and rad, as in \"90 deg\"; a plain number is in rad")
+    let help =
+        format!("the units of angle are deg{per} and rad{per}, as in \"90 deg{per}\"; a plain number is in rad{per}");
+    message(title, label, help)
 }
 
 pub(crate) fn unknown_choice(item: &str, path: &str, found: &str, choices: &[&str]) -> Message {
