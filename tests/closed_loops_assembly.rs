@@ -27,6 +27,17 @@ fn the_shipped_start_closes_with_the_crank_held_and_tells_how_far_it_moved() {
     assert_eq!(assembly.rank, 2);
 }
 
+/// With the crank held at rest nothing can move, and what rounding leaves of the speeds asked for is no fault of the loops.
+#[test]
+fn a_held_crank_at_rest_stops_the_whole_linkage() {
+    for asked in [[0.0_f64, 1.0, 0.0], [0.0, 0.0, -3e8], [0.0, 1e-9, 7.0]] {
+        let stopped = ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &asked, &[0]).expect("it stops");
+        let most = asked.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        assert!(stopped.v.iter().all(|v| v.abs() < 1e-15 * most), "{asked:?}: {:?}", stopped.v);
+        ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).start(&stopped.q, &stopped.v).expect("it fits");
+    }
+}
+
 #[test]
 fn the_branch_of_the_guess_is_kept() {
     let loops = ClosedLoop::new(&Fourbar);

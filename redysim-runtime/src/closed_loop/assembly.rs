@@ -69,11 +69,18 @@ impl<M, C> ClosedLoop<'_, M, C> {
             Ending::Stalled => return Err(LoopError::CannotClose { gap, row }),
             Ending::Exhausted => return Err(LoopError::NoConvergence { gap, row }),
         }
+        let (asked, _) = largest(v.as_ref().iter().copied());
         let mut v = v.clone();
         // The second time takes away what rounding left of the first.
         for _ in 0..2 {
             let rates: C::Rows = product(closing.at.jacobian.as_ref(), v.as_ref());
             v = difference(&v, &closing.at.shortest(&rates));
+        }
+        if largest(v.as_ref().iter().copied()).0 <= S::EPSILON * asked {
+            // The loops stop all that was asked for: what is left is roundoff of it.
+            for (coordinate, speed) in v.as_mut().iter_mut().enumerate() {
+                *speed = if held.contains(&coordinate) { *speed } else { S::zero() };
+            }
         }
         let rates: C::Rows = product(closing.at.jacobian.as_ref(), v.as_ref());
         let (rate, at_row) = largest(rates.as_ref().iter().copied());
@@ -82,7 +89,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
             return Err(LoopError::NotFinite);
         }
         let slow = S::from_f64(SLOW).maximum(S::from_f64(100.0) * S::EPSILON);
-        if rate > slow * closing.at.scale() * fastest {
+        if rate > slow * closing.at.scale() * fastest.maximum(S::EPSILON * asked) {
             return Err(LoopError::PullsApart { rate, row: at_row });
         }
         let way = difference(&closing.q, q);
