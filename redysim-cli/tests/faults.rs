@@ -96,6 +96,14 @@ fn values_that_are_none() {
 }
 
 #[test]
+fn a_joint_that_is_not_there() {
+    let words = ["no joint `jiont2`", "did you mean `joint2`?", "trial.toml:2:"];
+    refuses("joint", "forward", &SWING.replace("[0, 1]", "{ jiont2 = 1 }"), 1, &words);
+    let law = "torque = { law = 'p', joints = ['joint9'], target = [0], kp = 1 }\n";
+    refuses("driven", "forward", &format!("{SWING}{law}"), 1, &["no joint `joint9`", "there are: joint1, joint2"]);
+}
+
+#[test]
 fn an_unknown_key_is_said_with_the_one_that_was_meant() {
     refuses(
         "key",

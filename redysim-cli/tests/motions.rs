@@ -178,29 +178,71 @@ fn forces_of_a_table_lie_on_straight_lines_between_its_rows() {
     });
 }
 
+/// The error of a swing of 2 rad/s by an integrator, at its instants and every 0.1 s.
+fn swing_error(method: &str, settings: &str) -> f64 {
+    let name = if method.parse::<u8>().is_ok() { method.to_owned() } else { format!("'{method}'") };
+    let law = "torque = { law = 'p', target = [0], kp = 8 }";
+    let scratch = format!("by-{method}-{}", settings.replace([' ', '='], ""));
+    let found = slides(&scratch, &format!("integrator = {{ method = {name}, {settings} }}\n{law}"), "");
+    let exact = |t: f64| vec![(2.0 * t).cos(), -2.0 * (2.0 * t).sin()];
+    let exact: Vec<Vec<f64>> = found.column("t [s]").into_iter().map(exact).collect();
+    deviation(&found.columns(1..3), &exact)
+}
+
 #[test]
-fn every_integrator_swings_as_exactly_as_it_should() {
-    let adaptive = ["Ode45", "Dop853", "Ode15s", "Radau5", "0", "1"];
-    let fixed = [
-        ("SemiImplicitEuler", 1e-2),
-        ("Euler", 1e-2),
-        ("Ode4", 1e-8),
-        ("Ode5", 1e-10),
-        ("Dop8", 1e-11),
-        ("Gauss4", 1e-8),
-        ("Gauss6", 1e-6),
-        ("2", 1e-10),
+fn integrators_with_steps_of_one_size_have_their_orders() {
+    let orders = [
+        ("SemiImplicitEuler", 1),
+        ("Euler", 1),
+        ("Ode4", 4),
+        ("Ode5", 5),
+        ("2", 5),
+        ("Dop8", 8),
+        ("Gauss4", 4),
+        ("Gauss6", 6),
     ];
-    let swing = |name: &str, settings: &str| {
-        let method = if name.parse::<u8>().is_ok() { name.to_owned() } else { format!("'{name}'") };
-        let law = "torque = { law = 'p', target = [0], kp = 8 }";
-        slides(&format!("by-{name}"), &format!("integrator = {{ method = {method}, {settings} }}\n{law}"), "")
-    };
-    for name in adaptive {
-        moves(&swing(name, "rtol = 1e-8, atol = 1e-10"), 3e-6, |t| [(2.0 * t).cos(), -2.0 * (2.0 * t).sin()]);
+    for (method, order) in orders {
+        let [long, short] = ["step = 0.1", "step = 0.05"].map(|step| swing_error(method, step));
+        let found = (long / short).log2();
+        println!("{method}: {long:.1e} {short:.1e}, order {found:.2}");
+        assert!((found - f64::from(order)).abs() < 0.35, "{method}: order {found:.2}");
     }
-    for (name, most) in fixed {
-        moves(&swing(name, "step = 0.005"), most, |t| [(2.0 * t).cos(), -2.0 * (2.0 * t).sin()]);
+}
+
+/// Between its steps a method is less exact than at their ends by an order at most, but Gauss's, whose polynomials are of the
+/// order of their stages and one more.
+#[test]
+fn rows_between_the_steps_are_as_exact_as_the_method_is_there() {
+    let within = [("Ode4", 3, 0.06), ("Ode5", 4, 0.06), ("Dop8", 7, 0.24), ("Gauss4", 3, 0.06), ("Gauss6", 4, 0.06)];
+    for (method, order, step) in within {
+        let [long, short] = [step, step / 2.0].map(|step| swing_error(method, &format!("step = {step}")));
+        let found = (long / short).log2();
+        println!("{method}: {long:.1e} {short:.1e}, order {found:.2}");
+        assert!(found > f64::from(order) - 0.35, "{method}: order {found:.2}");
+    }
+}
+
+#[test]
+fn rows_between_the_steps_of_gauss_are_warned_of() {
+    let folder = scratch("gauss-rows");
+    let said = |step: f64| {
+        let rest = format!("[forward]\nend = 0.3\nstep = 0.1\nintegrator = {{ method = 'Gauss6', step = {step} }}\n");
+        let output = call(&folder, &["forward", &scenario(&folder, "two_link.toml", &rest), "-o", "run", "--force"]);
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(said(0.0125), "");
+    assert!(said(0.03).contains("rows lie between the steps of Gauss6"), "{}", said(0.03));
+}
+
+#[test]
+fn integrators_with_steps_from_tolerances_stay_within_them() {
+    for method in ["Ode45", "Dop853", "Ode15s", "Radau5", "0", "1"] {
+        let [loose, tight] =
+            ["rtol = 1e-5, atol = 1e-5", "rtol = 1e-9, atol = 1e-9"].map(|set| swing_error(method, set));
+        println!("{method}: {loose:.1e} {tight:.1e}");
+        // An error per step adds up over the some four radians of the swing.
+        assert!(loose < 40.0 * 1e-5 && tight < 40.0 * 1e-9 && tight > 0.0, "{method}: {loose:e} {tight:e}");
     }
 }
 

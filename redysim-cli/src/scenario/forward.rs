@@ -1,8 +1,9 @@
 //! A motion that is to be computed.
 
-use redysim_model::document::{Field, Reader, Shape};
+use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::Stabilisation;
 
+use super::integrator::Fixed;
 use super::{Actuation, Integrator, Prescribed, Span, Subject};
 
 /// A motion that is to be computed.
@@ -33,9 +34,27 @@ impl Forward {
             let integrator = Integrator::read(&mut reader);
             let torque = Actuation::read(&mut reader, subject, trajectory);
             let stabilisation = stabilisation(&mut reader);
+            if let (Some(span), Some(integrator)) = (span, integrator) {
+                warn_of_rows(&mut reader, span, integrator);
+            }
             Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
         })
     }
+}
+
+/// Gauss's methods are as exact as their order at the ends of steps only.
+fn warn_of_rows(reader: &mut Reader<'_, '_>, span: Span, integrator: Integrator) {
+    let Integrator::Fixed(Fixed::Gauss4 | Fixed::Gauss6, step) = integrator else { return };
+    let steps = span.step / step;
+    if (steps - steps.round()).abs() < 1e-9 * steps {
+        return;
+    }
+    let (item, name) = (reader.item(), integrator.name());
+    reader.warning_of_table(Message {
+        title: format!("{item}: rows lie between the steps of {name}, where it is far less exact than at their ends"),
+        label: format!("steps of {step:?} s, rows each {:?} s", span.step),
+        help: "give the integrator a `step` that goes a whole number of times into that of the rows".into(),
+    });
 }
 
 fn stabilisation(reader: &mut Reader<'_, '_>) -> Option<Stabilisation<f64>> {

@@ -1,5 +1,7 @@
 //! The moving joints of a model, and values for each of them.
 
+use std::ops::Range;
+
 use redysim_model::document::{Field, Reader, Value};
 use redysim_model::{JointKind, Model};
 use toml::de::DeValue;
@@ -87,7 +89,7 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<V
             let DeValue::String(name) = value.get_ref() else {
                 return reader.wrong_type(&path, value, "the name of a joint");
             };
-            let joint = index(reader, &path, value, name, joints)?;
+            let joint = index(reader, value.span(), name, joints)?;
             if found.contains(&joint) {
                 let message = redysim_model::document::Message {
                     title: format!("{}: `{path}` names the joint `{name}` again", reader.item()),
@@ -102,9 +104,10 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<V
     })
 }
 
-fn index(reader: &mut Reader<'_, '_>, path: &str, value: &Value<'_>, name: &str, joints: &[Joint]) -> Option<usize> {
-    let choices: Vec<_> = joints.iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index)).collect();
-    reader.one_of(path, value, name, &choices)
+/// The joint of a name that stands at `place`.
+fn index(reader: &mut Reader<'_, '_>, place: Range<usize>, name: &str, joints: &[Joint]) -> Option<usize> {
+    let named: Vec<_> = joints.iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index)).collect();
+    reader.called(place, "joint", name, &named)
 }
 
 fn list(
@@ -132,7 +135,7 @@ fn list(
             let known: Vec<Joint> = of.iter().map(|&joint| joints[joint].clone()).collect();
             for (name, value) in table {
                 let path = format!("{path}.{}", name.get_ref());
-                let at = index(reader, &path, value, name.get_ref(), &known)?;
+                let at = index(reader, name.span(), name.get_ref(), &known)?;
                 values[at] = one(reader, &path, value, quantity, &known[at])?;
             }
             Some(values)

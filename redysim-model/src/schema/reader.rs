@@ -192,11 +192,26 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 
     /// The `found` one of the names in `choices`.
-    pub fn one_of<T: Copy>(&mut self, path: &str, value: &Value<'_>, found: &str, choices: &[(&str, T)]) -> Option<T> {
+    pub(crate) fn one_of<T: Copy>(
+        &mut self,
+        path: &str,
+        value: &Value<'_>,
+        found: &str,
+        choices: &[(&str, T)],
+    ) -> Option<T> {
         let chosen = choices.iter().find(|(name, _)| *name == found).map(|(_, choice)| *choice);
         chosen.or_else(|| {
             let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
             self.fault(value, messages::unknown_choice(self.item, path, found, &names))
+        })
+    }
+
+    /// What is called `found` among `named`, things that are each a `what`; `place` is where the name stands.
+    pub fn called<T: Copy>(&mut self, place: Range<usize>, what: &str, found: &str, named: &[(&str, T)]) -> Option<T> {
+        let there = named.iter().find(|(name, _)| *name == found).map(|(_, thing)| *thing);
+        there.or_else(|| {
+            let names: Vec<_> = named.iter().map(|(name, _)| *name).collect();
+            self.fault_at(place, messages::unknown_name(self.item, what, found, &names))
         })
     }
 
@@ -385,6 +400,11 @@ impl<'a, 'f> Reader<'a, 'f> {
     /// Warns of what is at a place.
     pub fn warning(&mut self, place: Range<usize>, message: Message) {
         self.findings.warning(place, message);
+    }
+
+    /// Warns of the table as a whole.
+    pub fn warning_of_table(&mut self, message: Message) {
+        self.warning(self.place.clone(), message);
     }
 
     /// Reports a fault of the table as a whole. Always `None`.

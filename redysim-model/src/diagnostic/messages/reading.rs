@@ -180,6 +180,11 @@ pub(crate) fn unknown_choice(item: &str, path: &str, found: &str, choices: &[&st
     message(format!("{item}: `{path}` cannot be {}", quoted(found)), "not one of the kinds", help)
 }
 
+pub(crate) fn unknown_name(item: &str, what: &str, found: &str, names: &[&str]) -> Message {
+    let help = format!("{}there are: {}", did_you_mean(nearest(found, names.iter().copied())), names.join(", "));
+    message(format!("{item}: there is no {what} {}", quoted(found)), format!("no such {what}"), help)
+}
+
 pub(crate) fn unsupported_joint(item: &str, found: &str, choices: &[&str]) -> Message {
     message(
         format!("{item}: joints of the kind `{found}` are not supported yet"),
