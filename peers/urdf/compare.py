@@ -93,7 +93,9 @@ def furthest(ours: list[numpy.ndarray], theirs: list[numpy.ndarray], scales: num
     ours, theirs = numpy.array(ours), numpy.array(theirs)
     scales = numpy.max(numpy.abs(theirs), axis=0) if scales is None else scales
     differences = numpy.abs(ours - theirs)
-    shares = numpy.divide(differences, scales, out=numpy.zeros_like(differences), where=differences > 0)
+    # What is no number differs, too.
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        shares = numpy.where(differences == 0, 0, differences / scales)
     return float(numpy.max(shares))
 
 
@@ -114,7 +116,7 @@ class Comparison:
     def agrees(self) -> bool:
         """Where the mass matrix is nearly singular, accelerations are right that take the right forces."""
         accelerations = self.taken if self.accelerations > TOLERANCE and self.ill_conditioned else self.accelerations
-        return max(self.forces, self.matrices, accelerations) < TOLERANCE
+        return all(share < TOLERANCE for share in [self.forces, self.matrices, accelerations])
 
     @property
     def ill_conditioned(self) -> bool:
