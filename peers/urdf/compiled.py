@@ -8,7 +8,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 
-# The generator checks its own passes where it has debug assertions, as it does when a program is built without --release.
+# The generator checks its own passes where it has debug assertions, as it has in a program built without --release.
 MANIFEST = """\
 [workspace]
 
