@@ -1,0 +1,70 @@
+"""Robots and the models that `redysim import` makes of them."""
+
+import re
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pinocchio
+from compiled import write_changed
+
+# The models by their fixed links, and so the columns of the generic path.
+KEPT, FUSED = "generic", "fused"
+
+
+@dataclass
+class Robot:
+    """A URDF and the models that are imported from it."""
+
+    urdf: Path
+    # Of its program and of its files.
+    name: str
+    models: dict[str, Path] = field(default_factory=dict)
+    # Why there are not both of them.
+    refused: list[str] = field(default_factory=list)
+    # What was said about the last.
+    said: list[str] = field(default_factory=list)
+
+    @property
+    def title(self) -> str:
+        """Its name in the table."""
+        package = self.urdf.parent.parent.name.removesuffix("_description")
+        return self.urdf.stem if package in self.urdf.stem else f"{package}/{self.urdf.stem}"
+
+    def make_models(self, redysim: Path, folder: Path) -> None:
+        """Imports it with fixed links kept, and fused. The first that is a model is to be compiled."""
+        for way, options in [(KEPT, []), (FUSED, ["--fuse-fixed"])]:
+            done = subprocess.run([redysim, "import", self.urdf, *options], capture_output=True, text=True)
+            # 1 is faulty input; nothing else is for the file to answer for.
+            if done.returncode not in [0, 1]:
+                sys.exit(f"redysim import {self.urdf} ends with {done.returncode}:\n{done.stderr}")
+            if done.returncode == 1:
+                self.refused.append(self._fault(done.stderr))
+                continue
+            self.models[way] = folder / ("fused" if self.models else "") / f"{self.name}.toml"
+            self.said = done.stderr.splitlines()
+            write_changed(self.models[way], done.stdout)
+
+    def _fault(self, said: str) -> str:
+        """The first of the errors."""
+        errors = [line for line in said.splitlines() if line.startswith("error: ")] or [said]
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        return errors[0].removeprefix("error: ").replace(str(self.urdf), self.urdf.name) + more
+
+
+def example_robots() -> list[Path]:
+    """Every URDF of the package example-robot-data."""
+    folder = Path(pinocchio.__file__).parents[4] / "share/example-robot-data/robots"
+    return sorted(folder.rglob("*.urdf"), key=lambda path: (path.stem.lower(), path))
+
+
+def robots(urdfs: list[Path]) -> list[Robot]:
+    """The robots, with names that a program can have and no two share."""
+    found: dict[str, Robot] = {}
+    for urdf in urdfs:
+        wanted = name = "robot_" + re.sub("[^A-Za-z0-9]", "_", Robot(urdf, "").title)
+        while name in found:
+            name = f"{wanted}_{len(found)}"
+        found[name] = Robot(urdf, name)
+    return list(found.values())
