@@ -12,10 +12,6 @@ use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::{AxisMass, take_from_parent};
 use redysim_model::tree::Joint;
 
-/// A mass on an axis is at most so many times the largest of its kind in the robot: where a body is a small lever, a
-/// large mass would be wanted, and its digits would be those that the others lose.
-const LARGEST: f64 = 8.0;
-
 /// The tree, of base parameters, with masses on its axes where they lower the cost.
 pub fn placed(tree: &Tree, cost: Cost) -> Tree {
     let mut tree = tree.clone();
@@ -81,7 +77,8 @@ fn candidates(tree: &Tree, body: usize, kind: Kind) -> Vec<AxisMass> {
     let mut changed = tree.clone();
     take_from_parent(&mut changed, body, kind.times(1.0));
     let then = numbers(&changed, parent);
-    let most = LARGEST * kind.largest(tree);
+    // Where a body is a small lever, a large mass would be wanted, and its digits would be those that the others lose.
+    let most = kind.largest(tree);
     let mut found: Vec<AxisMass> = Vec::new();
     for (now, then) in now.into_iter().zip(then) {
         // The number falls by `now − then` for each unit.
