@@ -1,7 +1,7 @@
 //! What the model says about the looks of a mechanism: from where to where its links reach, and how they are joined.
 
 use redysim_model::spatial::Vec3;
-use redysim_model::{CutKind, JointKind, Link, Model};
+use redysim_model::{JointKind, Link, Model};
 use serde::Serialize;
 
 /// A link in its own frame, or the ground (the first body) in the base frame.
@@ -57,7 +57,7 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let joint = Joint {
             name: &link.joint_name,
-            kind: JointKind::ALL.iter().find(|(_, kind)| *kind == link.joint).map_or("", |(name, _)| *name),
+            kind: link.joint.name(),
             axis: link.axis.0,
             coordinate: if link.joint.dof() > 0 { coordinates.next() } else { None },
             rail: (link.joint == JointKind::Prismatic).then(|| Place { body: number(link.parent), point: foot(link) }),
@@ -76,13 +76,11 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
 
 /// The cut joints, each where its side a holds it.
 pub fn cuts(model: &Model) -> Vec<Cut<'_>> {
-    let kind = |joint| CutKind::ALL.iter().find(|(_, kind)| *kind == joint).map_or("", |(name, _)| *name);
-    let mut cuts = Vec::new();
-    for cut in &model.loops {
+    let cuts = model.loops.iter().map(|cut| {
         let at = Place { body: number(cut.a.link), point: cut.a.point.0 };
-        cuts.push(Cut { name: &cut.name, kind: kind(cut.joint), at, axis: cut.a.axis.0 });
-    }
-    cuts
+        Cut { name: &cut.name, kind: cut.joint.name(), at, axis: cut.a.axis.0 }
+    });
+    cuts.collect()
 }
 
 /// Number of a body among those that the page knows: the ground is 0.
