@@ -322,16 +322,6 @@ fn a_stiff_motion_asks_for_another_integrator() {
     refuses_in(&folder, "forward", "trial.toml", 3, &["stiff at t = ", "method = \"Ode15s\""]);
 }
 
-#[cfg(unix)]
-#[test]
-fn that_nobody_listens_is_no_fault() {
-    let folder = scratch("faults-pipe");
-    let path = scenario(&folder, "two_link.toml", SWING);
-    let command = format!("'{}' forward '{path}' | true; exit ${{PIPESTATUS[0]}}", env!("CARGO_BIN_EXE_redysim"));
-    let output = std::process::Command::new("bash").args(["-c", &command]).current_dir(&folder).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-}
-
 #[test]
 fn the_command_line_itself() {
     let folder = scratch("faults-command");

@@ -44,16 +44,14 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     }
     write(folder, &pictures, arguments.force)?;
     if !quiet {
-        pictures.iter().for_each(|(path, _)| println!("{}", path.display()));
+        pictures.iter().for_each(|(path, _)| output::say(&path.display().to_string()));
     }
     Ok(())
 }
 
 /// Writes all of them, or none if one is there already.
 fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
-    if let Some((path, _)) = pictures.iter().find(|(path, _)| path.exists() && !force) {
-        return Err(output::exists(path));
-    }
+    pictures.iter().try_for_each(|(path, _)| output::check_place(path, force))?;
     std::fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, &error))?;
     pictures.iter().try_for_each(|(path, contents)| output::write_file(path, contents, force))
 }

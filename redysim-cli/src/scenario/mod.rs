@@ -17,6 +17,7 @@ use toml::de::DeValue;
 
 use crate::commands;
 use crate::failure::Failure;
+use crate::output::tell;
 pub use integrator::{Absolute, Integrator, Tolerances};
 use joints::{Joint, Quantity, values};
 pub use span::Span;
@@ -96,7 +97,7 @@ impl Scenario {
         let (scenario, warnings) = read.map_err(Failure::input)?;
         if !quiet {
             for warning in warnings {
-                eprintln!("{warning}\n");
+                tell(&format!("{warning}\n"));
             }
         }
         scenario.check_tables()?;
