@@ -93,9 +93,14 @@ fn a_bad_table_is_named_with_its_line_and_column() {
 #[test]
 fn values_that_are_no_numbers_leave_a_gap() {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("tor.csv"), "t [s],tau j [N m]\n0,1\n1,NaN\n2,inf\n3,-inf\n4,2\n").unwrap();
+    let rows = "0,1\n1,2\n2,NaN\n3,inf\n4,-inf\n5,2\n6,3\n";
+    fs::write(folder.path().join("tor.csv"), format!("t [s],tau j [N m]\n{rows}")).unwrap();
     let output = redysim(["plot", folder.path().to_str().unwrap()]);
     assert!(output.status.success(), "{}", said(&output));
+    let svg = fs::read_to_string(folder.path().join("torques.svg")).unwrap();
+    let curves = svg.lines().filter(|line| line.starts_with("<polyline") && line.contains("#0072B2"));
+    // And one sample in the legend.
+    assert_eq!(curves.count(), 2 + 1, "{svg}");
 }
 
 #[test]

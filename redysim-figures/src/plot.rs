@@ -52,8 +52,11 @@ impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for Drawi
 ///
 /// # Errors
 ///
-/// If the figure cannot be laid out.
+/// If the figure cannot be laid out: it has no columns, for one.
 pub fn svg(figure: &Figure) -> Result<String, DrawingError> {
+    if figure.columns == 0 {
+        return Err(DrawingError::new("it has panels in no columns: give `columns` 1 or more"));
+    }
     let rows = figure.panels.len().div_ceil(figure.columns) as i32;
     let shared = figure.panels.first().filter(|_| figure.shared_legend);
     let legend = shared.map_or(0, |panel| legend_height(panel, LEFT));
@@ -138,20 +141,20 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_lege
         ))?;
     }
     for curve in &panel.curves {
-        let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| drawable(point.1)).collect();
-        if matches!(curve.mark, Mark::Line | Mark::Dots) {
-            chart.draw_series(LineSeries::new(points.iter().copied(), line_style(curve)))?;
-        }
-        match curve.mark {
-            Mark::Line => {}
-            Mark::Dots | Mark::Scatter => {
-                chart.draw_series(
-                    points.iter().map(|&point| Circle::new(point, 3 * FINE, line_style(curve).filled())),
-                )?;
+        let points: Vec<(f64, f64)> = points(panel, curve).collect();
+        // What cannot be drawn leaves a gap.
+        for run in points.split(|point| !drawable(point.0) || !drawable(point.1)) {
+            let dots = |radius: i32, style: ShapeStyle| run.iter().map(move |&at| Circle::new(at, radius, style));
+            if matches!(curve.mark, Mark::Line | Mark::Dots) {
+                chart.draw_series(LineSeries::new(run.iter().copied(), line_style(curve)))?;
             }
-            Mark::Circles => {
-                chart.draw_series(points.iter().map(|&point| Circle::new(point, 3 * FINE, circle_style(curve))))?;
-            }
+            match curve.mark {
+                // A line of one point would not be seen.
+                Mark::Line if run.len() == 1 => chart.draw_series(dots(FINE, line_style(curve).filled()))?,
+                Mark::Line => continue,
+                Mark::Dots | Mark::Scatter => chart.draw_series(dots(3 * FINE, line_style(curve).filled()))?,
+                Mark::Circles => chart.draw_series(dots(3 * FINE, circle_style(curve)))?,
+            };
         }
     }
     Ok(())
@@ -247,5 +250,33 @@ mod tests {
     fn a_long_legend_gets_the_rows_it_needs() {
         assert_eq!(height(1), height(3));
         assert!(height(40) > height(3) + 3 * HEAD);
+    }
+
+    fn drawn(values: &[f64]) -> String {
+        let t: Vec<f64> = (0..values.len()).map(|k| k as f64).collect();
+        let panels = vec![Panel::new("Torques", "torque", "N m").line("", 1, &t, values)];
+        svg(&Figure { columns: 1, panels, shared_legend: false }).unwrap()
+    }
+
+    /// How many elements of this kind have the colour of the curve.
+    fn count(svg: &str, element: &str) -> usize {
+        svg.lines().filter(|line| line.starts_with(element) && line.contains("#0072B2")).count()
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_leaves_a_gap() {
+        assert_eq!(count(&drawn(&[1.0, 2.0, 3.0]), "<polyline"), 1);
+        assert_eq!(count(&drawn(&[1.0, 2.0, f64::NAN, f64::INFINITY, 2.0, 1.0]), "<polyline"), 2);
+    }
+
+    #[test]
+    fn a_point_between_gaps_is_a_dot() {
+        assert_eq!(count(&drawn(&[1.0, 2.0, f64::NAN, 2.0, f64::NAN]), "<circle"), 1);
+    }
+
+    #[test]
+    fn a_figure_without_columns_cannot_be_drawn() {
+        let error = svg(&Figure { columns: 0, panels: vec![], shared_legend: false }).unwrap_err();
+        assert!(error.to_string().contains("`columns`"), "{error}");
     }
 }

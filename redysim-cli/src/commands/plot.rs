@@ -70,5 +70,5 @@ fn panel(chart: &Chart) -> Panel {
         // The palette's first colour, black, is for references.
         panel.line(&curve.name, curve.colour + 1, &chart.t, &curve.values)
     });
-    panel.prefixed()
+    panel.merged().prefixed()
 }
