@@ -18,6 +18,7 @@ mod recorded;
 mod results;
 mod scenario;
 mod summary;
+mod table;
 mod urdf;
 
 use std::process::ExitCode;

@@ -173,15 +173,23 @@ fn refuses_table(name: &str, text: &str, words: &[&str]) {
 fn a_table_with_a_fault() {
     const HEADER: &str = "t [s],tau joint1 [N m],tau joint2 [N m]\n";
     let with = |rows: &str| format!("{HEADER}{rows}");
-    refuses_table("gap", &with("0,0,0\n1,,0\n"), &["forces.csv, line 3: `tau joint1 [N m]` is empty"]);
-    refuses_table("nan", &with("0,0,0\n1,0,NaN\n"), &["forces.csv, line 3: `tau joint2 [N m]` is `NaN`"]);
-    refuses_table("word", &with("0,0,x\n1,0,0\n"), &["line 2: `tau joint2 [N m]` is `x`"]);
-    refuses_table("order", &with("0,0,0\n0.7,0,0\n0.5,0,0\n"), &["line 4: t = 0.5 s comes after 0.7 s"]);
-    refuses_table("short-row", &with("0,0,0\n1,0\n"), &["line 3", "2 numbers", "names 3"]);
+    refuses_table("gap", &with("0,0,0\n1,,0\n"), &["forces.csv:3: `tau joint1 [N m]` must be a number, found nothing"]);
+    refuses_table(
+        "nan",
+        &with("0,0,0\n1,0,NaN\n"),
+        &["forces.csv:3: `tau joint2 [N m]` must be a finite number, found NaN"],
+    );
+    refuses_table("word", &with("0,0,x\n1,0,0\n"), &["forces.csv:2: `tau joint2 [N m]` must be a number, found `x`"]);
+    refuses_table(
+        "order",
+        &with("0,0,0\n0.7,0,0\n0.5,0,0\n"),
+        &["forces.csv:4: time runs backwards: t = 0.5 s comes after 0.7 s"],
+    );
+    refuses_table("short-row", &with("0,0,0\n1,0\n"), &["forces.csv:3", "2 values", "names 3"]);
     refuses_table("ends", &with("0,0,0\n0.5,0,0\n"), &["from 0.0 s to 0.5 s", "the run from 0.0 s to 1.0 s"]);
-    refuses_table("one-row", &with("0,0,0\n"), &["1 rows"]);
-    refuses_table("empty", "", &["line 1", "`t [s]`"]);
-    refuses_table("no-time", "tau joint1 [N m]\n0\n1\n", &["line 1", "the first column must be the time"]);
+    refuses_table("one-row", &with("0,0,0\n"), &["1 row"]);
+    refuses_table("empty", "", &["forces.csv:1", "`t [s]`"]);
+    refuses_table("no-time", "tau joint1 [N m]\n0\n1\n", &["forces.csv:1", "the first column must be the time"]);
     refuses_table("column", "t [s],tau joint1 [N m]\n0,0\n1,0\n", &["no column `tau joint2 [N m]`"]);
     refuses_table(
         "unit",
@@ -244,14 +252,14 @@ fn a_result_is_not_overwritten_unless_it_must_be() {
     let path = scenario(&folder, "two_link.toml", SWING);
     succeed(&folder, &["forward", &path]);
     assert_eq!(names(&folder), ["results", "trial.toml"]);
-    let result = folder.join("results/trial");
+    let result = folder.join("results/trial/forward");
     let before = fs::read(result.join("run.toml")).unwrap();
     let said = fail(&folder, &["forward", &path], 3);
     assert!(said.contains("there already") && said.contains("--force"), "{said}");
     assert_eq!(fs::read(result.join("run.toml")).unwrap(), before);
     succeed(&folder, &["forward", &path, "--force"]);
     assert_ne!(fs::read(result.join("run.toml")).unwrap(), before, "the times differ");
-    assert_eq!(names(&folder.join("results")), ["trial"]);
+    assert_eq!(names(&folder.join("results/trial")), ["forward"]);
 }
 
 #[test]

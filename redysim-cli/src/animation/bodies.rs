@@ -1,6 +1,7 @@
 //! What the model says about the looks of a mechanism: from where to where its links reach, and how they are joined.
 
-use redysim_model::spatial::Vec3;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use redysim_model::spatial::{Mat3, Vec3};
 use redysim_model::{JointKind, Link, Model};
 use serde::Serialize;
 
@@ -24,6 +25,13 @@ struct Joint<'a> {
     kind: &'a str,
     /// Unit vector, in the link's frame.
     axis: [f64; 3],
+    /// The body that carries it.
+    parent: usize,
+    /// The link's frame in that body's where the joint's motion is zero: origin, m, and quaternion x, y, z, w.
+    position: [f64; 3],
+    rotation: [f64; 4],
+    /// What is added to its coordinate, rad or m.
+    offset: f64,
     /// Number of its coordinate, which is that of its colour; none for a joint that does not move.
     coordinate: Option<usize>,
     /// For a prismatic joint, where it slides from.
@@ -59,6 +67,10 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
             name: &link.joint_name,
             kind: link.joint.name(),
             axis: link.axis.0,
+            parent: number(link.parent),
+            position: link.placement.position.0,
+            rotation: quaternion(link.placement.rotation),
+            offset: link.offset,
             coordinate: if link.joint.dof() > 0 { coordinates.next() } else { None },
             rail: (link.joint == JointKind::Prismatic).then(|| Place { body: number(link.parent), point: foot(link) }),
         };
@@ -86,6 +98,11 @@ pub fn cuts(model: &Model) -> Vec<Cut<'_>> {
 /// Number of a body among those that the page knows: the ground is 0.
 fn number(link: Option<usize>) -> usize {
     link.map_or(0, |index| index + 1)
+}
+
+fn quaternion(rotation: Mat3<f64>) -> [f64; 4] {
+    let matrix = Matrix3::from_fn(|row, column| rotation.0[row][column]);
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)).coords.into()
 }
 
 /// Where the joints of a link's children, and the cut joints on it, stand: in the link's frame.

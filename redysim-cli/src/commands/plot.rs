@@ -28,8 +28,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let recorded = Recorded::open(&arguments.results)?;
     let mut charts = recorded.charts()?;
     if charts.is_empty() {
-        return Err(Failure::input(format!("{} holds nothing to draw", arguments.results.display()))
-            .help("a run writes statevar.csv or traj.csv, tor.csv, energy.csv and lambda.csv; is this its folder?"));
+        return Err(recorded.lacks("nothing to draw"));
     }
     let mut pictures: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let folder = arguments.output.as_deref().unwrap_or(recorded.folder());
