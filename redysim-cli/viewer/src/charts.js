@@ -41,6 +41,8 @@ class Chart {
       width: this.width,
       height: HEIGHT,
       scales: { x: { time: false } },
+      // Whole pixels would make stairs of smooth curves.
+      pxAlign: 0,
       series: [{}, ...series],
       axes: [
         { ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) },
