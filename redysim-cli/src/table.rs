@@ -62,14 +62,13 @@ impl Table {
         let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
         let text = String::from_utf8(bytes)
             .map_err(|_| Failure::input(format!("{} is not UTF-8", path.display())).help("save the file as UTF-8"))?;
-        let text = text.trim_start_matches('\u{feff}');
         let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
-        let headers = reader.headers().map_err(|error| unreadable(path, text, &error))?.clone();
+        let headers = reader.headers().map_err(|error| unreadable(path, &text, &error))?.clone();
         let mut table =
-            Table { path: path.to_owned(), t: vec![], columns: columns(path, text, &headers)?, lines: vec![] };
+            Table { path: path.to_owned(), t: vec![], columns: columns(path, &text, &headers)?, lines: vec![] };
         let mut row = StringRecord::new();
-        while reader.read_record(&mut row).map_err(|error| unreadable(path, text, &error))? {
-            table.lines.push(line(text, row.position()));
+        while reader.read_record(&mut row).map_err(|error| unreadable(path, &text, &error))? {
+            table.lines.push(line(&text, row.position()));
             table.push(&headers, &row)?;
         }
         if table.t.is_empty() {

@@ -17,6 +17,8 @@ const WIDTH: i32 = 800;
 const PLOT: i32 = 190;
 const HEAD: i32 = 32;
 const TIME_TITLE: i32 = 20;
+/// From one row of a legend to the next.
+const LEGEND_ROW: i32 = 22;
 const LEFT: i32 = 74;
 /// Room that the turned title of the vertical axis takes on its outer side.
 const TITLE_INSET: i32 = 14;
@@ -36,6 +38,8 @@ const PALETTE: [RGBColor; 10] = [
     RGBColor(120, 70, 30),
     RGBColor(150, 150, 0),
 ];
+/// When all colours are taken, they come again in dashes.
+const DASH: (i32, i32) = (7, 3);
 const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 
@@ -102,7 +106,7 @@ fn legend_start(panel: &Panel) -> i32 {
 }
 
 fn legend_height(panel: &Panel, left: i32) -> i32 {
-    HEAD * (1 + legend_places(panel, left).last().map_or(0, |place| place.2))
+    HEAD + LEGEND_ROW * legend_places(panel, left).last().map_or(0, |place| place.2)
 }
 
 fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_legend: bool) -> Drawn {
@@ -146,7 +150,12 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_lege
         for run in points.split(|point| !drawable(point.0) || !drawable(point.1)) {
             let dots = |radius: i32, style: ShapeStyle| run.iter().map(move |&at| Circle::new(at, radius, style));
             if matches!(curve.mark, Mark::Line | Mark::Dots) {
-                chart.draw_series(LineSeries::new(run.iter().copied(), line_style(curve)))?;
+                let (points, style) = (run.iter().copied(), line_style(curve));
+                if dashed(curve) {
+                    chart.draw_series(DashedLineSeries::new(points, DASH.0 * FINE, DASH.1 * FINE, style))?;
+                } else {
+                    chart.draw_series(LineSeries::new(points, style))?;
+                }
             }
             match curve.mark {
                 // A line of one point would not be seen.
@@ -180,6 +189,10 @@ fn line_style(curve: &Curve) -> ShapeStyle {
     PALETTE[curve.colour % PALETTE.len()].stroke_width(2 * FINE as u32)
 }
 
+fn dashed(curve: &Curve) -> bool {
+    curve.colour / PALETTE.len() % 2 == 1
+}
+
 fn circle_style(curve: &Curve) -> ShapeStyle {
     PALETTE[curve.colour % PALETTE.len()].stroke_width(FINE as u32)
 }
@@ -210,10 +223,14 @@ fn legend_places(panel: &Panel, left: i32) -> Vec<(&Curve, i32, i32)> {
 /// Draws the names of the panel's curves in rows that begin at `x`, above the coordinate system, where no data is.
 fn draw_legend(area: &Area<'_>, panel: &Panel, x: i32) -> Drawn {
     for (curve, x, row) in legend_places(panel, x) {
-        let y = (HEAD * (row + 1) - 13) * FINE;
+        let y = (HEAD - 13 + LEGEND_ROW * row) * FINE;
         let (from, to) = (x * FINE, (x + SAMPLE) * FINE);
         if matches!(curve.mark, Mark::Line | Mark::Dots) {
-            area.draw(&PathElement::new([(from, y), (to, y)], line_style(curve)))?;
+            let dashes = if dashed(curve) { DASH } else { (SAMPLE, 0) };
+            for start in (from..to).step_by(((dashes.0 + dashes.1) * FINE) as usize) {
+                let end = (start + dashes.0 * FINE).min(to);
+                area.draw(&PathElement::new([(start, y), (end, y)], line_style(curve)))?;
+            }
         }
         let middle = ((from + to) / 2, y);
         match curve.mark {
@@ -249,7 +266,7 @@ mod tests {
     #[test]
     fn a_long_legend_gets_the_rows_it_needs() {
         assert_eq!(height(1), height(3));
-        assert!(height(40) > height(3) + 3 * HEAD);
+        assert!(height(40) > height(3) + 3 * LEGEND_ROW);
     }
 
     fn drawn(values: &[f64]) -> String {
@@ -272,6 +289,16 @@ mod tests {
     #[test]
     fn a_point_between_gaps_is_a_dot() {
         assert_eq!(count(&drawn(&[1.0, 2.0, f64::NAN, 2.0, f64::NAN]), "<circle"), 1);
+    }
+
+    #[test]
+    fn a_colour_that_comes_again_is_dashed() {
+        let of = |colour: usize| {
+            let panel = Panel::new("Torques", "torque", "N m").line("", colour, &[0.0, 1.0], &[0.0, 1.0]);
+            count(&svg(&Figure { columns: 1, panels: vec![panel], shared_legend: false }).unwrap(), "<polyline")
+        };
+        assert_eq!((of(1), of(1 + 2 * PALETTE.len())), (1, 1));
+        assert!(of(1 + PALETTE.len()) > 50, "{}", of(1 + PALETTE.len()));
     }
 
     #[test]
