@@ -4,6 +4,9 @@
 //! Exit codes: 0 all is well; 1 the input is at fault (a model, a scenario, a table); 2 the command line is; 3 something
 //! outside is (a file that cannot be read or written, an integration that cannot go on); 130 interrupted.
 
+// They panic where nobody listens; `output` does not.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 mod animation;
 mod commands;
 mod failure;
@@ -15,6 +18,7 @@ mod recorded;
 mod results;
 mod scenario;
 mod summary;
+mod table;
 mod urdf;
 
 use std::process::ExitCode;
@@ -60,7 +64,7 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("{failure}");
+            output::tell(&failure.to_string());
             failure.exit_code()
         }
     }

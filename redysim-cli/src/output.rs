@@ -7,21 +7,25 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 
 /// Writes `contents` to `path`: first beside it under another name, so that an interruption or a full disk leaves nothing
-/// half-written. A file that is there already stays, unless `force`.
+/// half-written. A file that is there already stays, unless `force`. Links are followed; what is no file, such as a device
+/// or a pipe, is written into.
 ///
 /// # Errors
 /// If the file is there and `force` is not given, or if it cannot be written.
 pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failure> {
-    if path.exists() && !force {
-        return Err(exists(path));
-    }
-    let draft = draft_of(path);
-    let written = write_all(&draft, contents).and_then(|()| fs::rename(&draft, path));
-    written.map_err(|error| {
-        // What is left of the draft is of no use to anybody, and if even this fails there is no more to do.
-        let _ = fs::remove_file(&draft);
-        Failure::file("write", path, &error)
-    })
+    let written = match place(path, force)? {
+        Place::Open => write_into(path, contents),
+        Place::File(target) => replace(&target, contents),
+    };
+    written.map_err(|error| Failure::file("write", path, &error))
+}
+
+/// Fails if [`write_file`] would, as far as that can be told before there is something to write.
+///
+/// # Errors
+/// If the file is there and `force` is not given, or its path leads nowhere.
+pub fn check_place(path: &Path, force: bool) -> Result<(), Failure> {
+    place(path, force).map(drop)
 }
 
 /// Prints what was asked for. A reader that has seen enough, as `head` does, is no failure.
@@ -43,10 +47,63 @@ pub fn say(text: &str) {
     let _ = print(&format!("{text}\n"));
 }
 
+/// Says it to the person, on the stream for errors: a warning, or why something failed.
+pub fn tell(text: &str) {
+    let _ = io::stderr().write_all(format!("{text}\n").as_bytes());
+}
+
 /// What is there already, and must not be lost.
 pub fn exists(path: &Path) -> Failure {
     Failure::outside(format!("{} is there already", path.display()))
         .help("write elsewhere with --output, or overwrite it with --force")
+}
+
+/// Where a path leads.
+enum Place {
+    /// To what takes what is written and has no contents to lose.
+    Open,
+    /// To a file, whether it is there or not.
+    File(PathBuf),
+}
+
+/// Names of what this program has open itself, be it a file.
+const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
+
+/// As many links as Linux follows.
+const LINKS: usize = 40;
+
+fn place(path: &Path, force: bool) -> Result<Place, Failure> {
+    match fs::metadata(path) {
+        Ok(_) if OPEN.iter().any(|open| path.starts_with(open)) => return Ok(Place::Open),
+        Ok(found) if !found.is_file() && !found.is_dir() => return Ok(Place::Open),
+        Ok(_) if !force => return Err(exists(path)),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(Failure::file("write", path, &error)),
+        _ => {}
+    }
+    // A link may lead to a file that is yet to be made, which `canonicalize` does not know.
+    let next = |link: &PathBuf| fs::read_link(link).ok().map(|to| link.with_file_name("").join(to));
+    let target = std::iter::successors(Some(path.to_owned()), next).take(LINKS).last();
+    Ok(Place::File(target.unwrap_or_else(|| path.to_owned())))
+}
+
+fn write_into(path: &Path, contents: &[u8]) -> io::Result<()> {
+    match fs::OpenOptions::new().append(true).open(path)?.write_all(contents) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
+fn replace(target: &Path, contents: &[u8]) -> io::Result<()> {
+    let draft = draft_of(target);
+    let permissions = fs::metadata(target).ok().map(|before| before.permissions());
+    let written = write_all(&draft, contents)
+        .and_then(|()| permissions.map_or(Ok(()), |as_before| fs::set_permissions(&draft, as_before)))
+        .and_then(|()| fs::rename(&draft, target));
+    if written.is_err() {
+        // What is left of the draft is of no use to anybody, and if even this fails there is no more to do.
+        let _ = fs::remove_file(&draft);
+    }
+    written
 }
 
 /// The name under which a file is written before it is whole.

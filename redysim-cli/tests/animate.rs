@@ -1,20 +1,23 @@
 //! `redysim animate`: the page, and what is said where none can be made. What the page does in a browser is tested in
 //! `viewer.rs`.
 
-mod recording;
+mod common;
 
-use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use recording::{model, redysim, said, swing, turn};
+use common::{Table, model, redysim, results, slide, swing, turn};
 use serde_json::Value;
 
 /// Makes the page of the results in `folder`.
 fn page(folder: &Path) -> String {
-    let output = redysim(["animate", folder.to_str().unwrap(), "--force"]);
-    assert!(output.status.success(), "{}", said(&output));
+    let run = redysim(&["animate", folder.to_str().unwrap(), "--force"]);
+    assert_eq!(run.code, 0, "{}", run.said());
     fs::read_to_string(folder.join("animation.html")).unwrap()
+}
+
+fn numbers(list: &Value) -> Vec<f64> {
+    list.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
 }
 
 /// The data in a page.
@@ -26,8 +29,7 @@ fn data(page: &str) -> Value {
 #[test]
 fn the_page_asks_for_nothing_from_elsewhere() {
     let folder = tempfile::tempdir().unwrap();
-    swing(folder.path(), &model("kr5"), 1.0, 50);
-    let page = page(folder.path());
+    let page = page(&swing(folder.path(), "kr5.toml", 6, 1.0, 50));
     for outside in ["src=\"", "<link rel=\"stylesheet", "@import", "url(http"] {
         assert!(!page.contains(outside), "{outside}");
     }
@@ -35,50 +37,85 @@ fn the_page_asks_for_nothing_from_elsewhere() {
 }
 
 #[test]
-fn the_frames_are_those_of_the_kinematics() {
+fn every_instant_of_the_run_is_in_the_page_with_its_coordinates_and_rates() {
     let folder = tempfile::tempdir().unwrap();
-    swing(folder.path(), &model("kr5"), 1.0, 50);
-    let data = data(&page(folder.path()));
-    assert_eq!(data["poses"]["t"].as_array().unwrap().len(), 51);
-    assert_eq!(data["poses"]["values"].as_array().unwrap().len(), 51 * 6 * 7);
-    let table = fs::read_to_string(folder.path().join("kinematics.csv")).unwrap();
-    let headers: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    let column = headers.iter().position(|header| *header == "z link4 [m]").unwrap();
-    let last: f64 = table.lines().last().unwrap().split(',').nth(column).unwrap().parse().unwrap();
-    let shown = data["poses"]["values"][(50 * 6 + 3) * 7 + 2].as_f64().unwrap();
-    assert!((shown - last).abs() < 1e-6, "{shown} {last}");
+    let run = swing(folder.path(), "kr5.toml", 6, 1.0, 50);
+    let data = data(&page(&run));
+    let table = Table::csv(&run.join("statevar.csv"));
+    let same = |shown: &Value, header: &str| {
+        let (shown, recorded) = (numbers(shown), table.column(header));
+        assert_eq!(shown.len(), recorded.len(), "{header}");
+        // The test's own reader rounds.
+        assert!(shown.iter().zip(&recorded).all(|(a, b)| (a - b).abs() <= 1e-15 * b.abs()), "{header}");
+    };
+    same(&data["motion"]["t"], "t [s]");
+    for joint in 0..6 {
+        let name = data["joints"][joint].as_str().unwrap();
+        same(&data["motion"]["q"][joint], &format!("q {name} [rad]"));
+        same(&data["motion"]["v"][joint], &format!("v {name} [rad/s]"));
+    }
+    assert_eq!(data["notes"], serde_json::json!([]));
+}
+
+/// Of a rotor of the given speed, rad/s: the page's data, and what is said about it.
+fn rotor(speed: f64, seconds: f64, step: f64) -> (Value, String, usize) {
+    let folder = tempfile::tempdir().unwrap();
+    let motion = format!(
+        "trajectory = {{ kind = 'constant-speed', from = [0], speed = [{speed:?}] }}\n\
+         inverse = {{ end = {seconds:?}, step = {step:?} }}\n"
+    );
+    let run = results(folder.path(), "inverse", "simple_pendulum.toml", &motion);
+    let said = redysim(&["animate", run.to_str().unwrap()]).said();
+    let page = fs::read_to_string(run.join("animation.html")).unwrap();
+    (data(&page), said, page.len())
 }
 
 #[test]
-fn without_kinematics_they_come_from_the_joint_angles() {
-    let folder = tempfile::tempdir().unwrap();
-    swing(folder.path(), &model("kr5"), 1.0, 50);
-    let written = data(&page(folder.path()));
-    fs::remove_file(folder.path().join("kinematics.csv")).unwrap();
-    assert_eq!(data(&page(folder.path()))["poses"], written["poses"]);
+fn a_rotor_goes_on_turning_the_way_it_does_however_long_it_runs() {
+    let (data, said, _) = rotor(20.0, 600.0, 0.02);
+    let [t, q] = ["t", "q"].map(|key| data["motion"][key].clone());
+    let (t, q) = (numbers(&t), numbers(&q[0]));
+    assert_eq!((t.len(), t[t.len() - 1]), (30_001, 600.0));
+    assert!(t.iter().zip(&q).all(|(t, q)| (q - 20.0 * t).abs() < 1e-9), "the angle is not taken modulo a turn");
+    assert!(!said.contains("note"), "{said}");
 }
 
 #[test]
-fn a_long_run_is_thinned_and_keeps_its_end() {
+fn a_motion_too_long_for_a_page_is_thinned_and_that_is_told() {
+    let (data, said, size) = rotor(1.0, 150.0, 0.001);
+    let t = numbers(&data["motion"]["t"]);
+    assert_eq!((t.len(), t[0], t[t.len() - 1]), (100_000, 0.0, 150.0));
+    assert!(size < 6_000_000, "{size} bytes");
+    assert!(said.contains("note: 100000 of 150001 instants are kept"), "{said}");
+    assert_eq!(data["notes"][0], "100000 of 150001 instants are kept");
+}
+
+#[test]
+fn a_joint_too_fast_for_its_instants_is_named() {
+    let (data, said, _) = rotor(20.0, 1.0, 0.1);
+    let note = "joint `bar` turns by up to 114.6 deg from one instant to the next";
+    assert!(said.contains(note) && data["notes"][0].as_str().unwrap().contains(note), "{said}");
+}
+
+/// A pinned four-bar some 0.3 m across, whose crank turns by 3.6 deg from one instant to the next.
+#[test]
+fn how_far_loops_open_between_instants_is_told_and_not_to_be_seen() {
     let folder = tempfile::tempdir().unwrap();
-    swing(folder.path(), &model("double_pendulum"), 60.0, 20_000);
-    let page = page(folder.path());
-    let data = data(&page);
-    let t = data["poses"]["t"].as_array().unwrap();
-    assert!(t.len() <= 1200, "{} frames", t.len());
-    assert_eq!((t[0].as_f64(), t[t.len() - 1].as_f64()), (Some(0.0), Some(60.0)));
-    assert!(page.len() < 2_000_000, "{} bytes", page.len());
+    let data = data(&page(&turn(folder.path(), 100)));
+    let note = data["notes"][0].as_str().unwrap();
+    let gap = note.strip_prefix("between instants the loops open by at most ").unwrap().strip_suffix(" m").unwrap();
+    let gap: f64 = gap.parse().unwrap();
+    assert!(0.0 < gap && gap < 1e-5, "{note}");
 }
 
 #[test]
 fn names_cannot_end_the_script_they_stand_in() {
     let folder = tempfile::tempdir().unwrap();
-    let text = fs::read_to_string(model("simple_pendulum")).unwrap();
+    let text = fs::read_to_string(model("simple_pendulum.toml")).unwrap();
     let name = "</script><script>alert(1)</script><!--";
     let evil = folder.path().join("evil.toml");
     fs::write(&evil, text.replacen("\"simple_pendulum\"", &format!("{name:?}"), 1)).unwrap();
-    swing(folder.path(), &evil, 1.0, 10);
-    let page = page(folder.path());
+    let page = page(&swing(folder.path(), evil.to_str().unwrap(), 1, 1.0, 10));
     assert!(!page.contains("alert(1)</script>"));
     assert_eq!(data(&page)["name"], name);
 }
@@ -86,8 +123,7 @@ fn names_cannot_end_the_script_they_stand_in() {
 #[test]
 fn loops_and_their_multipliers_are_there() {
     let folder = tempfile::tempdir().unwrap();
-    turn(folder.path(), &model("fourbar"), TAU, 1.0, 100, &[0.0, 0.9844, 4.3144]);
-    let data = data(&page(folder.path()));
+    let data = data(&page(&turn(folder.path(), 100)));
     assert_eq!(data["cuts"][0]["name"], "crank-coupler");
     let titles: Vec<_> = data["charts"].as_array().unwrap().iter().map(|chart| chart["title"].clone()).collect();
     assert!(titles.contains(&"Lagrange multipliers".into()) && titles.contains(&"Drift of the energy".into()));
@@ -96,8 +132,7 @@ fn loops_and_their_multipliers_are_there() {
 #[test]
 fn a_chart_has_the_curves_of_one_unit_alone() {
     let folder = tempfile::tempdir().unwrap();
-    swing(folder.path(), &model("slider_crank"), 1.0, 10);
-    let data = data(&page(folder.path()));
+    let data = data(&page(&slide(folder.path(), 10)));
     let chart = |unit: &str| data["charts"].as_array().unwrap().iter().find(|chart| chart["unit"] == unit).unwrap();
     let names = |unit: &str| -> Vec<_> {
         chart(unit)["curves"].as_array().unwrap().iter().map(|curve| curve["name"].as_str().unwrap()).collect()
@@ -111,33 +146,28 @@ fn what_is_missing_or_wrong_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().to_str().unwrap();
     let fails = |code: i32, wrong: &str| {
-        let output = redysim(["animate", path]);
-        assert_eq!(output.status.code(), Some(code), "{}", said(&output));
-        assert!(said(&output).contains(wrong) && said(&output).contains("help:"), "{}", said(&output));
+        let run = redysim(&["animate", path]);
+        assert_eq!(run.code, code, "{}", run.said());
+        assert!(run.said().contains(wrong) && run.said().contains("help:"), "{}", run.said());
         assert!(!folder.path().join("animation.html").exists());
     };
     fails(3, "holds no model.toml");
-    fs::copy(model("simple_pendulum"), folder.path().join("model.toml")).unwrap();
+    fs::copy(model("simple_pendulum.toml"), folder.path().join("model.toml")).unwrap();
     fails(1, "holds no motion");
-    fs::write(folder.path().join("kinematics.csv"), "t [s],x other [m]\n0,0\n").unwrap();
-    fails(1, "kinematics.csv:1: there is no column `x ");
-    fs::remove_file(folder.path().join("kinematics.csv")).unwrap();
-    swing(folder.path(), &model("simple_pendulum"), 1.0, 2);
-    let table = fs::read_to_string(folder.path().join("kinematics.csv")).unwrap();
-    let rows: Vec<&str> = table.lines().collect();
-    let broken = rows[2].replacen(rows[2].split(',').nth(1).unwrap(), "NaN", 1);
-    fs::write(folder.path().join("kinematics.csv"), format!("{}\n{}\n{broken}\n", rows[0], rows[1])).unwrap();
-    fails(1, "kinematics.csv:3: column `x ");
+    fs::write(folder.path().join("statevar.csv"), "t [s],q other [rad]\n0,0\n").unwrap();
+    fails(1, "statevar.csv:1: there is no column `q bar [..]`");
+    fs::write(folder.path().join("statevar.csv"), "t [s],q bar [rad],v bar [rad/s]\n0,0,0\n1,NaN,0\n").unwrap();
+    fails(1, "statevar.csv:3: `q bar [rad]` must be a finite number, found NaN");
 }
 
 #[test]
 fn a_page_that_is_there_stays_unless_forced() {
     let folder = tempfile::tempdir().unwrap();
-    swing(folder.path(), &model("simple_pendulum"), 1.0, 10);
+    let run = swing(folder.path(), "simple_pendulum.toml", 1, 1.0, 10);
     let path = folder.path().join("mine.html");
     fs::write(&path, "mine").unwrap();
-    let output = redysim(["animate", folder.path().to_str().unwrap(), "-o", path.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(3));
-    assert!(said(&output).contains("mine.html is there already"), "{}", said(&output));
+    let run = redysim(&["animate", run.to_str().unwrap(), "-o", path.to_str().unwrap()]);
+    assert_eq!(run.code, 3);
+    assert!(run.said().contains("mine.html is there already"), "{}", run.said());
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
 }

@@ -1,5 +1,6 @@
 // Plays the page `animation.html` of a results folder in headless Chromium, holds what it draws against
-// `kinematics.csv`, and leaves screenshots beside it: node test.mjs FOLDER
+// `kinematics.csv`, and leaves screenshots beside it: node test.mjs FOLDER [FINER], where FINER is a folder with the same
+// motion at more instants, for what the page shows between those that it has.
 
 import assert from "node:assert/strict";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
@@ -14,15 +15,19 @@ const FLAGS = [
   "--disable-sync",
 ];
 const GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-/** Poses go into the page in single precision. */
-const TOLERANCE = 2e-6;
+/** The page computes the links from the joints as the command does, but for rounding. */
+const TOLERANCE = 1e-9;
+/** Between instants: a twentieth of a pixel where a metre has five hundred. */
+const BETWEEN = 1e-4;
 
 const folder = resolve(process.argv[2] ?? ".");
 const table = await kinematics(join(folder, "kinematics.csv"));
+const finer = process.argv[3] && (await kinematics(join(resolve(process.argv[3]), "kinematics.csv")));
 
 await inBrowser([...GL], { width: 1280, height: 800 }, async (page) => {
   await page.screenshot({ path: join(folder, "start.png") });
   await theSliderMovesTheLinks(page);
+  if (finer) await linksAreWhereTheyAre(page, finer, finer.t.keys(), BETWEEN);
   await theSpaceBarPlaysAndPauses(page);
   await theKeysStepAndJump(page);
   await aCurveGoesToTheTimePointedAt(page);
@@ -80,25 +85,27 @@ async function slide(page, time) {
 
 async function theSliderMovesTheLinks(page) {
   const rows = [0, 0.13, 0.5, 0.77, 1].map((part) => Math.round(part * (table.t.length - 1)));
-  for (const row of rows) {
-    await slide(page, table.t[row]);
-    const { time, links } = await page.evaluate(() => ({ time: redysim.time, links: redysim.links() }));
-    assert.ok(Math.abs(time - table.t[row]) < 1e-9, `the slider is at ${table.t[row]} s, the page at ${time} s`);
-    for (const link of links) {
-      near(link.origin, table.point(row, "", link.name), `origin of ${link.name} at ${time} s`);
-      if (link.com) near(link.com, table.point(row, "com_", link.name), `centre of mass of ${link.name} at ${time} s`);
-    }
-  }
+  await linksAreWhereTheyAre(page, table, rows, TOLERANCE);
   const moved = rows.map((row) => table.point(row, "com_", table.links.at(-1)).join());
   assert.ok(new Set(moved).size > 1, "a mechanism that does not move shows nothing");
 }
 
-function near(shown, recorded, what) {
-  const scale = Math.max(1, ...recorded.map(Math.abs));
-  shown.forEach((value, axis) => {
-    const apart = Math.abs(value - recorded[axis]);
-    assert.ok(apart <= TOLERANCE * scale, `${what}: drawn at ${shown}, recorded at ${recorded}`);
-  });
+async function linksAreWhereTheyAre(page, table, rows, tolerance) {
+  for (const row of rows) {
+    await slide(page, table.t[row]);
+    const { time, links } = await page.evaluate(() => ({ time: redysim.time, links: redysim.links() }));
+    assert.ok(Math.abs(time - table.t[row]) < 1e-9, `the slider is at ${table.t[row]} s, the page at ${time} s`);
+    const near = (shown, prefix, name) => {
+      const recorded = table.point(row, prefix, name);
+      const most = tolerance * Math.max(1, ...recorded.map(Math.abs));
+      const apart = Math.hypot(...shown.map((value, axis) => value - recorded[axis]));
+      assert.ok(apart <= most, `${prefix}${name} at ${time} s: drawn at ${shown}, recorded at ${recorded}`);
+    };
+    for (const { name, origin, com } of links) {
+      near(origin, "", name);
+      if (com) near(com, "com_", name);
+    }
+  }
 }
 
 async function theSpaceBarPlaysAndPauses(page) {

@@ -88,9 +88,15 @@ impl ValueFormatter<f64> for Axis {
         if self.logarithmic {
             return format!("10{}", superscript(value.round() as i32));
         }
-        let decimals = (-self.step.log10().floor()).max(0.0) as usize;
+        let exponent = self.step.log10().floor() as i32;
         let rounded = (value / self.step).round() * self.step + 0.0;
-        format!("{rounded:.decimals$}").replace('-', "−")
+        let power = 10_f64.powi(exponent);
+        let label = match exponent {
+            -5..=5 => format!("{rounded:.*}", (-exponent).max(0) as usize),
+            _ if rounded == 0.0 => "0".to_owned(),
+            _ => format!("{}·10{}", (rounded / power).round(), superscript(exponent)),
+        };
+        label.replace('-', "−")
     }
 }
 
@@ -103,4 +109,52 @@ fn superscript(number: i32) -> String {
         _ => char::from_u32(0x2070 + c.to_digit(10).unwrap_or(0)).unwrap_or('⁰'),
     };
     number.to_string().chars().map(digit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(axis: &Axis) -> Vec<String> {
+        axis.key_points(plotters::coord::ranged1d::BoldPoints(10)).iter().map(|value| axis.format_ext(value)).collect()
+    }
+
+    fn linear(values: &[f64]) -> Vec<String> {
+        labels(&Axis::linear(values.iter().copied(), 5))
+    }
+
+    #[test]
+    fn steps_are_1_2_or_5_times_a_power_of_ten() {
+        for (step, round) in [(1.0, 1.0), (1.1, 2.0), (2.1, 5.0), (5.1, 10.0), (0.03, 0.05), (7e5, 1e6), (2e-7, 2e-7)] {
+            assert!((round_step(step) / round - 1.0).abs() < 1e-12, "{step}: {}", round_step(step));
+        }
+    }
+
+    #[test]
+    fn ticks_are_round_and_hold_all_values() {
+        assert_eq!(linear(&[0.0, 1.0]), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(linear(&[-102.3, 211.0]), ["−200", "−100", "0", "100", "200", "300"]);
+        assert_eq!(linear(&[0.0, 1e-3 * 0.68]), ["0.0000", "0.0002", "0.0004", "0.0006", "0.0008"]);
+        assert_eq!(linear(&[f64::NAN, 3.0, f64::INFINITY, 3.0]), ["2.0", "2.5", "3.0", "3.5", "4.0"]);
+        assert_eq!(linear(&[]), linear(&[0.0, 1.0]));
+    }
+
+    #[test]
+    fn a_value_on_a_tick_opens_no_further_interval() {
+        assert_eq!(linear(&[0.0, 1.0 + 1e-12]), linear(&[0.0, 1.0]));
+        // 0.1 + 0.2 is more than 0.3.
+        assert_eq!(Axis::linear([0.0, 0.1 + 0.2].into_iter(), 3).range().end, 0.1 * 3.0);
+    }
+
+    #[test]
+    fn powers_of_ten_are_written_as_such() {
+        let axis = Axis::logarithmic([-11.2, 2.0].into_iter(), 5);
+        assert_eq!(labels(&axis), ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰", "10³"]);
+    }
+
+    #[test]
+    fn numbers_too_long_to_be_read_are_written_in_powers_of_ten() {
+        assert_eq!(linear(&[0.0, 4e9]), ["0", "1·10⁹", "2·10⁹", "3·10⁹", "4·10⁹"]);
+        assert_eq!(linear(&[-2e-9, 2e-9]), ["−2·10⁻⁹", "−1·10⁻⁹", "0", "1·10⁻⁹", "2·10⁻⁹"]);
+    }
 }

@@ -1,5 +1,6 @@
 //! What a picture shows, before it is drawn: panels with curves over time, or over what they say.
 
+use crate::axis::drawable;
 use crate::{Series, column, peak};
 
 /// A picture: panels in rows. Those above each other have the same horizontal axis.
@@ -123,24 +124,33 @@ impl Panel {
     /// Adds a line for each joint, in the joint's own colour. Lines that coincide would hide each other: they become
     /// one, which names all its joints.
     pub fn joints(mut self, t: &[f64], rows: &[Vec<f64>]) -> Self {
-        let mut groups: Vec<(Vec<usize>, Vec<f64>)> = Vec::new();
-        for joint in 0..rows.first().map_or(0, Vec::len) {
-            let values = column(rows, joint);
-            match groups.iter_mut().find(|(_, others)| coincide(others, &values)) {
-                Some((joints, _)) => joints.push(joint + 1),
-                None => groups.push((vec![joint + 1], values)),
-            }
+        let columns: Vec<Vec<f64>> = (0..rows.first().map_or(0, Vec::len)).map(|joint| column(rows, joint)).collect();
+        for group in coincident(&columns, |values| 1e-9 * peak(values.iter().copied())) {
+            let joints: Vec<usize> = group.iter().map(|joint| joint + 1).collect();
+            self = self.line(&joint_names(&joints), joints[0], t, &columns[group[0]]);
         }
-        for (joints, values) in groups {
-            self = self.line(&joint_names(&joints), joints[0], t, &values);
-        }
+        self
+    }
+
+    /// Makes one of those curves that nobody could tell apart in the picture: it names them all.
+    pub fn merged(mut self) -> Self {
+        let columns: Vec<Vec<f64>> =
+            self.curves.iter().map(|curve| curve.points.iter().map(|point| point.1).collect()).collect();
+        let values = || columns.iter().flatten().copied().filter(|value| drawable(*value));
+        let height = values().fold(0.0, f64::max) - values().fold(0.0, f64::min);
+        let groups = coincident(&columns, |_| 2e-3 * height);
+        let merged = groups.iter().map(|group| {
+            let names: Vec<&str> = group.iter().map(|&index| self.curves[index].name.as_str()).collect();
+            Curve { name: enumeration(&names, group), ..self.curves[group[0]].clone() }
+        });
+        self.curves = merged.collect();
         self
     }
 
     /// Measures the vertical axis in thousandths, millionths, … of the unit where the values are that small.
     pub fn prefixed(mut self) -> Self {
         let values = self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.1);
-        let size = peak(values);
+        let size = peak(values.filter(|value| drawable(*value)));
         let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| size * factor >= 0.5).unwrap_or((1.0, ""));
         for point in self.curves.iter_mut().flat_map(|curve| &mut curve.points) {
             point.1 *= factor;
@@ -152,8 +162,27 @@ impl Panel {
 
 const PREFIXES: [(f64, &str); 6] = [(1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"), (1e12, "p"), (1e15, "f")];
 
-fn coincide(a: &[f64], b: &[f64]) -> bool {
-    peak(a.iter().zip(b).map(|(a, b)| a - b)) <= 1e-9 * peak(a.iter().copied())
+/// The numbers of those columns that differ from the first of them by no more than its tolerance.
+fn coincident(columns: &[Vec<f64>], tolerance: impl Fn(&[f64]) -> f64) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (index, values) in columns.iter().enumerate() {
+        let same = |first: &[f64]| {
+            first.len() == values.len() && peak(first.iter().zip(values).map(|(a, b)| a - b)) <= tolerance(first)
+        };
+        match groups.iter_mut().find(|group| same(&columns[group[0]])) {
+            Some(group) => group.push(index),
+            None => groups.push(vec![index]),
+        }
+    }
+    groups
+}
+
+/// "a, b", or "a … f" of many that follow each other by their `numbers`.
+fn enumeration(names: &[&str], numbers: &[usize]) -> String {
+    match (names, numbers) {
+        ([first, _, .., last], [from, .., to]) if to - from + 1 == names.len() => format!("{first} … {last}"),
+        _ => names.join(", "),
+    }
 }
 
 /// "joint 1", "joints 2, 3", "joints 1–6".
@@ -165,5 +194,62 @@ fn joint_names(joints: &[usize]) -> String {
         format!("joints {first}–{last}")
     } else {
         format!("joints {}", joints.iter().map(usize::to_string).collect::<Vec<_>>().join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn panel(curves: &[&[f64]]) -> Panel {
+        let name = |k: usize| char::from(b'a' + k as u8).to_string();
+        let line = |panel: Panel, (k, values): (usize, &&[f64])| panel.line(&name(k), k, &[0.0, 1.0], values);
+        curves.iter().enumerate().fold(Panel::new("Torques", "torque", "N m"), line)
+    }
+
+    fn names(panel: &Panel) -> Vec<&str> {
+        panel.curves.iter().map(|curve| curve.name.as_str()).collect()
+    }
+
+    #[test]
+    fn small_values_are_measured_in_a_smaller_unit() {
+        for (size, unit, shown) in [
+            (0.0, "N m", 0.0),
+            (2.0, "N m", 2.0),
+            (0.5, "N m", 0.5),
+            (0.25, "mN m", 250.0),
+            (3e-5, "µN m", 30.0),
+            (7e-9, "nN m", 7.0),
+            (1e-12, "pN m", 1.0),
+            (4e-15, "fN m", 4.0),
+            (1e-30, "N m", 1e-30),
+        ] {
+            let panel = panel(&[&[0.0, -size], &[size / 2.0, f64::NAN]]).prefixed();
+            assert_eq!(panel.unit, unit, "{size}");
+            assert!((panel.curves[0].points[1].1 + shown).abs() <= 1e-12 * shown, "{size}: {:?}", panel.curves);
+            assert!((panel.curves[1].points[0].1 - shown / 2.0).abs() <= 1e-12 * shown, "one scale for all curves");
+        }
+    }
+
+    #[test]
+    fn joints_that_move_alike_are_one_curve_that_names_them() {
+        let names_of = |rows: &[Vec<f64>]| -> Vec<String> {
+            let panel = Panel::new("", "angle", "rad").joints(&[0.0, 1.0], rows);
+            panel.curves.into_iter().map(|curve| format!("{} {}", curve.name, curve.colour)).collect()
+        };
+        assert_eq!(names_of(&[]), [""; 0]);
+        assert_eq!(names_of(&[vec![0.0; 6], vec![1.0; 6]]), ["joints 1–6 1"]);
+        let rows = [vec![0.0, 0.0, 0.0, 5.0], vec![1.0, 2.0, 1.0, 5.0 + 1e-12]];
+        assert_eq!(names_of(&rows), ["joints 1, 3 1", "joint 2 2", "joint 4 4"]);
+    }
+
+    #[test]
+    fn curves_that_nobody_could_tell_apart_are_one_that_names_them_all() {
+        let apart = panel(&[&[0.0, 1.0], &[0.0, 1.1]]).merged();
+        assert_eq!(names(&apart), ["a", "b"]);
+        let close = panel(&[&[0.0, 100.0], &[1e-6, 0.0], &[0.0, 0.0], &[0.0, 99.99], &[0.0, 1e-3], &[f64::NAN; 2]]);
+        assert_eq!(names(&close.merged()), ["a, d", "b, c, e", "f"]);
+        let all = panel(&[[0.0, 0.0].as_slice(); 5]).merged();
+        assert_eq!((names(&all), all.curves[0].colour), (vec!["a … e"], 0));
     }
 }

@@ -17,6 +17,8 @@ const WIDTH: i32 = 800;
 const PLOT: i32 = 190;
 const HEAD: i32 = 32;
 const TIME_TITLE: i32 = 20;
+/// From one row of a legend to the next.
+const LEGEND_ROW: i32 = 22;
 const LEFT: i32 = 74;
 /// Room that the turned title of the vertical axis takes on its outer side.
 const TITLE_INSET: i32 = 14;
@@ -36,6 +38,8 @@ const PALETTE: [RGBColor; 10] = [
     RGBColor(120, 70, 30),
     RGBColor(150, 150, 0),
 ];
+/// When all colours are taken, they come again in dashes.
+const DASH: (i32, i32) = (7, 3);
 const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 
@@ -52,8 +56,11 @@ impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for Drawi
 ///
 /// # Errors
 ///
-/// If the figure cannot be laid out.
+/// If the figure cannot be laid out: it has no columns, for one.
 pub fn svg(figure: &Figure) -> Result<String, DrawingError> {
+    if figure.columns == 0 {
+        return Err(DrawingError::new("it has panels in no columns: give `columns` 1 or more"));
+    }
     let rows = figure.panels.len().div_ceil(figure.columns) as i32;
     let shared = figure.panels.first().filter(|_| figure.shared_legend);
     let legend = shared.map_or(0, |panel| legend_height(panel, LEFT));
@@ -99,7 +106,7 @@ fn legend_start(panel: &Panel) -> i32 {
 }
 
 fn legend_height(panel: &Panel, left: i32) -> i32 {
-    HEAD * (1 + legend_places(panel, left).last().map_or(0, |place| place.2))
+    HEAD + LEGEND_ROW * legend_places(panel, left).last().map_or(0, |place| place.2)
 }
 
 fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_legend: bool) -> Drawn {
@@ -138,20 +145,25 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_lege
         ))?;
     }
     for curve in &panel.curves {
-        let points: Vec<(f64, f64)> = points(panel, curve).filter(|point| drawable(point.1)).collect();
-        if matches!(curve.mark, Mark::Line | Mark::Dots) {
-            chart.draw_series(LineSeries::new(points.iter().copied(), line_style(curve)))?;
-        }
-        match curve.mark {
-            Mark::Line => {}
-            Mark::Dots | Mark::Scatter => {
-                chart.draw_series(
-                    points.iter().map(|&point| Circle::new(point, 3 * FINE, line_style(curve).filled())),
-                )?;
+        let points: Vec<(f64, f64)> = points(panel, curve).collect();
+        // What cannot be drawn leaves a gap.
+        for run in points.split(|point| !drawable(point.0) || !drawable(point.1)) {
+            let dots = |radius: i32, style: ShapeStyle| run.iter().map(move |&at| Circle::new(at, radius, style));
+            if matches!(curve.mark, Mark::Line | Mark::Dots) {
+                let (points, style) = (run.iter().copied(), line_style(curve));
+                if dashed(curve) {
+                    chart.draw_series(DashedLineSeries::new(points, DASH.0 * FINE, DASH.1 * FINE, style))?;
+                } else {
+                    chart.draw_series(LineSeries::new(points, style))?;
+                }
             }
-            Mark::Circles => {
-                chart.draw_series(points.iter().map(|&point| Circle::new(point, 3 * FINE, circle_style(curve))))?;
-            }
+            match curve.mark {
+                // A line of one point would not be seen.
+                Mark::Line if run.len() == 1 => chart.draw_series(dots(FINE, line_style(curve).filled()))?,
+                Mark::Line => continue,
+                Mark::Dots | Mark::Scatter => chart.draw_series(dots(3 * FINE, line_style(curve).filled()))?,
+                Mark::Circles => chart.draw_series(dots(3 * FINE, circle_style(curve)))?,
+            };
         }
     }
     Ok(())
@@ -175,6 +187,10 @@ fn points(panel: &Panel, curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
 
 fn line_style(curve: &Curve) -> ShapeStyle {
     PALETTE[curve.colour % PALETTE.len()].stroke_width(2 * FINE as u32)
+}
+
+fn dashed(curve: &Curve) -> bool {
+    curve.colour / PALETTE.len() % 2 == 1
 }
 
 fn circle_style(curve: &Curve) -> ShapeStyle {
@@ -207,10 +223,14 @@ fn legend_places(panel: &Panel, left: i32) -> Vec<(&Curve, i32, i32)> {
 /// Draws the names of the panel's curves in rows that begin at `x`, above the coordinate system, where no data is.
 fn draw_legend(area: &Area<'_>, panel: &Panel, x: i32) -> Drawn {
     for (curve, x, row) in legend_places(panel, x) {
-        let y = (HEAD * (row + 1) - 13) * FINE;
+        let y = (HEAD - 13 + LEGEND_ROW * row) * FINE;
         let (from, to) = (x * FINE, (x + SAMPLE) * FINE);
         if matches!(curve.mark, Mark::Line | Mark::Dots) {
-            area.draw(&PathElement::new([(from, y), (to, y)], line_style(curve)))?;
+            let dashes = if dashed(curve) { DASH } else { (SAMPLE, 0) };
+            for start in (from..to).step_by(((dashes.0 + dashes.1) * FINE) as usize) {
+                let end = (start + dashes.0 * FINE).min(to);
+                area.draw(&PathElement::new([(start, y), (end, y)], line_style(curve)))?;
+            }
         }
         let middle = ((from + to) / 2, y);
         match curve.mark {
@@ -246,6 +266,44 @@ mod tests {
     #[test]
     fn a_long_legend_gets_the_rows_it_needs() {
         assert_eq!(height(1), height(3));
-        assert!(height(40) > height(3) + 3 * HEAD);
+        assert!(height(40) > height(3) + 3 * LEGEND_ROW);
+    }
+
+    fn drawn(values: &[f64]) -> String {
+        let t: Vec<f64> = (0..values.len()).map(|k| k as f64).collect();
+        let panels = vec![Panel::new("Torques", "torque", "N m").line("", 1, &t, values)];
+        svg(&Figure { columns: 1, panels, shared_legend: false }).unwrap()
+    }
+
+    /// How many elements of this kind have the colour of the curve.
+    fn count(svg: &str, element: &str) -> usize {
+        svg.lines().filter(|line| line.starts_with(element) && line.contains("#0072B2")).count()
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_leaves_a_gap() {
+        assert_eq!(count(&drawn(&[1.0, 2.0, 3.0]), "<polyline"), 1);
+        assert_eq!(count(&drawn(&[1.0, 2.0, f64::NAN, f64::INFINITY, 2.0, 1.0]), "<polyline"), 2);
+    }
+
+    #[test]
+    fn a_point_between_gaps_is_a_dot() {
+        assert_eq!(count(&drawn(&[1.0, 2.0, f64::NAN, 2.0, f64::NAN]), "<circle"), 1);
+    }
+
+    #[test]
+    fn a_colour_that_comes_again_is_dashed() {
+        let of = |colour: usize| {
+            let panel = Panel::new("Torques", "torque", "N m").line("", colour, &[0.0, 1.0], &[0.0, 1.0]);
+            count(&svg(&Figure { columns: 1, panels: vec![panel], shared_legend: false }).unwrap(), "<polyline")
+        };
+        assert_eq!((of(1), of(1 + 2 * PALETTE.len())), (1, 1));
+        assert!(of(1 + PALETTE.len()) > 50, "{}", of(1 + PALETTE.len()));
+    }
+
+    #[test]
+    fn a_figure_without_columns_cannot_be_drawn() {
+        let error = svg(&Figure { columns: 0, panels: vec![], shared_legend: false }).unwrap_err();
+        assert!(error.to_string().contains("`columns`"), "{error}");
     }
 }

@@ -77,8 +77,20 @@ pub enum JointKind {
 
 impl JointKind {
     /// Every kind with its name in a model file.
-    pub const ALL: [(&'static str, JointKind); 3] =
-        [("revolute", JointKind::Revolute), ("prismatic", JointKind::Prismatic), ("fixed", JointKind::Fixed)];
+    pub const ALL: [(&'static str, JointKind); 3] = [
+        (JointKind::Revolute.name(), JointKind::Revolute),
+        (JointKind::Prismatic.name(), JointKind::Prismatic),
+        (JointKind::Fixed.name(), JointKind::Fixed),
+    ];
+
+    /// Its name in a model file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic => "prismatic",
+            JointKind::Fixed => "fixed",
+        }
+    }
 
     /// Number of joint velocities.
     pub fn dof(self) -> usize {
@@ -143,8 +155,20 @@ pub enum CutKind {
 
 impl CutKind {
     /// Every kind with its name in a model file.
-    pub const ALL: [(&'static str, CutKind); 3] =
-        [("revolute", CutKind::Revolute), ("spherical", CutKind::Spherical), ("weld", CutKind::Weld)];
+    pub const ALL: [(&'static str, CutKind); 3] = [
+        (CutKind::Revolute.name(), CutKind::Revolute),
+        (CutKind::Spherical.name(), CutKind::Spherical),
+        (CutKind::Weld.name(), CutKind::Weld),
+    ];
+
+    /// Its name in a model file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            CutKind::Revolute => "revolute",
+            CutKind::Spherical => "spherical",
+            CutKind::Weld => "weld",
+        }
+    }
 }
 
 impl Model {

@@ -1,7 +1,8 @@
 //! What the model says about the looks of a mechanism: from where to where its links reach, and how they are joined.
 
-use redysim_model::spatial::Vec3;
-use redysim_model::{CutKind, JointKind, Link, Model};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use redysim_model::spatial::{Mat3, Vec3};
+use redysim_model::{JointKind, Link, Model};
 use serde::Serialize;
 
 /// A link in its own frame, or the ground (the first body) in the base frame.
@@ -24,6 +25,13 @@ struct Joint<'a> {
     kind: &'a str,
     /// Unit vector, in the link's frame.
     axis: [f64; 3],
+    /// The body that carries it.
+    parent: usize,
+    /// The link's frame in that body's where the joint's motion is zero: origin, m, and quaternion x, y, z, w.
+    position: [f64; 3],
+    rotation: [f64; 4],
+    /// What is added to its coordinate, rad or m.
+    offset: f64,
     /// Number of its coordinate, which is that of its colour; none for a joint that does not move.
     coordinate: Option<usize>,
     /// For a prismatic joint, where it slides from.
@@ -57,8 +65,12 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let joint = Joint {
             name: &link.joint_name,
-            kind: JointKind::ALL.iter().find(|(_, kind)| *kind == link.joint).map_or("", |(name, _)| *name),
+            kind: link.joint.name(),
             axis: link.axis.0,
+            parent: number(link.parent),
+            position: link.placement.position.0,
+            rotation: quaternion(link.placement.rotation),
+            offset: link.offset,
             coordinate: if link.joint.dof() > 0 { coordinates.next() } else { None },
             rail: (link.joint == JointKind::Prismatic).then(|| Place { body: number(link.parent), point: foot(link) }),
         };
@@ -76,18 +88,21 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
 
 /// The cut joints, each where its side a holds it.
 pub fn cuts(model: &Model) -> Vec<Cut<'_>> {
-    let kind = |joint| CutKind::ALL.iter().find(|(_, kind)| *kind == joint).map_or("", |(name, _)| *name);
-    let mut cuts = Vec::new();
-    for cut in &model.loops {
+    let cuts = model.loops.iter().map(|cut| {
         let at = Place { body: number(cut.a.link), point: cut.a.point.0 };
-        cuts.push(Cut { name: &cut.name, kind: kind(cut.joint), at, axis: cut.a.axis.0 });
-    }
-    cuts
+        Cut { name: &cut.name, kind: cut.joint.name(), at, axis: cut.a.axis.0 }
+    });
+    cuts.collect()
 }
 
 /// Number of a body among those that the page knows: the ground is 0.
 fn number(link: Option<usize>) -> usize {
     link.map_or(0, |index| index + 1)
+}
+
+fn quaternion(rotation: Mat3<f64>) -> [f64; 4] {
+    let matrix = Matrix3::from_fn(|row, column| rotation.0[row][column]);
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)).coords.into()
 }
 
 /// Where the joints of a link's children, and the cut joints on it, stand: in the link's frame.

@@ -1,38 +1,41 @@
 //! The data of the animation: what the page `viewer/` needs to show a motion.
 
 mod bodies;
-mod poses;
+mod motion;
 
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::recorded::{Chart, Recorded};
 use bodies::{Body, Cut};
-use poses::Poses;
+use motion::Motion;
 
 /// The page, made by `viewer/build.mjs`, with a place for the data.
 const PAGE: &str = include_str!("../../viewer/dist/viewer.html");
 /// What stands in that place.
 const PLACE: &str = "{\"redysim\":\"data\"}";
 
-/// A page of HTML that needs nothing else and plays what was recorded.
+/// A page of HTML that needs nothing else and plays what was recorded; and what those who look at it should know, which
+/// it shows, too.
 ///
 /// # Errors
 /// If the model or a table is missing or wrong.
-pub fn page(recorded: &Recorded) -> Result<String, Failure> {
+pub fn page(recorded: &Recorded) -> Result<(String, Vec<String>), Failure> {
     let model = recorded.model()?;
     let charts = recorded.charts()?;
+    let (motion, notes) = motion::of(recorded, &model)?;
     let animation = Animation {
         name: &model.name,
         gravity: model.gravity.0,
         bodies: bodies::of(&model),
         cuts: bodies::cuts(&model),
-        poses: poses::of(recorded, &model)?,
+        motion,
+        notes: &notes,
         charts: charts.iter().map(Curves::of).collect(),
         joints: model.moving_links().map(|link| link.joint_name.as_str()).collect(),
     };
     let json = serde_json::to_string(&animation).map_err(Failure::outside)?;
-    Ok(PAGE.replacen(PLACE, &in_html(&json), 1))
+    Ok((PAGE.replacen(PLACE, &in_html(&json), 1), notes))
 }
 
 /// JSON that may stand in a `<script>`: without characters that HTML takes for its own.
@@ -47,7 +50,8 @@ struct Animation<'a> {
     gravity: [f64; 3],
     bodies: Vec<Body<'a>>,
     cuts: Vec<Cut<'a>>,
-    poses: Poses,
+    motion: Motion,
+    notes: &'a [String],
     charts: Vec<Curves<'a>>,
     joints: Vec<&'a str>,
 }

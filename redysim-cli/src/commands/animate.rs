@@ -26,13 +26,12 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let recorded = Recorded::open(&arguments.results)?;
     let path = arguments.output.clone().unwrap_or_else(|| recorded.folder().join("animation.html"));
     // Before what takes its time.
-    if path.exists() && !arguments.force {
-        return Err(output::exists(&path));
-    }
-    let page = animation::page(&recorded)?;
+    output::check_place(&path, arguments.force)?;
+    let (page, notes) = animation::page(&recorded)?;
     output::write_file(&path, page.as_bytes(), arguments.force)?;
     if !quiet {
-        println!("{} ({} kB): open it in a browser", path.display(), page.len().div_ceil(1000));
+        notes.iter().for_each(|note| output::tell(&format!("note: {note}")));
+        output::say(&format!("{} ({} kB): open it in a browser", path.display(), page.len().div_ceil(1000)));
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::Failure;
 use crate::number::counted;
-use crate::output::print;
+use crate::output::{print, tell};
 use crate::summary::Summary;
 use redysim_model::{Diagnostic, Model, Severity};
 use serde::Serialize;
@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         print_json(arguments, &diagnostics, summary.as_ref().ok().and_then(Option::as_ref))?;
     } else {
         let shown = diagnostics.iter().filter(|found| !quiet || found.severity() == Severity::Error);
-        shown.for_each(|found| eprintln!("{found}\n"));
+        shown.for_each(|found| tell(&format!("{found}\n")));
     }
     match summary {
         Ok(Some(summary)) if !arguments.json => print(&summary.to_string())?,

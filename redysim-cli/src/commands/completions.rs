@@ -5,6 +5,7 @@ use clap_complete::{Shell, generate};
 
 use crate::Cli;
 use crate::failure::Failure;
+use crate::output::print;
 
 /// Print the completions of a shell.
 #[derive(clap::Args)]
@@ -16,6 +17,7 @@ pub struct Arguments {
 
 /// Prints them.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    generate(arguments.shell, &mut Cli::command(), "redysim", &mut std::io::stdout());
-    Ok(())
+    let mut script = Vec::new();
+    generate(arguments.shell, &mut Cli::command(), "redysim", &mut script);
+    print(&String::from_utf8_lossy(&script))
 }

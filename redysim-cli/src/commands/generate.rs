@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use crate::failure::Failure;
-use crate::output::{print, write_file};
+use crate::output::{print, tell, write_file};
 use redysim_codegen::source_file_with;
 use redysim_model::scene::FUNCTIONS;
 use redysim_model::{Loaded, Model};
@@ -49,8 +49,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     if !quiet {
         // The head of the source is the report; behind `// ` it reads as text.
         let head = source.lines().take_while(|line| line.starts_with("//"));
-        head.for_each(|line| eprintln!("{}", line.trim_start_matches("//").trim_start()));
-        eprintln!("\n{name} is in {}", path.display());
+        head.for_each(|line| tell(line.trim_start_matches("//").trim_start()));
+        tell(&format!("\n{name} is in {}", path.display()));
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::output::{print, write_file};
+use crate::output::{print, tell, write_file};
 use crate::urdf::{Imported, Options, import};
 
 /// Make a model file from a URDF, and say what gets lost.
@@ -54,11 +54,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         None => print(&text)?,
     }
     if !quiet {
-        notes.iter().for_each(|note| eprintln!("note: {note}"));
-        let warned = warnings.iter().map(|warning| format!("warning: {}", warning.title()));
-        warned.for_each(|warning| eprintln!("{warning}"));
+        notes.iter().for_each(|note| tell(&format!("note: {note}")));
+        warnings.iter().for_each(|warning| tell(&format!("warning: {}", warning.title())));
         if let Some(output) = &arguments.output {
-            eprintln!("\nThe model is in {0}: redysim check {0}", output.display());
+            tell(&format!("\nThe model is in {0}: redysim check {0}", output.display()));
         }
     }
     Ok(())

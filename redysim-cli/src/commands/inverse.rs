@@ -6,6 +6,7 @@ use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopClosur
 
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::output::tell;
 use crate::progress::Progress;
 use crate::results::{self, Ended, Record, Summary};
 use crate::scenario::{Prescribed, Run, Scenario, Span};
@@ -63,9 +64,9 @@ fn warn_of_passive(scenario: &Scenario, record: &Record) {
         let most = record.tau.iter().fold(0.0, |most: f64, row| most.max(row[index].abs()));
         if most > 0.0 {
             let (name, unit) = (&joint.name, joint.unit_of_force());
-            eprintln!(
+            tell(&format!(
                 "warning: the joint `{name}` has no actuator, but the motion takes up to {most:.3e} {unit} there"
-            );
+            ));
         }
     }
 }

@@ -12,6 +12,7 @@ pub mod plot;
 use std::path::Path;
 
 use crate::failure::Failure;
+use crate::output::tell;
 use redysim_model::{Faults, Loaded, Model};
 
 /// Reads a model, prints its warnings unless `quiet`, and says every fault at once.
@@ -25,7 +26,7 @@ pub fn loaded(path: &Path, read: Result<Loaded, Faults>, quiet: bool) -> Result<
         read.map_err(|faults| if path.exists() { Failure::input(faults) } else { Failure::outside(faults) })?;
     if !quiet {
         for warning in &loaded.warnings {
-            eprintln!("{warning}\n");
+            tell(&format!("{warning}\n"));
         }
     }
     Ok(loaded)

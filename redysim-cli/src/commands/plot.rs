@@ -28,8 +28,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let recorded = Recorded::open(&arguments.results)?;
     let mut charts = recorded.charts()?;
     if charts.is_empty() {
-        return Err(Failure::input(format!("{} holds nothing to draw", arguments.results.display()))
-            .help("a run writes statevar.csv or traj.csv, tor.csv, energy.csv and lambda.csv; is this its folder?"));
+        return Err(recorded.lacks("nothing to draw"));
     }
     let mut pictures: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let folder = arguments.output.as_deref().unwrap_or(recorded.folder());
@@ -44,16 +43,14 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     }
     write(folder, &pictures, arguments.force)?;
     if !quiet {
-        pictures.iter().for_each(|(path, _)| println!("{}", path.display()));
+        pictures.iter().for_each(|(path, _)| output::say(&path.display().to_string()));
     }
     Ok(())
 }
 
 /// Writes all of them, or none if one is there already.
 fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
-    if let Some((path, _)) = pictures.iter().find(|(path, _)| path.exists() && !force) {
-        return Err(output::exists(path));
-    }
+    pictures.iter().try_for_each(|(path, _)| output::check_place(path, force))?;
     std::fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, &error))?;
     pictures.iter().try_for_each(|(path, contents)| output::write_file(path, contents, force))
 }
@@ -72,5 +69,5 @@ fn panel(chart: &Chart) -> Panel {
         // The palette's first colour, black, is for references.
         panel.line(&curve.name, curve.colour + 1, &chart.t, &curve.values)
     });
-    panel.prefixed()
+    panel.merged().prefixed()
 }

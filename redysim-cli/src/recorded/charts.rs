@@ -1,8 +1,9 @@
 //! What of the tables is worth a look: curves that belong into one coordinate system.
 
+use super::Recorded;
 use super::thin::with_peaks;
-use super::{Recorded, Table};
 use crate::failure::Failure;
+use crate::table::{Column, Table};
 
 /// Rows of a chart, about: more than a screen has pixels across.
 const ROWS: usize = 2000;
@@ -113,7 +114,7 @@ fn by_unit(
         let values: Vec<&[f64]> = shown.iter().map(|(_, column)| column.values.as_slice()).collect();
         let rows = with_peaks(&values, table.t.len(), ROWS);
         let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
-        let curve = |(colour, column): &&(usize, &super::table::Column)| Curve {
+        let curve = |(colour, column): &&(usize, &Column)| Curve {
             name: if column.name.is_empty() { column.symbol.clone() } else { column.name.clone() },
             colour: *colour,
             values: pick(&column.values),

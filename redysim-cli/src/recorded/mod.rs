@@ -1,7 +1,6 @@
 //! What a run has left behind: the tables of a results folder, and the model that they are about.
 
 mod charts;
-mod table;
 mod thin;
 
 use std::path::{Path, PathBuf};
@@ -9,11 +8,11 @@ use std::path::{Path, PathBuf};
 use redysim_model::Model;
 
 pub use charts::{Chart, Curve, Group};
-pub use table::Table;
 pub use thin::spread;
 
 use crate::commands::load;
 use crate::failure::Failure;
+use crate::table::Table;
 
 /// A results folder.
 pub struct Recorded {
@@ -48,15 +47,29 @@ impl Recorded {
         if path.exists() { Table::read(&path).map(Some) } else { Ok(None) }
     }
 
-    /// The coordinates and velocities of the joints: the state of a forward run, the given motion of an inverse one.
+    /// The coordinates and velocities of the joints: the state of a forward run; of an inverse one the given motion, with
+    /// its accelerations.
     ///
     /// # Errors
     /// If they cannot be read.
     pub fn motion(&self) -> Result<Option<Table>, Failure> {
-        match self.table("statevar.csv")? {
+        match self.table("traj.csv")? {
             Some(table) => Ok(Some(table)),
-            None => self.table("traj.csv"),
+            None => self.table("statevar.csv"),
         }
+    }
+
+    /// That nothing of what is wanted is there, and what to do.
+    pub fn lacks(&self, what: &str) -> Failure {
+        let redysims = |entry: std::io::Result<std::fs::DirEntry>| {
+            entry.is_ok_and(|entry| entry.path().extension().is_some_and(|extension| extension == "dat"))
+        };
+        let names_nothing = std::fs::read_dir(&self.folder).is_ok_and(|mut entries| entries.any(redysims));
+        Failure::input(format!("{} holds {what}", self.folder.display())).help(if names_nothing {
+            "its tables are ReDySim's (*.dat), which do not name their columns: run the scenario with --format csv"
+        } else {
+            "a run writes statevar.csv or traj.csv, kinematics.csv, tor.csv, energy.csv and lambda.csv; is this its folder?"
+        })
     }
 
     /// The model whose motion it is.

@@ -12,7 +12,7 @@ pub fn spread(count: usize, most: usize) -> Vec<usize> {
 }
 
 /// About `most` of the curves' rows, in order: the first, the last, and of every stretch those where a curve has its least
-/// and its largest value, so that no peak is lost.
+/// and its largest value, and the first where it has none, so that no peak and no gap is lost.
 pub fn with_peaks(curves: &[&[f64]], count: usize, most: usize) -> Vec<usize> {
     if count <= most || curves.is_empty() {
         return spread(count, most);
@@ -24,8 +24,10 @@ pub fn with_peaks(curves: &[&[f64]], count: usize, most: usize) -> Vec<usize> {
         let stretch = || start..(start + length).min(count);
         for values in curves {
             let order = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
-            rows.extend(stretch().min_by(order));
-            rows.extend(stretch().max_by(order));
+            let finite = |row: &usize| values[*row].is_finite();
+            rows.extend(stretch().filter(finite).min_by(order));
+            rows.extend(stretch().filter(finite).max_by(order));
+            rows.extend(stretch().find(|row| !finite(row)));
         }
     }
     rows.sort_unstable();
@@ -56,5 +58,8 @@ mod tests {
         assert!(rows.contains(&77_777) && rows.contains(&33_333));
         assert!(rows.contains(&0) && rows.contains(&99_999));
         assert!(rows.len() <= 2002, "{}", rows.len());
+        values[77_778] = f64::NAN;
+        let rows = with_peaks(&[&values], values.len(), 2000);
+        assert!(rows.contains(&77_777) && rows.contains(&77_778), "a peak beside a gap, and the gap");
     }
 }

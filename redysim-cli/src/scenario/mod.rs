@@ -20,6 +20,7 @@ use toml::de::DeValue;
 
 use crate::commands;
 use crate::failure::Failure;
+use crate::output::tell;
 pub use forward::Forward;
 pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances};
@@ -87,7 +88,7 @@ impl Scenario {
         let (scenario, warnings) = read.map_err(Failure::input)?;
         if !quiet {
             for warning in warnings {
-                eprintln!("{warning}\n");
+                tell(&format!("{warning}\n"));
             }
         }
         scenario.check_tables()?;

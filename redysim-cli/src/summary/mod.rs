@@ -3,7 +3,7 @@
 mod suspicions;
 mod table;
 
-use redysim_model::{CutKind, JointKind, Link, Loaded, Mobility, Model, Tree};
+use redysim_model::{Link, Loaded, Mobility, Model, Tree};
 use redysim_runtime::OperationCount;
 use serde::{Serialize, Serializer};
 
@@ -133,7 +133,7 @@ fn link_summary(model: &Model, link: &Link) -> LinkSummary {
         name: link.name.clone(),
         parent: link_name(model, link.parent),
         joint: link.joint_name.clone(),
-        kind: kind(link.joint),
+        kind: link.joint.name(),
         actuated: (link.joint.dof() > 0).then_some(link.actuated),
         mass: link.mass,
     }
@@ -143,7 +143,7 @@ fn loop_summaries(model: &Model, added: &[usize]) -> Vec<LoopSummary> {
     let cuts = Tree::new(model).cuts;
     let summary = |((cut, conditions), &rank): ((&redysim_model::Loop, usize), &usize)| LoopSummary {
         name: cut.name.clone(),
-        kind: cut_kind(cut.joint),
+        kind: cut.joint.name(),
         link_a: link_name(model, cut.a.link),
         link_b: link_name(model, cut.b.link),
         conditions,
@@ -155,12 +155,4 @@ fn loop_summaries(model: &Model, added: &[usize]) -> Vec<LoopSummary> {
 
 fn link_name(model: &Model, link: Option<usize>) -> String {
     link.map_or("base".to_string(), |link| model.links[link].name.clone())
-}
-
-fn kind(joint: JointKind) -> &'static str {
-    JointKind::ALL.iter().find(|(_, kind)| *kind == joint).map_or("", |(name, _)| name)
-}
-
-fn cut_kind(joint: CutKind) -> &'static str {
-    CutKind::ALL.iter().find(|(_, kind)| *kind == joint).map_or("", |(name, _)| name)
 }

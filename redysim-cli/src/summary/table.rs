@@ -2,6 +2,7 @@
 
 use super::{LinkSummary, Summary};
 use crate::number::{counted, rounded};
+use redysim_model::JointKind;
 use std::fmt::{Display, Formatter, Result};
 
 /// A title, and what stands below it.
@@ -44,7 +45,7 @@ impl Summary {
     /// "5 revolute, 1 prismatic".
     fn kinds(&self) -> String {
         let count = |kind: &str| self.links.iter().filter(|link| link.kind == kind).count();
-        let kinds = ["revolute", "prismatic", "fixed"].map(|kind| (kind, count(kind)));
+        let kinds = JointKind::ALL.map(|(kind, _)| (kind, count(kind)));
         let there = kinds.iter().filter(|(_, count)| *count > 0);
         there.map(|(kind, count)| format!("{count} {kind}")).collect::<Vec<_>>().join(", ")
     }

@@ -13,13 +13,16 @@ pub struct Document<'a> {
     xml: Xml<'a>,
 }
 
-/// What is read inside of each element, and of others nothing. Limits are read where they are whole.
+/// What is read inside of each element, and of others nothing. Limits are read where they have a velocity.
 const READ: [(&str, &[&str]); 4] = [
     ("robot", &["link", "joint"]),
     ("link", &["inertial"]),
     ("inertial", &["origin", "mass", "inertia"]),
     ("joint", &["origin", "parent", "child", "axis", "limit", "mimic"]),
 ];
+
+/// What limits a joint.
+const LIMITS: [&str; 7] = ["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"];
 
 /// The joints of URDF.
 const KINDS: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
@@ -68,7 +71,9 @@ impl<'a> Document<'a> {
 
     fn check_link(&self, link: Node) -> Result<(), Failure> {
         let item = self.item(link)?;
+        self.check_single(&item, link)?;
         let Some(inertial) = child(link, "inertial") else { return Ok(()) };
+        self.check_single(&item, inertial)?;
         self.check_origin(&item, inertial)?;
         let mass = self.required(&item, inertial, "mass")?;
         self.numbers(&item, mass, "value", 1, true)?;
@@ -79,6 +84,7 @@ impl<'a> Document<'a> {
 
     fn check_joint(&self, joint: Node) -> Result<(), Failure> {
         let item = self.item(joint)?;
+        self.check_single(&item, joint)?;
         match joint.attribute("type") {
             None => return Err(self.fault(joint, format!("{item}: it has no `type`"))),
             Some(kind) if !KINDS.contains(&kind) => {
@@ -94,7 +100,38 @@ impl<'a> Document<'a> {
             }
         }
         self.check_origin(&item, joint)?;
-        child(joint, "axis").map_or(Ok(()), |axis| self.numbers(&item, axis, "xyz", 3, true))
+        child(joint, "axis").map_or(Ok(()), |axis| self.numbers(&item, axis, "xyz", 3, true))?;
+        child(joint, "limit").map_or(Ok(()), |limit| self.check_limit(&item, limit))?;
+        child(joint, "mimic").map_or(Ok(()), |mimic| self.check_mimic(&item, mimic))
+    }
+
+    /// Limits may be infinite.
+    fn check_limit(&self, item: &str, limit: Node) -> Result<(), Failure> {
+        let number = |text: &str| text.trim().parse::<f64>().is_ok_and(|value| !value.is_nan());
+        let read = |name: &str| LIMITS.contains(&name);
+        match limit.attributes().find(|limit| read(limit.name()) && !number(limit.value())) {
+            None => Ok(()),
+            Some(wrong) => Err(self.wrong(item, limit, wrong.name(), "a number", wrong.value())),
+        }
+    }
+
+    fn check_mimic(&self, item: &str, mimic: Node) -> Result<(), Failure> {
+        if mimic.attribute("joint").is_none() {
+            return Err(self.fault(mimic, format!("{item}: its <mimic> has no `joint`")));
+        }
+        ["multiplier", "offset"].iter().try_for_each(|name| self.numbers(item, mimic, name, 1, false))
+    }
+
+    /// What is read inside of an element stands there once.
+    fn check_single(&self, item: &str, owner: Node) -> Result<(), Failure> {
+        let tag = owner.tag_name().name();
+        match read_in(owner).iter().find_map(|read| children(owner, read).nth(1)) {
+            None => Ok(()),
+            Some(again) => {
+                let message = format!("{item}: its <{tag}> has a second <{}>", again.tag_name().name());
+                Err(self.fault(again, message).help("keep one of them"))
+            }
+        }
     }
 
     /// "link `arm`".
@@ -130,16 +167,19 @@ impl<'a> Document<'a> {
             return Ok(());
         }
         let wanted = if count == 1 { "a finite number".into() } else { format!("{count} finite numbers") };
-        let found = text.escape_debug();
-        Err(self.fault(node, format!("{item}: `{attribute}` of its <{tag}> must be {wanted}, found \"{found}\"")))
+        Err(self.wrong(item, node, attribute, &wanted, text))
+    }
+
+    fn wrong(&self, item: &str, node: Node, attribute: &str, wanted: &str, found: &str) -> Failure {
+        let (tag, found) = (node.tag_name().name(), found.escape_debug());
+        self.fault(node, format!("{item}: `{attribute}` of its <{tag}> must be {wanted}, found \"{found}\""))
     }
 
     /// The elements that nothing is read of; what is inside them counts as one with them.
     fn unread(&self) -> Vec<Node<'_, 'a>> {
         let (mut unread, mut open) = (Vec::new(), vec![self.xml.root_element()]);
         while let Some(owner) = open.pop() {
-            let of_owner = READ.iter().find(|(tag, _)| *tag == owner.tag_name().name());
-            let read = of_owner.map_or(&[] as &[&str], |(_, read)| read);
+            let read = read_in(owner);
             for node in owner.children().filter(Node::is_element) {
                 let is_read = read.contains(&node.tag_name().name()) && !is_partial_limit(node);
                 if is_read { open.push(node) } else { unread.push(node) }
@@ -185,11 +225,13 @@ fn described(node: Node) -> String {
     }
 }
 
-/// A limit of which not all can be read.
+/// A limit that cannot be read, for want of what a limit must have.
 fn is_partial_limit(node: Node) -> bool {
-    let number = |name: &str| node.attribute(name).map(|text| text.trim().parse::<f64>().is_ok_and(|x| !x.is_nan()));
-    let all = ["lower", "upper", "effort"].iter().all(|name| number(name).unwrap_or(true));
-    node.tag_name().name() == "limit" && !(all && number("velocity") == Some(true))
+    node.tag_name().name() == "limit" && node.attribute("velocity").is_none()
+}
+
+fn read_in(owner: Node) -> &'static [&'static str] {
+    READ.iter().find(|(tag, _)| *tag == owner.tag_name().name()).map_or(&[], |(_, read)| read)
 }
 
 fn is_xacro(node: &Node) -> bool {

@@ -41,7 +41,7 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
     writeln!(text, "name = {}", quoted(&link.name))?;
     writeln!(text, "joint_name = {}", quoted(&link.joint_name))?;
     writeln!(text, "parent = {}", quoted(link.parent.map_or("base", |parent| &robot.links[parent].name)))?;
-    writeln!(text, "joint = \"{}\"", kind(link.kind))?;
+    writeln!(text, "joint = \"{}\"", link.kind.name())?;
     writeln!(text, "origin = {}", origin(link))?;
     if link.kind != JointKind::Fixed {
         writeln!(text, "axis = {}", vector(link.axis))?;
@@ -57,10 +57,6 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
         writeln!(text, "inertia = {}", inertia(link.inertial.inertia))?;
     }
     Ok(())
-}
-
-fn kind(kind: JointKind) -> &'static str {
-    JointKind::ALL.iter().find(|(_, known)| *known == kind).map_or("", |(name, _)| name)
 }
 
 fn origin(link: &Link) -> String {

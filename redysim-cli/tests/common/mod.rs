@@ -54,6 +54,37 @@ pub fn scenario(folder: &Path, model: &str, rest: &str) -> String {
     path.display().to_string()
 }
 
+/// The folder of results of `redysim inverse` or `forward`, with a scenario of a model of this repository.
+pub fn results(folder: &Path, command: &str, model: &str, rest: &str) -> PathBuf {
+    fs::create_dir_all(folder).unwrap();
+    let path = scenario(folder, model, rest);
+    succeed(folder, &[command, &path, "--output", "run", "--force", "--quiet"]);
+    folder.join("run")
+}
+
+/// The results of inverse dynamics where each of so many joints swings by its own angle.
+pub fn swing(folder: &Path, model: &str, joints: usize, seconds: f64, rows: usize) -> PathBuf {
+    let to: Vec<f64> = (0..joints).map(|joint| 0.7 - 0.3 * (joint % 5) as f64).collect();
+    let (from, step) = (vec![0; joints], seconds / rows as f64);
+    let trajectory = format!("trajectory = {{ from = {from:?}, to = {to:?}, duration = {seconds:?} }}");
+    results(folder, "inverse", model, &format!("{trajectory}\ninverse = {{ end = {seconds:?}, step = {step:?} }}\n"))
+}
+
+/// The results of inverse dynamics where the four-bar's crank turns once.
+pub fn turn(folder: &Path, rows: usize) -> PathBuf {
+    let motion = "initial = { q = [0.0, 0.9844, 4.3144] }\n\
+                  trajectory = { kind = \"constant-speed\", from = [0.0], speed = [\"360 deg\"] }\n";
+    let step = 1.0 / rows as f64;
+    results(folder, "inverse", "fourbar.toml", &format!("{motion}inverse = {{ end = 1.0, step = {step:?} }}\n"))
+}
+
+/// The results of forward dynamics where the slider-crank falls.
+pub fn slide(folder: &Path, rows: usize) -> PathBuf {
+    let step = 0.5 / rows as f64;
+    let motion = format!("initial = {{ q = [-2.6, 2.058, 1.031] }}\nforward = {{ end = 0.5, step = {step:?} }}\n");
+    results(folder, "forward", "slider_crank.toml", &motion)
+}
+
 /// An integrator whose tolerances leave hardly more than rounding.
 pub const TIGHT: &str = "method = \"Dop853\", rtol = 1e-13, atol = 1e-14";
 
@@ -80,6 +111,13 @@ pub fn names(folder: &Path) -> Vec<String> {
 pub struct Table {
     pub headers: Vec<String>,
     pub rows: Vec<Vec<f64>>,
+}
+
+impl Run {
+    /// What was printed, be it on which stream it may.
+    pub fn said(&self) -> String {
+        format!("{}{}", self.stdout, self.stderr)
+    }
 }
 
 impl Table {

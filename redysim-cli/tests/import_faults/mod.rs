@@ -91,6 +91,58 @@ fn numbers_are_numbers() {
 }
 
 #[test]
+fn numbers_of_limits_and_mimics_are_numbers_too() {
+    let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
+    // Joint k is on line 6; what is added to it stands on the next.
+    let with = |inside: &str| good.replace("<child link=\"c\"/>", &format!("<child link=\"c\"/>\n{inside}"));
+    let wrong = [
+        (
+            "<mimic joint=\"j\" multiplier=\"abc\"/>",
+            "`multiplier` of its <mimic> must be a finite number, found \"abc\"",
+        ),
+        ("<mimic joint=\"j\" offset=\"inf\"/>", "`offset` of its <mimic> must be a finite number, found \"inf\""),
+        ("<mimic multiplier=\"2\"/>", "its <mimic> has no `joint`"),
+        ("<limit velocity=\"1\" effort=\"nan\"/>", "`effort` of its <limit> must be a number, found \"nan\""),
+        ("<limit velocity=\"fast\"/>", "`velocity` of its <limit> must be a number, found \"fast\""),
+        ("<limit lower=\"\"/>", "`lower` of its <limit> must be a number, found \"\""),
+        ("<limit velocity=\"1\" jerk=\"x\"/>", "`jerk` of its <limit> must be a number, found \"x\""),
+    ];
+    for (inside, said) in wrong {
+        refused(&with(inside), &["robot.urdf:7: joint `k`: ", said]);
+    }
+}
+
+#[test]
+fn an_infinite_limit_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.urdf");
+    let limit = "<limit lower=\"-inf\" upper=\"inf\" effort=\"inf\" velocity=\"3\"/></joint>";
+    fs::write(&path, robot(&[["j", "a", "b"], ["k", "b", "c"]]).replacen("</joint>", limit, 1)).unwrap();
+    let run = redysim(&["import", path.to_str().unwrap()]);
+    assert!(run.code == 0 && run.stdout.contains("velocity = 3.0"), "{} {}", run.stdout, run.stderr);
+}
+
+#[test]
+fn what_is_there_once_is_not_there_twice() {
+    let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
+    let twice = good.replacen("</link>", &format!("\n{BODY}</link>"), 1);
+    refused(&twice, &["robot.urdf:3:", "link `a`: its <link> has a second <inertial>", "keep one"]);
+    let twice = good.replacen("</inertial>", "\n<mass value=\"2\"/></inertial>", 1);
+    refused(&twice, &["robot.urdf:3:", "link `a`: its <inertial> has a second <mass>"]);
+    for (tag, element) in [
+        ("axis", "<axis xyz=\"0 0 1\"/>"),
+        ("origin", "<origin/>"),
+        ("limit", "<limit velocity=\"1\"/>"),
+        ("mimic", "<mimic joint=\"j\"/>"),
+        ("child", ""),
+    ] {
+        let again = if tag == "child" { "<child link=\"b\"/>" } else { element };
+        let twice = good.replacen("</joint>", &format!("{element}\n{again}</joint>"), 1);
+        refused(&twice, &["robot.urdf:6:", &format!("joint `j`: its <joint> has a second <{tag}>")]);
+    }
+}
+
+#[test]
 fn what_no_mechanism_can_be_is_shown_with_its_line() {
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     let heavy =

@@ -1,7 +1,7 @@
 // The curves, with a line at the present time. A click or drag in them goes to that time.
 
 import uPlot from "uplot";
-import { colour } from "./palette.js";
+import { colour, dash } from "./palette.js";
 import { indexAt } from "./motion.js";
 
 const HEIGHT = 132;
@@ -32,6 +32,7 @@ class Chart {
     const series = curves.map((curve) => ({
       label: curve.name,
       stroke: colour(curve.colour),
+      dash: dash(curve.colour),
       width: 1.6,
       points: { show: false },
       value: (_, value) => (value === null ? "–" : short(value)),
@@ -41,6 +42,8 @@ class Chart {
       width: this.width,
       height: HEIGHT,
       scales: { x: { time: false } },
+      // Whole pixels would make stairs of smooth curves.
+      pxAlign: 0,
       series: [{}, ...series],
       axes: [
         { ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) },

@@ -10,10 +10,11 @@ import { Stage } from "./stage.js";
 
 const at = (id) => document.getElementById(id);
 const animation = JSON.parse(at("data").textContent);
-const motion = new Motion(animation.poses, animation.bodies.length - 1);
+const motion = new Motion(animation.motion, animation.bodies);
 document.title = `${animation.name} – redysim`;
 at("name").textContent = animation.name;
 at("facts").textContent = facts();
+at("notes").textContent = animation.notes.join(" · ");
 
 const stage = makeStage();
 const player = new Player(motion, show);
@@ -68,7 +69,8 @@ function drawn({ name, com }, link) {
     object.getWorldPosition(origin);
     object.getWorldQuaternion(rotation);
   } else {
-    motion.pose(link, origin, rotation);
+    origin.copy(motion.poses[link + 1].position);
+    rotation.copy(motion.poses[link + 1].rotation);
   }
   const centre = com && new Vector3(...com).applyQuaternion(rotation).add(origin).toArray();
   return { name, origin: origin.toArray(), com: centre };

@@ -2,7 +2,7 @@
 
 import {
   BoxGeometry, BufferGeometry, CanvasTexture, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Line,
-  LineBasicMaterial, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace,
+  LineBasicMaterial, Mesh, MeshStandardMaterial, SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace,
   Vector3,
 } from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
@@ -10,6 +10,8 @@ import { colour, GROUND } from "./palette.js";
 
 const Y = new Vector3(0, 1, 0);
 const JOINT = "#3b434c";
+/** Points of a trace at least, so that it is smooth. */
+const TRACE = 1000;
 
 export class Mechanism {
   /** `size` is the radius of all that it ever reaches, m. */
@@ -29,15 +31,15 @@ export class Mechanism {
   /** Moves everything to the present time of the motion. */
   update() {
     const { motion, groups } = this;
-    for (let link = 0; link < motion.links; link++) {
-      const { position, quaternion } = groups[link + 1];
-      motion.pose(link, position, quaternion);
-    }
+    motion.poses.forEach(({ position, rotation }, body) => {
+      groups[body].position.copy(position);
+      groups[body].quaternion.copy(rotation);
+    });
     this.root.updateMatrixWorld(true);
     for (const { rod, from, body, point } of this.rails) {
       stretch(rod, groups[from].localToWorld(point.clone()), groups[body].position);
     }
-    for (const line of this.layers.trace) line.geometry.setDrawRange(0, motion.frame + 1);
+    for (const line of this.layers.trace) line.geometry.setDrawRange(0, this.#traced() + 1);
   }
 
   setLayer(name, shown) {
@@ -117,25 +119,37 @@ export class Mechanism {
     this.rails.push({ rod, from, body, point: new Vector3(...point) });
   }
 
+  /** The number of the last point of the traces that is not ahead of the present. */
+  #traced() {
+    const { frame, part } = this.motion;
+    return Math.floor((frame + part) * this.parts + 1e-9);
+  }
+
   /** The paths of the ends of links that carry no others. */
   #traces(bodies) {
     const { motion } = this;
-    const [position, rotation] = [new Vector3(), new Quaternion()];
-    bodies.forEach(({ joint, ends, tip }, index) => {
-      if (!tip) return;
-      const end = new Vector3(...ends[ends.length - 1]);
-      const points = [];
-      for (let frame = 0; frame < motion.t.length; frame++) {
-        motion.at(frame, index - 1, position, rotation);
-        points.push(...end.clone().applyQuaternion(rotation).add(position).toArray());
+    const tips = bodies.map((body, index) => ({ ...body, index, points: [] })).filter(({ tip }) => tip);
+    this.parts = Math.ceil(TRACE / motion.t.length);
+    const end = new Vector3();
+    motion.t.forEach((time, frame) => {
+      const after = motion.t[frame + 1] ?? time;
+      for (let part = 0; part < this.parts; part++) {
+        motion.seek(time + ((after - time) * part) / this.parts);
+        for (const { index, ends, points } of tips) {
+          const { position, rotation } = motion.poses[index];
+          points.push(...end.fromArray(ends[ends.length - 1]).applyQuaternion(rotation).add(position).toArray());
+        }
       }
+    });
+    for (const { joint, points } of tips) {
       const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
       const paint = joint.coordinate === null ? GROUND : colour(joint.coordinate);
       const line = new Line(geometry, new LineBasicMaterial({ color: paint, transparent: true, opacity: 0.7 }));
       line.frustumCulled = false;
       this.layers.trace.push(line);
       this.root.add(line);
-    });
+    }
+    motion.seek(motion.start);
   }
 }
 

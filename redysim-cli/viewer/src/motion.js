@@ -1,17 +1,20 @@
-// Where every link is at a time, between the recorded frames.
+// Where every link is at a time: the coordinates of the joints between the recorded instants, and the links that they carry.
 
 import { Quaternion, Vector3 } from "three";
 
-/** Numbers that a pose has: origin x, y, z and quaternion x, y, z, w. */
-const POSE = 7;
-
 export class Motion {
-  /** `poses`: the instants `t`, and for each the poses of all `links` in `values`. */
-  constructor(poses, links) {
-    this.t = poses.t;
-    this.values = poses.values;
-    this.links = links;
-    this.other = { position: new Vector3(), rotation: new Quaternion() };
+  /** `t`, the instants, and for each joint its coordinates `q` and rates `v` at them; `bodies`, the ground and the links. */
+  constructor({ t, q, v }, bodies) {
+    Object.assign(this, { t, q, v });
+    this.joints = bodies.slice(1).map(({ joint }) => ({
+      ...joint,
+      axis: new Vector3(...joint.axis),
+      position: new Vector3(...joint.position),
+      rotation: new Quaternion(...joint.rotation),
+    }));
+    this.poses = bodies.map(() => ({ position: new Vector3(), rotation: new Quaternion() }));
+    this.order = parentsFirst(this.joints);
+    this.turn = new Quaternion();
     this.seek(this.start);
   }
 
@@ -23,30 +26,51 @@ export class Motion {
     return this.t[this.t.length - 1];
   }
 
-  /** Goes to `time`, which it keeps within the run. */
+  /** Goes to `time`, which it keeps within the run: `poses` has the ground and then every link there. */
   seek(time) {
     this.time = Math.min(Math.max(time, this.start), this.end);
     this.frame = indexAt(this.t, this.time);
     const [before, after] = [this.t[this.frame], this.t[this.frame + 1]];
     this.part = after > before ? (this.time - before) / (after - before) : 0;
+    for (const link of this.order) this.#carry(link);
   }
 
-  /** Puts the pose of link number `link` at the present time into `position` and `rotation`. */
-  pose(link, position, rotation) {
-    this.at(this.frame, link, position, rotation);
-    if (this.part > 0) {
-      this.at(this.frame + 1, link, this.other.position, this.other.rotation);
-      position.lerp(this.other.position, this.part);
-      rotation.slerp(this.other.rotation, this.part);
+  #carry(link) {
+    const { parent, kind, axis, offset, coordinate, position, rotation } = this.joints[link];
+    const [carrier, pose] = [this.poses[parent], this.poses[link + 1]];
+    const value = coordinate === null ? 0 : offset + this.#coordinate(coordinate);
+    pose.rotation.copy(rotation);
+    pose.position.set(0, 0, 0);
+    if (kind === "revolute") pose.rotation.multiply(this.turn.setFromAxisAngle(axis, value));
+    if (kind === "prismatic") pose.position.copy(axis).multiplyScalar(value).applyQuaternion(rotation);
+    pose.position.add(position).applyQuaternion(carrier.rotation).add(carrier.position);
+    pose.rotation.premultiply(carrier.rotation);
+  }
+
+  /** The cubic that has the coordinates and rates of the instants before and after. */
+  #coordinate(joint) {
+    const { t, frame, part } = this;
+    const [q, v] = [this.q[joint], this.v[joint]];
+    if (part === 0) return q[frame];
+    const [step, rest] = [t[frame + 1] - t[frame], 1 - part];
+    const ends = rest * rest * (1 + 2 * part) * q[frame] + part * part * (1 + 2 * rest) * q[frame + 1];
+    return ends + part * rest * step * (rest * v[frame] - part * v[frame + 1]);
+  }
+}
+
+/** The numbers of the links, each after the one that carries it. */
+function parentsFirst(joints) {
+  const order = [];
+  const waiting = joints.map((_, link) => link);
+  const placed = new Set([0]);
+  while (waiting.length > order.length) {
+    for (const link of waiting) {
+      if (placed.has(link + 1) || !placed.has(joints[link].parent)) continue;
+      placed.add(link + 1);
+      order.push(link);
     }
   }
-
-  /** Puts the pose of link number `link` in frame number `frame` into `position` and `rotation`. */
-  at(frame, link, position, rotation) {
-    const from = (frame * this.links + link) * POSE;
-    position.fromArray(this.values, from);
-    rotation.fromArray(this.values, from + 3).normalize();
-  }
+  return order;
 }
 
 /** The number of the last of the ascending `times` that is not after `time`; the first if all are. */

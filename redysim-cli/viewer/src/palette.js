@@ -4,6 +4,11 @@ const PALETTE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9
 
 export const GROUND = "#59636e";
 
+/** When all colours are taken, they come again in dashes. */
+export function dash(index) {
+  return Math.floor(index / PALETTE.length) % 2 ? [7, 3] : [];
+}
+
 /** The colour of the joint of this number, and of the link that it carries. */
 export function colour(index) {
   return PALETTE[index % PALETTE.length];

@@ -179,12 +179,10 @@ function firstView(animation, motion, up) {
   const { front, side } = horizontal(up);
   const corner = front.clone().addScaledVector(side, 0.75).addScaledVector(up, 0.55);
   const axes = [];
-  const [position, rotation] = [new Vector3(), new Quaternion()];
   motion.seek(motion.start);
   animation.bodies.forEach(({ joint }, index) => {
     if (joint?.kind !== "revolute") return;
-    motion.pose(index - 1, position, rotation);
-    axes.push(new Vector3(...joint.axis).applyQuaternion(rotation));
+    axes.push(new Vector3(...joint.axis).applyQuaternion(motion.poses[index].rotation));
   });
   const planar = axes.length > 0 && axes.every((axis) => Math.abs(axis.dot(axes[0])) > 1 - 1e-6);
   if (!planar) return corner;
@@ -196,16 +194,16 @@ function firstView(animation, motion, up) {
 
 /** Calls `see` with every point that any link reaches in some hundred frames. */
 function everyPoint({ bodies }, motion, see) {
-  const [position, rotation, point] = [new Vector3(), new Quaternion(), new Vector3()];
-  for (const end of [[0, 0, 0], ...bodies[0].ends]) see(point.fromArray(end));
+  const point = new Vector3();
   const every = Math.max(1, Math.floor(motion.t.length / 300));
   for (let frame = 0; frame < motion.t.length; frame += every) {
-    for (let link = 0; link < motion.links; link++) {
-      motion.at(frame, link, position, rotation);
+    motion.seek(motion.t[frame]);
+    motion.poses.forEach(({ position, rotation }, body) => {
       see(point.copy(position));
-      for (const end of bodies[link + 1].ends) see(point.fromArray(end).applyQuaternion(rotation).add(position));
-    }
+      for (const end of bodies[body].ends) see(point.fromArray(end).applyQuaternion(rotation).add(position));
+    });
   }
+  motion.seek(motion.start);
 }
 
 /** A sphere around all that the mechanism ever reaches. */

@@ -48,9 +48,9 @@ fn side(document: &Document, table: &LoopTable, side: &CutSideTable, findings: &
 
 /// Only a revolute cut has an axis.
 fn axis_allowed(table: &LoopTable, side: &CutSideTable, findings: &mut Findings) -> bool {
-    let other = CutKind::ALL.iter().find(|(_, kind)| table.joint.value() == Some(kind) && *kind != CutKind::Revolute);
-    if let (Some((kind, _)), Some(axis)) = (other, side.axis.spanned()) {
-        findings.error(axis.span(), messages::axis_on_cut(&table.item, side.axis_key, kind));
+    let other = table.joint.value().filter(|kind| **kind != CutKind::Revolute);
+    if let (Some(kind), Some(axis)) = (other, side.axis.spanned()) {
+        findings.error(axis.span(), messages::axis_on_cut(&table.item, side.axis_key, kind.name()));
     }
     other.is_none()
 }

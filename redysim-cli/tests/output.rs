@@ -1,0 +1,138 @@
+//! Where `-o` leads: links are followed, what is no file is written into, and a full disk leaves nothing behind.
+#![cfg(unix)]
+
+mod common;
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::{fail, model, names, program, scenario, scratch, succeed};
+
+fn generate(folder: &Path, options: &[&str]) -> String {
+    succeed(folder, &[&["generate", &model("two_link.toml"), "--quiet"], options].concat())
+}
+
+fn bash(folder: &Path, command: &str) -> std::process::Output {
+    Command::new("bash").args(["-c", command]).current_dir(folder).output().unwrap()
+}
+
+#[test]
+fn the_file_that_a_link_leads_to_is_the_one_that_is_replaced() {
+    let folder = scratch("output-link");
+    fs::create_dir(folder.join("src")).unwrap();
+    fs::write(folder.join("src/true.rs"), "before").unwrap();
+    symlink("true.rs", folder.join("src/near.rs")).unwrap();
+    symlink("src/near.rs", folder.join("far.rs")).unwrap();
+    let source = generate(&folder, &[]);
+    fail(&folder, &["generate", &model("two_link.toml"), "-o", "far.rs"], 3);
+    assert_eq!(fs::read_to_string(folder.join("src/true.rs")).unwrap(), "before");
+    generate(&folder, &["-o", "far.rs", "--force"]);
+    assert_eq!(fs::read_to_string(folder.join("src/true.rs")).unwrap(), source);
+    assert_eq!(fs::read_link(folder.join("far.rs")).unwrap(), PathBuf::from("src/near.rs"));
+    assert_eq!(names(&folder.join("src")), ["near.rs", "true.rs"]);
+}
+
+#[test]
+fn a_link_to_a_file_that_is_yet_to_be_made_makes_it() {
+    let folder = scratch("output-dangling");
+    symlink("later.rs", folder.join("link.rs")).unwrap();
+    generate(&folder, &["-o", "link.rs"]);
+    assert!(folder.join("later.rs").is_file() && folder.join("link.rs").is_symlink());
+    symlink("round.rs", folder.join("round.rs")).unwrap();
+    let said = fail(&folder, &["generate", &model("two_link.toml"), "-o", "round.rs", "--force"], 3);
+    assert!(said.contains("cannot write round.rs"), "{said}");
+}
+
+#[test]
+fn a_replaced_file_keeps_its_permissions() {
+    let folder = scratch("output-permissions");
+    let path = folder.join("secret.rs");
+    fs::write(&path, "before").unwrap();
+    fs::set_permissions(&path, PermissionsExt::from_mode(0o600)).unwrap();
+    generate(&folder, &["-o", "secret.rs", "--force"]);
+    assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o600);
+}
+
+/// As a device is.
+#[test]
+fn a_pipe_with_a_name_is_written_into_and_stays_one() {
+    let folder = scratch("output-pipe");
+    let source = generate(&folder, &[]);
+    for options in ["", "--force"] {
+        let command = format!(
+            "rm -f pipe; mkfifo pipe; timeout 10 cat pipe > got & '{}' generate '{}' -o pipe {options} --quiet && wait && test -p pipe",
+            env!("CARGO_BIN_EXE_redysim"),
+            model("two_link.toml")
+        );
+        let output = bash(&folder, &command);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(fs::read_to_string(folder.join("got")).unwrap(), source);
+    }
+    assert_eq!(names(&folder), ["got", "pipe"]);
+}
+
+#[test]
+fn the_standard_output_is_a_place_like_any_other() {
+    let folder = scratch("output-stdout");
+    let source = generate(&folder, &[]);
+    assert_eq!(generate(&folder, &["-o", "/dev/stdout"]), source);
+    // Be it a file, which then is added to.
+    let command = "echo first > got; \"$0\" generate \"$1\" -o /dev/stdout --quiet >> got";
+    let mut bash = Command::new("bash");
+    bash.args(["-c", command, env!("CARGO_BIN_EXE_redysim"), &model("two_link.toml")]).current_dir(&folder);
+    assert!(bash.status().unwrap().success());
+    assert_eq!(fs::read_to_string(folder.join("got")).unwrap(), format!("first\n{source}"));
+}
+
+/// A disk that is full after a kilobyte, as far as the program can tell.
+#[test]
+fn a_full_disk_leaves_nothing_half_written() {
+    let folder = scratch("output-full");
+    let swing = "initial = { q = [0, 1] }\nforward = { end = 1.0, step = 0.01 }\n";
+    scenario(&folder, "two_link.toml", swing);
+    succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
+    fs::write(folder.join("robot.urdf"), chain(20)).unwrap();
+    let model = model("two_link.toml");
+    let before = (names(&folder), names(&folder.join("run")));
+    for arguments in
+        ["plot run", "animate run", &format!("generate '{model}' -o model.rs"), "import robot.urdf -o robot.toml"]
+    {
+        let command = format!("trap '' XFSZ; ulimit -f 1; exec '{}' {arguments}", env!("CARGO_BIN_EXE_redysim"));
+        let output = bash(&folder, &command);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(3), "{arguments}: {said}");
+        assert!(said.contains("error: cannot write"), "{arguments}: {said}");
+        assert_eq!((names(&folder), names(&folder.join("run"))), before, "{arguments}: {said}");
+    }
+}
+
+#[test]
+fn a_full_device_is_told() {
+    let folder = scratch("output-full-device");
+    let said = fail(&folder, &["generate", &model("two_link.toml"), "-o", "/dev/full"], 3);
+    assert!(said.contains("cannot write /dev/full"), "{said}");
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = program(&folder, &["completions", "bash"]).stdout(full).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(3) && said.contains("cannot write the output"), "{said}");
+}
+
+/// A URDF of so many links, one on the other.
+fn chain(links: usize) -> String {
+    let link = |k: usize| {
+        format!(
+            "<link name=\"l{k}\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" \
+             iyz=\"0\"/></inertial></link>\n"
+        )
+    };
+    let joint = |k: usize| {
+        format!(
+            "<joint name=\"j{k}\" type=\"continuous\"><parent link=\"l{}\"/><child link=\"l{k}\"/></joint>\n",
+            k - 1
+        )
+    };
+    let (links, joints): (String, String) = ((0..=links).map(link).collect(), (1..=links).map(joint).collect());
+    format!("<robot name=\"chain\">\n{links}{joints}</robot>\n")
+}

@@ -1,0 +1,73 @@
+//! That nobody listens is no fault: every subcommand ends as it would otherwise, whoever has closed its pipes.
+#![cfg(unix)]
+
+mod common;
+
+use std::process::Command;
+
+use common::{root, scenario, scratch, succeed};
+
+/// Calls the program in a folder with results, a model and a URDF, with a reader of `stream` that leaves at once: it must
+/// end with `code`, and say nothing about it on the other stream.
+fn ends(stream: &str, arguments: &str, code: i32) {
+    let folder = scratch(&format!("pipes-{}", arguments.replace(|c: char| !c.is_alphanumeric(), "_") + stream));
+    let swing = "initial = { q = [0, 1] }\nforward = { end = 0.1, step = 0.1 }\n";
+    let lift = "trajectory = { from = [0, 0], to = [1, 1], duration = 0.1 }\ninverse = { end = 0.1, step = 0.1 }\n";
+    scenario(&folder, "two_link.toml", &[swing, lift].concat());
+    succeed(&folder, &["forward", "trial.toml", "-o", "run", "--quiet"]);
+    std::fs::write(folder.join("robot.urdf"), ROBOT).unwrap();
+    std::fs::copy(root().join("models/two_link.toml"), folder.join("model.toml")).unwrap();
+    let away = if stream == "stdout" { "| true" } else { "2>&1 >/dev/null | true" };
+    // The program starts when its reader is gone.
+    let command =
+        format!("(sleep 0.1; exec '{}' {arguments}) {away}; exit ${{PIPESTATUS[0]}}", env!("CARGO_BIN_EXE_redysim"));
+    let output = Command::new("bash").args(["-c", &command]).current_dir(&folder).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments}, {stream}: {said}");
+    assert!(!said.contains("panicked"), "{arguments}, {stream}: {said}");
+}
+
+const ROBOT: &str = "<robot name=\"r\"><material name=\"red\"/><link name=\"a\"/><link name=\"b\"><inertial><mass value=\"1\"/>\
+    <inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\
+    <joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/></joint></robot>";
+
+#[test]
+fn that_nobody_listens_is_no_fault() {
+    for stream in ["stdout", "stderr"] {
+        for arguments in [
+            "check model.toml",
+            "check model.toml --json",
+            "inverse trial.toml",
+            "forward trial.toml",
+            "generate model.toml",
+            "generate model.toml -o model.rs",
+            "import robot.urdf",
+            "import robot.urdf -o imported.toml",
+            "plot run",
+            "animate run",
+            "completions bash",
+            "--help",
+            "--version",
+        ] {
+            ends(stream, arguments, 0);
+        }
+    }
+}
+
+#[test]
+fn a_failure_that_nobody_hears_is_still_one() {
+    for stream in ["stdout", "stderr"] {
+        for (arguments, code) in [
+            ("check nowhere.toml", 3),
+            ("forward robot.urdf", 1),
+            ("inverse nowhere.toml", 3),
+            ("generate nowhere.toml", 3),
+            ("import model.toml", 1),
+            ("plot nowhere", 3),
+            ("animate nowhere", 3),
+            ("completions cobol", 2),
+        ] {
+            ends(stream, arguments, code);
+        }
+    }
+}
