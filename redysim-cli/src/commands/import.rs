@@ -48,12 +48,13 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         Failure::input(format!("{} is not UTF-8 (byte {byte})", path.display())).help("save the file as UTF-8")
     })?;
     let options = Options { fuse_fixed: arguments.fuse_fixed, quarter_turns: arguments.quarter_turns };
-    let Imported { text, notes, warnings } = import(&text, path, options)?;
+    let Imported { text, changes, notes, warnings } = import(&text, path, options)?;
     match &arguments.output {
         Some(output) => write_file(output, text.as_bytes(), arguments.force)?,
         None => print(&text)?,
     }
     if !quiet {
+        changes.iter().for_each(|change| tell(&format!("warning: {change}")));
         notes.iter().for_each(|note| tell(&format!("note: {note}")));
         warnings.iter().for_each(|warning| tell(&format!("warning: {}", warning.title())));
         if let Some(output) = &arguments.output {

@@ -20,7 +20,9 @@ use crate::number::{counted, rounded};
 pub struct Imported {
     /// The text of the model file.
     pub text: String,
-    /// What is left out or done otherwise.
+    /// The joints that move otherwise than the URDF says.
+    pub changes: Vec<String>,
+    /// What is left out or written otherwise.
     pub notes: Vec<String>,
     /// What the checks of a model find odd.
     pub warnings: Vec<Diagnostic>,
@@ -51,6 +53,7 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
         robot = robot.with_quarter_turns();
     }
     robot = robot.without_reserved_name().without_massless_motion().with_mimics_said();
+    let changes: Vec<String> = robot.links.iter().flat_map(|link| &link.remarks).cloned().collect();
     if robot.links.iter().all(|link| link.kind == JointKind::Fixed) {
         return Err(document.fault_at("robot", "", "every joint is fixed here: nothing of the robot moves"));
     }
@@ -65,9 +68,9 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
         ));
     }
     robot.notes.extend(document.left_out().into_iter().map(|what| format!("left out: {what}")));
-    let remarks = robot.links.iter().flat_map(|link| &link.remarks).cloned();
-    let notes = robot.notes.iter().cloned().chain(remarks).collect();
-    let written = model_file::write(&robot, &head(&robot, path));
+    let fused = robot.links.iter().flat_map(|link| &link.remarks).filter(|remark| !changes.contains(remark)).cloned();
+    let notes = robot.notes.iter().cloned().chain(fused).collect();
+    let written = model_file::write(&robot, &head(&robot, &changes, path));
     let loaded = Model::from_toml(written.text.clone(), file.clone()).map_err(|faults| {
         let shown = faults.errors().map(|error| {
             let line = error.position().map_or(1, |(line, _)| urdf_line(line, &written, &robot, &document));
@@ -75,7 +78,7 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
         });
         Failure::input(shown.collect::<Vec<_>>().join("\nerror: "))
     })?;
-    Ok(Imported { text: written.text, notes, warnings: loaded.warnings })
+    Ok(Imported { text: written.text, changes, notes, warnings: loaded.warnings })
 }
 
 /// The line of the URDF from which a line of the model file comes: of the link for what it weighs, else of its joint.
@@ -88,7 +91,7 @@ fn urdf_line(line: usize, written: &ModelFile, robot: &Robot, document: &Documen
 }
 
 /// What stands at the head of the model file.
-fn head(robot: &Robot, path: &Path) -> Vec<String> {
+fn head(robot: &Robot, changes: &[String], path: &Path) -> Vec<String> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let moving = robot.links.iter().filter(|link| link.kind != JointKind::Fixed).count();
     let first = format!(
@@ -97,6 +100,6 @@ fn head(robot: &Robot, path: &Path) -> Vec<String> {
         counted(moving, "moving joint"),
         rounded(robot.mass())
     );
-    let notes = robot.notes.iter().map(|note| format!("- {note}"));
+    let notes = changes.iter().chain(&robot.notes).map(|note| format!("- {note}"));
     [first, String::new()].into_iter().chain(notes).collect()
 }
