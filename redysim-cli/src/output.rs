@@ -20,6 +20,18 @@ pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failu
     written.map_err(|error| Failure::file("write", path, &error))
 }
 
+/// Writes what was made of the file `source`, as [`write_file`] does.
+///
+/// # Errors
+/// As [`write_file`]; and if it would take the place of the source.
+pub fn write_beside(source: &Path, path: &Path, contents: &[u8], force: bool) -> Result<(), Failure> {
+    if fs::canonicalize(path).is_ok_and(|path| fs::canonicalize(source).is_ok_and(|source| source == path)) {
+        let message = format!("{} is what it would be made of", path.display());
+        return Err(Failure::input(message).help("write elsewhere with --output"));
+    }
+    write_file(path, contents, force)
+}
+
 /// Fails if [`write_file`] would, as far as that can be told before there is something to write.
 ///
 /// # Errors

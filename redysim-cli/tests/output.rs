@@ -46,6 +46,18 @@ fn a_link_to_a_file_that_is_yet_to_be_made_makes_it() {
 }
 
 #[test]
+fn what_is_made_of_a_file_never_takes_its_place() {
+    let folder = scratch("output-itself");
+    fs::copy(model("kr5.toml"), folder.join("kr5.toml")).unwrap();
+    symlink("kr5.toml", folder.join("alias.toml")).unwrap();
+    for output in ["kr5.toml", "./kr5.toml", "alias.toml"] {
+        let said = fail(&folder, &["generate", "kr5.toml", "-o", output, "--force"], 1);
+        assert!(said.contains("is what it would be made of") && said.contains("--output"), "{said}");
+    }
+    assert_eq!(fs::read(folder.join("kr5.toml")).unwrap(), fs::read(model("kr5.toml")).unwrap());
+}
+
+#[test]
 fn a_replaced_file_keeps_its_permissions() {
     let folder = scratch("output-permissions");
     let path = folder.join("secret.rs");

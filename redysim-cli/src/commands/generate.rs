@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use crate::failure::Failure;
-use crate::output::{print, tell, write_file};
+use crate::output::{print, tell, write_beside};
 use redysim_codegen::source_file_with;
 use redysim_model::scene::FUNCTIONS;
 use redysim_model::{Loaded, Model};
@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let source = source_file_with(&loaded.model, &name, &loaded.scene)
         .map_err(|error| Failure::input(error).help("give another name with --name"))?;
     let Some(path) = &arguments.output else { return print(&source) };
-    write_file(path, source.as_bytes(), arguments.force)?;
+    write_beside(&arguments.model, path, source.as_bytes(), arguments.force)?;
     if !quiet {
         // The head of the source is the report; behind `// ` it reads as text.
         let head = source.lines().take_while(|line| line.starts_with("//"));

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::output::{print, tell, write_file};
+use crate::output::{print, tell, write_beside};
 use crate::urdf::{Imported, Options, import};
 
 /// Make a model file from a URDF, and say what gets lost.
@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let options = Options { fuse_fixed: arguments.fuse_fixed, quarter_turns: arguments.quarter_turns };
     let Imported { text, changes, notes, warnings } = import(&text, path, options)?;
     match &arguments.output {
-        Some(output) => write_file(output, text.as_bytes(), arguments.force)?,
+        Some(output) => write_beside(path, output, text.as_bytes(), arguments.force)?,
         None => print(&text)?,
     }
     if !quiet {
