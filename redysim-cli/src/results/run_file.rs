@@ -14,7 +14,7 @@ use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances};
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
     let mut document: DocumentMut =
         scenario.text.parse().map_err(|error| Failure::outside(format!("cannot copy the scenario: {error}")))?;
-    folder.copy("model.toml", &scenario.model_path)?;
+    folder.write("model.toml", scenario.model_text.as_bytes())?;
     document["model"] = value("model.toml");
     keep(&mut document["name"], value(&scenario.name));
     let name = |joint: &usize| scenario.joints[*joint].name.as_str();

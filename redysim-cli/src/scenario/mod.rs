@@ -8,7 +8,7 @@ mod table;
 mod torque;
 mod trajectory;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use redysim_model::GenericMechanism;
 use redysim_model::document::{self, Field, Message, Reader, Shape};
@@ -29,8 +29,8 @@ pub struct Scenario {
     pub name: String,
     /// The text of its file.
     pub text: String,
-    /// The model's file.
-    pub model_path: PathBuf,
+    /// The text of the model's file.
+    pub model_text: String,
     /// The model.
     pub mechanism: GenericMechanism,
     /// Its moving joints.
@@ -134,8 +134,8 @@ fn read(
     let model = reader.text("model");
     let model_path = folder.join(reader.required("model", model).value()?);
     // What the rest of the scenario says depends on the joints.
-    let mechanism = match commands::load(&model_path, quiet) {
-        Ok(loaded) => GenericMechanism::new(loaded.model),
+    let (mechanism, model_text) = match commands::load(&model_path, quiet) {
+        Ok(loaded) => (GenericMechanism::new(loaded.model), loaded.text),
         Err(fault) => {
             let told = model_path.is_file();
             let why = "the path of the model is taken from the folder of the scenario";
@@ -161,7 +161,7 @@ fn read(
     });
     let (inverse, forward) = (asked(inverse)?, asked(forward)?);
     let (name, initial, trajectory) = (name?, initial?, trajectory?);
-    Some(Scenario { name, text, model_path, mechanism, joints, initial, trajectory, inverse, forward })
+    Some(Scenario { name, text, model_text, mechanism, joints, initial, trajectory, inverse, forward })
 }
 
 /// The scenario's name, after which a folder is called.
