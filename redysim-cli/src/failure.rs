@@ -24,6 +24,9 @@ enum Kind {
 }
 
 impl Failure {
+    /// The exit code of what Ctrl-C has ended.
+    pub const INTERRUPTED: u8 = 130;
+
     /// A model, scenario or table is at fault.
     pub fn input(message: impl fmt::Display) -> Self {
         Self { kind: Kind::Input, message: message.to_string(), help: None }
@@ -67,7 +70,7 @@ impl Failure {
         ExitCode::from(match self.kind {
             Kind::Input => 1,
             Kind::Outside => 3,
-            Kind::Interrupted => 130,
+            Kind::Interrupted => Self::INTERRUPTED,
         })
     }
 }

@@ -2,6 +2,7 @@
 
 mod folder;
 mod record;
+mod replaceable;
 mod run_file;
 mod summary;
 mod tables;

@@ -5,7 +5,7 @@
 
 use toml_edit::{Array, DocumentMut, Item, Table, value};
 
-use super::folder::RUN_FILE;
+use super::replaceable::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
 use super::{Folder, Summary};
 use crate::failure::Failure;
 use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances};
@@ -14,8 +14,8 @@ use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances};
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
     let mut document: DocumentMut =
         scenario.text.parse().map_err(|error| Failure::outside(format!("cannot copy the scenario: {error}")))?;
-    folder.write("model.toml", scenario.model_text.as_bytes())?;
-    document["model"] = value("model.toml");
+    folder.write(MODEL, scenario.model_text.as_bytes())?;
+    document["model"] = value(MODEL);
     keep(&mut document["name"], value(&scenario.name));
     let name = |joint: &usize| scenario.joints[*joint].name.as_str();
     let initial = &mut document["initial"];
@@ -30,8 +30,8 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         keep(&mut table["kind"], value("cycloid"));
         keep(&mut table["joints"], value(trajectory.joints.iter().map(name).collect::<Array>()));
         if let Some(path) = &trajectory.table {
-            folder.copy("trajectory.csv", path)?;
-            table["file"] = value("trajectory.csv");
+            folder.copy(TRAJECTORY, path)?;
+            table["file"] = value(TRAJECTORY);
         }
     }
     if let Some(span) = scenario.inverse {
@@ -44,8 +44,8 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         named(&mut table["torque"], "law");
         keep(&mut table["torque"]["law"], value("free"));
         if let Actuation::Table(forces) = &forward.torque {
-            folder.copy("torque.csv", &forces.path)?;
-            table["torque"]["file"] = value("torque.csv");
+            folder.copy(TORQUE, &forces.path)?;
+            table["torque"]["file"] = value(TORQUE);
         }
         if scenario.loops() {
             named(&mut table["stabilisation"], "kind");
@@ -55,6 +55,12 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
     document.remove("run");
     document["run"] = Item::Table(how_it_went(summary));
     folder.write(RUN_FILE, document.to_string().as_bytes())
+}
+
+/// Whether the text of a file is what [`write`] has written.
+pub fn is_of_a_run(text: &str) -> bool {
+    let document = text.parse::<DocumentMut>();
+    document.is_ok_and(|document| document.get("run").and_then(|run| run.get("redysim")).is_some())
 }
 
 /// What the scenario says stays, and what it leaves open is filled in.

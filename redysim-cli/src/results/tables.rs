@@ -18,6 +18,9 @@ pub enum Format {
     Dat,
 }
 
+/// The names of all tables that there may be.
+pub const NAMES: [&str; 8] = ["timevar", "statevar", "traj", "tor", "lambda", "energy", "envar", "kinematics"];
+
 /// A table: its name, what is above the columns, and its rows.
 struct Table {
     name: &'static str,
