@@ -51,6 +51,12 @@ impl Folder {
         Ok(Folder { target, force, draft, finished: false })
     }
 
+    /// Begins a file in it.
+    pub fn create(&self, name: &str) -> Result<fs::File, Failure> {
+        let path = self.draft.path.join(name);
+        fs::File::create(&path).map_err(|error| Failure::file("write", &path, &error))
+    }
+
     /// Writes a file in it.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), Failure> {
         write_file(&self.draft.path.join(name), contents, false)

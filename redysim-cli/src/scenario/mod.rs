@@ -154,7 +154,7 @@ fn read(
     let inverse = reader.table("inverse", &INVERSE, |mut reader| Span::read(&mut reader));
     let forward = reader.table("forward", &FORWARD, |mut reader| {
         let span = Span::read(&mut reader);
-        let integrator = Integrator::read(&mut reader);
+        let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
         let torque = Actuation::read(&mut reader, &joints, loops, followed, folder, failure);
         let stabilisation = stabilisation(&mut reader);
         Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
