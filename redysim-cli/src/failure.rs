@@ -53,6 +53,11 @@ impl Failure {
         }
     }
 
+    /// What is wrong, without what to do.
+    pub fn message(&self) -> &str {
+        self.message.trim_end()
+    }
+
     /// Says more.
     pub fn and(mut self, more: &str) -> Self {
         self.message += more;

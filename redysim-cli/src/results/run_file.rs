@@ -6,9 +6,9 @@
 use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
 
 use super::replaceable::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
-use super::{Folder, Outcome, Summary};
+use super::{Ended, Folder, Outcome, Summary};
 use crate::failure::Failure;
-use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances};
+use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances, USUAL_THROUGH};
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
@@ -32,6 +32,7 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         if let Some(path) = &trajectory.table {
             folder.copy(TRAJECTORY, path)?;
             table["file"] = value(TRAJECTORY);
+            keep(table, "through", value(USUAL_THROUGH));
         }
     }
     if let Some(span) = scenario.inverse {
@@ -46,6 +47,9 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         if let Actuation::Table(forces) = &forward.torque {
             folder.copy(TORQUE, &forces.path)?;
             table["torque"]["file"] = value(TORQUE);
+        }
+        if let Some(joints) = forward.torque.usual_joints(&scenario.joints, scenario.trajectory.as_ref()) {
+            keep(&mut table["torque"], "joints", value(joints.iter().map(name).collect::<Array>()));
         }
         if scenario.loops() {
             named(&mut table["stabilisation"], "kind");
@@ -116,6 +120,9 @@ fn how_it_went(summary: &Summary) -> Table {
     table["command"] = value(dynamics.to_string());
     table["redysim"] = value(env!("CARGO_PKG_VERSION"));
     table["ended"] = value(ended.to_string());
+    if let Ended::Failed(reason) = ended {
+        table["reason"] = value(reason.message());
+    }
     table["from"] = value(*from);
     table["until"] = value(*until);
     table["instants"] = integer(*count as u64);

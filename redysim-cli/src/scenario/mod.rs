@@ -21,7 +21,7 @@ pub use integrator::{Absolute, Integrator, Tolerances};
 use joints::{Joint, Quantity, values};
 pub use span::Span;
 pub use torque::{Actuation, Law};
-pub use trajectory::Prescribed;
+pub use trajectory::{Prescribed, USUAL_THROUGH};
 
 /// What is to be computed of a model.
 pub struct Scenario {

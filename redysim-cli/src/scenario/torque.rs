@@ -132,6 +132,17 @@ impl Actuation {
         if field.is_missing() { Some(Actuation::Free) } else { field.value()?.clone() }
     }
 
+    /// The joints that the key `joints` stands for where it is not there; none of laws that have no such key.
+    pub fn usual_joints(&self, joints: &[Joint], trajectory: Option<&Prescribed>) -> Option<Vec<usize>> {
+        match self {
+            Actuation::Free | Actuation::ComputedTorque { .. } => None,
+            Actuation::TrackingPd { .. } => trajectory.map(|trajectory| trajectory.joints.clone()),
+            Actuation::P { .. } | Actuation::Pd { .. } | Actuation::Table(_) => {
+                Some(super::indices(joints, |joint| joint.actuated))
+            }
+        }
+    }
+
     /// Whether it follows the scenario's trajectory.
     pub fn follows(&self) -> bool {
         matches!(self, Actuation::TrackingPd { .. } | Actuation::ComputedTorque { .. })

@@ -46,7 +46,9 @@ enum Smooth {
     Cubic,
 }
 
-const SMOOTH: [(&str, Smooth); 2] = [("minimum-jerk", Smooth::LeastJerk), ("cubic", Smooth::Cubic)];
+const SMOOTH: [(&str, Smooth); 2] = [(USUAL_THROUGH, Smooth::LeastJerk), ("cubic", Smooth::Cubic)];
+/// What `through` is unless told.
+pub const USUAL_THROUGH: &str = "minimum-jerk";
 const CYCLOID: Shape = Shape { owner: "A cycloid", keys: &["kind", "joints", "from", "to", "duration"] };
 const CONSTANT_SPEED: Shape = Shape { owner: "A motion of constant speed", keys: &["kind", "joints", "from", "speed"] };
 const VIA: Shape = Shape { owner: "A motion through points", keys: &["kind", "joints", "times", "points"] };
@@ -102,7 +104,7 @@ impl Prescribed {
                 Tag::Table => {
                     let file = reader.text("file");
                     let file = reader.required("file", file);
-                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(Smooth::LeastJerk)?;
+                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(SMOOTH[0].1)?;
                     let path = folder.join(file.value()?);
                     let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
                     match Table::read(&path).and_then(|table| from_table(&table, &of, smooth)) {
