@@ -74,13 +74,19 @@ fn warn_of_step(
     let at_start = (forward.span.start, start);
     let Some(warning) = forward.integrator.step_warning(system.ode(), at_start, &scenario.mechanism) else { return };
     let whose = warning.joint.map_or(String::new(), |joint| format!(" of the joint `{joint}`"));
-    let (method, step, most) = (forward.integrator.name(), warning.step, warning.stable.step);
-    let warning = format!("with steps of {step:?} s {method} is not stable: errors{whose} grow from step to step");
+    let (method, step, most) = (forward.integrator.name(), warning.step, two_digits(warning.stable.step));
+    let warning = format!("with steps of {step:?} s {method} is not stable near the start: errors{whose} grow");
     let help = format!(
         "take integrator = {{ method = \"{method}\", step = {most:.1e} }} or less, lower gains or dampings, or an implicit \
          method, as in: {IMPLICIT}"
     );
     record.warn(&warning, &help);
+}
+
+/// No more than `value`, in two digits.
+fn two_digits(value: f64) -> f64 {
+    let unit = 10_f64.powf(value.log10().floor() - 1.0);
+    (value / unit).floor() * unit
 }
 
 /// The part of the energy that is exchanged above which its drift is no matter of taste: of the shipped scenarios none comes
