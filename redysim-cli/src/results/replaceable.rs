@@ -33,7 +33,10 @@ pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
         Err(Failure::outside(message).help(help))
     };
     if !found.is_dir() {
-        return kept("it is no folder", "write elsewhere with --output, or delete it yourself");
+        return kept(
+            "it is no folder of its own, but a file or a link",
+            "write elsewhere with --output, or delete it yourself",
+        );
     }
     let unreadable = |error| Failure::file("read", target, &error);
     let entries = fs::read_dir(target).map_err(unreadable)?.collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
