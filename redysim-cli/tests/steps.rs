@@ -39,9 +39,3 @@ fn a_motion_whose_energy_comes_from_nowhere_is_called_wrong() {
     assert_eq!(said("steps-wild-quiet", &wild, &["--quiet"]), "");
     assert_eq!(said("steps-right", &with("method = 'Ode4', step = 0.01"), &[]), "");
 }
-
-/// Nothing moves, and rounding alone is as large as all that is exchanged.
-#[test]
-fn a_pendulum_at_rest_is_not_called_wrong() {
-    assert_eq!(said("steps-rest", &SWING.replace("[0, 1]", "['-90 deg', 0]"), &[]), "");
-}

@@ -34,3 +34,27 @@ impl Balance {
         if self.drift > 0.0 { self.drift / scale } else { 0.0 }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(states: [(f64, f64, f64); 2]) -> f64 {
+        let mut balance = Balance::default();
+        for (kinetic, potential, work) in states {
+            balance.see(Energy { kinetic, potential }, work);
+        }
+        balance.part()
+    }
+
+    #[test]
+    fn drift_is_measured_by_what_is_exchanged_however_much_there_is() {
+        assert_eq!(part([(0.0, 1000.0, 0.0), (3.0, 998.0, 2.0)]), 1.0 / 3.0);
+    }
+
+    #[test]
+    fn rounding_where_nothing_moves_is_no_drift() {
+        assert!(part([(0.0, 100.0, 0.0), (0.0, 100.0 + 2e-14, 0.0)]) < 1e-6);
+        assert_eq!(part([(0.0, 0.0, 0.0); 2]), 0.0);
+    }
+}

@@ -1,5 +1,6 @@
 //! A run that is going on.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
@@ -63,12 +64,18 @@ impl Running {
             }
             sleep(Duration::from_millis(50));
         }
-        if self.child.try_wait().unwrap().is_none() {
-            self.child.kill().unwrap();
-            panic!("it goes on");
-        }
-        let output = self.child.wait_with_output().unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+        let status = self.child.try_wait().unwrap().expect("it goes on");
+        let mut said = String::new();
+        self.child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        (status.code(), said)
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // Of a test that fails nothing goes on.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
