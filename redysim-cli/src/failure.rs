@@ -24,6 +24,9 @@ enum Kind {
 }
 
 impl Failure {
+    /// The exit code of what Ctrl-C has ended.
+    pub const INTERRUPTED: u8 = 130;
+
     /// A model, scenario or table is at fault.
     pub fn input(message: impl fmt::Display) -> Self {
         Self { kind: Kind::Input, message: message.to_string(), help: None }
@@ -50,6 +53,11 @@ impl Failure {
         }
     }
 
+    /// What is wrong, without what to do.
+    pub fn message(&self) -> &str {
+        self.message.trim_end()
+    }
+
     /// Says more.
     pub fn and(mut self, more: &str) -> Self {
         self.message += more;
@@ -62,11 +70,6 @@ impl Failure {
         self
     }
 
-    /// What is wrong.
-    pub fn message(&self) -> &str {
-        &self.message
-    }
-
     /// What to do about it, if anything is known.
     pub fn advice(&self) -> &str {
         self.help.as_deref().unwrap_or_default()
@@ -77,7 +80,7 @@ impl Failure {
         ExitCode::from(match self.kind {
             Kind::Input => 1,
             Kind::Outside => 3,
-            Kind::Interrupted => 130,
+            Kind::Interrupted => Self::INTERRUPTED,
         })
     }
 }

@@ -32,6 +32,11 @@ impl Progress {
         }
         self.bar.set_position(done as u64);
     }
+
+    /// Says something above it.
+    pub fn say(&self, text: &str) {
+        self.bar.suspend(|| crate::output::tell(text));
+    }
 }
 
 impl Drop for Progress {

@@ -13,6 +13,8 @@ use crate::failure::Failure;
 pub struct Table {
     /// Where it was read from.
     pub path: PathBuf,
+    /// The text that was read.
+    pub text: String,
     /// The instants, s: none is before another that stands above it.
     pub t: Vec<f64>,
     /// The other columns.
@@ -64,8 +66,13 @@ impl Table {
             .map_err(|_| Failure::input(format!("{} is not UTF-8", path.display())).help("save the file as UTF-8"))?;
         let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
         let headers = reader.headers().map_err(|error| unreadable(path, &text, &error))?.clone();
-        let mut table =
-            Table { path: path.to_owned(), t: vec![], columns: columns(path, &text, &headers)?, lines: vec![] };
+        let mut table = Table {
+            path: path.to_owned(),
+            text: String::new(),
+            t: vec![],
+            columns: columns(path, &text, &headers)?,
+            lines: vec![],
+        };
         let mut row = StringRecord::new();
         while reader.read_record(&mut row).map_err(|error| unreadable(path, &text, &error))? {
             table.lines.push(line(&text, row.position()));
@@ -74,7 +81,7 @@ impl Table {
         if table.t.is_empty() {
             return Err(Failure::input(format!("{}: it has headers but no rows", path.display())).help(ROWS));
         }
-        Ok(table)
+        Ok(Table { text, ..table })
     }
 
     fn push(&mut self, headers: &StringRecord, row: &StringRecord) -> Result<(), Failure> {

@@ -5,9 +5,8 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{call, fail, names, program, scenario, scratch, succeed};
+use common::{SWING, call, fail, names, program, scenario, scratch, succeed};
 
-const SWING: &str = "initial = { q = [0, 1] }\n[forward]\nend = 1.0\nstep = 0.1\n";
 const LIFT: &str = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
 
 /// Runs a scenario of two links that must fail with `code`, say every one of `words`, and leave nothing.
@@ -128,6 +127,8 @@ fn an_unknown_integrator() {
     );
     refuses("number", "forward", &swing("method = 7"), 1, &["cannot be `7`"]);
     refuses("step", "forward", &swing("method = 'Ode4'"), 1, &["`forward.integrator.step` is missing"]);
+    let long = "method = 'Ode4', step = 1.1";
+    refuses("long", "forward", &swing(long), 1, &["is 1.1 s, and the whole run takes 1.0 s", "trial.toml:6:40"]);
     refuses("tolerance", "forward", &swing("rtol = 0.0"), 1, &["`forward.integrator.rtol` is 0.0", "`rtol = 1e-6`"]);
     refuses("roundoff", "forward", &swing("rtol = 1e-18"), 1, &["at least 2.2", "1e-18"]);
 }
@@ -281,61 +282,6 @@ fn loops_that_cannot_close() {
     refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", &held), 1, &["the start", "crank-coupler"]);
 }
 
-#[test]
-fn a_result_is_not_overwritten_unless_it_must_be() {
-    let folder = scratch("faults-exists");
-    let path = scenario(&folder, "two_link.toml", SWING);
-    succeed(&folder, &["forward", &path]);
-    assert_eq!(names(&folder), ["results", "trial.toml"]);
-    let result = folder.join("results/trial/forward");
-    let before = fs::read(result.join("run.toml")).unwrap();
-    let said = fail(&folder, &["forward", &path], 3);
-    assert!(said.contains("there already") && said.contains("--force"), "{said}");
-    assert_eq!(fs::read(result.join("run.toml")).unwrap(), before);
-    succeed(&folder, &["forward", &path, "--force"]);
-    assert_ne!(fs::read(result.join("run.toml")).unwrap(), before, "the times differ");
-    assert_eq!(names(&folder.join("results/trial")), ["forward"]);
-}
-
-#[test]
-fn what_is_no_result_is_never_overwritten() {
-    let folder = scratch("faults-mine");
-    let path = scenario(&folder, "two_link.toml", SWING);
-    fs::create_dir(folder.join("mine")).unwrap();
-    fs::write(folder.join("mine/thesis.txt"), "years of work").unwrap();
-    let said = fail(&folder, &["forward", &path, "-o", "mine", "--force"], 3);
-    assert!(said.contains("it is no result"), "{said}");
-    assert_eq!(names(&folder.join("mine")), ["thesis.txt"]);
-}
-
-#[test]
-fn a_folder_that_cannot_be_made() {
-    let folder = scratch("faults-unwritable");
-    let path = scenario(&folder, "two_link.toml", SWING);
-    let before = names(&folder);
-    // A file is no folder, whoever asks.
-    let said = fail(&folder, &["forward", &path, "-o", "trial.toml/run"], 3);
-    assert!(said.contains("cannot make the folder trial.toml/run"), "{said}");
-    let said = fail(&folder, &["forward", &path, "-o", "/"], 3);
-    assert!(said.contains("--output"), "{said}");
-    assert_eq!(names(&folder), before);
-}
-
-/// A disk that is full after a kilobyte, as far as the program can tell.
-#[cfg(unix)]
-#[test]
-fn a_full_disk_leaves_nothing_half_written() {
-    let folder = scratch("faults-full");
-    let path = scenario(&folder, "two_link.toml", &SWING.replace("step = 0.1", "step = 0.001"));
-    let before = names(&folder);
-    let command = format!("trap '' XFSZ; ulimit -f 8; exec '{}' forward '{path}'", env!("CARGO_BIN_EXE_redysim"));
-    let output = std::process::Command::new("bash").args(["-c", &command]).current_dir(&folder).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("cannot write"), "{said}");
-    assert_eq!(names(&folder), before, "{said}");
-}
-
 /// A force without bound ends the motion; what was computed before is kept, and it is said.
 #[test]
 fn a_motion_that_cannot_go_on_is_kept_as_far_as_it_went() {
@@ -352,6 +298,8 @@ fn a_motion_that_cannot_go_on_is_kept_as_far_as_it_went() {
     assert!(said.contains("infinite or not a number") && said.contains("is kept"), "{said}");
     let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
     assert!(run.contains("ended = \"failed\""), "{run}");
+    assert!(run.contains("reason = \"component ") && run.contains("\nsteps = "), "{run}");
+    assert!(!run.contains("rejected"), "an integration that fails does not say: {run}");
     assert!(!fs::read_to_string(folder.join("run/statevar.csv")).unwrap().contains("NaN"));
 }
 
@@ -363,6 +311,17 @@ fn a_stiff_motion_asks_for_another_integrator() {
     let models = common::root().join("models").display().to_string();
     fs::write(folder.join("trial.toml"), text.replace("../models", &models).replace("Ode15s", "Ode45")).unwrap();
     refuses_in(&folder, "forward", "trial.toml", 3, &["stiff at t = ", "method = \"Ode15s\""]);
+}
+
+/// The rocker is driven on where the four-bar cannot follow: beyond the first of two instants.
+#[test]
+fn forces_are_kept_from_the_first_instant_on() {
+    let folder = scratch("faults-one-row");
+    let rest = "initial = { q = [0, 0.9844, 4.3144] }\n[inverse]\nend = 2.0\nstep = 1.0\n\
+                [trajectory]\nkind = 'constant-speed'\njoints = ['rocker']\nfrom = [0.9844]\nspeed = [4]\n";
+    let said = fail(&folder, &["inverse", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 3);
+    assert!(said.contains("is kept: 1 instants"), "{said}");
+    assert_eq!(common::Table::csv(&folder.join("run/tor.csv")).rows.len(), 1);
 }
 
 #[test]

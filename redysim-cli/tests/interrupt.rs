@@ -4,15 +4,12 @@
 mod common;
 
 use std::fs;
+use std::path::Path;
+#[cfg(target_os = "linux")]
 use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
 
-use common::{Table, names, program, scenario, scratch};
-
-/// Hours of steps.
-const LONG: &str =
-    "initial = { q = [0, 1] }\n[forward]\nend = 1e5\nstep = 0.1\nintegrator = { method = 'Ode5', step = 0.001 }\n";
+use common::running::{Running, interrupted};
+use common::{LONG, Table, names, scenario, scratch};
 
 /// What a terminal shows of the first two seconds of a long run.
 #[cfg(target_os = "linux")]
@@ -36,42 +33,88 @@ fn a_terminal_shows_how_far_a_long_run_is_and_how_long_it_will_take() {
     assert!(!none.contains('%') && none.contains("interrupted: "), "{none}");
 }
 
+/// Interrupts a run that would go on for hours, and returns the states that it leaves.
+fn kept(folder: &Path, command: &str, path: &str) -> Table {
+    let run = Running::begin(folder, &[command, path, "-o", "run"]);
+    // Rows are written as they are computed, a buffer at a time.
+    run.wait(|draft| fs::metadata(draft.join("statevar.csv")).is_ok_and(|file| file.len() > 100_000));
+    let (code, said) = interrupted(run);
+    assert_eq!(code, Some(130), "{said}");
+    assert!(said.contains("interrupted: ") && said.contains("are in run"), "{said}");
+    assert!(!said.contains('%'), "no terminal, no bar: {said}");
+    assert_eq!(names(folder), ["run", "trial.toml"], "no draft is left");
+    let states = Table::csv(&folder.join("run/statevar.csv"));
+    assert!(said.contains(&format!("{} instants", states.rows.len())), "{said}");
+    for table in names(&folder.join("run")).iter().filter(|name| name.ends_with(".csv")) {
+        assert_eq!(Table::csv(&folder.join("run").join(table)).rows.len(), states.rows.len(), "{table}");
+    }
+    assert!(fs::read_to_string(folder.join("run/run.toml")).unwrap().contains("ended = \"interrupted\""));
+    states
+}
+
 #[test]
 fn ctrl_c_keeps_what_was_computed() {
     let folder = scratch("interrupt");
-    let path = scenario(&folder, "two_link.toml", LONG);
-    let mut child = program(&folder, &["forward", &path, "-o", "run"]).stderr(Stdio::piped()).spawn().unwrap();
-    // The draft is there before the first step; after it, a moment for some steps.
-    let mut patience = 600;
-    while !names(&folder).iter().any(|name| name.ends_with(".draft")) {
-        patience -= 1;
-        assert!(patience > 0 && child.try_wait().unwrap().is_none(), "the run begins");
-        sleep(Duration::from_millis(50));
-    }
-    sleep(Duration::from_millis(1500));
-    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(sent.success());
-    for _ in 0..600 {
-        sleep(Duration::from_millis(50));
-        if child.try_wait().unwrap().is_some() {
-            break;
-        }
-    }
-    if child.try_wait().unwrap().is_none() {
-        child.kill().unwrap();
-        panic!("it goes on");
-    }
-    let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains("interrupted: ") && said.contains("are in run"), "{said}");
-    assert!(!said.contains('%'), "no terminal, no bar: {said}");
-    assert_eq!(names(&folder), ["run", "trial.toml"], "no draft is left");
-    let states = Table::csv(&folder.join("run/statevar.csv"));
-    assert!(states.rows.len() > 2, "{} rows", states.rows.len());
-    assert!(said.contains(&format!("{} instants", states.rows.len())), "{said}");
+    let states = kept(&folder, "forward", &scenario(&folder, "two_link.toml", LONG));
     for (k, t) in states.column("t [s]").into_iter().enumerate() {
-        assert!((t - 0.1 * k as f64).abs() < 1e-9, "every instant until then");
+        assert!((t - 0.01 * k as f64).abs() < 1e-9, "every instant until then");
     }
-    assert!(fs::read_to_string(folder.join("run/run.toml")).unwrap().contains("ended = \"interrupted\""));
+}
+
+#[test]
+fn so_it_does_of_closed_loops() {
+    let folder = scratch("interrupt-loops");
+    let rest = LONG.replace("q = [0, 1]", "q = [0, 0.9844, 4.3144]");
+    kept(&folder, "forward", &scenario(&folder, "fourbar.toml", &rest));
+}
+
+#[test]
+fn so_it_does_of_inverse_dynamics() {
+    let folder = scratch("interrupt-inverse");
+    let rest = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1e4\n[inverse]\nend = 1e4\nstep = 0.001\n";
+    kept(&folder, "inverse", &scenario(&folder, "two_link.toml", rest));
+}
+
+/// Who reads the output has stopped: the run waits, and cannot look whether anybody wants it to end.
+#[cfg(target_os = "linux")]
+mod waiting {
+    use super::*;
+    use std::io::{PipeReader, Read, Write};
+
+    /// A run that is about to say how it closes its loops, and cannot; its second instant is hours away.
+    fn stuck(folder: &Path) -> (Running, PipeReader) {
+        let rest = LONG.replace("q = [0, 1]", "q = [0, 0.9844, 4.3144]").replace("step = 0.01\n", "step = 1e4\n");
+        let path = scenario(folder, "fourbar.toml", &rest);
+        let (reader, mut writer) = std::io::pipe().unwrap();
+        // As much as a pipe holds.
+        writer.write_all(&[b' '; 1 << 16]).unwrap();
+        let mut program = common::program(folder, &["forward", &path, "-o", "results/run"]);
+        (Running::of(program.stdout(writer), &folder.join("results")), reader)
+    }
+
+    #[test]
+    fn the_second_ctrl_c_ends_the_program_at_once_and_leaves_nothing() {
+        let folder = scratch("interrupt-twice");
+        let (mut run, reader) = stuck(&folder);
+        run.interrupt();
+        run.interrupt_until_it_ends();
+        let (code, said) = run.end();
+        drop(reader);
+        assert_eq!(code, Some(130), "{said}");
+        assert!(said.contains("interrupted: nothing is kept"), "{said}");
+        assert_eq!(names(&folder), ["trial.toml"]);
+    }
+
+    #[test]
+    fn ctrl_c_before_the_second_instant_leaves_nothing() {
+        let folder = scratch("interrupt-early");
+        let (run, mut reader) = stuck(&folder);
+        run.interrupt();
+        let reading = std::thread::spawn(move || reader.read_to_end(&mut Vec::new()));
+        let (code, said) = run.end();
+        reading.join().unwrap().unwrap();
+        assert_eq!(code, Some(130), "{said}");
+        assert!(said.contains("nothing was computed yet"), "{said}");
+        assert_eq!(names(&folder), ["trial.toml"]);
+    }
 }

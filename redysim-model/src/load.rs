@@ -15,6 +15,8 @@ use toml::de::{DeTable, Error};
 pub struct Loaded {
     /// The model.
     pub model: Model,
+    /// The text of its file, as it was read.
+    pub text: String,
     /// What is asked of it, by the file or beside it.
     pub scene: Scene,
     /// Warnings, in the file's order.
@@ -138,7 +140,9 @@ impl Model {
         }
         let document = Document::read(root.get_ref(), scene.get_ref(), &mut findings);
         match check::check(&document, &mut findings) {
-            Some((model, scene)) => Ok(Loaded { model, scene, warnings: findings.into_sorted() }),
+            Some((model, scene)) => {
+                Ok(Loaded { model, text: source.text.clone(), scene, warnings: findings.into_sorted() })
+            }
             None => Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(document.outline()) }),
         }
     }

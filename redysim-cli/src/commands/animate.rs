@@ -7,6 +7,9 @@ use crate::failure::Failure;
 use crate::output;
 use crate::recorded::Recorded;
 
+/// The page that lies beside the tables it shows, unless told.
+pub const PAGE: &str = "animation.html";
+
 /// Make a page of HTML, complete in itself, that plays a run in 3D beside its curves.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  redysim animate results/kuka/forward -o kuka.html")]
@@ -24,7 +27,7 @@ pub struct Arguments {
 /// Makes the page.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let recorded = Recorded::open(&arguments.results)?;
-    let path = arguments.output.clone().unwrap_or_else(|| recorded.folder().join("animation.html"));
+    let path = arguments.output.clone().unwrap_or_else(|| recorded.folder().join(PAGE));
     // Before what takes its time.
     output::check_place(&path, arguments.force)?;
     let (page, notes) = animation::page(&recorded)?;

@@ -1,15 +1,11 @@
 //! `redysim inverse SCENARIO`.
 
-use std::time::Instant;
-
 use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopClosure, LoopForces, Motion, Trajectory};
 
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::tell;
-use crate::progress::Progress;
-use crate::results::{self, Ended, Record, Summary};
-use crate::scenario::{Prescribed, Run, Scenario, Span};
+use crate::results::{self, Ended, Outcome, Record, Sample};
+use crate::scenario::{Dynamics, Prescribed, Scenario};
 
 /// Compute the forces that a prescribed motion takes, and write them into a folder.
 #[derive(clap::Args)]
@@ -22,7 +18,7 @@ pub struct Arguments {
 /// Computes the forces and writes them.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
-    let scenario = Scenario::load(&results.scenario, Run::Inverse, quiet)?;
+    let scenario = Scenario::load(&results.scenario, Dynamics::Inverse, quiet)?;
     let missing = |what: &str, help: &str| {
         Failure::input(format!("{} does not say {what}", results.scenario.display())).help(help)
     };
@@ -37,12 +33,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     })?;
     check_joints(&scenario, trajectory)?;
     interrupt::watch()?;
-    let folder = results.folder(&scenario, "inverse")?;
-    let (record, summary) = along(&scenario, trajectory, span, quiet);
-    if !quiet {
-        warn_of_passive(&scenario, &record);
-    }
-    results::finish(folder, results.format, &scenario, &record, &summary, quiet)
+    let mut record = Record::begin(results, &scenario, Dynamics::Inverse, span, quiet)?;
+    let (outcome, most) = along(&scenario, trajectory, &mut record);
+    warn_of_passive(&scenario, &most, &record);
+    record.finish(outcome)
 }
 
 /// A tree moves as it is told: every joint must be.
@@ -58,15 +52,16 @@ fn check_joints(scenario: &Scenario, trajectory: &Prescribed) -> Result<(), Fail
     }
 }
 
-/// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be.
-fn warn_of_passive(scenario: &Scenario, record: &Record) {
-    for (index, joint) in scenario.joints.iter().enumerate().filter(|(_, joint)| !joint.actuated) {
-        let most = record.tau.iter().fold(0.0, |most: f64, row| most.max(row[index].abs()));
-        if most > 0.0 {
+/// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be. `most` has the largest
+/// force of each joint.
+fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
+    for (joint, &most) in scenario.joints.iter().zip(most) {
+        if most > 0.0 && !joint.actuated {
             let (name, unit) = (&joint.name, joint.unit_of_force());
-            tell(&format!(
-                "warning: the joint `{name}` has no actuator, but the motion takes up to {most:.3e} {unit} there"
-            ));
+            let warning =
+                format!("the joint `{name}` has no actuator, but the motion takes up to {most:.3e} {unit} there");
+            record
+                .warn(&warning, "prescribe a motion that needs none there, or give the joint an actuator in the model");
         }
     }
 }
@@ -74,9 +69,9 @@ fn warn_of_passive(scenario: &Scenario, record: &Record) {
 /// Motion, forces, multipliers and gap at one time.
 type Balance = (Motion<Vec<f64>, Vec<f64>>, Vec<f64>, Vec<f64>, f64);
 
-/// The forces at every instant, as far as there are.
-fn along(scenario: &Scenario, trajectory: &Prescribed, span: Span, quiet: bool) -> (Record, Summary) {
-    let (mechanism, times) = (&scenario.mechanism, span.instants());
+/// The forces at every instant, as far as there are, and the largest of each joint.
+fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) -> (Outcome, Vec<f64>) {
+    let mechanism = &scenario.mechanism;
     let loops = ClosedLoop::new(mechanism);
     let whole = trajectory.spread(scenario.joints.len());
     let mut of_loops = ClosedLoopInverse::new(loops, &trajectory.joints, scenario.initial.q.clone());
@@ -94,45 +89,33 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, span: Span, quiet: bool) 
         let gap = residual.iter().fold(0.0, |gap: f64, value| gap.max(value.abs()));
         Ok((motion, forces, multipliers, gap))
     };
-    let mut record = Record::default();
-    let (mut ended, mut worst, mut work) = (Ended::Complete, 0.0, 0.0);
-    let mut progress = Progress::new(times.len(), quiet);
-    let begun = Instant::now();
-    for (k, &t) in times.iter().enumerate() {
-        if interrupt::asked() {
-            ended = Ended::Interrupted;
-            break;
-        }
-        let done = if k == 0 { Ok(0.0) } else { work_between(&mut balance, times[k - 1], t) };
-        let (done, (motion, forces, multipliers, gap)) = match done.and_then(|done| Ok((done, balance(t)?))) {
-            Ok(found) => found,
-            Err(reason) => {
-                ended = Ended::Failed(reason);
-                break;
-            }
-        };
-        work += done;
+    let (mut worst, mut work, mut before) = (0.0, 0.0, None);
+    let mut most = vec![0.0; scenario.joints.len()];
+    let mut compute = |t: f64, record: &mut Record<'_>| -> Result<(), Failure> {
+        work += before.map_or(Ok(0.0), |before| work_between(&mut balance, before, t))?;
+        let (Motion { q, v, a }, tau, lambda, gap) = balance(t)?;
+        before = Some(t);
         worst = f64::max(worst, gap);
-        record.state(mechanism, t, motion.q, motion.v, work);
-        record.a.push(motion.a);
-        record.tau.push(forces);
-        record.lambda.push(multipliers);
-        progress.reach(k + 1);
-    }
-    let at_start = |rows: &results::Rows| rows.first().cloned().unwrap_or_default();
-    let summary = Summary {
-        name: scenario.name.clone(),
-        command: "inverse",
-        method: if scenario.loops() { "ClosedLoopInverse".into() } else { "InverseDynamics".into() },
-        instants: (span.start, record.until(), record.t.len()),
-        statistics: None,
-        seconds: begun.elapsed().as_secs_f64(),
-        drift: record.worst_drift(),
-        gap: scenario.loops().then_some(worst),
-        start: [at_start(&record.q), at_start(&record.v)],
-        ended,
+        most.iter_mut().zip(&tau).for_each(|(most, force)| *most = f64::max(*most, force.abs()));
+        record.add(&Sample { t, q, v, a, tau, lambda, work })
     };
-    (record, summary)
+    let ended = loop {
+        let Some(t) = record.next() else { break Ended::Complete };
+        if interrupt::asked() {
+            break Ended::Interrupted;
+        }
+        if let Err(reason) = compute(t, record) {
+            break Ended::Failed(reason);
+        }
+    };
+    let outcome = Outcome {
+        ended,
+        method: if scenario.loops() { "ClosedLoopInverse".into() } else { "InverseDynamics".into() },
+        steps: None,
+        statistics: None,
+        gap: scenario.loops().then_some(worst),
+    };
+    (outcome, most)
 }
 
 /// Nodes, in halves of the interval from its middle, and weights of Gauss's rule of order 6.

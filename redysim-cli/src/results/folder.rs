@@ -3,106 +3,139 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::replaceable::replaces;
 use crate::failure::Failure;
-use crate::output::{exists, write_file};
-
-/// The file that every result has.
-pub const RUN_FILE: &str = "run.toml";
+use crate::interrupt;
+use crate::output::{tell, write_file};
 
 /// A folder under a draft's name, which goes away unless it is finished.
 pub struct Folder {
     target: PathBuf,
-    draft: PathBuf,
+    /// Whether a result that is there is replaced.
+    force: bool,
+    draft: Draft,
+    finished: bool,
+}
+
+/// What is there until the folder is.
+#[derive(Clone)]
+struct Draft {
+    path: PathBuf,
     /// Folders that were made for it, the innermost first.
     made: Vec<PathBuf>,
-    finished: bool,
 }
 
 impl Folder {
     /// Begins the folder `target`.
     ///
     /// # Errors
-    /// If it cannot be made, if it is there already and `force` is not given, or if it holds something else than a
-    /// result.
+    /// If it cannot be made, or if something is there already that must not be replaced.
     pub fn draft(target: PathBuf, force: bool) -> Result<Folder, Failure> {
-        let Some(name) = target.file_name() else {
+        if target.file_name().is_none() {
             let message = format!("{} is no name for a new folder", target.display());
             return Err(Failure::outside(message).help("name one with --output, as in --output results/trial"));
-        };
-        if target.exists() {
-            if !force {
-                return Err(exists(&target));
-            }
-            if !replaceable(&target) {
-                let message =
-                    format!("{} is not overwritten: it holds no {RUN_FILE}, so it is no result", target.display());
-                return Err(Failure::outside(message).help("write elsewhere with --output, or delete it yourself"));
-            }
         }
-        let draft = target.with_file_name(named(name, "draft"));
+        replaces(&target, force)?;
         let parent = target.parent().unwrap_or(Path::new(""));
         let missing = parent.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
-        let mut folder = Folder { draft, made: missing.map(Path::to_owned).collect(), target, finished: false };
-        fs::create_dir_all(&folder.draft).map_err(|error| {
-            // Of what could not be made nothing is to be taken away but what was.
-            folder.made.retain(|made| made.exists());
-            Failure::file("make the folder", &folder.target, &error)
+        let path = beside(&target, &format!(".{}.draft", std::process::id()));
+        let draft = Draft { path, made: missing.map(Path::to_owned).collect() };
+        // One that is there already is of a run that was killed, and its files are not this run's.
+        let made = fs::create_dir_all(parent).and_then(|()| fs::create_dir(&draft.path));
+        made.map_err(|error| {
+            draft.discard_parents();
+            Failure::file("make the folder", &target, &error)
         })?;
-        Ok(folder)
+        let leftover = draft.clone();
+        interrupt::before_end(move || leftover.discard());
+        Ok(Folder { target, force, draft, finished: false })
+    }
+
+    /// Begins a file in it.
+    pub fn create(&self, name: &str) -> Result<fs::File, Failure> {
+        let path = self.draft.path.join(name);
+        fs::File::create(&path).map_err(|error| Failure::file("write", &path, &error))
     }
 
     /// Writes a file in it.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), Failure> {
-        write_file(&self.draft.join(name), contents, false)
-    }
-
-    /// Copies a file into it.
-    pub fn copy(&self, name: &str, from: &Path) -> Result<(), Failure> {
-        self.write(name, &fs::read(from).map_err(|error| Failure::file("read", from, &error))?)
+        write_file(&self.draft.path.join(name), contents, false)
     }
 
     /// Gives it its name, and returns it. What was there before goes away only then.
+    ///
+    /// # Errors
+    /// If something is there by now that must not be replaced, or the name cannot be given: the folder then gets another,
+    /// and the failure says which.
     pub fn finish(mut self) -> Result<PathBuf, Failure> {
-        let failed = |error: &std::io::Error| Failure::file("write", &self.target, error);
-        let before = self.target.with_file_name(named(self.target.file_name().unwrap_or_default(), "before"));
-        let replaces = self.target.exists();
+        interrupt::undisturbed(|| {
+            let named = replaces(&self.target, self.force).and_then(|replaces| self.name(replaces));
+            self.finished = true;
+            named.map_err(|failure| match self.aside() {
+                Ok(path) => failure.and(&format!("; what was computed is in {}", path.display())),
+                Err(error) => {
+                    let path = self.draft.path.display();
+                    failure.and(&format!("; what was computed is left in {path}, which cannot be renamed: {error}"))
+                }
+            })?;
+            Ok(self.target.clone())
+        })
+    }
+
+    /// Moves it to its place; `replaces` what is there.
+    fn name(&self, replaces: bool) -> Result<(), Failure> {
+        let failed = |error| Failure::file("write", &self.target, &error);
+        let before = beside(&self.target, &format!(".{}.before", std::process::id()));
         if replaces {
-            fs::rename(&self.target, &before).map_err(|error| failed(&error))?;
+            fs::rename(&self.target, &before).map_err(failed)?;
         }
-        if let Err(error) = fs::rename(&self.draft, &self.target) {
+        if let Err(error) = fs::rename(&self.draft.path, &self.target) {
             if replaces {
                 // If this fails, too, the earlier result is still there under the other name.
                 let _ = fs::rename(&before, &self.target);
             }
-            return Err(failed(&error));
+            return Err(failed(error));
         }
-        self.finished = true;
-        if replaces {
-            fs::remove_dir_all(&before).map_err(|error| Failure::file("remove", &before, &error))?;
+        if replaces && let Err(error) = fs::remove_dir_all(&before) {
+            // The result is in its place: this is no reason to fail.
+            tell(&format!("warning: the result that was replaced is left in {}: {error}", before.display()));
         }
-        Ok(self.target.clone())
+        Ok(())
+    }
+
+    /// Moves it beside its place, to the first free of `<name>-2`, `<name>-3`, …
+    fn aside(&self) -> std::io::Result<PathBuf> {
+        let names = (2..).map(|count: u64| beside(&self.target, &format!("-{count}")));
+        let free = names.into_iter().find(|path| fs::symlink_metadata(path).is_err()).unwrap_or_default();
+        fs::rename(&self.draft.path, &free).map(|()| free)
     }
 }
 
 impl Drop for Folder {
     fn drop(&mut self) {
         if !self.finished {
-            // There is nobody left to tell if this fails; a folder that is not empty stays.
-            let _ = fs::remove_dir_all(&self.draft);
-            for made in &self.made {
-                let _ = fs::remove_dir(made);
-            }
+            interrupt::undisturbed(|| self.draft.discard());
         }
     }
 }
 
-fn named(name: &std::ffi::OsStr, what: &str) -> std::ffi::OsString {
-    let mut name = name.to_os_string();
-    name.push(format!(".{}.{what}", std::process::id()));
-    name
+impl Draft {
+    fn discard(&self) {
+        // There is nobody left to tell if this fails; a folder that is not empty stays.
+        let _ = fs::remove_dir_all(&self.path);
+        self.discard_parents();
+    }
+
+    fn discard_parents(&self) {
+        for made in &self.made {
+            let _ = fs::remove_dir(made);
+        }
+    }
 }
 
-/// Whether a folder is a result, or empty.
-fn replaceable(folder: &Path) -> bool {
-    folder.join(RUN_FILE).is_file() || fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
+/// A path whose last name has `more` at its end.
+fn beside(path: &Path, more: &str) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(more);
+    path.with_file_name(name)
 }

@@ -1,52 +1,156 @@
-//! What is computed, instant by instant.
+//! A run, written instant by instant.
 
-use redysim_model::GenericMechanism;
-use redysim_runtime::{Energy, MechanicalEnergy};
+use std::time::Instant;
 
-/// A value for every joint or row at every instant: `rows[instant][joint]`.
-pub type Rows = Vec<Vec<f64>>;
+use redysim_runtime::MechanicalEnergy;
 
-/// A run.
-#[derive(Default)]
-pub struct Record {
-    /// The instants, s.
-    pub t: Vec<f64>,
-    pub q: Rows,
-    pub v: Rows,
+use super::tables::{Row, Tables};
+use super::{Arguments, Balance, Ended, Folder, Outcome, Summary, run_file};
+use crate::failure::Failure;
+use crate::output::say;
+use crate::progress::Progress;
+use crate::scenario::{Dynamics, Scenario, Span};
+
+/// What is computed of an instant.
+pub struct Sample {
+    /// When it is, s.
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
     /// Accelerations: of inverse dynamics alone.
-    pub a: Rows,
+    pub a: Vec<f64>,
     /// Joint forces.
-    pub tau: Rows,
+    pub tau: Vec<f64>,
     /// Multipliers of the loops' rows.
-    pub lambda: Rows,
-    pub energy: Vec<Energy<f64>>,
+    pub lambda: Vec<f64>,
     /// The work that the actuators have done since the start, J.
-    pub work: Vec<f64>,
+    pub work: f64,
 }
 
-impl Record {
-    /// Adds position and velocity at an instant, and what follows from them.
-    pub fn state(&mut self, mechanism: &GenericMechanism, t: f64, q: Vec<f64>, v: Vec<f64>, work: f64) {
-        self.t.push(t);
-        self.energy.push(mechanism.energy(&q, &v));
-        self.work.push(work);
-        self.q.push(q);
-        self.v.push(v);
+/// A run as far as it is computed. Its rows are in the files already: however many they are, none is kept in memory.
+pub struct Record<'a> {
+    scenario: &'a Scenario,
+    dynamics: Dynamics,
+    span: Span,
+    quiet: bool,
+    folder: Folder,
+    tables: Tables,
+    /// Why a row could not be written.
+    broken: Option<Failure>,
+    count: usize,
+    /// Position and velocity at the first instant.
+    start: [Vec<f64>; 2],
+    balance: Balance,
+    progress: Progress,
+    begun: Instant,
+}
+
+impl<'a> Record<'a> {
+    /// Begins the folder of a run of `scenario` over `span`. It is made before anything is computed, so that what cannot
+    /// be written is said at once.
+    pub fn begin(
+        arguments: &Arguments,
+        scenario: &'a Scenario,
+        dynamics: Dynamics,
+        span: Span,
+        quiet: bool,
+    ) -> Result<Record<'a>, Failure> {
+        let folder = Folder::draft(arguments.folder(scenario, dynamics), arguments.force)?;
+        Ok(Record {
+            scenario,
+            dynamics,
+            span,
+            quiet,
+            tables: Tables::begin(&folder, arguments.format, scenario, dynamics)?,
+            folder,
+            broken: None,
+            count: 0,
+            start: [vec![], vec![]],
+            balance: Balance::default(),
+            progress: Progress::new(span.count(), quiet),
+            begun: Instant::now(),
+        })
     }
 
-    /// The last instant, s.
-    pub fn until(&self) -> f64 {
-        self.t.last().copied().unwrap_or_default()
+    /// The instant that is to be computed next; none if all are.
+    pub fn next(&self) -> Option<f64> {
+        (self.count < self.span.count()).then(|| self.span.instant(self.count))
     }
 
-    /// The energy that has come from nowhere since the start, at each instant, J.
-    pub fn drift(&self) -> Vec<f64> {
-        let own = |k: usize| self.energy[k].total() - self.work[k];
-        (0..self.t.len()).map(|k| own(k) - own(0)).collect()
+    /// Adds the next instant.
+    ///
+    /// # Errors
+    /// If a number is infinite or none, or if it cannot be written.
+    pub fn add(&mut self, sample: &Sample) -> Result<(), Failure> {
+        let energy = self.scenario.mechanism.energy(&sample.q, &sample.v);
+        let drift = self.balance.see(energy, sample.work);
+        let rows = self.tables.rows(&Row { scenario: self.scenario, sample, energy, drift })?;
+        self.tables.write(&rows).inspect_err(|failure| self.broken = Some(failure.clone()))?;
+        if self.count == 0 {
+            self.start = [sample.q.clone(), sample.v.clone()];
+        }
+        self.count += 1;
+        self.show_progress();
+        Ok(())
     }
 
-    /// The largest of these, J.
-    pub fn worst_drift(&self) -> f64 {
-        self.drift().into_iter().fold(0.0, |most, drift| f64::max(most, drift.abs()))
+    /// Watches the energy in a state between instants, too.
+    pub fn see(&mut self, q: &Vec<f64>, v: &Vec<f64>, work: f64) {
+        self.balance.see(self.scenario.mechanism.energy(q, v), work);
+    }
+
+    /// Shows how far it is, if one has to wait.
+    pub fn show_progress(&mut self) {
+        self.progress.reach(self.count);
+    }
+
+    /// Warns, unless nobody wants to hear.
+    pub fn warn(&self, warning: &str, help: &str) {
+        if !self.quiet {
+            self.progress.say(&format!("warning: {warning}\n  = help: {help}\n"));
+        }
+    }
+
+    /// How energy and work agree so far.
+    pub fn balance(&self) -> &Balance {
+        &self.balance
+    }
+
+    /// Ends the run, says how it went, and fails if it did not come to its end.
+    pub fn finish(self, outcome: Outcome) -> Result<(), Failure> {
+        if let Some(failure) = self.broken {
+            return Err(failure);
+        }
+        // That a motion begins where it was told to is no result; forces at its first instant are.
+        let least = if self.dynamics == Dynamics::Forward { 2 } else { 1 };
+        if self.count < least {
+            return Err(match outcome.ended {
+                Ended::Failed(reason) => reason,
+                _ => Failure::interrupted("nothing was computed yet, so that nothing is written"),
+            });
+        }
+        let summary = Summary {
+            name: self.scenario.name.clone(),
+            dynamics: self.dynamics,
+            instants: (self.span.start, self.span.instant(self.count - 1), self.count),
+            seconds: self.begun.elapsed().as_secs_f64(),
+            balance: self.balance,
+            start: self.start,
+            outcome,
+        };
+        self.tables.finish()?;
+        run_file::write(&self.folder, self.scenario, &summary)?;
+        drop(self.progress);
+        let target = self.folder.finish()?;
+        if !self.quiet {
+            say(&format!("{summary}\n  written to {}", target.display()));
+        }
+        let (_, until, count) = summary.instants;
+        let kept = format!("{count} instants, until {until:?} s, are in {}", target.display());
+        match summary.outcome.ended {
+            Ended::Complete => Ok(()),
+            Ended::Interrupted => Err(Failure::interrupted(kept)),
+            Ended::Failed(reason) => Err(reason.and(&format!("; what was computed before is kept: {kept}"))),
+        }
     }
 }

@@ -3,56 +3,57 @@
 //! It is a scenario itself, beside copies of the model and the tables that it names, so that the run can be done again from
 //! the folder alone.
 
-use toml_edit::{Array, DocumentMut, Item, Table, value};
+use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
 
-use super::folder::RUN_FILE;
-use super::{Folder, Summary};
+use super::replaceable::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
+use super::{Ended, Folder, Outcome, Summary};
 use crate::failure::Failure;
-use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances};
+use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances, USUAL_THROUGH};
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
     let mut document: DocumentMut =
         scenario.text.parse().map_err(|error| Failure::outside(format!("cannot copy the scenario: {error}")))?;
-    folder.copy("model.toml", &scenario.model_path)?;
-    document["model"] = value("model.toml");
-    keep(&mut document["name"], value(&scenario.name));
+    folder.write(MODEL, scenario.model_text.as_bytes())?;
+    document["model"] = value(MODEL);
+    keep(document.as_item_mut(), "name", value(&scenario.name));
     let name = |joint: &usize| scenario.joints[*joint].name.as_str();
     let initial = &mut document["initial"];
-    keep(&mut initial["q"], numbers(&scenario.initial.q));
-    keep(&mut initial["v"], numbers(&scenario.initial.v));
+    keep(initial, "q", numbers(&scenario.initial.q));
+    keep(initial, "v", numbers(&scenario.initial.v));
     if scenario.loops() {
-        keep(&mut initial["assemble"], value(scenario.initial.assemble));
-        keep(&mut initial["held"], value(scenario.initial.held.iter().map(name).collect::<Array>()));
+        keep(initial, "assemble", value(scenario.initial.assemble));
+        keep(initial, "held", value(scenario.initial.held.iter().map(name).collect::<Array>()));
     }
     if let Some(trajectory) = &scenario.trajectory {
         let table = &mut document["trajectory"];
-        keep(&mut table["kind"], value("cycloid"));
-        keep(&mut table["joints"], value(trajectory.joints.iter().map(name).collect::<Array>()));
+        keep(table, "kind", value("cycloid"));
+        keep(table, "joints", value(trajectory.joints.iter().map(name).collect::<Array>()));
         if let Some(read) = &trajectory.table {
-            folder.copy("trajectory.csv", read.path())?;
-            table["file"] = value("trajectory.csv");
+            folder.write(TRAJECTORY, read.text.as_bytes())?;
+            table["file"] = value(TRAJECTORY);
+            keep(table, "through", value(USUAL_THROUGH));
         }
     }
     if let Some(span) = scenario.inverse {
-        keep(&mut document["inverse"]["start"], value(span.start));
+        keep(&mut document["inverse"], "start", value(span.start));
     }
     if let Some(forward) = &scenario.forward {
         let table = &mut document["forward"];
-        keep(&mut table["start"], value(forward.span.start));
+        keep(table, "start", value(forward.span.start));
         settings(&mut table["integrator"], forward.integrator);
         named(&mut table["torque"], "law");
-        keep(&mut table["torque"]["law"], value("free"));
-        if let Some(joints) = forward.torque.joints() {
-            keep(&mut table["torque"]["joints"], value(joints.iter().map(name).collect::<Array>()));
-        }
+        keep(&mut table["torque"], "law", value("free"));
         if let Actuation::Table { forces, .. } = &forward.torque {
-            folder.copy("torque.csv", forces.table.path())?;
-            table["torque"]["file"] = value("torque.csv");
+            folder.write(TORQUE, forces.table.text.as_bytes())?;
+            table["torque"]["file"] = value(TORQUE);
+        }
+        if let Some(joints) = forward.torque.joints() {
+            keep(&mut table["torque"], "joints", value(joints.iter().map(name).collect::<Array>()));
         }
         if scenario.loops() {
             named(&mut table["stabilisation"], "kind");
-            keep(&mut table["stabilisation"]["kind"], value("projection"));
+            keep(&mut table["stabilisation"], "kind", value("projection"));
         }
     }
     document.remove("run");
@@ -60,11 +61,24 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
     folder.write(RUN_FILE, document.to_string().as_bytes())
 }
 
+/// Whether the text of a file is what [`write`] has written.
+pub fn is_of_a_run(text: &str) -> bool {
+    let document = text.parse::<DocumentMut>();
+    document.is_ok_and(|document| document.get("run").and_then(|run| run.get("redysim")).is_some())
+}
+
 /// What the scenario says stays, and what it leaves open is filled in.
-fn keep(item: &mut Item, resolved: Item) {
-    if item.is_none() {
-        *item = resolved;
+fn keep(table: &mut Item, key: &str, resolved: Item) {
+    if table.get(key).is_some() {
+        return;
     }
+    // The blank before the brace that closes an inline table is to stand after the new value.
+    if let Some((_, last)) = table.as_inline_table_mut().and_then(|table| table.iter_mut().last())
+        && last.decor().suffix().and_then(RawString::as_str).is_some_and(|blank| blank.trim().is_empty())
+    {
+        last.decor_mut().set_suffix("");
+    }
+    table[key] = resolved;
 }
 
 /// A name that stands for a table becomes that table.
@@ -81,14 +95,15 @@ fn settings(table: &mut Item, integrator: Integrator) {
     }
     named(table, "method");
     table["method"] = value(integrator.name());
-    if let Integrator::Adaptive(_, Tolerances { rtol, atol, .. }) = integrator {
-        keep(&mut table["rtol"], number(rtol));
+    if let Integrator::Adaptive(_, Tolerances { rtol, atol, max_step }) = integrator {
+        keep(table, "rtol", number(rtol));
+        keep(table, "max_step", number(max_step));
         let Absolute { position, velocity, work } = atol;
         let parts = [("position", position), ("velocity", velocity), ("work", work)];
-        if position == velocity && velocity == work {
-            keep(&mut table["atol"], number(position));
+        if table.get("atol").is_some_and(Item::is_table_like) {
+            parts.into_iter().for_each(|(key, part)| keep(&mut table["atol"], key, number(part)));
         } else {
-            parts.into_iter().for_each(|(key, part)| keep(&mut table["atol"][key], number(part)));
+            keep(table, "atol", number(position));
         }
     }
 }
@@ -100,27 +115,34 @@ fn numbers(values: &[f64]) -> Item {
 fn how_it_went(summary: &Summary) -> Table {
     let mut table = Table::new();
     table.decor_mut().set_prefix("\n# How it went.\n");
-    table["command"] = value(summary.command);
+    let Summary { dynamics, instants: (from, until, count), seconds, balance, start, outcome, .. } = summary;
+    let Outcome { ended, steps, statistics, gap, .. } = outcome;
+    table["command"] = value(dynamics.to_string());
     table["redysim"] = value(env!("CARGO_PKG_VERSION"));
-    table["ended"] = value(summary.ended.to_string());
-    let (from, to, count) = summary.instants;
-    table["from"] = value(from);
-    table["until"] = value(to);
-    table["instants"] = integer(count as u64);
-    table["seconds"] = value(summary.seconds);
-    if let Some(statistics) = summary.statistics {
-        table["steps"] = integer(statistics.steps);
+    table["ended"] = value(ended.to_string());
+    if let Ended::Failed(reason) = ended {
+        table["reason"] = value(reason.message());
+    }
+    table["from"] = value(*from);
+    table["until"] = value(*until);
+    table["instants"] = integer(*count as u64);
+    table["seconds"] = value(*seconds);
+    if let Some(steps) = steps {
+        table["steps"] = integer(*steps);
+    }
+    if let Some(statistics) = statistics {
         table["rejected"] = integer(statistics.rejected);
         table["evaluations"] = integer(statistics.evaluations);
         table["corrections"] = integer(statistics.corrections);
         table["jacobians"] = integer(statistics.jacobians);
         table["decompositions"] = integer(statistics.decompositions);
     }
-    table["energy_drift"] = number(summary.drift);
-    if let Some(gap) = summary.gap {
-        table["worst_gap"] = number(gap);
+    table["energy_drift"] = number(balance.drift);
+    table["energy_exchanged"] = number(balance.exchanged);
+    if let Some(gap) = gap {
+        table["worst_gap"] = number(*gap);
     }
-    let [q, v] = &summary.start;
+    let [q, v] = start;
     table["start_q"] = numbers(q);
     table["start_v"] = numbers(v);
     table

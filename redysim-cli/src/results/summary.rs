@@ -4,29 +4,21 @@ use std::fmt;
 
 use redysim_runtime::Statistics;
 
+use super::Balance;
 use crate::failure::Failure;
+use crate::scenario::Dynamics;
 
-/// How a run went.
-pub struct Summary {
-    /// The scenario's name.
-    pub name: String,
-    /// "forward" or "inverse".
-    pub command: &'static str,
+/// How a computation went, of which the [`Record`](super::Record) knows but the rows.
+pub struct Outcome {
+    pub ended: Ended,
     /// By which method.
     pub method: String,
-    /// First and last instant, s, and how many there are.
-    pub instants: (f64, f64, usize),
-    /// What the integration took, if there was one.
+    /// Accepted steps of the integration, if there was one.
+    pub steps: Option<u64>,
+    /// What else it took: an integration that fails does not say.
     pub statistics: Option<Statistics>,
-    /// Wall time, s.
-    pub seconds: f64,
-    /// The largest drift of the energy, J.
-    pub drift: f64,
     /// The largest gap of a loop, m (or a sine), if there are loops.
     pub gap: Option<f64>,
-    /// Position and velocity at the start.
-    pub start: [Vec<f64>; 2],
-    pub ended: Ended,
 }
 
 /// How a run ended.
@@ -37,6 +29,21 @@ pub enum Ended {
     Interrupted,
     /// Because it could not go on.
     Failed(Failure),
+}
+
+/// How a run went.
+pub struct Summary {
+    /// The scenario's name.
+    pub name: String,
+    pub dynamics: Dynamics,
+    /// First and last instant, s, and how many there are.
+    pub instants: (f64, f64, usize),
+    /// Wall time, s, of computing and writing the rows.
+    pub seconds: f64,
+    pub balance: Balance,
+    /// Position and velocity at the first instant.
+    pub start: [Vec<f64>; 2],
+    pub outcome: Outcome,
 }
 
 impl fmt::Display for Ended {
@@ -51,16 +58,18 @@ impl fmt::Display for Ended {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Outcome { method, steps, statistics, gap, .. } = &self.outcome;
         let (from, to, count) = self.instants;
-        write!(
-            f,
-            "{}: {} dynamics by {}, {count} instants from {from} s to {to} s",
-            self.name, self.command, self.method
-        )?;
-        if let Some(Statistics { steps, rejected, evaluations, .. }) = self.statistics {
-            write!(f, "\n  {steps} steps, {rejected} rejected, {evaluations} evaluations")?;
+        write!(f, "{}: {} dynamics by {method}, {count} instants from {from} s to {to} s", self.name, self.dynamics)?;
+        if let Some(steps) = steps {
+            write!(f, "\n  {steps} steps")?;
         }
-        write!(f, "\n  {:.3} s of computing\n  energy drift {:.1e} J", self.seconds, self.drift)?;
-        self.gap.map_or(Ok(()), |gap| write!(f, "\n  worst gap {gap:.1e} m"))
+        if let Some(Statistics { rejected, evaluations, .. }) = statistics {
+            write!(f, ", {rejected} rejected, {evaluations} evaluations")?;
+        }
+        write!(f, "\n  {:.3} s of computing and writing", self.seconds)?;
+        let Balance { drift, exchanged, .. } = self.balance;
+        write!(f, "\n  energy drift {drift:.1e} J, while up to {exchanged:.1e} J were exchanged")?;
+        gap.map_or(Ok(()), |gap| write!(f, "\n  worst gap {gap:.1e} m"))
     }
 }

@@ -1,13 +1,14 @@
-//! The tables of a run, in this program's form and in ReDySim's.
+//! The tables of a run, in this program's form and in ReDySim's, written row by row.
 
 use std::fmt::Write;
+use std::fs::File;
 
 use redysim_model::GenericMechanism;
-use redysim_runtime::LinkKinematics;
+use redysim_runtime::{Energy, LinkKinematics};
 
-use super::{Folder, Record, Rows};
+use super::{Folder, Sample};
 use crate::failure::Failure;
-use crate::scenario::{Scenario, indices};
+use crate::scenario::{Dynamics, Scenario, indices};
 
 /// How numbers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -18,104 +19,182 @@ pub enum Format {
     Dat,
 }
 
-/// A table: its name, what is above the columns, and its rows.
+/// The names of all tables that there may be.
+pub const NAMES: [&str; 8] = ["timevar", "statevar", "traj", "tor", "lambda", "energy", "envar", "kinematics"];
+
+/// What rows are made of.
+pub struct Row<'a> {
+    pub scenario: &'a Scenario,
+    pub sample: &'a Sample,
+    pub energy: Energy<f64>,
+    /// What of it has come from nowhere, J.
+    pub drift: f64,
+}
+
+type Make = fn(&Row<'_>) -> Vec<f64>;
+
+/// A table: its name, what is above the columns, and how a row is made.
 struct Table {
     name: &'static str,
     headers: Vec<String>,
-    rows: Rows,
+    make: Make,
 }
 
-/// Writes all tables of a run.
-pub fn write(folder: &Folder, format: Format, scenario: &Scenario, record: &Record) -> Result<(), Failure> {
-    let tables = match format {
-        Format::Csv => named(scenario, record),
-        Format::Dat => redysim(scenario, record),
-    };
-    for table in tables {
-        table.check()?;
-        match format {
-            Format::Csv => folder.write(&format!("{}.csv", table.name), &table.csv()?)?,
-            Format::Dat => folder.write(&format!("{}.dat", table.name), table.dat().as_bytes())?,
-        }
+/// All tables of a run, as far as they are written.
+pub struct Tables {
+    tables: Vec<(Table, csv::Writer<File>)>,
+    rows: usize,
+}
+
+/// Numbers on their way to a file are gathered until there are so many bytes.
+const BUFFER: usize = 1 << 16;
+
+impl Tables {
+    /// Begins the files.
+    pub fn begin(folder: &Folder, format: Format, scenario: &Scenario, dynamics: Dynamics) -> Result<Tables, Failure> {
+        let (tables, ending, delimiter) = match format {
+            Format::Csv => (named(scenario, dynamics), "csv", b','),
+            Format::Dat => (redysim(scenario, dynamics), "dat", b' '),
+        };
+        let begun = tables.into_iter().map(|table| {
+            let file = folder.create(&format!("{}.{ending}", table.name))?;
+            let mut writer = csv::WriterBuilder::new().delimiter(delimiter).buffer_capacity(BUFFER).from_writer(file);
+            if format == Format::Csv {
+                writer.write_record(&table.headers).map_err(|error| table.unwritten(error))?;
+            }
+            Ok((table, writer))
+        });
+        Ok(Tables { tables: begun.collect::<Result<_, Failure>>()?, rows: 0 })
     }
-    Ok(())
+
+    /// A row of each.
+    ///
+    /// # Errors
+    /// If a number is infinite or none.
+    pub fn rows(&self, row: &Row<'_>) -> Result<Vec<Vec<f64>>, Failure> {
+        self.tables.iter().map(|(table, _)| table.checked((table.make)(row), self.rows)).collect()
+    }
+
+    /// Writes a row to each.
+    pub fn write(&mut self, rows: &[Vec<f64>]) -> Result<(), Failure> {
+        let mut shortest = String::new();
+        for ((table, writer), row) in self.tables.iter_mut().zip(rows) {
+            for value in row {
+                shortest.clear();
+                // A `String` takes everything; these are the shortest decimals that read back as exactly this number.
+                let _ = write!(shortest, "{value:?}");
+                writer.write_field(&shortest).map_err(|error| table.unwritten(error))?;
+            }
+            writer.write_record(None::<&[u8]>).map_err(|error| table.unwritten(error))?;
+        }
+        self.rows += 1;
+        Ok(())
+    }
+
+    /// Has everything on the disk.
+    pub fn finish(self) -> Result<(), Failure> {
+        self.tables.into_iter().try_for_each(|(table, writer)| {
+            let file = writer.into_inner().map_err(|error| table.unwritten(error.into_error()))?;
+            file.sync_all().map_err(|error| table.unwritten(error))
+        })
+    }
+}
+
+impl Table {
+    fn checked(&self, row: Vec<f64>, above: usize) -> Result<Vec<f64>, Failure> {
+        let Some(column) = row.iter().position(|value| !value.is_finite()) else { return Ok(row) };
+        let name = self.headers.get(column).map_or(format!("column {}", column + 1), |name| format!("`{name}`"));
+        let message = format!("{}, row {}: {name} is {:?}", self.name, above + 1, row[column]);
+        Err(Failure::outside(message).help("look for a singular position or a force without bound there"))
+    }
+
+    fn unwritten(&self, error: impl Into<std::io::Error>) -> Failure {
+        Failure::file("write the table", self.name.as_ref(), &error.into())
+    }
+}
+
+impl Row<'_> {
+    /// The time, and what else stands in a row.
+    fn timed(&self, parts: &[&[f64]]) -> Vec<f64> {
+        [&[self.sample.t], parts.concat().as_slice()].concat()
+    }
+
+    /// ReDySim's energy of the actuators is minus their work.
+    fn actuators(&self) -> f64 {
+        0.0 - self.sample.work
+    }
+
+    fn kinematics(&self) -> Vec<f64> {
+        let links = self.scenario.mechanism.link_kinematics(&self.sample.q, &self.sample.v);
+        let of_link = links
+            .iter()
+            .flat_map(|link| link.origin.into_iter().chain(link.com).chain(link.rotation.into_iter().flatten()));
+        of_link.collect()
+    }
 }
 
 /// The tables with names and units, each with the time first.
-fn named(scenario: &Scenario, record: &Record) -> Vec<Table> {
+fn named(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
     let joints = |symbol: &str, per: &str| -> Vec<String> {
         scenario.joints.iter().map(|joint| format!("{symbol} {} [{}{per}]", joint.name, joint.unit())).collect()
     };
-    let forces =
+    let forces: Vec<String> =
         scenario.joints.iter().map(|joint| format!("tau {} [{}]", joint.name, joint.unit_of_force())).collect();
+    let energies = ["kinetic", "potential", "total", "work", "drift"].map(|name| format!("{name} [J]"));
     let [q, v, a] = [("q", ""), ("v", "/s"), ("a", "/s^2")].map(|(symbol, per)| joints(symbol, per));
-    let timed = |name, headers: Vec<Vec<String>>, rows: Rows| {
-        let headers = std::iter::once("t [s]".to_owned()).chain(headers.into_iter().flatten()).collect();
-        let rows = beside(&[&record.t.iter().map(|&t| vec![t]).collect(), &rows]);
-        Table { name, headers, rows }
+    let timed = |name, headers: &[&[String]], make: Make| {
+        let headers = [&["t [s]".to_owned()], headers.concat().as_slice()].concat();
+        Table { name, headers, make }
     };
     let mut tables = vec![
-        timed("timevar", vec![], vec![vec![]; record.t.len()]),
-        timed("statevar", vec![q.clone(), v.clone()], beside(&[&record.q, &record.v])),
-        timed("tor", vec![forces], record.tau.clone()),
-        timed("energy", vec![energy_headers()], energies(record)),
-        timed("kinematics", vec![kinematics_headers(scenario)], kinematics(&scenario.mechanism, record)),
+        timed("timevar", &[], |at| at.timed(&[])),
+        timed("statevar", &[&q, &v], |at| at.timed(&[&at.sample.q, &at.sample.v])),
+        timed("tor", &[&forces], |at| at.timed(&[&at.sample.tau])),
+        timed("energy", &[&energies], |at| {
+            let Energy { kinetic, potential } = at.energy;
+            at.timed(&[&[kinetic, potential, at.energy.total(), at.sample.work, at.drift]])
+        }),
+        timed("kinematics", &[&kinematics_headers(scenario)], |at| at.timed(&[&at.kinematics()])),
     ];
-    if !record.a.is_empty() {
-        tables.push(timed("traj", vec![q, v, a], beside(&[&record.q, &record.v, &record.a])));
+    if dynamics == Dynamics::Inverse {
+        tables.push(timed("traj", &[&q, &v, &a], |at| at.timed(&[&at.sample.q, &at.sample.v, &at.sample.a])));
     }
     if scenario.loops() {
-        tables.push(timed("lambda", vec![lambda_headers(&scenario.mechanism)], record.lambda.clone()));
+        tables.push(timed("lambda", &[&lambda_headers(&scenario.mechanism)], |at| at.timed(&[&at.sample.lambda])));
     }
     tables
 }
 
 /// ReDySim's files: the time has one of its own. Its states are q, q̇ and, of forward dynamics, the energy of the
-/// actuators, which is minus their work, of inverse dynamics q̈; with closed loops its joint forces are those of the
-/// actuated joints and then λ; its energies are potential, kinetic, of the actuators, and the sum of these. What it does not
-/// write, kinematics and the λ of forward dynamics, is written as in the tables with names.
-fn redysim(scenario: &Scenario, record: &Record) -> Vec<Table> {
-    let plain = |name, rows| Table { name, headers: vec![], rows };
-    let actuators: Rows = record.work.iter().map(|&work| vec![0.0 - work]).collect();
-    let inverse = !record.a.is_empty();
-    let states = if inverse { &record.a } else { &actuators };
-    let actuated = indices(&scenario.joints, |joint| joint.actuated);
-    let of_actuated = record.tau.iter().map(|row| actuated.iter().map(|&joint| row[joint]).collect()).collect();
-    let energies =
-        record.energy.iter().zip(&actuators).map(|(energy, actuators)| {
-            vec![energy.potential, energy.kinetic, actuators[0], energy.total() + actuators[0]]
-        });
+/// actuators, of inverse dynamics q̈; with closed loops its joint forces are those of the actuated joints and then λ; its
+/// energies are potential, kinetic, of the actuators, and the sum of these. What it does not write, kinematics and the λ
+/// of forward dynamics, is written as in the tables with names.
+fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
+    let plain = |name, make: Make| Table { name, headers: vec![], make };
     let mut tables = vec![
-        plain("timevar", record.t.iter().map(|&t| vec![t]).collect()),
-        plain("statevar", beside(&[&record.q, &record.v, states])),
-        plain("envar", energies.collect()),
-        plain("kinematics", kinematics(&scenario.mechanism, record)),
+        plain("timevar", |at| vec![at.sample.t]),
+        plain("envar", |at| {
+            let Energy { kinetic, potential } = at.energy;
+            vec![potential, kinetic, at.actuators(), at.energy.total() + at.actuators()]
+        }),
+        plain("kinematics", |at| at.kinematics()),
     ];
-    match (scenario.loops(), inverse) {
-        (true, true) => tables.push(plain("tor", beside(&[&of_actuated, &record.lambda]))),
-        (true, false) => tables.extend([plain("tor", record.tau.clone()), plain("lambda", record.lambda.clone())]),
-        (false, _) => tables.push(plain("tor", record.tau.clone())),
+    tables.push(match dynamics {
+        Dynamics::Forward => plain("statevar", |at| [&*at.sample.q, &at.sample.v, &[at.actuators()]].concat()),
+        Dynamics::Inverse => plain("statevar", |at| [&*at.sample.q, &at.sample.v, &at.sample.a].concat()),
+    });
+    match (scenario.loops(), dynamics) {
+        (true, Dynamics::Inverse) => tables.push(plain("tor", |at| {
+            let actuated = indices(&at.scenario.joints, |joint| joint.actuated);
+            actuated.iter().map(|&joint| at.sample.tau[joint]).chain(at.sample.lambda.iter().copied()).collect()
+        })),
+        (true, Dynamics::Forward) => {
+            tables.push(plain("tor", |at| at.sample.tau.clone()));
+            tables.push(plain("lambda", |at| at.sample.lambda.clone()));
+        }
+        (false, _) => tables.push(plain("tor", |at| at.sample.tau.clone())),
     }
     tables
-}
-
-/// Rows side by side.
-fn beside(blocks: &[&Rows]) -> Rows {
-    let count = blocks.first().map_or(0, |rows| rows.len());
-    (0..count).map(|k| blocks.iter().flat_map(|rows| rows[k].iter().copied()).collect()).collect()
-}
-
-fn energy_headers() -> Vec<String> {
-    ["kinetic", "potential", "total", "work", "drift"].map(|name| format!("{name} [J]")).to_vec()
-}
-
-fn energies(record: &Record) -> Rows {
-    let drift = record.drift();
-    let row = |k: usize| {
-        let energy = record.energy[k];
-        vec![energy.kinetic, energy.potential, energy.total(), record.work[k], drift[k]]
-    };
-    (0..record.t.len()).map(row).collect()
 }
 
 fn kinematics_headers(scenario: &Scenario) -> Vec<String> {
@@ -126,17 +205,6 @@ fn kinematics_headers(scenario: &Scenario) -> Vec<String> {
         lengths.into_iter().chain(rotation).collect::<Vec<_>>()
     };
     scenario.mechanism.model().links.iter().flat_map(|link| of_link(&link.name)).collect()
-}
-
-fn kinematics(mechanism: &GenericMechanism, record: &Record) -> Rows {
-    let row = |(q, v)| {
-        let links = mechanism.link_kinematics(q, v);
-        links
-            .iter()
-            .flat_map(|link| link.origin.into_iter().chain(link.com).chain(link.rotation.into_iter().flatten()))
-            .collect()
-    };
-    record.q.iter().zip(&record.v).map(row).collect()
 }
 
 /// `lambda <loop> <k> [unit]` for each row: the first three rows of a cut, as far as they are kept, are forces.
@@ -150,45 +218,4 @@ fn lambda_headers(mechanism: &GenericMechanism) -> Vec<String> {
         })
     });
     headers.collect()
-}
-
-impl Table {
-    /// Fails if a number is infinite or none.
-    fn check(&self) -> Result<(), Failure> {
-        let faulty = |row: &Vec<f64>| row.iter().position(|value| !value.is_finite());
-        match self.rows.iter().enumerate().find_map(|(k, row)| Some((k, faulty(row)?))) {
-            None => Ok(()),
-            Some((row, column)) => {
-                let name =
-                    self.headers.get(column).map_or(format!("column {}", column + 1), |name| format!("`{name}`"));
-                let message = format!("{}, row {}: {name} is {:?}", self.name, row + 1, self.rows[row][column]);
-                Err(Failure::outside(message).help("look for a singular position or a force without bound there"))
-            }
-        }
-    }
-
-    fn csv(&self) -> Result<Vec<u8>, Failure> {
-        let failed = |error: csv::Error| Failure::outside(format!("cannot write the table {}: {error}", self.name));
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(&self.headers).map_err(failed)?;
-        for row in &self.rows {
-            writer.write_record(row.iter().map(shortest)).map_err(failed)?;
-        }
-        writer.into_inner().map_err(|error| Failure::outside(error.to_string()))
-    }
-
-    fn dat(&self) -> String {
-        let mut text = String::new();
-        for row in &self.rows {
-            let numbers: Vec<_> = row.iter().map(shortest).collect();
-            // A `String` takes everything.
-            let _ = writeln!(text, "{}", numbers.join(" "));
-        }
-        text
-    }
-}
-
-/// The shortest decimals that read back as exactly this number.
-fn shortest(value: &f64) -> String {
-    format!("{value:?}")
 }

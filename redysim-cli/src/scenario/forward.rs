@@ -31,7 +31,7 @@ impl Forward {
     ) -> Field<Option<Forward>> {
         reader.table("forward", &FORWARD, |mut reader| {
             let span = Span::read(&mut reader);
-            let integrator = Integrator::read(&mut reader);
+            let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
             let torque = Actuation::read(&mut reader, subject, trajectory);
             let stabilisation = stabilisation(&mut reader);
             if let (Some(span), Some(integrator)) = (span, integrator) {

@@ -1,6 +1,8 @@
 //! The integrators by their names.
 
-use redysim_model::document::{Field, Reader, Shape};
+use redysim_model::GenericMechanism;
+use redysim_model::document::{Message, Reader, Shape};
+use redysim_runtime::integrate::stability::{StepWarning, largest_stable_step};
 use redysim_runtime::integrate::{self, Observer, Solution};
 use redysim_runtime::{
     Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator as _, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
@@ -41,8 +43,8 @@ pub enum Adaptive {
 pub struct Tolerances {
     pub rtol: f64,
     pub atol: Absolute,
-    /// The largest step, s; a tenth of the run unless told.
-    pub max_step: Option<f64>,
+    /// The largest step, s.
+    pub max_step: f64,
 }
 
 /// What a component of the state may be wrong by, however small it is.
@@ -79,9 +81,12 @@ impl Absolute {
     }
 }
 
-/// MATLAB's defaults.
-const USUAL: Tolerances = Tolerances { rtol: 1e-3, atol: Absolute::uniform(USUAL_ATOL), max_step: None };
+/// MATLAB's defaults; the largest step is a part of the run.
+const USUAL_RTOL: f64 = 1e-3;
 const USUAL_ATOL: f64 = 1e-6;
+const USUAL_MAX_STEP: f64 = 0.1;
+/// A step that is longer than the run by this part of it is as long.
+const ROUNDING: f64 = 1e-6;
 
 #[derive(Clone, Copy)]
 enum Method {
@@ -121,33 +126,31 @@ const METHODS: [(&str, (Method, &Shape)); 14] = [
     fixed("2", Fixed::Ode5),
 ];
 
-impl Default for Integrator {
-    fn default() -> Self {
-        Integrator::Adaptive(Adaptive::Ode45, USUAL)
-    }
-}
-
 impl Integrator {
-    /// Reads the table `integrator`.
-    pub fn read(reader: &mut Reader<'_, '_>) -> Option<Integrator> {
+    /// Reads the table `integrator` of a run that takes `length`, s.
+    pub fn read(reader: &mut Reader<'_, '_>, length: f64) -> Option<Integrator> {
+        let max_step = USUAL_MAX_STEP * length;
         let usual = (Method::Adaptive(Adaptive::Ode45), &ADAPTIVE);
         let read = reader.table_of_kind("integrator", "method", &METHODS, usual, |mut reader, method| match method {
             Method::Fixed(method) => {
                 let step = reader.positive("step");
-                Some(Integrator::Fixed(method, *reader.required("step", step).value()?))
+                let step = reader.required("step", step);
+                let spanned = step.spanned()?;
+                let size = *spanned.get_ref();
+                if size > length * (1.0 + ROUNDING) {
+                    return reader.fault_at(spanned.span(), too_long(reader.item(), size, length));
+                }
+                Some(Integrator::Fixed(method, size))
             }
             Method::Adaptive(method) => {
-                let [rtol, max_step] = ["rtol", "max_step"].map(|key| reader.positive(key));
+                let [rtol, max_step] = [("rtol", USUAL_RTOL), ("max_step", max_step)]
+                    .map(|(key, usual)| reader.positive(key).value_or(usual));
                 let atol = Absolute::read(&mut reader);
-                let max_step = match max_step {
-                    Field::Missing => None,
-                    given => Some(*given.value()?),
-                };
-                let tolerances = Tolerances { rtol: rtol.value_or(USUAL.rtol)?, atol: atol?, max_step };
-                Some(Integrator::Adaptive(method, tolerances))
+                Some(Integrator::Adaptive(method, Tolerances { rtol: rtol?, atol: atol?, max_step: max_step? }))
             }
         });
-        read.value_or(Some(Integrator::default()))?
+        let usual = Tolerances { rtol: USUAL_RTOL, atol: Absolute::uniform(USUAL_ATOL), max_step };
+        read.value_or(Some(Integrator::Adaptive(Adaptive::Ode45, usual)))?
     }
 
     /// Its name.
@@ -156,6 +159,27 @@ impl Integrator {
             Integrator::Fixed(method, _) => format!("{method:?}"),
             Integrator::Adaptive(method, _) => format!("{method:?}"),
         }
+    }
+
+    /// What says that steps of one size grow errors near the state at `t`, and which joint asks for smaller ones; nothing
+    /// where they do not, or where the method does not know.
+    pub fn step_warning<'m>(
+        &self,
+        ode: &mut dyn Ode<f64, Vec<f64>>,
+        (t, state): (f64, &Vec<f64>),
+        mechanism: &'m GenericMechanism,
+    ) -> Option<StepWarning<'m, f64>> {
+        let Integrator::Fixed(method, step) = *self else { return None };
+        let stable = match method {
+            Fixed::SemiImplicitEuler => largest_stable_step(ode, t, state, &SemiImplicitEuler::new(step)),
+            Fixed::Ode4 => largest_stable_step(ode, t, state, &Ode4::new(step)),
+            Fixed::Ode5 => largest_stable_step(ode, t, state, &Ode5::new(step)),
+            Fixed::Dop8 => largest_stable_step(ode, t, state, &Dop8::new(step)),
+            // They are stable wherever their iteration converges, and say where it does not.
+            Fixed::Gauss4 | Fixed::Gauss6 => return None,
+        };
+        // Where there are no derivatives, the integration says why.
+        stable.ok()?.warning(step, mechanism)
     }
 
     /// Integrates `ode` over `interval`.
@@ -193,10 +217,14 @@ impl Integrator {
 
 impl Tolerances {
     fn on<'a, M>(self, method: integrate::Adaptive<'a, f64, M>, atol: &'a [f64]) -> integrate::Adaptive<'a, f64, M> {
-        let method = method.rtol(self.rtol).atol_each(atol);
-        match self.max_step {
-            Some(size) => method.max_step(size),
-            None => method,
-        }
+        method.rtol(self.rtol).atol_each(atol).max_step(self.max_step)
+    }
+}
+
+fn too_long(item: &str, step: f64, length: f64) -> Message {
+    Message {
+        title: format!("{item}: the integrator's `step` is {step:?} s, and the whole run takes {length:?} s"),
+        label: "longer than the run".into(),
+        help: "give the step of the integration, s: a hundredth of a swing or less".into(),
     }
 }

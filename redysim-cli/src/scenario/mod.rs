@@ -12,7 +12,8 @@ mod table;
 mod torque;
 mod trajectory;
 
-use std::path::{Path, PathBuf};
+use std::fmt;
+use std::path::Path;
 
 use redysim_model::GenericMechanism;
 use redysim_model::document::{self, Field, Message, Reader, Shape};
@@ -29,15 +30,24 @@ pub use law::Law;
 pub use span::Span;
 use table::Table;
 pub use torque::Actuation;
-pub use trajectory::Prescribed;
+pub use trajectory::{Prescribed, USUAL_THROUGH};
 
 /// What may be computed of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Run {
+pub enum Dynamics {
     /// The forces that a prescribed motion takes.
     Inverse,
     /// The motion that forces make.
     Forward,
+}
+
+impl fmt::Display for Dynamics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Dynamics::Inverse => "inverse",
+            Dynamics::Forward => "forward",
+        })
+    }
 }
 
 /// What is to be computed of a model.
@@ -46,8 +56,8 @@ pub struct Scenario {
     pub name: String,
     /// The text of its file.
     pub text: String,
-    /// The model's file.
-    pub model_path: PathBuf,
+    /// The text of the model's file.
+    pub model_text: String,
     /// The model.
     pub mechanism: GenericMechanism,
     /// Its moving joints.
@@ -71,7 +81,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Every fault of the scenario at once; or those of the model, or the first of a table.
-    pub fn load(path: &Path, run: Run, quiet: bool) -> Result<Scenario, Failure> {
+    pub fn load(path: &Path, dynamics: Dynamics, quiet: bool) -> Result<Scenario, Failure> {
         let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
         let text = String::from_utf8(bytes).map_err(|_| {
             Failure::input(format!("{} is not UTF-8", path.display()))
@@ -80,7 +90,7 @@ impl Scenario {
         let mut failure = None;
         let shown = path.display().to_string();
         let read = document::read(text.clone(), shown, &manual::MANUAL, &SCENARIO, "the scenario", |reader| {
-            read(reader, path, text, run, quiet, &mut failure)
+            read(reader, path, text, dynamics, quiet, &mut failure)
         });
         if let Some(failure) = failure {
             return Err(failure);
@@ -148,7 +158,7 @@ fn read(
     mut reader: Reader<'_, '_>,
     path: &Path,
     text: String,
-    run: Run,
+    dynamics: Dynamics,
     quiet: bool,
     failure: &mut Option<Failure>,
 ) -> Option<Scenario> {
@@ -158,8 +168,8 @@ fn read(
     let model = reader.text("model");
     let model_path = folder.join(reader.required("model", model).value()?);
     // What the rest of the scenario says depends on the joints.
-    let mechanism = match commands::load(&model_path, quiet) {
-        Ok(loaded) => GenericMechanism::new(loaded.model),
+    let (mechanism, model_text) = match commands::load(&model_path, quiet) {
+        Ok(loaded) => (GenericMechanism::new(loaded.model), loaded.text),
         Err(fault) => {
             let told = model_path.is_file();
             let why = "the path of the model is taken from the folder of the scenario";
@@ -172,13 +182,13 @@ fn read(
     let initial = Initial::read(&mut reader, &subject);
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);
-    let (inverse, forward) = match run {
-        Run::Inverse => (reader.table("inverse", &INVERSE, |mut reader| Span::read(&mut reader)), Field::Missing),
-        Run::Forward => (Field::Missing, Forward::read(&mut reader, &subject, followed)),
+    let (inverse, forward) = match dynamics {
+        Dynamics::Inverse => (reader.table("inverse", &INVERSE, |mut reader| Span::read(&mut reader)), Field::Missing),
+        Dynamics::Forward => (Field::Missing, Forward::read(&mut reader, &subject, followed)),
     };
     let (inverse, forward) = (asked(inverse)?, asked(forward)?);
     let (name, initial, trajectory) = (name?, initial?, trajectory?);
-    Some(Scenario { name, text, model_path, mechanism, joints, initial, trajectory, inverse, forward })
+    Some(Scenario { name, text, model_text, mechanism, joints, initial, trajectory, inverse, forward })
 }
 
 /// The scenario's name, after which a folder is called.

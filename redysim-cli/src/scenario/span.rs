@@ -2,7 +2,7 @@
 
 use redysim_model::document::{Message, Reader};
 
-/// Nothing that is written has more rows: they are kept in memory.
+/// Nothing that is written has more rows: nobody reads them, and tens of gigabytes are written by mistake only.
 const MOST: f64 = 1e7;
 /// An end that misses an instant by this part of a step is one.
 const ROUNDING: f64 = 1e-6;
@@ -28,7 +28,7 @@ impl Span {
         let step = reader.required("step", step);
         let (start, spanned) = (start.value_or(0.0)?, end.spanned()?);
         let span = Span { start, end: *spanned.get_ref(), step: *step.value()? };
-        let count = span.count();
+        let count = span.steps();
         let item = reader.item();
         let fault = if span.end <= start {
             Message {
@@ -48,7 +48,7 @@ impl Span {
         } else if count > MOST {
             Message {
                 title: format!(
-                    "{item}: steps of {:?} s are {count:.0} rows, and no more than {MOST:.0} are kept",
+                    "{item}: steps of {:?} s are {count:.0} rows, and no more than {MOST:.0} are written",
                     span.step
                 ),
                 label: "too far for this step".into(),
@@ -60,12 +60,28 @@ impl Span {
         reader.fault_at(spanned.span(), fault)
     }
 
-    fn count(&self) -> f64 {
+    fn steps(&self) -> f64 {
         ((self.end - self.start) / self.step + ROUNDING).floor()
     }
 
-    /// The instants, s. Each is one product away from the start, so that they do not drift.
-    pub fn instants(&self) -> Vec<f64> {
-        (0..=self.count() as u64).map(|k| self.start + k as f64 * self.step).collect()
+    /// How many instants there are.
+    pub fn count(&self) -> usize {
+        self.steps() as usize + 1
+    }
+
+    /// The instant `k`, s. Each is one product away from the start, so that they do not drift.
+    pub fn instant(&self, k: usize) -> f64 {
+        self.start + k as f64 * self.step
+    }
+
+    /// The first and the last instant, s.
+    pub fn interval(&self) -> (f64, f64) {
+        (self.start, self.instant(self.count() - 1))
+    }
+
+    /// From the first instant to the last, s.
+    pub fn length(self) -> f64 {
+        let (from, to) = self.interval();
+        to - from
     }
 }

@@ -10,6 +10,8 @@ use crate::table::{self, Column};
 #[derive(Clone, Debug)]
 pub struct Table {
     path: PathBuf,
+    /// The text that was read.
+    pub text: String,
     /// The instants, s, in order.
     pub t: Vec<f64>,
     columns: Vec<Column>,
@@ -36,8 +38,8 @@ impl Table {
                 return Err(fault.help("every row must be later than the one before it"));
             }
         }
-        let table::Table { path, t, columns, .. } = read;
-        let table = Table { path, t, columns };
+        let table::Table { path, text, t, columns, .. } = read;
+        let table = Table { path, text, t, columns };
         match table.t.len() {
             0 | 1 => Err(table.fault("it has 1 row, and no time lies between", "a table has at least two rows")),
             _ => Ok(table),

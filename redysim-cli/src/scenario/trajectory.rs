@@ -45,7 +45,9 @@ enum Smooth {
     Cubic,
 }
 
-const SMOOTH: [(&str, Smooth); 2] = [("minimum-jerk", Smooth::LeastJerk), ("cubic", Smooth::Cubic)];
+const SMOOTH: [(&str, Smooth); 2] = [(USUAL_THROUGH, Smooth::LeastJerk), ("cubic", Smooth::Cubic)];
+/// What `through` is unless told.
+pub const USUAL_THROUGH: &str = "minimum-jerk";
 const CYCLOID: Shape = Shape { owner: "A cycloid", keys: &["kind", "joints", "from", "to", "duration"] };
 const CONSTANT_SPEED: Shape = Shape { owner: "A motion of constant speed", keys: &["kind", "joints", "from", "speed"] };
 const VIA: Shape = Shape { owner: "A motion through points", keys: &["kind", "joints", "times", "points"] };
@@ -95,10 +97,10 @@ impl Prescribed {
                     Kind::ViaPoints(accepted(&mut reader, spanned, through)?)
                 }
                 Tag::Table => {
-                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(Smooth::LeastJerk);
+                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(SMOOTH[0].1);
                     let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
                     let read = subject.table(&mut reader, |table| {
-                        let through = from_table(&table, &of, smooth.unwrap_or(Smooth::LeastJerk))?;
+                        let through = from_table(&table, &of, smooth.unwrap_or(SMOOTH[0].1))?;
                         Ok((table, through))
                     });
                     let (table, through) = read.filter(|_| smooth.is_some())?;

@@ -1,9 +1,19 @@
 //! The program as a user calls it, and what it writes.
 #![allow(dead_code, reason = "each test uses a part")]
 
+#[cfg(unix)]
+pub mod running;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+
+/// A double pendulum that falls for a second.
+pub const SWING: &str = "initial = { q = [0, 1] }\n[forward]\nend = 1.0\nstep = 0.1\n";
+
+/// Hours of steps.
+pub const LONG: &str =
+    "initial = { q = [0, 1] }\n[forward]\nend = 1e5\nstep = 0.01\nintegrator = { method = 'Ode5', step = 0.001 }\n";
 
 /// The repository.
 pub fn root() -> PathBuf {

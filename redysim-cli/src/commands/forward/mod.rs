@@ -1,0 +1,155 @@
+//! `redysim forward SCENARIO`.
+
+mod system;
+mod watch;
+
+use redysim_runtime::IntegrationError;
+
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::results::{self, Balance, Ended, Outcome, Record};
+use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances};
+use system::System;
+use watch::Watch;
+
+/// Compute how a mechanism moves, and write it into a folder.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  redysim forward scenarios/kuka.toml -o results/fall")]
+pub struct Arguments {
+    #[command(flatten)]
+    results: results::Arguments,
+}
+
+/// Computes the motion and writes it.
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
+    let Arguments { results } = arguments;
+    let scenario = Scenario::load(&results.scenario, Dynamics::Forward, quiet)?;
+    let forward = scenario.forward.as_ref().ok_or_else(|| {
+        let message = format!("{} does not say which motion is to be computed", results.scenario.display());
+        Failure::input(message).help("add a table, as in: forward = { end = 1.0, step = 0.01 }")
+    })?;
+    interrupt::watch()?;
+    let mut record = Record::begin(results, &scenario, Dynamics::Forward, forward.span, quiet)?;
+    let outcome = move_on(&scenario, forward, &mut record, quiet)?;
+    warn_of_drift(forward, &record);
+    record.finish(outcome)
+}
+
+/// The motion from the start to the end, as far as it goes.
+fn move_on<'a>(
+    scenario: &'a Scenario,
+    forward: &'a Forward,
+    record: &mut Record<'a>,
+    quiet: bool,
+) -> Result<Outcome, Failure> {
+    let mut system = System::new(scenario, forward);
+    let start = system.start(scenario, forward, quiet)?;
+    warn_of_step(scenario, forward, &mut system, &start, record);
+    let mut watch = Watch::new(scenario, forward, record, &start)?;
+    let solution = forward.integrator.run(system.ode(), forward.span.interval(), start, &mut watch);
+    let Watch { steps, gap, failed, .. } = watch;
+    let ended = match (&solution, failed) {
+        (Err(error), _) => Ended::Failed(explained(error, scenario, &system)),
+        (Ok(_), Some(reason)) => Ended::Failed(reason),
+        (Ok(_), None) if record.next().is_some() => Ended::Interrupted,
+        (Ok(_), None) => Ended::Complete,
+    };
+    Ok(Outcome {
+        ended,
+        method: forward.integrator.name(),
+        steps: Some(steps),
+        statistics: solution.ok().map(|solution| solution.statistics),
+        gap: scenario.loops().then_some(gap),
+    })
+}
+
+/// Says before the run that its steps are too large, if that is so at the start.
+fn warn_of_step(
+    scenario: &Scenario,
+    forward: &Forward,
+    system: &mut System<'_>,
+    start: &Vec<f64>,
+    record: &Record<'_>,
+) {
+    let at_start = (forward.span.start, start);
+    let Some(warning) = forward.integrator.step_warning(system.ode(), at_start, &scenario.mechanism) else { return };
+    let whose = warning.joint.map_or(String::new(), |joint| format!(" of the joint `{joint}`"));
+    let (method, step, most) = (forward.integrator.name(), warning.step, two_digits(warning.stable.step));
+    let warning = format!("with steps of {step:?} s {method} is not stable near the start: errors{whose} grow");
+    let help = format!(
+        "take integrator = {{ method = \"{method}\", step = {most:.1e} }} or less, lower gains or dampings, or an implicit \
+         method, as in: {IMPLICIT}"
+    );
+    record.warn(&warning, &help);
+}
+
+/// No more than `value`, in two digits.
+fn two_digits(value: f64) -> f64 {
+    let unit = 10_f64.powf(value.log10().floor() - 1.0);
+    (value / unit).floor() * unit
+}
+
+/// The part of the energy that is exchanged above which its drift is no matter of taste: of the shipped scenarios none comes
+/// near a hundredth of it, at tolerances for pictures.
+const MUCH: f64 = 0.1;
+
+/// Says that a motion is wrong, if its energy shows it.
+fn warn_of_drift(forward: &Forward, record: &Record<'_>) {
+    let Balance { drift, .. } = record.balance();
+    let part = record.balance().part();
+    if part > MUCH {
+        let help = match forward.integrator {
+            Integrator::Fixed(_, step) => format!("take a `step` of the integrator below {step:?} s"),
+            Integrator::Adaptive(_, Tolerances { rtol, .. }) => {
+                format!("take `rtol` below {rtol:?}, and `atol` likewise")
+            }
+        };
+        let warning = format!(
+            "the motion is wrong: {drift:.1e} J have come from nowhere, {:.0} % of the energy that was exchanged",
+            100.0 * part
+        );
+        record.warn(&warning, &help);
+    }
+}
+
+/// An integrator for stiff equations.
+const IMPLICIT: &str = "integrator = { method = \"Ode15s\", rtol = 1e-6, atol = 1e-8 }";
+
+/// Why the integration ended, in terms of scenarios.
+fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System<'_>) -> Failure {
+    match *error {
+        IntegrationError::BadRelativeTolerance { .. } | IntegrationError::BadStep { .. } => Failure::input(error),
+        // What these say of remedies is for programs.
+        IntegrationError::TooManySteps { t, limit } => {
+            let message = format!("the end is not within {limit} steps of t = {t:?} s");
+            Failure::input(message).help("take larger steps or tolerances in `integrator`, or an earlier `end`")
+        }
+        IntegrationError::Stiff { t, step, remaining } => {
+            let message = format!(
+                "the equation is stiff at t = {t:?} s: stability, not accuracy, keeps the steps at {step:.1e} s, and the rest \
+                 would take about {remaining} of them"
+            );
+            Failure::outside(message)
+                .help(format!("take an implicit method, as in: {IMPLICIT}, or lower gains or dampings"))
+        }
+        // The loops know better than the integrator what went wrong.
+        _ => Failure::outside(system.last_error().unwrap_or_else(|| named(scenario, error))),
+    }
+}
+
+/// The error with the name of the joint that it is about.
+fn named(scenario: &Scenario, error: &IntegrationError<f64>) -> String {
+    let (IntegrationError::NonFiniteState { component, .. } | IntegrationError::NonFiniteDerivative { component, .. }) =
+        *error
+    else {
+        return error.to_string();
+    };
+    let count = scenario.joints.len();
+    match scenario.joints.get(component % count.max(1)).filter(|_| component < 2 * count) {
+        Some(joint) => {
+            let what = if component < count { "coordinate" } else { "velocity" };
+            format!("{error} (component {component} is the {what} of the joint `{}`)", joint.name)
+        }
+        None => format!("{error} (component {component} is the work of the actuators)"),
+    }
+}

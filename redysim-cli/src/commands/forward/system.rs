@@ -1,0 +1,115 @@
+//! What moves: a tree, or closed loops.
+
+use redysim_model::GenericMechanism;
+use redysim_runtime::{
+    ClosedLoop, ClosedLoopSimulation, ForwardSimulation, LoopError, Ode, SimulationState, Stabilisation, TorqueLaw,
+};
+
+use crate::failure::Failure;
+use crate::output::say;
+use crate::results::Sample;
+use crate::scenario::{Forward, Law, Scenario};
+
+/// The equation of motion of a scenario, and what is known beyond it.
+pub enum System<'a> {
+    Tree(ForwardSimulation<'a, GenericMechanism, Law<'a>>),
+    Loops(ClosedLoopSimulation<'a, f64, GenericMechanism, Law<'a>>),
+}
+
+/// The torque law of a scenario.
+pub fn law<'a>(scenario: &'a Scenario, forward: &'a Forward) -> Law<'a> {
+    forward.torque.law(&scenario.mechanism)
+}
+
+impl<'a> System<'a> {
+    pub fn new(scenario: &'a Scenario, forward: &'a Forward) -> Self {
+        let (mechanism, law) = (&scenario.mechanism, law(scenario, forward));
+        if scenario.loops() {
+            let simulation = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), law);
+            System::Loops(simulation.stabilisation(forward.stabilisation))
+        } else {
+            System::Tree(ForwardSimulation::new(mechanism, law))
+        }
+    }
+
+    pub fn ode(&mut self) -> &mut dyn Ode<f64, Vec<f64>> {
+        match self {
+            System::Tree(simulation) => simulation,
+            System::Loops(simulation) => simulation,
+        }
+    }
+
+    pub fn split(&self, state: &Vec<f64>) -> SimulationState<f64, Vec<f64>, Vec<f64>> {
+        match self {
+            System::Tree(simulation) => simulation.split(state),
+            System::Loops(simulation) => simulation.split(state),
+        }
+    }
+
+    /// Why there were no derivatives, if the system knows better than the integrator.
+    pub fn last_error(&self) -> Option<String> {
+        let System::Loops(simulation) = self else { return None };
+        // A law that has no forces is why the loops have no accelerations.
+        let reason = simulation.law().last_error().or(simulation.last_error())?;
+        Some(simulation.loops().explain(reason).to_string())
+    }
+
+    /// The state to start from; loops are closed there, unless the scenario forbids it.
+    pub fn start(&self, scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<Vec<f64>, Failure> {
+        let initial = &scenario.initial;
+        let simulation = match self {
+            System::Tree(simulation) => return Ok(simulation.state(&initial.q, &initial.v)),
+            System::Loops(simulation) => simulation,
+        };
+        let loops = simulation.loops();
+        let failed = |reason| Failure::input(format!("the start: {}", loops.explain(reason)));
+        if !initial.assemble {
+            return match forward.stabilisation {
+                Stabilisation::Projection => simulation.start(&initial.q, &initial.v).map_err(failed),
+                // Without projection, loops may be open: they stay as far open as they are, or feedback closes them.
+                Stabilisation::Baumgarte { .. } | Stabilisation::None => Ok(simulation.state(&initial.q, &initial.v)),
+            };
+        }
+        let closed = loops.assemble(&initial.q, &initial.v, &initial.held).map_err(failed)?;
+        if !quiet {
+            let moves = scenario.joints.iter().zip(closed.q.iter().zip(&initial.q));
+            let moved = moves.filter(|(_, (to, from))| to != from);
+            let told: Vec<_> = moved
+                .map(|(joint, (to, from))| format!("{} by {:.3e} {}", joint.name, to - from, joint.unit()))
+                .collect();
+            if !told.is_empty() {
+                say(&format!("To close the loops, the start moves {}.", told.join(", ")));
+            }
+        }
+        Ok(simulation.assembled(&closed))
+    }
+
+    /// What is written of a state. Within a step loops are only as closed as the method is accurate; where steps are
+    /// projected, so is what is written.
+    pub fn sample(
+        &mut self,
+        law: &mut Law<'_>,
+        forward: &Forward,
+        t: f64,
+        state: &Vec<f64>,
+    ) -> Result<Sample, Failure> {
+        let SimulationState { mut q, mut v, actuator_energy: work } = self.split(state);
+        let (tau, lambda) = match self {
+            System::Tree(_) => (law.torque(t, &q, &v), vec![]),
+            System::Loops(simulation) => {
+                let loops = simulation.loops();
+                let failed =
+                    |reason: LoopError<f64>| Failure::outside(format!("at t = {t:?} s: {}", loops.explain(reason)));
+                if forward.stabilisation == Stabilisation::Projection {
+                    let closed = loops.project(&q, &v).map_err(failed)?;
+                    (q, v) = (closed.q, closed.v);
+                }
+                let tau = law.torque(t, &q, &v);
+                law.last_error().map_or(Ok(()), Err).map_err(failed)?;
+                let state = simulation.state(&q, &v);
+                (tau, simulation.motion(t, &state).map_err(failed)?.multipliers)
+            }
+        };
+        Ok(Sample { t, q, v, a: vec![], tau, lambda, work })
+    }
+}

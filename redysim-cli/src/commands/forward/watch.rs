@@ -1,0 +1,81 @@
+//! Who looks at every step: what is written, and what must stay.
+
+use std::ops::ControlFlow;
+
+use redysim_runtime::integrate::Observer;
+use redysim_runtime::{LoopClosure, SimulationState, Step};
+
+use super::system::{System, law};
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::results::Record;
+use crate::scenario::{Forward, Law, Scenario};
+
+/// Writes the asked instants, and watches energy and gaps.
+pub struct Watch<'a, 'r> {
+    scenario: &'a Scenario,
+    forward: &'a Forward,
+    record: &'r mut Record<'a>,
+    /// The integrator has another.
+    system: System<'a>,
+    law: Law<'a>,
+    /// Accepted steps so far.
+    pub steps: u64,
+    /// The largest component of the loops' residual so far, m.
+    pub gap: f64,
+    /// Why an instant could not be written.
+    pub failed: Option<Failure>,
+}
+
+impl<'a, 'r> Watch<'a, 'r> {
+    /// Begins with the start.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn new(
+        scenario: &'a Scenario,
+        forward: &'a Forward,
+        record: &'r mut Record<'a>,
+        start: &Vec<f64>,
+    ) -> Result<Self, Failure> {
+        let (system, law) = (System::new(scenario, forward), law(scenario, forward));
+        let mut watch = Watch { scenario, forward, record, system, law, steps: 0, gap: 0.0, failed: None };
+        watch.write(forward.span.start, start)?;
+        watch.see(start);
+        Ok(watch)
+    }
+
+    fn write(&mut self, t: f64, state: &Vec<f64>) -> Result<(), Failure> {
+        self.record.add(&self.system.sample(&mut self.law, self.forward, t, state)?)
+    }
+
+    fn see(&mut self, state: &Vec<f64>) {
+        let SimulationState { q, v, actuator_energy } = self.system.split(state);
+        self.record.see(&q, &v, actuator_energy);
+        let residual: Vec<f64> = self.scenario.mechanism.loop_residual(&q);
+        self.gap = residual.iter().fold(self.gap, |gap, value| gap.max(value.abs()));
+    }
+}
+
+impl Observer<f64, Vec<f64>> for Watch<'_, '_> {
+    fn looks_within(&self, _from: f64, to: f64) -> bool {
+        self.record.next().is_some_and(|t| t < to)
+    }
+
+    fn step(&mut self, step: &Step<'_, f64, Vec<f64>>) -> ControlFlow<()> {
+        let (end, state) = step.end();
+        self.steps += 1;
+        self.see(state);
+        while let Some(t) = self.record.next().filter(|&t| t <= end) {
+            if interrupt::asked() {
+                break;
+            }
+            if let Err(reason) = self.write(t, &step.at(t)) {
+                self.failed = Some(reason);
+                return ControlFlow::Break(());
+            }
+        }
+        self.record.show_progress();
+        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

@@ -1,0 +1,66 @@
+//! What a new result may replace: nothing but another result.
+
+use std::fs;
+use std::path::Path;
+
+use super::run_file::is_of_a_run;
+use super::tables;
+use crate::commands::animate;
+use crate::failure::Failure;
+use crate::output::exists;
+use crate::recorded::Group;
+
+/// The file that every result has.
+pub const RUN_FILE: &str = "run.toml";
+/// The copies of what a scenario names.
+pub const MODEL: &str = "model.toml";
+pub const TRAJECTORY: &str = "trajectory.csv";
+pub const TORQUE: &str = "torque.csv";
+
+/// Whether there is something at `target` that is to be replaced.
+///
+/// # Errors
+/// If there is, and `force` is not given, or if it is anything but an empty folder or a result with nothing beside what
+/// this program writes: notes would be lost.
+pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
+    // What cannot be looked at cannot be written either, and that says why.
+    let Ok(found) = fs::symlink_metadata(target) else { return Ok(false) };
+    if !force {
+        return Err(exists(target));
+    }
+    let kept = |why: &str, help: &str| {
+        let message = format!("{} is not overwritten: {why}", target.display());
+        Err(Failure::outside(message).help(help))
+    };
+    if !found.is_dir() {
+        return kept(
+            "it is no folder of its own, but a file or a link",
+            "write elsewhere with --output, or delete it yourself",
+        );
+    }
+    let unreadable = |error| Failure::file("read", target, &error);
+    let entries = fs::read_dir(target).map_err(unreadable)?.collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
+    let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    if !names.is_empty() && !fs::read_to_string(target.join(RUN_FILE)).is_ok_and(|text| is_of_a_run(&text)) {
+        let why = format!("it is no result, for it holds no {RUN_FILE} that a run has written");
+        return kept(&why, "write elsewhere with --output, or delete it yourself");
+    }
+    match names.iter().find(|name| !is_written(name)) {
+        Some(name) => kept(
+            &format!("it holds {name}, which is of no run"),
+            "move that elsewhere first, or write elsewhere with --output",
+        ),
+        None => Ok(true),
+    }
+}
+
+/// Whether `forward`, `inverse`, `plot` or `animate` writes a file of that name.
+fn is_written(name: &str) -> bool {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+    match ending {
+        "csv" | "dat" if tables::NAMES.contains(&stem) => true,
+        "svg" | "png" => Group::ALL.iter().any(|(_, picture)| *picture == stem),
+        _ => [RUN_FILE, MODEL, TRAJECTORY, TORQUE, animate::PAGE].contains(&name),
+    }
+}

@@ -1,0 +1,41 @@
+//! Who asks for steps that are too long hears of it.
+
+mod common;
+
+use common::{SWING, call, scenario, scratch};
+
+/// What a run of two links says beside its results.
+fn said(name: &str, rest: &str, options: &[&str]) -> String {
+    let folder = scratch(name);
+    let path = scenario(&folder, "two_link.toml", rest);
+    let output = call(&folder, &[&["forward", &path, "-o", "run"], options].concat());
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn with(settings: &str) -> String {
+    format!("{SWING}integrator = {{ {settings} }}\n")
+}
+
+#[test]
+fn steps_that_are_not_stable_are_warned_of_before_the_run() {
+    let held = |step: &str| {
+        let law = "torque = { law = 'pd', target = [0, 1], kp = 1000, kd = 100 }\n";
+        with(&format!("method = 'Ode4', step = {step}")) + law
+    };
+    let long = said("steps-unstable", &held("0.02"), &[]);
+    for word in ["with steps of 0.02 s Ode4 is not stable", "joint `joint2`", "method = \"Ode4\", step = ", "Ode15s"] {
+        assert!(long.contains(word), "no `{word}` in: {long}");
+    }
+    let most = long.split("step = ").nth(1).unwrap().split(' ').next().unwrap();
+    assert_eq!(said("steps-stable", &held(most), &[]), "");
+}
+
+/// A double pendulum in two steps: the energy grows to 10¹⁷⁷ J.
+#[test]
+fn a_motion_whose_energy_comes_from_nowhere_is_called_wrong() {
+    let wild = with("method = 'Ode4', step = 0.5");
+    let warned = said("steps-wild", &wild, &[]);
+    assert!(warned.contains("the motion is wrong") && warned.contains("below 0.5 s"), "{warned}");
+    assert_eq!(said("steps-wild-quiet", &wild, &["--quiet"]), "");
+    assert_eq!(said("steps-right", &with("method = 'Ode4', step = 0.01"), &[]), "");
+}
