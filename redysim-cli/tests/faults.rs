@@ -42,11 +42,35 @@ fn a_missing_model() {
         &folder,
         "forward",
         "trial.toml",
-        3,
-        &["cannot read the model file", "nowhere.toml", "folder of the scenario"],
+        1,
+        &["cannot read the model file", "nowhere.toml", "folder of the scenario", "trial.toml:1:9"],
     );
     fs::write(folder.join("trial.toml"), SWING).unwrap();
     refuses_in(&folder, "forward", "trial.toml", 1, &["`model` is missing", "trial.toml:1:1"]);
+}
+
+#[test]
+fn a_model_in_the_place_of_a_scenario_and_the_other_way_round() {
+    let folder = scratch("faults-place");
+    let scenario = scenario(&folder, "two_link.toml", SWING);
+    let model = common::model("two_link.toml");
+    refuses_in(&folder, "forward", &model, 1, &["is a model, not a scenario", "model = "]);
+    refuses_in(&folder, "inverse", &model, 1, &["is a model, not a scenario"]);
+    for command in ["check", "generate"] {
+        let said = fail(&folder, &[command, &scenario], 1);
+        assert!(said.contains("is a scenario, not a model") && said.contains("two_link.toml"), "{said}");
+        assert_eq!(said.matches("error: ").count(), 1, "{said}");
+    }
+}
+
+/// What cannot be read is outside, whoever asks for it.
+#[test]
+fn a_folder_in_the_place_of_a_model() {
+    let folder = scratch("faults-folder");
+    for command in ["check", "generate"] {
+        let said = fail(&folder, &[command, "."], 3);
+        assert!(said.contains("it is a directory"), "{said}");
+    }
 }
 
 #[test]

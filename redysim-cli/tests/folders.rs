@@ -7,6 +7,16 @@ use std::fs;
 use common::{SWING, fail, names, scenario, scratch, succeed};
 
 #[test]
+fn an_empty_folder_is_a_place_for_a_result() {
+    let folder = scratch("folders-empty");
+    let path = scenario(&folder, "two_link.toml", SWING);
+    fs::create_dir(folder.join("run")).unwrap();
+    succeed(&folder, &["forward", &path, "-o", "run"]);
+    assert!(names(&folder.join("run")).contains(&"run.toml".to_owned()));
+    assert_eq!(names(&folder), ["run", "trial.toml"]);
+}
+
+#[test]
 fn a_result_is_not_overwritten_unless_it_must_be() {
     let folder = scratch("folders-exists");
     let path = scenario(&folder, "two_link.toml", SWING);

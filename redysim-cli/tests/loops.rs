@@ -65,3 +65,13 @@ fn baumgartes_feedback_needs_its_rate() {
     let said = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 1);
     assert!(said.contains("alpha") && said.contains("alpha = 20.0"), "{said}");
 }
+
+#[test]
+fn what_assembly_changes_of_the_start_is_said() {
+    let folder = scratch("loops-start");
+    let rest = "initial = { q = [0, 0.9844, 4.3144], v = [4.7124, 99, -77] }\n[forward]\nend = 0.1\nstep = 0.1\n";
+    let said = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);
+    assert!(said.contains("the start moves rocker by -2.694e-5 rad"), "{said}");
+    // The rocker turns at 1.4045 rad/s when the crank is at zero and turns at 4.7124 rad/s; the coupler then stands.
+    assert!(said.contains("its speeds change: rocker by -9.760e1 rad/s, coupler by 7.700e1 rad/s"), "{said}");
+}

@@ -178,15 +178,16 @@ fn forces_of_a_table_lie_on_straight_lines_between_its_rows() {
     });
 }
 
-/// The error of a swing of 2 rad/s by an integrator, at its instants and every 0.1 s.
-fn swing_error(method: &str, settings: &str) -> f64 {
+/// The error of a swing of 2 rad/s by an integrator: the largest of the rows each 0.1 s, and that of the last.
+fn swing_error(method: &str, settings: &str) -> (f64, f64) {
     let name = if method.parse::<u8>().is_ok() { method.to_owned() } else { format!("'{method}'") };
     let law = "torque = { law = 'p', target = [0], kp = 8 }";
     let scratch = format!("by-{method}-{}", settings.replace([' ', '='], ""));
     let found = slides(&scratch, &format!("integrator = {{ method = {name}, {settings} }}\n{law}"), "");
     let exact = |t: f64| vec![(2.0 * t).cos(), -2.0 * (2.0 * t).sin()];
     let exact: Vec<Vec<f64>> = found.column("t [s]").into_iter().map(exact).collect();
-    deviation(&found.columns(1..3), &exact)
+    let (found, last) = (found.columns(1..3), exact.len() - 1);
+    (deviation(&found, &exact), deviation(&found[last..], &exact[last..]))
 }
 
 #[test]
@@ -202,10 +203,11 @@ fn integrators_with_steps_of_one_size_have_their_orders() {
         ("Gauss6", 6),
     ];
     for (method, order) in orders {
-        let [long, short] = ["step = 0.1", "step = 0.05"].map(|step| swing_error(method, step));
+        let step = if order == 8 { 0.4 } else { 0.1 };
+        let [long, short] = [step, step / 2.0].map(|step| swing_error(method, &format!("step = {step}")).1);
         let found = (long / short).log2();
         println!("{method}: {long:.1e} {short:.1e}, order {found:.2}");
-        assert!((found - f64::from(order)).abs() < 0.35, "{method}: order {found:.2}");
+        assert!((found - f64::from(order)).abs() < 0.5, "{method}: order {found:.2}");
     }
 }
 
@@ -215,7 +217,7 @@ fn integrators_with_steps_of_one_size_have_their_orders() {
 fn rows_between_the_steps_are_as_exact_as_the_method_is_there() {
     let within = [("Ode4", 3, 0.06), ("Ode5", 4, 0.06), ("Dop8", 7, 0.24), ("Gauss4", 3, 0.06), ("Gauss6", 4, 0.06)];
     for (method, order, step) in within {
-        let [long, short] = [step, step / 2.0].map(|step| swing_error(method, &format!("step = {step}")));
+        let [long, short] = [step, step / 2.0].map(|step| swing_error(method, &format!("step = {step}")).0);
         let found = (long / short).log2();
         println!("{method}: {long:.1e} {short:.1e}, order {found:.2}");
         assert!(found > f64::from(order) - 0.35, "{method}: order {found:.2}");
@@ -239,7 +241,7 @@ fn rows_between_the_steps_of_gauss_are_warned_of() {
 fn integrators_with_steps_from_tolerances_stay_within_them() {
     for method in ["Ode45", "Dop853", "Ode15s", "Radau5", "0", "1"] {
         let [loose, tight] =
-            ["rtol = 1e-5, atol = 1e-5", "rtol = 1e-9, atol = 1e-9"].map(|set| swing_error(method, set));
+            ["rtol = 1e-5, atol = 1e-5", "rtol = 1e-9, atol = 1e-9"].map(|set| swing_error(method, set).0);
         println!("{method}: {loose:.1e} {tight:.1e}");
         // An error per step adds up over the some four radians of the swing.
         assert!(loose < 40.0 * 1e-5 && tight < 40.0 * 1e-9 && tight > 0.0, "{method}: {loose:e} {tight:e}");

@@ -58,6 +58,8 @@ pub fn read<T>(
     };
     match read.filter(|_| findings.errors() == 0) {
         Some(read) => Ok((read, findings.into_sorted())),
-        None => Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(Outline::default()) }),
+        None => {
+            Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(Outline::default()), unread: false })
+        }
     }
 }

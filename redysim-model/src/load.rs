@@ -56,12 +56,14 @@ impl Model {
         let (path, name, scene) = (path.as_ref(), file_name.into(), scene.into());
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
-            Err(_) if path.is_dir() => return Err(unreadable(name, messages::unreadable("it is a directory"), &scene)),
-            Err(error) => return Err(unreadable(name, messages::unreadable(&error.to_string()), &scene)),
+            Err(_) if path.is_dir() => return Err(nothing_of(name, messages::is_directory(), &scene, true)),
+            Err(error) => return Err(nothing_of(name, messages::unreadable(&error), &scene, true)),
         };
         match String::from_utf8(bytes) {
             Ok(text) => Model::from_toml_with(text, name, scene),
-            Err(error) => Err(unreadable(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &scene)),
+            Err(error) => {
+                Err(nothing_of(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &scene, false))
+            }
         }
     }
 
@@ -136,14 +138,18 @@ impl Model {
             let outline = Document::read(root.get_ref(), scene.get_ref(), &mut new_findings()).outline();
             report_syntax(&errors, &source, &mut findings);
             findings.within(Text::Scene, |findings| report_syntax(&scene_errors, &scene_source, findings));
-            return Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(outline) });
+            return Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(outline), unread: false });
         }
         let document = Document::read(root.get_ref(), scene.get_ref(), &mut findings);
         match check::check(&document, &mut findings) {
             Some((model, scene)) => {
                 Ok(Loaded { model, text: source.text.clone(), scene, warnings: findings.into_sorted() })
             }
-            None => Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(document.outline()) }),
+            None => Err(Faults {
+                diagnostics: findings.into_sorted(),
+                outline: Box::new(document.outline()),
+                unread: false,
+            }),
         }
     }
 }
@@ -177,11 +183,11 @@ pub(crate) fn report_syntax(errors: &[Error], source: &Source, findings: &mut Fi
 }
 
 /// Without a file there are no links, but the scene still says which functions code around the model will call.
-fn unreadable(name: String, message: Message, scene: &str) -> Faults {
+fn nothing_of(name: String, message: Message, scene: &str, unread: bool) -> Faults {
     let (nothing, scene_source) = (scene_source(String::new()), scene_source(scene.to_string()));
     let (empty, _) = DeTable::parse_recoverable("");
     let (scene, _) = DeTable::parse_recoverable(&scene_source.text);
     let mut echoes = Findings::new(nothing, Arc::clone(&scene_source));
     let outline = Document::read(empty.get_ref(), scene.get_ref(), &mut echoes).outline();
-    Faults { diagnostics: vec![Diagnostic::unreadable(name, message)], outline: Box::new(outline) }
+    Faults { diagnostics: vec![Diagnostic::unreadable(name, message)], outline: Box::new(outline), unread }
 }

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
+use super::not_a_model;
 use crate::failure::Failure;
 use crate::number::counted;
 use crate::output::{print, tell};
 use crate::summary::Summary;
-use redysim_model::{Diagnostic, Model, Severity};
+use redysim_model::{Diagnostic, Faults, Model, Severity};
 use serde::Serialize;
 
 /// Show every fault and warning of a model, then what it is.
@@ -72,10 +73,14 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
             let summary = (arguments.json || !quiet).then(|| Summary::of(&loaded));
             (loaded.warnings, Ok(summary))
         }
-        Err(faults) => {
-            let errors = faults.errors().count();
-            (faults.diagnostics, Err(errors))
-        }
+        Err(faults) => match not_a_model(&arguments.model) {
+            // Of its keys none is a model's: that goes without saying.
+            Some(failure) if !arguments.json => return Err(failure),
+            other => {
+                let failure = other.unwrap_or_else(|| failure(arguments, &faults));
+                (faults.diagnostics, Err(failure))
+            }
+        },
     };
     if arguments.json {
         print_json(arguments, &diagnostics, summary.as_ref().ok().and_then(Option::as_ref))?;
@@ -86,17 +91,17 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     match summary {
         Ok(Some(summary)) if !arguments.json => print(&summary.to_string())?,
         Ok(_) => {}
-        Err(errors) => return Err(faulty(arguments, errors)),
+        Err(failure) => return Err(failure),
     }
     Ok(())
 }
 
-fn faulty(arguments: &Arguments, errors: usize) -> Failure {
+fn failure(arguments: &Arguments, faults: &Faults) -> Failure {
     let file = arguments.model.display();
-    if !arguments.model.is_file() {
-        return Failure::outside(format!("{file} could not be read"));
+    match faults.unread {
+        true => Failure::outside(format!("{file} could not be read")),
+        false => Failure::input(format!("{file} has {}", counted(faults.errors().count(), "error"))),
     }
-    Failure::input(format!("{file} has {}", counted(errors, "error")))
 }
 
 fn print_json(arguments: &Arguments, diagnostics: &[Diagnostic], summary: Option<&Summary>) -> Result<(), Failure> {

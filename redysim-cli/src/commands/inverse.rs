@@ -108,13 +108,8 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
             break Ended::Failed(reason);
         }
     };
-    let outcome = Outcome {
-        ended,
-        method: if scenario.loops() { "ClosedLoopInverse".into() } else { "InverseDynamics".into() },
-        steps: None,
-        statistics: None,
-        gap: scenario.loops().then_some(worst),
-    };
+    let outcome =
+        Outcome { ended, integrator: None, steps: None, statistics: None, gap: scenario.loops().then_some(worst) };
     (outcome, most)
 }
 

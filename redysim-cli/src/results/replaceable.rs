@@ -20,11 +20,14 @@ pub const TORQUE: &str = "torque.csv";
 /// Whether there is something at `target` that is to be replaced.
 ///
 /// # Errors
-/// If there is, and `force` is not given, or if it is anything but an empty folder or a result with nothing beside what
+/// If it is anything but an empty folder, and `force` is not given, or if it is no result, or one with anything beside what
 /// this program writes: notes would be lost.
 pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
     // What cannot be looked at cannot be written either, and that says why.
     let Ok(found) = fs::symlink_metadata(target) else { return Ok(false) };
+    if found.is_dir() && fs::read_dir(target).is_ok_and(|mut entries| entries.next().is_none()) {
+        return Ok(true);
+    }
     if !force {
         return Err(exists(target));
     }
@@ -42,7 +45,7 @@ pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
     let entries = fs::read_dir(target).map_err(unreadable)?.collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
     let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    if !names.is_empty() && !fs::read_to_string(target.join(RUN_FILE)).is_ok_and(|text| is_of_a_run(&text)) {
+    if !fs::read_to_string(target.join(RUN_FILE)).is_ok_and(|text| is_of_a_run(&text)) {
         let why = format!("it is no result, for it holds no {RUN_FILE} that a run has written");
         return kept(&why, "write elsewhere with --output, or delete it yourself");
     }

@@ -11,8 +11,8 @@ use crate::scenario::Dynamics;
 /// How a computation went, of which the [`Record`](super::Record) knows but the rows.
 pub struct Outcome {
     pub ended: Ended,
-    /// By which method.
-    pub method: String,
+    /// By which integrator, if it was integrated.
+    pub integrator: Option<String>,
     /// Accepted steps of the integration, if there was one.
     pub steps: Option<u64>,
     /// What else it took: an integration that fails does not say.
@@ -58,9 +58,11 @@ impl fmt::Display for Ended {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Outcome { method, steps, statistics, gap, .. } = &self.outcome;
+        let Outcome { integrator, steps, statistics, gap, .. } = &self.outcome;
         let (from, to, count) = self.instants;
-        write!(f, "{}: {} dynamics by {method}, {count} instants from {from} s to {to} s", self.name, self.dynamics)?;
+        write!(f, "{}: {} dynamics", self.name, self.dynamics)?;
+        integrator.as_ref().map_or(Ok(()), |name| write!(f, " by {name}"))?;
+        write!(f, ", {count} instants from {from} s to {to} s")?;
         if let Some(steps) = steps {
             write!(f, "\n  {steps} steps")?;
         }

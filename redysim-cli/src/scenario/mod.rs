@@ -15,8 +15,8 @@ mod trajectory;
 use std::fmt;
 use std::path::Path;
 
-use redysim_model::GenericMechanism;
 use redysim_model::document::{self, Field, Message, Reader, Shape};
+use redysim_model::{Diagnostic, GenericMechanism, Model};
 use toml::de::DeValue;
 
 use crate::commands;
@@ -87,6 +87,9 @@ impl Scenario {
             Failure::input(format!("{} is not UTF-8", path.display()))
                 .help("save the file as UTF-8; TOML allows no other encoding")
         })?;
+        if let Some(failure) = commands::not_a_scenario(path, &text) {
+            return Err(failure);
+        }
         let mut failure = None;
         let shown = path.display().to_string();
         let read = document::read(text.clone(), shown, &manual::MANUAL, &SCENARIO, "the scenario", |reader| {
@@ -166,16 +169,24 @@ fn read(
     let stem = path.file_stem().map_or("scenario".into(), |stem| stem.to_string_lossy().into_owned());
     let name = name(&mut reader).value_or(stem);
     let model = reader.text("model");
-    let model_path = folder.join(reader.required("model", model).value()?);
+    let model = reader.required("model", model);
+    let named = model.spanned()?;
+    let model_path = folder.join(named.get_ref());
     // What the rest of the scenario says depends on the joints.
-    let (mechanism, model_text) = match commands::load(&model_path, quiet) {
-        Ok(loaded) => (GenericMechanism::new(loaded.model), loaded.text),
-        Err(fault) => {
-            let told = model_path.is_file();
-            let why = "the path of the model is taken from the folder of the scenario";
-            *failure = Some(if told { fault } else { fault.help(why) });
-            return None;
+    let (mechanism, model_text) = match Model::load(&model_path) {
+        Err(faults) if faults.unread => {
+            let why = faults.errors().map(Diagnostic::title).collect::<String>();
+            let title = format!("{}: {why}", model_path.display());
+            let help = "the path of the model is taken from the folder of the scenario".into();
+            return reader.fault_at(named.span(), Message { title, label: "named here".into(), help });
         }
+        read => match commands::loaded(&model_path, read, quiet) {
+            Ok(loaded) => (GenericMechanism::new(loaded.model), loaded.text),
+            Err(fault) => {
+                *failure = Some(fault);
+                return None;
+            }
+        },
     };
     let joints = joints::of_model(mechanism.model());
     let subject = Subject { joints: &joints, loops: !mechanism.model().loops.is_empty(), folder };

@@ -123,6 +123,8 @@ pub struct Faults {
     pub diagnostics: Vec<Diagnostic>,
     /// What could be read nevertheless: enough for a stub that lets the code around the model compile.
     pub outline: Box<Outline>,
+    /// Whether nothing was read: the file is not there, or may not be read.
+    pub unread: bool,
 }
 
 impl Faults {

@@ -56,7 +56,7 @@ fn move_on<'a>(
     };
     Ok(Outcome {
         ended,
-        method: forward.integrator.name(),
+        integrator: Some(forward.integrator.name()),
         steps: Some(steps),
         statistics: solution.ok().map(|solution| solution.statistics),
         gap: scenario.loops().then_some(gap),

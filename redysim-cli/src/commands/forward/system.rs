@@ -8,6 +8,7 @@ use redysim_runtime::{
 use crate::failure::Failure;
 use crate::output::say;
 use crate::results::Sample;
+use crate::scenario::joints::Joint;
 use crate::scenario::{Forward, Law, Scenario};
 
 /// The equation of motion of a scenario, and what is known beyond it.
@@ -72,13 +73,20 @@ impl<'a> System<'a> {
         }
         let closed = loops.assemble(&initial.q, &initial.v, &initial.held).map_err(failed)?;
         if !quiet {
-            let moves = scenario.joints.iter().zip(closed.q.iter().zip(&initial.q));
-            let moved = moves.filter(|(_, (to, from))| to != from);
-            let told: Vec<_> = moved
-                .map(|(joint, (to, from))| format!("{} by {:.3e} {}", joint.name, to - from, joint.unit()))
-                .collect();
-            if !told.is_empty() {
-                say(&format!("To close the loops, the start moves {}.", told.join(", ")));
+            let told = |to: &[f64], from: &[f64], per: &str| {
+                let joints = scenario.joints.iter().zip(to.iter().zip(from)).filter(|(_, (to, from))| to != from);
+                let by = |(joint, (to, from)): (&Joint, (&f64, &f64))| {
+                    format!("{} by {:.3e} {}{per}", joint.name, to - from, joint.unit())
+                };
+                joints.map(by).collect::<Vec<_>>().join(", ")
+            };
+            let moved = told(&closed.q, &initial.q, "");
+            if !moved.is_empty() {
+                say(&format!("To close the loops, the start moves {moved}."));
+            }
+            let changed = told(&closed.v, &initial.v, "/s");
+            if !changed.is_empty() {
+                say(&format!("So that they stay closed, its speeds change: {changed}."));
             }
         }
         Ok(simulation.assembled(&closed))

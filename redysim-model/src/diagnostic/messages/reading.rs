@@ -73,8 +73,16 @@ fn example(manual: &Manual, path: &str) -> String {
     }
 }
 
-pub(crate) fn unreadable(reason: &str) -> Message {
-    message(format!("cannot read the model file: {reason}"), "", "the path must name a TOML file in UTF-8")
+pub(crate) fn unreadable(error: &std::io::Error) -> Message {
+    let help = match error.kind() {
+        std::io::ErrorKind::PermissionDenied => "its permissions forbid it",
+        _ => "the path must name a TOML file in UTF-8",
+    };
+    message(format!("cannot read the model file: {error}"), "", help)
+}
+
+pub(crate) fn is_directory() -> Message {
+    message("cannot read the model file: it is a directory".into(), "", "name a file in it")
 }
 
 pub(crate) fn not_utf8(byte: usize) -> Message {
