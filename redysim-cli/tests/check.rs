@@ -138,14 +138,32 @@ com = [0.1, 0.0, 0.0]
 inertia = { xx = 10.0, yy = 1000.0, zz = 1000.0 }
 "#;
 
-#[test]
-fn slips_of_units_are_suspicious() {
+/// The exit code, and what is suspicious of a model.
+fn suspicions(text: &str) -> (i32, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("slips.toml");
-    std::fs::write(&path, SLIPS).unwrap();
+    std::fs::write(&path, text).unwrap();
     let (report, code) = json(&[path.to_str().unwrap()]);
-    let suspicions: Vec<&str> =
-        report["summary"]["suspicions"].as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect();
+    let lines = report["summary"]["suspicions"].as_array().unwrap();
+    (code, lines.iter().map(|line| line.as_str().unwrap().to_owned()).collect())
+}
+
+#[test]
+fn links_of_very_different_lengths_and_points_of_mass_are_suspicious() {
+    let arm = SLIPS.replace("2000.0", "2.0").replace("-9810.0", "-9.81").replace("[150.0, ", "[0.15, ");
+    let (_, found) = suspicions(&arm.replace("[0.4, ", "[400.0, "));
+    let words =
+        "link `fore` is placed 400 m from the one that carries it, and the next, `upper`, only 0.3 m: m and mm?";
+    assert!(found.contains(&words.to_owned()), "{found:#?}");
+    let points: String =
+        arm.lines().filter(|line| !line.starts_with("inertia")).map(|line| format!("{line}\n")).collect();
+    let (_, found) = suspicions(&points);
+    assert_eq!(found[0], "no link has an `inertia`: all masses are points", "{found:#?}");
+}
+
+#[test]
+fn slips_of_units_are_suspicious() {
+    let (code, suspicions) = suspicions(SLIPS);
     let wanted = [
         "gravity is 9810 m/s²",
         "kg and g?",

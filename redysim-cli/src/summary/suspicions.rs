@@ -7,6 +7,8 @@ use std::ops::RangeInclusive;
 
 /// Beyond this, the heaviest link is suspiciously heavier than the lightest.
 const MASS_RATIO: f64 = 1e5;
+/// Beyond this, the longest link is suspiciously longer than the next.
+const LENGTH_RATIO: f64 = 100.0;
 /// A radius of gyration as a share of the mechanism's size.
 const GYRATION: RangeInclusive<f64> = 1e-4..=2.0;
 /// Gravity on Earth, m/s², from the equator to the poles with some room.
@@ -17,6 +19,8 @@ pub fn of(model: &Model, mobility: &Mobility) -> Vec<String> {
     let mut found = Vec::new();
     found.extend(gravity(model));
     found.extend(mass_range(model));
+    found.extend(length_range(model));
+    found.extend(no_inertia(model));
     let size = size(model);
     if size > 0.0 {
         found.extend(model.links.iter().filter_map(|link| far_com(link, size)));
@@ -47,6 +51,27 @@ fn mass_range(model: &Model) -> Option<String> {
             rounded(lightest.mass)
         )
     })
+}
+
+fn length_range(model: &Model) -> Option<String> {
+    let mut lengths: Vec<(f64, &Link)> = model.links.iter().map(|link| (own_length(link), link)).collect();
+    lengths.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let [(longest, link), (second, other), ..] = lengths.as_slice() else { return None };
+    (*second > 0.0 && *longest > LENGTH_RATIO * second).then(|| {
+        format!(
+            "link `{}` is placed {} m from the one that carries it, and the next, `{}`, only {} m: m and mm?",
+            link.name,
+            rounded(*longest),
+            other.name,
+            rounded(*second)
+        )
+    })
+}
+
+fn no_inertia(model: &Model) -> Option<String> {
+    let trace: f64 = model.links.iter().map(|link| link.inertia.xx + link.inertia.yy + link.inertia.zz).sum();
+    let mass: f64 = model.links.iter().map(|link| link.mass).sum();
+    (mass > 0.0 && trace == 0.0).then(|| "no link has an `inertia`: all masses are points".into())
 }
 
 fn far_com(link: &Link, size: f64) -> Option<String> {
