@@ -44,6 +44,22 @@ fn computed_torque_says_where_the_prescribed_joint_determines_nothing() {
     assert!(said.contains("determine 1 of the 2 coordinates") && said.contains("is kept"), "{said}");
 }
 
+/// The four-bar has one joint to prescribe.
+#[test]
+fn as_many_joints_are_prescribed_as_the_loops_leave_free() {
+    let folder = scratch("loops-prescribed");
+    let runs = "[inverse]\nend = 1.0\nstep = 0.1\n[forward]\nend = 1.0\nstep = 0.1\n\
+                torque = { law = 'computed-torque', kp = 1, kd = 1 }\n";
+    for (joints, zeros, count) in [("'crank', 'rocker'", "0, 0", "2 joints (crank, rocker)"), ("", "", "0 joints ()")] {
+        let motion = format!("kind = 'constant-speed', joints = [{joints}], from = [{zeros}], speed = [{zeros}]");
+        let path = scenario(&folder, "fourbar.toml", &format!("trajectory = {{ {motion} }}\n{runs}"));
+        for command in ["inverse", "forward"] {
+            let said = fail(&folder, &[command, &path, "-o", "run"], 1);
+            assert!(said.contains(&format!("prescribes {count}, but the loops leave 1 free")), "{said}");
+        }
+    }
+}
+
 /// r̈ + 2 α ṙ + α² r = 0, whatever the mechanism does meanwhile.
 #[test]
 fn baumgartes_feedback_closes_a_loop_that_starts_open() {

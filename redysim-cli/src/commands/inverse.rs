@@ -31,25 +31,13 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
             "add a table, as in: trajectory = { from = [0], to = [\"60 deg\"], duration = 1.0 }",
         )
     })?;
-    check_joints(&scenario, trajectory)?;
+    let model = scenario.mechanism.model();
+    trajectory.check_joints(model, &scenario.joints).map_err(|(fault, help)| Failure::input(fault).help(help))?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Inverse, span, quiet)?;
     let (outcome, most) = along(&scenario, trajectory, &mut record);
     warn_of_passive(&scenario, &most, &record);
     record.finish(outcome)
-}
-
-/// A tree moves as it is told: every joint must be.
-fn check_joints(scenario: &Scenario, trajectory: &Prescribed) -> Result<(), Failure> {
-    let free = scenario.joints.iter().enumerate().find(|(index, _)| !trajectory.joints.contains(index));
-    match free {
-        Some((_, joint)) if !scenario.loops() => {
-            let message = format!("the trajectory does not prescribe the joint `{}`", joint.name);
-            Err(Failure::input(message)
-                .help("name all joints among its `joints`: without loops nothing else tells how they move"))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be. `most` has the largest

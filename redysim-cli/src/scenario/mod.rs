@@ -131,12 +131,17 @@ impl Scenario {
 /// What a scenario is about.
 pub struct Subject<'s> {
     joints: &'s [Joint],
-    loops: bool,
+    model: &'s Model,
     /// Where the files are that it names.
     folder: &'s Path,
 }
 
 impl Subject<'_> {
+    /// Whether there are closed loops.
+    fn loops(&self) -> bool {
+        !self.model.loops.is_empty()
+    }
+
     /// The joints that have an actuator.
     fn actuated(&self) -> Vec<usize> {
         indices(self.joints, |joint| joint.actuated)
@@ -189,7 +194,7 @@ fn read(
         },
     };
     let joints = joints::of_model(mechanism.model());
-    let subject = Subject { joints: &joints, loops: !mechanism.model().loops.is_empty(), folder };
+    let subject = Subject { joints: &joints, model: mechanism.model(), folder };
     let initial = Initial::read(&mut reader, &subject);
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);

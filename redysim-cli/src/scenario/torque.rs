@@ -166,10 +166,15 @@ impl<'s> Source<'s, '_, '_> {
     fn computed_torque(mut self) -> Option<Actuation> {
         let trajectory = self.followed()?;
         let [kp, kd] = ["kp", "kd"].map(|key| self.gains(key, &trajectory.joints));
-        if !self.subject.loops {
-            check_tree(&mut self.reader, self.subject.joints, &trajectory.joints)?;
-        }
+        let Subject { joints, model, .. } = *self.subject;
         let actuated = self.subject.actuated();
+        if let Some(passive) = joints.iter().find(|joint| !joint.actuated && !self.subject.loops()) {
+            return underactuated(&mut self.reader, passive);
+        }
+        if let Err((fault, help)) = trajectory.check_joints(model, joints) {
+            let title = format!("{}: {fault}, and computed torque moves it whole", self.reader.item());
+            return self.reader.fault_of_table(Message { title, label: "not with this trajectory".into(), help });
+        }
         Some(Actuation::ComputedTorque { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
     }
 
@@ -246,24 +251,14 @@ fn astray<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
     })
 }
 
-/// Computed torque drives every joint of a tree.
-fn check_tree(reader: &mut Reader<'_, '_>, joints: &[Joint], prescribed: &[usize]) -> Option<()> {
-    let passive = joints.iter().find(|joint| !joint.actuated);
-    let free = joints.iter().enumerate().find(|(index, _)| !prescribed.contains(index)).map(|(_, joint)| joint);
-    let (joint, what, help) = match (passive, free) {
-        (Some(joint), _) => {
-            (joint, "has no actuator", "take the law `tracking-pd` for the others, or actuate every joint")
-        }
-        (None, Some(joint)) => (joint, "is not prescribed", "name all joints among the `joints` of `[trajectory]`"),
-        (None, None) => return Some(()),
-    };
+fn underactuated<T>(reader: &mut Reader<'_, '_>, passive: &Joint) -> Option<T> {
     reader.fault_of_table(Message {
         title: format!(
-            "{}: computed torque moves every joint of a tree, but the joint `{}` {what}",
+            "{}: computed torque moves every joint of a tree, but the joint `{}` has no actuator",
             reader.item(),
-            joint.name
+            passive.name
         ),
         label: "not for this model".into(),
-        help: help.into(),
+        help: "take the law `tracking-pd` for the others, or actuate every joint".into(),
     })
 }

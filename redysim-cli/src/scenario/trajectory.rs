@@ -1,6 +1,7 @@
 //! Prescribed motions.
 
 use redysim_model::document::{Message, Reader, Shape};
+use redysim_model::{Mobility, Model};
 use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
 use toml::Spanned;
 
@@ -8,6 +9,7 @@ use super::Subject;
 use super::joints::{Joint, Quantity, points, some, values};
 use super::table::Table;
 use crate::failure::Failure;
+use crate::number::counted;
 
 /// A prescribed motion of some joints; its components are in the order of `joints`.
 #[derive(Clone, Debug)]
@@ -65,7 +67,7 @@ impl Prescribed {
     /// actuated ones of closed loops.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Option<Prescribed>> {
         let joints = subject.joints;
-        let usual = if subject.loops { subject.actuated() } else { (0..joints.len()).collect() };
+        let usual = if subject.loops() { subject.actuated() } else { (0..joints.len()).collect() };
         let field = reader.table_of_kind("trajectory", "kind", &KINDS, KINDS[0].1, |mut reader, tag| {
             let chosen = some(&mut reader, "joints", joints).value_or(usual.clone())?;
             let coordinates = |reader: &mut Reader<'_, '_>, key: &str| {
@@ -110,6 +112,30 @@ impl Prescribed {
             Some(Prescribed { joints: chosen, table: None, motion })
         });
         if field.is_missing() { Some(None) } else { Some(Some(field.value()?.clone()?)) }
+    }
+
+    /// Fails, with what is wrong and what to do, unless it says how all of a mechanism moves and nothing twice: a tree every
+    /// joint, closed loops as many as they leave free.
+    pub fn check_joints(&self, model: &Model, joints: &[Joint]) -> Result<(), (String, String)> {
+        if model.loops.is_empty() {
+            let free = joints.iter().enumerate().find(|(index, _)| !self.joints.contains(index));
+            let Some((_, joint)) = free else { return Ok(()) };
+            let help = "name all joints among its `joints`: without loops nothing else tells how they move";
+            return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
+        }
+        let Mobility { mobility: free, gap, .. } = Mobility::of(model);
+        let prescribed = self.joints.len();
+        // Loops that were not closed from anywhere may leave another number free where they are.
+        if prescribed == free || gap.is_some() {
+            return Ok(());
+        }
+        let names: Vec<_> = self.joints.iter().map(|&joint| joints[joint].name.as_str()).collect();
+        let what = format!(
+            "the trajectory prescribes {} ({}), but the loops leave {free} free",
+            counted(prescribed, "joint"),
+            names.join(", ")
+        );
+        Err((what, format!("name {} among its `joints`: the others follow from the loops", counted(free, "joint"))))
     }
 
     /// The motion with one component for each of `count` coordinates; those that it does not prescribe are zero.
