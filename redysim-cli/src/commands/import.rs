@@ -16,7 +16,7 @@ use crate::urdf::{Imported, Options, import};
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  redysim import panda.urdf -o models/panda.toml
+  redysim import panda.urdf -o panda.toml
   redysim import ur5.urdf --fuse-fixed | less
   xacro robot.urdf.xacro > robot.urdf && redysim import robot.urdf -o robot.toml && redysim check robot.toml")]
 pub struct Arguments {

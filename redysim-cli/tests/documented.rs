@@ -1,0 +1,77 @@
+//! Every command of the documentation does what it is there for.
+#![cfg(unix)]
+
+mod common;
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+
+use common::{program, root, scratch};
+
+const PANDA: &str = "<robot name=\"panda\"><link name=\"base\"/><link name=\"arm\"><inertial><mass value=\"1\"/>\
+    <origin xyz=\"0 0 0.3\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\
+    <joint name=\"shoulder\" type=\"continuous\"><parent link=\"base\"/><child link=\"arm\"/></joint></robot>";
+
+/// A folder with what the examples name.
+fn workplace(name: &str) -> PathBuf {
+    let folder = scratch(name);
+    for shared in ["models", "scenarios"] {
+        symlink(root().join(shared), folder.join(shared)).unwrap();
+    }
+    fs::create_dir(folder.join("src")).unwrap();
+    fs::write(folder.join("panda.urdf"), PANDA).unwrap();
+    folder
+}
+
+fn run(folder: &Path, command: &str) -> String {
+    let arguments: Vec<&str> = command.split_whitespace().collect();
+    let output = program(folder, &arguments).output().unwrap();
+    assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Runs the commands between backticks in the first column of a table, and those in blocks without their comments, in the
+/// order in which they stand, for each uses what those before it have written.
+fn run_all(name: &str, document: &str, least: usize) {
+    let folder = workplace(name);
+    let text = fs::read_to_string(root().join(document)).unwrap();
+    let of_line = |line: &str| -> Option<String> {
+        let in_table = line.strip_prefix("| `redysim ").and_then(|rest| rest.split('`').next());
+        let in_block = || line.strip_prefix("redysim ").and_then(|rest| rest.split('#').next());
+        in_table.or_else(in_block).filter(|command| !command.starts_with('=')).map(str::to_owned)
+    };
+    let commands: Vec<String> = text.lines().filter_map(of_line).collect();
+    assert!(commands.len() >= least, "{commands:?}");
+    for command in commands {
+        run(&folder, &command);
+    }
+}
+
+#[test]
+fn the_commands_of_the_readme_run() {
+    run_all("documented-readme", "README.md", 8);
+}
+
+#[test]
+fn the_commands_of_the_scenarios_run() {
+    run_all("documented-scenarios", "docs/scenarios.md", 3);
+}
+
+/// The examples that the help gives, but those that pipe into other programs.
+#[test]
+fn the_examples_of_the_help_run() {
+    let folder = workplace("documented-help");
+    // What `plot` and `animate` are shown with.
+    run(&folder, "inverse scenarios/kuka.toml");
+    run(&folder, "forward scenarios/kuka.toml");
+    for command in ["check", "inverse", "forward", "plot", "animate", "generate", "import"] {
+        let help = run(&folder, &format!("{command} --help"));
+        let examples = help.lines().filter_map(|line| line.strip_prefix("  redysim "));
+        let alone: Vec<&str> = examples.filter(|example| !example.contains(['|', '>'])).collect();
+        assert!(!alone.is_empty(), "{command} has an example");
+        for example in alone {
+            run(&folder, example);
+        }
+    }
+}
