@@ -5,6 +5,8 @@ import { colour, dash } from "./palette.js";
 import { indexAt } from "./motion.js";
 
 const HEIGHT = 132;
+// A tenth more than the values at either end; left to itself, the library shows zeros on an axis to a hundred.
+const range = (_, min, max) => (min === max && !min ? [-1, 1] : uPlot.rangeNum(min, max, 0.1, true));
 const GRID = { stroke: "#e6e9ed", width: 1 };
 
 export class Charts {
@@ -41,7 +43,7 @@ class Chart {
     const options = {
       width: this.width,
       height: HEIGHT,
-      scales: { x: { time: false } },
+      scales: { x: { time: false }, y: { range } },
       // Whole pixels would make stairs of smooth curves.
       pxAlign: 0,
       series: [{}, ...series],
