@@ -108,10 +108,16 @@ fn a_full_disk_leaves_nothing_half_written() {
     fs::write(folder.join("robot.urdf"), chain(20)).unwrap();
     let model = model("two_link.toml");
     let before = (names(&folder), names(&folder.join("run")));
-    for arguments in
-        ["plot run", "animate run", &format!("generate '{model}' -o model.rs"), "import robot.urdf -o robot.toml"]
-    {
-        let command = format!("trap '' XFSZ; ulimit -f 1; exec '{}' {arguments}", env!("CARGO_BIN_EXE_redysim"));
+    let generate = format!("generate '{model}' -o model.rs");
+    // Of the pictures some would find room.
+    for (arguments, blocks) in [
+        ("plot run", 1),
+        ("plot run -o pictures", 60),
+        ("animate run", 1),
+        (&generate, 1),
+        ("import robot.urdf -o robot.toml", 1),
+    ] {
+        let command = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{}' {arguments}", env!("CARGO_BIN_EXE_redysim"));
         let output = bash(&folder, &command);
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(3), "{arguments}: {said}");

@@ -48,11 +48,20 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes all of them, or none if one is there already.
+/// Writes all of them, or none if one is there already or cannot be written.
 fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
     pictures.iter().try_for_each(|(path, _)| output::check_place(path, force))?;
+    let made = !folder.is_dir();
     std::fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, &error))?;
-    pictures.iter().try_for_each(|(path, contents)| output::write_file(path, contents, force))
+    let fresh: Vec<&PathBuf> = pictures.iter().map(|(path, _)| path).filter(|path| !path.exists()).collect();
+    let written = pictures.iter().try_for_each(|(path, contents)| output::write_file(path, contents, force));
+    written.inspect_err(|_| {
+        // That something of this cannot be undone is no news beside the failure.
+        fresh.iter().for_each(|path| drop(std::fs::remove_file(path)));
+        if made {
+            let _ = std::fs::remove_dir(folder);
+        }
+    })
 }
 
 /// The charts below each other; one legend serves them all where they show the same curves.
