@@ -41,6 +41,16 @@ fn the_rank_of_each_loop_is_what_it_adds_to_those_before() {
     assert_eq!((&summary["loop_rank"], &summary["loop_conditions"]), (&Value::from(3), &Value::from(4)));
 }
 
+/// The rank is that of the closed position, however badly a few of the loops alone can be closed.
+#[test]
+fn a_small_loop_far_away_counts_as_any_other() {
+    let (report, _) = json(&[&model("test/two_scales.toml")]);
+    let summary = &report["summary"];
+    let ranks: Vec<_> = summary["loops"].as_array().unwrap().iter().map(|each| each["rank"].clone()).collect();
+    assert_eq!(ranks, [2, 0, 2]);
+    assert_eq!((&summary["mobility"], &summary["loop_rank"]), (&Value::from(2), &Value::from(4)));
+}
+
 /// Bricard's linkage: six revolutes in space, which Grübler would have rigid, and which moves.
 #[test]
 fn the_mobility_of_bricards_linkage_is_one() {

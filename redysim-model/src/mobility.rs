@@ -49,19 +49,22 @@ impl Mobility {
     /// The same, with a closed position at which the rank was found.
     pub(crate) fn found(mechanism: &GenericMechanism) -> (Mobility, Option<Vec<f64>>) {
         let conditions = LoopClosure::<f64, _>::nc(mechanism);
-        let (added, gap, position) = match closed_position(mechanism) {
+        let (rank, added, gap, position) = match closed_position(mechanism) {
             // A position may be singular; the rank of the mechanism is the largest.
-            Ok((q, rank)) if rank == conditions => (conditions_of_loops(mechanism), None, Some(q)),
-            Ok((q, _)) => (added(mechanism, |loops| rank_at(mechanism.model(), loops, &q)), None, Some(q)),
+            Ok((q, rank)) => {
+                let added = added(mechanism, rank, |loops| rank_at(mechanism.model(), loops, &q));
+                (rank, added, None, Some(q))
+            }
             // Without a closed position, the structure alone says what the conditions could determine.
             Err(gap) => {
                 let jacobian: Vec<Vec<f64>> = mechanism.loop_jacobian(&mechanism.tree().sample(1));
                 let rows: Vec<usize> = mechanism.tree().loops_of_rows().collect();
-                let count = |loops: usize| rows.iter().filter(|cut| **cut < loops).count();
-                (added(mechanism, |loops| structural_rank(&jacobian[..count(loops)])), Some(gap), None)
+                let of_first = |loops: usize| rows.iter().filter(|cut| **cut < loops).count();
+                let rank = structural_rank(&jacobian);
+                let added = added(mechanism, rank, |loops| structural_rank(&jacobian[..of_first(loops)]));
+                (rank, added, Some(gap), None)
             }
         };
-        let rank = added.iter().sum();
         (Mobility { conditions, rank, added, mobility: mechanism.tree().dof() - rank, gap }, position)
     }
 }
@@ -72,20 +75,25 @@ pub(crate) fn conditions_of_loops(mechanism: &GenericMechanism) -> Vec<usize> {
     (0..mechanism.model().loops.len()).map(count).collect()
 }
 
-/// By how much each loop raises the `rank` of so many first loops.
-fn added(mechanism: &GenericMechanism, rank: impl Fn(usize) -> usize) -> Vec<usize> {
-    let ranks: Vec<usize> = (0..=mechanism.model().loops.len()).map(rank).collect();
-    ranks.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect()
+/// By how much each loop raises the rank of so many `first` loops, up to `all`, the rank of all of them.
+fn added(mechanism: &GenericMechanism, all: usize, first: impl Fn(usize) -> usize) -> Vec<usize> {
+    let conditions = conditions_of_loops(mechanism);
+    if conditions.iter().sum::<usize>() == all {
+        return conditions;
+    }
+    let mut before = 0;
+    let of_loop = |loops: usize| {
+        // What is small in the first loops may be roundoff beside the others, so that their rank may be the larger one.
+        let rank = if loops == conditions.len() { all } else { first(loops).clamp(before, all) };
+        rank - std::mem::replace(&mut before, rank)
+    };
+    (1..=conditions.len()).map(of_loop).collect()
 }
 
-/// The rank of the first `count` loops at the closed position `q`.
+/// The rank of the first `count` loops at `q`, or no more than is known of all.
 fn rank_at(model: &Model, count: usize, q: &[f64]) -> usize {
-    if count == 0 {
-        return 0;
-    }
     let mechanism = GenericMechanism::new(Model { loops: model.loops[..count].to_vec(), ..model.clone() });
-    let rows = LoopClosure::<f64, _>::nc(&mechanism);
-    ClosedLoop::new(&mechanism).assemble(&q.to_vec(), &vec![0.0; q.len()], &[]).map_or(rows, |assembly| assembly.rank)
+    ClosedLoop::new(&mechanism).rank::<f64>(&q.to_vec()).unwrap_or(usize::MAX)
 }
 
 /// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank is,

@@ -23,6 +23,19 @@ pub(super) enum Metric {
 }
 
 impl<M, C> ClosedLoop<'_, M, C> {
+    /// How many of the loops' conditions are independent at `q`, by the rank of J(q) in the metric of M; the loops need not be
+    /// closed there.
+    ///
+    /// # Errors
+    /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    pub fn rank<S: Real>(&self, q: &M::Coordinates) -> Result<usize, LoopError<S>>
+    where
+        M: MassMatrix<S>,
+        C: LoopClosure<S, M>,
+    {
+        Ok(self.linearise(q, &[])?.space.rank())
+    }
+
     /// The loops at `q`, in the metric of M; the coordinates `held` do not move in what is solved.
     pub(super) fn linearise<S: Real>(
         &self,
