@@ -43,10 +43,11 @@ pub fn undisturbed<T>(work: impl FnOnce() -> T) -> T {
 fn end() {
     // Held until the end, so that nobody complains of what is no longer there.
     let mut undo = lock();
+    // Without anything to undo nothing was begun, or what was is whole, and told.
     if let Some(undo) = undo.take() {
         undo();
+        tell(&Failure::interrupted("nothing is kept").to_string());
     }
-    tell(&Failure::interrupted("nothing is kept").to_string());
     std::process::exit(Failure::INTERRUPTED.into());
 }
 

@@ -75,6 +75,28 @@ fn so_it_does_of_inverse_dynamics() {
     kept(&folder, "inverse", &scenario(&folder, "two_link.toml", rest));
 }
 
+/// The second may come while the tables are being finished: then there is a whole result, or nothing.
+#[test]
+fn two_of_them_in_a_row_leave_no_half_result() {
+    let folder = scratch("interrupt-pair");
+    let path = scenario(&folder, "two_link.toml", LONG);
+    for _ in 0..3 {
+        let run = Running::begin(&folder, &["forward", &path, "-o", "run", "--force"]);
+        run.wait(|draft| std::fs::metadata(draft.join("statevar.csv")).is_ok_and(|file| file.len() > 1000));
+        run.interrupt();
+        run.interrupt();
+        let (code, said) = run.end();
+        assert_eq!(code, Some(130), "{said}");
+        let left = names(&folder);
+        let whole = left.contains(&"run".to_owned()) && said.contains("are in run");
+        assert!(left.iter().all(|name| ["run", "trial.toml"].contains(&name.as_str())), "{left:?}: {said}");
+        assert!(whole || said.contains("nothing is kept"), "{left:?}: {said}");
+        if whole {
+            assert!(names(&folder.join("run")).contains(&"run.toml".to_owned()));
+        }
+    }
+}
+
 /// Who reads the output has stopped: the run waits, and cannot look whether anybody wants it to end.
 #[cfg(target_os = "linux")]
 mod waiting {

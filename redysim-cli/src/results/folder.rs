@@ -2,11 +2,16 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use super::replaceable::replaces;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{tell, write_file};
+
+/// For so long a draft is taken away from a run that goes on writing.
+const TRIES: u32 = 500;
+const PAUSE: Duration = Duration::from_millis(1);
 
 /// A folder under a draft's name, which goes away unless it is finished.
 pub struct Folder {
@@ -121,8 +126,14 @@ impl Drop for Folder {
 
 impl Draft {
     fn discard(&self) {
-        // There is nobody left to tell if this fails; a folder that is not empty stays.
-        let _ = fs::remove_dir_all(&self.path);
+        // A run that is ended at once may be writing into it meanwhile, until it is gone; there is nobody left to tell if
+        // it stays.
+        for _ in 0..TRIES {
+            if fs::remove_dir_all(&self.path).is_ok() || !self.path.exists() {
+                break;
+            }
+            std::thread::sleep(PAUSE);
+        }
         self.discard_parents();
     }
 
@@ -138,4 +149,27 @@ fn beside(path: &Path, more: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(more);
     path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Files come as fast as they go, until there is no folder for them.
+    #[test]
+    fn a_draft_goes_away_while_it_is_written() {
+        let path = std::env::temp_dir().join(format!("redysim-draft-{}", std::process::id()));
+        fs::create_dir(&path).unwrap();
+        let folder = path.clone();
+        let writer = std::thread::spawn(move || {
+            let files = (0..100_000).map(|k| fs::write(folder.join(format!("{k}.csv")), "t [s]\n"));
+            files.take_while(Result::is_ok).count()
+        });
+        while fs::read_dir(&path).unwrap().next().is_none() {
+            std::thread::yield_now();
+        }
+        Draft { path: path.clone(), made: vec![] }.discard();
+        assert!(!path.exists());
+        assert!(writer.join().unwrap() < 100_000, "the folder was gone before the files were");
+    }
 }
