@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Table, deviation, fail, root, scenario, scratch, succeed};
+use common::{Table, call, deviation, fail, root, scenario, scratch, succeed};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
 
@@ -57,6 +57,50 @@ fn as_many_joints_are_prescribed_as_the_loops_leave_free() {
             let said = fail(&folder, &[command, &path, "-o", "run"], 1);
             assert!(said.contains(&format!("prescribes {count}, but the loops leave 1 free")), "{said}");
         }
+    }
+}
+
+/// What is warned of in a run that goes well.
+fn warned(name: &str, model: &str, rest: &str) -> String {
+    let folder = scratch(name);
+    let output = call(&folder, &["forward", &scenario(&folder, model, rest), "-o", "run"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    said
+}
+
+/// The feedback does work while it closes the loops: that is no fault of the motion.
+#[test]
+fn the_work_of_baumgartes_feedback_is_not_called_wrong() {
+    let open = "initial = { q = [0, 1.5, 4.0], assemble = false }\n[forward]\nend = 0.5\nstep = 0.1\n\
+                integrator = { method = 'Ode45', rtol = 1e-8, atol = 1e-8 }\n";
+    let said =
+        warned("loops-work", "fourbar.toml", &format!("{open}stabilisation = {{ kind = 'baumgarte', alpha = 20 }}\n"));
+    assert_eq!(said, "");
+}
+
+#[test]
+fn computed_torque_of_loops_with_redundant_conditions_wants_them_closed() {
+    let rest = |stabilisation: &str| {
+        format!(
+            "initial = {{ q = [0, 0.9844, 4.3144] }}\ntrajectory = {{ kind = 'constant-speed', from = [0], speed = [1] }}\n\
+             [forward]\nend = 0.02\nstep = 0.01\ntorque = {{ law = 'computed-torque', kp = 100, kd = 20 }}\n\
+             stabilisation = {stabilisation}\n"
+        )
+    };
+    let said = warned("loops-redundant", "test/fourbar_spatial.toml", &rest("'none'"));
+    assert!(said.contains("3 conditions 2 are independent, for which computed torque needs closed loops"), "{said}");
+    let said = warned("loops-redundant-closed", "test/fourbar_spatial.toml", &rest("'projection'"));
+    assert!(!said.contains("computed torque"), "{said}");
+}
+
+#[test]
+fn settings_of_loops_have_no_effect_on_a_tree_and_are_warned_of() {
+    let rest =
+        "initial = { assemble = false, held = ['joint1'] }\n[forward]\nend = 0.2\nstep = 0.1\nstabilisation = 'none'\n";
+    let said = warned("loops-none", "two_link.toml", rest);
+    for key in ["initial.assemble", "initial.held", "forward.stabilisation"] {
+        assert!(said.contains(&format!("`{key}` is of closed loops, and the model has none")), "{key}: {said}");
     }
 }
 

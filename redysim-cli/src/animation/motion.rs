@@ -60,7 +60,7 @@ pub fn of(recorded: &Recorded, model: &Model) -> Result<(Motion, Vec<String>), F
 }
 
 fn column<'t>(table: &'t Table, symbol: &str, joint: &str) -> Result<&'t Column, Failure> {
-    table.of(symbol).find(|column| column.name == joint).ok_or_else(|| {
+    table.of(symbol).find(|column| column.name == joint.trim()).ok_or_else(|| {
         Failure::input(format!("{}:1: there is no column `{symbol} {joint} [..]`", table.path.display()))
             .help(format!("the folder's model.toml has `{joint}`: are both from the same run?"))
     })

@@ -1,5 +1,6 @@
 //! A motion that is to be computed.
 
+use redysim_model::Mobility;
 use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::Stabilisation;
 
@@ -33,9 +34,12 @@ impl Forward {
             let span = Span::read(&mut reader);
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
             let torque = Actuation::read(&mut reader, subject, trajectory);
-            let stabilisation = stabilisation(&mut reader);
+            let stabilisation = stabilisation(&mut reader, subject);
             if let (Some(span), Some(integrator)) = (span, integrator) {
                 warn_of_rows(&mut reader, span, integrator);
+            }
+            if let (Some(Actuation::ComputedTorque { .. }), Some(stabilisation)) = (&torque, stabilisation) {
+                warn_of_redundancy(&mut reader, subject, stabilisation);
             }
             Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
         })
@@ -57,7 +61,26 @@ fn warn_of_rows(reader: &mut Reader<'_, '_>, span: Span, integrator: Integrator)
     });
 }
 
-fn stabilisation(reader: &mut Reader<'_, '_>) -> Option<Stabilisation<f64>> {
+/// The law asks for what all conditions allow: where some follow from others, in loops that are slightly open they contradict
+/// each other.
+fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabilisation: Stabilisation<f64>) {
+    if !subject.loops() || stabilisation == Stabilisation::Projection {
+        return;
+    }
+    let Mobility { conditions, rank, .. } = Mobility::of(subject.model);
+    if rank < conditions {
+        let item = reader.item();
+        reader.warning_of_table(Message {
+            title: format!(
+                "{item}: of the loops' {conditions} conditions {rank} are independent, for which computed torque needs closed loops"
+            ),
+            label: "each step leaves them a little open".into(),
+            help: "take stabilisation = \"projection\", or leave conditions out that follow from others".into(),
+        });
+    }
+}
+
+fn stabilisation(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Stabilisation<f64>> {
     let kind = |name, kind| (name, (kind, &PLAIN));
     let kinds = [
         kind("projection", Some(Stabilisation::Projection)),
@@ -70,5 +93,6 @@ fn stabilisation(reader: &mut Reader<'_, '_>) -> Option<Stabilisation<f64>> {
             Some(Stabilisation::Baumgarte { alpha: *reader.required("alpha", alpha).value()? })
         })
     });
+    subject.expect_loops(reader, "forward.stabilisation", &field);
     field.value_or(Some(Stabilisation::Projection))?
 }

@@ -26,8 +26,11 @@ impl Initial {
         let field = reader.table("initial", &INITIAL, |mut reader| {
             let q = values(&mut reader, "q", Quantity::Coordinate, joints, &all).value_or(rest());
             let v = values(&mut reader, "v", Quantity::Rate, joints, &all).value_or(rest());
-            let assemble = reader.flag("assemble").value_or(true);
-            let held = some(&mut reader, "held", joints).value_or(actuated.clone());
+            let assemble = reader.flag("assemble");
+            subject.expect_loops(&mut reader, "initial.assemble", &assemble);
+            let held = some(&mut reader, "held", joints);
+            subject.expect_loops(&mut reader, "initial.held", &held);
+            let (assemble, held) = (assemble.value_or(true), held.value_or(actuated.clone()));
             Some(Initial { q: q?, v: v?, assemble: assemble?, held: held? })
         });
         match asked(field)? {

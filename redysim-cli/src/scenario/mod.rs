@@ -142,6 +142,15 @@ impl Subject<'_> {
         !self.model.loops.is_empty()
     }
 
+    /// Warns of a setting of closed loops where there are none.
+    fn expect_loops<T>(&self, reader: &mut Reader<'_, '_>, key: &str, setting: &Field<T>) {
+        if let (false, Some(given)) = (self.loops(), setting.spanned()) {
+            let title = format!("{}: `{key}` is of closed loops, and the model has none", reader.item());
+            let message = Message { title, label: "without effect".into(), help: "leave it out".into() };
+            reader.warning(given.span(), message);
+        }
+    }
+
     /// The joints that have an actuator.
     fn actuated(&self) -> Vec<usize> {
         indices(self.joints, |joint| joint.actuated)

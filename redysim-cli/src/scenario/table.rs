@@ -70,7 +70,8 @@ impl Table {
     fn column(&self, symbol: &str, joint: &Joint, per: Option<&str>) -> Result<(&Column, f64), Failure> {
         let unit = per.map_or(joint.unit_of_force().to_owned(), |per| format!("{}{per}", joint.unit()));
         let wanted = format!("{symbol} {} [{unit}]", joint.name);
-        let mut found = self.columns.iter().filter(|column| column.symbol == symbol && column.name == joint.name);
+        let mut found =
+            self.columns.iter().filter(|column| column.symbol == symbol && column.name == joint.name.trim());
         let Some(column) = found.next() else {
             return Err(self.fault(&format!("there is no column `{wanted}`"), "add it, or name fewer joints"));
         };

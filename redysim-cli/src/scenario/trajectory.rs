@@ -135,7 +135,12 @@ impl Prescribed {
             counted(prescribed, "joint"),
             names.join(", ")
         );
-        Err((what, format!("name {} among its `joints`: the others follow from the loops", counted(free, "joint"))))
+        let help = match free {
+            0 => "as the model is, nothing moves: `redysim check` tells which conditions do not follow from others"
+                .into(),
+            _ => format!("name {} among its `joints`: the others follow from the loops", counted(free, "joint")),
+        };
+        Err((what, help))
     }
 
     /// The motion with one component for each of `count` coordinates; those that it does not prescribe are zero.
