@@ -5,10 +5,10 @@
 
 use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
 
-use super::replaceable::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
+use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
 use super::{Ended, Folder, Outcome, Summary};
 use crate::failure::Failure;
-use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances, USUAL_THROUGH};
+use crate::scenario::{Absolute, Integrator, Scenario, Tolerances, Actuation, USUAL_THROUGH};
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
