@@ -4,13 +4,13 @@ use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::Stabilisation;
 
 use super::integrator::Fixed;
-use super::{Actuation, Integrator, Prescribed, Span, Subject};
+use super::{Integrator, Prescribed, Span, Subject, Torque};
 
 /// A motion that is to be computed.
 pub struct Forward {
     pub span: Span,
     pub integrator: Integrator,
-    pub torque: Actuation,
+    pub torque: Torque,
     /// What keeps loops closed.
     pub stabilisation: Stabilisation<f64>,
 }
@@ -32,7 +32,7 @@ impl Forward {
         reader.table("forward", &FORWARD, |mut reader| {
             let span = Span::read(&mut reader);
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
-            let torque = Actuation::read(&mut reader, subject, trajectory);
+            let torque = Torque::read(&mut reader, subject, trajectory);
             let stabilisation = stabilisation(&mut reader);
             if let (Some(span), Some(integrator)) = (span, integrator) {
                 warn_of_rows(&mut reader, span, integrator);

@@ -29,7 +29,7 @@ use joints::Joint;
 pub use law::Law;
 pub use span::Span;
 use table::Table;
-pub use torque::Actuation;
+pub use torque::Torque;
 pub use trajectory::{Prescribed, USUAL_THROUGH};
 
 /// What may be computed of a model.
@@ -122,7 +122,7 @@ impl Scenario {
         let Some(Forward { span, torque, .. }) = &self.forward else { return Ok(()) };
         cover(torque.followed().and_then(|trajectory| trajectory.table.as_ref()), *span)?;
         match torque {
-            Actuation::Table { forces, .. } => cover(Some(&forces.table), *span),
+            Torque::Table { forces, .. } => cover(Some(&forces.table), *span),
             _ => Ok(()),
         }
     }
