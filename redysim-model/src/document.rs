@@ -13,7 +13,8 @@ use crate::model::Outline;
 pub use crate::diagnostic::Message;
 pub use crate::diagnostic::messages::Manual;
 pub use crate::schema::Field;
-pub use crate::schema::reader::{Reader, Shape, Value};
+pub use crate::schema::reader::{Reader, Shape};
+pub use crate::schema::value::Value;
 
 /// Reads the text of a file of the kind that `manual` describes and `shape` gives the keys of. Messages call the file
 /// `file_name` and what it describes `item`; `read` is handed the file's table; where it

@@ -85,6 +85,16 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
             actuator_energy: entry(state, nq + nv),
         }
     }
+
+    /// The joint forces in a state.
+    pub fn torque<S: Real>(&mut self, t: S, state: &M::State) -> M::Velocities
+    where
+        M: Mechanism<S>,
+        L: TorqueLaw<S, M>,
+    {
+        let SimulationState { q, v, .. } = self.split(state);
+        self.law.torque(t, &q, &v)
+    }
 }
 
 impl<S, M, L> Ode<S, M::State> for ForwardSimulation<'_, M, L>

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::number::rounded;
-use crate::recorded::{Recorded, spread};
+use crate::recorded::{Recorded, evenly};
 use crate::table::{Column, Table};
 
 /// Coordinates and rates that a page holds at most: some three megabytes of them.
@@ -37,7 +37,7 @@ pub fn of(recorded: &Recorded, model: &Model) -> Result<(Motion, Vec<String>), F
         return Err(recorded.lacks("no motion, neither statevar.csv nor traj.csv"));
     };
     let joints: Vec<&Link> = model.moving_links().collect();
-    let rows = spread(table.t.len(), NUMBERS / (2 * joints.len()).max(1));
+    let rows = evenly(table.t.len(), NUMBERS / (2 * joints.len()).max(1));
     let pick = |symbol: &str, joint: &Link| -> Result<Vec<f64>, Failure> {
         let column = column(&table, symbol, &joint.joint_name)?;
         rows.iter().map(|&row| finite(&table, column, row)).collect()

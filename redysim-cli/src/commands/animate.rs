@@ -6,9 +6,7 @@ use crate::animation;
 use crate::failure::Failure;
 use crate::output;
 use crate::recorded::Recorded;
-
-/// The page that lies beside the tables it shows, unless told.
-pub const PAGE: &str = "animation.html";
+use crate::results::names::PAGE;
 
 /// Make a page of HTML, complete in itself, that plays a run in 3D beside its curves.
 #[derive(clap::Args)]

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::not_a_model;
 use crate::failure::Failure;
+use crate::model::not_a_model;
 use crate::number::counted;
 use crate::output::{print, tell};
 use crate::summary::Summary;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use crate::failure::Failure;
+use crate::model;
 use crate::output::{print, tell, write_beside};
 use redysim_codegen::source_file_with;
 use redysim_model::scene::FUNCTIONS;
@@ -58,12 +59,12 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 /// The model with the functions that are asked for here, checked as those of a scene are.
 fn load(arguments: &Arguments, quiet: bool) -> Result<Loaded, Failure> {
     if arguments.functions.is_empty() {
-        return super::load(&arguments.model, quiet);
+        return model::load(&arguments.model, quiet);
     }
     let names: Vec<String> = arguments.functions.iter().map(|name| format!("\"{name}\"")).collect();
     let scene = format!("functions = [{}]", names.join(", "));
     let path = &arguments.model;
-    super::loaded(path, Model::load_with(path, path.display().to_string(), scene), quiet)
+    model::loaded(path, Model::load_with(path, path.display().to_string(), scene), quiet)
 }
 
 /// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is none for a type, such as `3rrr`, is `Mechanism3rrr`.

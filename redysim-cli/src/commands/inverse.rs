@@ -54,8 +54,14 @@ fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
     }
 }
 
-/// Motion, forces, multipliers and gap at one time.
-type Balance = (Motion<Vec<f64>, Vec<f64>>, Vec<f64>, Vec<f64>, f64);
+/// What the motion takes at one time.
+struct Required {
+    motion: Motion<Vec<f64>, Vec<f64>>,
+    forces: Vec<f64>,
+    multipliers: Vec<f64>,
+    /// The largest component of the loops' residual, m.
+    gap: f64,
+}
 
 /// The forces at every instant, as far as there are, and the largest of each joint.
 fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) -> (Outcome, Vec<f64>) {
@@ -65,23 +71,23 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
     let mut of_loops = ClosedLoopInverse::new(loops, &trajectory.joints, scenario.initial.q.clone());
     let actuated = crate::scenario::indices(&scenario.joints, |joint| joint.actuated);
     of_loops = of_loops.actuated(&actuated);
-    let mut balance = |t: f64| -> Result<Balance, Failure> {
+    let mut required_at = |t: f64| -> Result<Required, Failure> {
         if !scenario.loops() {
             let motion = whole.at(t);
             let forces = mechanism.inverse_dynamics(&motion.q, &motion.v, &motion.a);
-            return Ok((motion, forces, vec![], 0.0));
+            return Ok(Required { motion, forces, multipliers: vec![], gap: 0.0 });
         }
         let failed = |reason| Failure::outside(format!("at t = {t:?} s: {}", loops.explain(reason)));
         let LoopForces { motion, forces, multipliers, .. } = of_loops.at(t, trajectory).map_err(failed)?;
         let residual: Vec<f64> = mechanism.loop_residual(&motion.q);
         let gap = residual.iter().fold(0.0, |gap: f64, value| gap.max(value.abs()));
-        Ok((motion, forces, multipliers, gap))
+        Ok(Required { motion, forces, multipliers, gap })
     };
     let (mut worst, mut work, mut before) = (0.0, 0.0, None);
     let mut most = vec![0.0; scenario.joints.len()];
     let mut compute = |t: f64, record: &mut Record<'_>| -> Result<(), Failure> {
-        work += before.map_or(Ok(0.0), |before| work_between(&mut balance, before, t))?;
-        let (Motion { q, v, a }, tau, lambda, gap) = balance(t)?;
+        work += before.map_or(Ok(0.0), |before| work_between(&mut required_at, before, t))?;
+        let Required { motion: Motion { q, v, a }, forces: tau, multipliers: lambda, gap } = required_at(t)?;
         before = Some(t);
         worst = f64::max(worst, gap);
         most.iter_mut().zip(&tau).for_each(|(most, force)| *most = f64::max(*most, force.abs()));
@@ -106,10 +112,14 @@ const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.774_596_669_241_483_4, 5.0 / 18.0)];
 
 /// The work of the joint forces from one time to another, ∫ τ·q̇ dt, J. It is what the energy is checked against.
-fn work_between(balance: &mut impl FnMut(f64) -> Result<Balance, Failure>, from: f64, to: f64) -> Result<f64, Failure> {
+fn work_between(
+    required_at: &mut impl FnMut(f64) -> Result<Required, Failure>,
+    from: f64,
+    to: f64,
+) -> Result<f64, Failure> {
     let half = 0.5 * (to - from);
     GAUSS.iter().try_fold(0.0, |work, (node, weight)| {
-        let (motion, forces, ..) = balance(from + half + node * half)?;
+        let Required { motion, forces, .. } = required_at(from + half + node * half)?;
         let power: f64 = forces.iter().zip(&motion.v).map(|(force, speed)| force * speed).sum();
         Ok(work + weight * (to - from) * power)
     })

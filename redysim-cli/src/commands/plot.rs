@@ -7,7 +7,8 @@ use redysim_figures::{plot, png};
 
 use crate::failure::Failure;
 use crate::output;
-use crate::recorded::{Chart, Group, Recorded};
+use crate::recorded::{Chart, Recorded};
+use crate::results::names::Picture;
 
 /// Draw what a run has written: motion, torques, energy and λ, as SVG and PNG.
 #[derive(clap::Args)]
@@ -32,10 +33,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     }
     let mut pictures: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let folder = arguments.output.as_deref().unwrap_or(recorded.folder());
-    for (group, name) in Group::ALL {
-        let (of_group, rest) = charts.into_iter().partition(|chart| chart.group == group);
+    for (picture, name) in Picture::ALL {
+        let (of_picture, rest) = charts.into_iter().partition(|chart| chart.picture == picture);
         charts = rest;
-        if let Some(figure) = figure(of_group) {
+        if let Some(figure) = figure(of_picture) {
             let svg = plot::svg(&figure).map_err(Failure::outside)?;
             pictures.push((folder.join(format!("{name}.svg")), svg.into_bytes()));
             pictures.push((folder.join(format!("{name}.png")), png::png(&figure).map_err(Failure::outside)?));

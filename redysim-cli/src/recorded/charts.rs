@@ -3,6 +3,7 @@
 use super::Recorded;
 use super::thin::with_peaks;
 use crate::failure::Failure;
+use crate::results::names::{self, Picture};
 use crate::table::{Column, Table};
 
 /// Rows of a chart, about: more than a screen has pixels across.
@@ -12,7 +13,7 @@ const ROWS: usize = 2000;
 #[derive(Debug)]
 pub struct Chart {
     /// To which picture it belongs.
-    pub group: Group,
+    pub picture: Picture,
     /// What it shows.
     pub title: &'static str,
     /// What its vertical axis measures.
@@ -36,29 +37,6 @@ pub struct Curve {
     pub values: Vec<f64>,
 }
 
-/// What is drawn into one picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
-    /// Coordinates, velocities and accelerations of the joints.
-    Motion,
-    /// Joint forces.
-    Torques,
-    /// Energies, and their drift.
-    Energy,
-    /// Lagrange multipliers of the loops.
-    Multipliers,
-}
-
-impl Group {
-    /// Every group with the name of its file.
-    pub const ALL: [(Group, &'static str); 4] = [
-        (Group::Motion, "motion"),
-        (Group::Torques, "torques"),
-        (Group::Energy, "energy"),
-        (Group::Multipliers, "lambda"),
-    ];
-}
-
 impl Recorded {
     /// All charts that the tables yield, those first that are looked at most.
     ///
@@ -68,28 +46,28 @@ impl Recorded {
         let motion = self.motion()?;
         let mut charts = Vec::new();
         if let Some(table) = &motion {
-            charts.extend(by_unit(table, Group::Motion, &["q"], |unit| match unit {
+            charts.extend(by_unit(table, Picture::Motion, &["q"], |unit| match unit {
                 "m" => ("Joint displacements", "displacement"),
                 _ => ("Joint angles", "angle"),
             }));
         }
-        if let Some(table) = self.table("tor.csv")? {
-            charts.extend(by_unit(&table, Group::Torques, &["tau"], |unit| match unit {
+        if let Some(table) = self.table(names::TOR)? {
+            charts.extend(by_unit(&table, Picture::Torques, &["tau"], |unit| match unit {
                 "N" => ("Joint forces", "force"),
                 _ => ("Joint torques", "torque"),
             }));
         }
-        if let Some(table) = self.table("energy.csv")? {
+        if let Some(table) = self.table(names::ENERGY)? {
             let energies = ["kinetic", "potential", "total", "work"];
-            charts.extend(by_unit(&table, Group::Energy, &energies, |_| ("Energy", "energy")));
-            charts.extend(by_unit(&table, Group::Energy, &["drift"], |_| ("Drift of the energy", "drift")));
+            charts.extend(by_unit(&table, Picture::Energy, &energies, |_| ("Energy", "energy")));
+            charts.extend(by_unit(&table, Picture::Energy, &["drift"], |_| ("Drift of the energy", "drift")));
         }
-        if let Some(table) = self.table("lambda.csv")? {
-            charts.extend(by_unit(&table, Group::Multipliers, &["lambda"], |_| ("Lagrange multipliers", "λ")));
+        if let Some(table) = self.table(names::LAMBDA)? {
+            charts.extend(by_unit(&table, Picture::Multipliers, &["lambda"], |_| ("Lagrange multipliers", "λ")));
         }
         if let Some(table) = &motion {
-            charts.extend(by_unit(table, Group::Motion, &["v"], |_| ("Joint velocities", "velocity")));
-            charts.extend(by_unit(table, Group::Motion, &["a"], |_| ("Joint accelerations", "acceleration")));
+            charts.extend(by_unit(table, Picture::Motion, &["v"], |_| ("Joint velocities", "velocity")));
+            charts.extend(by_unit(table, Picture::Motion, &["a"], |_| ("Joint accelerations", "acceleration")));
         }
         Ok(charts)
     }
@@ -98,7 +76,7 @@ impl Recorded {
 /// The columns of the given quantities, a chart for each unit.
 fn by_unit(
     table: &Table,
-    group: Group,
+    picture: Picture,
     symbols: &[&str],
     words: impl Fn(&str) -> (&'static str, &'static str),
 ) -> Vec<Chart> {
@@ -121,7 +99,7 @@ fn by_unit(
         };
         let (title, quantity) = words(unit);
         Chart {
-            group,
+            picture,
             title,
             quantity,
             unit: unit.replace("^2", "²"),

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 
 use redysim_model::Model;
 
-pub use charts::{Chart, Curve, Group};
-pub use thin::spread;
+pub use charts::{Chart, Curve};
+pub use thin::evenly;
 
-use crate::commands::load;
 use crate::failure::Failure;
+use crate::model;
+use crate::results::names;
 use crate::table::Table;
 
 /// A results folder.
@@ -43,7 +44,7 @@ impl Recorded {
     /// # Errors
     /// If it cannot be read, or is no such table.
     pub fn table(&self, name: &str) -> Result<Option<Table>, Failure> {
-        let path = self.folder.join(name);
+        let path = self.folder.join(format!("{name}.csv"));
         if path.exists() { Table::read(&path).map(Some) } else { Ok(None) }
     }
 
@@ -53,9 +54,9 @@ impl Recorded {
     /// # Errors
     /// If they cannot be read.
     pub fn motion(&self) -> Result<Option<Table>, Failure> {
-        match self.table("traj.csv")? {
+        match self.table(names::TRAJ)? {
             Some(table) => Ok(Some(table)),
-            None => self.table("statevar.csv"),
+            None => self.table(names::STATEVAR),
         }
     }
 
@@ -77,12 +78,12 @@ impl Recorded {
     /// # Errors
     /// If it is not there or has faults.
     pub fn model(&self) -> Result<Model, Failure> {
-        let path = self.folder.join("model.toml");
+        let path = self.folder.join(names::MODEL);
         if !path.exists() {
-            return Err(Failure::outside(format!("{} holds no model.toml", self.folder.display()))
+            return Err(Failure::outside(format!("{} holds no {}", self.folder.display(), names::MODEL))
                 .help("a run writes a copy of its model beside its tables; put it back there"));
         }
         // The run has shown the warnings.
-        load(&path, true).map(|loaded| loaded.model)
+        model::load(&path, true).map(|loaded| loaded.model)
     }
 }

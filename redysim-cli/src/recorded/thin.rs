@@ -1,7 +1,7 @@
 //! Fewer rows than a long run has, for those who look at it.
 
 /// At most `most` of `count` rows (two at least), evenly spread, with the first and the last.
-pub fn spread(count: usize, most: usize) -> Vec<usize> {
+pub fn evenly(count: usize, most: usize) -> Vec<usize> {
     let kept = count.min(most.max(2));
     if kept < 2 {
         return (0..count).collect();
@@ -15,7 +15,7 @@ pub fn spread(count: usize, most: usize) -> Vec<usize> {
 /// and its largest value, and the first where it has none, so that no peak and no gap is lost.
 pub fn with_peaks(curves: &[&[f64]], count: usize, most: usize) -> Vec<usize> {
     if count <= most || curves.is_empty() {
-        return spread(count, most);
+        return evenly(count, most);
     }
     let stretches = (most / (2 * curves.len())).max(50);
     let length = count.div_ceil(stretches);
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn a_long_run_is_thinned_without_losing_its_ends() {
         for (count, most) in [(0, 5), (1, 5), (2, 5), (5, 5), (6, 5), (100_000, 1000)] {
-            let rows = spread(count, most);
+            let rows = evenly(count, most);
             assert_eq!(rows.len(), count.min(most), "{count} rows");
             assert!(rows.windows(2).all(|pair| pair[0] < pair[1]), "{count} rows: {rows:?}");
             assert_eq!(rows.last().map_or(0, |last| last + 1), count);

@@ -2,6 +2,7 @@
 
 mod balance;
 mod folder;
+pub mod names;
 mod record;
 mod replaceable;
 mod run_file;

@@ -3,19 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use super::names::{RUN_FILE, is_written};
 use super::run_file::is_of_a_run;
-use super::tables;
-use crate::commands::animate;
 use crate::failure::Failure;
 use crate::output::exists;
-use crate::recorded::Group;
-
-/// The file that every result has.
-pub const RUN_FILE: &str = "run.toml";
-/// The copies of what a scenario names.
-pub const MODEL: &str = "model.toml";
-pub const TRAJECTORY: &str = "trajectory.csv";
-pub const TORQUE: &str = "torque.csv";
 
 /// Whether there is something at `target` that is to be replaced.
 ///
@@ -55,15 +46,5 @@ pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
             "move that elsewhere first, or write elsewhere with --output",
         ),
         None => Ok(true),
-    }
-}
-
-/// Whether `forward`, `inverse`, `plot` or `animate` writes a file of that name.
-fn is_written(name: &str) -> bool {
-    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
-    match ending {
-        "csv" | "dat" if tables::NAMES.contains(&stem) => true,
-        "svg" | "png" => Group::ALL.iter().any(|(_, picture)| *picture == stem),
-        _ => [RUN_FILE, MODEL, TRAJECTORY, TORQUE, animate::PAGE].contains(&name),
     }
 }

@@ -5,10 +5,10 @@
 
 use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
 
-use super::replaceable::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
+use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
 use super::{Ended, Folder, Outcome, Summary};
 use crate::failure::Failure;
-use crate::scenario::{Absolute, Actuation, Integrator, Scenario, Tolerances, USUAL_THROUGH};
+use crate::scenario::{Absolute, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH};
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
@@ -44,7 +44,7 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         settings(&mut table["integrator"], forward.integrator);
         named(&mut table["torque"], "law");
         keep(&mut table["torque"], "law", value("free"));
-        if let Actuation::Table { forces, .. } = &forward.torque {
+        if let Torque::Table { forces, .. } = &forward.torque {
             folder.write(TORQUE, forces.table.text.as_bytes())?;
             table["torque"]["file"] = value(TORQUE);
         }

@@ -6,7 +6,7 @@ use std::fs::File;
 use redysim_model::GenericMechanism;
 use redysim_runtime::{Energy, LinkKinematics};
 
-use super::{Folder, Sample};
+use super::{Folder, Sample, names};
 use crate::failure::Failure;
 use crate::scenario::{Dynamics, Scenario, indices};
 
@@ -18,9 +18,6 @@ pub enum Format {
     /// ReDySim's columns, between spaces, without names.
     Dat,
 }
-
-/// The names of all tables that there may be.
-pub const NAMES: [&str; 8] = ["timevar", "statevar", "traj", "tor", "lambda", "energy", "envar", "kinematics"];
 
 /// What rows are made of.
 pub struct Row<'a> {
@@ -147,20 +144,20 @@ fn named(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
         Table { name, headers, make }
     };
     let mut tables = vec![
-        timed("timevar", &[], |at| at.timed(&[])),
-        timed("statevar", &[&q, &v], |at| at.timed(&[&at.sample.q, &at.sample.v])),
-        timed("tor", &[&forces], |at| at.timed(&[&at.sample.tau])),
-        timed("energy", &[&energies], |at| {
+        timed(names::TIMEVAR, &[], |at| at.timed(&[])),
+        timed(names::STATEVAR, &[&q, &v], |at| at.timed(&[&at.sample.q, &at.sample.v])),
+        timed(names::TOR, &[&forces], |at| at.timed(&[&at.sample.tau])),
+        timed(names::ENERGY, &[&energies], |at| {
             let Energy { kinetic, potential } = at.energy;
             at.timed(&[&[kinetic, potential, at.energy.total(), at.sample.work, at.drift]])
         }),
-        timed("kinematics", &[&kinematics_headers(scenario)], |at| at.timed(&[&at.kinematics()])),
+        timed(names::KINEMATICS, &[&kinematics_headers(scenario)], |at| at.timed(&[&at.kinematics()])),
     ];
     if dynamics == Dynamics::Inverse {
-        tables.push(timed("traj", &[&q, &v, &a], |at| at.timed(&[&at.sample.q, &at.sample.v, &at.sample.a])));
+        tables.push(timed(names::TRAJ, &[&q, &v, &a], |at| at.timed(&[&at.sample.q, &at.sample.v, &at.sample.a])));
     }
     if scenario.loops() {
-        tables.push(timed("lambda", &[&lambda_headers(&scenario.mechanism)], |at| at.timed(&[&at.sample.lambda])));
+        tables.push(timed(names::LAMBDA, &[&lambda_headers(&scenario.mechanism)], |at| at.timed(&[&at.sample.lambda])));
     }
     tables
 }
@@ -172,27 +169,27 @@ fn named(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
 fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
     let plain = |name, make: Make| Table { name, headers: vec![], make };
     let mut tables = vec![
-        plain("timevar", |at| vec![at.sample.t]),
-        plain("envar", |at| {
+        plain(names::TIMEVAR, |at| vec![at.sample.t]),
+        plain(names::ENVAR, |at| {
             let Energy { kinetic, potential } = at.energy;
             vec![potential, kinetic, at.actuators(), at.energy.total() + at.actuators()]
         }),
-        plain("kinematics", |at| at.kinematics()),
+        plain(names::KINEMATICS, |at| at.kinematics()),
     ];
     tables.push(match dynamics {
-        Dynamics::Forward => plain("statevar", |at| [&*at.sample.q, &at.sample.v, &[at.actuators()]].concat()),
-        Dynamics::Inverse => plain("statevar", |at| [&*at.sample.q, &at.sample.v, &at.sample.a].concat()),
+        Dynamics::Forward => plain(names::STATEVAR, |at| [&*at.sample.q, &at.sample.v, &[at.actuators()]].concat()),
+        Dynamics::Inverse => plain(names::STATEVAR, |at| [&*at.sample.q, &at.sample.v, &at.sample.a].concat()),
     });
     match (scenario.loops(), dynamics) {
-        (true, Dynamics::Inverse) => tables.push(plain("tor", |at| {
+        (true, Dynamics::Inverse) => tables.push(plain(names::TOR, |at| {
             let actuated = indices(&at.scenario.joints, |joint| joint.actuated);
             actuated.iter().map(|&joint| at.sample.tau[joint]).chain(at.sample.lambda.iter().copied()).collect()
         })),
         (true, Dynamics::Forward) => {
-            tables.push(plain("tor", |at| at.sample.tau.clone()));
-            tables.push(plain("lambda", |at| at.sample.lambda.clone()));
+            tables.push(plain(names::TOR, |at| at.sample.tau.clone()));
+            tables.push(plain(names::LAMBDA, |at| at.sample.lambda.clone()));
         }
-        (false, _) => tables.push(plain("tor", |at| at.sample.tau.clone())),
+        (false, _) => tables.push(plain(names::TOR, |at| at.sample.tau.clone())),
     }
     tables
 }

@@ -5,13 +5,13 @@ use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::Stabilisation;
 
 use super::integrator::Fixed;
-use super::{Actuation, Integrator, Prescribed, Span, Subject};
+use super::{Integrator, Prescribed, Span, Subject, Torque};
 
 /// A motion that is to be computed.
 pub struct Forward {
     pub span: Span,
     pub integrator: Integrator,
-    pub torque: Actuation,
+    pub torque: Torque,
     /// What keeps loops closed.
     pub stabilisation: Stabilisation<f64>,
 }
@@ -33,12 +33,12 @@ impl Forward {
         reader.table("forward", &FORWARD, |mut reader| {
             let span = Span::read(&mut reader);
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
-            let torque = Actuation::read(&mut reader, subject, trajectory);
+            let torque = Torque::read(&mut reader, subject, trajectory);
             let stabilisation = stabilisation(&mut reader, subject);
             if let (Some(span), Some(integrator)) = (span, integrator) {
                 warn_of_rows(&mut reader, span, integrator);
             }
-            if let (Some(Actuation::ComputedTorque { .. }), Some(stabilisation)) = (&torque, stabilisation) {
+            if let (Some(Torque::ComputedTorque { .. }), Some(stabilisation)) = (&torque, stabilisation) {
                 warn_of_redundancy(&mut reader, subject, stabilisation);
             }
             Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })

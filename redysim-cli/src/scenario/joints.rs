@@ -150,7 +150,7 @@ fn list(
 fn one(reader: &mut Reader<'_, '_>, path: &str, value: &Value<'_>, quantity: Quantity, joint: &Joint) -> Option<f64> {
     match quantity {
         Quantity::Coordinate if joint.turns => reader.an_angle(path, value),
-        Quantity::Rate => reader.rate(path, value, joint.turns, "/s"),
+        Quantity::Rate => reader.displacement(path, value, joint.turns, "/s"),
         Quantity::Coordinate | Quantity::Gain => reader.a_number(path, value),
     }
 }

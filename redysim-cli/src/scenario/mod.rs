@@ -19,8 +19,8 @@ use redysim_model::document::{self, Field, Message, Reader, Shape};
 use redysim_model::{Diagnostic, GenericMechanism, Model};
 use toml::de::DeValue;
 
-use crate::commands;
 use crate::failure::Failure;
+use crate::model;
 use crate::output::tell;
 pub use forward::Forward;
 pub use initial::Initial;
@@ -29,7 +29,7 @@ use joints::Joint;
 pub use law::Law;
 pub use span::Span;
 use table::Table;
-pub use torque::Actuation;
+pub use torque::Torque;
 pub use trajectory::{Prescribed, USUAL_THROUGH};
 
 /// What may be computed of a model.
@@ -87,7 +87,7 @@ impl Scenario {
             Failure::input(format!("{} is not UTF-8", path.display()))
                 .help("save the file as UTF-8; TOML allows no other encoding")
         })?;
-        if let Some(failure) = commands::not_a_scenario(path, &text) {
+        if let Some(failure) = model::not_a_scenario(path, &text) {
             return Err(failure);
         }
         let mut failure = None;
@@ -122,7 +122,7 @@ impl Scenario {
         let Some(Forward { span, torque, .. }) = &self.forward else { return Ok(()) };
         cover(torque.followed().and_then(|trajectory| trajectory.table.as_ref()), *span)?;
         match torque {
-            Actuation::Table { forces, .. } => cover(Some(&forces.table), *span),
+            Torque::Table { forces, .. } => cover(Some(&forces.table), *span),
             _ => Ok(()),
         }
     }
@@ -194,7 +194,7 @@ fn read(
             let help = "the path of the model is taken from the folder of the scenario".into();
             return reader.fault_at(named.span(), Message { title, label: "named here".into(), help });
         }
-        read => match commands::loaded(&model_path, read, quiet) {
+        read => match model::loaded(&model_path, read, quiet) {
             Ok(loaded) => (GenericMechanism::new(loaded.model), loaded.text),
             Err(fault) => {
                 *failure = Some(fault);

@@ -14,10 +14,12 @@ const ROUNDING: f64 = 1e-6;
 pub struct Span {
     /// The first instant, s.
     pub start: f64,
-    /// No instant is later, s.
+    /// No instant is later by more than a millionth of a step, s.
     pub end: f64,
     /// From one to the next, s.
     pub step: f64,
+    /// What start and step are in decimals, if they are any.
+    decimals: Option<Decimals>,
 }
 
 impl Span {
@@ -29,7 +31,7 @@ impl Span {
         let step = reader.positive("step");
         let step = reader.required("step", step);
         let (start, spanned) = (start.value_or(0.0)?, end.spanned()?);
-        let span = Span { start, end: *spanned.get_ref(), step: *step.value()? };
+        let span = Span::new(start, *spanned.get_ref(), *step.value()?);
         let count = span.steps();
         let item = reader.item();
         let fault = if span.end <= start {
@@ -68,6 +70,11 @@ impl Span {
         reader.fault_at(spanned.span(), fault)
     }
 
+    fn new(start: f64, end: f64, step: f64) -> Span {
+        let span = Span { start, end, step, decimals: None };
+        Span { decimals: Decimals::of(start, step, span.steps()), ..span }
+    }
+
     fn steps(&self) -> f64 {
         ((self.end - self.start) / self.step + ROUNDING).floor()
     }
@@ -80,8 +87,7 @@ impl Span {
     /// The instant `k`, s: where the steps are decimals, as they mostly are, the decimal that a person expects, such as 0.3
     /// for the third of 0.1, and not 0.30000000000000004. Each is by itself away from the start, so that they do not drift.
     pub fn instant(&self, k: usize) -> f64 {
-        let decimal = Decimals::of(self.start, self.step, self.steps()).map(|decimals| decimals.at(k));
-        decimal.unwrap_or(self.start + k as f64 * self.step)
+        self.decimals.map_or(self.start + k as f64 * self.step, |decimals| decimals.at(k))
     }
 
     /// The first and the last instant, s.
@@ -97,6 +103,7 @@ impl Span {
 }
 
 /// Instants as whole numbers of one decimal unit, 10⁻ⁿ.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Decimals {
     start: i64,
     step: i64,
@@ -149,7 +156,7 @@ mod tests {
         for (start, step, count) in
             [(0.0, 0.1, 1000), (-2.5, 0.05, 400), (1e3, 1e-6, 1000), (0.0, 20.0, 50), (0.3, 7e-9, 99)]
         {
-            let span = Span { start, end: start + step * f64::from(count), step };
+            let span = Span::new(start, start + step * f64::from(count), step);
             for k in 0..=count {
                 let meant = (start * 1e9_f64).round() as i64 + i64::from(k) * (step * 1e9_f64).round() as i64;
                 let text = format!("{meant}e-9");
@@ -161,7 +168,7 @@ mod tests {
     #[test]
     fn steps_that_are_no_decimals_are_multiples() {
         for (start, step) in [(0.0, 1.0 / 3.0), (0.1 + 0.2, 0.1), (1e15, 0.7), (0.0, f64::MIN_POSITIVE)] {
-            let span = Span { start, end: start + 300.0 * step, step };
+            let span = Span::new(start, start + 300.0 * step, step);
             assert!((0..=300).all(|k| span.instant(k) == start + k as f64 * step), "{start} {step}");
         }
     }

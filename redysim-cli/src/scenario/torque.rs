@@ -12,9 +12,9 @@ use super::law::Law;
 use super::trajectory::Prescribed;
 use super::{Subject, spread};
 
-/// A torque law, as the scenario has it: with one entry for each coordinate, zero for those that it does not drive.
+/// A torque law, as the scenario has it: its values are those of the joints that it drives.
 #[derive(Clone, Debug)]
-pub enum Actuation {
+pub enum Torque {
     Free,
     P {
         joints: Vec<usize>,
@@ -34,8 +34,8 @@ pub enum Actuation {
         kp: Vec<f64>,
         kd: Vec<f64>,
     },
-    /// The same, with the model; of closed loops, for the independent coordinates that are prescribed.
-    ComputedTorque {
+    /// The same, with the model; its gains are those of the joints that are prescribed, of closed loops the independent ones.
+    Computed {
         actuated: Vec<usize>,
         trajectory: Prescribed,
         kp: Vec<f64>,
@@ -55,7 +55,7 @@ const TRACKING: Shape = Shape { owner: "The law `tracking-pd`", keys: &["law", "
 const COMPUTED: Shape = Shape { owner: "The law `computed-torque`", keys: &["law", "kp", "kd"] };
 const TABLE: Shape = Shape { owner: "The law `csv`", keys: &["law", "joints", "file"] };
 const LAWS: [(&str, (Kind, &Shape)); 6] = [
-    ("free", (|_| Some(Actuation::Free), &FREE)),
+    ("free", (|_| Some(Torque::Free), &FREE)),
     ("p", (|law| law.p(), &P)),
     ("pd", (|law| law.pd(), &PD)),
     ("tracking-pd", (|law| law.tracking_pd(), &TRACKING)),
@@ -64,7 +64,7 @@ const LAWS: [(&str, (Kind, &Shape)); 6] = [
 ];
 
 /// How the keys of a law are read.
-type Kind = fn(Source<'_, '_, '_>) -> Option<Actuation>;
+type Kind = fn(Source<'_, '_, '_>) -> Option<Torque>;
 
 /// What a law is read from.
 struct Source<'s, 'a, 'f> {
@@ -74,17 +74,17 @@ struct Source<'s, 'a, 'f> {
     trajectory: Option<Option<&'s Prescribed>>,
 }
 
-impl Actuation {
+impl Torque {
     /// Reads the table `torque`; without one, nothing drives the joints. Where `trajectory` is `None`, what is wrong with it
     /// has been reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,
         trajectory: Option<Option<&Prescribed>>,
-    ) -> Option<Actuation> {
+    ) -> Option<Torque> {
         let read = |reader: Reader<'_, '_>, law: Kind| law(Source { reader, subject, trajectory });
         match reader.table_of_kind("torque", "law", &LAWS, LAWS[0].1, read) {
-            Field::Missing => Some(Actuation::Free),
+            Field::Missing => Some(Torque::Free),
             field => field.value()?.clone(),
         }
     }
@@ -92,18 +92,18 @@ impl Actuation {
     /// The joints that the law was told to drive, or does unless told.
     pub fn joints(&self) -> Option<&[usize]> {
         match self {
-            Actuation::Free | Actuation::ComputedTorque { .. } => None,
-            Actuation::P { joints, .. }
-            | Actuation::Pd { joints, .. }
-            | Actuation::TrackingPd { joints, .. }
-            | Actuation::Table { joints, .. } => Some(joints),
+            Torque::Free | Torque::Computed { .. } => None,
+            Torque::P { joints, .. }
+            | Torque::Pd { joints, .. }
+            | Torque::TrackingPd { joints, .. }
+            | Torque::Table { joints, .. } => Some(joints),
         }
     }
 
     /// What the law follows, if it follows a motion.
     pub fn followed(&self) -> Option<&Prescribed> {
         match self {
-            Actuation::TrackingPd { trajectory, .. } | Actuation::ComputedTorque { trajectory, .. } => Some(trajectory),
+            Torque::TrackingPd { trajectory, .. } | Torque::Computed { trajectory, .. } => Some(trajectory),
             _ => None,
         }
     }
@@ -111,44 +111,49 @@ impl Actuation {
     /// The law as it acts on `mechanism`.
     pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism) -> Law<'a> {
         let count = mechanism.model().dof();
+        let whole = |joints: &[usize], values: &[f64]| spread(joints, values, count);
         match self {
-            Actuation::Free => Law::total(Free),
-            Actuation::P { target, kp, .. } => Law::total(Proportional { target: target.clone(), kp: kp.clone() }),
-            Actuation::Pd { target, kp, kd, .. } => {
-                Law::total(ProportionalDerivative { target: target.clone(), kp: kp.clone(), kd: kd.clone() })
+            Torque::Free => Law::total(Free),
+            Torque::P { joints, target, kp } => {
+                let [target, kp] = [target, kp].map(|values| whole(joints, values));
+                Law::total(Proportional { target, kp })
             }
-            Actuation::TrackingPd { trajectory, kp, kd, .. } => {
-                Law::total(TrackingPd { trajectory: trajectory.spread(count), kp: kp.clone(), kd: kd.clone() })
+            Torque::Pd { joints, target, kp, kd } => {
+                let [target, kp, kd] = [target, kp, kd].map(|values| whole(joints, values));
+                Law::total(ProportionalDerivative { target, kp, kd })
             }
-            Actuation::ComputedTorque { trajectory, kp, kd, .. } if mechanism.model().loops.is_empty() => {
-                let trajectory = trajectory.spread(count);
-                Law::total(ComputedTorque { mechanism, trajectory, kp: kp.clone(), kd: kd.clone() })
+            Torque::TrackingPd { joints, trajectory, kp, kd } => {
+                let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
+                Law::total(TrackingPd { trajectory: trajectory.spread(count), kp, kd })
             }
-            Actuation::ComputedTorque { actuated, trajectory, kp, kd } => {
-                let independent = trajectory.joints.as_slice();
-                let gains = [kp, kd].map(|gains| independent.iter().map(|&joint| gains[joint]).collect());
-                let law = ClosedLoopComputedTorque::new(ClosedLoop::new(mechanism), independent, trajectory, gains);
+            Torque::Computed { trajectory, kp, kd, .. } if mechanism.model().loops.is_empty() => {
+                let [kp, kd] = [kp, kd].map(|gains| whole(&trajectory.joints, gains));
+                Law::total(ComputedTorque { mechanism, trajectory: trajectory.spread(count), kp, kd })
+            }
+            Torque::Computed { actuated, trajectory, kp, kd } => {
+                let (loops, gains) = (ClosedLoop::new(mechanism), [kp.clone(), kd.clone()]);
+                let law = ClosedLoopComputedTorque::new(loops, &trajectory.joints, trajectory, gains);
                 Law::OfLoops(law.actuated(actuated))
             }
-            Actuation::Table { forces, .. } => Law::total(forces),
+            Torque::Table { forces, .. } => Law::total(forces),
         }
     }
 }
 
 impl<'s> Source<'s, '_, '_> {
-    fn p(mut self) -> Option<Actuation> {
+    fn p(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
         let [target, kp] = [self.targets(&joints), self.gains("kp", &joints)];
-        Some(Actuation::P { joints, target: target?, kp: kp? })
+        Some(Torque::P { joints, target: target?, kp: kp? })
     }
 
-    fn pd(mut self) -> Option<Actuation> {
+    fn pd(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
         let [target, kp, kd] = [self.targets(&joints), self.gains("kp", &joints), self.gains("kd", &joints)];
-        Some(Actuation::Pd { joints, target: target?, kp: kp?, kd: kd? })
+        Some(Torque::Pd { joints, target: target?, kp: kp?, kd: kd? })
     }
 
-    fn tracking_pd(mut self) -> Option<Actuation> {
+    fn tracking_pd(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
         let actuated = self.subject.actuated();
         let usual = trajectory.joints.iter().copied().filter(|joint| actuated.contains(joint)).collect();
@@ -160,10 +165,10 @@ impl<'s> Source<'s, '_, '_> {
         if joints.is_empty() {
             return idle(&mut self.reader);
         }
-        Some(Actuation::TrackingPd { joints, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
+        Some(Torque::TrackingPd { joints, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
     }
 
-    fn computed_torque(mut self) -> Option<Actuation> {
+    fn computed_torque(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
         let [kp, kd] = ["kp", "kd"].map(|key| self.gains(key, &trajectory.joints));
         let Subject { joints, model, .. } = *self.subject;
@@ -175,13 +180,13 @@ impl<'s> Source<'s, '_, '_> {
             let title = format!("{}: {fault}, and computed torque moves it whole", self.reader.item());
             return self.reader.fault_of_table(Message { title, label: "not with this trajectory".into(), help });
         }
-        Some(Actuation::ComputedTorque { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
+        Some(Torque::Computed { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
     }
 
-    fn table(mut self) -> Option<Actuation> {
+    fn table(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
         let forces = self.subject.table(&mut self.reader, |table| Forces::of(table, self.subject.joints, &joints))?;
-        Some(Actuation::Table { joints, forces })
+        Some(Torque::Table { joints, forces })
     }
 
     /// The motion that the law follows.
@@ -216,10 +221,10 @@ impl<'s> Source<'s, '_, '_> {
         self.of(key, Quantity::Gain, joints)
     }
 
-    /// What stands under `key` for the joints `of`, as one entry for each coordinate.
+    /// What stands under `key` for the joints `of`.
     fn of(&mut self, key: &str, quantity: Quantity, of: &[usize]) -> Option<Vec<f64>> {
         let field = values(&mut self.reader, key, quantity, self.subject.joints, of);
-        Some(spread(of, self.reader.required(key, field).value()?, self.subject.joints.len()))
+        self.reader.required(key, field).value().cloned()
     }
 }
 

@@ -7,6 +7,7 @@ mod cut;
 mod link;
 pub(crate) mod reader;
 mod scene;
+pub(crate) mod value;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
 pub(crate) use link::{Dh, LinkTable, Origin};

@@ -116,9 +116,28 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         C: LoopClosure<S, M>,
         L: TorqueLaw<S, M>,
     {
+        self.driven_motion(t, state).map(|(_, motion)| motion)
+    }
+
+    /// As [`motion`](Self::motion), behind the joint forces of the law.
+    ///
+    /// # Errors
+    /// As [`ClosedLoop::dynamics`].
+    #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
+    pub fn driven_motion(
+        &mut self,
+        t: S,
+        state: &M::State,
+    ) -> Result<(M::Velocities, ConstrainedMotion<M::Velocities, C::Rows>), LoopError<S>>
+    where
+        M: MassMatrix<S> + BiasForces<S>,
+        C: LoopClosure<S, M>,
+        L: TorqueLaw<S, M>,
+    {
         let SimulationState { q, v, .. } = self.split(state);
         let tau = self.law.torque(t, &q, &v);
-        self.constrained(&self.loops.linearise(&q, &[])?, &q, &v, &tau)
+        let motion = self.constrained(&self.loops.linearise(&q, &[])?, &q, &v, &tau)?;
+        Ok((tau, motion))
     }
 
     /// The parts of a state at which the derivative is taken, and the loops there: the state itself, or, with the

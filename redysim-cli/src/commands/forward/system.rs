@@ -2,7 +2,7 @@
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopSimulation, ForwardSimulation, LoopError, Ode, SimulationState, Stabilisation, TorqueLaw,
+    ClosedLoop, ClosedLoopSimulation, ForwardSimulation, LoopError, Ode, SimulationState, Stabilisation,
 };
 
 use crate::failure::Failure;
@@ -17,14 +17,9 @@ pub enum System<'a> {
     Loops(ClosedLoopSimulation<'a, f64, GenericMechanism, Law<'a>>),
 }
 
-/// The torque law of a scenario.
-pub fn law<'a>(scenario: &'a Scenario, forward: &'a Forward) -> Law<'a> {
-    forward.torque.law(&scenario.mechanism)
-}
-
 impl<'a> System<'a> {
     pub fn new(scenario: &'a Scenario, forward: &'a Forward) -> Self {
-        let (mechanism, law) = (&scenario.mechanism, law(scenario, forward));
+        let (mechanism, law) = (&scenario.mechanism, forward.torque.law(&scenario.mechanism));
         if scenario.loops() {
             let simulation = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), law);
             System::Loops(simulation.stabilisation(forward.stabilisation))
@@ -94,16 +89,10 @@ impl<'a> System<'a> {
 
     /// What is written of a state. Within a step loops are only as closed as the method is accurate; where steps are
     /// projected, so is what is written.
-    pub fn sample(
-        &mut self,
-        law: &mut Law<'_>,
-        forward: &Forward,
-        t: f64,
-        state: &Vec<f64>,
-    ) -> Result<Sample, Failure> {
+    pub fn sample(&mut self, forward: &Forward, t: f64, state: &Vec<f64>) -> Result<Sample, Failure> {
         let SimulationState { mut q, mut v, actuator_energy: work } = self.split(state);
         let (tau, lambda) = match self {
-            System::Tree(_) => (law.torque(t, &q, &v), vec![]),
+            System::Tree(simulation) => (simulation.torque(t, state), vec![]),
             System::Loops(simulation) => {
                 let loops = simulation.loops();
                 let failed =
@@ -112,10 +101,10 @@ impl<'a> System<'a> {
                     let closed = loops.project(&q, &v).map_err(failed)?;
                     (q, v) = (closed.q, closed.v);
                 }
-                let tau = law.torque(t, &q, &v);
-                law.last_error().map_or(Ok(()), Err).map_err(failed)?;
-                let state = simulation.state(&q, &v);
-                (tau, simulation.motion(t, &state).map_err(failed)?.multipliers)
+                let driven = simulation.driven_motion(t, &simulation.state(&q, &v));
+                simulation.law().last_error().map_or(Ok(()), Err).map_err(failed)?;
+                let (tau, motion) = driven.map_err(failed)?;
+                (tau, motion.multipliers)
             }
         };
         Ok(Sample { t, q, v, a: vec![], tau, lambda, work })

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use redysim_runtime::integrate::Observer;
 use redysim_runtime::{LoopClosure, SimulationState, Step};
 
-use super::system::{System, law};
+use super::system::System;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::results::Record;
-use crate::scenario::{Forward, Law, Scenario};
+use crate::scenario::{Forward, Scenario};
 
 /// Writes the asked instants, and watches energy and gaps.
 pub struct Watch<'a, 'r> {
@@ -18,7 +18,6 @@ pub struct Watch<'a, 'r> {
     record: &'r mut Record<'a>,
     /// The integrator has another.
     system: System<'a>,
-    law: Law<'a>,
     /// Accepted steps so far.
     pub steps: u64,
     /// The largest component of the loops' residual so far, m.
@@ -38,15 +37,15 @@ impl<'a, 'r> Watch<'a, 'r> {
         record: &'r mut Record<'a>,
         start: &Vec<f64>,
     ) -> Result<Self, Failure> {
-        let (system, law) = (System::new(scenario, forward), law(scenario, forward));
-        let mut watch = Watch { scenario, forward, record, system, law, steps: 0, gap: 0.0, failed: None };
+        let system = System::new(scenario, forward);
+        let mut watch = Watch { scenario, forward, record, system, steps: 0, gap: 0.0, failed: None };
         watch.write(forward.span.start, start)?;
         watch.see(start);
         Ok(watch)
     }
 
     fn write(&mut self, t: f64, state: &Vec<f64>) -> Result<(), Failure> {
-        self.record.add(&self.system.sample(&mut self.law, self.forward, t, state)?)
+        self.record.add(&self.system.sample(self.forward, t, state)?)
     }
 
     fn see(&mut self, state: &Vec<f64>) {

@@ -1,0 +1,56 @@
+//! What the files of a results folder are called.
+
+/// The file that every result has.
+pub const RUN_FILE: &str = "run.toml";
+/// The copies of what a scenario names.
+pub const MODEL: &str = "model.toml";
+pub const TRAJECTORY: &str = "trajectory.csv";
+pub const TORQUE: &str = "torque.csv";
+/// The page that lies beside the tables it shows, unless told.
+pub const PAGE: &str = "animation.html";
+
+/// The tables, each with the ending of its format.
+pub const TIMEVAR: &str = "timevar";
+pub const STATEVAR: &str = "statevar";
+pub const TRAJ: &str = "traj";
+pub const TOR: &str = "tor";
+pub const LAMBDA: &str = "lambda";
+pub const ENERGY: &str = "energy";
+pub const ENVAR: &str = "envar";
+pub const KINEMATICS: &str = "kinematics";
+
+/// All tables that there may be.
+const TABLES: [&str; 8] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS];
+
+/// What is drawn together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Picture {
+    /// Coordinates, velocities and accelerations of the joints.
+    Motion,
+    /// Joint forces.
+    Torques,
+    /// Energies, and their drift.
+    Energy,
+    /// Lagrange multipliers of the loops.
+    Multipliers,
+}
+
+impl Picture {
+    /// Every picture with the name of its files.
+    pub const ALL: [(Picture, &'static str); 4] = [
+        (Picture::Motion, "motion"),
+        (Picture::Torques, "torques"),
+        (Picture::Energy, "energy"),
+        (Picture::Multipliers, "lambda"),
+    ];
+}
+
+/// Whether `forward`, `inverse`, `plot` or `animate` writes a file of that name.
+pub fn is_written(name: &str) -> bool {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+    match ending {
+        "csv" | "dat" if TABLES.contains(&stem) => true,
+        "svg" | "png" => Picture::ALL.iter().any(|(_, picture)| *picture == stem),
+        _ => [RUN_FILE, MODEL, TRAJECTORY, TORQUE, PAGE].contains(&name),
+    }
+}
