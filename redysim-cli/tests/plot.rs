@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::{redysim, results, slide, swing, turn};
+use common::{redysim, results, scratch, slide, succeed, swing, turn};
 
 #[test]
 fn a_run_with_loops_gives_four_pictures_in_both_forms() {
@@ -49,6 +49,36 @@ fn angles_and_displacements_have_axes_of_their_own() {
     for text in ["angle [rad]", "displacement [m]", "velocity [rad/s]", "velocity [m/s]"] {
         assert!(svg.contains(text), "{text}");
     }
+}
+
+/// How often each name stands in the legends of a picture.
+fn legend(svg: &str, names: &[&str]) -> Vec<usize> {
+    names.iter().map(|name| svg.lines().filter(|line| line.trim() == *name).count()).collect()
+}
+
+/// Two angles that swing by 0.1 rad cannot be told apart beside one that goes up to 100 rad; their velocities can.
+#[test]
+fn every_curve_stands_in_a_legend_by_its_own_name() {
+    let folder = scratch("plot-legends");
+    let mut motion = "t [s],q a [rad],q b [rad],q c [rad],v a [rad/s],v b [rad/s],v c [rad/s]\n".to_owned();
+    for t in (0..=100).map(|k| 0.01 * f64::from(k)) {
+        let (sin, cos) = (50.0 * t).sin_cos();
+        motion += &format!("{t},{},{},{},100,{},{}\n", 100.0 * t, 0.1 * sin, 0.1 * cos, 5.0 * cos, -5.0 * sin);
+    }
+    fs::write(folder.join("statevar.csv"), motion).unwrap();
+    succeed(&folder, &["plot", "."]);
+    let svg = fs::read_to_string(folder.join("motion.svg")).unwrap();
+    assert_eq!(legend(&svg, &["a", "b, c", "b", "c"]), [2, 1, 1, 1], "{svg}");
+}
+
+#[test]
+fn one_legend_serves_panels_that_show_the_same_curves() {
+    let folder = scratch("plot-one-legend");
+    let motion = "t [s],q a [rad],q b [rad],v a [rad/s],v b [rad/s]\n0,0,0,1,2\n1,1,2,1,2\n";
+    fs::write(folder.join("statevar.csv"), motion).unwrap();
+    succeed(&folder, &["plot", "."]);
+    let svg = fs::read_to_string(folder.join("motion.svg")).unwrap();
+    assert_eq!(legend(&svg, &["a", "b"]), [1, 1], "{svg}");
 }
 
 #[test]
