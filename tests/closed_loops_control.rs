@@ -5,6 +5,7 @@ use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopSimulation, Cycloid, Dop853, IntegrationError, Integrator,
     LoopError, Motion, Trajectory, redysim,
 };
+use redysim_figures::peak;
 use spatial::FourbarSpatial;
 
 #[allow(deprecated, reason = "the compiler warns of its redundant row")]
@@ -38,7 +39,7 @@ macro_rules! deviation {
             let left = error_of_a_damped_spring(0.5, before.q[i] - start.q[joint], before.v[i] - start.v[joint]);
             (desired.q[i] - end.y[joint] - left).abs()
         };
-        independent.iter().enumerate().map(deviation).fold(0.0, f64::max)
+        peak(independent.iter().enumerate().map(deviation))
     }};
 }
 

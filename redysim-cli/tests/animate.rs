@@ -6,13 +6,12 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{Table, model, redysim, results, slide, swing, turn};
+use common::{Table, call, fail, model, results, scratch, slide, succeed, swing, turn};
 use serde_json::Value;
 
 /// Makes the page of the results in `folder`.
 fn page(folder: &Path) -> String {
-    let run = redysim(&["animate", folder.to_str().unwrap(), "--force"]);
-    assert_eq!(run.code, 0, "{}", run.said());
+    succeed(folder, &["animate", ".", "--force"]);
     fs::read_to_string(folder.join("animation.html")).unwrap()
 }
 
@@ -28,8 +27,8 @@ fn data(page: &str) -> Value {
 
 #[test]
 fn the_page_asks_for_nothing_from_elsewhere() {
-    let folder = tempfile::tempdir().unwrap();
-    let page = page(&swing(folder.path(), "kr5.toml", 6, 1.0, 50));
+    let folder = scratch("animate-alone");
+    let page = page(&swing(&folder, "kr5.toml", 6, 1.0, 50));
     for outside in ["src=\"", "<link rel=\"stylesheet", "@import", "url(http"] {
         assert!(!page.contains(outside), "{outside}");
     }
@@ -38,8 +37,8 @@ fn the_page_asks_for_nothing_from_elsewhere() {
 
 #[test]
 fn every_instant_of_the_run_is_in_the_page_with_its_coordinates_and_rates() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = swing(folder.path(), "kr5.toml", 6, 1.0, 50);
+    let folder = scratch("animate-instants");
+    let run = swing(&folder, "kr5.toml", 6, 1.0, 50);
     let data = data(&page(&run));
     let table = Table::csv(&run.join("statevar.csv"));
     let same = |shown: &Value, header: &str| {
@@ -58,21 +57,21 @@ fn every_instant_of_the_run_is_in_the_page_with_its_coordinates_and_rates() {
 }
 
 /// Of a rotor of the given speed, rad/s: the page's data, and what is said about it.
-fn rotor(speed: f64, seconds: f64, step: f64) -> (Value, String, usize) {
-    let folder = tempfile::tempdir().unwrap();
+fn rotor(name: &str, speed: f64, seconds: f64, step: f64) -> (Value, String, usize) {
+    let folder = scratch(&format!("animate-{name}"));
     let motion = format!(
         "trajectory = {{ kind = 'constant-speed', from = [0], speed = [{speed:?}] }}\n\
          inverse = {{ end = {seconds:?}, step = {step:?} }}\n"
     );
-    let run = results(folder.path(), "inverse", "simple_pendulum.toml", &motion);
-    let said = redysim(&["animate", run.to_str().unwrap()]).said();
+    let run = results(&folder, "inverse", "simple_pendulum.toml", &motion);
+    let said = call(&run, &["animate", "."]).said();
     let page = fs::read_to_string(run.join("animation.html")).unwrap();
     (data(&page), said, page.len())
 }
 
 #[test]
 fn a_rotor_goes_on_turning_the_way_it_does_however_long_it_runs() {
-    let (data, said, _) = rotor(20.0, 600.0, 0.02);
+    let (data, said, _) = rotor("turning", 20.0, 600.0, 0.02);
     let [t, q] = ["t", "q"].map(|key| data["motion"][key].clone());
     let (t, q) = (numbers(&t), numbers(&q[0]));
     assert_eq!((t.len(), t[t.len() - 1]), (30_001, 600.0));
@@ -82,7 +81,7 @@ fn a_rotor_goes_on_turning_the_way_it_does_however_long_it_runs() {
 
 #[test]
 fn a_motion_too_long_for_a_page_is_thinned_and_that_is_told() {
-    let (data, said, size) = rotor(1.0, 150.0, 0.001);
+    let (data, said, size) = rotor("thinned", 1.0, 150.0, 0.001);
     let t = numbers(&data["motion"]["t"]);
     assert_eq!((t.len(), t[0], t[t.len() - 1]), (100_000, 0.0, 150.0));
     assert!(size < 6_000_000, "{size} bytes");
@@ -92,7 +91,7 @@ fn a_motion_too_long_for_a_page_is_thinned_and_that_is_told() {
 
 #[test]
 fn a_joint_too_fast_for_its_instants_is_named() {
-    let (data, said, _) = rotor(20.0, 1.0, 0.1);
+    let (data, said, _) = rotor("fast", 20.0, 1.0, 0.1);
     let note = "joint `bar` turns by up to 114.6 deg from one instant to the next";
     assert!(said.contains(note) && data["notes"][0].as_str().unwrap().contains(note), "{said}");
 }
@@ -100,8 +99,8 @@ fn a_joint_too_fast_for_its_instants_is_named() {
 /// A pinned four-bar some 0.3 m across, whose crank turns by 3.6 deg from one instant to the next.
 #[test]
 fn how_far_loops_open_between_instants_is_told_and_not_to_be_seen() {
-    let folder = tempfile::tempdir().unwrap();
-    let data = data(&page(&turn(folder.path(), 100)));
+    let folder = scratch("animate-gap");
+    let data = data(&page(&turn(&folder, 100)));
     let note = data["notes"][0].as_str().unwrap();
     let gap = note.strip_prefix("between instants the loops open by at most ").unwrap().strip_suffix(" m").unwrap();
     let gap: f64 = gap.parse().unwrap();
@@ -110,20 +109,20 @@ fn how_far_loops_open_between_instants_is_told_and_not_to_be_seen() {
 
 #[test]
 fn names_cannot_end_the_script_they_stand_in() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = scratch("animate-names");
     let text = fs::read_to_string(model("simple_pendulum.toml")).unwrap();
     let name = "</script><script>alert(1)</script><!--";
-    let evil = folder.path().join("evil.toml");
+    let evil = folder.join("evil.toml");
     fs::write(&evil, text.replacen("\"simple_pendulum\"", &format!("{name:?}"), 1)).unwrap();
-    let page = page(&swing(folder.path(), evil.to_str().unwrap(), 1, 1.0, 10));
+    let page = page(&swing(&folder, evil.to_str().unwrap(), 1, 1.0, 10));
     assert!(!page.contains("alert(1)</script>"));
     assert_eq!(data(&page)["name"], name);
 }
 
 #[test]
 fn loops_and_their_multipliers_are_there() {
-    let folder = tempfile::tempdir().unwrap();
-    let data = data(&page(&turn(folder.path(), 100)));
+    let folder = scratch("animate-loops");
+    let data = data(&page(&turn(&folder, 100)));
     assert_eq!(data["cuts"][0]["name"], "crank-coupler");
     let titles: Vec<_> = data["charts"].as_array().unwrap().iter().map(|chart| chart["title"].clone()).collect();
     assert!(titles.contains(&"Lagrange multipliers".into()) && titles.contains(&"Drift of the energy".into()));
@@ -131,8 +130,8 @@ fn loops_and_their_multipliers_are_there() {
 
 #[test]
 fn a_chart_has_the_curves_of_one_unit_alone() {
-    let folder = tempfile::tempdir().unwrap();
-    let data = data(&page(&slide(folder.path(), 10)));
+    let folder = scratch("animate-units");
+    let data = data(&page(&slide(&folder, 10)));
     let chart = |unit: &str| data["charts"].as_array().unwrap().iter().find(|chart| chart["unit"] == unit).unwrap();
     let names = |unit: &str| -> Vec<_> {
         chart(unit)["curves"].as_array().unwrap().iter().map(|curve| curve["name"].as_str().unwrap()).collect()
@@ -143,31 +142,27 @@ fn a_chart_has_the_curves_of_one_unit_alone() {
 
 #[test]
 fn what_is_missing_or_wrong_is_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().to_str().unwrap();
+    let folder = scratch("animate-missing");
     let fails = |code: i32, wrong: &str| {
-        let run = redysim(&["animate", path]);
-        assert_eq!(run.code, code, "{}", run.said());
-        assert!(run.said().contains(wrong) && run.said().contains("help:"), "{}", run.said());
-        assert!(!folder.path().join("animation.html").exists());
+        let said = fail(&folder, &["animate", "."], code);
+        assert!(said.contains(wrong) && said.contains("help:"), "{said}");
+        assert!(!folder.join("animation.html").exists());
     };
     fails(3, "holds no model.toml");
-    fs::copy(model("simple_pendulum.toml"), folder.path().join("model.toml")).unwrap();
+    fs::copy(model("simple_pendulum.toml"), folder.join("model.toml")).unwrap();
     fails(1, "holds no motion");
-    fs::write(folder.path().join("statevar.csv"), "t [s],q other [rad]\n0,0\n").unwrap();
+    fs::write(folder.join("statevar.csv"), "t [s],q other [rad]\n0,0\n").unwrap();
     fails(1, "statevar.csv:1: there is no column `q bar [..]`");
-    fs::write(folder.path().join("statevar.csv"), "t [s],q bar [rad],v bar [rad/s]\n0,0,0\n1,NaN,0\n").unwrap();
+    fs::write(folder.join("statevar.csv"), "t [s],q bar [rad],v bar [rad/s]\n0,0,0\n1,NaN,0\n").unwrap();
     fails(1, "statevar.csv:3: `q bar [rad]` must be a finite number, found NaN");
 }
 
 #[test]
 fn a_page_that_is_there_stays_unless_forced() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = swing(folder.path(), "simple_pendulum.toml", 1, 1.0, 10);
-    let path = folder.path().join("mine.html");
-    fs::write(&path, "mine").unwrap();
-    let run = redysim(&["animate", run.to_str().unwrap(), "-o", path.to_str().unwrap()]);
-    assert_eq!(run.code, 3);
-    assert!(run.said().contains("mine.html is there already"), "{}", run.said());
-    assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+    let folder = scratch("animate-exists");
+    swing(&folder, "simple_pendulum.toml", 1, 1.0, 10);
+    fs::write(folder.join("mine.html"), "mine").unwrap();
+    let said = fail(&folder, &["animate", "run", "-o", "mine.html"], 3);
+    assert!(said.contains("mine.html is there already"), "{said}");
+    assert_eq!(fs::read_to_string(folder.join("mine.html")).unwrap(), "mine");
 }

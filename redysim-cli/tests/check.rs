@@ -2,13 +2,13 @@
 
 mod common;
 
-use common::{model, redysim, root};
+use common::{call, model, root, scratch};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::MassMatrix;
 use serde_json::Value;
 
 fn json(arguments: &[&str]) -> (Value, i32) {
-    let run = redysim(&[&["check", "--json"], arguments].concat());
+    let run = call(&root(), &[&["check", "--json"], arguments].concat());
     (serde_json::from_str(&run.stdout).unwrap_or_else(|error| panic!("{error}: {}", run.stdout)), run.code)
 }
 
@@ -99,7 +99,7 @@ fn every_faulty_model_has_its_faults_in_json_and_the_exit_code_1() {
 
 #[test]
 fn faults_are_shown_where_they_stand() {
-    let run = redysim(&["check", &model("fail/bad_unit.toml")]);
+    let run = call(&root(), &["check", &model("fail/bad_unit.toml")]);
     assert_eq!((run.code, run.stdout.as_str()), (1, ""));
     assert!(run.stderr.contains("bad_unit.toml:9:25") && run.stderr.contains("^^^^"), "{}", run.stderr);
     assert!(run.stderr.ends_with("bad_unit.toml has 3 errors\n"), "{}", run.stderr);
@@ -107,7 +107,7 @@ fn faults_are_shown_where_they_stand() {
 
 #[test]
 fn a_file_that_is_not_there_is_the_worlds_fault() {
-    let run = redysim(&["check", "nowhere.toml"]);
+    let run = call(&root(), &["check", "nowhere.toml"]);
     assert_eq!(run.code, 3);
     assert!(run.stderr.contains("nowhere.toml"), "{}", run.stderr);
     let (report, code) = json(&["nowhere.toml"]);
@@ -116,9 +116,9 @@ fn a_file_that_is_not_there_is_the_worlds_fault() {
 
 #[test]
 fn quiet_says_nothing_of_a_good_model() {
-    let run = redysim(&["check", "--quiet", &model("kr5_table2.toml")]);
+    let run = call(&root(), &["check", "--quiet", &model("kr5_table2.toml")]);
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
-    let run = redysim(&["check", &model("kr5_table2.toml")]);
+    let run = call(&root(), &["check", &model("kr5_table2.toml")]);
     assert!(run.stderr.contains("triangle inequality") && run.stdout.contains("39.83 kg"));
 }
 
@@ -149,9 +149,8 @@ inertia = { xx = 10.0, yy = 1000.0, zz = 1000.0 }
 "#;
 
 /// The exit code, and what is suspicious of a model.
-fn suspicions(text: &str) -> (i32, Vec<String>) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("slips.toml");
+fn suspicions(name: &str, text: &str) -> (i32, Vec<String>) {
+    let path = scratch(&format!("check-{name}")).join("slips.toml");
     std::fs::write(&path, text).unwrap();
     let (report, code) = json(&[path.to_str().unwrap()]);
     let lines = report["summary"]["suspicions"].as_array().unwrap();
@@ -161,19 +160,19 @@ fn suspicions(text: &str) -> (i32, Vec<String>) {
 #[test]
 fn links_of_very_different_lengths_and_points_of_mass_are_suspicious() {
     let arm = SLIPS.replace("2000.0", "2.0").replace("-9810.0", "-9.81").replace("[150.0, ", "[0.15, ");
-    let (_, found) = suspicions(&arm.replace("[0.4, ", "[400.0, "));
+    let (_, found) = suspicions("lengths", &arm.replace("[0.4, ", "[400.0, "));
     let words =
         "link `fore` is placed 400 m from the one that carries it, and the next, `upper`, only 0.3 m: m and mm?";
     assert!(found.contains(&words.to_owned()), "{found:#?}");
     let points: String =
         arm.lines().filter(|line| !line.starts_with("inertia")).map(|line| format!("{line}\n")).collect();
-    let (_, found) = suspicions(&points);
+    let (_, found) = suspicions("points", &points);
     assert_eq!(found[0], "no link has an `inertia`: all masses are points", "{found:#?}");
 }
 
 #[test]
 fn slips_of_units_are_suspicious() {
-    let (code, suspicions) = suspicions(SLIPS);
+    let (code, suspicions) = suspicions("units", SLIPS);
     let wanted = [
         "gravity is 9810 m/s²",
         "kg and g?",

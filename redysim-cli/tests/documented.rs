@@ -7,14 +7,14 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
-use common::{program, root, scratch};
+use common::{root, scratch, succeed};
 
 const PANDA: &str = "<robot name=\"panda\"><link name=\"base\"/><link name=\"arm\"><inertial><mass value=\"1\"/>\
     <origin xyz=\"0 0 0.3\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\
     <joint name=\"shoulder\" type=\"continuous\"><parent link=\"base\"/><child link=\"arm\"/></joint></robot>";
 
 /// A folder with what the examples name.
-fn workplace(name: &str) -> PathBuf {
+fn folder_with_examples(name: &str) -> PathBuf {
     let folder = scratch(name);
     for shared in ["models", "scenarios"] {
         symlink(root().join(shared), folder.join(shared)).unwrap();
@@ -25,16 +25,13 @@ fn workplace(name: &str) -> PathBuf {
 }
 
 fn run(folder: &Path, command: &str) -> String {
-    let arguments: Vec<&str> = command.split_whitespace().collect();
-    let output = program(folder, &arguments).output().unwrap();
-    assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+    succeed(folder, &command.split_whitespace().collect::<Vec<_>>())
 }
 
 /// Runs the commands between backticks in the first column of a table, and those in blocks without their comments, in the
 /// order in which they stand, for each uses what those before it have written.
 fn run_all(name: &str, document: &str, least: usize) {
-    let folder = workplace(name);
+    let folder = folder_with_examples(name);
     let text = fs::read_to_string(root().join(document)).unwrap();
     let of_line = |line: &str| -> Option<String> {
         let in_table = line.strip_prefix("| `redysim ").and_then(|rest| rest.split('`').next());
@@ -61,7 +58,7 @@ fn the_commands_of_the_scenarios_run() {
 /// The examples that the help gives, but those that pipe into other programs.
 #[test]
 fn the_examples_of_the_help_run() {
-    let folder = workplace("documented-help");
+    let folder = folder_with_examples("documented-help");
     // What `plot` and `animate` are shown with.
     run(&folder, "inverse scenarios/kuka.toml");
     run(&folder, "forward scenarios/kuka.toml");

@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{SWING, call, fail, names, program, scenario, scratch, succeed};
+use common::{SWING, fail, names, scenario, scratch, succeed};
 
 const LIFT: &str = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
 
@@ -352,7 +352,7 @@ fn forces_are_kept_from_the_first_instant_on() {
 fn the_command_line_itself() {
     let folder = scratch("faults-command");
     for arguments in [&["forward"][..], &["inverse", "x.toml", "--format", "xml"], &["backward", "x.toml"]] {
-        assert_eq!(call(&folder, arguments).status.code(), Some(2), "{arguments:?}");
+        fail(&folder, arguments, 2);
     }
-    assert!(program(&folder, &["forward", "--help"]).output().unwrap().status.success());
+    succeed(&folder, &["forward", "--help"]);
 }

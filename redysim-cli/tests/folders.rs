@@ -56,17 +56,13 @@ fn a_folder_that_cannot_be_made() {
     assert_eq!(names(&folder), before);
 }
 
-/// A disk that is full after a kilobyte, as far as the program can tell.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_leaves_nothing_half_written() {
     let folder = scratch("folders-full");
     let path = scenario(&folder, "two_link.toml", &SWING.replace("step = 0.1", "step = 0.001"));
     let before = names(&folder);
-    let command = format!("trap '' XFSZ; ulimit -f 8; exec '{}' forward '{path}'", env!("CARGO_BIN_EXE_redysim"));
-    let output = std::process::Command::new("bash").args(["-c", &command]).current_dir(&folder).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(3), "{said}");
+    let said = common::on_a_full_disk(&folder, 8, &["forward", &path]);
     assert!(said.contains("cannot write"), "{said}");
     assert_eq!(names(&folder), before, "{said}");
 }

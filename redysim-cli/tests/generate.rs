@@ -2,13 +2,13 @@
 
 mod common;
 
-use common::{model, redysim, root};
+use common::{call, model, names, root, scratch};
 use std::fs;
 
 /// The committed source is included and run against the macro by the facade's test `generated`.
 #[test]
 fn the_gripper_is_the_source_that_is_compiled_in_the_tests() {
-    let run = redysim(&["generate", &model("gripper.toml")]);
+    let run = call(&root(), &["generate", &model("gripper.toml")]);
     let committed = fs::read_to_string(root().join("tests/generated/gripper.rs")).unwrap();
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stdout == committed, "tests/generated/gripper.rs is another source");
@@ -16,7 +16,7 @@ fn the_gripper_is_the_source_that_is_compiled_in_the_tests() {
 
 #[test]
 fn name_and_functions_are_those_asked_for() {
-    let run = redysim(&["generate", &model("kr5.toml"), "--name", "Arm", "--functions", "mass_matrix,energy"]);
+    let run = call(&root(), &["generate", &model("kr5.toml"), "--name", "Arm", "--functions", "mass_matrix,energy"]);
     assert!(run.stdout.contains("pub struct Arm;"));
     assert!(run.stdout.contains("pub fn mass_matrix<") && run.stdout.contains("pub fn energy<"));
     assert!(!run.stdout.contains("pub fn inverse_dynamics<"));
@@ -26,33 +26,32 @@ fn name_and_functions_are_those_asked_for() {
 
 #[test]
 fn an_existing_file_stays_unless_forced() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("kr5.rs");
-    let target = path.to_str().unwrap();
+    let folder = scratch("generate-exists");
+    let path = folder.join("kr5.rs");
     fs::write(&path, "mine").unwrap();
-    let run = redysim(&["generate", &model("kr5.toml"), "-o", target]);
+    let run = call(&folder, &["generate", &model("kr5.toml"), "-o", "kr5.rs"]);
     assert_eq!((run.code, fs::read_to_string(&path).unwrap().as_str()), (3, "mine"));
     assert!(run.stderr.contains("--force"), "{}", run.stderr);
-    let run = redysim(&["generate", &model("kr5.toml"), "-o", target, "--force"]);
+    let run = call(&folder, &["generate", &model("kr5.toml"), "-o", "kr5.rs", "--force"]);
     assert_eq!(run.code, 0);
     assert!(fs::read_to_string(&path).unwrap().contains("pub struct Kr5;"));
     assert!(run.stderr.contains("inverse_dynamics") && run.stderr.contains("333 flops"), "{}", run.stderr);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "a draft is left");
+    assert_eq!(names(&folder), ["kr5.rs"], "no draft is left");
 }
 
 #[test]
 fn a_name_that_is_no_type_is_refused() {
-    let run = redysim(&["generate", &model("kr5.toml"), "--name", "my robot"]);
+    let run = call(&root(), &["generate", &model("kr5.toml"), "--name", "my robot"]);
     assert_eq!((run.code, run.stdout.as_str()), (1, ""));
     assert!(run.stderr.contains("`my robot`") && run.stderr.contains("--name"), "{}", run.stderr);
 }
 
 #[test]
 fn a_function_that_there_is_not_is_refused() {
-    let run = redysim(&["generate", &model("kr5.toml"), "--functions", "mas_matrix"]);
+    let run = call(&root(), &["generate", &model("kr5.toml"), "--functions", "mas_matrix"]);
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("mass_matrix"), "{}", run.stderr);
-    let run = redysim(&["generate", &model("kr5.toml"), "--functions", "loop_bias"]);
+    let run = call(&root(), &["generate", &model("kr5.toml"), "--functions", "loop_bias"]);
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("loop_bias"), "{}", run.stderr);
 }

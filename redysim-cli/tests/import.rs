@@ -4,18 +4,29 @@ mod common;
 mod import_faults;
 mod kinematics;
 
-use common::{Run, redysim};
+use common::{Run, call, fail, scratch, succeed};
 use kinematics::{Numbers, positions, tree, urdf};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy};
 use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread;
+
+/// A folder of the running test's own, whose thread has its name, with `robot.urdf` alone.
+fn folder_with(urdf: impl AsRef<[u8]>) -> PathBuf {
+    let folder = scratch(&format!("import-{}", thread::current().name().unwrap().replace("::", "-")));
+    fs::write(folder.join("robot.urdf"), urdf).unwrap();
+    folder
+}
+
+/// Imports the `robot.urdf` of a folder.
+fn import_from(folder: &Path, options: &[&str]) -> Run {
+    call(folder, &[&["import", "robot.urdf"], options].concat())
+}
 
 /// Imports the text of a URDF; the model, which has no faults, and what was said.
 fn import(urdf: &str, options: &[&str]) -> (GenericMechanism, Run) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("robot.urdf");
-    fs::write(&path, urdf).unwrap();
-    let run = redysim(&[&["import", path.to_str().unwrap()], options].concat());
+    let run = import_from(&folder_with(urdf), options);
     assert_eq!(run.code, 0, "{}", run.stderr);
     let model = Model::from_toml(run.stdout.clone(), "robot.toml").unwrap_or_else(|faults| panic!("{faults}")).model;
     (GenericMechanism::new(model), run)
@@ -273,14 +284,12 @@ fn odd_names_stay_what_they_are() {
 
 #[test]
 fn an_existing_model_stays_unless_forced() {
-    let folder = tempfile::tempdir().unwrap();
-    let [robot, model] = ["robot.urdf", "robot.toml"].map(|name| folder.path().join(name).display().to_string());
-    fs::write(&robot, LOSSY).unwrap();
+    let folder = folder_with(LOSSY);
+    let model = folder.join("robot.toml");
     fs::write(&model, "mine").unwrap();
-    let run = redysim(&["import", &robot, "-o", &model]);
-    assert_eq!((run.code, fs::read_to_string(&model).unwrap().as_str()), (3, "mine"));
-    let run = redysim(&["import", &robot, "-o", &model, "--force"]);
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    fail(&folder, &["import", "robot.urdf", "-o", "robot.toml"], 3);
+    assert_eq!(fs::read_to_string(&model).unwrap(), "mine");
+    succeed(&folder, &["import", "robot.urdf", "-o", "robot.toml", "--force"]);
     assert!(Model::load(&model).is_ok());
-    assert_eq!(redysim(&["check", "--quiet", &model]).code, 0);
+    succeed(&folder, &["check", "--quiet", "robot.toml"]);
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use common::{Table, call, deviation, fail, scenario, scratch, succeed};
+use common::{AGAINST_CLOSED_FORMS, Table, call, deviation, fail, scenario, scratch, succeed};
 
 /// The trajectory of two joints that a scenario's `trajectory` gives at the instants 0, 0.1, … 2 s, by rows of q, v, a.
 fn prescribed(name: &str, trajectory: &str) -> Table {
@@ -128,18 +128,16 @@ fn moves(found: &Table, most: f64, expected: impl Fn(f64) -> [f64; 2]) {
     assert!(worst < most, "off by {worst:e}");
 }
 
-const TIGHT: &str = "integrator = { method = 'Dop853', rtol = 1e-12, atol = 1e-13 }\n";
-
 #[test]
 fn a_spring_swings() {
-    let found = slides("p", &format!("{TIGHT}torque = {{ law = 'p', target = [0], kp = 8 }}"), "");
+    let found = slides("p", &format!("{AGAINST_CLOSED_FORMS}torque = {{ law = 'p', target = [0], kp = 8 }}"), "");
     moves(&found, 1e-10, |t| [(2.0 * t).cos(), -2.0 * (2.0 * t).sin()]);
 }
 
 #[test]
 fn a_damped_spring_swings_out() {
     let law = "torque = { law = 'pd', target = [0.5], kp = [10], kd = { mass = 8 } }";
-    let found = slides("pd", &format!("{TIGHT}{law}"), "");
+    let found = slides("pd", &format!("{AGAINST_CLOSED_FORMS}{law}"), "");
     // 2 ẍ + 8 ẋ + 10 (x − 1/2) = 0: the roots are −2 ± i.
     moves(&found, 1e-10, |t| {
         let ((sin, cos), decay) = (t.sin_cos(), (-2.0 * t).exp());
@@ -158,19 +156,27 @@ fn catches_up(t: f64) -> [f64; 2] {
 
 #[test]
 fn a_tracking_law_follows() {
-    let found = slides("tracking", &format!("{TIGHT}torque = {{ law = 'tracking-pd', kp = 10, kd = 8 }}"), AHEAD);
+    let found = slides(
+        "tracking",
+        &format!("{AGAINST_CLOSED_FORMS}torque = {{ law = 'tracking-pd', kp = 10, kd = 8 }}"),
+        AHEAD,
+    );
     moves(&found, 1e-10, catches_up);
 }
 
 #[test]
 fn computed_torque_leaves_its_own_equation_whatever_the_mass() {
-    let found = slides("computed", &format!("{TIGHT}torque = {{ law = 'computed-torque', kp = 5, kd = 4 }}"), AHEAD);
+    let found = slides(
+        "computed",
+        &format!("{AGAINST_CLOSED_FORMS}torque = {{ law = 'computed-torque', kp = 5, kd = 4 }}"),
+        AHEAD,
+    );
     moves(&found, 1e-10, catches_up);
 }
 
 #[test]
 fn forces_of_a_table_lie_on_straight_lines_between_its_rows() {
-    let found = slides("forces", &format!("{TIGHT}torque = {{ law = 'csv', file = 'forces.csv' }}"), "");
+    let found = slides("forces", &format!("{AGAINST_CLOSED_FORMS}torque = {{ law = 'csv', file = 'forces.csv' }}"), "");
     // 4 t N on 2 kg for a second, then 4 N.
     moves(&found, 1e-9, |t| match t - 1.0 {
         more if more > 0.0 => [1.0 + 1.0 / 3.0 + more + more * more, 1.0 + 2.0 * more],
@@ -229,9 +235,9 @@ fn rows_between_the_steps_of_gauss_are_warned_of() {
     let folder = scratch("gauss-rows");
     let said = |step: f64| {
         let rest = format!("[forward]\nend = 0.3\nstep = 0.1\nintegrator = {{ method = 'Gauss6', step = {step} }}\n");
-        let output = call(&folder, &["forward", &scenario(&folder, "two_link.toml", &rest), "-o", "run", "--force"]);
-        assert!(output.status.success());
-        String::from_utf8(output.stderr).unwrap()
+        let run = call(&folder, &["forward", &scenario(&folder, "two_link.toml", &rest), "-o", "run", "--force"]);
+        assert_eq!(run.code, 0, "{}", run.said());
+        run.stderr
     };
     assert_eq!(said(0.0125), "");
     assert!(said(0.03).contains("rows lie between the steps of Gauss6"), "{}", said(0.03));
@@ -268,7 +274,7 @@ fn each_kind_of_component_has_its_own_absolute_tolerance() {
 
 #[test]
 fn energy_is_what_the_actuators_give() {
-    slides("work", &format!("{TIGHT}torque = {{ law = 'csv', file = 'forces.csv' }}"), "");
+    slides("work", &format!("{AGAINST_CLOSED_FORMS}torque = {{ law = 'csv', file = 'forces.csv' }}"), "");
     let energy = Table::csv(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("work/run/energy.csv"));
     // 3 m/s at the end: 9 J.
     let last = |name: &str| *energy.column(name).last().unwrap();
@@ -288,10 +294,9 @@ fn passive(name: &str, law: &str) -> (Table, String) {
          [forward]\nend = 1.0\nstep = 0.1\ntorque = {{ {law} }}\n"
     );
     fs::write(folder.join("trial.toml"), text).unwrap();
-    let output = call(&folder, &["forward", "trial.toml", "-o", "run"]);
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{said}");
-    (Table::csv(&folder.join("run/tor.csv")), said)
+    let run = call(&folder, &["forward", "trial.toml", "-o", "run"]);
+    assert_eq!(run.code, 0, "{}", run.said());
+    (Table::csv(&folder.join("run/tor.csv")), run.stderr)
 }
 
 #[test]

@@ -6,16 +6,11 @@ mod common;
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
-use common::{fail, model, names, program, scenario, scratch, succeed};
+use common::{Run, bash, fail, model, names, on_a_full_disk, program, scenario, scratch, succeed};
 
 fn generate(folder: &Path, options: &[&str]) -> String {
     succeed(folder, &[&["generate", &model("two_link.toml"), "--quiet"], options].concat())
-}
-
-fn bash(folder: &Path, command: &str) -> std::process::Output {
-    Command::new("bash").args(["-c", command]).current_dir(folder).output().unwrap()
 }
 
 #[test]
@@ -74,12 +69,10 @@ fn a_pipe_with_a_name_is_written_into_and_stays_one() {
     let source = generate(&folder, &[]);
     for options in ["", "--force"] {
         let command = format!(
-            "rm -f pipe; mkfifo pipe; timeout 10 cat pipe > got & '{}' generate '{}' -o pipe {options} --quiet && wait && test -p pipe",
-            env!("CARGO_BIN_EXE_redysim"),
-            model("two_link.toml")
+            "rm -f pipe; mkfifo pipe; timeout 10 cat pipe > got & \"$0\" generate \"$1\" -o pipe {options} --quiet && wait && test -p pipe"
         );
-        let output = bash(&folder, &command);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let run = bash(&folder, &command, &[&model("two_link.toml")]);
+        assert_eq!(run.code, 0, "{}", run.said());
         assert_eq!(fs::read_to_string(folder.join("got")).unwrap(), source);
     }
     assert_eq!(names(&folder), ["got", "pipe"]);
@@ -92,13 +85,10 @@ fn the_standard_output_is_a_place_like_any_other() {
     assert_eq!(generate(&folder, &["-o", "/dev/stdout"]), source);
     // Be it a file, which then is added to.
     let command = "echo first > got; \"$0\" generate \"$1\" -o /dev/stdout --quiet >> got";
-    let mut bash = Command::new("bash");
-    bash.args(["-c", command, env!("CARGO_BIN_EXE_redysim"), &model("two_link.toml")]).current_dir(&folder);
-    assert!(bash.status().unwrap().success());
+    assert_eq!(bash(&folder, command, &[&model("two_link.toml")]).code, 0);
     assert_eq!(fs::read_to_string(folder.join("got")).unwrap(), format!("first\n{source}"));
 }
 
-/// A disk that is full after a kilobyte, as far as the program can tell.
 #[test]
 fn a_full_disk_leaves_nothing_half_written() {
     let folder = scratch("output-full");
@@ -108,21 +98,17 @@ fn a_full_disk_leaves_nothing_half_written() {
     fs::write(folder.join("robot.urdf"), chain(20)).unwrap();
     let model = model("two_link.toml");
     let before = (names(&folder), names(&folder.join("run")));
-    let generate = format!("generate '{model}' -o model.rs");
-    // Of the pictures some would find room.
-    for (arguments, blocks) in [
-        ("plot run", 1),
-        ("plot run -o pictures", 60),
-        ("animate run", 1),
-        (&generate, 1),
-        ("import robot.urdf -o robot.toml", 1),
+    for (kilobytes, arguments) in [
+        (1, &["plot", "run"][..]),
+        // Some of the pictures find room.
+        (60, &["plot", "run", "-o", "pictures"]),
+        (1, &["animate", "run"]),
+        (1, &["generate", &model, "-o", "model.rs"]),
+        (1, &["import", "robot.urdf", "-o", "robot.toml"]),
     ] {
-        let command = format!("trap '' XFSZ; ulimit -f {blocks}; exec '{}' {arguments}", env!("CARGO_BIN_EXE_redysim"));
-        let output = bash(&folder, &command);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(3), "{arguments}: {said}");
-        assert!(said.contains("error: cannot write"), "{arguments}: {said}");
-        assert_eq!((names(&folder), names(&folder.join("run"))), before, "{arguments}: {said}");
+        let said = on_a_full_disk(&folder, kilobytes, arguments);
+        assert!(said.contains("error: cannot write"), "{arguments:?}: {said}");
+        assert_eq!((names(&folder), names(&folder.join("run"))), before, "{arguments:?}: {said}");
     }
 }
 
@@ -132,9 +118,8 @@ fn a_full_device_is_told() {
     let said = fail(&folder, &["generate", &model("two_link.toml"), "-o", "/dev/full"], 3);
     assert!(said.contains("cannot write /dev/full"), "{said}");
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let output = program(&folder, &["completions", "bash"]).stdout(full).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.code() == Some(3) && said.contains("cannot write the output"), "{said}");
+    let run = Run::of(program(&folder, &["completions", "bash"]).stdout(full));
+    assert!(run.code == 3 && run.stderr.contains("cannot write the output"), "{}", run.stderr);
 }
 
 /// A URDF of so many links, one on the other.

@@ -3,9 +3,7 @@
 
 mod common;
 
-use std::process::Command;
-
-use common::{root, scenario, scratch, succeed};
+use common::{bash, root, scenario, scratch, succeed};
 
 /// Calls the program in a folder with results, a model and a URDF, with a reader of `stream` that leaves at once: it must
 /// end with `code`, and say nothing about it on the other stream.
@@ -19,12 +17,10 @@ fn ends(stream: &str, arguments: &str, code: i32) {
     std::fs::copy(root().join("models/two_link.toml"), folder.join("model.toml")).unwrap();
     let away = if stream == "stdout" { "| true" } else { "2>&1 >/dev/null | true" };
     // The program starts when its reader is gone.
-    let command =
-        format!("(sleep 0.1; exec '{}' {arguments}) {away}; exit ${{PIPESTATUS[0]}}", env!("CARGO_BIN_EXE_redysim"));
-    let output = Command::new("bash").args(["-c", &command]).current_dir(&folder).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{arguments}, {stream}: {said}");
-    assert!(!said.contains("panicked"), "{arguments}, {stream}: {said}");
+    let command = format!("(sleep 0.1; exec \"$0\" {arguments}) {away}; exit ${{PIPESTATUS[0]}}");
+    let run = bash(&folder, &command, &[]);
+    assert_eq!(run.code, code, "{arguments}, {stream}: {}", run.stderr);
+    assert!(!run.stderr.contains("panicked"), "{arguments}, {stream}: {}", run.stderr);
 }
 
 const ROBOT: &str = "<robot name=\"r\"><material name=\"red\"/><link name=\"a\"/><link name=\"b\"><inertial><mass value=\"1\"/>\

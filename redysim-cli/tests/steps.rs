@@ -8,8 +8,7 @@ use common::{SWING, call, scenario, scratch};
 fn said(name: &str, rest: &str, options: &[&str]) -> String {
     let folder = scratch(name);
     let path = scenario(&folder, "two_link.toml", rest);
-    let output = call(&folder, &[&["forward", &path, "-o", "run"], options].concat());
-    String::from_utf8(output.stderr).unwrap()
+    call(&folder, &[&["forward", &path, "-o", "run"], options].concat()).stderr
 }
 
 fn with(settings: &str) -> String {

@@ -6,13 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{model, redysim, results, scratch, slide, swing, turn};
+use common::{model, results, scratch, slide, succeed, swing, turn};
 
 /// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of the
 /// same motion at more instants if there are.
 fn plays(folder: &Path, finer: Option<&Path>) {
-    let run = redysim(&["animate", folder.to_str().unwrap()]);
-    assert_eq!(run.code, 0, "{}", run.said());
+    succeed(folder, &["animate", "."]);
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("viewer/test.mjs");
     let output = Command::new("node").arg(script).arg(folder).args(finer).output();
     let output = output.expect("node, which viewer/check looks for");

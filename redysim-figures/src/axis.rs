@@ -41,15 +41,20 @@ pub fn drawable(value: f64) -> bool {
     value.abs() < 1e300
 }
 
-/// The range of the values, widened where it is empty.
-fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
+/// The range of the values, widened where it is as good as empty.
+pub fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
     let range = values.filter(|value| drawable(*value)).fold(None, |range: Option<Range<f64>>, value| {
         Some(range.map_or(value..value, |range| range.start.min(value)..range.end.max(value)))
     });
     match range {
         None => 0.0..1.0,
         Some(Range { start, end }) if end - start > (1e-12 * start.abs().max(end.abs())).max(1e-290) => start..end,
-        Some(Range { start, .. }) => start - 1.0..start + 1.0,
+        Some(Range { start, end }) => {
+            let middle = start + (end - start) / 2.0;
+            // To a large value one adds nothing.
+            let half = (1e-9 * middle.abs()).max(1.0);
+            middle - half..middle + half
+        }
     }
 }
 
@@ -137,6 +142,17 @@ mod tests {
         assert_eq!(linear(&[0.0, 1e-3 * 0.68]), ["0.0000", "0.0002", "0.0004", "0.0006", "0.0008"]);
         assert_eq!(linear(&[f64::NAN, 3.0, f64::INFINITY, 3.0]), ["2.0", "2.5", "3.0", "3.5", "4.0"]);
         assert_eq!(linear(&[]), linear(&[0.0, 1.0]));
+    }
+
+    #[test]
+    fn values_that_hardly_differ_stand_within_their_axis_however_large_they_are() {
+        for values in [[3.0, 3.0], [1e13, 1e13 + 5.0], [-1e13 - 5.0, -1e13], [1e17, 1e17], [-1e299, -1e299]] {
+            let range = Axis::linear(values.into_iter(), 5).range();
+            assert!(range.start < values[0] && values[1] < range.end, "{values:?}: {range:?}");
+            let labels = linear(&values);
+            assert!(!labels.iter().any(|label| label.contains("NaN")), "{values:?}: {labels:?}");
+            assert!(labels.windows(2).all(|pair| pair[0] != pair[1]), "{values:?}: {labels:?}");
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What a picture shows, before it is drawn: panels with curves over time, or over what they say.
 
-use crate::axis::drawable;
+use crate::axis::{drawable, extent};
 use crate::{Series, column, peak};
 
 /// A picture: panels in rows. Those above each other have the same horizontal axis.
@@ -136,9 +136,8 @@ impl Panel {
     pub fn merged(mut self) -> Self {
         let columns: Vec<Vec<f64>> =
             self.curves.iter().map(|curve| curve.points.iter().map(|point| point.1).collect()).collect();
-        let values = || columns.iter().flatten().copied().filter(|value| drawable(*value));
-        let height = values().fold(0.0, f64::max) - values().fold(0.0, f64::min);
-        let groups = coincident(&columns, |_| 2e-3 * height);
+        let shown = extent(columns.iter().flatten().copied());
+        let groups = coincident(&columns, |_| 2e-3 * (shown.end - shown.start));
         let merged = groups.iter().map(|group| {
             let names: Vec<&str> = group.iter().map(|&index| self.curves[index].name.as_str()).collect();
             Curve { name: enumeration(&names, group), ..self.curves[group[0]].clone() }
@@ -251,5 +250,14 @@ mod tests {
         assert_eq!(names(&close.merged()), ["a, d", "b, c, e", "f"]);
         let all = panel(&[[0.0, 0.0].as_slice(); 5]).merged();
         assert_eq!((names(&all), all.curves[0].colour), (vec!["a … e"], 0));
+    }
+
+    /// The axis goes from 50.00 to 50.05.
+    #[test]
+    fn curves_far_from_zero_are_told_apart_by_what_their_axis_shows() {
+        let crossing = panel(&[&[50.0, 50.05], &[50.05, 50.0], &[50.0, 50.049_99]]).merged();
+        assert_eq!(names(&crossing), ["a, c", "b"]);
+        let constant = panel(&[&[50.0, 50.0], &[50.0, 50.0 + 1e-13]]).merged();
+        assert_eq!(names(&constant), ["a, b"]);
     }
 }

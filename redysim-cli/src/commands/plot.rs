@@ -34,9 +34,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let mut pictures: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let folder = arguments.output.as_deref().unwrap_or(recorded.folder());
     for (picture, name) in Picture::ALL {
-        let (of_picture, rest) = charts.into_iter().partition(|chart| chart.picture == picture);
+        let (of_picture, rest): (Vec<Chart>, _) = charts.into_iter().partition(|chart| chart.picture == picture);
         charts = rest;
-        if let Some(figure) = figure(of_picture) {
+        if let Some(figure) = figure(&of_picture) {
             let svg = plot::svg(&figure).map_err(Failure::outside)?;
             pictures.push((folder.join(format!("{name}.svg")), svg.into_bytes()));
             pictures.push((folder.join(format!("{name}.png")), png::png(&figure).map_err(Failure::outside)?));
@@ -66,11 +66,15 @@ fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<
 }
 
 /// The charts below each other; one legend serves them all where they show the same curves.
-fn figure(charts: Vec<Chart>) -> Option<Figure> {
-    let names = |chart: &Chart| chart.curves.iter().map(|curve| curve.name.clone()).collect::<Vec<_>>();
-    let shared_legend = charts.windows(2).all(|pair| names(&pair[0]) == names(&pair[1]));
+fn figure(charts: &[Chart]) -> Option<Figure> {
     let panels: Vec<Panel> = charts.iter().map(panel).collect();
+    let shared_legend = panels.windows(2).all(|pair| legend(&pair[0]).eq(legend(&pair[1])));
     (!panels.is_empty()).then_some(Figure { columns: 1, panels, shared_legend })
+}
+
+/// What a panel's legend tells: curves that coincide in one panel may be apart in the next.
+fn legend(panel: &Panel) -> impl Iterator<Item = (&str, usize)> {
+    panel.curves.iter().map(|curve| (curve.name.as_str(), curve.colour))
 }
 
 fn panel(chart: &Chart) -> Panel {

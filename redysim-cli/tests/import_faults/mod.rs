@@ -1,7 +1,7 @@
 //! What is no robot gets one clear message with its line, and leaves no file behind.
 
-use crate::common::redysim;
-use std::fs;
+use crate::common::{fail, names};
+use crate::{folder_with, import_from};
 
 const BODY: &str =
     "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
@@ -19,24 +19,20 @@ fn robot(joints: &[[&str; 3]]) -> String {
 }
 
 fn refused(urdf: &str, wanted: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
-    let [robot, model] = ["robot.urdf", "robot.toml"].map(|name| folder.path().join(name).display().to_string());
-    fs::write(&robot, urdf).unwrap();
-    let run = redysim(&["import", &robot, "-o", &model]);
+    let folder = folder_with(urdf);
+    let run = import_from(&folder, &["-o", "robot.toml"]);
     assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{}", run.stderr);
     for wanted in wanted {
         assert!(run.stderr.contains(wanted), "`{wanted}` in:\n{}", run.stderr);
     }
     assert_eq!(run.stderr.matches("error:").count(), 1, "{}", run.stderr);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "a file is left");
+    assert_eq!(names(&folder), ["robot.urdf"], "no file is left");
 }
 
 #[test]
 fn a_chain_is_accepted() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("robot.urdf");
-    fs::write(&path, robot(&[["j", "a", "b"], ["k", "b", "c"]])).unwrap();
-    assert_eq!(redysim(&["import", path.to_str().unwrap()]).code, 0);
+    let run = import_from(&folder_with(robot(&[["j", "a", "b"], ["k", "b", "c"]])), &[]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
 }
 
 #[test]
@@ -114,11 +110,9 @@ fn numbers_of_limits_and_mimics_are_numbers_too() {
 
 #[test]
 fn an_infinite_limit_is_one() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("robot.urdf");
     let limit = "<limit lower=\"-inf\" upper=\"inf\" effort=\"inf\" velocity=\"3\"/></joint>";
-    fs::write(&path, robot(&[["j", "a", "b"], ["k", "b", "c"]]).replacen("</joint>", limit, 1)).unwrap();
-    let run = redysim(&["import", path.to_str().unwrap()]);
+    let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
+    let run = import_from(&folder_with(good.replacen("</joint>", limit, 1)), &[]);
     assert!(run.code == 0 && run.stdout.contains("velocity = 3.0"), "{} {}", run.stdout, run.stderr);
 }
 
@@ -158,12 +152,9 @@ fn what_no_mechanism_can_be_is_shown_with_its_line() {
 #[test]
 fn deeply_nested_elements_do_no_harm() {
     let deep = format!("{}{}", "<a>".repeat(100_000), "</a>".repeat(100_000));
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("robot.urdf");
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     for inside in ["</robot>", "</link>", "</inertial>", "</joint>"] {
-        fs::write(&path, good.replacen(inside, &format!("{deep}{inside}"), 1)).unwrap();
-        let run = redysim(&["import", path.to_str().unwrap()]);
+        let run = import_from(&folder_with(good.replacen(inside, &format!("{deep}{inside}"), 1)), &[]);
         assert!(run.code == 0 && run.stderr.contains("left out: <a>"), "{inside}: {} {}", run.code, run.stderr);
     }
 }
@@ -176,10 +167,8 @@ fn macros_are_expanded_first() {
 
 #[test]
 fn a_file_that_is_not_utf8_says_so() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("robot.urdf");
-    fs::write(&path, b"<robot name=\"\xff\"/>").unwrap();
-    let run = redysim(&["import", path.to_str().unwrap()]);
+    let folder = folder_with(b"<robot name=\"\xff\"/>");
+    let run = import_from(&folder, &[]);
     assert!(run.code == 1 && run.stderr.contains("not UTF-8 (byte 14)"), "{}", run.stderr);
-    assert_eq!(redysim(&["import", "nowhere.urdf"]).code, 3);
+    fail(&folder, &["import", "nowhere.urdf"], 3);
 }

@@ -1,0 +1,72 @@
+//! Calls of the program.
+
+use std::path::Path;
+use std::process::Command;
+
+/// What a command printed, and its exit code.
+pub struct Run {
+    pub stdout: String,
+    pub stderr: String,
+    pub code: i32,
+}
+
+impl Run {
+    /// Runs a command until it ends.
+    pub fn of(command: &mut Command) -> Run {
+        let output = command.output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let code = output.status.code().expect("it ends by itself");
+        Run { stdout: text(output.stdout), stderr: text(output.stderr), code }
+    }
+
+    /// What was printed, be it on which stream it may.
+    pub fn said(&self) -> String {
+        format!("{}{}", self.stdout, self.stderr)
+    }
+}
+
+/// The program, to be called in `folder`.
+pub fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_redysim"));
+    command.args(arguments).current_dir(folder);
+    command
+}
+
+/// Calls the program in `folder`.
+pub fn call(folder: &Path, arguments: &[&str]) -> Run {
+    Run::of(&mut program(folder, arguments))
+}
+
+/// Calls the program in `folder`, which must go well, and returns what it prints.
+pub fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let run = call(folder, arguments);
+    assert_eq!(run.code, 0, "{arguments:?}: {}", run.said());
+    run.stdout
+}
+
+/// Calls the program in `folder`, which must end with `code`, and returns what it says of that.
+pub fn fail(folder: &Path, arguments: &[&str], code: i32) -> String {
+    failed(call(folder, arguments), arguments, code)
+}
+
+fn failed(run: Run, arguments: &[&str], code: i32) -> String {
+    assert_eq!(run.code, code, "{arguments:?}: {}", run.said());
+    assert!(!run.stderr.contains("panicked"), "{arguments:?}: {}", run.stderr);
+    run.stderr
+}
+
+/// Runs a command line in `folder`, in which `$0` is the program and `$1`, `$2`, … are the arguments.
+#[cfg(unix)]
+pub fn bash(folder: &Path, command: &str, arguments: &[&str]) -> Run {
+    let mut bash = Command::new("bash");
+    Run::of(bash.args(["-c", command, env!("CARGO_BIN_EXE_redysim")]).args(arguments).current_dir(folder))
+}
+
+/// Calls the program in `folder`, where it must fail because no file may become larger than that: to write more is
+/// refused, as by a disk that is full. Returns what it says.
+#[cfg(unix)]
+pub fn on_a_full_disk(folder: &Path, kilobytes: u32, arguments: &[&str]) -> String {
+    // Without the trap a signal would end it; bash counts in kilobytes.
+    let command = format!("trap '' XFSZ; ulimit -f {kilobytes}; exec \"$0\" \"$@\"");
+    failed(bash(folder, &command, arguments), arguments, 3)
+}
