@@ -5,6 +5,8 @@
 #![cfg(feature = "generic")]
 
 mod common;
+#[path = "common/linkages.rs"]
+mod linkages;
 
 use common::call::{loop_bias, loop_jacobian, loop_residual};
 use common::comparison::Comparison;
@@ -12,17 +14,10 @@ use common::double_double::{DoubleDouble, exact, rounded};
 use common::dual::{Dual, moving};
 use common::models::generic;
 use common::random::Random;
+use linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
 use redysim::generic::GenericMechanism;
 use redysim::{LoopClosure, Mechanism, redysim};
 
-redysim! {
-    /// The paper's four-bar.
-    pub struct Fourbar("models/fourbar.toml");
-}
-redysim! {
-    /// The GUI's four-bar.
-    pub struct FourbarGui("models/fourbar_gui.toml");
-}
 redysim! {
     /// The paper's four-bar, oblique in space.
     #[allow(deprecated)] // the warning of redundant rows, which these two are about
@@ -32,26 +27,6 @@ redysim! {
     /// In space, with rows that align axes.
     #[allow(deprecated)]
     pub struct Bricard("models/test/bricard.toml");
-}
-redysim! {
-    /// With a prismatic joint at the cut.
-    pub struct SliderCrank("models/slider_crank.toml");
-}
-redysim! {
-    /// Two loops, three actuators.
-    pub struct ThreeRrr("models/three_rrr.toml");
-}
-redysim! {
-    /// Three loops.
-    pub struct Leg("models/leg.toml");
-}
-redysim! {
-    /// Andrews' squeezing mechanism.
-    pub struct Andrews("models/andrews.toml");
-}
-redysim! {
-    /// Two windows.
-    pub struct NFourbar2("models/n_fourbar_2.toml");
 }
 
 const STATES: usize = 200;

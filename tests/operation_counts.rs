@@ -3,6 +3,10 @@
 //! After a change that is meant to alter the counts, `INSTA_UPDATE=always cargo test --test operation_counts` writes
 //! the new ones to `tests/snapshots`.
 
+#[path = "common/linkages.rs"]
+mod linkages;
+
+use linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
 use redysim::{OperationCount, Operations, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::{Model, Tree};
@@ -37,41 +41,6 @@ redysim! {
 redysim! {
     /// Two fingers in the plane.
     pub struct Gripper("models/gripper.toml");
-}
-
-redysim! {
-    /// One loop in the plane.
-    pub struct Fourbar("models/fourbar.toml");
-}
-
-redysim! {
-    /// Another.
-    pub struct FourbarGui("models/fourbar_gui.toml");
-}
-
-redysim! {
-    /// A loop with a slider.
-    pub struct SliderCrank("models/slider_crank.toml");
-}
-
-redysim! {
-    /// Three legs and a platform.
-    pub struct ThreeRrr("models/three_rrr.toml");
-}
-
-redysim! {
-    /// Three loops.
-    pub struct Leg("models/leg.toml");
-}
-
-redysim! {
-    /// Three loops at one point.
-    pub struct Andrews("models/andrews.toml");
-}
-
-redysim! {
-    /// Two windows.
-    pub struct NFourbar2("models/n_fourbar_2.toml");
 }
 
 /// A row for each function that the mechanism has.
