@@ -38,7 +38,7 @@ impl Forward {
             if let (Some(span), Some(integrator)) = (span, integrator) {
                 warn_of_rows(&mut reader, span, integrator);
             }
-            if let (Some(Torque::ComputedTorque { .. }), Some(stabilisation)) = (&torque, stabilisation) {
+            if let (Some(Torque::Computed { .. }), Some(stabilisation)) = (&torque, stabilisation) {
                 warn_of_redundancy(&mut reader, subject, stabilisation);
             }
             Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
