@@ -95,6 +95,7 @@ fn errors<R: Robot>(states: usize) -> [f64; 5] {
         ];
         for (function, (found, expected)) in R::results(&q, &v, &a, &tau).iter().zip(&expected).enumerate() {
             for (component, (found, expected)) in found.iter().zip(expected).enumerate() {
+                assert!(found.is_finite(), "function {function}, component {component}: {found}");
                 sizes[function][component] = sizes[function][component].max(expected.abs());
                 worst[function][component] = worst[function][component].max((found - expected).abs());
             }

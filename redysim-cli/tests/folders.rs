@@ -112,10 +112,10 @@ fn a_link_is_said_before_anything_is_computed() {
     let folder = scratch("folders-link");
     let path = scenario(&folder, "two_link.toml", SWING);
     std::os::unix::fs::symlink("nowhere", folder.join("run")).unwrap();
-    let said = fail(&folder, &["forward", &path, "-o", "run"], 3);
-    assert!(said.contains("run is there already") && !said.contains("computed"), "{said}");
-    let said = fail(&folder, &["forward", &path, "-o", "run", "--force"], 3);
-    assert!(said.contains("a file or a link") && !said.contains("computed"), "{said}");
+    for force in [&[][..], &["--force"]] {
+        let said = fail(&folder, &[&["forward", &path, "-o", "run"], force].concat(), 3);
+        assert!(said.contains("a file or a link") && !said.contains("computed"), "{said}");
+    }
     assert_eq!(names(&folder), ["run", "trial.toml"]);
 }
 
@@ -166,4 +166,30 @@ mod meanwhile {
         assert_eq!(code, Some(130), "{said}");
         assert_eq!(fs::read_to_string(folder.join("run/model.toml")).unwrap(), model);
     }
+}
+
+/// A folder is nobody's table, whatever it is called.
+#[test]
+fn a_folder_within_a_result_is_not_of_a_run() {
+    let folder = scratch("folders-within");
+    let path = scenario(&folder, "two_link.toml", SWING);
+    succeed(&folder, &["forward", &path, "-o", "run"]);
+    fs::remove_file(folder.join("run/tor.csv")).unwrap();
+    fs::create_dir(folder.join("run/tor.csv")).unwrap();
+    fs::write(folder.join("run/tor.csv/thesis.txt"), "years of work").unwrap();
+    let said = fail(&folder, &["forward", &path, "-o", "run", "--force"], 3);
+    assert!(said.contains("it holds tor.csv, which is of no run"), "{said}");
+}
+
+#[test]
+fn a_page_takes_no_place_of_a_table() {
+    let folder = scratch("folders-page");
+    let path = scenario(&folder, "two_link.toml", SWING);
+    succeed(&folder, &["forward", &path, "-o", "run"]);
+    let before = fs::read(folder.join("run/statevar.csv")).unwrap();
+    for name in ["run/statevar.csv", "run/model.toml", "./run/../run/run.toml"] {
+        let said = fail(&folder, &["animate", "run", "-o", name, "--force"], 1);
+        assert!(said.contains("is a file of the results"), "{said}");
+    }
+    assert_eq!(fs::read(folder.join("run/statevar.csv")).unwrap(), before);
 }

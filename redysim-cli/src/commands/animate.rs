@@ -1,12 +1,12 @@
 //! `redysim animate RESULTS`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::animation;
 use crate::failure::Failure;
 use crate::output;
 use crate::recorded::Recorded;
-use crate::results::names::PAGE;
+use crate::results::names::{PAGE, is_written};
 
 /// Make a page of HTML, complete in itself, that plays a run in 3D beside its curves.
 #[derive(clap::Args)]
@@ -26,6 +26,12 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let recorded = Recorded::open(&arguments.results)?;
     let path = arguments.output.clone().unwrap_or_else(|| recorded.folder().join(PAGE));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = |folder: &Path| path.parent().is_some_and(|parent| same(parent, folder));
+    if name != PAGE && is_written(&name) && beside(recorded.folder()) {
+        let message = format!("{} is a file of the results", path.display());
+        return Err(Failure::input(message).help("write elsewhere with --output, as in --output page.html"));
+    }
     // Before what takes its time.
     output::check_place(&path, arguments.force)?;
     let (page, notes) = animation::page(&recorded)?;
@@ -35,4 +41,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         output::say(&format!("{} ({} kB): open it in a browser", path.display(), page.len().div_ceil(1000)));
     }
     Ok(())
+}
+
+/// Whether two paths lead to the same folder.
+fn same(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| std::fs::canonicalize(if path.as_os_str().is_empty() { Path::new(".") } else { path });
+    real(a).is_ok_and(|a| real(b).is_ok_and(|b| a == b))
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::replaceable::replaces;
+use super::replaceable::{is_empty, replaces};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::{tell, write_file};
@@ -43,11 +43,14 @@ impl Folder {
         replaces(&target, force)?;
         let parent = target.parent().unwrap_or(Path::new(""));
         let missing = parent.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
-        let path = beside(&target, &format!(".{}.draft", std::process::id()));
-        let draft = Draft { path, made: missing.map(Path::to_owned).collect() };
+        let mut draft = Draft { path: PathBuf::new(), made: missing.map(Path::to_owned).collect() };
         // One that is there already is of a run that was killed, and its files are not this run's.
-        let made = fs::create_dir_all(parent).and_then(|()| fs::create_dir(&draft.path));
-        made.map_err(|error| {
+        let made = fs::create_dir_all(parent).and_then(|()| {
+            let own = |count: u64| if count == 1 { String::new() } else { format!("-{count}") };
+            let names = (1..).map(|count| beside(&target, &format!(".{}{}.draft", std::process::id(), own(count))));
+            first_free(names, |path| fs::create_dir(path))
+        });
+        draft.path = made.map_err(|error| {
             draft.discard_parents();
             Failure::file("make the folder", &target, &error)
         })?;
@@ -67,15 +70,21 @@ impl Folder {
         write_file(&self.draft.path.join(name), contents, false)
     }
 
-    /// Gives it its name, and returns it. What was there before goes away only then.
+    /// Gives it its name, and returns it. What was there before goes away only then, and only for what is `complete`: a part
+    /// of a run stands beside it.
     ///
     /// # Errors
     /// If something is there by now that must not be replaced, or the name cannot be given: the folder then gets another,
     /// and the failure says which.
-    pub fn finish(mut self) -> Result<PathBuf, Failure> {
+    pub fn finish(mut self, complete: bool) -> Result<PathBuf, Failure> {
         interrupt::undisturbed(|| {
-            let named = replaces(&self.target, self.force).and_then(|replaces| self.name(replaces));
+            let replaces = replaces(&self.target, self.force);
             self.finished = true;
+            if !complete && replaces.as_ref().is_ok_and(|replaces| *replaces) && !is_empty(&self.target) {
+                let failed = |error| Failure::file("rename", &self.draft.path, &error);
+                return self.aside().map_err(failed);
+            }
+            let named = replaces.and_then(|replaces| self.name(replaces));
             named.map_err(|failure| match self.aside() {
                 Ok(path) => failure.and(&format!("; what was computed is in {}", path.display())),
                 Err(error) => {
@@ -111,8 +120,7 @@ impl Folder {
     /// Moves it beside its place, to the first free of `<name>-2`, `<name>-3`, …
     fn aside(&self) -> std::io::Result<PathBuf> {
         let names = (2..).map(|count: u64| beside(&self.target, &format!("-{count}")));
-        let free = names.into_iter().find(|path| fs::symlink_metadata(path).is_err()).unwrap_or_default();
-        fs::rename(&self.draft.path, &free).map(|()| free)
+        first_free(names, |path| fs::rename(&self.draft.path, path))
     }
 }
 
@@ -144,6 +152,23 @@ impl Draft {
     }
 }
 
+/// The first of `names` that is free, once `taken`; another run may take one meanwhile.
+fn first_free(
+    names: impl Iterator<Item = PathBuf>,
+    take: impl Fn(&Path) -> std::io::Result<()>,
+) -> std::io::Result<PathBuf> {
+    for path in names {
+        if fs::symlink_metadata(&path).is_ok() {
+            continue;
+        }
+        match take(&path) {
+            Err(_) if fs::symlink_metadata(&path).is_ok() => {}
+            taken => return taken.map(|()| path),
+        }
+    }
+    Err(std::io::ErrorKind::AlreadyExists.into())
+}
+
 /// A path whose last name has `more` at its end.
 fn beside(path: &Path, more: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
@@ -155,21 +180,37 @@ fn beside(path: &Path, more: &str) -> PathBuf {
 mod tests {
     use super::*;
 
-    /// Files come as fast as they go, until there is no folder for them.
+    /// As of a run that was killed, whose process had the same number.
+    #[test]
+    fn a_draft_that_is_left_is_in_nobodys_way() {
+        let folder = tempfile::tempdir().unwrap();
+        let drafts = [1, 2].map(|_| Folder::draft(folder.path().join("run"), false).unwrap());
+        assert_ne!(drafts[0].draft.path, drafts[1].draft.path);
+        drop(drafts);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    /// Files come one after the other, until there is no folder for them.
     #[test]
     fn a_draft_goes_away_while_it_is_written() {
-        let path = std::env::temp_dir().join(format!("redysim-draft-{}", std::process::id()));
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("draft");
         fs::create_dir(&path).unwrap();
+        (0..500).for_each(|k| fs::write(path.join(format!("{k}.dat")), "0\n").unwrap());
         let folder = path.clone();
         let writer = std::thread::spawn(move || {
-            let files = (0..100_000).map(|k| fs::write(folder.join(format!("{k}.csv")), "t [s]\n"));
-            files.take_while(Result::is_ok).count()
+            for k in 0.. {
+                std::thread::sleep(Duration::from_micros(20));
+                if fs::write(folder.join(format!("{k}.csv")), "t [s]\n").is_err() {
+                    break;
+                }
+            }
         });
-        while fs::read_dir(&path).unwrap().next().is_none() {
+        while !path.join("0.csv").exists() {
             std::thread::yield_now();
         }
         Draft { path: path.clone(), made: vec![] }.discard();
         assert!(!path.exists());
-        assert!(writer.join().unwrap() < 100_000, "the folder was gone before the files were");
+        writer.join().unwrap();
     }
 }

@@ -141,7 +141,8 @@ impl<'a> Record<'a> {
         self.tables.finish()?;
         run_file::write(&self.folder, self.scenario, &summary)?;
         drop(self.progress);
-        let target = self.folder.finish()?;
+        let complete = matches!(summary.outcome.ended, Ended::Complete);
+        let target = self.folder.finish(complete)?;
         if !self.quiet {
             say(&format!("{summary}\n  written to {}", target.display()));
         }

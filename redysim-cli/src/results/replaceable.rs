@@ -8,6 +8,12 @@ use super::run_file::is_of_a_run;
 use crate::failure::Failure;
 use crate::output::exists;
 
+/// Whether a path is that of an empty folder.
+pub fn is_empty(path: &Path) -> bool {
+    let is_folder = fs::symlink_metadata(path).is_ok_and(|found| found.is_dir());
+    is_folder && fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none())
+}
+
 /// Whether there is something at `target` that is to be replaced.
 ///
 /// # Errors
@@ -16,11 +22,8 @@ use crate::output::exists;
 pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
     // What cannot be looked at cannot be written either, and that says why.
     let Ok(found) = fs::symlink_metadata(target) else { return Ok(false) };
-    if found.is_dir() && fs::read_dir(target).is_ok_and(|mut entries| entries.next().is_none()) {
+    if is_empty(target) {
         return Ok(true);
-    }
-    if !force {
-        return Err(exists(target));
     }
     let kept = |why: &str, help: &str| {
         let message = format!("{} is not overwritten: {why}", target.display());
@@ -32,15 +35,22 @@ pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
             "write elsewhere with --output, or delete it yourself",
         );
     }
+    if !force {
+        return Err(exists(target));
+    }
     let unreadable = |error| Failure::file("read", target, &error);
     let entries = fs::read_dir(target).map_err(unreadable)?.collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
-    let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
+    let foreign = |entry: &fs::DirEntry| {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_ours = is_written(&name) && entry.file_type().is_ok_and(|kind| kind.is_file());
+        (!is_ours).then_some(name)
+    };
+    let foreign = entries.iter().filter_map(foreign).min();
     if !fs::read_to_string(target.join(RUN_FILE)).is_ok_and(|text| is_of_a_run(&text)) {
         let why = format!("it is no result, for it holds no {RUN_FILE} that a run has written");
         return kept(&why, "write elsewhere with --output, or delete it yourself");
     }
-    match names.iter().find(|name| !is_written(name)) {
+    match foreign {
         Some(name) => kept(
             &format!("it holds {name}, which is of no run"),
             "move that elsewhere first, or write elsewhere with --output",
