@@ -122,6 +122,13 @@ fn values_that_are_none() {
 fn a_joint_that_is_not_there() {
     let words = ["no joint `jiont2`", "did you mean `joint2`?", "trial.toml:2:"];
     refuses("joint", "forward", &SWING.replace("[0, 1]", "{ jiont2 = 1 }"), 1, &words);
+    let several = SWING.replace("[0, 1]", "{ jiont2 = 1, joint1 = '10 dg' }");
+    let folder = scratch("faults-joints");
+    let said = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &several)], 1);
+    assert!(said.contains("no joint `jiont2`") && said.contains("the unit `dg`"), "every one of them: {said}");
+    let one = "torque = { law = 'p', joints = ['joint1'], target = { joint2 = 1 }, kp = 1 }\n";
+    let words = ["`forward.torque.target` has nothing to do with the joint `joint2`"];
+    refuses("foreign", "forward", &format!("{SWING}{one}"), 1, &words);
     let law = "torque = { law = 'p', joints = ['joint9'], target = [0], kp = 1 }\n";
     refuses("driven", "forward", &format!("{SWING}{law}"), 1, &["no joint `joint9`", "there are: joint1, joint2"]);
 }
@@ -294,7 +301,7 @@ fn points_out_of_order() {
 #[test]
 fn a_tree_that_is_only_half_prescribed() {
     let lift = LIFT.replace("from = [0, 0]\nto = [1, 1]", "joints = ['joint2']\nfrom = [0]\nto = [1]");
-    refuses("half", "inverse", &lift, 1, &["does not prescribe the joint `joint1`"]);
+    refuses("half", "inverse", &lift, 1, &["does not prescribe the joint `joint1`", "trial.toml:"]);
 }
 
 #[test]

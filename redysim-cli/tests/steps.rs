@@ -38,3 +38,22 @@ fn a_motion_whose_energy_comes_from_nowhere_is_called_wrong() {
     assert_eq!(said("steps-wild-quiet", &wild, &["--quiet"]), "");
     assert_eq!(said("steps-right", &with("method = 'Ode4', step = 0.01"), &[]), "");
 }
+
+/// The forces of each instant are right, but what lies between rows that are far apart nobody has looked at.
+#[test]
+fn work_between_rows_that_are_too_far_apart_is_called_wrong() {
+    let folder = scratch("steps-work");
+    let lift = |step: f64| {
+        let motion = "trajectory = { from = [0, 0], to = [1, 1], duration = 0.05 }\n";
+        let path = scenario(&folder, "two_link.toml", &format!("{motion}[inverse]\nend = 1.8\nstep = {step}\n"));
+        let run = call(&folder, &["inverse", &path, "-o", "run", "--force"]);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        run.stderr
+    };
+    let said = lift(0.3);
+    assert!(
+        said.contains("too far apart") && said.contains("the forces are right") && said.contains("`step`"),
+        "{said}"
+    );
+    assert_eq!(lift(0.001), "");
+}

@@ -4,8 +4,10 @@ use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopClosur
 
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::number::rounded;
+use crate::output::say;
 use crate::results::{self, Ended, Outcome, Record, Sample};
-use crate::scenario::{Dynamics, Prescribed, Scenario};
+use crate::scenario::{Dynamics, Prescribed, Scenario, Span};
 
 /// Compute the forces that a prescribed motion takes, and write them into a folder.
 #[derive(clap::Args)]
@@ -31,13 +33,39 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
             "add a table, as in: trajectory = { from = [0], to = [\"60 deg\"], duration = 1.0 }",
         )
     })?;
-    let model = scenario.mechanism.model();
-    trajectory.check_joints(model, &scenario.joints).map_err(|(fault, help)| Failure::input(fault).help(help))?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Inverse, span, quiet)?;
     let (outcome, most) = along(&scenario, trajectory, &mut record);
     warn_of_passive(&scenario, &most, &record);
+    warn_of_work(span, &record);
+    if scenario.loops() && !quiet {
+        tell_start(&scenario, trajectory, &record);
+    }
     record.finish(outcome)
+}
+
+/// The forces are those of each instant; the work between instants is only as exact as these are close.
+fn warn_of_work(span: Span, record: &Record<'_>) {
+    if let Some(part) = record.balance().wrong_part() {
+        let warning = format!(
+            "rows each {:?} s are too far apart to add up the work between them: it is wrong by {:.0} % of the energy that \
+             was exchanged; the forces are right",
+            span.step,
+            100.0 * part
+        );
+        record.warn(&warning, "give [inverse] a smaller `step`");
+    }
+}
+
+/// Says on which branch the loops were closed.
+fn tell_start(scenario: &Scenario, trajectory: &Prescribed, record: &Record<'_>) {
+    let others = scenario.joints.iter().zip(record.start_position()).enumerate();
+    let others = others.filter(|(index, _)| !trajectory.joints.contains(index));
+    let told: Vec<_> =
+        others.map(|(_, (joint, q))| format!("{} at {} {}", joint.name, rounded(*q), joint.unit())).collect();
+    if !told.is_empty() {
+        say(&format!("The loops begin closed with {}.", told.join(", ")));
+    }
 }
 
 /// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be. `most` has the largest

@@ -2,6 +2,9 @@
 
 use redysim_runtime::Energy;
 
+/// Of the shipped scenarios none drifts by a hundredth of what it exchanges, at tolerances for pictures.
+const MUCH: f64 = 0.1;
+
 /// How the energy of a motion and the work of its actuators agree, state by state.
 #[derive(Default)]
 pub struct Balance {
@@ -27,8 +30,13 @@ impl Balance {
         drift
     }
 
+    /// The largest drift as a part of what was exchanged, if it is so large a part that it is no matter of taste.
+    pub fn wrong_part(&self) -> Option<f64> {
+        Some(self.part()).filter(|part| *part > MUCH)
+    }
+
     /// The largest drift as a part of what was exchanged.
-    pub fn part(&self) -> f64 {
+    fn part(&self) -> f64 {
         // Where nothing moves, the rounding of the potential energy is no drift.
         let scale = self.exchanged.max(f64::EPSILON.sqrt() * self.potential);
         if self.drift > 0.0 { self.drift / scale } else { 0.0 }

@@ -111,6 +111,11 @@ impl<'a> Record<'a> {
         }
     }
 
+    /// The position at the first instant, if there is one.
+    pub fn start_position(&self) -> &[f64] {
+        &self.start[0]
+    }
+
     /// How energy and work agree so far.
     pub fn balance(&self) -> &Balance {
         &self.balance

@@ -1,9 +1,11 @@
 //! The moving joints of a model, and values for each of them.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
-use redysim_model::document::{Field, Reader, Value};
+use redysim_model::document::{Field, Message, Reader, Value};
 use redysim_model::{JointKind, Model};
+use toml::Spanned;
 use toml::de::DeValue;
 
 /// A moving joint.
@@ -91,7 +93,7 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<V
             };
             let joint = index(reader, value.span(), name, joints)?;
             if found.contains(&joint) {
-                let message = redysim_model::document::Message {
+                let message = Message {
                     title: format!("{}: `{path}` names the joint `{name}` again", reader.item()),
                     label: "named before".into(),
                     help: "name each joint once".into(),
@@ -108,6 +110,18 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<V
 fn index(reader: &mut Reader<'_, '_>, place: Range<usize>, name: &str, joints: &[Joint]) -> Option<usize> {
     let named: Vec<_> = joints.iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index)).collect();
     reader.called(place, "joint", name, &named)
+}
+
+/// A joint that is none of those that the values are for.
+fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &str, name: &str) -> Option<T> {
+    reader.fault_at(
+        place,
+        Message {
+            title: format!("{}: `{path}` has nothing to do with the joint `{name}`", reader.item()),
+            label: "not one of its joints".into(),
+            help: "leave it out, or name it among the `joints` here".into(),
+        },
+    )
 }
 
 fn list(
@@ -132,12 +146,16 @@ fn list(
         }
         DeValue::Table(table) => {
             let mut values = vec![0.0; of.len()];
-            let known: Vec<Joint> = of.iter().map(|&joint| joints[joint].clone()).collect();
-            for (name, value) in table {
-                let path = format!("{path}.{}", name.get_ref());
-                let at = index(reader, name.span(), name.get_ref(), &known)?;
-                values[at] = one(reader, &path, value, quantity, &known[at])?;
-            }
+            let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
+                let joint = index(reader, name.span(), name.get_ref(), joints)?;
+                let Some(at) = of.iter().position(|&other| other == joint) else {
+                    return foreign(reader, name.span(), path, name.get_ref());
+                };
+                values[at] = one(reader, &format!("{path}.{}", name.get_ref()), value, quantity, &joints[joint])?;
+                Some(())
+            };
+            // Every joint is read, so that each fault among them is reported.
+            table.iter().map(&mut read).collect::<Vec<_>>().into_iter().collect::<Option<()>>()?;
             Some(values)
         }
         DeValue::Integer(_) | DeValue::Float(_) if quantity == Quantity::Gain => {

@@ -130,6 +130,8 @@ impl Scenario {
 
 /// What a scenario is about.
 pub struct Subject<'s> {
+    /// What is to be computed.
+    dynamics: Dynamics,
     joints: &'s [Joint],
     model: &'s Model,
     /// Where the files are that it names.
@@ -164,7 +166,9 @@ impl Subject<'_> {
         match Table::read(&self.folder.join(named.get_ref())).and_then(read) {
             Ok(read) => Some(read),
             Err(fault) => {
-                let (title, help) = (fault.message().to_owned(), fault.advice().to_owned());
+                let help = Some(fault.advice()).filter(|help| !help.is_empty());
+                let (title, help) =
+                    (fault.message().to_owned(), help.unwrap_or("correct the table, or name another").into());
                 reader.fault_at(named.span(), Message { title, label: "named here".into(), help })
             }
         }
@@ -203,7 +207,7 @@ fn read(
         },
     };
     let joints = joints::of_model(mechanism.model());
-    let subject = Subject { joints: &joints, model: mechanism.model(), folder };
+    let subject = Subject { dynamics, joints: &joints, model: mechanism.model(), folder };
     let initial = Initial::read(&mut reader, &subject);
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);

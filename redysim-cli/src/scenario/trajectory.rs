@@ -5,9 +5,9 @@ use redysim_model::{Mobility, Model};
 use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
 use toml::Spanned;
 
-use super::Subject;
 use super::joints::{Joint, Quantity, points, some, values};
 use super::table::Table;
+use super::{Dynamics, Subject};
 use crate::failure::Failure;
 use crate::number::counted;
 
@@ -74,6 +74,7 @@ impl Prescribed {
                 let field = values(reader, key, Quantity::Coordinate, joints, &chosen);
                 reader.required(key, field).value().cloned()
             };
+            let mut table = None;
             let motion = match tag {
                 Tag::Cycloid => {
                     let (from, to) = (coordinates(&mut reader, "from"), coordinates(&mut reader, "to"));
@@ -105,11 +106,24 @@ impl Prescribed {
                         let through = from_table(&table, &of, smooth.unwrap_or(SMOOTH[0].1))?;
                         Ok((table, through))
                     });
-                    let (table, through) = read.filter(|_| smooth.is_some())?;
-                    return Some(Prescribed { joints: chosen, table: Some(table), motion: Kind::ViaPoints(through) });
+                    let (read, through) = read.filter(|_| smooth.is_some())?;
+                    table = Some(read);
+                    Kind::ViaPoints(through)
                 }
             };
-            Some(Prescribed { joints: chosen, table: None, motion })
+            let prescribed = Prescribed { joints: chosen, table, motion };
+            let checked = match subject.dynamics {
+                Dynamics::Inverse => prescribed.check_joints(subject.model, joints),
+                // What a law needs to follow, it says itself.
+                Dynamics::Forward => Ok(()),
+            };
+            match checked {
+                Ok(()) => Some(prescribed),
+                Err((fault, help)) => {
+                    let title = format!("{}: {fault}", reader.item());
+                    reader.fault_of_table(Message { title, label: "prescribes this".into(), help })
+                }
+            }
         });
         if field.is_missing() { Some(None) } else { Some(Some(field.value()?.clone()?)) }
     }
