@@ -164,6 +164,8 @@ fn links_of_very_different_lengths_and_points_of_mass_are_suspicious() {
     let words =
         "link `fore` is placed 400 m from the one that carries it, and the next, `upper`, only 0.3 m: m and mm?";
     assert!(found.contains(&words.to_owned()), "{found:#?}");
+    let (_, found) = suspicions("reach", &arm.replace("[0.4, ", "[400.0, ").replace("0.3]", "300.0]"));
+    assert!(found.contains(&"the mechanism reaches 700 m: m and mm?".to_owned()), "{found:#?}");
     let points: String =
         arm.lines().filter(|line| !line.starts_with("inertia")).map(|line| format!("{line}\n")).collect();
     let (_, found) = suspicions("points", &points);

@@ -271,6 +271,16 @@ fn limits_with_an_acceleration_are_a_range() {
     assert_eq!(range.force, Some(40.0));
 }
 
+/// What makes no sense is not dropped either.
+#[test]
+fn limits_that_are_none_are_kept_as_they_are() {
+    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+    let urdf = pendulum("<limit lower=\"2\" upper=\"1\" effort=\"-10\" velocity=\"3\"/>", inertial);
+    let (_, run) = import(&urdf.replace("continuous", "revolute"), &[]);
+    let kept = "# limits: position = [2.0, 1.0], velocity = 3.0, force = -10.0; the lower one is not below the upper";
+    assert!(run.stdout.contains(kept), "{}", run.stdout);
+}
+
 #[test]
 fn odd_names_stay_what_they_are() {
     let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";

@@ -9,6 +9,8 @@ use std::ops::RangeInclusive;
 const MASS_RATIO: f64 = 1e5;
 /// Beyond this, the longest link is suspiciously longer than the next.
 const LENGTH_RATIO: f64 = 100.0;
+/// Hardly a mechanism reaches further, m.
+const REACH: f64 = 200.0;
 /// A radius of gyration as a share of the mechanism's size.
 const GYRATION: RangeInclusive<f64> = 1e-4..=2.0;
 /// Gravity on Earth, m/s², from the equator to the poles with some room.
@@ -22,6 +24,7 @@ pub fn of(model: &Model, mobility: &Mobility) -> Vec<String> {
     found.extend(length_range(model));
     found.extend(no_inertia(model));
     let size = size(model);
+    found.extend(far_reach(size));
     if size > 0.0 {
         found.extend(model.links.iter().filter_map(|link| far_com(link, size)));
         found.extend(model.links.iter().filter_map(|link| odd_inertia(link, size)));
@@ -66,6 +69,10 @@ fn length_range(model: &Model) -> Option<String> {
             rounded(*second)
         )
     })
+}
+
+fn far_reach(size: f64) -> Option<String> {
+    (size > REACH).then(|| format!("the mechanism reaches {} m: m and mm?", rounded(size)))
 }
 
 fn no_inertia(model: &Model) -> Option<String> {

@@ -93,8 +93,16 @@ fn range(limit: &JointLimit) -> String {
             "range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}, acceleration = {acceleration:?}{force} }}"
         );
     }
-    let position = if whole { format!("position = [{lower:?}, {upper:?}], ") } else { String::new() };
-    format!("# limits: {position}velocity = {velocity:?}{force}; a `range` needs an acceleration, too")
+    // Whatever is given is kept, if it makes sense or not.
+    let given = lower.is_finite() && upper.is_finite() && (lower, upper) != (0.0, 0.0);
+    let position = if given { format!("position = [{lower:?}, {upper:?}], ") } else { String::new() };
+    let force = if effort != 0.0 { format!(", force = {effort:?}") } else { String::new() };
+    let why = match (given && !whole, effort < 0.0 || velocity < 0.0) {
+        (true, _) => "the lower one is not below the upper",
+        (_, true) => "they are negative",
+        _ => "a `range` needs an acceleration, too",
+    };
+    format!("# limits: {position}velocity = {velocity:?}{force}; {why}")
 }
 
 fn vector(v: [f64; 3]) -> String {
