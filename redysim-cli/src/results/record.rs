@@ -17,7 +17,7 @@ pub struct Sample {
     pub t: f64,
     pub q: Vec<f64>,
     pub v: Vec<f64>,
-    /// Accelerations: of inverse dynamics alone.
+    /// Accelerations.
     pub a: Vec<f64>,
     /// Joint forces.
     pub tau: Vec<f64>,

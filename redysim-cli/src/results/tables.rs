@@ -50,7 +50,7 @@ impl Tables {
     /// Begins the files.
     pub fn begin(folder: &Folder, format: Format, scenario: &Scenario, dynamics: Dynamics) -> Result<Tables, Failure> {
         let (tables, ending, delimiter) = match format {
-            Format::Csv => (named(scenario, dynamics), "csv", b','),
+            Format::Csv => (named(scenario), "csv", b','),
             Format::Dat => (redysim(scenario, dynamics), "dat", b' '),
         };
         let begun = tables.into_iter().map(|table| {
@@ -131,7 +131,7 @@ impl Row<'_> {
 }
 
 /// The tables with names and units, each with the time first.
-fn named(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
+fn named(scenario: &Scenario) -> Vec<Table> {
     let joints = |symbol: &str, per: &str| -> Vec<String> {
         scenario.joints.iter().map(|joint| format!("{symbol} {} [{}{per}]", joint.name, joint.unit())).collect()
     };
@@ -146,6 +146,7 @@ fn named(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
     let mut tables = vec![
         timed(names::TIMEVAR, &[], |at| at.timed(&[])),
         timed(names::STATEVAR, &[&q, &v], |at| at.timed(&[&at.sample.q, &at.sample.v])),
+        timed(names::TRAJ, &[&q, &v, &a], |at| at.timed(&[&at.sample.q, &at.sample.v, &at.sample.a])),
         timed(names::TOR, &[&forces], |at| at.timed(&[&at.sample.tau])),
         timed(names::ENERGY, &[&energies], |at| {
             let Energy { kinetic, potential } = at.energy;
@@ -153,9 +154,6 @@ fn named(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
         }),
         timed(names::KINEMATICS, &[&kinematics_headers(scenario)], |at| at.timed(&[&at.kinematics()])),
     ];
-    if dynamics == Dynamics::Inverse {
-        tables.push(timed(names::TRAJ, &[&q, &v, &a], |at| at.timed(&[&at.sample.q, &at.sample.v, &at.sample.a])));
-    }
     if scenario.loops() {
         tables.push(timed(names::LAMBDA, &[&lambda_headers(&scenario.mechanism)], |at| at.timed(&[&at.sample.lambda])));
     }

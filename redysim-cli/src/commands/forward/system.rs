@@ -2,7 +2,8 @@
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopSimulation, ForwardSimulation, LoopError, Ode, SimulationState, Stabilisation,
+    ClosedLoop, ClosedLoopSimulation, ForwardDynamics, ForwardSimulation, LoopError, Ode, SimulationState,
+    Stabilisation,
 };
 
 use crate::failure::Failure;
@@ -91,8 +92,12 @@ impl<'a> System<'a> {
     /// projected, so is what is written.
     pub fn sample(&mut self, forward: &Forward, t: f64, state: &Vec<f64>) -> Result<Sample, Failure> {
         let SimulationState { mut q, mut v, actuator_energy: work } = self.split(state);
-        let (tau, lambda) = match self {
-            System::Tree(simulation) => (simulation.torque(t, state), vec![]),
+        let (tau, a, lambda) = match self {
+            System::Tree(simulation) => {
+                let tau = simulation.torque(t, state);
+                let a = simulation.mechanism().forward_dynamics(&q, &v, &tau);
+                (tau, a, vec![])
+            }
             System::Loops(simulation) => {
                 let loops = simulation.loops();
                 let failed =
@@ -104,9 +109,9 @@ impl<'a> System<'a> {
                 let driven = simulation.driven_motion(t, &simulation.state(&q, &v));
                 simulation.law().last_error().map_or(Ok(()), Err).map_err(failed)?;
                 let (tau, motion) = driven.map_err(failed)?;
-                (tau, motion.multipliers)
+                (tau, motion.accelerations, motion.multipliers)
             }
         };
-        Ok(Sample { t, q, v, a: vec![], tau, lambda, work })
+        Ok(Sample { t, q, v, a, tau, lambda, work })
     }
 }
