@@ -1,6 +1,6 @@
 //! `redysim inverse SCENARIO`.
 
-use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopClosure, LoopForces, Motion, Trajectory};
+use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopForces, Motion, Trajectory};
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -107,8 +107,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
         }
         let failed = |reason| Failure::outside(format!("at t = {t:?} s: {}", loops.explain(reason)));
         let LoopForces { motion, forces, multipliers, .. } = of_loops.at(t, trajectory).map_err(failed)?;
-        let residual: Vec<f64> = mechanism.loop_residual(&motion.q);
-        let gap = residual.iter().fold(0.0, |gap: f64, value| gap.max(value.abs()));
+        let gap = scenario.gap(&motion.q);
         Ok(Required { motion, forces, multipliers, gap })
     };
     let (mut worst, mut work, mut before) = (0.0, 0.0, None);

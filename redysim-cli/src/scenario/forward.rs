@@ -67,7 +67,7 @@ fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabil
     if !subject.loops() || stabilisation == Stabilisation::Projection {
         return;
     }
-    let Mobility { conditions, rank, .. } = Mobility::of(subject.model);
+    let Mobility { conditions, rank, .. } = *subject.mobility();
     if rank < conditions {
         let item = reader.item();
         reader.warning_of_table(Message {
@@ -94,5 +94,6 @@ fn stabilisation(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<S
         })
     });
     subject.expect_loops(reader, "forward.stabilisation", &field);
-    field.value_or(Some(Stabilisation::Projection))?
+    let stabilisation = field.value_or(Some(Stabilisation::Projection))??;
+    Some(if subject.loops() { stabilisation } else { Stabilisation::Projection })
 }

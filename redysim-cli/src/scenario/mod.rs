@@ -12,11 +12,13 @@ mod table;
 mod torque;
 mod trajectory;
 
+use std::cell::OnceCell;
 use std::fmt;
 use std::path::Path;
 
 use redysim_model::document::{self, Field, Message, Reader, Shape};
-use redysim_model::{Diagnostic, GenericMechanism, Model};
+use redysim_model::{Diagnostic, GenericMechanism, Mobility, Model};
+use redysim_runtime::LoopClosure;
 use toml::de::DeValue;
 
 use crate::failure::Failure;
@@ -113,6 +115,12 @@ impl Scenario {
         !self.mechanism.model().loops.is_empty()
     }
 
+    /// The largest component of the loops' residual at `q`, m (or a sine).
+    pub fn gap(&self, q: &Vec<f64>) -> f64 {
+        let residual: Vec<f64> = self.mechanism.loop_residual(q);
+        residual.iter().fold(0.0, |gap, value| gap.max(value.abs()))
+    }
+
     /// Fails unless the tables that are used go as far as the runs that use them.
     fn check_tables(&self) -> Result<(), Failure> {
         let cover = |table: Option<&Table>, span: Span| table.map_or(Ok(()), |table| table.cover(span.start, span.end));
@@ -134,6 +142,8 @@ pub struct Subject<'s> {
     dynamics: Dynamics,
     joints: &'s [Joint],
     model: &'s Model,
+    /// What its loops leave free, once somebody has asked: to find that closes them.
+    mobility: OnceCell<Mobility>,
     /// Where the files are that it names.
     folder: &'s Path,
 }
@@ -142,6 +152,11 @@ impl Subject<'_> {
     /// Whether there are closed loops.
     fn loops(&self) -> bool {
         !self.model.loops.is_empty()
+    }
+
+    /// What the loops leave free.
+    fn mobility(&self) -> &Mobility {
+        self.mobility.get_or_init(|| Mobility::of(self.model))
     }
 
     /// Warns of a setting of closed loops where there are none.
@@ -207,7 +222,7 @@ fn read(
         },
     };
     let joints = joints::of_model(mechanism.model());
-    let subject = Subject { dynamics, joints: &joints, model: mechanism.model(), folder };
+    let subject = Subject { dynamics, joints: &joints, model: mechanism.model(), mobility: OnceCell::new(), folder };
     let initial = Initial::read(&mut reader, &subject);
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);

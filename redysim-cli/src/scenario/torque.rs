@@ -171,12 +171,11 @@ impl<'s> Source<'s, '_, '_> {
     fn computed_torque(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
         let [kp, kd] = ["kp", "kd"].map(|key| self.gains(key, &trajectory.joints));
-        let Subject { joints, model, .. } = *self.subject;
         let actuated = self.subject.actuated();
-        if let Some(passive) = joints.iter().find(|joint| !joint.actuated && !self.subject.loops()) {
+        if let Some(passive) = self.subject.joints.iter().find(|joint| !joint.actuated && !self.subject.loops()) {
             return underactuated(&mut self.reader, passive);
         }
-        if let Err((fault, help)) = trajectory.check_joints(model, joints) {
+        if let Err((fault, help)) = trajectory.check_joints(self.subject) {
             let title = format!("{}: {fault}, and computed torque moves it whole", self.reader.item());
             return self.reader.fault_of_table(Message { title, label: "not with this trajectory".into(), help });
         }

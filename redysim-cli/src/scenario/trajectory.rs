@@ -1,7 +1,7 @@
 //! Prescribed motions.
 
+use redysim_model::Mobility;
 use redysim_model::document::{Message, Reader, Shape};
-use redysim_model::{Mobility, Model};
 use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
 use toml::Spanned;
 
@@ -113,7 +113,7 @@ impl Prescribed {
             };
             let prescribed = Prescribed { joints: chosen, table, motion };
             let checked = match subject.dynamics {
-                Dynamics::Inverse => prescribed.check_joints(subject.model, joints),
+                Dynamics::Inverse => prescribed.check_joints(subject),
                 // What a law needs to follow, it says itself.
                 Dynamics::Forward => Ok(()),
             };
@@ -130,14 +130,15 @@ impl Prescribed {
 
     /// Fails, with what is wrong and what to do, unless it says how all of a mechanism moves and nothing twice: a tree every
     /// joint, closed loops as many as they leave free.
-    pub fn check_joints(&self, model: &Model, joints: &[Joint]) -> Result<(), (String, String)> {
-        if model.loops.is_empty() {
+    pub fn check_joints(&self, subject: &Subject<'_>) -> Result<(), (String, String)> {
+        let joints = subject.joints;
+        if !subject.loops() {
             let free = joints.iter().enumerate().find(|(index, _)| !self.joints.contains(index));
             let Some((_, joint)) = free else { return Ok(()) };
             let help = "name all joints among its `joints`: without loops nothing else tells how they move";
             return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
         }
-        let Mobility { mobility: free, gap, .. } = Mobility::of(model);
+        let Mobility { mobility: free, gap, .. } = *subject.mobility();
         let prescribed = self.joints.len();
         // Loops that were not closed from anywhere may leave another number free where they are.
         if prescribed == free || gap.is_some() {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use redysim_runtime::integrate::Observer;
-use redysim_runtime::{LoopClosure, SimulationState, Step};
+use redysim_runtime::{SimulationState, Step};
 
 use super::system::System;
 use crate::failure::Failure;
@@ -51,8 +51,7 @@ impl<'a, 'r> Watch<'a, 'r> {
     fn see(&mut self, state: &Vec<f64>) {
         let SimulationState { q, v, actuator_energy } = self.system.split(state);
         self.record.see(&q, &v, actuator_energy);
-        let residual: Vec<f64> = self.scenario.mechanism.loop_residual(&q);
-        self.gap = residual.iter().fold(self.gap, |gap, value| gap.max(value.abs()));
+        self.gap = self.gap.max(self.scenario.gap(&q));
     }
 }
 
