@@ -1,7 +1,7 @@
 //! The compiled type: constants, functions and traits of one mechanism.
 
 use crate::documentation;
-use crate::emit::{Angles, POSTURE, Vocabulary, function_body, local};
+use crate::emit::{Angles, COS, SIN, Vocabulary, function_body, local};
 use crate::expressions::Expressions;
 use crate::functions::{Function, SIGNATURES, Signature, trace_of, trace_scene};
 use crate::passes::Passes;
@@ -83,6 +83,9 @@ pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStre
     let definitions = std::iter::once(posture).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
     type_impls(outline, name, runtime, &[], definitions.collect())
 }
+
+/// The name of the argument that has the coordinates with the sines and cosines.
+const POSTURE: &str = "at";
 
 /// The trait that has several functions.
 const CLOSURE: &str = "LoopClosure";
@@ -167,22 +170,27 @@ impl Writer<'_> {
         let head = posture_head(self.outline.joints.len(), self.angles.len(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
         let angles = self.angles.expressions(0..self.angles.len());
+        let body = with_target_features(&quote! {
+            let (sin, cos) = S::sin_cos_all([#(#angles),*]);
+            #runtime::Posture::new(#q, &sin, &cos)
+        });
         quote! {
             /// Coordinates with the sines and cosines of all angles: computed once, they serve every function whose
             /// name ends in `_at`.
             #[inline]
             pub #head {
-                let (sin, cos) = S::sin_cos_all([#(#angles),*]);
-                #runtime::Posture { q: *#q, sin, cos }
+                #body
             }
         }
     }
 
-    /// One function with its documentation: of coordinates, and of a posture.
+    /// One function with its documentation: of coordinates, and of a posture. What both compute after the sines and
+    /// cosines is a function of its own, which becomes part of either, so that no posture goes through memory.
     fn function(&self, function: &Function) -> TokenStream {
         let Function { signature, expressions, .. } = function;
         let Writer { model, bodies, angles, outline, runtime } = *self;
         let (head, head_at) = (head(signature, outline, runtime), head_at(signature, outline, angles.len(), runtime));
+        let head_inlined = head_inlined(signature, outline, angles.len(), runtime);
         let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles };
         let result = |outputs: &[TokenStream]| shape::value(signature.shape, outline, outputs, runtime);
         let body = function_body(expressions, &vocabulary, result);
@@ -190,32 +198,40 @@ impl Writer<'_> {
         let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
         let docs_at = format!(" [`{0}`](Self::{0}) where the sines and cosines are there already.", signature.name);
-        let needed_angles = self.posture_for(expressions);
-        let (name_at, q, at) = (format_ident!("{}_at", signature.name), local("q"), local(POSTURE));
+        let (inlined, q, at) = (inlined(signature), local("q"), local(POSTURE));
         let others: Vec<Ident> = signature.arguments[1..].iter().map(|argument| local(argument)).collect();
+        let (computed, sin, cos) = self.needed_angles(expressions);
+        let of_coordinates = with_target_features(&quote! {
+            #computed
+            Self::#inlined(#q, #sin, #cos #(, #others)*)
+        });
+        let of_posture = with_target_features(&quote!(Self::#inlined(&#at.#q, &#at.sin, &#at.cos #(, #others)*)));
         quote! {
             #(#[doc = #docs])*
             pub #head {
-                Self::#name_at(&#needed_angles #(, #others)*)
+                #of_coordinates
             }
             #[doc = #docs_at]
-            #[inline]
             pub #head_at {
-                let #q = &#at.#q;
+                #of_posture
+            }
+            #[inline(always)]
+            #head_inlined {
                 #body
             }
         }
     }
 
-    /// A posture with the sines and cosines that one function needs; what it never reads is zero.
-    fn posture_for(&self, expressions: &Expressions) -> TokenStream {
-        let (q, runtime) = (local("q"), self.runtime);
+    /// The statement that computes the sines and cosines that one function needs, and those of all angles, of which
+    /// what it never reads is zero.
+    fn needed_angles(&self, expressions: &Expressions) -> (Option<TokenStream>, TokenStream, TokenStream) {
         let needed = self.angles.needed_by(expressions);
-        if needed.len() == self.angles.len() && !needed.is_empty() {
-            return quote!(Self::posture(#q));
-        }
         let values = self.angles.expressions(needed.iter().copied());
-        let [sin, cos] = ["sin", "cos"].map(|function| {
+        let computed = (!values.is_empty()).then(|| quote!(let (sin, cos) = S::sin_cos_all([#(#values),*]);));
+        if needed.len() == self.angles.len() && !needed.is_empty() {
+            return (computed, quote!(&sin), quote!(&cos));
+        }
+        let [sin, cos] = [SIN, COS].map(|function| {
             let elements = (0..self.angles.len()).map(|position| match needed.binary_search(&position) {
                 Ok(place) => {
                     let (array, place) = (local(function), Literal::usize_unsuffixed(place));
@@ -224,14 +240,32 @@ impl Writer<'_> {
                 Err(_) => quote!(S::zero()),
             });
             let elements: Vec<TokenStream> = elements.collect();
-            quote!([#(#elements),*])
+            quote!(&[#(#elements),*])
         });
-        let computed = (!values.is_empty()).then(|| quote!(let (sin, cos) = S::sin_cos_all([#(#values),*]);));
-        quote!({
-            #computed
-            #runtime::Posture { q: *#q, sin: #sin, cos: #cos }
-        })
+        (computed, sin, cos)
     }
+}
+
+/// `body` in code for the instructions that the scalar stands on.
+fn with_target_features(body: &TokenStream) -> TokenStream {
+    quote!(S::with_target_features(#[inline(always)] || { #body }))
+}
+
+/// The name of what a function computes after the sines and cosines.
+fn inlined(signature: &Signature) -> Ident {
+    format_ident!("{}_inlined", signature.name)
+}
+
+/// Name, arguments and result of what a function computes after the sines and cosines of `angles` angles.
+fn head_inlined(signature: &Signature, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let name = inlined(signature);
+    let [nv, angles] = [outline.joints.len(), angles].map(Literal::usize_unsuffixed);
+    let [q, sin, cos] = ["q", SIN, COS].map(local);
+    let others = signature.arguments[1..].iter().map(|argument| local(argument));
+    let output = shape::output_type(signature.shape, outline, runtime);
+    quote!(fn #name<S: #runtime::Scalar>(
+        #q: &[S; #nv], #sin: &[S; #angles], #cos: &[S; #angles] #(, #others: &[S; #nv])*
+    ) -> #output)
 }
 
 /// Name, argument and result of the function that computes sines and cosines.

@@ -21,6 +21,7 @@ pub mod lanes;
 pub mod mechanism;
 pub mod operations;
 pub mod posture;
+mod registers;
 pub mod scalar;
 pub mod simulate;
 pub mod trajectory;

@@ -1,5 +1,7 @@
 //! Coordinates with the sines and cosines that are computed from them.
 
+use crate::Scalar;
+
 /// Coordinates of a mechanism with the sines and cosines of its angles: what a compiled type computes by `posture(&q)`,
 /// and its functions `…_at` take.
 ///
@@ -22,4 +24,19 @@ pub struct Posture<S, const Q: usize, const A: usize> {
     pub sin: [S; A],
     /// The cosine of each angle.
     pub cos: [S; A],
+}
+
+impl<S: Scalar, const Q: usize, const A: usize> Posture<S, Q, A> {
+    /// The coordinates `q` with the sines and cosines that were computed from them.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn new(q: &[S; Q], sin: &[S; A], cos: &[S; A]) -> Self {
+        Posture { q: apart(q), sin: apart(sin), cos: apart(cos) }
+    }
+}
+
+/// The same numbers, each copied by itself.
+#[inline(always)]
+fn apart<S: Scalar, const N: usize>(numbers: &[S; N]) -> [S; N] {
+    core::array::from_fn(|index| numbers[index].apart())
 }

@@ -1,5 +1,6 @@
 //! The numbers that dynamics is computed with.
 
+use crate::registers::Register;
 use crate::trigonometry;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -48,6 +49,19 @@ pub trait Scalar:
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         self * factor + addend
+    }
+
+    /// Runs `computation` in code that is compiled for the instructions this number stands on.
+    #[inline(always)]
+    fn with_target_features<R>(computation: impl FnOnce() -> R) -> R {
+        computation()
+    }
+
+    /// The same number.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn apart(self) -> Self {
+        self
     }
 
     /// Zero.
@@ -144,6 +158,10 @@ macro_rules! real {
                 #[cfg(not(feature = "std"))]
                 let [sum, ..] = $vector::splat(self).mul_add(factor.into(), addend.into()).to_array();
                 sum
+            }
+            #[inline(always)]
+            fn apart(self) -> Self {
+                Register::apart(self)
             }
         }
 

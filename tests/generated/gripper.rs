@@ -104,20 +104,21 @@ impl Gripper {
     pub fn posture<S: ::redysim_runtime::Scalar>(
         q: &[S; 4],
     ) -> ::redysim_runtime::Posture<S, 4, 7> {
-        let (sin, cos) = S::sin_cos_all([
-            q[0],
-            q[1],
-            q[2],
-            q[3],
-            (q[0] + q[1]),
-            (q[0] + q[3]),
-            (q[2] + (q[0] + q[1])),
-        ]);
-        ::redysim_runtime::Posture {
-            q: *q,
-            sin,
-            cos,
-        }
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                let (sin, cos) = S::sin_cos_all([
+                    q[0],
+                    q[1],
+                    q[2],
+                    q[3],
+                    (q[0] + q[1]),
+                    (q[0] + q[3]),
+                    (q[2] + (q[0] + q[1])),
+                ]);
+                ::redysim_runtime::Posture::new(q, &sin, &cos)
+            },
+        )
     }
     /// τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.
     ///
@@ -127,46 +128,42 @@ impl Gripper {
         v: &[S; 4],
         a: &[S; 4],
     ) -> [S; 4] {
-        Self::inverse_dynamics_at(
-            &{
+        S::with_target_features(
+            #[inline(always)]
+            || {
                 let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
-                        sin[0],
-                        sin[1],
-                        sin[2],
-                        sin[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                    cos: [
-                        cos[0],
-                        cos[1],
-                        cos[2],
-                        cos[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                }
+                Self::inverse_dynamics_inlined(
+                    q,
+                    &[sin[0], sin[1], sin[2], sin[3], S::zero(), S::zero(), S::zero()],
+                    &[cos[0], cos[1], cos[2], cos[3], S::zero(), S::zero(), S::zero()],
+                    v,
+                    a,
+                )
             },
-            v,
-            a,
         )
     }
     /// [`inverse_dynamics`](Self::inverse_dynamics) where the sines and cosines are there already.
-    #[inline]
     pub fn inverse_dynamics_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
         a: &[S; 4],
     ) -> [S; 4] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::inverse_dynamics_inlined(&at.q, &at.sin, &at.cos, v, a) },
+        )
+    }
+    #[inline(always)]
+    fn inverse_dynamics_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+        a: &[S; 4],
+    ) -> [S; 4] {
         let k = S::from_f64;
-        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
-        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = *sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = *cos;
         let acc_link1_x = k(196.20000000000002) * sin_link1;
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
@@ -246,46 +243,42 @@ impl Gripper {
         v: &[S; 4],
         tau: &[S; 4],
     ) -> [S; 4] {
-        Self::forward_dynamics_at(
-            &{
+        S::with_target_features(
+            #[inline(always)]
+            || {
                 let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
-                        sin[0],
-                        sin[1],
-                        sin[2],
-                        sin[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                    cos: [
-                        cos[0],
-                        cos[1],
-                        cos[2],
-                        cos[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                }
+                Self::forward_dynamics_inlined(
+                    q,
+                    &[sin[0], sin[1], sin[2], sin[3], S::zero(), S::zero(), S::zero()],
+                    &[cos[0], cos[1], cos[2], cos[3], S::zero(), S::zero(), S::zero()],
+                    v,
+                    tau,
+                )
             },
-            v,
-            tau,
         )
     }
     /// [`forward_dynamics`](Self::forward_dynamics) where the sines and cosines are there already.
-    #[inline]
     pub fn forward_dynamics_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
         tau: &[S; 4],
     ) -> [S; 4] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::forward_dynamics_inlined(&at.q, &at.sin, &at.cos, v, tau) },
+        )
+    }
+    #[inline(always)]
+    fn forward_dynamics_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+        tau: &[S; 4],
+    ) -> [S; 4] {
         let k = S::from_f64;
-        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
-        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = *sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = *cos;
         let acc_link1_x = k(196.20000000000002) * sin_link1;
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
@@ -377,12 +370,13 @@ impl Gripper {
     ///
     /// 20 flops: 11 additions, 9 multiplications, 0 divisions; 3 sine-cosine pairs.
     pub fn mass_matrix<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [[S; 4]; 4] {
-        Self::mass_matrix_at(
-            &{
+        S::with_target_features(
+            #[inline(always)]
+            || {
                 let (sin, cos) = S::sin_cos_all([q[1], q[2], q[3]]);
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
+                Self::mass_matrix_inlined(
+                    q,
+                    &[
                         S::zero(),
                         sin[0],
                         sin[1],
@@ -391,28 +385,29 @@ impl Gripper {
                         S::zero(),
                         S::zero(),
                     ],
-                    cos: [
-                        S::zero(),
-                        cos[0],
-                        cos[1],
-                        cos[2],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                }
+                    &[S::zero(), cos[0], cos[1], cos[2], S::zero(), S::zero(), S::zero()],
+                )
             },
         )
     }
     /// [`mass_matrix`](Self::mass_matrix) where the sines and cosines are there already.
-    #[inline]
     pub fn mass_matrix_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [[S; 4]; 4] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::mass_matrix_inlined(&at.q, &at.sin, &at.cos) },
+        )
+    }
+    #[inline(always)]
+    fn mass_matrix_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+    ) -> [[S; 4]; 4] {
         let k = S::from_f64;
-        let [_, sin_link2, sin_link3, _, _, _, _] = at.sin;
-        let [_, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
+        let [_, sin_link2, sin_link3, _, _, _, _] = *sin;
+        let [_, cos_link2, cos_link3, cos_link4, _, _, _] = *cos;
         let t1 = S::mul_add(
             k(0.00025000000000000006),
             cos_link4,
@@ -452,44 +447,39 @@ impl Gripper {
     ///
     /// 46 flops: 18 additions, 28 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn bias_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 4] {
-        Self::bias_forces_at(
-            &{
+        S::with_target_features(
+            #[inline(always)]
+            || {
                 let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
-                        sin[0],
-                        sin[1],
-                        sin[2],
-                        sin[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                    cos: [
-                        cos[0],
-                        cos[1],
-                        cos[2],
-                        cos[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                }
+                Self::bias_forces_inlined(
+                    q,
+                    &[sin[0], sin[1], sin[2], sin[3], S::zero(), S::zero(), S::zero()],
+                    &[cos[0], cos[1], cos[2], cos[3], S::zero(), S::zero(), S::zero()],
+                    v,
+                )
             },
-            v,
         )
     }
     /// [`bias_forces`](Self::bias_forces) where the sines and cosines are there already.
-    #[inline]
     pub fn bias_forces_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> [S; 4] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::bias_forces_inlined(&at.q, &at.sin, &at.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn bias_forces_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> [S; 4] {
         let k = S::from_f64;
-        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
-        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = *sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = *cos;
         let acc_link1_x = k(196.20000000000002) * sin_link1;
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
@@ -534,42 +524,36 @@ impl Gripper {
     ///
     /// 21 flops: 7 additions, 14 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn gravity_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 4] {
-        Self::gravity_forces_at(
-            &{
+        S::with_target_features(
+            #[inline(always)]
+            || {
                 let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
-                        sin[0],
-                        sin[1],
-                        sin[2],
-                        sin[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                    cos: [
-                        cos[0],
-                        cos[1],
-                        cos[2],
-                        cos[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                }
+                Self::gravity_forces_inlined(
+                    q,
+                    &[sin[0], sin[1], sin[2], sin[3], S::zero(), S::zero(), S::zero()],
+                    &[cos[0], cos[1], cos[2], cos[3], S::zero(), S::zero(), S::zero()],
+                )
             },
         )
     }
     /// [`gravity_forces`](Self::gravity_forces) where the sines and cosines are there already.
-    #[inline]
     pub fn gravity_forces_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [S; 4] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::gravity_forces_inlined(&at.q, &at.sin, &at.cos) },
+        )
+    }
+    #[inline(always)]
+    fn gravity_forces_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+    ) -> [S; 4] {
         let k = S::from_f64;
-        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
-        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = *sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = *cos;
         let acc_link1_x = k(98.10000000000001) * sin_link1;
         let acc_link1_y = k(98.10000000000001) * cos_link1;
         let acc_link2_x = S::mul_add(sin_link2, acc_link1_y, cos_link2 * acc_link1_x);
@@ -606,44 +590,39 @@ impl Gripper {
         q: &[S; 4],
         v: &[S; 4],
     ) -> ::redysim_runtime::Energy<S> {
-        Self::energy_at(
-            &{
+        S::with_target_features(
+            #[inline(always)]
+            || {
                 let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
-                        sin[0],
-                        sin[1],
-                        sin[2],
-                        sin[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                    cos: [
-                        cos[0],
-                        cos[1],
-                        cos[2],
-                        cos[3],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                    ],
-                }
+                Self::energy_inlined(
+                    q,
+                    &[sin[0], sin[1], sin[2], sin[3], S::zero(), S::zero(), S::zero()],
+                    &[cos[0], cos[1], cos[2], cos[3], S::zero(), S::zero(), S::zero()],
+                    v,
+                )
             },
-            v,
         )
     }
     /// [`energy`](Self::energy) where the sines and cosines are there already.
-    #[inline]
     pub fn energy_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> ::redysim_runtime::Energy<S> {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::energy_inlined(&at.q, &at.sin, &at.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn energy_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> ::redysim_runtime::Energy<S> {
         let k = S::from_f64;
-        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = at.sin;
-        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = at.cos;
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = *sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = *cos;
         let vel_link2_x = v[0] * sin_link2;
         let vel_link2_y = v[0] * cos_link2;
         let w_link2_z = v[0] + v[1];
@@ -715,49 +694,44 @@ impl Gripper {
         q: &[S; 4],
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
-        Self::link_kinematics_at(
-            &{
+        S::with_target_features(
+            #[inline(always)]
+            || {
                 let (sin, cos) = S::sin_cos_all([
                     q[0],
                     (q[0] + q[1]),
                     (q[0] + q[3]),
                     (q[2] + (q[0] + q[1])),
                 ]);
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
-                        sin[0],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                        sin[1],
-                        sin[2],
-                        sin[3],
-                    ],
-                    cos: [
-                        cos[0],
-                        S::zero(),
-                        S::zero(),
-                        S::zero(),
-                        cos[1],
-                        cos[2],
-                        cos[3],
-                    ],
-                }
+                Self::link_kinematics_inlined(
+                    q,
+                    &[sin[0], S::zero(), S::zero(), S::zero(), sin[1], sin[2], sin[3]],
+                    &[cos[0], S::zero(), S::zero(), S::zero(), cos[1], cos[2], cos[3]],
+                    v,
+                )
             },
-            v,
         )
     }
     /// [`link_kinematics`](Self::link_kinematics) where the sines and cosines are there already.
-    #[inline]
     pub fn link_kinematics_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::link_kinematics_inlined(&at.q, &at.sin, &at.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn link_kinematics_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> [::redysim_runtime::LinkState<S>; 4] {
         let k = S::from_f64;
-        let [sin_link1, _, _, _, sin_sum_link2, sin_sum_link4, sin_sum_link3] = at.sin;
-        let [cos_link1, _, _, _, cos_sum_link2, cos_sum_link4, cos_sum_link3] = at.cos;
+        let [sin_link1, _, _, _, sin_sum_link2, sin_sum_link4, sin_sum_link3] = *sin;
+        let [cos_link1, _, _, _, cos_sum_link2, cos_sum_link4, cos_sum_link3] = *cos;
         let t1 = k(0.1) * cos_link1;
         let t2 = k(0.1) * sin_link1;
         let t3 = k(0.05) * cos_sum_link2;
@@ -832,11 +806,12 @@ impl Gripper {
     ///
     /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
     pub fn loop_residual<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 0] {
-        Self::loop_residual_at(
-            &{
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                Self::loop_residual_inlined(
+                    q,
+                    &[
                         S::zero(),
                         S::zero(),
                         S::zero(),
@@ -845,7 +820,7 @@ impl Gripper {
                         S::zero(),
                         S::zero(),
                     ],
-                    cos: [
+                    &[
                         S::zero(),
                         S::zero(),
                         S::zero(),
@@ -854,16 +829,25 @@ impl Gripper {
                         S::zero(),
                         S::zero(),
                     ],
-                }
+                )
             },
         )
     }
     /// [`loop_residual`](Self::loop_residual) where the sines and cosines are there already.
-    #[inline]
     pub fn loop_residual_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [S; 0] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::loop_residual_inlined(&at.q, &at.sin, &at.cos) },
+        )
+    }
+    #[inline(always)]
+    fn loop_residual_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+    ) -> [S; 0] {
         let k = S::from_f64;
         []
     }
@@ -871,11 +855,12 @@ impl Gripper {
     ///
     /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
     pub fn loop_jacobian<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [[S; 4]; 0] {
-        Self::loop_jacobian_at(
-            &{
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                Self::loop_jacobian_inlined(
+                    q,
+                    &[
                         S::zero(),
                         S::zero(),
                         S::zero(),
@@ -884,7 +869,7 @@ impl Gripper {
                         S::zero(),
                         S::zero(),
                     ],
-                    cos: [
+                    &[
                         S::zero(),
                         S::zero(),
                         S::zero(),
@@ -893,16 +878,25 @@ impl Gripper {
                         S::zero(),
                         S::zero(),
                     ],
-                }
+                )
             },
         )
     }
     /// [`loop_jacobian`](Self::loop_jacobian) where the sines and cosines are there already.
-    #[inline]
     pub fn loop_jacobian_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
     ) -> [[S; 4]; 0] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::loop_jacobian_inlined(&at.q, &at.sin, &at.cos) },
+        )
+    }
+    #[inline(always)]
+    fn loop_jacobian_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+    ) -> [[S; 4]; 0] {
         let k = S::from_f64;
         []
     }
@@ -910,11 +904,12 @@ impl Gripper {
     ///
     /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
     pub fn loop_bias<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 0] {
-        Self::loop_bias_at(
-            &{
-                ::redysim_runtime::Posture {
-                    q: *q,
-                    sin: [
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                Self::loop_bias_inlined(
+                    q,
+                    &[
                         S::zero(),
                         S::zero(),
                         S::zero(),
@@ -923,7 +918,7 @@ impl Gripper {
                         S::zero(),
                         S::zero(),
                     ],
-                    cos: [
+                    &[
                         S::zero(),
                         S::zero(),
                         S::zero(),
@@ -932,18 +927,28 @@ impl Gripper {
                         S::zero(),
                         S::zero(),
                     ],
-                }
+                    v,
+                )
             },
-            v,
         )
     }
     /// [`loop_bias`](Self::loop_bias) where the sines and cosines are there already.
-    #[inline]
     pub fn loop_bias_at<S: ::redysim_runtime::Scalar>(
         at: &::redysim_runtime::Posture<S, 4, 7>,
         v: &[S; 4],
     ) -> [S; 0] {
-        let q = &at.q;
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::loop_bias_inlined(&at.q, &at.sin, &at.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn loop_bias_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> [S; 0] {
         let k = S::from_f64;
         []
     }

@@ -31,7 +31,7 @@ pub struct Vocabulary<'a> {
     pub angles: &'a Angles,
 }
 
-/// The body of a function over `S: Scalar` that finds the sines and cosines of all angles in `at`: statements, then the
+/// The body of a function over `S: Scalar` that finds the sines and cosines of all angles in `sin` and `cos`: statements, then the
 /// result that `result` makes of the outputs.
 pub fn function_body(
     expressions: &Expressions,
@@ -59,8 +59,9 @@ pub fn local(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// The name of the argument that has the coordinates with the sines and cosines.
-pub const POSTURE: &str = "at";
+/// The names of the arguments that have the sines and the cosines of all angles.
+pub const SIN: &str = "sin";
+pub const COS: &str = "cos";
 
 /// The local name of `S::from_f64`.
 const FROM_F64: &str = "k";
@@ -105,7 +106,7 @@ impl<'a> Emitter<'a> {
     /// Gives an identifier to every value that is to have a `let`.
     fn name_values(&mut self, uses: &[usize]) {
         let graph = self.graph;
-        let mut identifiers = Identifiers::new(self.vocabulary.bodies, &[FROM_F64, POSTURE, loops::GROUP, loops::ROW]);
+        let mut identifiers = Identifiers::new(self.vocabulary.bodies, &[FROM_F64, SIN, COS, loops::GROUP, loops::ROW]);
         self.vocabulary.arguments.iter().for_each(|argument| identifiers.reserve(argument));
         let mut lasting = vec![false; graph.len()];
         if let Some(rolled) = &self.rolled {
@@ -194,10 +195,10 @@ impl<'a> Emitter<'a> {
                 _ => cosines[position] = self.idents[index].clone(),
             }
         }
-        let taken = [("sin", sines), ("cos", cosines)].map(|(field, idents)| {
-            let (at, field) = (local(POSTURE), local(field));
+        let taken = [(SIN, sines), (COS, cosines)].map(|(array, idents)| {
+            let array = local(array);
             let names = idents.iter().map(|ident| ident.as_ref().map_or(quote!(_), |ident| quote!(#ident)));
-            idents.iter().any(Option::is_some).then(|| quote!(let [#(#names),*] = #at.#field;))
+            idents.iter().any(Option::is_some).then(|| quote!(let [#(#names),*] = *#array;))
         });
         taken.into_iter().flatten().collect()
     }

@@ -1,7 +1,7 @@
 //! Values and operations as Rust expressions.
 
 use super::loops::{ROW, carried, index_in_loop};
-use super::{Emitter, FROM_F64, POSTURE, constant, local};
+use super::{COS, Emitter, FROM_F64, SIN, constant, local};
 use crate::graph::{Edge, Node};
 use crate::rolled::{Constant, TEMPLATE};
 use proc_macro2::{Literal, TokenStream};
@@ -64,10 +64,10 @@ impl Emitter<'_> {
                 if negative { quote!(-#argument[#index]) } else { quote!(#argument[#index]) }
             }
             Node::Sin(_) | Node::Cos(_) => {
-                let function = if matches!(self.graph.node(index), Node::Sin(_)) { "sin" } else { "cos" };
-                let (at, function) = (local(POSTURE), local(function));
+                let function = if matches!(self.graph.node(index), Node::Sin(_)) { SIN } else { COS };
+                let function = local(function);
                 let index = self.element(self.positions[&index], scope);
-                if negative { quote!(-#at.#function[#index]) } else { quote!(#at.#function[#index]) }
+                if negative { quote!(-#function[#index]) } else { quote!(#function[#index]) }
             }
             Node::Subtract(..) => self.operation(index, edge.is_negative(), binding, scope),
             _ if negative => {

@@ -22,6 +22,7 @@ mod transpose;
 
 pub use transpose::{pack, unpack};
 
+use crate::registers::Register;
 use crate::scalar::FUSED;
 use crate::{Scalar, trigonometry};
 use core::fmt;
@@ -120,6 +121,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn mul_add(self, factor: Self, addend: Self) -> Self {
                 if FUSED { Self(self.0.mul_add(factor.0, addend.0)) } else { self * factor + addend }
+            }
+
+            #[inline(always)]
+            fn apart(self) -> Self {
+                Self(Register::apart(self.0))
             }
         }
     };

@@ -32,7 +32,7 @@ impl Kernel<f64> for Double {
     #[inline(always)]
     fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [f64; W]) -> ([f64; W], [f64; W]) {
         let (sin, cos) = sin_cos(L::from(angles));
-        (sin.into(), cos.into())
+        (sin.apart().into(), cos.apart().into())
     }
 
     #[inline(always)]

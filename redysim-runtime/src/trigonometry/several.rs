@@ -1,7 +1,7 @@
 //! A list of angles spread over lanes.
 
 use super::angle::Angle;
-use crate::lanes::{F64x2, F64x4, F64x8, Lanes};
+use crate::lanes::{F64x2, F64x4, Lanes};
 
 /// A sine and cosine of `T`, the same for any number of lanes.
 pub trait Kernel<T> {
@@ -19,27 +19,19 @@ pub trait Kernel<T> {
 #[inline(always)]
 pub fn several<K: Kernel<T>, T: Copy + Default, const N: usize>(angles: [T; N]) -> ([T; N], [T; N]) {
     let mut found = ([T::default(); N], [T::default(); N]);
-    let whole = N - N % 8;
-    for start in (0..whole).step_by(8) {
-        eight::<K, T, N>(&angles, &mut found, start);
+    // An array that is written in a loop goes through memory.
+    four::<K, T, N>(&angles, &mut found, 0);
+    four::<K, T, N>(&angles, &mut found, 4);
+    four::<K, T, N>(&angles, &mut found, 8);
+    four::<K, T, N>(&angles, &mut found, 12);
+    four::<K, T, N>(&angles, &mut found, 16);
+    four::<K, T, N>(&angles, &mut found, 20);
+    four::<K, T, N>(&angles, &mut found, 24);
+    four::<K, T, N>(&angles, &mut found, 28);
+    for start in (32..N).step_by(4) {
+        four::<K, T, N>(&angles, &mut found, start);
     }
-    eight::<K, T, N>(&angles, &mut found, whole);
     found
-}
-
-/// Those of up to eight angles from `start` on.
-#[inline(always)]
-fn eight<K: Kernel<T>, T: Copy + Default, const N: usize>(angles: &[T; N], found: &mut ([T; N], [T; N]), start: usize) {
-    let left = N - start;
-    if cfg!(target_feature = "avx512f") && left > 4 {
-        // One by one, since an array that is written in a loop goes through memory, where what was written in parts
-        // cannot be read as a whole before it has left the processor's queue of writes.
-        let at = |lane| entry(angles, start + lane);
-        put(K::group::<F64x8, 8>([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]), found, start);
-    } else {
-        four::<K, T, N>(angles, found, start);
-        four::<K, T, N>(angles, found, start + 4);
-    }
 }
 
 /// Those of up to four angles from `start` on.

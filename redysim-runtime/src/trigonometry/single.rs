@@ -27,7 +27,7 @@ pub fn sin_cos_all<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
 /// Sine and cosine of `x` radians, in every lane.
 #[inline]
 pub fn sin_cos_8(x: F32x8) -> (F32x8, F32x8) {
-    let (sin, cos) = Single::group::<F64x8, 8>(x.to_array());
+    let (sin, cos) = eight(x.to_array());
     (sin.into(), cos.into())
 }
 
@@ -35,7 +35,7 @@ pub fn sin_cos_8(x: F32x8) -> (F32x8, F32x8) {
 #[inline]
 pub fn sin_cos_16(x: F32x16) -> (F32x16, F32x16) {
     let [low, high]: [[f32; 8]; 2] = cast(x.to_array());
-    let ((low_sin, low_cos), (high_sin, high_cos)) = (Single::group::<F64x8, 8>(low), Single::group::<F64x8, 8>(high));
+    let ((low_sin, low_cos), (high_sin, high_cos)) = (eight(low), eight(high));
     let both = |low, high| F32x16::from(cast::<[[f32; 8]; 2], [f32; 16]>([low, high]));
     (both(low_sin, high_sin), both(low_cos, high_cos))
 }
@@ -43,11 +43,17 @@ pub fn sin_cos_16(x: F32x16) -> (F32x16, F32x16) {
 /// This file's sine and cosine, as [`several`] takes them.
 struct Single;
 
+fn eight(angles: [f32; 8]) -> ([f32; 8], [f32; 8]) {
+    let (sin, cos) = in_double(F64x8::from(angles.map(f64::from)));
+    let narrow = |lanes: F64x8| lanes.to_array().map(|number| number as f32);
+    (narrow(sin), narrow(cos))
+}
+
 impl Kernel<f32> for Single {
     #[inline(always)]
     fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [f32; W]) -> ([f32; W], [f32; W]) {
         let (sin, cos) = in_double(L::from(angles.map(f64::from)));
-        let narrow = |lanes: L| <L as Into<[f64; W]>>::into(lanes).map(|number| number as f32);
+        let narrow = |lanes: L| <L as Into<[f64; W]>>::into(lanes.apart()).map(|number| number as f32);
         (narrow(sin), narrow(cos))
     }
 
