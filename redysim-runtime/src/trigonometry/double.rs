@@ -30,7 +30,7 @@ struct Double;
 
 impl Kernel<f64> for Double {
     #[inline(always)]
-    fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [f64; W]) -> ([f64; W], [f64; W]) {
+    fn group<L: Angle<Number = f64> + Lanes<f64, W>, const W: usize>(angles: [f64; W]) -> ([f64; W], [f64; W]) {
         let (sin, cos) = sin_cos(L::from(angles));
         (sin.into(), cos.into())
     }
@@ -43,7 +43,7 @@ impl Kernel<f64> for Double {
 
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]
-pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
+pub fn sin_cos<A: Angle<Number = f64>>(x: A) -> (A, A) {
     let (Reduced { rounded, rest, tail }, good) = reduced(x);
     if !good {
         // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.

@@ -10,3 +10,4 @@ pub mod double;
 mod reduction;
 mod several;
 pub mod single;
+mod single_reduction;

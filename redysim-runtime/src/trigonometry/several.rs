@@ -6,7 +6,7 @@ use crate::lanes::{F64x2, F64x4, F64x8, Lanes};
 /// A sine and cosine of `T`, the same for any number of lanes.
 pub trait Kernel<T> {
     /// Sines and cosines of `angles`, in lanes.
-    fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [T; W]) -> ([T; W], [T; W]);
+    fn group<L: Angle<Number = f64> + Lanes<f64, W>, const W: usize>(angles: [T; W]) -> ([T; W], [T; W]);
 
     /// Sine and cosine of one angle.
     fn one(angle: T) -> (T, T);
@@ -67,13 +67,13 @@ fn two<K: Kernel<T>, T: Copy + Default, const N: usize>(angles: &[T; N], found: 
 
 /// Entry `index`, zero past the last.
 #[inline(always)]
-fn entry<T: Copy + Default, const N: usize>(angles: &[T; N], index: usize) -> T {
+pub fn entry<T: Copy + Default, const N: usize>(angles: &[T; N], index: usize) -> T {
     if index < N { angles[index] } else { T::default() }
 }
 
 /// Writes what fits of a group from `start` on.
 #[inline(always)]
-fn put<T: Copy, const W: usize, const N: usize>(
+pub fn put<T: Copy, const W: usize, const N: usize>(
     (sines, cosines): ([T; W], [T; W]),
     found: &mut ([T; N], [T; N]),
     start: usize,
