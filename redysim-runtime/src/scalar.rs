@@ -186,13 +186,5 @@ macro_rules! real {
     };
 }
 
-real!(f64, f64x2, trigonometry::double::sin_cos, trigonometry::double::sin_cos_all, libm::sqrt, libm::fabs, libm::pow);
-real!(
-    f32,
-    f32x4,
-    trigonometry::single::sin_cos,
-    trigonometry::single::sin_cos_all,
-    libm::sqrtf,
-    libm::fabsf,
-    libm::powf
-);
+real!(f64, f64x2, trigonometry::double::sin_cos, trigonometry::lists::of_f64, libm::sqrt, libm::fabs, libm::pow);
+real!(f32, f32x4, trigonometry::single::sin_cos, trigonometry::lists::of_f32, libm::sqrtf, libm::fabsf, libm::powf);

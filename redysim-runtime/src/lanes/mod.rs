@@ -147,11 +147,16 @@ lanes! {
 }
 
 lanes! {
+    /// Four `f32`: the vectors of SSE2 (every x86-64) and NEON.
+    F32x4(f32x4): 4 of f32, trigonometry::single::sin_cos
+}
+
+lanes! {
     /// Eight `f32`: the vectors of AVX.
-    F32x8(f32x8): 8 of f32, trigonometry::single::sin_cos_8
+    F32x8(f32x8): 8 of f32, trigonometry::single::sin_cos
 }
 
 lanes! {
     /// Sixteen `f32`: the vectors of AVX-512.
-    F32x16(f32x16): 16 of f32, trigonometry::single::sin_cos_16
+    F32x16(f32x16): 16 of f32, trigonometry::single::sin_cos
 }

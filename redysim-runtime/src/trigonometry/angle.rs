@@ -1,12 +1,20 @@
 //! What the kernels ask of their angles beyond arithmetic.
 
+use super::reduction::{self, Reduced};
+use super::single_reduction;
 use crate::Scalar;
-use crate::lanes::{F64x2, F64x4, F64x8};
+use crate::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+use crate::scalar::FUSED;
 use bytemuck::cast;
-use wide::{u64x2, u64x4, u64x8};
+use wide::{u32x4, u32x8, u32x16, u64x2, u64x4, u64x8};
 
-/// One angle, or several side by side, of which each is an `f64`.
+/// One angle, or several side by side.
 pub trait Angle: Scalar {
+    /// What one angle is: `f64` or `f32`.
+    type Number: Number;
+    /// Whether `mul_add` rounds once.
+    const FUSED: bool;
+
     /// Whether in every lane the magnitude is at most that of `limit`, and neither is NaN.
     fn all_within(self, limit: Self) -> bool;
 
@@ -15,33 +23,57 @@ pub trait Angle: Scalar {
     fn turned(rounded: Self, sin: Self, cos: Self) -> (Self, Self);
 
     /// `function` of each lane.
-    fn one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self);
+    fn one_by_one(self, function: impl Fn(Self::Number) -> (Self::Number, Self::Number)) -> (Self, Self);
 }
 
-impl Angle for f64 {
-    #[inline(always)]
-    fn all_within(self, limit: f64) -> bool {
-        f64::abs(self) <= f64::abs(limit)
-    }
+/// One angle.
+pub trait Number: Angle<Number = Self> {
+    /// The reduction of any angle, however hard; NaN where it is not finite.
+    fn reduced(self) -> Reduced<Self>;
+}
 
-    #[inline(always)]
-    fn turned(rounded: f64, sin: f64, cos: f64) -> (f64, f64) {
-        let (turns, sin, cos) = (rounded.to_bits(), sin.to_bits(), cos.to_bits());
-        let odd = (turns & 1).wrapping_neg();
-        let differing = (sin ^ cos) & odd;
-        let (sin_sign, cos_sign) = ((turns & 2) << 62, (turns.wrapping_add(1) & 2) << 62);
-        (f64::from_bits(sin ^ differing ^ sin_sign), f64::from_bits(cos ^ differing ^ cos_sign))
-    }
+macro_rules! one_angle {
+    ($float:ident, $second_bit_to_sign:literal, $reduced:path) => {
+        impl Number for $float {
+            #[inline(always)]
+            fn reduced(self) -> Reduced<Self> {
+                $reduced(self)
+            }
+        }
 
-    #[inline(always)]
-    fn one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (f64, f64) {
-        function(self)
-    }
+        impl Angle for $float {
+            type Number = Self;
+            const FUSED: bool = FUSED;
+
+            #[inline(always)]
+            fn all_within(self, limit: Self) -> bool {
+                $float::abs(self) <= $float::abs(limit)
+            }
+
+            #[inline(always)]
+            fn turned(rounded: Self, sin: Self, cos: Self) -> (Self, Self) {
+                let (turns, sin, cos) = (rounded.to_bits(), sin.to_bits(), cos.to_bits());
+                let odd = (turns & 1).wrapping_neg();
+                let differing = (sin ^ cos) & odd;
+                let sin_sign = (turns & 2) << $second_bit_to_sign;
+                let cos_sign = (turns.wrapping_add(1) & 2) << $second_bit_to_sign;
+                (Self::from_bits(sin ^ differing ^ sin_sign), Self::from_bits(cos ^ differing ^ cos_sign))
+            }
+
+            #[inline(always)]
+            fn one_by_one(self, function: impl Fn(Self) -> (Self, Self)) -> (Self, Self) {
+                function(self)
+            }
+        }
+    };
 }
 
 macro_rules! angles {
-    ($lanes:ident, $bits:ident) => {
+    ($lanes:ident of $float:ident, $bits:ident << $second_bit_to_sign:literal) => {
         impl Angle for $lanes {
+            type Number = $float;
+            const FUSED: bool = FUSED;
+
             #[inline(always)]
             fn all_within(self, limit: Self) -> bool {
                 self.0.abs().simd_le(limit.0.abs()).all()
@@ -53,12 +85,13 @@ macro_rules! angles {
                 let [turns, sin, cos]: [$bits; 3] = [cast(rounded.0), cast(sin.0), cast(cos.0)];
                 let odd = $bits::splat(0) - (turns & one);
                 let differing = (sin ^ cos) & odd;
-                let (sin_sign, cos_sign) = ((turns & two) << 62_u64, ((turns + one) & two) << 62_u64);
+                let sin_sign = (turns & two) << $second_bit_to_sign;
+                let cos_sign = ((turns + one) & two) << $second_bit_to_sign;
                 (Self(cast(sin ^ differing ^ sin_sign)), Self(cast(cos ^ differing ^ cos_sign)))
             }
 
             #[inline(always)]
-            fn one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
+            fn one_by_one(self, function: impl Fn($float) -> ($float, $float)) -> (Self, Self) {
                 // A call that is not inlined takes the address of its lanes, which would keep these lanes in memory
                 // from where they are put together; and to read as a whole what was just written in parts stalls.
                 // Negative lanes are other lanes, made only when they are needed.
@@ -70,7 +103,7 @@ macro_rules! angles {
             /// `function` of the negative of each lane.
             #[inline(never)]
             #[cold]
-            fn negatives_one_by_one(self, function: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
+            fn negatives_one_by_one(self, function: impl Fn($float) -> ($float, $float)) -> (Self, Self) {
                 let pairs = self.to_array().map(|minus_x| function(-minus_x));
                 (Self::from(pairs.map(|(sin, _)| sin)), Self::from(pairs.map(|(_, cos)| cos)))
             }
@@ -78,6 +111,11 @@ macro_rules! angles {
     };
 }
 
-angles!(F64x2, u64x2);
-angles!(F64x4, u64x4);
-angles!(F64x8, u64x8);
+one_angle!(f64, 62, reduction::reduced);
+one_angle!(f32, 30, single_reduction::by_digits);
+angles!(F64x2 of f64, u64x2 << 62_u64);
+angles!(F64x4 of f64, u64x4 << 62_u64);
+angles!(F64x8 of f64, u64x8 << 62_u64);
+angles!(F32x4 of f32, u32x4 << 30_u32);
+angles!(F32x8 of f32, u32x8 << 30_u32);
+angles!(F32x16 of f32, u32x16 << 30_u32);

@@ -5,10 +5,8 @@
 //! Then two polynomials in r², of least relative error (found by Remez exchange: 2⁻⁵⁷ for the sine, 2⁻⁵⁹ for the
 //! cosine), are evaluated.
 
-use super::angle::Angle;
-use super::reduction::{self, Reduced};
-use super::several::{Kernel, several};
-use crate::lanes::Lanes;
+use super::angle::{Angle, Number};
+use super::reduction::Reduced;
 
 /// 2¹⁷ quarter turns.
 const MANY_TURNS: f64 = 205_887.0;
@@ -19,28 +17,6 @@ const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
 /// Added to a number below 2⁵¹ and taken away again, it leaves the nearest integer, and shows its bits in between.
 pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Sines and cosines of all `angles`, several at a time.
-#[inline(always)]
-pub fn sin_cos_all<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
-    several::<Double, f64, N>(angles)
-}
-
-/// This file's sine and cosine, as [`several`] takes them.
-struct Double;
-
-impl Kernel<f64> for Double {
-    #[inline(always)]
-    fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [f64; W]) -> ([f64; W], [f64; W]) {
-        let (sin, cos) = sin_cos(L::from(angles));
-        (sin.apart().into(), cos.apart().into())
-    }
-
-    #[inline(always)]
-    fn one(angle: f64) -> (f64, f64) {
-        sin_cos(angle)
-    }
-}
-
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]
 pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
@@ -49,9 +25,9 @@ pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
         // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
         return x.one_by_one(|x| {
             let (quick, good) = reduced(x);
-            let angle = if good { quick } else { reduction::reduced(x) };
+            let angle = if good { quick } else { x.reduced() };
             let (sin, cos) = kernel(angle.rest, angle.tail);
-            f64::turned(angle.rounded, sin, cos)
+            Angle::turned(angle.rounded, sin, cos)
         });
     }
     let (sin, cos) = kernel(rest, tail);

@@ -7,6 +7,8 @@
 
 mod angle;
 pub mod double;
+pub mod lists;
 mod reduction;
 mod several;
 pub mod single;
+mod single_reduction;

@@ -1,75 +1,63 @@
 //! A list of angles spread over lanes.
 
-use super::angle::Angle;
-use crate::lanes::{F64x2, F64x4, Lanes};
+use crate::lanes::Lanes;
 
-/// A sine and cosine of `T`, the same for any number of lanes.
-pub trait Kernel<T> {
-    /// Sines and cosines of `angles`, in lanes.
-    fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [T; W]) -> ([T; W], [T; W]);
+/// Sine and cosine of each of `W` angles.
+type Pairs<T, const W: usize> = ([T; W], [T; W]);
 
-    /// Sine and cosine of one angle.
-    fn one(angle: T) -> (T, T);
-}
-
-/// Sines and cosines of all `angles`, several at a time: what is fastest with the target's vectors, as measured.
+/// Sines and cosines of all `angles`, several at a time: by `wide` while more than `NARROW` are left, by `narrow` for
+/// two and more, by `one` for the last.
 ///
-/// Where the groups begin depends on `N` only, so that none of this is left in the program: lists of up to eight become
-/// straight code, in which the angles go from registers to lanes and back.
+/// Where the groups begin depends on `N` only, so that none of this is left in the program: short lists become straight
+/// code, in which the angles go from registers to lanes and back.
 #[inline(always)]
-pub fn several<K: Kernel<T>, T: Copy + Default, const N: usize>(angles: [T; N]) -> ([T; N], [T; N]) {
+pub fn several<T: Copy + Default, const NARROW: usize, const WIDE: usize, const N: usize>(
+    angles: [T; N],
+    one: impl Fn(T) -> (T, T) + Copy,
+    narrow: impl Fn([T; NARROW]) -> Pairs<T, NARROW> + Copy,
+    wide: impl Fn([T; WIDE]) -> Pairs<T, WIDE> + Copy,
+) -> Pairs<T, N> {
     let mut found = ([T::default(); N], [T::default(); N]);
-    // An array that is written in a loop goes through memory.
-    four::<K, T, N>(&angles, &mut found, 0);
-    four::<K, T, N>(&angles, &mut found, 4);
-    four::<K, T, N>(&angles, &mut found, 8);
-    four::<K, T, N>(&angles, &mut found, 12);
-    four::<K, T, N>(&angles, &mut found, 16);
-    four::<K, T, N>(&angles, &mut found, 20);
-    four::<K, T, N>(&angles, &mut found, 24);
-    four::<K, T, N>(&angles, &mut found, 28);
-    for start in (32..N).step_by(4) {
-        four::<K, T, N>(&angles, &mut found, start);
-    }
+    let mut group = |start: usize| {
+        if start + NARROW < N {
+            put(wide(taken(&angles, start)), &mut found, start);
+        } else if start + 1 < N {
+            put(narrow(taken(&angles, start)), &mut found, start);
+        } else if start < N {
+            (found.0[start], found.1[start]) = one(angles[start]);
+        }
+    };
+    // One by one, since an array that is written in a loop goes through memory, where what was written in parts cannot
+    // be read as a whole before it has left the processor's queue of writes.
+    group(0);
+    group(WIDE);
+    group(2 * WIDE);
+    group(3 * WIDE);
+    group(4 * WIDE);
+    group(5 * WIDE);
+    group(6 * WIDE);
+    group(7 * WIDE);
+    (8 * WIDE..N).step_by(WIDE).for_each(group);
     found
 }
 
-/// Those of up to four angles from `start` on.
+/// Sines and cosines of `angles` by those of lanes.
 #[inline(always)]
-fn four<K: Kernel<T>, T: Copy + Default, const N: usize>(angles: &[T; N], found: &mut ([T; N], [T; N]), start: usize) {
-    if start + 2 < N {
-        let at = |lane| entry(angles, start + lane);
-        put(K::group::<F64x4, 4>([at(0), at(1), at(2), at(3)]), found, start);
-    } else {
-        two::<K, T, N>(angles, found, start);
-        two::<K, T, N>(angles, found, start + 2);
-    }
+pub fn in_lanes<L: Lanes<T, W>, T, const W: usize>(angles: [T; W], sin_cos: impl Fn(L) -> (L, L)) -> Pairs<T, W> {
+    let (sin, cos) = sin_cos(L::from(angles));
+    // A list belongs to one state.
+    (sin.apart().into(), cos.apart().into())
 }
 
-/// Those of up to two angles from `start` on.
+/// The angles from `start` on, and zeros past the last.
 #[inline(always)]
-fn two<K: Kernel<T>, T: Copy + Default, const N: usize>(angles: &[T; N], found: &mut ([T; N], [T; N]), start: usize) {
-    if start + 1 < N {
-        put(K::group::<F64x2, 2>([entry(angles, start), entry(angles, start + 1)]), found, start);
-    } else if start < N {
-        let (sin, cos) = K::one(entry(angles, start));
-        put(([sin], [cos]), found, start);
-    }
-}
-
-/// Entry `index`, zero past the last.
-#[inline(always)]
-fn entry<T: Copy + Default, const N: usize>(angles: &[T; N], index: usize) -> T {
-    if index < N { angles[index] } else { T::default() }
+fn taken<T: Copy + Default, const W: usize, const N: usize>(angles: &[T; N], start: usize) -> [T; W] {
+    core::array::from_fn(|lane| if start + lane < N { angles[start + lane] } else { T::default() })
 }
 
 /// Writes what fits of a group from `start` on.
 #[inline(always)]
-fn put<T: Copy, const W: usize, const N: usize>(
-    (sines, cosines): ([T; W], [T; W]),
-    found: &mut ([T; N], [T; N]),
-    start: usize,
-) {
+fn put<T: Copy, const W: usize, const N: usize>((sines, cosines): Pairs<T, W>, found: &mut Pairs<T, N>, start: usize) {
     for lane in 0..W {
         if start + lane < N {
             found.0[start + lane] = sines[lane];

@@ -1,118 +1,87 @@
-//! Sine and cosine of `f32`, worked out in `f64`: what that costs in width, it saves in the reduction, of which the
-//! roundoff needs no care, and in shorter polynomials.
+//! Sine and cosine of `f32`, in `f32` and integers only: a processor without a unit for `f64` needs none.
 //!
-//! The polynomials in r² are of least relative error (found by Remez exchange: 2⁻³⁶ for the sine, 2⁻³¹ for the cosine),
-//! so that only the last rounding counts.
+//! The angle is reduced to |r| ≤ π/4 with a tail that carries what an `f32` cannot, by subtracting π/2 in three parts
+//! (W. J. Cody and W. Waite, *Software manual for the elementary functions*, 1980), or, after many turns, in integers
+//! (`single_reduction`). No angle of few turns comes closer to a multiple of π/2 than the three parts are good for, as
+//! is seen by trying every one. Then two polynomials in r², of least relative error (found by Remez exchange with
+//! coefficients that are `f32`, `studies/sin_cos/minimax.py`: 2⁻²⁷·⁸ for the sine, 2⁻³¹·⁹ for the cosine), are evaluated.
 
-use super::angle::Angle;
-use super::double::ROUNDER;
-use super::reduction;
-use super::several::{Kernel, several};
-use crate::lanes::{F32x8, F32x16, F64x8, Lanes};
-use bytemuck::cast;
+use super::angle::{Angle, Number};
+use super::reduction::Reduced;
 
-/// Sine and cosine of `x` radians.
-#[inline]
-pub fn sin_cos(x: f32) -> (f32, f32) {
-    let (sin, cos) = in_double(f64::from(x));
-    (sin as f32, cos as f32)
+/// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
+/// round twice.
+const fn many_turns(fused: bool) -> f32 {
+    if fused { 205_887.0 } else { 402.0 }
 }
 
-/// Sines and cosines of all `angles`, several at a time.
-#[inline(always)]
-pub fn sin_cos_all<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
-    several::<Single, f32, N>(angles)
+/// π/2 in three parts. If multiply and add round once, a multiple of the first is subtracted exactly though it has all
+/// 24 bits, and what the second leaves is exact, too. If they round twice, the first and the second have 16 bits, of
+/// which multiples up to 2⁸ are exact.
+const fn half_pi(fused: bool) -> [f32; 3] {
+    if fused { [1.570_796_4, -4.371_139e-8, -1.715_124_5e-15] } else { [1.570_770_3, 2.606_306_2e-5, 6.077_100_6e-11] }
 }
 
+/// Added to a number below 2²² and taken away again, it leaves the nearest integer, and shows its bits in between.
+const ROUNDER: f32 = 12_582_912.0;
 /// Sine and cosine of `x` radians, in every lane.
-#[inline]
-pub fn sin_cos_8(x: F32x8) -> (F32x8, F32x8) {
-    let (sin, cos) = eight(x.to_array());
-    (sin.into(), cos.into())
-}
-
-/// Sine and cosine of `x` radians, in every lane.
-#[inline]
-pub fn sin_cos_16(x: F32x16) -> (F32x16, F32x16) {
-    let [low, high]: [[f32; 8]; 2] = cast(x.to_array());
-    let ((low_sin, low_cos), (high_sin, high_cos)) = (eight(low), eight(high));
-    let both = |low, high| F32x16::from(cast::<[[f32; 8]; 2], [f32; 16]>([low, high]));
-    (both(low_sin, high_sin), both(low_cos, high_cos))
-}
-
-/// This file's sine and cosine, as [`several`] takes them.
-struct Single;
-
-fn eight(angles: [f32; 8]) -> ([f32; 8], [f32; 8]) {
-    let (sin, cos) = in_double(F64x8::from(angles.map(f64::from)));
-    let narrow = |lanes: F64x8| lanes.to_array().map(|number| number as f32);
-    (narrow(sin), narrow(cos))
-}
-
-impl Kernel<f32> for Single {
-    #[inline(always)]
-    fn group<L: Angle + Lanes<f64, W>, const W: usize>(angles: [f32; W]) -> ([f32; W], [f32; W]) {
-        let (sin, cos) = in_double(L::from(angles.map(f64::from)));
-        let narrow = |lanes: L| <L as Into<[f64; W]>>::into(lanes.apart()).map(|number| number as f32);
-        (narrow(sin), narrow(cos))
-    }
-
-    #[inline(always)]
-    fn one(angle: f32) -> (f32, f32) {
-        sin_cos(angle)
-    }
-}
-
-/// 2²⁰ quarter turns.
-const MANY_TURNS: f64 = 1_647_099.0;
-/// π/2 in a part of 33 bits, of which multiples up to 2²⁰ are exact, and one of 53.
-const HALF_PI: [f64; 2] = [1.5707963267341256, 6.077100506506192e-11];
-
-/// Sine and cosine, to more digits than a `f32` has, of angles that were `f32`: none of those that are not reduced
-/// elsewhere comes closer to a multiple of π/2 than the parts of π/2 are good for.
 #[inline(always)]
-fn in_double<A: Angle>(x: A) -> (A, A) {
-    let (rounded, rest) = reduced(x);
-    if !x.all_within(A::from_f64(MANY_TURNS)) {
-        // The other lanes of a huge angle are reduced as they are when they are alone, to give the same bits.
-        return x.one_by_one(|x| {
-            let (mut rounded, mut rest) = reduced(x);
-            if !x.all_within(MANY_TURNS) {
-                let angle = reduction::reduced(x);
-                (rounded, rest) = (angle.rounded, angle.rest);
-            }
-            let (sin, cos) = kernel(rest);
-            f64::turned(rounded, sin, cos)
-        });
-    }
-    let (sin, cos) = kernel(rest);
-    A::turned(rounded, sin, cos)
+pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
+    let (angle, good) = reduced(x);
+    // The other lanes of an angle of many turns are reduced as they are when they are alone, to give the same bits.
+    if good { evaluated(angle) } else { x.one_by_one(with_many_turns) }
 }
 
-/// The quarter turns, in the last bits, and what is left, for angles of few turns.
+/// Sine and cosine of any angle.
+#[cold]
+#[inline(never)]
+fn with_many_turns<T: Number>(x: T) -> (T, T) {
+    let (quick, good) = reduced(x);
+    evaluated(if good { quick } else { x.reduced() })
+}
+
+/// The constant `value` in every lane.
 #[inline(always)]
-fn reduced<A: Angle>(x: A) -> (A, A) {
-    let k = A::from_f64;
-    let rounded = x.mul_add(k(core::f64::consts::FRAC_2_PI), k(ROUNDER));
-    let minus_n = k(ROUNDER) - rounded;
-    (rounded, minus_n.mul_add(k(HALF_PI[1]), minus_n.mul_add(k(HALF_PI[0]), x)))
+fn k<A: Angle>(value: f32) -> A {
+    A::from_f64(f64::from(value))
+}
+
+/// The reduction that is good for few turns, and whether it is good for all of these.
+#[inline(always)]
+fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
+    let rounded = x.mul_add(k(core::f32::consts::FRAC_2_PI), k(ROUNDER));
+    let minus_n = k::<A>(ROUNDER) - rounded;
+    let [a, b, c] = half_pi(A::FUSED).map(k::<A>);
+    // The first difference is exact. The second leaves its roundoff in the tail, with that of its product.
+    let first = minus_n.mul_add(a, x);
+    let product = minus_n * b;
+    let rest = first + product;
+    let roundoff = (first - rest) + product;
+    let tail = if A::FUSED {
+        roundoff + minus_n.mul_add(c, minus_n.mul_add(b, -product))
+    } else {
+        minus_n.mul_add(c, roundoff)
+    };
+    (Reduced { rounded, rest, tail }, x.all_within(k(many_turns(A::FUSED))))
 }
 
 /// (sin r − r) / r³ as a polynomial in r².
-const SINE: [f64; 4] = [-0.16666666644211606, 0.008333329327948209, -0.00019839261165637746, 2.7173457518465026e-6];
+const SINE: [f32; 3] = [-0.166_666_54, 0.008_332_114, -0.000_195_091_63];
 
 /// (cos r − 1 + r²/2) / r⁴ as a polynomial in r².
-const COSINE: [f64; 3] = [0.04166665464820804, -0.0013887654138661685, 2.4463803885607833e-5];
+const COSINE: [f32; 3] = [0.041_666_646, -0.001_388_733_5, 2.443_594_7e-5];
 
-/// Sine and cosine of r, |r| ≤ π/4.
+/// Sine and cosine of a reduced angle, |rest| ≤ π/4.
 #[inline(always)]
-fn kernel<A: Angle>(r: A) -> (A, A) {
-    let k = A::from_f64;
-    let z = r * r;
-    let squared = z * z;
-    let [a, b, c, d] = SINE.map(k);
-    let sin = (r * z).mul_add(squared.mul_add(z.mul_add(d, c), z.mul_add(b, a)), r);
-    let [a, b, c] = COSINE.map(k);
-    let cos = squared.mul_add(squared.mul_add(c, z.mul_add(b, a)), z.mul_add(k(-0.5), k(1.0)));
-    (sin, cos)
+fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
+    let z = rest * rest;
+    let [a, b, c] = SINE.map(k::<A>);
+    let sin = rest + (rest * z).mul_add(c.mul_add(z, b).mul_add(z, a), tail);
+    let [a, b, c] = COSINE.map(k::<A>);
+    // 1 − r²/2 rounded, and what that loses.
+    let (one, half) = (k::<A>(1.0), k::<A>(0.5) * z);
+    let near_one = one - half;
+    let lost = (-rest).mul_add(tail, (one - near_one) - half);
+    let cos = near_one + (z * z).mul_add(c.mul_add(z, b).mul_add(z, a), lost);
+    A::turned(rounded, sin, cos)
 }
