@@ -7,8 +7,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import processor
 import robots as robot_files
-from programs import FUNCTIONS, SPECIAL
+from programs import FUNCTIONS, PROGRAMS, SPECIAL, Program
 
 HERE = Path(__file__).parent.parent
 SOURCES = HERE / "programs"
@@ -33,6 +34,17 @@ class Failed(Exception):
 def has_lanes() -> bool:
     """Whether this redysim has SIMD scalars."""
     return "pub mod lanes" in (REPOSITORY / "redysim-runtime/src/lib.rs").read_text()
+
+
+def runs_v3() -> bool:
+    """Whether this processor runs code for x86-64-v3."""
+    return processor.runs_v3(processor.cpuinfo())
+
+
+def runnable() -> list[Program]:
+    """The programs that can be had of this redysim on this processor."""
+    lanes, v3 = has_lanes(), runs_v3()
+    return [p for p in PROGRAMS if (lanes or not (p.ours and p.lanes > 1)) and (v3 or not p.v3)]
 
 
 def _stamp(target: Path) -> Path:
@@ -95,6 +107,8 @@ class Builder:
         features = ["--features", "lanes"] if has_lanes() else []
         self._cargo("redysim", "native", "-C target-cpu=native", features)
         self._cargo("redysim", "baseline", "", features)
+        if runs_v3():
+            self._cargo("redysim", "x86-64-v3", "-C target-cpu=x86-64-v3", features)
 
     def _dynibo(self) -> None:
         self._cargo("dynibo", "native", "-C target-cpu=native", [])

@@ -24,7 +24,11 @@ def tolerance(program: Program, robot: str, function: str) -> float:
     """How far a component may be off. Accelerations lose digits with the condition of the mass matrix, of long chains most."""
     if program.scalar == "f32":
         return 1e-2
-    return 1e-7 if function == "forward" and robot in ("chain40", "chain80") else 1e-8
+    return 1e-7 if _is_ill_conditioned(robot, function) else 1e-8
+
+
+def _is_ill_conditioned(robot: str, function: str) -> bool:
+    return function == "forward" and robot in ("chain40", "chain80")
 
 
 @dataclass
@@ -34,6 +38,16 @@ class Deviation:
     function: str
     largest: float
     allowed: float
+
+
+def agreement(deviations: list[Deviation]) -> dict[str, dict[str, float]]:
+    """The largest deviations of each program, by function; those of ill-conditioned mass matrices apart."""
+    largest: dict[str, dict[str, float]] = {}
+    for d in deviations:
+        column = d.function + ("_long" if _is_ill_conditioned(d.robot, d.function) else "")
+        of = largest.setdefault(d.program, {})
+        of[column] = max(of.get(column, 0.0), float(f"{d.largest:.1e}"))
+    return largest
 
 
 @dataclass
