@@ -62,12 +62,11 @@ class Builder:
             "-isystem",
             packages / "cmeel.prefix/include/eigen3",
         ]
-        self.skipped: list[str] = []
 
     def everything(self, names: list[str]) -> None:
         self.built.mkdir(parents=True, exist_ok=True)
         self._timer()
-        self._redysim()
+        self.redysim()
         self._dynibo()
         self._mujoco()
         self._pinocchio()
@@ -77,6 +76,14 @@ class Builder:
             for function in FUNCTIONS:
                 self._cppadcodegen(name, function)
                 self._casadi(name, function)
+
+    def skipped(self, names: list[str]) -> list[str]:
+        """What takes the compiler too long."""
+        found = []
+        for name in names:
+            for missing in sorted((self.built / "generated" / name).glob("*/*.too-long")):
+                found.append(f"{missing.stem}, {name} {missing.parent.name}")
+        return found
 
     def _run(self, command: list, patience: float | None = None, **environment: str) -> None:
         words = [str(word) for word in command]
@@ -103,7 +110,7 @@ class Builder:
         source = SOURCES / "timer.c"
         self._make(self.built / "timer", [source], ["gcc", "-O2", source, "-o", self.built / "timer", "-ldl"])
 
-    def _redysim(self) -> None:
+    def redysim(self) -> None:
         features = ["--features", "lanes"] if has_lanes() else []
         self._cargo("redysim", "native", "-C target-cpu=native", features)
         self._cargo("redysim", "baseline", "", features)
@@ -192,11 +199,9 @@ class Builder:
         command = ["gcc", *FAST, "-fPIC", "-shared", *words, source, "-o", target, "-lmvec", "-lm"]
         missing = target.with_suffix(".too-long")
         if missing.exists():
-            self.skipped.append(f"{target.stem}, {what}")
             return
         try:
             self._make(target, [source, code], command, PATIENCE)
         except subprocess.TimeoutExpired:
             missing.touch()
-            self.skipped.append(f"{target.stem}, {what}")
             print(f"  gcc takes longer than {PATIENCE:.0f} s for {what}: left out", file=sys.stderr)

@@ -18,6 +18,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only", metavar="ROBOTS", help=f"these robots, by commas, of {','.join(robots.NAMES)}")
     parser.add_argument("--core", type=int, default=1, help="the core that programs run on (1)")
     parser.add_argument("--skip-build", action="store_true", help="take what is built as it is")
+    parser.add_argument("--skip-peers", action="store_true", help="build redysim alone, take the others as they are")
     parser.add_argument("--build-only", action="store_true", help="build, and stop")
     parser.add_argument("--check-only", action="store_true", help="build and check, but time nothing")
     parser.add_argument("--report-only", action="store_true", help="write page and pictures again from peers/results")
@@ -50,11 +51,14 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
     builder = build.Builder(chosen.built, chosen.packages)
     if not chosen.skip_build:
         print("building", flush=True)
-        builder.everything(names)
+        if chosen.skip_peers:
+            builder.redysim()
+        else:
+            builder.everything(names)
     if chosen.build_only:
         return None
     programs = build.runnable()
-    bench, results = measure.Bench(chosen.built, chosen.core), measure.Results(skipped=builder.skipped)
+    bench, results = measure.Bench(chosen.built, chosen.core), measure.Results(skipped=builder.skipped(names))
     print(f"checking against {REFERENCE.label}", flush=True)
     bench.check(programs, names, results)
     wrong = [d for d in results.deviations if not d.largest <= d.allowed]
@@ -71,9 +75,9 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
     if chosen.check_only:
         return None
     bench.time(programs, names, results)
-    tasks = (
-        {symbol: bench.task(symbol, results) for symbol in ("task_inverse", "task_fall")} if "gripper" in names else {}
-    )
+    tasks = bench.tasks(results) if "gripper" in names else {}
+    if not results.times:
+        raise SystemExit("peers: other programs kept taking the core: stop them, or take another core (--core)")
     return {
         "processor": processor.described(processor.cpuinfo()),
         "date": date.today().isoformat(),

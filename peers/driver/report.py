@@ -56,10 +56,10 @@ def picture_of(run: dict) -> str:
 
 def text(runs: list[dict]) -> str:
     sections = [section(run, picture_of(run) if _is_drawn(run) else None) for run in runs]
-    return "\n".join([_head(runs), (DRIVER / "reading.md").read_text(), *sections, _method()])
+    return "\n".join([*_head(runs), (DRIVER / "reading.md").read_text(), *sections, _method()])
 
 
-def _head(runs: list[dict]) -> str:
+def _head(runs: list[dict]) -> list[str]:
     rows = []
     for run in runs:
         times = Times(run)
@@ -79,7 +79,7 @@ def _head(runs: list[dict]) -> str:
         "each processor its last run of `peers/run`. Times are of one machine on one day: look at the ratios, and run "
         "it on yours."
     )
-    return f"# Beside other programs\n\n{intro}\n" + (table(header, rows) if rows else "")
+    return ["# Beside other programs\n", intro, *([table(header, rows)] if rows else [])]
 
 
 def _ratios(times: Times, peers: list[str]) -> str:
