@@ -10,7 +10,8 @@ const TABLE: &str = include_str!("processors.csv");
 pub fn described() -> String {
     let (present, compiled) = (present(), compiled());
     let has = if present.is_empty() { String::new() } else { format!(", has {}", present.join(", ")) };
-    let target = if compiled.is_empty() { format!("any {}", std::env::consts::ARCH) } else { compiled.join(", ") };
+    let architecture = std::env::consts::ARCH.replace('_', "-");
+    let target = if compiled.is_empty() { format!("any {architecture}") } else { compiled.join(", ") };
     format!("{}{has}; compiled for {target}", name())
 }
 
