@@ -1,13 +1,15 @@
 //! States per second in batches: in lanes, and from 513 states on, on all cores.
 //!
 //! `cargo bench --bench batch -- kr5/inverse`; a name is `robot/function/scalar/states`. Times are for a batch,
-//! elements per second are states.
+//! elements per second are states. The first line of output names the processor that they belong to.
 
+#[path = "../examples/common/processor.rs"]
+mod processor;
 #[allow(dead_code)]
 #[path = "../tests/common/random.rs"]
 mod random;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 use random::Random;
 use redysim::batch::{self, Batched};
 use redysim::{ForwardDynamics, InverseDynamics, redysim};
@@ -66,4 +68,9 @@ fn all(criterion: &mut Criterion) {
 }
 
 criterion_group!(batch_throughput, all);
-criterion_main!(batch_throughput);
+
+fn main() {
+    println!("processor: {}", processor::described());
+    batch_throughput();
+    Criterion::default().configure_from_args().final_summary();
+}

@@ -2,16 +2,19 @@
 //!
 //! `cargo bench --bench dynamics -- kr5/inverse` runs those whose name has `kr5/inverse` in it; a name is
 //! `robot/function/scalar`. Times are for a call, which works on as many states as the scalar has lanes; elements per
-//! second are states. `RUSTFLAGS="-C target-cpu=native"` lets the compiler use the vectors that this machine has.
+//! second are states. `RUSTFLAGS="-C target-cpu=native"` lets the compiler use the vectors that this machine has. The
+//! first line of output names the processor and the vectors that the program is compiled for.
 
 mod calls;
 mod numbers;
+#[path = "../../examples/common/processor.rs"]
+mod processor;
 #[allow(dead_code)]
 #[path = "../../tests/common/random.rs"]
 mod random;
 
 use calls::{main_functions, other_functions, with_posture};
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, criterion_group};
 use numbers::Numbers;
 use redysim::generic::{GenericMechanism, Model};
 use redysim::lanes::{F32x8, F32x16, F64x4, F64x8};
@@ -75,4 +78,9 @@ criterion_group! {
         .measurement_time(std::time::Duration::from_secs(2));
     targets = scalar::<f64>, scalar::<f32>, scalar::<F64x4>, scalar::<F64x8>, scalar::<F32x8>, scalar::<F32x16>, generic_path
 }
-criterion_main!(dynamics);
+
+fn main() {
+    println!("processor: {}", processor::described());
+    dynamics();
+    Criterion::default().configure_from_args().final_summary();
+}

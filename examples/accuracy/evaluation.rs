@@ -14,7 +14,7 @@ use super::models::{DOF, Kr5, pruned};
 use crate::common::csv::Csv;
 use crate::common::figure::{Figure, Panel};
 use crate::common::reference::Reference;
-use crate::common::speed::{median, remark_debug};
+use crate::common::speed::{median, remark_processor};
 use crate::common::table::{Table, headline, remark, tiny};
 use crate::common::{Context, Failure, Outputs, Rows, column, peak};
 use crate::double_double::{DoubleDouble, exact};
@@ -287,7 +287,7 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
         "Inverse dynamics against an independent program in quadruple precision: generic {generic}, f64 {double},"
     ));
     remark(&format!("f32 {single}, pruned at 1e-3 {pruned} of the joint's peak."));
-    remark_debug();
+    remark_processor();
     let panel = |function: usize, title: &str| {
         let start = Panel::new(title, "error", "1").logarithmic().over("time per state [ns]");
         GROUPS.iter().enumerate().fold(start, |panel, (colour, group)| {

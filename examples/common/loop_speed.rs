@@ -8,7 +8,7 @@ use redysim::{
 
 use super::Failure;
 use super::loop_inverse::{LoopInverseRun, along_loops};
-use super::speed::{STATES, remark_debug, side_by_side};
+use super::speed::{STATES, remark_processor, side_by_side};
 use super::table::{Table, headline, remark};
 
 /// A motion to go through, periodic in `period`.
@@ -51,7 +51,7 @@ where
     table.print();
     remark("Medians of batches in turns. The loops' inverse dynamics moves on to the next instant by Newton's method,");
     remark(&format!("1/{STATES} of the period; the projection is that of a step that has not drifted."));
-    remark_debug();
+    remark_processor();
     Ok(())
 }
 

@@ -10,6 +10,7 @@ pub mod loop_inverse;
 pub mod loop_motion;
 pub mod loop_speed;
 pub mod outputs;
+pub mod processor;
 pub mod progress;
 pub mod reference;
 pub mod speed;

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use redysim::{OperationCount, Operations, TreeDynamics, Vector};
 
+use super::processor;
 use super::progress::Progress;
 use super::table::{Table, headline, remark};
 
@@ -55,11 +56,12 @@ where
     drop(progress);
     table.print();
     remark(&format!("Medians of {BATCHES} batches of {} calls, in turns, at changing states.", STATES * PASSES));
-    remark_debug();
+    remark_processor();
 }
 
-/// Says so if times are those of a debug build.
-pub fn remark_debug() {
+/// Prints which processor the times belong to and what the program is compiled for, and warns of a debug build.
+pub fn remark_processor() {
+    remark(&format!("{}.", processor::described()));
     if cfg!(debug_assertions) {
         remark("This is a debug build, whose times say nothing: run with --release.");
     }

@@ -7,8 +7,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import processor
 import robots as robot_files
-from programs import FUNCTIONS, SPECIAL
+from programs import FUNCTIONS, PROGRAMS, SPECIAL, Program
 
 HERE = Path(__file__).parent.parent
 SOURCES = HERE / "programs"
@@ -35,6 +36,17 @@ def has_lanes() -> bool:
     return "pub mod lanes" in (REPOSITORY / "redysim-runtime/src/lib.rs").read_text()
 
 
+def runs_v3() -> bool:
+    """Whether this processor runs code for x86-64-v3."""
+    return processor.runs_v3(processor.cpuinfo())
+
+
+def runnable() -> list[Program]:
+    """The programs that can be had of this redysim on this processor."""
+    lanes, v3 = has_lanes(), runs_v3()
+    return [p for p in PROGRAMS if (lanes or not (p.ours and p.lanes > 1)) and (v3 or not p.v3)]
+
+
 def _stamp(target: Path) -> Path:
     """The file beside `target` that says what it was made from."""
     return target.with_name(target.name + ".stamp")
@@ -50,12 +62,11 @@ class Builder:
             "-isystem",
             packages / "cmeel.prefix/include/eigen3",
         ]
-        self.skipped: list[str] = []
 
     def everything(self, names: list[str]) -> None:
         self.built.mkdir(parents=True, exist_ok=True)
         self._timer()
-        self._redysim()
+        self.redysim()
         self._dynibo()
         self._mujoco()
         self._pinocchio()
@@ -65,6 +76,14 @@ class Builder:
             for function in FUNCTIONS:
                 self._cppadcodegen(name, function)
                 self._casadi(name, function)
+
+    def skipped(self, names: list[str]) -> list[str]:
+        """What takes the compiler too long."""
+        found = []
+        for name in names:
+            for missing in sorted((self.built / "generated" / name).glob("*/*.too-long")):
+                found.append(f"{missing.stem}, {name} {missing.parent.name}")
+        return found
 
     def _run(self, command: list, patience: float | None = None, **environment: str) -> None:
         words = [str(word) for word in command]
@@ -91,10 +110,12 @@ class Builder:
         source = SOURCES / "timer.c"
         self._make(self.built / "timer", [source], ["gcc", "-O2", source, "-o", self.built / "timer", "-ldl"])
 
-    def _redysim(self) -> None:
+    def redysim(self) -> None:
         features = ["--features", "lanes"] if has_lanes() else []
         self._cargo("redysim", "native", "-C target-cpu=native", features)
         self._cargo("redysim", "baseline", "", features)
+        if runs_v3():
+            self._cargo("redysim", "x86-64-v3", "-C target-cpu=x86-64-v3", features)
 
     def _dynibo(self) -> None:
         self._cargo("dynibo", "native", "-C target-cpu=native", [])
@@ -178,11 +199,9 @@ class Builder:
         command = ["gcc", *FAST, "-fPIC", "-shared", *words, source, "-o", target, "-lmvec", "-lm"]
         missing = target.with_suffix(".too-long")
         if missing.exists():
-            self.skipped.append(f"{target.stem}, {what}")
             return
         try:
             self._make(target, [source, code], command, PATIENCE)
         except subprocess.TimeoutExpired:
             missing.touch()
-            self.skipped.append(f"{target.stem}, {what}")
             print(f"  gcc takes longer than {PATIENCE:.0f} s for {what}: left out", file=sys.stderr)

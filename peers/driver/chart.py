@@ -5,7 +5,7 @@ from xml.sax.saxutils import escape
 
 import robots
 from programs import BY_KEY, FUNCTIONS, SPECIAL
-from requirements import Times
+from results import Times
 
 # Peers in cold and grey tones, redysim in warm ones.
 SCALAR = {
@@ -16,6 +16,7 @@ SCALAR = {
     "casadi": "#7f9fd6",
     "generic": "#f0d9a8",
     "baseline_f64": "#f2a65a",
+    "v3_f64": "#e57758",
     "native_f64": "#d1495b",
     "native_f32": "#8c2f39",
 }
@@ -92,12 +93,13 @@ class Drawing:
 
 def drawn(times: Times, titles: dict[str, str]) -> str:
     drawing = Drawing()
-    names = [name for name in robots.NAMES if any(key[1] == name for key in times.all)]
-    drawing.legend(24, SCALAR)
+    names = [name for name in robots.NAMES if name in times.robots()]
+    scalar = {key: colour for key, colour in SCALAR.items() if key in times.programs()}
+    drawing.legend(24, scalar)
     top = LEGEND + 40
     for function, title in FUNCTIONS.items():
-        groups = [(titles[name], _bars(times, SCALAR, name, function)) for name in names]
-        drawing.panel(top, title[0].upper() + title[1:], "ns per call", groups, SCALAR)
+        groups = [(titles[name], _bars(times, scalar, name, function)) for name in names]
+        drawing.panel(top, title[0].upper() + title[1:], "ns per call", groups, scalar)
         top += PANEL + GAP
     special = [name for name in SPECIAL if name in names]
     groups = [(f"{titles[n]}, {FUNCTIONS[f]}", _bars(times, LANES, n, f)) for n in special for f in FUNCTIONS]

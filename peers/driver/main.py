@@ -1,16 +1,16 @@
 """Checks and times redysim beside other programs. Started by `peers/run`, which installs what this needs."""
 
 import argparse
-import json
 import sys
-from dataclasses import asdict
+from datetime import date
 from pathlib import Path
 
 import build
-import measure
+import processor
 import report
+import results as stored
 import robots
-from programs import PROGRAMS, REFERENCE
+from programs import REFERENCE
 
 
 def arguments() -> argparse.Namespace:
@@ -18,9 +18,10 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only", metavar="ROBOTS", help=f"these robots, by commas, of {','.join(robots.NAMES)}")
     parser.add_argument("--core", type=int, default=1, help="the core that programs run on (1)")
     parser.add_argument("--skip-build", action="store_true", help="take what is built as it is")
+    parser.add_argument("--skip-peers", action="store_true", help="build redysim alone, take the others as they are")
     parser.add_argument("--build-only", action="store_true", help="build, and stop")
     parser.add_argument("--check-only", action="store_true", help="build and check, but time nothing")
-    parser.add_argument("--report-only", action="store_true", help="write table and picture from the last run's times")
+    parser.add_argument("--report-only", action="store_true", help="write page and pictures again from peers/results")
     parser.add_argument("--built", type=Path, required=True, help=argparse.SUPPRESS)
     parser.add_argument("--packages", type=Path, required=True, help=argparse.SUPPRESS)
     return parser.parse_args()
@@ -32,29 +33,32 @@ def main() -> None:
     unknown = [name for name in names if name not in robots.NAMES]
     if unknown:
         raise SystemExit(f"peers: there is no robot {unknown[0]}; there are {', '.join(robots.NAMES)}")
-    stored = chosen.built / "results.json"
+    folder, docs = stored.FOLDER, build.REPOSITORY / "docs"
     if not chosen.report_only:
-        results = run(chosen, names)
-        if results is None:
+        found = run(chosen, names)
+        if found is None:
             return
-        stored.write_text(json.dumps(results, indent=1))
-    elif not stored.exists():
-        raise SystemExit("peers: there are no times yet: run without --report-only")
-    results = json.loads(stored.read_text())
-    # Some robots alone do not replace the page of all.
-    report.write(results, chosen.built / "docs" if results["partial"] else build.REPOSITORY / "docs")
+        # Some robots alone do not replace a run on all.
+        if found["partial"]:
+            folder, docs = chosen.built / "results", chosen.built / "docs"
+        print(f"written: {stored.save(found, folder)}")
+    report.write(stored.load(folder), docs)
 
 
 def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
+    import measure  # With numpy, which a report does without.
+
     builder = build.Builder(chosen.built, chosen.packages)
     if not chosen.skip_build:
         print("building", flush=True)
-        builder.everything(names)
+        if chosen.skip_peers:
+            builder.redysim()
+        else:
+            builder.everything(names)
     if chosen.build_only:
         return None
-    lanes = build.has_lanes()
-    programs = [program for program in PROGRAMS if lanes or not (program.ours and program.lanes > 1)]
-    bench, results = measure.Bench(chosen.built, chosen.core), measure.Results(skipped=builder.skipped)
+    programs = build.runnable()
+    bench, results = measure.Bench(chosen.built, chosen.core), measure.Results(skipped=builder.skipped(names))
     print(f"checking against {REFERENCE.label}", flush=True)
     bench.check(programs, names, results)
     wrong = [d for d in results.deviations if not d.largest <= d.allowed]
@@ -71,20 +75,21 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
     if chosen.check_only:
         return None
     bench.time(programs, names, results)
-    tasks = (
-        {symbol: bench.task(symbol, results) for symbol in ("task_inverse", "task_fall")} if "gripper" in names else {}
-    )
+    tasks = bench.tasks(results) if "gripper" in names else {}
+    if not results.times:
+        raise SystemExit("peers: other programs kept taking the core: stop them, or take another core (--core)")
     return {
+        "processor": processor.described(processor.cpuinfo()),
+        "date": date.today().isoformat(),
         "partial": len(names) < len(robots.NAMES),
-        "deviations": [asdict(d) for d in results.deviations],
-        "times": {" ".join(key): times for key, times in results.times.items()},
-        "calibrations": results.calibrations,
-        "disturbed": results.disturbed,
+        "pinned": results.pinned,
+        **report.made_with(),
+        "times": stored.recorded(results.times),
+        "tasks": tasks,
+        "steadiness": stored.steadiness(results.times, results.calibrations, results.disturbed),
+        "agreement": measure.agreement(results.deviations),
         "refused": results.refused,
         "skipped": results.skipped,
-        "pinned": results.pinned,
-        "tasks": tasks,
-        "machine": report.machine(chosen.packages),
     }
 
 

@@ -16,6 +16,8 @@ REPETITIONS = 3
 # A measurement during which the calibration loop was so much slower than at its fastest is taken again.
 DISTURBED = 1.05
 AGAIN = 4
+# What the timer ends with where other programs keep taking the core.
+INTERRUPTED = 4
 # Deviations are relative to the component, or to this part of the state's largest one if that is more.
 FLOOR = {"f64": 1e-6, "f32": 1e-2}
 
@@ -24,7 +26,11 @@ def tolerance(program: Program, robot: str, function: str) -> float:
     """How far a component may be off. Accelerations lose digits with the condition of the mass matrix, of long chains most."""
     if program.scalar == "f32":
         return 1e-2
-    return 1e-7 if function == "forward" and robot in ("chain40", "chain80") else 1e-8
+    return 1e-7 if _is_ill_conditioned(robot, function) else 1e-8
+
+
+def _is_ill_conditioned(robot: str, function: str) -> bool:
+    return function == "forward" and robot in ("chain40", "chain80")
 
 
 @dataclass
@@ -34,6 +40,16 @@ class Deviation:
     function: str
     largest: float
     allowed: float
+
+
+def agreement(deviations: list[Deviation]) -> dict[str, dict[str, float]]:
+    """The largest deviations of each program, by function; those of ill-conditioned mass matrices apart."""
+    largest: dict[str, dict[str, float]] = {}
+    for d in deviations:
+        column = d.function + ("_long" if _is_ill_conditioned(d.robot, d.function) else "")
+        of = largest.setdefault(d.program, {})
+        of[column] = max(of.get(column, 0.0), float(f"{d.largest:.1e}"))
+    return largest
 
 
 @dataclass
@@ -150,7 +166,12 @@ class Bench:
                     turn = repetition * len(ready) // REPETITIONS
                     for program in ready[turn:] + ready[:turn]:
                         command = self.command("time", program, robot, function, states)
-                        time = self.measured(command, results)
+                        try:
+                            time = self.measured(command, results)
+                        except Interrupted as interrupted:
+                            what = f"{program.label}, {robot}, {FUNCTIONS[function]}"
+                            results.refused.append(f"repetition {repetition + 1} of {what}: {interrupted}")
+                            continue
                         results.times.setdefault((program.key, robot, function), []).append(time)
 
     def measured(self, command: list[str], results: Results) -> float:
@@ -158,6 +179,8 @@ class Bench:
         best = (float("inf"), float("inf"))
         for _ in range(AGAIN + 1):
             ran = subprocess.run([*self.prefix, *command], capture_output=True, text=True)
+            if ran.returncode == INTERRUPTED:
+                continue
             if ran.returncode != 0:
                 raise SystemExit(f"peers: timing failed: {ran.stderr.strip()}\n  {' '.join(command)}")
             time, calibration = (float(word) for word in ran.stdout.split())
@@ -166,12 +189,23 @@ class Bench:
             if calibration <= DISTURBED * self.fastest:
                 break
         else:
+            if best[1] == float("inf"):
+                raise Interrupted("other programs kept taking the core")
             results.disturbed += 1
         results.calibrations.append(best[0])
         return best[1]
 
-    def task(self, symbol: str, results: Results) -> float:
-        """ns that one of ReDySim's own tasks takes."""
+    def tasks(self, results: Results) -> dict[str, float]:
+        """ns that each of ReDySim's own tasks takes."""
+        found = {}
+        for symbol in ("task_inverse", "task_fall"):
+            try:
+                found[symbol] = float(f"{self._task(symbol, results):.5g}")
+            except Interrupted as interrupted:
+                results.refused.append(f"ReDySim's own `{symbol}`: {interrupted}")
+        return found
+
+    def _task(self, symbol: str, results: Results) -> float:
         states = self.built / "robots" / "gripper.states"
         robot = robot_files.FOLDER.parent.parent / "models/peers/gripper.toml"
         library = REFERENCE.library_of(self.built, "gripper", "inverse")
@@ -192,3 +226,7 @@ class Bench:
 
 class Refused(Exception):
     """A program that does not take a robot."""
+
+
+class Interrupted(Exception):
+    """A measurement for which the core was never free for long enough."""

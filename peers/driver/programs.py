@@ -27,6 +27,8 @@ class Program:
     # All robots, unless named.
     robots: tuple[str, ...] | None = None
     ours: bool = False
+    # Whether it runs on processors with AVX2 and FMA alone.
+    v3: bool = False
 
     def takes(self, robot: str) -> bool:
         return self.robots is None or robot in self.robots
@@ -38,7 +40,7 @@ class Program:
         return self.symbol.format(robot=robot, function=function)
 
 
-NATIVE, BASELINE = "cargo-native/release/libredysim_peers.so", "cargo-baseline/release/libredysim_peers.so"
+NATIVE, V3, BASELINE = (f"cargo-{target}/release/libredysim_peers.so" for target in ("native", "x86-64-v3", "baseline"))
 GENERATED = "generated/{robot}/{function}"
 
 
@@ -63,6 +65,7 @@ PROGRAMS = [
     _ours("generic", "redysim, generic path", NATIVE, "generic_{function}"),
     _ours("native_f64", "redysim, f64", NATIVE, "{robot}_{function}_f64"),
     _ours("native_f32", "redysim, f32", NATIVE, "{robot}_{function}_f32", scalar="f32"),
+    _ours("v3_f64", "redysim, f64, x86-64-v3", V3, "{robot}_{function}_f64", v3=True),
     _ours("baseline_f64", "redysim, f64, any x86-64", BASELINE, "{robot}_{function}_f64"),
     _ours("baseline_f32", "redysim, f32, any x86-64", BASELINE, "{robot}_{function}_f32", scalar="f32"),
     Program(
