@@ -104,8 +104,12 @@ macro_rules! angles {
             #[inline(never)]
             #[cold]
             fn negatives_one_by_one(self, function: impl Fn($float) -> ($float, $float)) -> (Self, Self) {
-                let pairs = self.to_array().map(|minus_x| function(-minus_x));
-                (Self::from(pairs.map(|(sin, _)| sin)), Self::from(pairs.map(|(_, cos)| cos)))
+                let (mut sin, mut cos) = (self.to_array(), self.to_array());
+                for (sin, cos) in sin.iter_mut().zip(&mut cos) {
+                    let (one_sin, one_cos) = function(-*sin);
+                    (*sin, *cos) = (one_sin.apart(), one_cos.apart());
+                }
+                (Self::from(sin), Self::from(cos))
             }
         }
     };
