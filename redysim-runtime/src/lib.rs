@@ -15,6 +15,8 @@ extern crate std;
 pub mod batch;
 pub mod closed_loop;
 pub mod control;
+#[cfg(feature = "std")]
+pub mod dispatch;
 pub mod dual;
 pub mod integrate;
 pub mod lanes;
@@ -33,6 +35,8 @@ pub use closed_loop::{
     Explained, LoopError, LoopForces, Projection, Rows, Stabilisation,
 };
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
+#[cfg(feature = "std")]
+pub use dispatch::{Dispatch, Dispatched};
 pub use dual::Dual;
 pub use integrate::{
     Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,

@@ -38,5 +38,9 @@ impl<S: Scalar, const Q: usize, const A: usize> Posture<S, Q, A> {
 /// The same numbers, each copied by itself.
 #[inline(always)]
 fn apart<S: Scalar, const N: usize>(numbers: &[S; N]) -> [S; N] {
-    core::array::from_fn(|index| numbers[index].apart())
+    let mut numbers = *numbers;
+    for number in &mut numbers {
+        *number = number.apart();
+    }
+    numbers
 }

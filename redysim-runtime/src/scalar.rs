@@ -36,10 +36,13 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self);
 
     /// Sines and cosines of several angles, at once where that is faster.
-    #[inline]
+    #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-        let pairs = angles.map(Self::sin_cos);
-        (pairs.map(|(sin, _)| sin), pairs.map(|(_, cos)| cos))
+        let (mut sines, mut cosines) = (angles, angles);
+        for (sin, cos) in sines.iter_mut().zip(&mut cosines) {
+            (*sin, *cos) = sin.sin_cos();
+        }
+        (sines, cosines)
     }
 
     /// The non-negative square root.
@@ -65,11 +68,13 @@ pub trait Scalar:
     }
 
     /// Zero.
+    #[inline(always)]
     fn zero() -> Self {
         Self::from_f64(0.0)
     }
 
     /// One.
+    #[inline(always)]
     fn one() -> Self {
         Self::from_f64(1.0)
     }

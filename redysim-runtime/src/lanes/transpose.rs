@@ -2,6 +2,7 @@
 //! back.
 
 use super::Lanes;
+use crate::Real;
 
 /// Entry `i` of all `W` states in lanes, for each `i`.
 ///
@@ -15,13 +16,27 @@ use super::Lanes;
 /// assert_eq!(unpack([first, second]), states);
 /// ```
 #[inline(always)]
-pub fn pack<L: Lanes<T, W>, T: Copy, const W: usize, const N: usize>(states: &[[T; N]; W]) -> [L; N] {
-    core::array::from_fn(|entry| L::from(core::array::from_fn(|lane| states[lane][entry])))
+pub fn pack<L: Lanes<T, W>, T: Real, const W: usize, const N: usize>(states: &[[T; N]; W]) -> [L; N] {
+    let mut entries = [L::zero(); N];
+    for (index, entry) in entries.iter_mut().enumerate() {
+        let mut lanes = [T::default(); W];
+        for (lane, state) in lanes.iter_mut().zip(states) {
+            *lane = state[index];
+        }
+        *entry = L::from(lanes);
+    }
+    entries
 }
 
 /// The state in each lane: the inverse of [`pack`].
 #[inline(always)]
-pub fn unpack<L: Lanes<T, W>, T: Copy, const W: usize, const N: usize>(entries: [L; N]) -> [[T; N]; W] {
-    let entries = entries.map(L::into);
-    core::array::from_fn(|lane| core::array::from_fn(|entry| entries[entry][lane]))
+pub fn unpack<L: Lanes<T, W>, T: Real, const W: usize, const N: usize>(entries: [L; N]) -> [[T; N]; W] {
+    let mut states = [[T::default(); N]; W];
+    for (index, entry) in entries.into_iter().enumerate() {
+        let lanes: [T; W] = entry.into();
+        for (state, lane) in states.iter_mut().zip(lanes) {
+            state[index] = lane;
+        }
+    }
+    states
 }

@@ -5,10 +5,10 @@
 //!
 //! Errors stay below 1 unit in the last place for every finite angle; non-finite angles give NaN.
 
-mod angle;
+pub(crate) mod angle;
 pub mod double;
 pub mod lists;
-mod reduction;
-mod several;
+pub(crate) mod reduction;
+pub(crate) mod several;
 pub mod single;
 mod single_reduction;

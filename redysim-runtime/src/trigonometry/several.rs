@@ -68,7 +68,13 @@ pub fn in_lanes<L: Lanes<T, W>, T: Scalar, const W: usize>(
 /// The angles from `start` on, and zeros past the last.
 #[inline(always)]
 fn taken<T: Scalar + Default, const W: usize, const N: usize>(angles: &[T; N], start: usize) -> [T; W] {
-    core::array::from_fn(|lane| if start + lane < N { angles[start + lane] } else { T::default() })
+    let mut taken = [T::default(); W];
+    for (lane, angle) in taken.iter_mut().enumerate() {
+        if start + lane < N {
+            *angle = angles[start + lane];
+        }
+    }
+    taken
 }
 
 /// Writes what fits of a group from `start` on.

@@ -46,12 +46,18 @@ fn k<A: Angle>(value: f32) -> A {
     A::from_f64(f64::from(value))
 }
 
+/// Three constants in every lane.
+#[inline(always)]
+fn constants<A: Angle>([a, b, c]: [f32; 3]) -> [A; 3] {
+    [k(a), k(b), k(c)]
+}
+
 /// The reduction that is good for few turns, and whether it is good for all of these.
 #[inline(always)]
 fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
     let rounded = x.mul_add(k(core::f32::consts::FRAC_2_PI), k(ROUNDER));
     let minus_n = k::<A>(ROUNDER) - rounded;
-    let [a, b, c] = half_pi(A::FUSED).map(k::<A>);
+    let [a, b, c] = constants::<A>(half_pi(A::FUSED));
     // The first difference is exact. The second leaves its roundoff in the tail, with that of its product.
     let first = minus_n.mul_add(a, x);
     let product = minus_n * b;
@@ -75,9 +81,9 @@ const COSINE: [f32; 3] = [0.041_666_646, -0.001_388_733_5, 2.443_594_7e-5];
 #[inline(always)]
 fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
     let z = rest * rest;
-    let [a, b, c] = SINE.map(k::<A>);
+    let [a, b, c] = constants::<A>(SINE);
     let sin = rest + (rest * z).mul_add(c.mul_add(z, b).mul_add(z, a), tail);
-    let [a, b, c] = COSINE.map(k::<A>);
+    let [a, b, c] = constants::<A>(COSINE);
     // 1 − r²/2 rounded, and what that loses.
     let (one, half) = (k::<A>(1.0), k::<A>(0.5) * z);
     let near_one = one - half;

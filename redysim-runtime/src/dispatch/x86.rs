@@ -1,0 +1,374 @@
+//! Numbers whose operations are the instructions of AVX2 with FMA, or of AVX-512.
+//!
+//! # Safety
+//!
+//! Every `unsafe` block of this file calls a function that is compiled for target features which the program is not
+//! compiled for; that is undefined on a processor without them, and harmless on one that has them. The types are
+//! private to this crate, and so are the traits through which generic code of this crate reaches them, so that nobody
+//! else can name them, make a value of one, or call a function for one. This crate does so in two places,
+//! [`batch`](crate::batch) and [`Dispatched`](super::Dispatched), both behind
+//! [`Instructions::detected`](super::Instructions::detected), which has found the features. Code of other crates meets
+//! these types only as the parameter of a generic function that those two call. Therefore the processor has the features
+//! whenever an operation of these types runs.
+//!
+//! Vectors go in and out of functions through memory in Rust's own calling convention, so that no call depends on the
+//! features of either side. `loadu` and `storeu` read and write arrays as large as the vector, which need no alignment.
+
+#![allow(unsafe_code)]
+
+use crate::scalar::Scalar;
+use crate::trigonometry::angle::{Angle, Number};
+use crate::trigonometry::reduction::Reduced;
+use crate::trigonometry::several::{in_lanes, several};
+use crate::trigonometry::{double, single};
+use core::arch::x86_64::*;
+use core::fmt;
+use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// Whether multiply and add round once.
+const FUSED: bool = cfg!(not(feature = "deterministic"));
+
+/// Adding and subtracting in place, by the other operators.
+macro_rules! assigning {
+    ($name:ty) => {
+        impl AddAssign for $name {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+
+        impl SubAssign for $name {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+    };
+}
+
+/// The two methods of a scalar that a file of other target features runs in.
+macro_rules! with_target_features {
+    ($features:literal) => {
+        #[inline(always)]
+        fn with_target_features<R>(computation: impl FnOnce() -> R) -> R {
+            #[target_feature(enable = $features)]
+            fn enabled<R>(computation: impl FnOnce() -> R) -> R {
+                computation()
+            }
+            // SAFETY: the processor has these features, see the head of the file.
+            unsafe { enabled(computation) }
+        }
+    };
+}
+
+macro_rules! numbers {
+    ($($(#[$documentation:meta])* $name:ident($float:ident), $kernel:ident, ($narrow:ident, $wide:ident);)*) => {$(
+        $(#[$documentation])*
+        #[derive(Clone, Copy, Debug, Default)]
+        #[repr(transparent)]
+        pub struct $name(pub $float);
+
+        numbers!(@operators $name: Add add +, Sub sub -, Mul mul *, Div div /);
+        assigning!($name);
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+
+        impl Scalar for $name {
+            with_target_features!("avx2,fma,bmi1,bmi2");
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                Self(value as $float)
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $kernel::sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+                several(
+                    angles,
+                    $kernel::sin_cos,
+                    #[inline(always)]
+                    |narrow| in_lanes(narrow, $kernel::sin_cos::<$narrow>),
+                    #[inline(always)]
+                    |wide| in_lanes(wide, $kernel::sin_cos::<$wide>),
+                )
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(self.0.sqrt())
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                if FUSED { Self(self.0.mul_add(factor.0, addend.0)) } else { self * factor + addend }
+            }
+        }
+
+        impl Number for $name {
+            #[inline(always)]
+            fn reduced(self) -> Reduced<Self> {
+                let Reduced { rounded, rest, tail } = Number::reduced(self.0);
+                Reduced { rounded: Self(rounded), rest: Self(rest), tail: Self(tail) }
+            }
+        }
+
+        impl Angle for $name {
+            type Number = Self;
+            const FUSED: bool = FUSED;
+
+            #[inline(always)]
+            fn all_within(self, limit: Self) -> bool {
+                self.0.all_within(limit.0)
+            }
+
+            #[inline(always)]
+            fn turned(rounded: Self, sin: Self, cos: Self) -> (Self, Self) {
+                let (sin, cos) = Angle::turned(rounded.0, sin.0, cos.0);
+                (Self(sin), Self(cos))
+            }
+
+            #[inline(always)]
+            fn one_by_one(self, function: impl Fn(Self) -> (Self, Self)) -> (Self, Self) {
+                function(self)
+            }
+        }
+    )*};
+    (@operators $name:ident: $($operator:ident $operation:ident $sign:tt),*) => {$(
+        impl $operator for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn $operation(self, other: Self) -> Self {
+                Self(self.0 $sign other.0)
+            }
+        }
+    )*};
+}
+
+numbers! {
+    /// An `f64` in code for AVX2 and FMA.
+    Avx2F64(f64), double, (Avx2F64x4, Avx2F64x4);
+    /// An `f32` in code for AVX2 and FMA.
+    Avx2F32(f32), single, (Avx2F32x8, Avx2F32x8);
+}
+
+/// The instructions of one kind of vector. Bits are those of integers as wide as the numbers.
+macro_rules! lanes {
+    ($(#[$documentation:meta])* $name:ident($register:ident): $width:literal of $float:ident ($number:ident) by $features:literal,
+     $kernel:ident, $splat:ident, $load:ident, $store:ident, $sqrt:ident, $fused:ident,
+     [$($operator:ident $operation:ident $instruction:ident),*],
+     bits: $to_bits:ident, $from_bits:ident, $splat_bits:ident($bits:ident), $and:ident, $xor:ident, $plus:ident, $minus:ident,
+     $shift:ident::<$second_bit_to_sign:literal>, within: |$number_bits:ident, $limit_bits:ident| $within:expr) => {
+        $(#[$documentation])*
+        #[derive(Clone, Copy)]
+        #[repr(transparent)]
+        pub struct $name($register);
+
+        impl $name {
+            #[inline(always)]
+            pub fn to_array(self) -> [$float; $width] {
+                let mut numbers = [0.0; $width];
+                // SAFETY: see the head of the file.
+                unsafe { $store(numbers.as_mut_ptr(), self.0) };
+                numbers
+            }
+
+            /// `function` of the negative of each lane.
+            #[inline(never)]
+            #[cold]
+            fn negatives_one_by_one(self, function: impl Fn($number) -> ($number, $number)) -> (Self, Self) {
+                Self::with_target_features(|| {
+                    let (mut sin, mut cos) = (self.to_array(), self.to_array());
+                    for (sin, cos) in sin.iter_mut().zip(&mut cos) {
+                        let (one_sin, one_cos) = function($number(-*sin));
+                        (*sin, *cos) = (one_sin.0, one_cos.0);
+                    }
+                    (Self::from(sin), Self::from(cos))
+                })
+            }
+        }
+
+        impl From<[$float; $width]> for $name {
+            #[inline(always)]
+            fn from(numbers: [$float; $width]) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $load(numbers.as_ptr()) })
+            }
+        }
+
+        impl From<$name> for [$float; $width] {
+            #[inline(always)]
+            fn from(lanes: $name) -> Self {
+                lanes.to_array()
+            }
+        }
+
+        impl From<[$number; $width]> for $name {
+            #[inline(always)]
+            fn from(numbers: [$number; $width]) -> Self {
+                let mut floats = [0.0; $width];
+                for (float, number) in floats.iter_mut().zip(numbers) {
+                    *float = number.0;
+                }
+                Self::from(floats)
+            }
+        }
+
+        impl From<$name> for [$number; $width] {
+            #[inline(always)]
+            fn from(lanes: $name) -> Self {
+                let mut numbers = [$number(0.0); $width];
+                for (number, float) in numbers.iter_mut().zip(lanes.to_array()) {
+                    *number = $number(float);
+                }
+                numbers
+            }
+        }
+
+        impl fmt::Debug for $name {
+            fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.debug_tuple(stringify!($name)).field(&self.to_array()).finish()
+            }
+        }
+
+        $(impl $operator for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn $operation(self, other: Self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        })*
+        assigning!($name);
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $from_bits($xor($to_bits(self.0), $to_bits($splat(-0.0)))) })
+            }
+        }
+
+        impl Scalar for $name {
+            with_target_features!($features);
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $splat(value as $float) })
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $kernel::sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $sqrt(self.0) })
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                if FUSED {
+                    // SAFETY: see the head of the file.
+                    Self(unsafe { $fused(self.0, factor.0, addend.0) })
+                } else {
+                    self * factor + addend
+                }
+            }
+        }
+
+        impl Angle for $name {
+            type Number = $number;
+            const FUSED: bool = FUSED;
+
+            #[inline(always)]
+            fn all_within(self, limit: Self) -> bool {
+                // SAFETY: see the head of the file.
+                unsafe {
+                    let magnitude = $splat_bits($bits::MAX);
+                    let $number_bits = $from_bits($and($to_bits(self.0), magnitude));
+                    let $limit_bits = $from_bits($and($to_bits(limit.0), magnitude));
+                    $within
+                }
+            }
+
+            #[inline(always)]
+            fn turned(rounded: Self, sin: Self, cos: Self) -> (Self, Self) {
+                // SAFETY: see the head of the file.
+                unsafe {
+                    let (one, two) = ($splat_bits(1), $splat_bits(2));
+                    let (turns, sin, cos) = ($to_bits(rounded.0), $to_bits(sin.0), $to_bits(cos.0));
+                    let odd = $minus($splat_bits(0), $and(turns, one));
+                    let differing = $and($xor(sin, cos), odd);
+                    let sin_sign = $shift::<$second_bit_to_sign>($and(turns, two));
+                    let cos_sign = $shift::<$second_bit_to_sign>($and($plus(turns, one), two));
+                    let sin = $xor($xor(sin, differing), sin_sign);
+                    let cos = $xor($xor(cos, differing), cos_sign);
+                    (Self($from_bits(sin)), Self($from_bits(cos)))
+                }
+            }
+
+            #[inline(always)]
+            fn one_by_one(self, function: impl Fn($number) -> ($number, $number)) -> (Self, Self) {
+                (-self).negatives_one_by_one(function)
+            }
+        }
+    };
+}
+
+lanes! {
+    /// Four `f64`.
+    Avx2F64x4(__m256d): 4 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2", double,
+    _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd, _mm256_fmadd_pd,
+    [Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd],
+    bits: _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_set1_epi64x(i64),
+    _mm256_and_si256, _mm256_xor_si256, _mm256_add_epi64, _mm256_sub_epi64, _mm256_slli_epi64::<62>,
+    within: |number, limit| _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(number, limit)) == 0xf
+}
+
+lanes! {
+    /// Eight `f32`.
+    Avx2F32x8(__m256): 8 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2", single,
+    _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_sqrt_ps, _mm256_fmadd_ps,
+    [Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps],
+    bits: _mm256_castps_si256, _mm256_castsi256_ps, _mm256_set1_epi32(i32),
+    _mm256_and_si256, _mm256_xor_si256, _mm256_add_epi32, _mm256_sub_epi32, _mm256_slli_epi32::<30>,
+    within: |number, limit| _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(number, limit)) == 0xff
+}
+
+lanes! {
+    /// Eight `f64`.
+    Avx512F64x8(__m512d): 8 of f64 (Avx2F64) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
+    double,
+    _mm512_set1_pd, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd, _mm512_fmadd_pd,
+    [Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd],
+    bits: _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_set1_epi64(i64),
+    _mm512_and_si512, _mm512_xor_si512, _mm512_add_epi64, _mm512_sub_epi64, _mm512_slli_epi64::<62>,
+    within: |number, limit| _mm512_cmp_pd_mask::<_CMP_LE_OQ>(number, limit) == 0xff
+}
+
+lanes! {
+    /// Sixteen `f32`.
+    Avx512F32x16(__m512): 16 of f32 (Avx2F32) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
+    single,
+    _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps, _mm512_sqrt_ps, _mm512_fmadd_ps,
+    [Add add _mm512_add_ps, Sub sub _mm512_sub_ps, Mul mul _mm512_mul_ps, Div div _mm512_div_ps],
+    bits: _mm512_castps_si512, _mm512_castsi512_ps, _mm512_set1_epi32(i32),
+    _mm512_and_si512, _mm512_xor_si512, _mm512_add_epi32, _mm512_sub_epi32, _mm512_slli_epi32::<30>,
+    within: |number, limit| _mm512_cmp_ps_mask::<_CMP_LE_OQ>(number, limit) == 0xffff
+}
