@@ -325,7 +325,7 @@ pub fn evaluate<T: Batched, F: Function<I, O> + Sync, const I: usize, const O: u
 /// # Errors
 ///
 /// If `v`, `a` or `tau` is not as long as `q`; then nothing is written.
-pub fn inverse_dynamics<T: Batched, M: Sync, const NQ: usize, const NV: usize>(
+pub fn inverse_dynamics<T: Batched, M, const NQ: usize, const NV: usize>(
     mechanism: &M,
     q: &[[T; NQ]],
     v: &[[T; NV]],
@@ -333,7 +333,8 @@ pub fn inverse_dynamics<T: Batched, M: Sync, const NQ: usize, const NV: usize>(
     tau: &mut [[T; NV]],
 ) -> Result<(), LengthMismatch>
 where
-    M: InverseDynamics<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
+    M: Sync
+        + InverseDynamics<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
         + InverseDynamics<T::Avx2, Coordinates = [T::Avx2; NQ], Velocities = [T::Avx2; NV]>
         + InverseDynamics<T::Avx512, Coordinates = [T::Avx512; NQ], Velocities = [T::Avx512; NV]>,
 {
@@ -373,7 +374,7 @@ where
 /// # Errors
 ///
 /// If `v`, `tau` or `a` is not as long as `q`; then nothing is written.
-pub fn forward_dynamics<T: Batched, M: Sync, const NQ: usize, const NV: usize>(
+pub fn forward_dynamics<T: Batched, M, const NQ: usize, const NV: usize>(
     mechanism: &M,
     q: &[[T; NQ]],
     v: &[[T; NV]],
@@ -381,7 +382,8 @@ pub fn forward_dynamics<T: Batched, M: Sync, const NQ: usize, const NV: usize>(
     a: &mut [[T; NV]],
 ) -> Result<(), LengthMismatch>
 where
-    M: ForwardDynamics<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
+    M: Sync
+        + ForwardDynamics<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
         + ForwardDynamics<T::Avx2, Coordinates = [T::Avx2; NQ], Velocities = [T::Avx2; NV]>
         + ForwardDynamics<T::Avx512, Coordinates = [T::Avx512; NQ], Velocities = [T::Avx512; NV]>,
 {
@@ -421,14 +423,15 @@ where
 /// # Errors
 ///
 /// If `v` or `tau` is not as long as `q`; then nothing is written.
-pub fn bias_forces<T: Batched, M: Sync, const NQ: usize, const NV: usize>(
+pub fn bias_forces<T: Batched, M, const NQ: usize, const NV: usize>(
     mechanism: &M,
     q: &[[T; NQ]],
     v: &[[T; NV]],
     tau: &mut [[T; NV]],
 ) -> Result<(), LengthMismatch>
 where
-    M: BiasForces<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
+    M: Sync
+        + BiasForces<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
         + BiasForces<T::Avx2, Coordinates = [T::Avx2; NQ], Velocities = [T::Avx2; NV]>
         + BiasForces<T::Avx512, Coordinates = [T::Avx512; NQ], Velocities = [T::Avx512; NV]>,
 {
@@ -465,13 +468,14 @@ where
 /// # Errors
 ///
 /// If `tau` is not as long as `q`; then nothing is written.
-pub fn gravity_forces<T: Batched, M: Sync, const NQ: usize, const NV: usize>(
+pub fn gravity_forces<T: Batched, M, const NQ: usize, const NV: usize>(
     mechanism: &M,
     q: &[[T; NQ]],
     tau: &mut [[T; NV]],
 ) -> Result<(), LengthMismatch>
 where
-    M: GravityForces<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
+    M: Sync
+        + GravityForces<T::Lanes, Coordinates = [T::Lanes; NQ], Velocities = [T::Lanes; NV]>
         + GravityForces<T::Avx2, Coordinates = [T::Avx2; NQ], Velocities = [T::Avx2; NV]>
         + GravityForces<T::Avx512, Coordinates = [T::Avx512; NQ], Velocities = [T::Avx512; NV]>,
 {
@@ -505,13 +509,14 @@ where
 /// # Errors
 ///
 /// If `matrices` is not as long as `q`; then nothing is written.
-pub fn mass_matrix<T: Batched, M: Sync, const NQ: usize, const NV: usize>(
+pub fn mass_matrix<T: Batched, M, const NQ: usize, const NV: usize>(
     mechanism: &M,
     q: &[[T; NQ]],
     matrices: &mut [[[T; NV]; NV]],
 ) -> Result<(), LengthMismatch>
 where
-    M: MassMatrix<T::Lanes, Coordinates = [T::Lanes; NQ], Matrix = [[T::Lanes; NV]; NV]>
+    M: Sync
+        + MassMatrix<T::Lanes, Coordinates = [T::Lanes; NQ], Matrix = [[T::Lanes; NV]; NV]>
         + MassMatrix<T::Avx2, Coordinates = [T::Avx2; NQ], Matrix = [[T::Avx2; NV]; NV]>
         + MassMatrix<T::Avx512, Coordinates = [T::Avx512; NQ], Matrix = [[T::Avx512; NV]; NV]>,
 {

@@ -38,11 +38,7 @@ pub trait Scalar:
     /// Sines and cosines of several angles, at once where that is faster.
     #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-        let (mut sines, mut cosines) = (angles, angles);
-        for (sin, cos) in sines.iter_mut().zip(&mut cosines) {
-            (*sin, *cos) = sin.sin_cos();
-        }
-        (sines, cosines)
+        sin_cos_one_by_one(angles)
     }
 
     /// The non-negative square root.
@@ -95,6 +91,16 @@ pub trait Scalar:
     }
 }
 
+/// Sines and cosines of `angles`, one after the other.
+#[inline(always)]
+pub(crate) fn sin_cos_one_by_one<S: Scalar, const N: usize>(angles: [S; N]) -> ([S; N], [S; N]) {
+    let (mut sines, mut cosines) = (angles, angles);
+    for (sin, cos) in sines.iter_mut().zip(&mut cosines) {
+        (*sin, *cos) = sin.sin_cos();
+    }
+    (sines, cosines)
+}
+
 /// A scalar that stands for one real number: ordered, and convertible to `f64`.
 ///
 /// Integrators and trajectories ask for this, since they compare times and errors.
@@ -132,7 +138,7 @@ macro_rules! real {
             fn from_f64(value: f64) -> Self {
                 value as $float
             }
-            #[inline]
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
             }

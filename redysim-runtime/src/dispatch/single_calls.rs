@@ -3,31 +3,36 @@
 use super::Instructions;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2F32, Avx2F64};
-use crate::vector::entry;
+use crate::mechanism::Arguments;
 use crate::{
-    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, MassMatrix, MechanicalEnergy, Mechanism,
-    Scalar, Vector,
+    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LoopClosure, MassMatrix,
+    MechanicalEnergy, Mechanism, Scalar, Vector,
 };
 
-/// A mechanism whose functions, called for one state, choose at run time between the code for which the program is
-/// compiled and code for AVX2 with fused multiply-add (`x86-64-v3`): made by [`dispatched`](Dispatch::dispatched).
+/// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and
+/// code for AVX2 with fused multiply-add (`x86-64-v3`): made by [`dispatched`](Dispatch::dispatched).
 ///
 /// It implements the traits of the mechanism for `f64` and `f32`. With fused multiply-add the last places of a result
-/// differ from those of the mechanism itself, unless the feature `deterministic` is set. Where the program is compiled
-/// for AVX2 and FMA, and on processors other than x86-64, it does the same as the mechanism.
+/// differ from those of the mechanism itself, unless the feature `deterministic` is set; they are those of
+/// [`batch`](crate::batch) on the same processor. Where the program is compiled for AVX2 and FMA, and on processors
+/// other than x86-64, it does the same as the mechanism. Link kinematics, loops and derivatives stay with the code that
+/// the program is compiled for.
+///
+/// In generic code, ask for the traits that `Dispatched<M>` is to have, as in `Dispatched<M>: InverseDynamics<f64>`.
 #[derive(Clone, Copy, Debug)]
 pub struct Dispatched<M> {
     mechanism: M,
     instructions: Instructions,
 }
 
-/// Finds at run time what the processor has.
+/// Finds at run time what the processor has. Every type has it; it is of use to mechanisms.
 pub trait Dispatch: Sized {
     /// The same mechanism, whose functions use AVX2 and fused multiply-add where the processor has them.
     ///
+    /// The processor is asked here, once; a call then costs a branch more, and the way of its arguments through memory.
     /// ```text
     /// let kr5 = Kr5.dispatched();
-    /// let torques = kr5.inverse_dynamics(&q, &v, &a);
+    /// let torques: [f64; 6] = kr5.inverse_dynamics(&q, &v, &a);
     /// ```
     fn dispatched(self) -> Dispatched<Self> {
         Dispatched { mechanism: self, instructions: Instructions::detected() }
@@ -37,16 +42,18 @@ pub trait Dispatch: Sized {
 impl<M> Dispatch for M {}
 
 impl<M> Dispatched<M> {
-    /// The instructions that were found.
+    /// The instructions that were found; of AVX-512, which only [`batch`](crate::batch) uses, calls for one state take
+    /// what AVX2 has.
     pub fn instructions(&self) -> Instructions {
         self.instructions
     }
 }
 
 /// `numbers` as numbers of another type.
+#[cfg(target_arch = "x86_64")]
 #[inline(always)]
-fn each<A: Scalar, B: Clone, V: Vector<A>, W: Vector<B>>(numbers: &V, convert: impl Fn(A) -> B) -> W {
-    W::from_fn(numbers.as_ref().len(), |index| convert(entry(numbers, index)))
+fn each<A: Scalar, B: Scalar, V: Vector<A>, W: Vector<B>>(numbers: &V, convert: impl Fn(A) -> B) -> W {
+    W::from_fn(numbers.as_ref().len(), |index| convert(crate::vector::entry(numbers, index)))
 }
 
 impl<S: Scalar, M: Mechanism<S>> Mechanism<S> for Dispatched<M> {
@@ -79,97 +86,131 @@ impl<S: Scalar, M: Mechanism<S>> Mechanism<S> for Dispatched<M> {
     }
 }
 
-/// One function of vectors: by the code for AVX2 where it was found.
-macro_rules! vectors {
-    ($float:ident, $number:ident: $($trait:ident $function:ident($($argument:ident: $kind:ident),*);)*) => {$(
-        #[cfg(target_arch = "x86_64")]
-        impl<M> $trait<$float> for Dispatched<M>
-        where
-            M: $trait<$float> + $trait<$number>,
-        {
+impl<S: Scalar, M: LinkKinematics<S>> LinkKinematics<S> for Dispatched<M> {
+    fn link_kinematics(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Links {
+        self.mechanism.link_kinematics(q, v)
+    }
+}
+
+impl<S: Scalar, M: Mechanism<S> + LoopClosure<S, M>> LoopClosure<S, Dispatched<M>> for Dispatched<M> {
+    type Rows = M::Rows;
+    type Jacobian = M::Jacobian;
+    type Gram = M::Gram;
+
+    fn nc(&self) -> usize {
+        self.mechanism.nc()
+    }
+    fn loop_residual(&self, q: &M::Coordinates) -> M::Rows {
+        self.mechanism.loop_residual(q)
+    }
+    fn loop_jacobian(&self, q: &M::Coordinates) -> M::Jacobian {
+        self.mechanism.loop_jacobian(q)
+    }
+    fn loop_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Rows {
+        self.mechanism.loop_bias(q, v)
+    }
+    fn loop_name(&self, row: usize) -> Option<&str> {
+        self.mechanism.loop_name(row)
+    }
+}
+
+/// A function of vectors whose result is one, and its derivative where the trait has one.
+macro_rules! vector_function {
+    ($float:ident, $number:ident: $trait:ident $function:ident($($argument:ident: $kind:ident),*) $($tangent:ident)?) => {
+        impl<M: $trait<$float> + $trait<$number>> $trait<$float> for Dispatched<M> {
             #[inline]
             fn $function(
                 &self,
                 $($argument: &<M as Mechanism<$float>>::$kind),*
             ) -> <M as Mechanism<$float>>::Velocities {
-                if self.instructions < Instructions::Avx2 {
-                    return $trait::<$float>::$function(&self.mechanism, $($argument),*);
+                #[cfg(target_arch = "x86_64")]
+                if self.instructions >= Instructions::Avx2 {
+                    return $number::with_target_features(
+                        #[inline(always)]
+                        || {
+                            $(let $argument: <M as Mechanism<$number>>::$kind = each($argument, $number);)*
+                            let found = $trait::<$number>::$function(&self.mechanism, $(&$argument),*);
+                            each(&found, |number: $number| number.0)
+                        },
+                    );
                 }
-                $number::with_target_features(
-                    #[inline(always)]
-                    || {
-                        $(let $argument: <M as Mechanism<$number>>::$kind = each($argument, $number);)*
-                        each(&$trait::<$number>::$function(&self.mechanism, $(&$argument),*), |number: $number| number.0)
-                    },
-                )
+                $trait::<$float>::$function(&self.mechanism, $($argument),*)
             }
+
+            $(fn $tangent(
+                &self,
+                at: Arguments<'_, $float, Self>,
+                slopes: Arguments<'_, $float, Self>,
+            ) -> Option<<M as Mechanism<$float>>::Velocities> {
+                $trait::<$float>::$tangent(&self.mechanism, at, slopes)
+            })?
         }
-    )*};
+    };
 }
 
-/// All functions for one type of number.
-macro_rules! dispatched {
+/// All functions of one state for numbers `$float`: as compiled, or, for AVX2, as numbers `$number`.
+macro_rules! functions {
     ($float:ident, $number:ident) => {
-        vectors! {
-            $float, $number:
-            InverseDynamics inverse_dynamics(q: Coordinates, v: Velocities, a: Velocities);
-            ForwardDynamics forward_dynamics(q: Coordinates, v: Velocities, tau: Velocities);
-            BiasForces bias_forces(q: Coordinates, v: Velocities);
-            GravityForces gravity_forces(q: Coordinates);
+        vector_function! { $float, $number:
+            InverseDynamics inverse_dynamics(q: Coordinates, v: Velocities, a: Velocities) inverse_dynamics_tangent
         }
+        vector_function! { $float, $number:
+            ForwardDynamics forward_dynamics(q: Coordinates, v: Velocities, tau: Velocities) forward_dynamics_tangent
+        }
+        vector_function! { $float, $number: BiasForces bias_forces(q: Coordinates, v: Velocities) }
+        vector_function! { $float, $number: GravityForces gravity_forces(q: Coordinates) }
 
-        #[cfg(target_arch = "x86_64")]
-        impl<M> MassMatrix<$float> for Dispatched<M>
-        where
-            M: MassMatrix<$float> + MassMatrix<$number>,
-        {
+        impl<M: MassMatrix<$float> + MassMatrix<$number>> MassMatrix<$float> for Dispatched<M> {
             #[inline]
             fn mass_matrix(&self, q: &<M as Mechanism<$float>>::Coordinates) -> <M as Mechanism<$float>>::Matrix {
-                if self.instructions < Instructions::Avx2 {
-                    return MassMatrix::<$float>::mass_matrix(&self.mechanism, q);
+                #[cfg(target_arch = "x86_64")]
+                if self.instructions >= Instructions::Avx2 {
+                    return $number::with_target_features(
+                        #[inline(always)]
+                        || {
+                            let q: <M as Mechanism<$number>>::Coordinates = each(q, $number);
+                            let found = MassMatrix::<$number>::mass_matrix(&self.mechanism, &q);
+                            let mut rows = found.as_ref().iter();
+                            let size = rows.len();
+                            Vector::from_fn(size, |_| match rows.next() {
+                                Some(row) => each(row, |number: $number| number.0),
+                                None => Vector::from_fn(size, |_| $float::NAN),
+                            })
+                        },
+                    );
                 }
-                $number::with_target_features(
-                    #[inline(always)]
-                    || {
-                        let q: <M as Mechanism<$number>>::Coordinates = each(q, $number);
-                        let matrix = MassMatrix::<$number>::mass_matrix(&self.mechanism, &q);
-                        let rows = matrix.as_ref();
-                        Vector::from_fn(rows.len(), |row| each(&rows[row], |number: $number| number.0))
-                    },
-                )
+                MassMatrix::<$float>::mass_matrix(&self.mechanism, q)
             }
         }
 
-        #[cfg(target_arch = "x86_64")]
-        impl<M> MechanicalEnergy<$float> for Dispatched<M>
-        where
-            M: MechanicalEnergy<$float> + MechanicalEnergy<$number>,
-        {
+        impl<M: MechanicalEnergy<$float> + MechanicalEnergy<$number>> MechanicalEnergy<$float> for Dispatched<M> {
             #[inline]
             fn energy(
                 &self,
                 q: &<M as Mechanism<$float>>::Coordinates,
                 v: &<M as Mechanism<$float>>::Velocities,
             ) -> Energy<$float> {
-                if self.instructions < Instructions::Avx2 {
-                    return MechanicalEnergy::<$float>::energy(&self.mechanism, q, v);
+                #[cfg(target_arch = "x86_64")]
+                if self.instructions >= Instructions::Avx2 {
+                    return $number::with_target_features(
+                        #[inline(always)]
+                        || {
+                            let q: <M as Mechanism<$number>>::Coordinates = each(q, $number);
+                            let v: <M as Mechanism<$number>>::Velocities = each(v, $number);
+                            let found: Energy<$number> = MechanicalEnergy::energy(&self.mechanism, &q, &v);
+                            Energy { kinetic: found.kinetic.0, potential: found.potential.0 }
+                        },
+                    );
                 }
-                $number::with_target_features(
-                    #[inline(always)]
-                    || {
-                        let q: <M as Mechanism<$number>>::Coordinates = each(q, $number);
-                        let v: <M as Mechanism<$number>>::Velocities = each(v, $number);
-                        let Energy { kinetic, potential } = MechanicalEnergy::energy(&self.mechanism, &q, &v);
-                        let (kinetic, potential): ($number, $number) = (kinetic, potential);
-                        Energy { kinetic: kinetic.0, potential: potential.0 }
-                    },
-                )
+                MechanicalEnergy::<$float>::energy(&self.mechanism, q, v)
             }
         }
     };
 }
 
-#[cfg(target_arch = "x86_64")]
-dispatched!(f64, Avx2F64);
-#[cfg(target_arch = "x86_64")]
-dispatched!(f32, Avx2F32);
+/// Other processors have one kind of code.
+#[cfg(not(target_arch = "x86_64"))]
+use core::primitive::{f32 as Avx2F32, f64 as Avx2F64};
+
+functions!(f64, Avx2F64);
+functions!(f32, Avx2F32);

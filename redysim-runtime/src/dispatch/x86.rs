@@ -19,7 +19,7 @@
 use crate::scalar::Scalar;
 use crate::trigonometry::angle::{Angle, Number};
 use crate::trigonometry::reduction::Reduced;
-use crate::trigonometry::several::{in_lanes, several};
+use crate::trigonometry::several::several;
 use crate::trigonometry::{double, single};
 use core::arch::x86_64::*;
 use core::fmt;
@@ -63,7 +63,7 @@ macro_rules! with_target_features {
 }
 
 macro_rules! numbers {
-    ($($(#[$documentation:meta])* $name:ident($float:ident), $kernel:ident, ($narrow:ident, $wide:ident);)*) => {$(
+    ($($(#[$documentation:meta])* $name:ident($float:ident), $kernel:ident, $lanes:ident: $width:literal;)*) => {$(
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, Default)]
         #[repr(transparent)]
@@ -95,14 +95,7 @@ macro_rules! numbers {
 
             #[inline(always)]
             fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-                several(
-                    angles,
-                    $kernel::sin_cos,
-                    #[inline(always)]
-                    |narrow| in_lanes(narrow, $kernel::sin_cos::<$narrow>),
-                    #[inline(always)]
-                    |wide| in_lanes(wide, $kernel::sin_cos::<$wide>),
-                )
+                several::<Self, $lanes, $lanes, $width, $width, N>(angles)
             }
 
             #[inline(always)]
@@ -158,9 +151,9 @@ macro_rules! numbers {
 
 numbers! {
     /// An `f64` in code for AVX2 and FMA.
-    Avx2F64(f64), double, (Avx2F64x4, Avx2F64x4);
+    Avx2F64(f64), double, Avx2F64x4: 4;
     /// An `f32` in code for AVX2 and FMA.
-    Avx2F32(f32), single, (Avx2F32x8, Avx2F32x8);
+    Avx2F32(f32), single, Avx2F32x8: 8;
 }
 
 /// The instructions of one kind of vector. Bits are those of integers as wide as the numbers.

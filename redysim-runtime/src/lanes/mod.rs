@@ -108,7 +108,7 @@ macro_rules! lanes {
                 Self(wide::$wide::splat(value as $float))
             }
 
-            #[inline]
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
             }

@@ -1,23 +1,12 @@
 //! Which vectors lists of angles take: those of the target, up to 256 bits (see [`registers`](crate::registers)).
 
-use super::several::{in_lanes, several};
-use super::{double, single};
+use super::several::several;
 use crate::lanes::{F32x4, F32x8, F64x2, F64x4};
 
 /// Sines and cosines of all `angles`.
 #[inline(always)]
 pub fn of_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
-    several(angles, double::sin_cos, in_two, in_four)
-}
-
-#[inline(always)]
-fn in_two(angles: [f64; 2]) -> ([f64; 2], [f64; 2]) {
-    in_lanes(angles, double::sin_cos::<F64x2>)
-}
-
-#[inline(always)]
-fn in_four(angles: [f64; 4]) -> ([f64; 4], [f64; 4]) {
-    in_lanes(angles, double::sin_cos::<F64x4>)
+    several::<f64, F64x2, F64x4, 2, 4, N>(angles)
 }
 
 /// Sines and cosines of all `angles`.
@@ -29,26 +18,10 @@ pub fn of_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
         target_feature = "simd128"
     ));
     if cfg!(target_feature = "avx") {
-        several(angles, single::sin_cos, in_four_single, in_eight_single)
+        several::<f32, F32x4, F32x8, 4, 8, N>(angles)
     } else if VECTORS {
-        several(angles, single::sin_cos, in_four_single, in_four_single)
+        several::<f32, F32x4, F32x4, 4, 4, N>(angles)
     } else {
-        several(angles, single::sin_cos, alone, alone)
+        crate::scalar::sin_cos_one_by_one(angles)
     }
-}
-
-#[inline(always)]
-fn in_four_single(angles: [f32; 4]) -> ([f32; 4], [f32; 4]) {
-    in_lanes(angles, single::sin_cos::<F32x4>)
-}
-
-#[inline(always)]
-fn in_eight_single(angles: [f32; 8]) -> ([f32; 8], [f32; 8]) {
-    in_lanes(angles, single::sin_cos::<F32x8>)
-}
-
-#[inline(always)]
-fn alone([angle]: [f32; 1]) -> ([f32; 1], [f32; 1]) {
-    let (sin, cos) = single::sin_cos(angle);
-    ([sin], [cos])
 }
