@@ -34,10 +34,12 @@ const VECTORS: bool = cfg!(any(
 /// Where the groups begin depends on `N` only, and the vectors are at most 256 bits wide.
 #[inline(always)]
 pub fn sin_cos_all<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
+    if !VECTORS {
+        return one_after_the_other(angles);
+    }
     let mut found = ([0.0; N], [0.0; N]);
     for start in (0..N).step_by(8) {
-        let left = N - start;
-        if VECTORS && cfg!(target_feature = "avx") && left > 4 {
+        if cfg!(target_feature = "avx") && N - start > 4 {
             let at = |lane| entry(&angles, start + lane);
             put(group::<F32x8, 8>([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]), &mut found, start);
         } else {
@@ -51,20 +53,44 @@ pub fn sin_cos_all<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
 /// Those of up to four angles from `start` on.
 #[inline(always)]
 fn four<const N: usize>(angles: &[f32; N], found: &mut ([f32; N], [f32; N]), start: usize) {
-    let at = |lane| entry(angles, start + lane);
-    if VECTORS && start + 1 < N {
+    if start + 1 == N {
+        let (sin, cos) = sin_cos(angles[start]);
+        put(([sin], [cos]), found, start);
+    } else if start < N {
+        let at = |lane| entry(angles, start + lane);
         put(group::<F32x4, 4>([at(0), at(1), at(2), at(3)]), found, start);
-        return;
     }
-    let mut one = |index: usize| {
-        if index < N {
-            (found.0[index], found.1[index]) = sin_cos(angles[index]);
+}
+
+/// Sines and cosines of all `angles`, for a processor without vectors.
+///
+/// Up to eight become straight code after one decision, so that constants stay in registers from angle to angle.
+#[inline(always)]
+fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
+    let mut found = ([0.0; N], [0.0; N]);
+    let mut put = |index: usize, (sin, cos)| (found.0[index], found.1[index]) = (sin, cos);
+    if angles.iter().all(|x| x.all_within(MANY_TURNS)) {
+        for start in (0..N).step_by(8) {
+            let mut one = |index: usize| {
+                if index < N {
+                    put(index, evaluated(reduced(angles[index]).0));
+                }
+            };
+            one(start);
+            one(start + 1);
+            one(start + 2);
+            one(start + 3);
+            one(start + 4);
+            one(start + 5);
+            one(start + 6);
+            one(start + 7);
         }
-    };
-    one(start);
-    one(start + 1);
-    one(start + 2);
-    one(start + 3);
+    } else {
+        for (index, angle) in angles.into_iter().enumerate() {
+            put(index, with_many_turns(angle));
+        }
+    }
+    found
 }
 
 /// Sines and cosines of `angles`, in lanes.
@@ -126,9 +152,9 @@ fn evaluated<A: Angle<Number = f32>>(Reduced { rounded, rest, tail }: Reduced<A>
     let sin = rest + (rest * z).mul_add(c.mul_add(z, b).mul_add(z, a), tail);
     let [a, b, c] = COSINE.map(k::<A>);
     // 1 − r²/2 rounded, and what that loses.
-    let (one, half) = (k::<A>(1.0), k::<A>(0.5) * z);
-    let near_one = one - half;
-    let lost = (-rest).mul_add(tail, (one - near_one) - half);
+    let (one, minus_half) = (k::<A>(1.0), k::<A>(-0.5));
+    let near_one = z.mul_add(minus_half, one);
+    let lost = (-rest).mul_add(tail, z.mul_add(minus_half, one - near_one));
     let cos = near_one + (z * z).mul_add(c.mul_add(z, b).mul_add(z, a), lost);
     A::turned(rounded, sin, cos)
 }
