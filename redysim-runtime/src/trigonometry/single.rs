@@ -41,7 +41,8 @@ pub fn sin_cos_all<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     for start in (0..N).step_by(8) {
         if cfg!(target_feature = "avx") && N - start > 4 {
             let at = |lane| entry(&angles, start + lane);
-            put(group::<F32x8, 8>([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]), &mut found, start);
+            let eight = [at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)];
+            put(group::<F32x8, 8>(angles[start..].first_chunk().copied().unwrap_or(eight)), &mut found, start);
         } else {
             four(&angles, &mut found, start);
             four(&angles, &mut found, start + 4);
@@ -58,7 +59,8 @@ fn four<const N: usize>(angles: &[f32; N], found: &mut ([f32; N], [f32; N]), sta
         put(([sin], [cos]), found, start);
     } else if start < N {
         let at = |lane| entry(angles, start + lane);
-        put(group::<F32x4, 4>([at(0), at(1), at(2), at(3)]), found, start);
+        let four = [at(0), at(1), at(2), at(3)];
+        put(group::<F32x4, 4>(angles[start..].first_chunk().copied().unwrap_or(four)), found, start);
     }
 }
 
