@@ -38,7 +38,11 @@ pub trait Scalar:
     /// Sines and cosines of several angles, at once where that is faster.
     #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-        sin_cos_one_by_one(angles)
+        let (mut sines, mut cosines) = (angles, angles);
+        for (sin, cos) in sines.iter_mut().zip(&mut cosines) {
+            (*sin, *cos) = sin.sin_cos();
+        }
+        (sines, cosines)
     }
 
     /// The non-negative square root.
@@ -89,16 +93,6 @@ pub trait Scalar:
     fn step(self, sweep: &'static str, body: usize) {
         let _ = (sweep, body);
     }
-}
-
-/// Sines and cosines of `angles`, one after the other.
-#[inline(always)]
-pub(crate) fn sin_cos_one_by_one<S: Scalar, const N: usize>(angles: [S; N]) -> ([S; N], [S; N]) {
-    let (mut sines, mut cosines) = (angles, angles);
-    for (sin, cos) in sines.iter_mut().zip(&mut cosines) {
-        (*sin, *cos) = sin.sin_cos();
-    }
-    (sines, cosines)
 }
 
 /// A scalar that stands for one real number: ordered, and convertible to `f64`.

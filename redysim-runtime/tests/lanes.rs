@@ -1,6 +1,6 @@
 //! A lane holds the bits that the same operations on plain numbers give.
 
-use redysim_runtime::lanes::{F32x8, F32x16, F64x2, F64x4, F64x8, Lanes, pack, unpack};
+use redysim_runtime::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8, Lanes, pack, unpack};
 use redysim_runtime::scalar::FUSED;
 use redysim_runtime::{Real, Scalar};
 
@@ -77,6 +77,7 @@ fn every_operation_is_that_of_the_numbers() {
     all_operations_are_the_same::<f64, F64x2, 2>();
     all_operations_are_the_same::<f64, F64x4, 4>();
     all_operations_are_the_same::<f64, F64x8, 8>();
+    all_operations_are_the_same::<f32, F32x4, 4>();
     all_operations_are_the_same::<f32, F32x8, 8>();
     all_operations_are_the_same::<f32, F32x16, 16>();
 }

@@ -132,9 +132,10 @@ macro_rules! numbers {
                 (Self(sin), Self(cos))
             }
 
-            #[inline(always)]
+            #[inline(never)]
+            #[cold]
             fn one_by_one(self, function: impl Fn(Self) -> (Self, Self)) -> (Self, Self) {
-                function(self)
+                Self::with_target_features(|| function(self))
             }
         }
     )*};

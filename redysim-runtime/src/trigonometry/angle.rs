@@ -60,7 +60,8 @@ macro_rules! one_angle {
                 (Self::from_bits(sin ^ differing ^ sin_sign), Self::from_bits(cos ^ differing ^ cos_sign))
             }
 
-            #[inline(always)]
+            #[inline(never)]
+            #[cold]
             fn one_by_one(self, function: impl Fn(Self) -> (Self, Self)) -> (Self, Self) {
                 function(self)
             }

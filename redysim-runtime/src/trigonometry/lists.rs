@@ -1,6 +1,7 @@
 //! Which vectors lists of angles take: those of the target, up to 256 bits (see [`registers`](crate::registers)).
 
 use super::several::several;
+use super::single;
 use crate::lanes::{F32x4, F32x8, F64x2, F64x4};
 
 /// Sines and cosines of all `angles`.
@@ -22,6 +23,6 @@ pub fn of_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     } else if VECTORS {
         several::<f32, F32x4, F32x4, 4, 4, N>(angles)
     } else {
-        crate::scalar::sin_cos_one_by_one(angles)
+        single::one_after_the_other(angles)
     }
 }

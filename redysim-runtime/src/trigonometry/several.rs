@@ -70,6 +70,9 @@ fn in_lanes<T: Scalar + Default, L: Lanes<T, W>, const W: usize, const N: usize>
 /// The angles from `start` on, and zeros past the last.
 #[inline(always)]
 fn taken<T: Scalar + Default, const W: usize, const N: usize>(angles: &[T; N], start: usize) -> [T; W] {
+    if let Some(whole) = angles.get(start..).and_then(|angles| angles.first_chunk()) {
+        return *whole;
+    }
     let mut taken = [T::default(); W];
     for (lane, angle) in taken.iter_mut().enumerate() {
         if start + lane < N {

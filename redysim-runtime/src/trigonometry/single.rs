@@ -8,6 +8,7 @@
 
 use super::angle::{Angle, Number};
 use super::reduction::Reduced;
+use crate::scalar::FUSED;
 
 /// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
 /// round twice.
@@ -24,6 +25,37 @@ const fn half_pi(fused: bool) -> [f32; 3] {
 
 /// Added to a number below 2²² and taken away again, it leaves the nearest integer, and shows its bits in between.
 const ROUNDER: f32 = 12_582_912.0;
+/// Sines and cosines of all `angles`, for a processor without vectors.
+///
+/// Up to eight become straight code after one decision, so that constants stay in registers from angle to angle.
+#[inline(always)]
+pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
+    let mut found = ([0.0; N], [0.0; N]);
+    let mut put = |index: usize, (sin, cos)| (found.0[index], found.1[index]) = (sin, cos);
+    if angles.iter().all(|x| x.all_within(many_turns(FUSED))) {
+        for start in (0..N).step_by(8) {
+            let mut one = |index: usize| {
+                if index < N {
+                    put(index, evaluated(reduced(angles[index]).0));
+                }
+            };
+            one(start);
+            one(start + 1);
+            one(start + 2);
+            one(start + 3);
+            one(start + 4);
+            one(start + 5);
+            one(start + 6);
+            one(start + 7);
+        }
+    } else {
+        for (index, angle) in angles.into_iter().enumerate() {
+            put(index, with_many_turns(angle));
+        }
+    }
+    found
+}
+
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]
 pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
@@ -85,9 +117,9 @@ fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
     let sin = rest + (rest * z).mul_add(c.mul_add(z, b).mul_add(z, a), tail);
     let [a, b, c] = constants::<A>(COSINE);
     // 1 − r²/2 rounded, and what that loses.
-    let (one, half) = (k::<A>(1.0), k::<A>(0.5) * z);
-    let near_one = one - half;
-    let lost = (-rest).mul_add(tail, (one - near_one) - half);
+    let (one, minus_half) = (k::<A>(1.0), k::<A>(-0.5));
+    let near_one = z.mul_add(minus_half, one);
+    let lost = (-rest).mul_add(tail, z.mul_add(minus_half, one - near_one));
     let cos = near_one + (z * z).mul_add(c.mul_add(z, b).mul_add(z, a), lost);
     A::turned(rounded, sin, cos)
 }

@@ -49,7 +49,8 @@ impl Visitor for Counts {
     fn visit<I, R: Numbers>(&mut self, name: &str, inputs: &[I; CALLS], function: fn(&I) -> R) {
         let (all, without) = (ticks(inputs, function), ticks(inputs, nothing::<I, R>));
         // At 25 MHz a tick is 40 ns; `-icount shift=6` makes an instruction 64 ns.
-        let instructions = (f64::from(all - without) * 40.0 / 64.0 / CALLS as f64 + 0.5) as u32;
+        let calls = 64 * CALLS as u32;
+        let instructions = (40 * (all - without) + calls / 2) / calls;
         // Nothing can be done where printing fails.
         let _ = writeln!(Console, "{name} {instructions}\n{name}: {:016x}", robots::hash(inputs, function));
     }
