@@ -3,7 +3,6 @@
 import bisect
 import re
 import subprocess
-import sys
 
 HEADER = re.compile(r"^([0-9a-f]+) <(.*)>:$")
 INSTRUCTION = re.compile(r"^\s*([0-9a-f]+):\t([^\t]*)")
@@ -56,15 +55,3 @@ class MachineCode:
                         waiting.append(target)
         return list(seen.values())
 
-
-def installed(program, package):
-    """Installs a program by the name of its package where this runs as root on Debian; says what to do elsewhere."""
-    import os
-    import shutil
-
-    if shutil.which(program):
-        return program
-    if os.getuid() == 0 and shutil.which("apt-get"):
-        subprocess.run(["apt-get", "install", "-y", package], check=True, stdout=sys.stderr)
-        return program
-    sys.exit(f"{program} is missing. On Debian and its relatives: sudo apt-get install {package}")

@@ -15,6 +15,7 @@ redysim! {
     pub struct Gripper("../../../models/peers/gripper.toml");
 }
 
+#[cfg(feature = "all")]
 redysim! {
     /// Ten general joints in a row.
     pub struct Chain10("../../../models/peers/chain10.toml");
@@ -69,7 +70,8 @@ macro_rules! all_functions {
 }
 
 macro_rules! robots {
-    ($($module:ident $name:literal $robot:ident $angles:literal;)*) => {$(
+    ($($(#[$attribute:meta])* $module:ident $name:literal $robot:ident $angles:literal;)*) => {$(
+        $(#[$attribute])*
         #[doc = concat!("The functions of ", stringify!($robot), ".")]
         pub mod $module {
             /// On one state in `f64`.
@@ -90,6 +92,7 @@ macro_rules! robots {
 robots! {
     kr5 "kr5" Kr5 7;
     gripper "gripper" Gripper 7;
+    #[cfg(feature = "all")]
     chain10 "chain10" Chain10 11;
 }
 
@@ -115,6 +118,7 @@ pub mod lanes {
 }
 
 /// Lists of angles.
+#[cfg(feature = "all")]
 pub mod angles {
     macro_rules! sin_cos_all {
         ($($name:ident $scalar:ident $count:literal;)*) => {$(
