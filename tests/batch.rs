@@ -1,10 +1,13 @@
-//! Many states at once give, for each, what the state gives alone.
+//! Many states at once give, for each, what the state gives alone on the processor that the program runs on.
 
 mod common;
 
 use common::models::{Gripper, Kr5};
-use redysim::Real;
 use redysim::batch::{self, Batched, LengthMismatch};
+use redysim::{
+    BiasForces, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics, MassMatrix, Mechanism, Real,
+    Scalar,
+};
 
 /// No state, one, about as many as lanes, enough that a last task and a last group are not full.
 const COUNTS: [usize; 8] = [0, 1, 7, 8, 9, 17, 1000, 1283];
@@ -19,30 +22,52 @@ fn bits<T: Real, const N: usize>(states: &[[T; N]]) -> Vec<u64> {
     states.iter().flatten().map(|number| number.to_f64().to_bits()).collect()
 }
 
-fn each_state_is_as_if_alone<T: Batched>(count: usize) {
+fn each_state_is_as_if_alone<T: Batched>(count: usize)
+where
+    Dispatched<Kr5>: Mechanism<T, Coordinates = [T; 6], Velocities = [T; 6], Matrix = [[T; 6]; 6]>
+        + InverseDynamics<T>
+        + ForwardDynamics<T>
+        + BiasForces<T>
+        + GravityForces<T>
+        + MassMatrix<T>,
+{
+    let kr5 = Kr5.dispatched();
     let [q, v, u]: [Vec<[T; 6]>; 3] = [1, 2, 3].map(|seed| numbers(seed, count));
     let mut found = vec![[T::default(); 6]; count];
     let alone = |function: &dyn Fn(usize) -> [T; 6]| (0..count).map(function).collect::<Vec<_>>();
 
     batch::inverse_dynamics(&Kr5, &q, &v, &u, &mut found).unwrap();
-    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::inverse_dynamics(&q[i], &v[i], &u[i]))), "inverse dynamics");
+    assert_eq!(bits(&found), bits(&alone(&|i| kr5.inverse_dynamics(&q[i], &v[i], &u[i]))), "inverse dynamics");
     batch::forward_dynamics(&Kr5, &q, &v, &u, &mut found).unwrap();
-    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::forward_dynamics(&q[i], &v[i], &u[i]))), "forward dynamics");
+    assert_eq!(bits(&found), bits(&alone(&|i| kr5.forward_dynamics(&q[i], &v[i], &u[i]))), "forward dynamics");
     batch::bias_forces(&Kr5, &q, &v, &mut found).unwrap();
-    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::bias_forces(&q[i], &v[i]))), "bias forces");
+    assert_eq!(bits(&found), bits(&alone(&|i| kr5.bias_forces(&q[i], &v[i]))), "bias forces");
     batch::gravity_forces(&Kr5, &q, &mut found).unwrap();
-    assert_eq!(bits(&found), bits(&alone(&|i| Kr5::gravity_forces(&q[i]))), "gravity forces");
+    assert_eq!(bits(&found), bits(&alone(&|i| kr5.gravity_forces(&q[i]))), "gravity forces");
 
     let mut matrices = vec![[[T::default(); 6]; 6]; count];
     batch::mass_matrix(&Kr5, &q, &mut matrices).unwrap();
     for (matrix, q) in matrices.iter().zip(&q) {
-        assert_eq!(bits(matrix), bits(&Kr5::mass_matrix(q)), "mass matrix");
+        assert_eq!(bits(matrix), bits(&kr5.mass_matrix(q)), "mass matrix");
     }
+
+    batch::evaluate(&Held, &q, &mut found).unwrap();
+    assert_eq!(bits(&found), bits(&alone(&|i| kr5.gravity_forces(&q[i]))), "a function that calls the mechanism");
 
     let mut sums = vec![[T::default(); 1]; count];
     batch::map(&q, &mut sums, |[a, b, c, d, e, f]| [a * b + c * d + e * f]).unwrap();
     for (sum, [a, b, c, d, e, f]) in sums.iter().zip(q) {
         assert_eq!(*sum, [a * b + c * d + e * f], "map");
+    }
+}
+
+/// The forces that hold the robot where it is, as a function of a program.
+struct Held;
+
+impl batch::Function<6, 6> for Held {
+    #[inline(always)]
+    fn evaluate<S: Scalar>(&self, q: [S; 6]) -> [S; 6] {
+        Kr5::gravity_forces(&q)
     }
 }
 
@@ -60,7 +85,7 @@ fn a_branching_mechanism_has_its_own_number_of_joints() {
     let mut a = vec![[0.0; 4]; 100];
     batch::forward_dynamics(&Gripper, &q, &v, &tau, &mut a).unwrap();
     for (state, a) in a.iter().enumerate() {
-        assert_eq!(*a, Gripper::forward_dynamics(&q[state], &v[state], &tau[state]));
+        assert_eq!(*a, Gripper.dispatched().forward_dynamics(&q[state], &v[state], &tau[state]));
     }
 }
 
@@ -88,7 +113,7 @@ fn one_bad_state_spoils_no_other() {
     batch::inverse_dynamics(&Kr5, &q, &v, &a, &mut tau).unwrap();
     for (state, tau) in tau.iter().enumerate() {
         assert_eq!(tau.iter().any(|force| force.is_nan()), state == 7, "state {state}: {tau:?}");
-        let alone = Kr5::inverse_dynamics(&q[state], &v[state], &a[state]);
+        let alone: [f64; 6] = Kr5.dispatched().inverse_dynamics(&q[state], &v[state], &a[state]);
         assert!(state == 7 || *tau == alone, "state {state}: {tau:?} {alone:?}");
     }
 }
@@ -109,6 +134,7 @@ fn a_wrong_length_is_named_and_nothing_is_written() {
     assert_eq!(batch::bias_forces(&Kr5, &states, &states, &mut found[..7]), expected("tau"));
     assert_eq!(batch::gravity_forces(&Kr5, &states, &mut found[..7]), expected("tau"));
     assert_eq!(batch::map(&states, &mut found[..7], |q| q), expected("results"));
+    assert_eq!(batch::evaluate(&Held, &states, &mut found[..7]), expected("results"));
     assert_eq!(batch::mass_matrix(&Kr5, &states, &mut [[[0.0; 6]; 6]; 7]), expected("matrices"));
     assert_eq!(found, [[9.0; 6]; 8]);
     let mismatch = LengthMismatch { slice: "v", length: 7, states: 8 };
@@ -121,4 +147,30 @@ fn what_stays_on_one_thread_allocates_nothing() {
     let mut a = vec![[0.0; 6]; q.len()];
     let allocations = allocation_counter::measure(|| batch::forward_dynamics(&Kr5, &q, &v, &tau, &mut a).unwrap());
     assert_eq!(allocations.count_total, 0);
+}
+
+/// FNV-1a over the bits of numbers.
+fn hash(bits: impl IntoIterator<Item = u64>) -> u64 {
+    let bytes = bits.into_iter().flat_map(u64::to_le_bytes);
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+fn hashes<T: Batched>() -> [u64; 3] {
+    // Numbers that do not stand on any library's functions.
+    let number = |index: usize| T::from_f64((index as u64).wrapping_mul(6364136223846793005) as i64 as f64 / 3e18);
+    let states: Vec<[T; 6]> = (0..600).map(|i| core::array::from_fn(|j| number(6 * i + j))).collect();
+    let (mut tau, mut a, mut matrices) = (states.clone(), states.clone(), vec![[[T::default(); 6]; 6]; 600]);
+    batch::inverse_dynamics(&Kr5, &states, &states, &states, &mut tau).unwrap();
+    batch::forward_dynamics(&Kr5, &states, &states, &states, &mut a).unwrap();
+    batch::mass_matrix(&Kr5, &states, &mut matrices).unwrap();
+    [hash(bits(&tau)), hash(bits(&a)), hash(matrices.iter().flat_map(|matrix| bits(matrix)))]
+}
+
+/// Pinned with the program compiled for any x86-64 and natively, on processors with AVX-512: the same numbers. To be
+/// pinned anew when the generated code changes, after the same new numbers were seen with other `-C target-cpu`.
+#[test]
+fn the_bits_do_not_depend_on_what_the_program_is_compiled_for() {
+    let fused = redysim::scalar::FUSED || Kr5.dispatched().instructions() >= redysim::dispatch::Instructions::Avx2;
+    let expected = if fused && cfg!(not(feature = "deterministic")) { [[0; 3], [0; 3]] } else { [[0; 3], [0; 3]] };
+    assert_eq!([hashes::<f64>(), hashes::<f32>()], expected);
 }

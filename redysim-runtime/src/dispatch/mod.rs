@@ -7,6 +7,8 @@
 //! call, [`Dispatched`] once when it is made.
 
 mod single_calls;
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod x86;
 
