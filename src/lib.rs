@@ -39,11 +39,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! With the feature `std`, many states are computed on all cores, several at a time in vector lanes:
+//! With the feature `std`, many states are computed on all cores, several at a time in vector lanes, by the best
+//! instructions that the processor has, whatever the program is compiled for:
 //!
 //! ```
 //! # #[cfg(feature = "std")] {
-//! use redysim::{batch, redysim};
+//! use redysim::{Dispatch, InverseDynamics, batch, redysim};
 //!
 //! redysim! { struct Kr5("models/kr5.toml"); }
 //!
@@ -51,7 +52,9 @@
 //! let [q, v, a] = [0.1, 0.2, 0.3].map(|scale| (0..1000).map(|i| [scale * f64::from(i); 6]).collect::<Vec<_>>());
 //! let mut torques = vec![[0.0; 6]; q.len()];
 //! batch::inverse_dynamics(&Kr5, &q, &v, &a, &mut torques)?;
-//! assert_eq!(torques[500], Kr5::inverse_dynamics(&q[500], &v[500], &a[500]));
+//! // One state by the same instructions.
+//! let kr5 = Kr5.dispatched();
+//! assert_eq!(torques[500], kr5.inverse_dynamics(&q[500], &v[500], &a[500]));
 //! # }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -66,10 +69,11 @@
 //! # Features
 //!
 //! - `generic` (on by default): [`generic`]; brings `std`.
-//! - `std`: [`batch`], and a fused multiply-add that is quicker to compile. Without it the crate is `no_std`.
+//! - `std`: [`batch`], [`dispatch`], and a fused multiply-add that is quicker to compile. Without it the crate is `no_std`.
 //! - `deterministic`: the same bits on every target. Without it products and sums are fused where the target can (see
 //!   [`scalar::FUSED`]), so that a program compiled with `-C target-cpu=native` may differ from one that is not in the
-//!   last places; within one program, lanes, batches and plain numbers agree to the bit either way.
+//!   last places; within one program, lanes and plain numbers agree to the bit either way, and so do batches and
+//!   [`Dispatched`] mechanisms, which fuse where the processor can.
 #![no_std]
 
 /// The runtime that compiled mechanisms stand on: scalars, traits, integrators, trajectories, torque laws.

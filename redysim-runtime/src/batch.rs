@@ -1,9 +1,15 @@
 //! One function of a mechanism for many states, on all cores, with several states side by side in lanes: for sampling
 //! controllers, learning and identification. Needs the feature `std`.
 //!
-//! States and results are slices of arrays that the caller owns. Any number of states will do; each result has the bits
-//! that [`Scalar`] lanes of any width, and so plain numbers too, give for its state, on however many threads. Nothing
-//! is allocated beyond what the thread pool of `rayon` does when it is handed work; up to [`SERIAL`] states stay on the
+//! Each call finds out what the processor has and runs code for AVX-512, for AVX2 with fused multiply-add, or for what
+//! the program is compiled for, so that no compiler flag is needed ([`dispatch`](crate::dispatch)); [`map`] alone, whose
+//! function has lanes of one kind, takes those that the program is compiled for.
+//!
+//! States and results are slices of arrays that the caller owns. Any number of states will do, and each result is the
+//! same on however many threads. It has the bits that [`Dispatched`](crate::Dispatched) gives for its state, whatever
+//! the program is compiled for. Those of the mechanism itself differ in the last places where the processor can fuse
+//! products and sums and the program is compiled for one that cannot; with the feature `deterministic` nothing is
+//! fused, and all are the same. Nothing is allocated beyond what the thread pool of `rayon` does when it is handed work; up to [`SERIAL`] states stay on the
 //! caller's thread. To choose the number of threads, call these functions within `rayon::ThreadPool::install`.
 //!
 //! A rollout over many time steps is best done in one [`map`], whose function takes all the steps, so that threads are
@@ -23,7 +29,7 @@ const TASK: usize = 256;
 
 /// A plain number with lanes to work on several at once: `f64` and `f32`, and no other.
 pub trait Batched: Real + Send + Sync + Wider {
-    /// As many numbers as a vector of the target holds for which the program is compiled.
+    /// As many numbers as a vector holds of the target that the program is compiled for.
     type Lanes: Packed<Self>;
     /// How many those are.
     const WIDTH: usize = <Self::Lanes as Packed<Self>>::WIDTH;

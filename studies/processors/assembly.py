@@ -13,6 +13,11 @@ LABEL = re.compile(r'^("[^"]+"|[\w.$]+):')
 TARGET = re.compile(r'("[^"]+"|[\w.$]+)(?:@\w+)?(?:\(%rip\))?$')
 
 
+# What a call of a function that is not in the file, or goes through a register, counts as: it is taken only where there
+# is no other way.
+UNKNOWN = 100_000
+
+
 class Dialect:
     """What instructions do to the flow of control."""
 
@@ -28,7 +33,7 @@ X86 = Dialect(
     arguments=[f"movabsq $4096, %{register}" for register in ("rdi", "rsi", "rdx", "rcx")],
 )
 AARCH64 = Dialect(
-    call="bl", jump="b", branch=r"b\.\w+|cbn?z|tbn?z", end="ret|brk|udf", comment="//",
+    call="blr?", jump="br?", branch=r"b\.\w+|cbn?z|tbn?z", end="ret|brk|udf", comment="//",
     arguments=[f"mov {register}, #4096" for register in ("x0", "x1", "x2", "x3", "x8")],
 )
 
@@ -140,7 +145,7 @@ def shortest(blocks, code):
         lines, calls = code[label]
         for following in blocks[label].next:
             count += 1
-            heapq.heappush(waiting, (length + len(lines) + 100 * len(calls), count, following, way + [label]))
+            heapq.heappush(waiting, (length + len(lines) + UNKNOWN * len(calls), count, following, way + [label]))
     return None
 
 

@@ -2,6 +2,7 @@
 
 import json
 import subprocess
+import sys
 
 from assembly import AARCH64, X86, Assembly
 from tools import BUILT, compile_for
@@ -36,25 +37,28 @@ def predicted(mca, assembly, triple, processor, functions):
             raise SystemExit(f"{processor}: no way through {name} was found")
         lines, elsewhere = way
         if elsewhere:
-            print(f"{processor}: {name} calls {', '.join(sorted(set(elsewhere)))}: not in the prediction")
+            names = ", ".join(sorted(set(elsewhere)))
+            print(f"{processor}: {name} calls {names}: not in the prediction", file=sys.stderr)
         comment = assembly.dialect.comment
         begin, end = f"{comment} LLVM-MCA-BEGIN {name}", f"{comment} LLVM-MCA-END {name}"
         regions.append("\n".join([begin, *assembly.dialect.arguments, *lines, end]))
     text = "\n".join(regions) + "\n"
+    stand_in = ""
     while True:
         command = [mca, f"--mtriple={triple}", f"--mcpu={processor}", "--json", "--skip-unsupported-instructions=any"]
         result = subprocess.run(command, input=text, capture_output=True, text=True)
         if "not a recognized processor" in result.stderr:
             processor = NEAREST[processor]
+            stand_in = f", as {processor}"
             continue
         break
     if result.returncode != 0:
         raise SystemExit(f"{processor}: {result.stderr[:2000]}")
     report = json.loads(result.stdout)
-    resource = next(name for name in report["TargetInfo"]["Resources"])
+    resource = report["TargetInfo"]["Resources"][0]
     prefix = max((p for p in MODELS if resource.startswith(p)), key=len, default=None)
     cycles = {}
     for region in report["CodeRegions"]:
         summary = region["SummaryView"]
         cycles[region["Name"]] = summary["TotalCycles"] / summary["Iterations"]
-    return MODELS.get(prefix, resource), cycles, result.stderr
+    return MODELS.get(prefix, resource) + stand_in, cycles
