@@ -34,7 +34,7 @@ pub fn by_digits(x: f32) -> Reduced<f32> {
     let fraction = if up { fraction.wrapping_neg() } else { fraction };
     let zeros = fraction.leading_zeros().min(63);
     // No f32 comes so close to a multiple of π/2 that less than 32 digits were left.
-    let digits = (((fraction << zeros) >> 32) * HALF_PI_DIGITS >> 32) as u32;
+    let digits = ((((fraction << zeros) >> 32) * HALF_PI_DIGITS) >> 32) as u32;
     let rest = digits as f32;
     let tail = digits.wrapping_sub(rest as u32) as i32 as f32;
     let scale = power_of_two(-31 - zeros as i32).copysign(if up { -x } else { x });
