@@ -68,14 +68,14 @@ fn dynamics<T: Real>() -> Hash {
 #[test]
 #[cfg_attr(not(feature = "deterministic"), ignore = "needs the feature `deterministic`")]
 fn sines_products_and_roots_have_the_bits_that_were_pinned() {
-    assert_eq!([maths::<f64>(), maths::<f32>()], [Hash(1162935246682754313), Hash(15731255864190646993)]);
+    assert_eq!([maths::<f64>(), maths::<f32>()], [Hash(1162935246682754313), Hash(3804970369740811424)]);
 }
 
 /// To be pinned anew when the generated code changes, after the same new numbers were seen with other `-C target-cpu`.
 #[test]
 #[cfg_attr(not(feature = "deterministic"), ignore = "needs the feature `deterministic`")]
 fn dynamics_has_the_bits_that_were_pinned() {
-    assert_eq!([dynamics::<f64>(), dynamics::<f32>()], [Hash(16102156439210564327), Hash(1067248030855234549)]);
+    assert_eq!([dynamics::<f64>(), dynamics::<f32>()], [Hash(16102156439210564327), Hash(5263279922463935787)]);
 }
 
 /// With and without the feature: a lane is a plain number.

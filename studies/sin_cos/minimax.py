@@ -1,4 +1,4 @@
-"""The polynomials of f32's sine and cosine, of least relative error, with coefficients that are f32.
+"""The polynomials and the parts of pi/2 of f32's sine and cosine, of least relative error, with coefficients that are f32.
 
 Remez exchange on |r| <= pi/4 and a hundredth more. Coefficients are rounded one after the other, the lowest first, and
 the others are found anew for what that leaves.
@@ -53,10 +53,10 @@ def rounded(name, target, weight, count):
         abs(weight(z) * (target(z) - sum(c * z**i for i, c in enumerate(known))))
         for z in (LIMIT * (mpf(i) + 1) / 2000 for i in range(2000))
     )
-    print(f"    rounded 2^{float(log(error, 2)):.2f}:", ", ".join(repr(float(str_single(c))) for c in known))
+    print(f"    rounded 2^{float(log(error, 2)):.2f}:", ", ".join(shortest(c) for c in known))
 
 
-def str_single(c):
+def shortest(c):
     """The shortest decimal that is read as this f32."""
     for digits in range(6, 12):
         text = f"{float(c):.{digits}e}"
@@ -78,13 +78,13 @@ def cosine(z):
 
 rounded("sine", sine, lambda z: z * mp.sqrt(z) / sin(mp.sqrt(z)), 3)
 rounded("cosine", cosine, lambda z: z**2 / cos(mp.sqrt(z)), 3)
-rounded("cosine of 2", cosine, lambda z: z**2 / cos(mp.sqrt(z)), 2)
-for count, bits in ((3, 16), (3, 24), (4,13)):
-    rest, parts = pi / 2, []
+for bits in (16, 24):
+    # All parts but the last are cut off where they must have fewer digits than an f32, and rounded where they need not.
+    count, rest, parts = 3, pi / 2, []
     for index in range(count):
         scale = mpf(2) ** (mp.floor(log(abs(rest), 2)) + 1 - (bits if index + 1 < count else 24))
-        part = mp.floor(rest / scale) * scale if bits != 24 and index+1<count else mp.nint(rest / scale) * scale
+        part = mp.floor(rest / scale) * scale if bits < 24 and index + 1 < count else mp.nint(rest / scale) * scale
         assert single(part) == part
         parts.append(part)
         rest -= part
-    print(f"pi/2 in parts of {bits} bits:", ", ".join(str_single(p) for p in parts), "rest", float(rest))
+    print(f"pi/2 in parts of {bits} bits:", ", ".join(shortest(p) for p in parts), "rest", float(rest))
