@@ -3,10 +3,12 @@
 use super::Instructions;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2F32, Avx2F64};
+#[cfg(target_arch = "x86_64")]
+use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
     BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LoopClosure, MassMatrix,
-    MechanicalEnergy, Mechanism, Scalar, Vector,
+    MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and

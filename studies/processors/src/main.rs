@@ -14,7 +14,7 @@ use std::time::Instant;
 /// States that calls go through: as in the benches.
 const STATES: usize = 64;
 const CALLS_OF_A_RUN: usize = 16 * STATES;
-const RUNS: usize = 300;
+const RUNS: usize = 1000;
 
 /// Nanoseconds that an addition takes which waits for the one before it.
 fn addition() -> f64 {
