@@ -53,6 +53,9 @@ pub trait Packed<T: Real>: Scalar + sealed::Sealed {
 
     /// Writes as many states as `states` has.
     fn unpack<const N: usize>(lanes: [Self; N], states: &mut [[T; N]]);
+
+    /// Writes one element of as many matrices as there are.
+    fn spread<const N: usize>(self, matrices: &mut [[[T; N]; N]], row: usize, column: usize);
 }
 
 mod sealed {
@@ -75,6 +78,17 @@ macro_rules! packed {
             #[inline(always)]
             fn unpack<const N: usize>(lanes: [Self; N], states: &mut [[$float; N]]) {
                 unpack::<_, _, $width, N>(lanes, states);
+            }
+
+            #[inline(always)]
+            fn spread<const N: usize>(self, matrices: &mut [[[$float; N]; N]], row: usize, column: usize) {
+                let numbers: [$float; $width] = self.into();
+                if let Some(matrices) = matrices.first_chunk_mut::<$width>() {
+                    // As many as there are lanes: no loop is left.
+                    matrices.iter_mut().zip(numbers).for_each(|(matrix, number)| matrix[row][column] = number);
+                } else {
+                    matrices.iter_mut().zip(numbers).for_each(|(matrix, number)| matrix[row][column] = number);
+                }
             }
         }
     )*};
@@ -538,11 +552,9 @@ where
         let q = L::pack(part(q, start, matrices.len()));
         let found = mechanism.mass_matrix(&q);
         for (row, found) in found.into_iter().enumerate() {
-            // No vector has more than sixteen lanes.
-            let mut rows = [[T::default(); NV]; 16];
-            let rows = &mut rows[..matrices.len()];
-            L::unpack(found, rows);
-            matrices.iter_mut().zip(rows).for_each(|(matrix, found)| matrix[row] = *found);
+            for (column, lanes) in found.into_iter().enumerate() {
+                L::spread(lanes, matrices, row, column);
+            }
         }
     }
     same_length(q.len(), "matrices", matrices)?;
