@@ -29,7 +29,7 @@
 //! "#;
 //! let model = Model::from_toml(pendulum, "pendulum.toml")?.model;
 //! let source = source_file(&model, "Pendulum")?;
-//! assert!(source.contains("let [cos_rod] = at.cos;"));
+//! assert!(source.contains("let [cos_rod] = *cos;"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

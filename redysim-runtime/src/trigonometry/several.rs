@@ -91,8 +91,8 @@ fn put<T: Scalar, const W: usize, const N: usize>(
 ) {
     for lane in 0..W {
         if start + lane < N {
-            found.0[start + lane] = sines[lane].apart();
-            found.1[start + lane] = cosines[lane].apart();
+            found.0[start + lane] = sines[lane];
+            found.1[start + lane] = cosines[lane];
         }
     }
 }
