@@ -12,7 +12,7 @@ mod random;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 use random::Random;
 use redysim::batch::{self, Batched};
-use redysim::{ForwardDynamics, InverseDynamics, redysim};
+use redysim::redysim;
 use std::f64::consts::PI;
 use std::hint::black_box;
 
@@ -36,35 +36,34 @@ fn drawn<T: Batched, const N: usize>(count: usize, bound: f64) -> Vec<[T; N]> {
     (0..count).map(|_| core::array::from_fn(|_| T::from_f64(random.within(bound)))).collect()
 }
 
-fn batches<T: Batched, M, const N: usize>(criterion: &mut Criterion, robot: &str, scalar: &str, mechanism: &M)
-where
-    M: InverseDynamics<T::Lanes, Coordinates = [T::Lanes; N], Velocities = [T::Lanes; N]>
-        + ForwardDynamics<T::Lanes>
-        + Sync,
-{
-    for size in SIZES {
-        let (q, v, input) = (drawn::<T, N>(size, PI), drawn(size, 3.0), drawn(size, 10.0));
-        let mut found = input.clone();
-        let mut group = criterion.benchmark_group(format!("{robot}/inverse_dynamics"));
-        group.throughput(Throughput::Elements(size as u64));
-        group.bench_function(BenchmarkId::new(scalar, size), |bencher| {
-            bencher.iter(|| batch::inverse_dynamics(mechanism, black_box(&q), &v, &input, black_box(&mut found)));
-        });
-        group.finish();
-        let mut group = criterion.benchmark_group(format!("{robot}/forward_dynamics"));
-        group.throughput(Throughput::Elements(size as u64));
-        group.bench_function(BenchmarkId::new(scalar, size), |bencher| {
-            bencher.iter(|| batch::forward_dynamics(mechanism, black_box(&q), &v, &input, black_box(&mut found)));
-        });
-        group.finish();
-    }
+/// A macro, since code that is generic over mechanisms cannot name the lanes that a batch may choose.
+macro_rules! batches {
+    ($criterion:ident, $robot:literal, $mechanism:ident, $scalar:ident) => {
+        for size in SIZES {
+            type States = Vec<[$scalar; $mechanism::NV]>;
+            let (q, v, input): (States, States, States) = (drawn(size, PI), drawn(size, 3.0), drawn(size, 10.0));
+            let mut found = input.clone();
+            let mut group = $criterion.benchmark_group(concat!($robot, "/inverse_dynamics"));
+            group.throughput(Throughput::Elements(size as u64));
+            group.bench_function(BenchmarkId::new(stringify!($scalar), size), |bencher| {
+                bencher.iter(|| batch::inverse_dynamics(&$mechanism, black_box(&q), &v, &input, black_box(&mut found)));
+            });
+            group.finish();
+            let mut group = $criterion.benchmark_group(concat!($robot, "/forward_dynamics"));
+            group.throughput(Throughput::Elements(size as u64));
+            group.bench_function(BenchmarkId::new(stringify!($scalar), size), |bencher| {
+                bencher.iter(|| batch::forward_dynamics(&$mechanism, black_box(&q), &v, &input, black_box(&mut found)));
+            });
+            group.finish();
+        }
+    };
 }
 
 fn all(criterion: &mut Criterion) {
-    batches::<f64, _, _>(criterion, "kr5", "f64", &Kr5);
-    batches::<f32, _, _>(criterion, "kr5", "f32", &Kr5);
-    batches::<f64, _, _>(criterion, "gripper", "f64", &Gripper);
-    batches::<f32, _, _>(criterion, "gripper", "f32", &Gripper);
+    batches!(criterion, "kr5", Kr5, f64);
+    batches!(criterion, "kr5", Kr5, f32);
+    batches!(criterion, "gripper", Gripper, f64);
+    batches!(criterion, "gripper", Gripper, f32);
 }
 
 criterion_group!(batch_throughput, all);

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --bin speed`, with `RUSTFLAGS="-C target-cpu=x86-64-v3"` for AVX2, `=native` for what there is.
 
-use redysim::batch::{self, Batched};
+use redysim::batch;
 use redysim::lanes::{F32x8, F32x16, F64x2, F64x4, F64x8, pack, unpack};
 use redysim::{Scalar, redysim};
 use std::hint::black_box;
@@ -75,16 +75,23 @@ fn unpacked(lanes: &[F64x8; 6]) -> [[f64; 6]; 8] {
     unpack(*lanes)
 }
 
-fn batches<T: Batched>(name: &str) {
-    for count in [8, 512, 1024, 4096, 65536] {
-        let number = |index: usize| T::from_f64(3.0 * (0.37 * index as f64).sin());
-        let states: Vec<[T; 6]> = (0..count).map(|i| core::array::from_fn(|j| number(6 * i + j))).collect();
-        let mut found = states.clone();
-        let inverse = time(|| batch::inverse_dynamics(&Kr5, &states, &states, &states, &mut found).expect("lengths"));
-        let forward = time(|| batch::forward_dynamics(&Kr5, &states, &states, &states, &mut found).expect("lengths"));
-        let [inverse, forward] = [inverse, forward].map(|time| time / count as f64);
-        println!("batch of {count:5} {name}: inverse {inverse:5.1}, forward {forward:5.1} for one state");
-    }
+/// A macro, since code that is generic over numbers cannot name the lanes that a batch may choose.
+macro_rules! batches {
+    ($number:ident) => {
+        for count in [8, 512, 1024, 4096, 65536] {
+            let number = |index: usize| $number::from_f64(3.0 * (0.37 * index as f64).sin());
+            let states: Vec<[$number; 6]> =
+                (0..count).map(|i| core::array::from_fn(|j| number(6 * i + j))).collect();
+            let mut found = states.clone();
+            let inverse =
+                time(|| batch::inverse_dynamics(&Kr5, &states, &states, &states, &mut found).expect("lengths"));
+            let forward =
+                time(|| batch::forward_dynamics(&Kr5, &states, &states, &states, &mut found).expect("lengths"));
+            let [inverse, forward] = [inverse, forward].map(|time| time / count as f64);
+            let name = stringify!($number);
+            println!("batch of {count:5} {name}: inverse {inverse:5.1}, forward {forward:5.1} for one state");
+        }
+    };
 }
 
 fn main() {
@@ -108,6 +115,6 @@ fn main() {
     println!("eight states of six into F64x8: {:.1}", time(|| done(packed(black_box(&states)))));
     println!("and out of them: {:.1}", time(|| done(unpacked(black_box(&lanes)))));
     println!("{} threads", std::thread::available_parallelism().map_or(1, usize::from));
-    batches::<f64>("f64");
-    batches::<f32>("f32");
+    batches!(f64);
+    batches!(f32);
 }
