@@ -89,10 +89,13 @@ fn put<T: Scalar, const W: usize, const N: usize>(
     found: &mut Pairs<T, N>,
     start: usize,
 ) {
+    // Of a group that is not full LLVM makes stores with a mask, which hold up whatever reads them next.
+    let partial = start + W > N;
+    let kept = |number: T| if partial { number.apart() } else { number };
     for lane in 0..W {
         if start + lane < N {
-            found.0[start + lane] = sines[lane];
-            found.1[start + lane] = cosines[lane];
+            found.0[start + lane] = kept(sines[lane]);
+            found.1[start + lane] = kept(cosines[lane]);
         }
     }
 }
