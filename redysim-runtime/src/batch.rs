@@ -12,6 +12,9 @@
 //! fused, and all are the same. Nothing is allocated beyond what the thread pool of `rayon` does when it is handed work; up to [`SERIAL`] states stay on the
 //! caller's thread. To choose the number of threads, call these functions within `rayon::ThreadPool::install`.
 //!
+//! Code that is generic over mechanisms cannot name the lanes that these functions choose among, and so cannot call them;
+//! code for one mechanism can, and [`evaluate`] takes any function of any scalar.
+//!
 //! A rollout over many time steps is best done in one [`map`], whose function takes all the steps, so that threads are
 //! handed work once and not at every step.
 #![allow(private_bounds, reason = "no other crate may name numbers for instructions that the processor may lack")]

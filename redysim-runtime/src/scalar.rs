@@ -54,13 +54,15 @@ pub trait Scalar:
         self * factor + addend
     }
 
-    /// Runs `computation` in code that is compiled for the instructions this number stands on.
+    /// Runs `computation` in code that is compiled for the target features that this number's operations need; plain
+    /// numbers need none but those that the program is compiled for. What `computation` calls must be `#[inline(always)]`
+    /// to be part of that code.
     #[inline(always)]
     fn with_target_features<R>(computation: impl FnOnce() -> R) -> R {
         computation()
     }
 
-    /// The same number.
+    /// The same number, of which the compiler knows no neighbours, so that it makes no wider vectors of them.
     #[doc(hidden)]
     #[inline(always)]
     fn apart(self) -> Self {
