@@ -4,8 +4,8 @@
 //!
 //! Every `unsafe` block of this file calls a function that is compiled for target features which the program is not
 //! compiled for; that is undefined on a processor without them, and harmless on one that has them. The types are
-//! private to this crate, and so are the traits through which generic code of this crate reaches them, so that nobody
-//! else can name them, make a value of one, or call a function for one. This crate does so in two places,
+//! private to this crate, and so are the traits through which generic code of this crate reaches them, so that no other
+//! crate can name them, make a value of one, or call a function for one. This crate does so in two places,
 //! [`batch`](crate::batch) and [`Dispatched`](super::Dispatched), both behind
 //! [`Instructions::detected`](super::Instructions::detected), which has found the features. Code of other crates meets
 //! these types only as the parameter of a generic function that those two call. Therefore the processor has the features
@@ -47,7 +47,7 @@ macro_rules! assigning {
     };
 }
 
-/// The two methods of a scalar that a file of other target features runs in.
+/// `Scalar::with_target_features` of a number whose operations need `$features`.
 macro_rules! with_target_features {
     ($features:literal) => {
         #[inline(always)]
