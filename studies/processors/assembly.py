@@ -13,8 +13,8 @@ LABEL = re.compile(r'^("[^"]+"|[\w.$]+):')
 TARGET = re.compile(r'("[^"]+"|[\w.$]+)(?:@\w+)?(?:\(%rip\))?$')
 
 
-# What a call of a function that is not in the file, or goes through a register, counts as: it is taken only where there
-# is no other way.
+# What a call of a function that is not in the file, or goes through a register, counts as: it is taken only if
+# every path has one.
 UNKNOWN = 100_000
 
 
@@ -62,10 +62,10 @@ class Assembly:
 
     def way(self, name, repeats=1):
         """Instructions of the shortest way through a function, whose loop is gone through `repeats` times, and the names
-        of what is called elsewhere; `None` if there is no way."""
+        of what is called elsewhere; `None` if no path reaches a return."""
         key = name, repeats
         if key not in self.ways:
-            self.ways[key] = None  # while it is looked for: a recursion is no way
+            self.ways[key] = None  # while it is looked for: a recursive call has no path
             blocks = self.blocks(name)
             code = {label: self.inlined(block, repeats) for label, block in blocks.items()}
             if labels := shortest(blocks, code):
@@ -133,7 +133,7 @@ class Assembly:
 
 
 def shortest(blocks, code):
-    """The labels of the shortest way from the first block to a return (Dijkstra); `None` if there is none."""
+    """The labels of the shortest way from the first block to a return (Dijkstra); `None` if no path exists."""
     waiting, seen, count = [(0, 0, "", [])], set(), 0
     while waiting:
         length, _, label, way = heapq.heappop(waiting)

@@ -1,6 +1,6 @@
 //! The numbers for instructions that the processor may have do what plain numbers do.
 //!
-//! They are tested on processors that have the instructions; on others there is nothing to test.
+//! The tests pass without a check on processors that lack the instructions.
 
 use super::Instructions;
 use super::x86::{Avx2F32, Avx2F32x8, Avx2F64, Avx2F64x4, Avx512F32x16, Avx512F64x8};
@@ -8,7 +8,7 @@ use crate::Scalar;
 use crate::lanes::Lanes;
 use std::is_x86_feature_detected as has;
 
-/// Numbers of all sizes, angles that every path of the reduction takes, and what is not finite.
+/// Numbers of all sizes, angles for every path of the reduction, infinity and NaN.
 const NUMBERS: [f64; 20] = [
     0.3,
     -1.7,
