@@ -49,6 +49,14 @@ impl<M> Dispatched<M> {
     pub fn instructions(&self) -> Instructions {
         self.instructions
     }
+
+    /// Whether code for AVX2 is there and is not what the program is compiled for anyway.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn chooses_avx2(&self) -> bool {
+        let compiled_for_it = cfg!(all(target_feature = "avx2", target_feature = "fma"));
+        !compiled_for_it && self.instructions >= Instructions::Avx2
+    }
 }
 
 /// `numbers` as numbers of another type.
@@ -126,7 +134,7 @@ macro_rules! vector_function {
                 $($argument: &<M as Mechanism<$float>>::$kind),*
             ) -> <M as Mechanism<$float>>::Velocities {
                 #[cfg(target_arch = "x86_64")]
-                if self.instructions >= Instructions::Avx2 {
+                if self.chooses_avx2() {
                     return $number::with_target_features(
                         #[inline(always)]
                         || {
@@ -166,7 +174,7 @@ macro_rules! functions {
             #[inline]
             fn mass_matrix(&self, q: &<M as Mechanism<$float>>::Coordinates) -> <M as Mechanism<$float>>::Matrix {
                 #[cfg(target_arch = "x86_64")]
-                if self.instructions >= Instructions::Avx2 {
+                if self.chooses_avx2() {
                     return $number::with_target_features(
                         #[inline(always)]
                         || {
@@ -193,7 +201,7 @@ macro_rules! functions {
                 v: &<M as Mechanism<$float>>::Velocities,
             ) -> Energy<$float> {
                 #[cfg(target_arch = "x86_64")]
-                if self.instructions >= Instructions::Avx2 {
+                if self.chooses_avx2() {
                     return $number::with_target_features(
                         #[inline(always)]
                         || {
