@@ -31,16 +31,6 @@ impl<S: Scalar, const Q: usize, const A: usize> Posture<S, Q, A> {
     #[doc(hidden)]
     #[inline(always)]
     pub fn new(q: &[S; Q], sin: &[S; A], cos: &[S; A]) -> Self {
-        Posture { q: apart(q), sin: apart(sin), cos: apart(cos) }
+        Posture { q: S::apart(*q), sin: S::apart(*sin), cos: S::apart(*cos) }
     }
-}
-
-/// The same numbers, each copied by itself.
-#[inline(always)]
-fn apart<S: Scalar, const N: usize>(numbers: &[S; N]) -> [S; N] {
-    let mut numbers = *numbers;
-    for number in &mut numbers {
-        *number = number.apart();
-    }
-    numbers
 }

@@ -9,6 +9,9 @@
 #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
 use core::arch::{asm, x86_64};
 
+/// Whether the target has vectors of 512 bits, into which LLVM joins narrower ones.
+pub const JOINED: bool = cfg!(all(target_arch = "x86_64", target_feature = "avx512f"));
+
 /// A number, or several side by side, that a register of the target can hold.
 pub trait Register: Copy {
     /// The same bits, of which the compiler knows no longer where they come from, in a register of 256 bits or less.

@@ -1,6 +1,6 @@
 //! The numbers that dynamics is computed with.
 
-use crate::registers::Register;
+use crate::registers::{self, Register};
 use crate::trigonometry;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -62,11 +62,12 @@ pub trait Scalar:
         computation()
     }
 
-    /// The same number, of which the compiler knows no neighbours, so that it makes no wider vectors of them.
+    /// The same numbers, of which the compiler no longer knows how they belong together, so that it makes no wider
+    /// vectors of them.
     #[doc(hidden)]
     #[inline(always)]
-    fn apart(self) -> Self {
-        self
+    fn apart<const N: usize>(numbers: [Self; N]) -> [Self; N] {
+        numbers
     }
 
     /// Zero.
@@ -167,8 +168,18 @@ macro_rules! real {
                 sum
             }
             #[inline(always)]
-            fn apart(self) -> Self {
-                Register::apart(self)
+            fn apart<const N: usize>(mut numbers: [Self; N]) -> [Self; N] {
+                if !registers::JOINED {
+                    return numbers;
+                }
+                let (vectors, others) = numbers.as_chunks_mut();
+                for vector in vectors {
+                    *vector = Register::apart($vector::from(*vector)).to_array();
+                }
+                for number in others {
+                    *number = Register::apart(*number);
+                }
+                numbers
             }
         }
 

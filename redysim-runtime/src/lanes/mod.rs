@@ -124,8 +124,11 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
-            fn apart(self) -> Self {
-                Self(Register::apart(self.0))
+            fn apart<const N: usize>(mut numbers: [Self; N]) -> [Self; N] {
+                for number in &mut numbers {
+                    number.0 = Register::apart(number.0);
+                }
+                numbers
             }
         }
     };

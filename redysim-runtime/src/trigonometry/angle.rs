@@ -4,6 +4,7 @@ use super::reduction::{self, Reduced};
 use super::single_reduction;
 use crate::Scalar;
 use crate::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+use crate::registers::Register;
 use crate::scalar::FUSED;
 use bytemuck::cast;
 use wide::{u32x4, u32x8, u32x16, u64x2, u64x4, u64x8};
@@ -108,7 +109,7 @@ macro_rules! angles {
                 let (mut sin, mut cos) = (self.to_array(), self.to_array());
                 for (sin, cos) in sin.iter_mut().zip(&mut cos) {
                     let (one_sin, one_cos) = function(-*sin);
-                    (*sin, *cos) = (one_sin.apart(), one_cos.apart());
+                    [*sin, *cos] = [one_sin, one_cos].map(Register::apart);
                 }
                 (Self::from(sin), Self::from(cos))
             }

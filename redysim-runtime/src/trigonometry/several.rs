@@ -47,9 +47,13 @@ fn group<T, Narrow, Wide, const NARROW: usize, const WIDE: usize, const N: usize
     Wide: Lanes<T, WIDE>,
 {
     if start + NARROW < N {
-        in_lanes::<T, Wide, WIDE, N>(angles, found, start);
+        let (sines, cosines) = in_lanes::<T, Wide, WIDE, N>(angles, start);
+        put(split::<T, Narrow, NARROW, WIDE>(sines, N - start), &mut found.0, start);
+        put(split::<T, Narrow, NARROW, WIDE>(cosines, N - start), &mut found.1, start);
     } else if start + 1 < N {
-        in_lanes::<T, Narrow, NARROW, N>(angles, found, start);
+        let (sines, cosines) = in_lanes::<T, Narrow, NARROW, N>(angles, start);
+        put(split::<T, Narrow, NARROW, NARROW>(sines, N - start), &mut found.0, start);
+        put(split::<T, Narrow, NARROW, NARROW>(cosines, N - start), &mut found.1, start);
     } else if start < N {
         (found.0[start], found.1[start]) = angles[start].sin_cos();
     }
@@ -59,12 +63,12 @@ fn group<T, Narrow, Wide, const NARROW: usize, const WIDE: usize, const N: usize
 #[inline(always)]
 fn in_lanes<T: Scalar + Default, L: Lanes<T, W>, const W: usize, const N: usize>(
     angles: &[T; N],
-    found: &mut Pairs<T, N>,
     start: usize,
-) {
+) -> Pairs<T, W> {
     let (sin, cos) = L::from(taken(angles, start)).sin_cos();
     // A list belongs to one state: sines, cosines and the next group stay in vectors of their own.
-    put((sin.apart().into(), cos.apart().into()), found, start);
+    let [sin, cos] = L::apart([sin, cos]);
+    (sin.into(), cos.into())
 }
 
 /// The angles from `start` on, and zeros past the last.
@@ -82,20 +86,27 @@ fn taken<T: Scalar + Default, const W: usize, const N: usize>(angles: &[T; N], s
     taken
 }
 
-/// Writes what fits of a group from `start` on.
+/// The same numbers; where only `count` of them are wanted, the first in a vector of half as many, the others one by one.
+///
+/// Of a group that is not full LLVM would make stores with a mask, which hold up whatever reads them next.
 #[inline(always)]
-fn put<T: Scalar, const W: usize, const N: usize>(
-    (sines, cosines): Pairs<T, W>,
-    found: &mut Pairs<T, N>,
-    start: usize,
-) {
-    // Of a group that is not full LLVM makes stores with a mask, which hold up whatever reads them next.
-    let partial = start + W > N;
-    let kept = |number: T| if partial { number.apart() } else { number };
-    for lane in 0..W {
+fn split<T: Scalar, Half: Lanes<T, HALF>, const HALF: usize, const W: usize>(
+    mut numbers: [T; W],
+    count: usize,
+) -> [T; W] {
+    if count >= W {
+        return numbers;
+    }
+    [numbers[count - 1]] = T::apart([numbers[count - 1]]);
+    numbers
+}
+
+/// Writes what fits of `numbers` from `start` on.
+#[inline(always)]
+fn put<T: Scalar, const W: usize, const N: usize>(numbers: [T; W], found: &mut [T; N], start: usize) {
+    for (lane, number) in numbers.into_iter().enumerate() {
         if start + lane < N {
-            found.0[start + lane] = kept(sines[lane]);
-            found.1[start + lane] = kept(cosines[lane]);
+            found[start + lane] = number;
         }
     }
 }
