@@ -1,40 +1,36 @@
-//! Keeping the vectors of one state at 256 bits.
+//! Keeping the vectors of one state as they are written.
 //!
-//! Where the target has AVX-512, LLVM joins neighbouring vectors into 512 bits: two groups of four angles, the stores
-//! of a result, the copy of an array. In code that works on one state this loses more than it wins. On some processors
-//! (Intel's Sapphire Rapids) one such instruction costs the scalar code around it 40 ns, more than a whole call of the
-//! inverse dynamics of six joints. LLVM has no option for it that a crate could set for its users, so numbers pass
-//! through [`Register::apart`], which LLVM cannot look into: what comes out of it has no known neighbours.
+//! LLVM joins neighbouring vectors into wider ones, up to the widest of the target: two groups of four angles, the
+//! sines and the cosines of a group, the stores of a result, the copy of an array. In code that works on one state this
+//! loses more than it wins. Putting two vectors together and taking them apart again takes longer than the few
+//! operations that are saved, and with 512 bits, on some processors (Intel's Sapphire Rapids), one instruction costs
+//! the scalar code around it 40 ns, more than a whole call of the inverse dynamics of six joints. LLVM has no option
+//! for it that a crate could set for its users, so numbers pass through [`Register::apart`], which LLVM cannot look
+//! into: what comes out of it has no known neighbours.
 
-#[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
+#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 use core::arch::{asm, x86_64};
 
-/// Whether the target has vectors of 512 bits, into which LLVM joins narrower ones.
+/// Whether the target has vectors of 512 bits, into which LLVM joins those of 256 bits and single numbers.
 pub const JOINED: bool = cfg!(all(target_arch = "x86_64", target_feature = "avx512f"));
 
 /// A number, or several side by side, that a register of the target can hold.
 pub trait Register: Copy {
-    /// The same bits, of which the compiler knows no longer where they come from, in a register of 256 bits or less.
-    /// Wider ones, and those of targets without AVX-512, stay as they are.
+    /// The same bits, of which the compiler no longer knows where they come from, where the target has wider vectors
+    /// than 128 bits and, for numbers and vectors of 256 bits, than 256.
     #[inline(always)]
     fn apart(self) -> Self {
         self
     }
 }
 
-#[cfg(not(all(target_arch = "x86_64", target_feature = "avx512f")))]
-mod known {
-    use super::Register;
-
-    impl Register for f32 {}
-    impl Register for f64 {}
-    impl Register for wide::f64x2 {}
-    impl Register for wide::f64x4 {}
-    impl Register for wide::f32x4 {}
-    impl Register for wide::f32x8 {}
+macro_rules! joined_nowhere {
+    ($($number:ty),*) => {$(
+        impl Register for $number {}
+    )*};
 }
 
-#[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
+#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 macro_rules! registers {
     ($($number:ty, $register:ty, $class:ident;)*) => {$(
         impl Register for $number {
@@ -54,15 +50,24 @@ macro_rules! registers {
     )*};
 }
 
+// Into 256 bits.
+#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+registers! {
+    wide::f64x2, x86_64::__m128d, xmm_reg;
+    wide::f32x4, x86_64::__m128, xmm_reg;
+}
+#[cfg(not(all(target_arch = "x86_64", target_feature = "avx")))]
+joined_nowhere!(wide::f64x2, wide::f32x4);
+
+// Into 512 bits.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
 registers! {
     f32, f32, xmm_reg;
     f64, f64, xmm_reg;
-    wide::f64x2, x86_64::__m128d, xmm_reg;
     wide::f64x4, x86_64::__m256d, ymm_reg;
-    wide::f32x4, x86_64::__m128, xmm_reg;
     wide::f32x8, x86_64::__m256, ymm_reg;
 }
+#[cfg(not(all(target_arch = "x86_64", target_feature = "avx512f")))]
+joined_nowhere!(f32, f64, wide::f64x4, wide::f32x8);
 
-impl Register for wide::f64x8 {}
-impl Register for wide::f32x16 {}
+joined_nowhere!(wide::f64x8, wide::f32x16);
