@@ -19,9 +19,6 @@ mod accuracy {
 }
 
 #[allow(dead_code, reason = "tests use more of it")]
-#[path = "../tests/common/double_double.rs"]
-mod double_double;
-
 use accuracy::{benchmarks, drift, evaluation, scene, work_precision};
 use common::{Failure, Outputs};
 

@@ -17,7 +17,7 @@ use crate::common::reference::Reference;
 use crate::common::speed::{median, remark_processor};
 use crate::common::table::{Table, headline, remark, tiny};
 use crate::common::{Context, Failure, Outputs, Rows, column, peak};
-use crate::double_double::{DoubleDouble, exact};
+use redysim_codegen::accuracy::double_double::{DoubleDouble, exact};
 
 /// One way to compute KR5's dynamics: time per state, ns, and error, of inverse and of forward dynamics.
 pub struct Measured {

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{path}");
         for (set, passes) in &sets {
             let start = Instant::now();
-            let functions = trace_with(&tree, passes);
+            let functions = trace_with(&tree, passes)?;
             let time = start.elapsed();
             println!("  {set}, traced in {time:.1?}");
             for function in functions {

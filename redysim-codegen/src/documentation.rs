@@ -9,7 +9,7 @@ use redysim_runtime::OperationCount;
 pub fn paragraphs(function: &Function, model: &Model) -> Vec<String> {
     let Function { signature, remark, expressions, pruning } = function;
     let mut paragraphs = vec![signature.summary.to_string()];
-    paragraphs.extend(remark.map(str::to_string));
+    paragraphs.extend(remark.clone());
     paragraphs.push(cost(&expressions.count()));
     if let Some(pruning) = pruning {
         paragraphs.push(pruned(pruning, signature));

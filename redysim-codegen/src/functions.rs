@@ -1,12 +1,14 @@
 //! The functions of a compiled mechanism: what each computes, and how it is traced.
 
+use crate::accuracy::{Quantity, Reference};
 use crate::expressions::Expressions;
-use crate::passes::{self, Passes};
+use crate::forward_dynamics;
+use crate::passes::{self, ChangedValue, Passes};
 use crate::pruning::{Pruning, States, pruned};
 use crate::rolled;
 use crate::symbol::{Symbol, Tracer};
 use crate::trees::Trees;
-use redysim_model::denoc::{self, Factorisation, Method};
+use redysim_model::denoc;
 use redysim_model::{Functions, Link, Model, Scene, Tree};
 use std::cell::LazyCell;
 
@@ -144,7 +146,7 @@ pub struct Function {
     /// What it is called, takes and returns.
     pub signature: Signature,
     /// How it is computed, where there is a choice.
-    pub remark: Option<&'static str>,
+    pub remark: Option<String>,
     /// Its expressions.
     pub expressions: Expressions,
     /// What pruning has done to them, if there was any.
@@ -152,32 +154,47 @@ pub struct Function {
 }
 
 /// Traces and simplifies every function of [`SIGNATURES`], with all passes.
-pub fn trace(tree: &Tree) -> Vec<Function> {
+///
+/// # Errors
+///
+/// As [`trace_of`].
+pub fn trace(tree: &Tree) -> Result<Vec<Function>, ChangedValue> {
     trace_with(tree, &Passes::default())
 }
 
 /// Traces and simplifies every function of [`SIGNATURES`], with the given passes.
-pub fn trace_with(tree: &Tree, passes: &Passes) -> Vec<Function> {
-    trace_of(tree, &Functions::ALL, passes)
+///
+/// # Errors
+///
+/// As [`trace_of`].
+pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<Function>, ChangedValue> {
+    trace_of(tree, &Scene::default(), passes)
 }
 
-/// Traces and simplifies the given functions and no others, in the order of [`SIGNATURES`].
+/// Traces and simplifies the functions that `scene` asks for and no others, in the order of [`SIGNATURES`]. Nothing is
+/// pruned.
 ///
 /// Passes that treat every body by itself save operations but make alike bodies differ. A function that is too long to
 /// be unrolled is traced without them as well, and the shorter code is taken.
-pub fn trace_of(tree: &Tree, functions: &Functions, passes: &Passes) -> Vec<Function> {
-    let trees = Trees::new(tree, passes);
+///
+/// # Errors
+///
+/// In debug builds passes over expressions are verified, and one that changes a value is reported.
+pub fn trace_of(tree: &Tree, scene: &Scene, passes: &Passes) -> Result<Vec<Function>, ChangedValue> {
+    let reference = Reference::new(tree);
+    let trees = Trees::new(tree, passes, &reference);
     let even = passes.even();
-    let even_trees = LazyCell::new(|| Trees::new(tree, &even));
+    let even_trees = LazyCell::new(|| Trees::new(tree, &even, &reference));
     let shortest = |&signature: &Signature| {
-        let own = function(signature, &trees, passes);
+        let own = function(signature, scene, &trees, passes)?;
         if !passes.loops || !own.expressions.is_long() {
-            return own;
+            return Ok(own);
         }
-        let alike = function(signature, &even_trees, &even);
-        if rolled::code_size(&alike.expressions) < rolled::code_size(&own.expressions) { alike } else { own }
+        let alike = function(signature, scene, &even_trees, &even)?;
+        Ok(if rolled::code_size(&alike.expressions) < rolled::code_size(&own.expressions) { alike } else { own })
     };
-    SIGNATURES.iter().filter(|signature| functions.contains(signature.name)).map(shortest).collect()
+    let asked = SIGNATURES.iter().filter(|signature| scene.functions.contains(signature.name));
+    asked.map(shortest).collect()
 }
 
 /// Traces and simplifies the functions that a scene asks for, and prunes those that compute joint forces, accelerations
@@ -187,118 +204,124 @@ pub fn trace_of(tree: &Tree, functions: &Functions, passes: &Passes) -> Vec<Func
 ///
 /// # Errors
 ///
-/// If the scene has a tolerance and a joint no range.
-pub fn trace_scene(model: &Model, scene: &Scene, passes: &Passes) -> Result<Vec<Function>, NoRange> {
+/// If the scene has a tolerance and a joint no range; as [`trace_of`].
+pub fn trace_scene(model: &Model, scene: &Scene, passes: &Passes) -> Result<Vec<Function>, TraceError> {
     let tree = Tree::new(model);
-    let functions = trace_of(&tree, &scene.functions, passes);
+    let functions = trace_of(&tree, scene, passes)?;
     let Some(tolerance) = scene.tolerance else { return Ok(functions) };
-    let range = |link: &Link| link.range.ok_or_else(|| NoRange { joint: link.joint_name.clone() });
+    let range = |link: &Link| link.range.ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() });
     let ranges = model.moving_links().map(range).collect::<Result<Vec<_>, _>>()?;
     let own = |functions: &[Function]| functions.iter().find(|f| f.signature == INVERSE_DYNAMICS).cloned();
-    let forces = LazyCell::new(|| {
+    let forces = if let Some(forces) = own(&functions) {
+        forces
+    } else {
         let only = Functions::of([INVERSE_DYNAMICS.name]).expect("a function of a mechanism");
-        own(&functions).or_else(|| own(&trace_of(&tree, &only, passes))).expect("it is asked for").expressions
-    });
+        own(&trace_of(&tree, &Scene { functions: only, ..*scene }, passes)?).expect("it is asked for")
+    };
     let prune = |function: &Function| {
         let Function { signature, expressions, .. } = function;
         if !PRUNED.contains(signature) || expressions.is_long() {
-            return function.clone();
+            return Ok(function.clone());
         }
-        let forces = (*signature == FORWARD_DYNAMICS).then(|| &*forces);
+        let forces = (*signature == FORWARD_DYNAMICS).then_some(&forces.expressions);
         let states = States { ranges: &ranges, forces };
-        let (expressions, pruning) = pruned(expressions, signature.shape, &states, tolerance, passes);
-        Function { expressions, pruning: Some(pruning), ..function.clone() }
+        let (expressions, pruning) = pruned(expressions, signature.shape, &states, tolerance, passes)?;
+        Ok(Function { expressions, pruning: Some(pruning), ..function.clone() })
     };
-    Ok(functions.iter().map(prune).collect())
+    functions.iter().map(prune).collect()
 }
 
 /// The functions that a tolerance is for.
 const PRUNED: [Signature; 5] = [INVERSE_DYNAMICS, FORWARD_DYNAMICS, MASS_MATRIX, BIAS_FORCES, GRAVITY_FORCES];
 
-/// A tolerance holds within ranges, and a joint has none.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoRange {
-    /// The joint.
-    pub joint: String,
+/// Why the functions of a model cannot be traced as a scene asks.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TraceError {
+    /// A tolerance holds within ranges, and a joint has none.
+    NoRange {
+        /// The joint.
+        joint: String,
+    },
+    /// A pass over expressions changes a value.
+    ChangedValue(ChangedValue),
 }
 
-impl std::fmt::Display for NoRange {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "a tolerance holds within ranges, but joint `{}` has none: give its link a `range`", self.joint)
+impl From<ChangedValue> for TraceError {
+    fn from(changed: ChangedValue) -> Self {
+        TraceError::ChangedValue(changed)
     }
 }
 
-impl std::error::Error for NoRange {}
+impl std::fmt::Display for TraceError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            TraceError::NoRange { joint } => {
+                write!(f, "a tolerance holds within ranges, but joint `{joint}` has none: give its link a `range`")
+            }
+            TraceError::ChangedValue(changed) => changed.fmt(f),
+        }
+    }
+}
 
-fn function(signature: Signature, trees: &Trees, passes: &Passes) -> Function {
+impl std::error::Error for TraceError {}
+
+fn function(signature: Signature, scene: &Scene, trees: &Trees, passes: &Passes) -> Result<Function, ChangedValue> {
     let on_kinematics = |arguments, function: TreeFunction| {
         cheapest(&trees.kinematics(), |tree| traced(tree, passes, arguments, |x| function(tree, x)))
     };
-    let on_bias = |arguments, function: TreeFunction| {
-        let tree = trees.bias();
-        traced(tree, passes, arguments, |x| function(tree, x))
-    };
-    let on_matrix = |function: TreeFunction| {
-        let tree = trees.matrix();
-        traced(tree, passes, 1, |x| function(tree, x))
+    let measured = |quantity, arguments, function: TreeFunction| {
+        keeping_digits(trees, passes, quantity, |tree, passes| traced(tree, passes, arguments, |x| function(tree, x)))
     };
     let expressions = match signature {
-        INVERSE_DYNAMICS => on_bias(3, |tree, x| denoc::inverse_dynamics(tree, x[0], x[1], x[2])),
-        FORWARD_DYNAMICS => return forward_dynamics(trees, passes),
-        MASS_MATRIX => on_matrix(|tree, x| denoc::mass_matrix(tree, x[0]).concat()),
-        BIAS_FORCES => on_bias(2, |tree, x| denoc::bias_forces(tree, x[0], x[1])),
-        GRAVITY_FORCES => on_matrix(|tree, x| denoc::gravity_forces(tree, x[0])),
+        INVERSE_DYNAMICS => measured(Quantity::Forces, 3, |tree, x| denoc::inverse_dynamics(tree, x[0], x[1], x[2])),
+        FORWARD_DYNAMICS => {
+            let chosen = forward_dynamics::chosen(trees, scene.forward_dynamics, passes)?;
+            let remark = Some(chosen.to_string());
+            return Ok(Function { signature, remark, expressions: chosen.expressions, pruning: None });
+        }
+        MASS_MATRIX => measured(Quantity::Matrix, 1, |tree, x| denoc::mass_matrix(tree, x[0]).concat()),
+        BIAS_FORCES => measured(Quantity::BiasForces, 2, |tree, x| denoc::bias_forces(tree, x[0], x[1])),
+        GRAVITY_FORCES => measured(Quantity::GravityForces, 1, |tree, x| denoc::gravity_forces(tree, x[0])),
         ENERGY => cheapest(&trees.energy(), |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1]))),
         LINK_KINEMATICS => on_kinematics(2, |tree, x| link_kinematics(tree, x[0], x[1])),
         LOOP_RESIDUAL => on_kinematics(1, |tree, x| denoc::loop_residual(tree, x[0])),
         LOOP_JACOBIAN => on_kinematics(1, |tree, x| denoc::loop_jacobian(tree, x[0]).concat()),
         LOOP_BIAS => on_kinematics(2, |tree, x| denoc::loop_bias(tree, x[0], x[1])),
         _ => unreachable!("`{}` is none of the functions of a mechanism", signature.name),
-    };
-    Function { signature, remark: None, expressions, pruning: None }
+    }?;
+    Ok(Function { signature, remark: None, expressions, pruning: None })
 }
 
 /// A function of a tree and its arguments.
 type TreeFunction = for<'g> fn(&Tree, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>;
 
+/// A function on the cheapest description of the robot on which it keeps its digits; in the end on the model's own,
+/// without passes over expressions.
+pub(crate) fn keeping_digits(
+    trees: &Trees,
+    passes: &Passes,
+    quantity: Quantity,
+    function: impl Fn(&Tree, &Passes) -> Result<Expressions, ChangedValue>,
+) -> Result<Expressions, ChangedValue> {
+    let bearable = trees.bearable(quantity);
+    for tree in trees.descriptions(quantity) {
+        let expressions = function(tree, passes)?;
+        if trees.reference().lost_by(quantity, |x| expressions.evaluate(x)) <= bearable {
+            return Ok(expressions);
+        }
+    }
+    let [.., own] = trees.descriptions(quantity);
+    function(own, &Passes { loops: passes.loops, ..Passes::none() })
+}
+
 /// A function on the tree on which it costs least.
-fn cheapest(trees: &[Tree], function: impl Fn(&Tree) -> Expressions) -> Expressions {
-    trees.iter().map(function).min_by_key(Expressions::price).expect("at least one tree")
-}
-
-/// The longest chain whose accelerations are still taken from the explicit mass matrix, whatever the operation count:
-/// beyond, the condition of the matrix costs digits.
-const LONGEST_CHAIN_BY_FACTORISATION: usize = 25;
-
-/// Forward dynamics by the cheaper of the two ways, or by the recursion where a chain is long.
-fn forward_dynamics(trees: &Trees, passes: &Passes) -> Function {
-    let (method, expressions) = cheaper_forward_dynamics(trees, passes);
-    let remark = match method {
-        Method::Factorisation => "By the factorisation M = U D Uᵀ of the generalised inertia matrix.",
-        Method::Recursion => "By the O(n) recursion over articulated bodies.",
-    };
-    Function { signature: FORWARD_DYNAMICS, remark: Some(remark), expressions, pruning: None }
-}
-
-fn cheaper_forward_dynamics(trees: &Trees, passes: &Passes) -> (Method, Expressions) {
-    let plain = trees.plain();
-    // The recursion takes the inertias as they are: moved towards the ground they would pile up there, and what is
-    // subtracted from them on the way would cost the digits for which the recursion is chosen.
-    let recursion = traced(plain, passes, 3, |x| denoc::forward_dynamics(Method::Recursion, plain, x[0], x[1], x[2]));
-    if plain.depth() > LONGEST_CHAIN_BY_FACTORISATION {
-        return (Method::Recursion, recursion);
-    }
-    let (matrix, bias) = (trees.matrix(), trees.bias());
-    let explicit = traced(matrix, passes, 3, |x| {
-        let forces = denoc::bias_forces(bias, x[0], x[1]);
-        let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();
-        Factorisation::new(matrix, &denoc::mass_matrix(matrix, x[0])).solve(&drive)
-    });
-    if recursion.count().flops() < explicit.count().flops() {
-        (Method::Recursion, recursion)
-    } else {
-        (Method::Factorisation, explicit)
-    }
+fn cheapest(
+    trees: &[Tree],
+    function: impl Fn(&Tree) -> Result<Expressions, ChangedValue>,
+) -> Result<Expressions, ChangedValue> {
+    let all = trees.iter().map(function).collect::<Result<Vec<_>, _>>()?;
+    Ok(all.into_iter().min_by_key(Expressions::price).expect("at least one tree"))
 }
 
 fn energy<'g>(tree: &Tree, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<Symbol<'g>> {
@@ -320,6 +343,15 @@ pub(crate) fn traced(
     passes: &Passes,
     arguments: u8,
     function: impl for<'g> Fn(&[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
+) -> Result<Expressions, ChangedValue> {
+    passes::simplified(as_traced(tree, arguments, function), passes)
+}
+
+/// The expressions of a function of `arguments` vectors of length NV, before any pass over them.
+pub(crate) fn as_traced(
+    tree: &Tree,
+    arguments: u8,
+    function: impl for<'g> Fn(&[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 ) -> Expressions {
     let tracer = Tracer::default();
     let outputs = {
@@ -327,5 +359,5 @@ pub(crate) fn traced(
         let symbols: Vec<&[Symbol]> = symbols.iter().map(Vec::as_slice).collect();
         tracer.edges(&function(&symbols))
     };
-    passes::simplified(Expressions { graph: tracer.into_graph(), outputs }, passes)
+    Expressions { graph: tracer.into_graph(), outputs }
 }

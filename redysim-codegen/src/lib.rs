@@ -33,6 +33,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod accuracy;
 pub mod expressions;
 pub mod functions;
 pub mod graph;
@@ -41,9 +42,11 @@ pub mod symbol;
 
 mod documentation;
 mod emit;
+mod forward_dynamics;
 mod hash;
 mod mechanism;
 mod pruning;
+mod random;
 mod rolled;
 mod shape;
 mod source;
@@ -51,4 +54,4 @@ mod trees;
 
 pub use mechanism::{Generated, implementation, implementation_with, operations, stub};
 pub use pruning::Pruning;
-pub use source::{InvalidName, source_file, source_file_with};
+pub use source::{SourceError, source_file, source_file_with};

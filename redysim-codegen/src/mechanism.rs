@@ -3,8 +3,8 @@
 use crate::documentation;
 use crate::emit::{Angles, COS, SIN, Vocabulary, function_body, local};
 use crate::expressions::Expressions;
-use crate::functions::{Function, SIGNATURES, Signature, trace_of, trace_scene};
-use crate::passes::Passes;
+use crate::functions::{Function, SIGNATURES, Signature, TraceError, trace_of, trace_scene};
+use crate::passes::{ChangedValue, Passes};
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -23,20 +23,28 @@ pub struct Generated {
 }
 
 /// The `impl`s of the type `name` for `model`; `runtime` is the path of the crate `redysim_runtime`.
-pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Generated {
+///
+/// # Errors
+///
+/// In debug builds passes over expressions are verified, and one that changes a value is reported.
+pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Result<Generated, ChangedValue> {
     implementation_with(model, name, runtime, &Scene::default(), &Passes::default())
 }
 
 /// The same with no more than what is asked of the mechanism, and with the given passes only, to see what the others
 /// gain.
+///
+/// # Errors
+///
+/// As [`implementation`].
 pub fn implementation_with(
     model: &Model,
     name: &Ident,
     runtime: &TokenStream,
     scene: &Scene,
     passes: &Passes,
-) -> Generated {
-    let (functions, warnings) = functions(model, scene, passes);
+) -> Result<Generated, ChangedValue> {
+    let (functions, warnings) = functions(model, scene, passes)?;
     let tree = Tree::new(model);
     let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
     let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.coordinate].to_string()).collect();
@@ -47,26 +55,34 @@ pub fn implementation_with(
     let definitions =
         std::iter::once(writer.posture()).chain(functions.iter().map(|function| writer.function(function)));
     let tokens = type_impls(&outline, name, runtime, &operations, definitions.collect());
-    Generated { tokens, operations, warnings }
+    Ok(Generated { tokens, operations, warnings })
 }
 
 /// What the functions of a compiled mechanism cost, and what was asked for and cannot be, without the code.
-pub fn operations(model: &Model, scene: &Scene) -> (Vec<(&'static str, OperationCount)>, Vec<String>) {
-    let (functions, warnings) = functions(model, scene, &Passes::default());
-    (operations_of(&functions), warnings)
+///
+/// # Errors
+///
+/// As [`implementation`].
+pub fn operations(
+    model: &Model,
+    scene: &Scene,
+) -> Result<(Vec<(&'static str, OperationCount)>, Vec<String>), ChangedValue> {
+    let (functions, warnings) = functions(model, scene, &Passes::default())?;
+    Ok((operations_of(&functions), warnings))
 }
 
 /// The functions that a scene asks for, and what of it cannot be.
-fn functions(model: &Model, scene: &Scene, passes: &Passes) -> (Vec<Function>, Vec<String>) {
+fn functions(model: &Model, scene: &Scene, passes: &Passes) -> Result<(Vec<Function>, Vec<String>), ChangedValue> {
     let (functions, unpruned) = match trace_scene(model, scene, passes) {
         Ok(functions) => (functions, None),
-        Err(no_range) => {
+        Err(TraceError::ChangedValue(changed)) => return Err(changed),
+        Err(no_range @ TraceError::NoRange { .. }) => {
             let unpruned = format!("nothing is pruned: {no_range}");
-            (trace_of(&Tree::new(model), &scene.functions, passes), Some(unpruned))
+            (trace_of(&Tree::new(model), scene, passes)?, Some(unpruned))
         }
     };
     let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
-    (functions, warnings)
+    Ok((functions, warnings))
 }
 
 fn operations_of(functions: &[Function]) -> Vec<(&'static str, OperationCount)> {

@@ -1,7 +1,7 @@
 //! The generated code as a formatted source file, for those who must review it or ship it.
 
 use crate::mechanism::{Generated, implementation_with};
-use crate::passes::Passes;
+use crate::passes::{ChangedValue, Passes};
 use quote::{format_ident, quote};
 use redysim_model::{Model, Scene};
 
@@ -11,8 +11,8 @@ use redysim_model::{Model, Scene};
 ///
 /// # Errors
 ///
-/// If `name` is not an identifier.
-pub fn source_file(model: &Model, name: &str) -> Result<String, InvalidName> {
+/// If `name` is not an identifier; in debug builds, if a pass over expressions changes a value.
+pub fn source_file(model: &Model, name: &str) -> Result<String, SourceError> {
     source_file_with(model, name, &Scene::default())
 }
 
@@ -20,14 +20,14 @@ pub fn source_file(model: &Model, name: &str) -> Result<String, InvalidName> {
 ///
 /// # Errors
 ///
-/// If `name` is not an identifier.
-pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<String, InvalidName> {
+/// As [`source_file`].
+pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<String, SourceError> {
     if syn::parse_str::<syn::Ident>(name).is_err() {
-        return Err(InvalidName(name.to_string()));
+        return Err(SourceError::InvalidName(name.to_string()));
     }
     let name = format_ident!("{name}");
     let Generated { tokens, operations, warnings } =
-        implementation_with(model, &name, &quote!(::redysim_runtime), scene, &Passes::default());
+        implementation_with(model, &name, &quote!(::redysim_runtime), scene, &Passes::default())?;
     let doc = format!(" The mechanism `{}`.", model.name);
     let file = quote! {
         #[doc = #doc]
@@ -49,14 +49,31 @@ pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<Stri
     Ok(header + "\n" + &prettyplease::unparse(&file))
 }
 
-/// A name that cannot be a Rust type.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct InvalidName(String);
+/// Why there is no source file.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// A name that cannot be a Rust type.
+    InvalidName(String),
+    /// A pass over expressions changes a value.
+    ChangedValue(ChangedValue),
+}
 
-impl std::fmt::Display for InvalidName {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "`{}` is not a name for a Rust type; write for example `Robot`", self.0)
+impl From<ChangedValue> for SourceError {
+    fn from(changed: ChangedValue) -> Self {
+        SourceError::ChangedValue(changed)
     }
 }
 
-impl std::error::Error for InvalidName {}
+impl std::fmt::Display for SourceError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            SourceError::InvalidName(name) => {
+                write!(f, "`{name}` is not a name for a Rust type; write for example `Robot`")
+            }
+            SourceError::ChangedValue(changed) => changed.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for SourceError {}

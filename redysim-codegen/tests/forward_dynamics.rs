@@ -25,7 +25,7 @@ fn rods(arms: usize, links: usize) -> Model {
 }
 
 fn remark(model: &Model) -> &'static str {
-    let functions = trace(&Tree::new(model));
+    let functions = trace(&Tree::new(model)).expect("no pass changes a value");
     let forward = functions.iter().find(|function| function.signature.name == "forward_dynamics");
     forward.and_then(|function| function.remark).expect("forward dynamics says how")
 }

@@ -9,7 +9,8 @@ use redysim_model::{Model, Scene};
 /// The code of a model, without spaces, function by function: name and body.
 fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
     let Generated { tokens, operations, .. } =
-        implementation_with(model, &format_ident!("Robot"), &quote!(redysim_runtime), &Scene::default(), passes);
+        implementation_with(model, &format_ident!("Robot"), &quote!(redysim_runtime), &Scene::default(), passes)
+            .expect("no pass changes a value");
     let text = without_spaces(tokens);
     let start = |name: &str| text.find(&format!("pubfn{name}_at<")).expect("every function has a form of a posture");
     let body = |name: &str| text[start(name)..].split("pubfn").nth(1).unwrap_or_default().to_string();

@@ -18,7 +18,7 @@ fn with_range(mut model: Model, range: JointRange) -> Model {
 
 fn traced(model: &Model, functions: &[&str], tolerance: f64) -> Vec<Function> {
     let functions = Functions::of(functions.iter().copied()).unwrap();
-    trace_scene(model, &Scene { functions, tolerance: Some(tolerance) }, &Passes::all()).unwrap()
+    trace_scene(model, &Scene { functions, tolerance: Some(tolerance), ..Scene::default() }, &Passes::all()).unwrap()
 }
 
 /// Evenly spread numbers within ±1, by the golden ratio.
@@ -53,7 +53,7 @@ fn joint_forces_of_other_robots_stay_within_the_tolerance() {
     let range = JointRange { position: [-1.0, 2.0], velocity: 2.0, acceleration: 5.0, force: None };
     for name in ["gripper", "test/gantry", "andrews"] {
         let model = with_range(model(name), range);
-        let whole = trace_with(&Tree::new(&model), &Passes::all()).swap_remove(0);
+        let whole = trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value").swap_remove(0);
         for tolerance in [1e-2, 1e-4] {
             let pruned = traced(&model, &["inverse_dynamics"], tolerance).swap_remove(0);
             let (before, after) = (whole.expressions.count(), pruned.expressions.count());
@@ -84,7 +84,7 @@ fn a_stated_force_is_what_the_tolerance_is_a_share_of() {
     strong.links.iter_mut().zip(motors).for_each(|(link, force)| {
         link.range = link.range.map(|range| JointRange { force: Some(force), ..range });
     });
-    let whole = trace_with(&Tree::new(&model), &Passes::all()).swap_remove(0);
+    let whole = trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value").swap_remove(0);
     let own = traced(&model, &["inverse_dynamics"], 0.01).swap_remove(0).expressions.count();
     let pruned = traced(&strong, &["inverse_dynamics"], 0.01).swap_remove(0);
     let count = pruned.expressions.count();
@@ -138,7 +138,7 @@ fn energies_places_and_loops_are_exact() {
     let range = JointRange { position: [-1.0, 1.0], velocity: 1.0, acceleration: 1.0, force: None };
     let model = with_range(model("fourbar"), range);
     let exact = ["energy", "link_kinematics", "loop_residual", "loop_jacobian", "loop_bias"];
-    let whole = trace_with(&Tree::new(&model), &Passes::all());
+    let whole = trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value");
     for function in traced(&model, &exact, 0.1) {
         let whole = whole.iter().find(|whole| whole.signature == function.signature).unwrap();
         assert_eq!(function.expressions.count(), whole.expressions.count());
@@ -163,7 +163,8 @@ fn without_a_range_nothing_is_pruned_and_that_is_said() {
     let functions = Functions::of(["gravity_forces"]).unwrap();
     let scene = Scene { functions, tolerance: Some(0.01) };
     let (name, runtime) = (quote::format_ident!("Kr5"), quote::quote!(::redysim_runtime));
-    let generated = implementation_with(&model("kr5"), &name, &runtime, &scene, &Passes::all());
+    let generated =
+        implementation_with(&model("kr5"), &name, &runtime, &scene, &Passes::all()).expect("no pass changes a value");
     assert_eq!(
         generated.warnings,
         ["nothing is pruned: a tolerance holds within ranges, but joint `joint1` has none: give its link a `range`"]
@@ -174,7 +175,7 @@ fn without_a_range_nothing_is_pruned_and_that_is_said() {
 #[test]
 fn a_function_for_which_the_tolerance_does_not_hold_is_left_whole() {
     let model = model("test/too_fast");
-    let whole = trace_with(&Tree::new(&model), &Passes::all()).swap_remove(1);
+    let whole = trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value").swap_remove(1);
     let function = traced(&model, &["forward_dynamics"], 0.01).swap_remove(0);
     assert_eq!(function.pruning.map(|pruning| pruning.holds), Some(false));
     assert_eq!(function.expressions.count(), whole.expressions.count());

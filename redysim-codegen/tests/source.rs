@@ -49,7 +49,8 @@ fn temporaries_are_named_for_what_they_hold_and_the_link() {
 #[test]
 fn functions_say_what_they_cost() {
     let source = source_file(&model("kr5.toml"), "Kr5").unwrap();
-    let generated = implementation(&model("kr5.toml"), &quote::format_ident!("Kr5"), &quote::quote!(::redysim_runtime));
+    let generated = implementation(&model("kr5.toml"), &quote::format_ident!("Kr5"), &quote::quote!(::redysim_runtime))
+        .expect("no pass changes a value");
     for (function, count) in generated.operations {
         let cost = format!("/// {} flops: {} additions", count.flops(), count.additions);
         assert!(source.contains(&cost), "{function}: {cost}");

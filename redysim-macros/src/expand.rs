@@ -6,7 +6,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, stub};
-use redysim_model::{Diagnostic, Model, Severity};
+use redysim_model::{Diagnostic, Model, Outline, Severity};
 use syn::Attribute;
 
 /// The struct and its `impl`s.
@@ -38,10 +38,14 @@ pub fn derived(declaration: &Declaration) -> TokenStream {
         )
     });
     let (diagnostics, warnings, implementation) = match Model::load_with(&file, shown(&file), scene.text.as_str()) {
-        Ok(loaded) => {
-            let generated = implementation_with(&loaded.model, name, &runtime, &loaded.scene, &Passes::default());
-            (loaded.warnings, generated.warnings, generated.tokens)
-        }
+        Ok(loaded) => match implementation_with(&loaded.model, name, &runtime, &loaded.scene, &Passes::default()) {
+            Ok(generated) => (loaded.warnings, generated.warnings, generated.tokens),
+            Err(changed) => {
+                let error = compile_error(declaration, &changed.to_string(), model.span());
+                let outline = Outline::new(&loaded.model, &loaded.scene);
+                (loaded.warnings, Vec::new(), [error, stub(&outline, name, &runtime)].into_iter().collect())
+            }
+        },
         Err(faults) => (faults.diagnostics, Vec::new(), stub(&faults.outline, name, &runtime)),
     };
     let messages = diagnostics.iter().map(|diagnostic| {

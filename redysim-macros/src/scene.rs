@@ -96,7 +96,8 @@ impl Parse for Pair {
 fn what_is_meant(span: Span) -> syn::Error {
     syn::Error::new(
         span,
-        "after the path of the model only `functions = [..]`, `locked = { .. }` and `tolerance = ..` can stand",
+        "after the path of the model only `functions = [..]`, `locked = { .. }`, `tolerance = ..` and `forward_dynamics = ..` \
+         can stand",
     )
 }
 

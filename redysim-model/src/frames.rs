@@ -21,17 +21,23 @@ const LENGTH_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
 const FARTHEST_FOOT: f64 = 4.0;
 
 /// The tree with every frame in its canonical place, whatever the frames of the model: by the common normal with the
-/// first child's axis, and for a body without children by its inertia.
-pub fn canonical(tree: &Tree) -> Tree {
+/// first child's axis, and for a body without children by its inertia. A change after which `keeps` is false is not
+/// made.
+pub fn canonical(tree: &Tree, keeps: impl Fn(&Tree) -> bool) -> Tree {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
         let first = tree.children(body).next();
         let turn = first.and_then(|child| turn_to_child(&tree, child)).or_else(|| turn_to_inertia(&tree, body));
         let slide = first.and_then(|child| slide_to_child(&tree, child)).or_else(|| slide_to_parent(&tree, body));
-        reframe(&mut tree, body, turn.unwrap_or(0.0), slide.unwrap_or(0.0));
+        let mut other = tree.clone();
+        reframe(&mut other, body, turn.unwrap_or(0.0), slide.unwrap_or(0.0));
+        if keeps(&other) {
+            tree = other;
+        }
     }
-    unify_lengths(&mut tree);
-    tree
+    let mut unified = tree.clone();
+    unify_lengths(&mut unified);
+    if keeps(&unified) { unified } else { tree }
 }
 
 /// Makes lengths that differ by roundoff only the same number, as they were before frames were turned and slid.

@@ -27,5 +27,5 @@ pub use load::Loaded;
 pub use lock::LockError;
 pub use mobility::Mobility;
 pub use model::{CutKind, CutSide, Inertia, JointKind, JointRange, Link, Loop, Model, Outline};
-pub use scene::{Functions, Scene, UnknownFunction};
+pub use scene::{AccelerationMethod, Functions, Scene, UnknownFunction};
 pub use tree::Tree;

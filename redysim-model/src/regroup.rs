@@ -64,7 +64,8 @@ fn sum(a: PseudoInertia<f64>, b: PseudoInertia<f64>) -> PseudoInertia<f64> {
     sum.without_roundoff()
 }
 
-fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
+/// Moves as much inertia of one body as possible to its parent.
+pub fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
     let body = &mut tree.bodies[index];
     let (own, shared) = split(body.joint, body.inertia, vanishing);
     body.inertia = own;

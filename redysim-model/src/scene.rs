@@ -35,6 +35,30 @@ pub struct Scene {
     /// The share of each joint's largest force by which joint forces, and of the largest of each of their results by
     /// which the mass matrix and accelerations, may be wrong within the ranges of the joints. `None` prunes nothing.
     pub tolerance: Option<f64>,
+    /// How forward dynamics is computed.
+    pub forward_dynamics: AccelerationMethod,
+}
+
+/// How compiled forward dynamics is computed: the key `forward_dynamics` of a model or a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AccelerationMethod {
+    /// `"auto"`: by the factorisation where that takes fewer operations and keeps the digits that the recursion keeps,
+    /// else by the recursion.
+    #[default]
+    Auto,
+    /// `"recursion"`: by the O(n) recursion over articulated bodies (ABA).
+    Recursion,
+    /// `"factorisation"`: by the factorisation U D Uᵀ of the explicit mass matrix (CRBA).
+    Factorisation,
+}
+
+impl AccelerationMethod {
+    /// Every method, with the name it has in a model.
+    pub const NAMES: [(&'static str, AccelerationMethod); 3] = [
+        ("auto", AccelerationMethod::Auto),
+        ("recursion", AccelerationMethod::Recursion),
+        ("factorisation", AccelerationMethod::Factorisation),
+    ];
 }
 
 /// A set of [`FUNCTIONS`]; by default all of them.

@@ -51,3 +51,34 @@ pub fn chain(count: usize, rod: impl Fn(usize) -> Rod) -> Tree {
     let links = (0..count).map(link).collect();
     Tree::new(&Model { name: "chain".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
 }
+
+/// A palm on a joint, with `fingers` chains of `joints` light links each.
+pub fn palm(fingers: usize, joints: usize) -> Tree {
+    let link = |index: usize| {
+        let (finger, joint) = ((index.max(1) - 1) / joints, (index.max(1) - 1) % joints);
+        let (mass, length) = if index == 0 { (1.0, 0.1) } else { (0.02, 0.03) };
+        let parent = if index == 0 { None } else { Some(if joint == 0 { 0 } else { index - 1 }) };
+        let start = match (index, joint) {
+            (0, _) => [0.0; 3],
+            (_, 0) => [0.1, 0.02 * finger as f64 - 0.04, 0.01],
+            _ => [length, 0.0, 0.0],
+        };
+        let inertia = mass * length * length;
+        Link {
+            name: format!("link{index}"),
+            joint_name: format!("joint{index}"),
+            parent,
+            joint: JointKind::Revolute,
+            placement: Pose { rotation: Mat3::identity(), position: Vec3(start) },
+            axis: Vec3(if joint == 0 { oblique(finger) } else { universal(joint) }),
+            offset: 0.0,
+            mass,
+            com: Vec3([length / 2.0, 0.0, 0.0]),
+            inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },
+            actuated: true,
+            range: None,
+        }
+    };
+    let links = (0..=fingers * joints).map(link).collect();
+    Tree::new(&Model { name: "palm".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
+}

@@ -1,14 +1,15 @@
 //! What the tests share.
-#![allow(dead_code, reason = "each test uses a part")]
+#![allow(dead_code, unused_imports, reason = "each test uses a part")]
 
 pub mod andrews;
 pub mod call;
 pub mod chains;
 pub mod comparison;
-pub mod double_double;
+pub use redysim_codegen::accuracy::double_double;
 pub mod dual;
 pub mod kane;
 pub mod methods;
 #[cfg(feature = "generic")]
 pub mod models;
 pub mod random;
+pub mod styles;

@@ -70,8 +70,8 @@ impl<'a> Finding<'a> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let (diagnostics, summary) = match Model::load(&arguments.model) {
         Ok(loaded) => {
-            let summary = (arguments.json || !quiet).then(|| Summary::of(&loaded));
-            (loaded.warnings, Ok(summary))
+            let summary = (arguments.json || !quiet).then(|| Summary::of(&loaded)).transpose();
+            (loaded.warnings, summary.map_err(Failure::input))
         }
         Err(faults) => match not_a_model(&arguments.model) {
             // Of its keys none is a model's: that goes without saying.

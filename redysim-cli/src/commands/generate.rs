@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use crate::failure::Failure;
 use crate::model;
 use crate::output::{print, tell, write_beside};
-use redysim_codegen::source_file_with;
+use redysim_codegen::{SourceError, source_file_with};
 use redysim_model::scene::FUNCTIONS;
 use redysim_model::{Loaded, Model};
 
@@ -43,8 +43,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let loaded = load(arguments, quiet)?;
     let name = arguments.name.clone().unwrap_or_else(|| type_name(&loaded.model.name));
-    let source = source_file_with(&loaded.model, &name, &loaded.scene)
-        .map_err(|error| Failure::input(error).help("give another name with --name"))?;
+    let source = source_file_with(&loaded.model, &name, &loaded.scene).map_err(|error| match error {
+        SourceError::InvalidName(_) => Failure::input(error).help("give another name with --name"),
+        _ => Failure::input(error),
+    })?;
     let Some(path) = &arguments.output else { return print(&source) };
     write_beside(&arguments.model, path, source.as_bytes(), arguments.force)?;
     if !quiet {

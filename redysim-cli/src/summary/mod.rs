@@ -3,6 +3,7 @@
 mod suspicions;
 mod table;
 
+use redysim_codegen::passes::ChangedValue;
 use redysim_model::{Link, Loaded, Mobility, Model, Tree};
 use redysim_runtime::OperationCount;
 use serde::{Serialize, Serializer};
@@ -96,17 +97,21 @@ fn counts<S: Serializer>(count: &OperationCount, serializer: S) -> Result<S::Ok,
 
 impl Summary {
     /// Of a checked model and what is asked of it: this traces every function.
-    pub fn of(loaded: &Loaded) -> Summary {
+    ///
+    /// # Errors
+    ///
+    /// If the generator's check of itself fails.
+    pub fn of(loaded: &Loaded) -> Result<Summary, ChangedValue> {
         let model = &loaded.model;
         let found = Mobility::of(model);
-        let (operations, unpruned) = redysim_codegen::operations(model, &loaded.scene);
+        let (operations, unpruned) = redysim_codegen::operations(model, &loaded.scene)?;
         let mut suspicions = suspicions::of(model, &found);
         suspicions.extend(unpruned);
         let joints = |actuated: bool| {
             let chosen = model.moving_links().filter(move |link| link.actuated == actuated);
             chosen.map(|link| link.joint_name.clone()).collect()
         };
-        Summary {
+        Ok(Summary {
             name: model.name.clone(),
             gravity: model.gravity.0,
             mass: model.links.iter().map(|link| link.mass).sum(),
@@ -124,7 +129,7 @@ impl Summary {
                 .map(|(function, count)| FunctionSummary { function, count })
                 .collect(),
             suspicions,
-        }
+        })
     }
 }
 

@@ -4,8 +4,10 @@ mod factors;
 mod squares;
 mod sums;
 mod terms;
+mod verification;
 
 use crate::expressions::Expressions;
+pub use verification::ChangedValue;
 
 /// Which passes are on. Each gives the same values with fewer operations; switched off, it shows what it gains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,64 +82,32 @@ impl Default for Passes {
 /// A pass over expressions.
 type Pass = fn(&Expressions) -> Expressions;
 
-/// The expressions after all passes over expressions that are on. In debug builds each is checked: the values before
-/// and after must agree.
-pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Expressions {
+/// The expressions after all passes over expressions that are on.
+///
+/// # Errors
+///
+/// In debug builds each pass is checked, and one that changes a value by more than rounding errors is reported.
+pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expressions, ChangedValue> {
     if !passes.loops {
         expressions.graph.forget_steps();
     }
     let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
-    let collected = sums(expressions);
+    let collected = sums(expressions)?;
     let price = collected.price();
-    let merged = applied("squares", passes.squares, squares::merged, collected);
-    let shared = applied("factors", passes.factors, factors::shared, merged);
+    let merged = applied("squares", passes.squares, squares::merged, collected)?;
+    let shared = applied("factors", passes.factors, factors::shared, merged)?;
     // What has moved has new neighbours.
-    if shared.price() < price { sums(shared) } else { shared }
+    if shared.price() < price { sums(shared) } else { Ok(shared) }
 }
 
 /// The expressions after a pass, if it is on and does not make them dearer.
-fn applied(name: &str, on: bool, pass: Pass, expressions: Expressions) -> Expressions {
+fn applied(name: &'static str, on: bool, pass: Pass, expressions: Expressions) -> Result<Expressions, ChangedValue> {
     if !on {
-        return expressions;
+        return Ok(expressions);
     }
     let simpler = pass(&expressions);
     if cfg!(debug_assertions) {
-        check::same_values(name, &expressions, &simpler);
+        verification::same_values(name, &expressions, &simpler)?;
     }
-    if simpler.price() <= expressions.price() { simpler } else { expressions }
-}
-
-mod check {
-    use crate::expressions::Expressions;
-    use crate::graph::Node;
-
-    /// Panics where the two differ by more than the roundoff of an ill-conditioned mechanism at a few points.
-    pub fn same_values(pass: &str, before: &Expressions, after: &Expressions) {
-        for seed in 1..=3_u64 {
-            let arguments = points(before, seed);
-            let arguments: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
-            let (old, new) = (before.evaluate(&arguments), after.evaluate(&arguments));
-            let scale = old.iter().fold(0.0_f64, |scale, value| scale.max(value.abs()));
-            for (index, (old, new)) in old.iter().zip(&new).enumerate() {
-                let same = (old - new).abs() <= 1e-6 * scale || old == new || (old.is_nan() && new.is_nan());
-                assert!(same, "the pass `{pass}` changed output {index} from {old:e} to {new:e}");
-            }
-        }
-    }
-
-    /// Values for every input, spread over ±1 by a fixed rule.
-    fn points(expressions: &Expressions, seed: u64) -> Vec<Vec<f64>> {
-        let mut points: Vec<Vec<f64>> = Vec::new();
-        for node in (0..expressions.graph.len()).map(|index| expressions.graph.node(index)) {
-            if let Node::Input { argument, index } = node {
-                let (argument, index) = (usize::from(argument), index as usize);
-                points.resize(points.len().max(argument + 1), Vec::new());
-                let values = &mut points[argument];
-                values.resize(values.len().max(index + 1), 0.0);
-                let golden = 0.618_033_988_749_895 * (seed * 1_000 + argument as u64 * 100 + index as u64 + 1) as f64;
-                values[index] = 2.0 * golden.fract() - 1.0;
-            }
-        }
-        points
-    }
+    Ok(if simpler.price() <= expressions.price() { simpler } else { expressions })
 }

@@ -19,7 +19,7 @@ mod states;
 use crate::expressions::Expressions;
 use crate::functions::Shape;
 use crate::graph::Edge;
-use crate::passes::{Passes, simplified};
+use crate::passes::{ChangedValue, Passes, simplified};
 use columns::{Columns, evaluate, live, sign};
 use measure::{scales, worst_error};
 use redysim_runtime::OperationCount;
@@ -65,7 +65,7 @@ pub fn pruned(
     states: &States,
     tolerance: f64,
     passes: &Passes,
-) -> (Expressions, Pruning) {
+) -> Result<(Expressions, Pruning), ChangedValue> {
     let before = whole.count();
     let mut sample = sample(whole, shape, states);
     let scales = sample.allowed.clone();
@@ -86,7 +86,7 @@ pub fn pruned(
     let mut last = Pruning { tolerance, before, worst: f64::INFINITY, states: 0, holds: false };
     for attempt in 0..ATTEMPTS {
         sample.allowed = scales.iter().map(|scale| aim * scale).collect();
-        let candidate = rounds(whole, &sample, passes);
+        let candidate = rounds(whole, &sample, passes)?;
         if least.as_ref().is_some_and(|(least, _)| candidate.price() >= least.price()) {
             held = aim;
         } else {
@@ -103,7 +103,7 @@ pub fn pruned(
         }
         aim = if held > 0.0 { 0.5 * (held + broken) } else { aim * (0.95 * bound / last.worst).max(0.1) };
     }
-    least.unwrap_or((whole.clone(), last))
+    Ok(least.unwrap_or((whole.clone(), last)))
 }
 
 /// The sample on which a function is judged; of its outputs the scale stands for what is allowed.
@@ -130,14 +130,14 @@ fn sample(whole: &Expressions, shape: Shape, states: &States) -> Sample {
     }
 }
 
-fn rounds(whole: &Expressions, sample: &Sample, passes: &Passes) -> Expressions {
+fn rounds(whole: &Expressions, sample: &Sample, passes: &Passes) -> Result<Expressions, ChangedValue> {
     let mut least = whole.clone();
     for _ in 0..ROUNDS {
-        let next = simplified(round(&least, sample), passes);
+        let next = simplified(round(&least, sample), passes)?;
         if next.price() >= least.price() {
             break;
         }
         least = next;
     }
-    least
+    Ok(least)
 }

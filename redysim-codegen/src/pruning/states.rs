@@ -2,6 +2,7 @@
 
 use super::columns::{Columns, evaluate, live, sign};
 use crate::expressions::Expressions;
+use crate::random::Random;
 use redysim_model::JointRange;
 
 /// Where the arguments of a function come from.
@@ -18,7 +19,7 @@ impl States<'_> {
     /// In half of the states velocities, in half accelerations are at their limits, in every eighth so are coordinates:
     /// joint forces are linear in accelerations and quadratic in velocities, so that this is where terms are largest.
     pub fn arguments(&self, states: usize, seed: u64) -> Vec<Columns> {
-        let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        let mut random = Random::new(seed);
         let joints = self.ranges.len();
         let [mut q, mut v, mut a] = [0; 3].map(|_| Columns::new(joints, states));
         for state in 0..states {
@@ -43,23 +44,5 @@ impl States<'_> {
         }
         let [q, v, _] = <[Columns; 3]>::try_from(motion).expect("three arguments");
         vec![q, v, tau]
-    }
-}
-
-/// The generator SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A number within ±1; one of the two ends if `at_end`.
-    fn share(&mut self, at_end: bool) -> f64 {
-        let within = 2.0 * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64 - 1.0;
-        if at_end { 1.0_f64.copysign(within) } else { within }
     }
 }

@@ -5,15 +5,15 @@
 //! part of h × a. For each body the mass on its axis is tried that cancels one number of its parent's, and kept where
 //! the count falls.
 
-use super::Cost;
 use super::neighbourhood::neighbourhood;
+use super::{Cost, Keeps};
 use redysim_model::Tree;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::{AxisMass, take_from_parent};
 use redysim_model::tree::Joint;
 
-/// The tree, of base parameters, with masses on its axes where they lower the cost.
-pub fn placed(tree: &Tree, cost: Cost) -> Tree {
+/// The tree, of base parameters, with masses on its axes where they lower the cost and are kept.
+pub fn placed(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
         if tree.bodies[body].parent.is_none() || tree.bodies[body].joint == Joint::Prismatic {
@@ -34,7 +34,11 @@ pub fn placed(tree: &Tree, cost: Cost) -> Tree {
                 }
             }
             if let Some(mass) = best {
-                take_from_parent(&mut tree, body, mass);
+                let mut other = tree.clone();
+                take_from_parent(&mut other, body, mass);
+                if keeps(&other) {
+                    tree = other;
+                }
             }
         }
     }

@@ -3,28 +3,28 @@
 //! The search starts from [canonical](redysim_model::frames::canonical) frames, so that it ends the same wherever the
 //! model put its own, and tries for each body the few places that can make a constant vanish.
 
-use super::Cost;
 use super::neighbourhood::neighbourhood;
+use super::{Cost, Keeps};
 use redysim_model::Tree;
 use redysim_model::frames::{
     canonical, reframe, slide_to_child, slide_to_parent, turn_to_child, turn_to_inertia, turn_to_principal_axis,
 };
 use redysim_model::regroup::{Vanishing, base_parameters};
 
-/// The tree with frames chosen anew.
-pub fn chosen(tree: &Tree, cost: Cost) -> Tree {
-    let mut best = canonical(tree);
+/// The tree with frames chosen anew, as far as they are kept.
+pub fn chosen(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
+    let mut best = canonical(tree, keeps);
     for body in (0..best.bodies.len()).rev() {
         for candidates in [turns, slides] {
             let changes = candidates(&best, body);
-            improve(&mut best, body, &changes, cost);
+            improve(&mut best, body, &changes, cost, keeps);
         }
     }
     best
 }
 
 /// Applies the cheapest of the changes (angle, distance) to the frame of `body`, if it is cheaper than none.
-fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost) {
+fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost, keeps: Keeps) {
     let part = neighbourhood(tree, body);
     let local = part.index_of(body).expect("the body itself");
     let cost = |tree: &Tree| {
@@ -43,7 +43,11 @@ fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost) 
         }
     }
     if let Some((angle, distance)) = best {
-        reframe(tree, body, angle, distance);
+        let mut other = tree.clone();
+        reframe(&mut other, body, angle, distance);
+        if keeps(&other) {
+            *tree = other;
+        }
     }
 }
 

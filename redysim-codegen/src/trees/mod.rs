@@ -9,20 +9,38 @@ pub mod neighbourhood;
 pub mod still;
 pub mod units;
 
+use crate::accuracy::{Quantity, Reference};
 use crate::expressions::Expressions;
-use crate::functions::traced;
+use crate::functions::as_traced;
 use crate::passes::Passes;
-use redysim_model::regroup::{Vanishing, base_parameters};
+use redysim_model::regroup::{Vanishing, move_to_parent};
 use redysim_model::{Tree, denoc};
 use std::cell::OnceCell;
 
 /// What a function costs on a tree, in operations.
 pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
+/// Whether a tree keeps the digits that the model's own description has.
+pub type Keeps<'a> = &'a dyn Fn(&Tree) -> bool;
+
+/// By how much more digits may be lost in another description of the robot than in the model's own.
+const MOST_LOST: f64 = 2.0;
+/// What is computed on the tree for inverse dynamics and bias forces.
+const FORCES: &[Quantity] = &[Quantity::Forces, Quantity::BiasForces];
+/// What is computed on the tree for the mass matrix and gravity.
+const MATRIX: &[Quantity] = &[Quantity::Matrix, Quantity::GravityForces];
+/// What is lost in any description: a few roundings.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// The same robot as different functions want it. What no function asks for is never made.
+///
+/// A pass that would cost digits is taken as far as it does not: for the whole robot if that keeps them, else body by
+/// body.
 pub struct Trees<'a> {
     tree: &'a Tree,
     passes: &'a Passes,
+    reference: &'a Reference<'a>,
+    /// What the model's own description loses.
+    lost: OnceCell<[f64; Quantity::ALL.len()]>,
     plain: OnceCell<Tree>,
     base: OnceCell<Tree>,
     matrix: OnceCell<Tree>,
@@ -30,39 +48,83 @@ pub struct Trees<'a> {
 }
 
 impl<'a> Trees<'a> {
-    /// What the given passes make of one tree.
-    pub fn new(tree: &'a Tree, passes: &'a Passes) -> Self {
+    /// What the given passes make of one tree, of which `reference` has the exact numbers.
+    pub fn new(tree: &'a Tree, passes: &'a Passes, reference: &'a Reference<'a>) -> Self {
         let [plain, base, matrix, bias] = [const { OnceCell::new() }; 4];
-        Trees { tree, passes, plain, base, matrix, bias }
+        Trees { tree, passes, reference, lost: OnceCell::new(), plain, base, matrix, bias }
+    }
+
+    /// The exact numbers of the robot.
+    pub fn reference(&self) -> &Reference<'a> {
+        self.reference
+    }
+
+    /// Whether a description of the robot keeps the digits of what is computed on it.
+    fn keeps(&self, tree: &Tree, quantities: &[Quantity]) -> bool {
+        quantities.iter().all(|&quantity| self.reference.lost_on(tree, quantity) <= self.bearable(quantity))
+    }
+
+    /// How much of a quantity may be lost.
+    pub fn bearable(&self, quantity: Quantity) -> f64 {
+        let least = self.lost.get_or_init(|| Quantity::ALL.map(|quantity| self.reference.lost_on(self.tree, quantity)));
+        MOST_LOST * least[quantity as usize].max(ROUNDINGS)
+    }
+
+    /// The descriptions on which a quantity may be computed, from the cheapest to the model's own.
+    pub fn descriptions(&'a self, quantity: Quantity) -> [&'a Tree; 3] {
+        let cheapest = match quantity {
+            Quantity::Forces | Quantity::BiasForces => self.bias(),
+            Quantity::Matrix | Quantity::GravityForces => self.matrix(),
+            Quantity::Accelerations => self.plain(),
+        };
+        [cheapest, self.plain(), self.tree]
     }
 
     /// With the inertias as they are.
     pub fn plain(&self) -> &Tree {
         self.plain.get_or_init(|| {
             if self.passes.frames {
-                frames::chosen(self.tree, &|tree| inverse_price(tree) + matrix_price(tree))
+                let cost = |tree: &Tree| inverse_price(tree) + matrix_price(tree);
+                self.as_far_as_kept(&Quantity::ALL, |keeps| frames::chosen(self.tree, &cost, keeps))
             } else {
                 self.tree.clone()
             }
         })
     }
 
+    /// What `pass` makes of the robot if nothing stops it; where that costs digits, what it makes if each of its steps
+    /// must keep them.
+    fn as_far_as_kept(&self, quantities: &[Quantity], pass: impl Fn(Keeps) -> Tree) -> Tree {
+        let all = pass(&|_| true);
+        if self.keeps(&all, quantities) { all } else { pass(&|tree| self.keeps(tree, quantities)) }
+    }
+
     /// Of base parameters: joint forces, the mass matrix and the energies of the whole mechanism are the same for them.
     fn base(&self) -> &Tree {
-        self.base.get_or_init(|| {
-            if self.passes.base_parameters {
-                base_parameters(self.plain(), Vanishing::SecondMomentZz)
-            } else {
-                self.plain().clone()
+        self.base.get_or_init(|| self.regrouped(Vanishing::SecondMomentZz))
+    }
+
+    fn regrouped(&self, vanishing: Vanishing) -> Tree {
+        let plain = self.plain();
+        if !self.passes.base_parameters {
+            return plain.clone();
+        }
+        self.as_far_as_kept(&[FORCES, MATRIX].concat(), |keeps| {
+            let mut tree = plain.clone();
+            for body in (0..tree.bodies.len()).rev() {
+                let mut other = tree.clone();
+                move_to_parent(&mut other, body, vanishing);
+                if keeps(&other) {
+                    tree = other;
+                }
             }
+            tree
         })
     }
 
     /// For the energies, one to be chosen.
     pub fn energy(&self) -> Vec<Tree> {
-        let plain = self.plain();
-        let own = if self.passes.base_parameters { base_parameters(plain, Vanishing::TensorYy) } else { plain.clone() };
-        vec![own, self.matrix().clone()]
+        vec![self.regrouped(Vanishing::TensorYy), self.matrix().clone()]
     }
 
     /// For positions and velocities, one to be chosen.
@@ -74,32 +136,36 @@ impl<'a> Trees<'a> {
     /// For the mass matrix and for gravity.
     pub fn matrix(&self) -> &Tree {
         self.matrix.get_or_init(|| {
-            let mut matrix = self.base().clone();
-            if self.passes.parallel_axes {
-                matrix = still::stilled(&matrix, &matrix_price);
-            }
-            if self.passes.units {
-                matrix = units::chosen(&matrix, &mass_matrix(&matrix));
-            }
-            matrix
+            let stilled = self.stilled(MATRIX, &matrix_price);
+            self.in_unit(MATRIX, stilled, mass_matrix)
         })
     }
 
     /// For inverse dynamics and bias forces.
     pub fn bias(&self) -> &Tree {
         self.bias.get_or_init(|| {
-            let mut bias = self.base().clone();
-            if self.passes.parallel_axes {
-                bias = still::stilled(&bias, &inverse_price);
-            }
+            let mut bias = self.stilled(FORCES, &inverse_price);
             if self.passes.base_parameters && self.passes.axis_masses {
-                bias = axis_masses::placed(&bias, &inverse_price);
+                bias = self.as_far_as_kept(FORCES, |keeps| axis_masses::placed(&bias, &inverse_price, keeps));
             }
-            if self.passes.units {
-                bias = units::chosen(&bias, &inverse_dynamics(&bias));
-            }
-            bias
+            self.in_unit(FORCES, bias, inverse_dynamics)
         })
+    }
+
+    fn stilled(&self, quantities: &[Quantity], cost: Cost) -> Tree {
+        if self.passes.parallel_axes {
+            self.as_far_as_kept(quantities, |keeps| still::stilled(self.base(), cost, keeps))
+        } else {
+            self.base().clone()
+        }
+    }
+
+    fn in_unit(&self, quantities: &[Quantity], tree: Tree, expressions: fn(&Tree) -> Expressions) -> Tree {
+        if !self.passes.units {
+            return tree;
+        }
+        let other = units::chosen(&tree, &expressions(&tree));
+        if self.keeps(&other, quantities) { other } else { tree }
     }
 }
 
@@ -114,9 +180,9 @@ fn matrix_price(tree: &Tree) -> u32 {
 /// What inverse dynamics and the mass matrix cost, without the passes over expressions: these take most of the time,
 /// and what they gain differs little from choice to choice.
 fn inverse_dynamics(tree: &Tree) -> Expressions {
-    traced(tree, &Passes::none(), 3, |x| denoc::inverse_dynamics(tree, x[0], x[1], x[2]))
+    as_traced(tree, 3, |x| denoc::inverse_dynamics(tree, x[0], x[1], x[2]))
 }
 
 fn mass_matrix(tree: &Tree) -> Expressions {
-    traced(tree, &Passes::none(), 1, |x| denoc::mass_matrix(tree, x[0]).concat())
+    as_traced(tree, 1, |x| denoc::mass_matrix(tree, x[0]).concat())
 }

@@ -4,15 +4,16 @@
 //! joint: what is fixed to the parent is turned by its angle, a few constants, and everything that passes between the
 //! child and the rest of the tree is turned once, by the sum of the two angles, instead of twice.
 
-use super::Cost;
 use super::neighbourhood::neighbourhood;
+use super::{Cost, Keeps};
 use redysim_model::Tree;
 
-/// The tree, with those bodies in still axes for which that lowers the cost: one after the other, or all at once.
-pub fn stilled(tree: &Tree, cost: Cost) -> Tree {
-    let one_by_one = one_by_one(tree, cost);
+/// The tree, with those bodies in still axes for which that lowers the cost and that are kept: one after the other, or
+/// all at once.
+pub fn stilled(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
+    let one_by_one = one_by_one(tree, cost, keeps);
     match everywhere(tree) {
-        Some(all) if cost(&all) < cost(&one_by_one) => all,
+        Some(all) if cost(&all) < cost(&one_by_one) && keeps(&all) => all,
         _ => one_by_one,
     }
 }
@@ -27,7 +28,7 @@ pub fn everywhere(tree: &Tree) -> Option<Tree> {
     all.bodies.iter().any(|body| body.still).then_some(all)
 }
 
-fn one_by_one(tree: &Tree, cost: Cost) -> Tree {
+fn one_by_one(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
     let mut tree = tree.clone();
     for body in 0..tree.bodies.len() {
         let beside = |child: usize| tree.bodies[child].is_parallel();
@@ -43,6 +44,9 @@ fn one_by_one(tree: &Tree, cost: Cost) -> Tree {
         other.bodies[local].still = true;
         if cost(&other) < cost(&part.tree) {
             tree.bodies[body].still = true;
+            if !keeps(&tree) {
+                tree.bodies[body].still = false;
+            }
         }
     }
     tree

@@ -1,7 +1,7 @@
 //! What is asked of the model: things that it has.
 
 use crate::diagnostic::{Findings, messages};
-use crate::scene::{Functions, Scene};
+use crate::scene::{AccelerationMethod, Functions, Scene};
 use crate::schema::{Document, Entry};
 
 /// The functions that only a mechanism with loops has begin with this.
@@ -17,7 +17,10 @@ pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scen
         });
     }
     let functions = if said.is_missing() { Functions::ALL } else { said.value()?.set() };
-    Some(Scene { functions, tolerance: tolerance(document, findings)? })
+    let forward_dynamics = &document.scene.forward_dynamics.said;
+    let forward_dynamics =
+        if forward_dynamics.is_missing() { AccelerationMethod::Auto } else { *forward_dynamics.value()? };
+    Some(Scene { functions, tolerance: tolerance(document, findings)?, forward_dynamics })
 }
 
 /// The tolerance, which needs the range of every joint that moves; `Some(None)` without one.

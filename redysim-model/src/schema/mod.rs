@@ -82,8 +82,10 @@ pub(crate) struct Document {
     pub(crate) scene: SceneTable,
 }
 
-const MODEL: Shape =
-    Shape { owner: "A model", keys: &["name", "gravity", "link", "loop", "functions", "locked", "tolerance"] };
+const MODEL: Shape = Shape {
+    owner: "A model",
+    keys: &["name", "gravity", "link", "loop", "functions", "locked", "tolerance", "forward_dynamics"],
+};
 
 impl Document {
     /// Reads the file's tree, and that of the scene beside it.

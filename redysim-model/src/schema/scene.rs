@@ -5,7 +5,7 @@ use super::{Field, LinkTable};
 use crate::diagnostic::{Findings, Text, messages};
 use crate::lock::by_name;
 use crate::model::JointKind;
-use crate::scene::{FUNCTIONS, Functions};
+use crate::scene::{AccelerationMethod, FUNCTIONS, Functions};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -18,6 +18,7 @@ pub(crate) struct SceneTable {
     /// joints.
     pub(crate) locked: Entry<Vec<Lock>>,
     pub(crate) tolerance: Entry<Field<f64>>,
+    pub(crate) forward_dynamics: Entry<Field<AccelerationMethod>>,
 }
 
 /// A joint held at a value.
@@ -49,7 +50,7 @@ impl FunctionNames {
     }
 }
 
-const SCENE: Shape = Shape { owner: "A scene", keys: &["functions", "locked", "tolerance"] };
+const SCENE: Shape = Shape { owner: "A scene", keys: &["functions", "locked", "tolerance", "forward_dynamics"] };
 
 impl SceneTable {
     /// Reads the keys of a scene from the file and from what is beside it. `links` are there if all can be read.
@@ -65,6 +66,7 @@ impl SceneTable {
         SceneTable {
             functions: first(beside.functions, in_file.functions),
             tolerance: first(beside.tolerance, in_file.tolerance),
+            forward_dynamics: first(beside.forward_dynamics, in_file.forward_dynamics),
             locked: match beside.locked {
                 None => Entry { text: Text::File, said: in_file.locked.unwrap_or_default() },
                 Some(said) => Entry { text: Text::Scene, said },
@@ -78,6 +80,7 @@ struct Keys {
     functions: Field<FunctionNames>,
     locked: Option<Vec<Lock>>,
     tolerance: Field<f64>,
+    forward_dynamics: Field<AccelerationMethod>,
 }
 
 impl Keys {
@@ -86,6 +89,7 @@ impl Keys {
             functions: functions(&mut reader),
             locked: locked(&mut reader, links),
             tolerance: tolerance(&mut reader),
+            forward_dynamics: forward_dynamics(&mut reader),
         }
     }
 }
@@ -104,6 +108,18 @@ fn tolerance(reader: &mut Reader<'_, '_>) -> Field<f64> {
             return reader.fault(value, messages::bad_tolerance(reader.item(), tolerance));
         }
         Some(tolerance)
+    })
+}
+
+fn forward_dynamics(reader: &mut Reader<'_, '_>) -> Field<AccelerationMethod> {
+    reader.field("forward_dynamics", |reader, path, value| {
+        let DeValue::String(text) = value.get_ref() else {
+            return reader.wrong_type(path, value, "the name of a way to compute accelerations");
+        };
+        match AccelerationMethod::NAMES.iter().find(|(name, _)| *name == text.as_ref()) {
+            Some((_, method)) => Some(*method),
+            None => reader.fault(value, messages::unknown_acceleration_method(reader.item(), text)),
+        }
     })
 }
 

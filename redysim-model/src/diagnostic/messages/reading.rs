@@ -54,6 +54,7 @@ const EXAMPLES: &[(&str, &str, &str)] = &[
     ("range.acceleration", "acceleration = 10.0", "the largest in either direction; without a unit rad/s² or m/s²"),
     ("range.force", "force = 40.0", "N m or N, of which the tolerance is a share; default: the largest that occurs"),
     ("tolerance", "tolerance = 1e-3", "the error allowed, as a share of each joint's largest force"),
+    ("forward_dynamics", "forward_dynamics = \"recursion\"", "`auto`, `recursion` or `factorisation`; default: `auto`"),
     ("link_a", "link_a = \"crank\"", "a link, or `base`"),
     ("link_b", "link_b = \"base\"", "a link, or `base`"),
     ("point_a", "point_a = [0.1, 0.0, 0.0]", "m, in the frame of link a"),

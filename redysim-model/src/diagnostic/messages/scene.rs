@@ -2,7 +2,7 @@
 
 use super::super::Message;
 use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
-use crate::scene::FUNCTIONS;
+use crate::scene::{AccelerationMethod, FUNCTIONS};
 
 pub(crate) fn unknown_function(item: &str, name: &str) -> Message {
     let meant = did_you_mean(nearest(name, FUNCTIONS));
@@ -63,6 +63,20 @@ pub(crate) fn nothing_moves_unlocked(item: &str) -> Message {
         format!("{item}: every joint is fixed or locked, so nothing moves"),
         "locks the last joint that moves",
         "leave at least one joint unlocked",
+    )
+}
+
+pub(crate) fn unknown_acceleration_method(item: &str, name: &str) -> Message {
+    let names = AccelerationMethod::NAMES.map(|(name, _)| name);
+    let meant = did_you_mean(nearest(name, names));
+    message(
+        format!("{item}: `forward_dynamics` is {}, but there is no such way to compute accelerations", quoted(name)),
+        "no such way",
+        format!(
+            "{meant}The ways are: {}; with `auto`, the default, the generator takes the factorisation where it is cheaper \
+             and keeps the digits that the recursion keeps",
+            names.join(", ")
+        ),
     )
 }
 

@@ -3,7 +3,7 @@
 //! A value is an unevaluated sum of two `f64`. Sums and products follow Dekker, "A floating-point technique for
 //! extending the available precision", Numerische Mathematik 18, 1971, with Knuth's branch-free exact sum.
 
-use redysim::Scalar;
+use redysim_runtime::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// `high` + `low`, with |low| at most half a unit in the last place of `high`.

@@ -1,0 +1,217 @@
+//! How many digits a way to compute a function loses, measured at states of the robot at hand.
+//!
+//! The numbers to compare with come from the recursions on the model as it is, in [double-double](double_double)
+//! arithmetic. Errors are taken in the metric of the mass matrix, in which a heavy joint and a light one count alike:
+//! of accelerations √M_ii |Δa_i| as a share of the largest √M_jj |a_j|, of forces |Δτ_i| / √M_ii as a share of the
+//! largest |τ_j| / √M_jj, of the mass matrix |ΔM_ij| as a share of √(M_ii M_jj).
+
+pub mod double_double;
+pub mod rounding;
+
+use crate::random::Random;
+use double_double::{exact, rounded};
+use redysim_model::Tree;
+use redysim_model::denoc::{self, Method};
+use redysim_model::tree::Joint;
+use std::cell::OnceCell;
+use std::f64::consts::PI;
+
+/// Joints times states: how much is measured.
+const JOINT_STATES: usize = 240;
+/// The most states of each kind at which a robot is measured.
+const MOST_STATES: usize = 16;
+/// The fewest.
+const FEWEST_STATES: usize = 2;
+/// With more joints the mass matrix is left out: its n² elements in double-double take seconds.
+const LARGEST_MATRIX: usize = 100;
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The joint forces that inverse dynamics gives.
+    Forces,
+    /// The joint forces at zero acceleration.
+    BiasForces,
+    /// The joint forces at rest.
+    GravityForces,
+    /// The mass matrix.
+    Matrix,
+    /// The accelerations that forward dynamics gives.
+    Accelerations,
+}
+
+impl Quantity {
+    /// Every quantity.
+    pub const ALL: [Quantity; 5] =
+        [Quantity::Forces, Quantity::BiasForces, Quantity::GravityForces, Quantity::Matrix, Quantity::Accelerations];
+}
+
+/// What the functions of a robot are, to all digits of `f64`, at states spread over its workspace.
+///
+/// They are computed when they are first asked for.
+pub struct Reference<'a> {
+    tree: &'a Tree,
+    seed: u64,
+    states: OnceCell<Vec<State>>,
+}
+
+/// A motion for which a robot is measured. A loss is the largest error in the states of one kind as a share of the
+/// largest number in them, so that a sum which happens to vanish in one state counts for no more than its terms do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// All joints move at like speeds.
+    LikeSpeeds,
+    /// All joints move with like energies: of light links between heavy ones this shows what like speeds do not.
+    LikeEnergies,
+    /// At rest, and let go.
+    Rest,
+}
+
+impl Kind {
+    const ALL: [Kind; 3] = [Kind::LikeSpeeds, Kind::LikeEnergies, Kind::Rest];
+}
+
+struct State {
+    kind: Kind,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    /// Forces for which accelerations are asked.
+    tau: Vec<f64>,
+    /// √M_ii.
+    weights: Vec<f64>,
+    /// The forces of `a`, those at zero acceleration and those at rest.
+    forces: Vec<f64>,
+    bias: Vec<f64>,
+    gravity: Vec<f64>,
+    /// The accelerations of `tau`.
+    accelerations: Vec<f64>,
+    /// By rows; empty for a large robot.
+    matrix: Vec<f64>,
+}
+
+impl<'a> Reference<'a> {
+    /// The robot `tree`, at coordinates within ±π rad or ±1 m.
+    pub fn new(tree: &'a Tree) -> Self {
+        Reference::at(tree, 0)
+    }
+
+    /// The same at other states, which another `seed` gives.
+    pub fn at(tree: &'a Tree, seed: u64) -> Self {
+        Reference { tree, seed, states: OnceCell::new() }
+    }
+
+    /// States at which a number is not finite, as where the mass matrix is singular, are left out.
+    fn states(&self) -> &[State] {
+        self.states.get_or_init(|| {
+            let count = (JOINT_STATES / self.tree.dof().max(1)).clamp(FEWEST_STATES, MOST_STATES);
+            let kinds = (0..count).flat_map(|index| Kind::ALL.map(|kind| (index, kind)));
+            kinds.filter_map(|(index, kind)| State::new(self.tree, self.seed, index, kind)).collect()
+        })
+    }
+
+    /// What the recursion for `quantity` loses in `f64` on `tree`, another description of the robot.
+    pub fn lost_on(&self, tree: &Tree, quantity: Quantity) -> f64 {
+        self.lost_by(quantity, |x| match quantity {
+            Quantity::Forces => denoc::inverse_dynamics(tree, x[0], x[1], x[2]),
+            Quantity::BiasForces => denoc::bias_forces(tree, x[0], x[1]),
+            Quantity::GravityForces => denoc::gravity_forces(tree, x[0]),
+            Quantity::Matrix => denoc::mass_matrix(tree, x[0]).concat(),
+            Quantity::Accelerations => denoc::forward_dynamics(Method::Recursion, tree, x[0], x[1], x[2]),
+        })
+    }
+
+    /// What `function` loses, which computes `quantity`, the mass matrix by rows, from coordinates, velocities, and
+    /// accelerations or forces.
+    pub fn lost_by(&self, quantity: Quantity, function: impl Fn(&[&[f64]]) -> Vec<f64>) -> f64 {
+        self.losses_by(quantity, function).into_iter().fold(0.0, worse)
+    }
+
+    /// The same for each kind of motion: at like speeds of the joints, with like energies, and at rest. What loses
+    /// nothing in one of them may lose all digits in another.
+    pub fn losses_by(&self, quantity: Quantity, function: impl Fn(&[&[f64]]) -> Vec<f64>) -> [f64; 3] {
+        self.losses(|state| {
+            let State { q, v, a, tau, weights, forces, bias, gravity, accelerations, matrix, .. } = state;
+            let joints = weights.len();
+            let of_forces = |expected| extremes(&function(&[q, v, a]), expected, |i| 1.0 / weights[i]);
+            match quantity {
+                Quantity::Forces => of_forces(forces),
+                Quantity::BiasForces => of_forces(bias),
+                Quantity::GravityForces => of_forces(gravity),
+                Quantity::Matrix if matrix.is_empty() => Extremes::default(),
+                Quantity::Matrix => {
+                    extremes(&function(&[q]), matrix, |k| 1.0 / (weights[k / joints] * weights[k % joints]))
+                }
+                Quantity::Accelerations => extremes(&function(&[q, v, tau]), accelerations, |i| weights[i]),
+            }
+        })
+    }
+
+    fn losses(&self, extremes: impl Fn(&State) -> Extremes) -> [f64; 3] {
+        let of_kind = |kind: Kind| {
+            let states = self.states().iter().filter(|state| state.kind == kind);
+            let worst = states.map(&extremes).fold(Extremes::default(), |a, b| Extremes {
+                error: worse(a.error, b.error),
+                size: a.size.max(b.size),
+            });
+            if worst.error == 0.0 { 0.0 } else { worst.error / worst.size }
+        };
+        Kind::ALL.map(of_kind)
+    }
+}
+
+impl State {
+    /// State number `index` of a kind; `None` if something is not finite there.
+    fn new(tree: &Tree, seed: u64, index: usize, kind: Kind) -> Option<Self> {
+        let joints = tree.dof();
+        let mut random = Random::new(1000 * seed + 10 * index as u64 + kind as u64 + 1);
+        let mut shares = || (0..joints).map(|_| random.share(false)).collect::<Vec<f64>>();
+        let [mut q, mut v, mut a] = [shares(), shares(), shares()];
+        for body in &tree.bodies {
+            q[body.coordinate] *= if body.joint == Joint::Prismatic { 1.0 } else { PI };
+        }
+        let diagonal = denoc::mass_matrix(tree, &q).into_iter().enumerate().map(|(joint, row)| row[joint]);
+        let weights: Vec<f64> = diagonal.map(f64::sqrt).collect();
+        for joint in 0..joints {
+            let speed = match kind {
+                Kind::LikeSpeeds => 1.0,
+                Kind::LikeEnergies => 1.0 / weights[joint],
+                Kind::Rest => 0.0,
+            };
+            v[joint] *= 3.0 * speed;
+            a[joint] *= 10.0 * speed;
+        }
+        let nothing = vec![0.0; joints];
+        let forces_of = |v: &[f64], a: &[f64]| rounded(denoc::inverse_dynamics(tree, &exact(&q), &exact(v), &exact(a)));
+        let [forces, bias, gravity] = [(&v, &a), (&v, &nothing), (&nothing, &nothing)].map(|(v, a)| forces_of(v, a));
+        let tau = if kind == Kind::Rest { nothing } else { forces.clone() };
+        let accelerations =
+            rounded(denoc::forward_dynamics(Method::Recursion, tree, &exact(&q), &exact(&v), &exact(&tau)));
+        let matrix =
+            if joints > LARGEST_MATRIX { Vec::new() } else { rounded(denoc::mass_matrix(tree, &exact(&q)).concat()) };
+        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        let positive = weights.iter().all(|&weight| weight > 0.0);
+        let usable =
+            positive && [&forces, &bias, &gravity, &accelerations, &matrix].into_iter().all(|values| finite(values));
+        usable.then_some(State { kind, q, v, a, tau, weights, forces, bias, gravity, accelerations, matrix })
+    }
+}
+
+/// The largest weighed difference, and the largest weighed number.
+#[derive(Default)]
+struct Extremes {
+    error: f64,
+    size: f64,
+}
+
+fn extremes(found: &[f64], expected: &[f64], weight: impl Fn(usize) -> f64) -> Extremes {
+    let of =
+        |values: &mut dyn Iterator<Item = f64>| values.enumerate().map(|(i, x)| x.abs() * weight(i)).fold(0.0, worse);
+    let error = of(&mut found.iter().zip(expected).map(|(x, y)| x - y));
+    Extremes { error, size: of(&mut expected.iter().copied()) }
+}
+
+/// The larger of two errors, of which one that is not a number is the largest.
+fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
+}
