@@ -66,21 +66,19 @@ fn deviations(q: [f64; DOF], v: [f64; DOF]) -> [f64; 2] {
     })
 }
 
-/// An angle of a million radians is itself known to 6e-11 rad only, and where two parallel axes share one angle, their
-/// sum is rounded to as much. Sine and cosine lose nothing there: `redysim-runtime/tests/trigonometry.rs`.
+/// Two parallel axes share one angle, whose rounding would be 6e-11 rad if whole turns were not taken off first.
 #[test]
-fn a_million_radians_cost_what_the_angles_are_rounded_to_and_a_million_radians_per_second_nothing() {
+fn a_million_radians_and_a_million_radians_per_second_cost_no_digits() {
     let mut random = Random::new(9);
-    for (angle, speed) in [(3.0, 3.0), (1e6, 3.0), (3.0, 1e6), (1e6, 1e6)] {
+    for (angle, speed) in [(3.0, 3.0), (1e3, 3.0), (1e6, 3.0), (3.0, 1e6), (1e6, 1e6)] {
         let worst = (0..50).fold([0.0_f64; 2], |worst, _| {
             let mut vector = |size| <[f64; DOF]>::try_from(random.vector(DOF, size)).expect("a number for each joint");
             let found = deviations(vector(angle), vector(speed));
             [worst[0].max(found[0]), worst[1].max(found[1])]
         });
         println!("{angle:e} rad, {speed:e} rad/s: inverse {:.1e}, forward {:.1e}", worst[0], worst[1]);
-        let rounding = 4.0 * f64::EPSILON * angle;
         // Accelerations are as sensitive as inertias that span five orders make them.
-        assert!(worst[0] <= 1e-14 + rounding && worst[1] <= 1e-12 + 10.0 * rounding, "{worst:?}");
+        assert!(worst[0] <= 1e-14 && worst[1] <= 1e-12, "{worst:?}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! The compiled type: constants, functions and traits of one mechanism.
 
 use crate::documentation;
-use crate::emit::{Angles, COS, SIN, Vocabulary, function_body, local};
+use crate::emit::{Angles, COS, SIN, Vocabulary, function_body, local, without_turns};
 use crate::expressions::Expressions;
 use crate::functions::{Function, SIGNATURES, Signature, TraceError, trace_of, trace_scene};
 use crate::passes::{ChangedValue, Passes};
@@ -185,8 +185,9 @@ impl Writer<'_> {
     fn posture(&self) -> TokenStream {
         let head = posture_head(self.outline.joints.len(), self.angles.len(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
-        let angles = self.angles.expressions(0..self.angles.len());
+        let (terms, angles) = (self.terms_of_sums(0..self.angles.len()), self.angles.expressions(0..self.angles.len()));
         let body = with_target_features(&quote! {
+            #terms
             let (sin, cos) = S::sin_cos_all([#(#angles),*]);
             #runtime::Posture::new(#q, &sin, &cos)
         });
@@ -198,6 +199,14 @@ impl Writer<'_> {
                 #body
             }
         }
+    }
+
+    /// The statement that takes whole turns off the coordinates whose sums are among the angles at `positions`.
+    fn terms_of_sums(&self, positions: impl IntoIterator<Item = usize>) -> Option<TokenStream> {
+        let coordinates = self.angles.summed(positions);
+        let (q, names) = (local("q"), coordinates.iter().map(|&coordinate| without_turns(coordinate)));
+        let places = coordinates.iter().map(|&coordinate| Literal::u32_unsuffixed(coordinate));
+        (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
     }
 
     /// One function with its documentation: of coordinates, and of a posture. What both compute after the sines and
@@ -243,7 +252,8 @@ impl Writer<'_> {
     fn needed_angles(&self, expressions: &Expressions) -> (Option<TokenStream>, TokenStream, TokenStream) {
         let needed = self.angles.needed_by(expressions);
         let values = self.angles.expressions(needed.iter().copied());
-        let computed = (!values.is_empty()).then(|| quote!(let (sin, cos) = S::sin_cos_all([#(#values),*]);));
+        let terms = self.terms_of_sums(needed.iter().copied());
+        let computed = (!values.is_empty()).then(|| quote!(#terms let (sin, cos) = S::sin_cos_all([#(#values),*]);));
         if needed.len() == self.angles.len() && !needed.is_empty() {
             return (computed, quote!(&sin), quote!(&cos));
         }

@@ -6,8 +6,8 @@ use redysim_model::denoc::{Method, forward_dynamics};
 use redysim_model::{Model, Tree};
 use std::fmt::Write;
 
-const BY_RECURSION: &str = "By the O(n) recursion over articulated bodies.";
-const BY_FACTORISATION: &str = "By the factorisation M = U D Uᵀ of the generalised inertia matrix.";
+const BY_RECURSION: &str = "By the O(n) recursion over articulated bodies (ABA)";
+const BY_FACTORISATION: &str = "By the factorisation M = U D Uᵀ of the generalised inertia matrix (CRBA)";
 
 /// Rods in the plane, `arms` chains of `links` each.
 fn rods(arms: usize, links: usize) -> Model {
@@ -24,27 +24,27 @@ fn rods(arms: usize, links: usize) -> Model {
     Model::from_toml(text, "rods.toml").unwrap_or_else(|faults| panic!("{faults}")).model
 }
 
-fn remark(model: &Model) -> &'static str {
+fn remark(model: &Model) -> String {
     let functions = trace(&Tree::new(model)).expect("no pass changes a value");
     let forward = functions.iter().find(|function| function.signature.name == "forward_dynamics");
-    forward.and_then(|function| function.remark).expect("forward dynamics says how")
+    forward.and_then(|function| function.remark.clone()).expect("forward dynamics says how")
 }
 
 #[test]
 fn a_few_joints_go_by_the_factorisation_since_it_is_cheaper() {
-    assert_eq!(remark(&rods(1, 3)), BY_FACTORISATION);
+    assert!(remark(&rods(1, 3)).starts_with(BY_FACTORISATION));
     assert!(source_file(&rods(1, 3), "Rods").unwrap().contains(BY_FACTORISATION));
 }
 
 #[test]
 fn chains_longer_than_25_joints_go_by_the_recursion_whatever_the_count() {
-    assert_eq!(remark(&rods(1, 26)), BY_RECURSION);
-    assert_eq!(remark(&rods(2, 26)), BY_RECURSION);
+    assert!(remark(&rods(1, 26)).starts_with(BY_RECURSION));
+    assert!(remark(&rods(2, 26)).starts_with(BY_RECURSION));
 }
 
 #[test]
 fn many_short_arms_are_no_long_chain() {
-    assert_eq!(remark(&rods(14, 2)), BY_FACTORISATION);
+    assert!(remark(&rods(14, 2)).starts_with(BY_FACTORISATION));
 }
 
 #[test]

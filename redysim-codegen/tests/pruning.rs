@@ -149,7 +149,7 @@ fn energies_places_and_loops_are_exact() {
 #[test]
 fn the_code_says_what_was_pruned_and_how_well() {
     let functions = Functions::of(["inverse_dynamics"]).unwrap();
-    let scene = Scene { functions, tolerance: Some(0.01) };
+    let scene = Scene { functions, tolerance: Some(0.01), ..Scene::default() };
     let source = source_file_with(&model("test/kr5_ranges"), "Kr5", &scene).unwrap();
     assert!(source.contains(
         "/// Pruned to a tolerance of 0.01: 333 flops and 5 sine-cosine pairs before. The worst error of 100000"
@@ -161,7 +161,7 @@ fn the_code_says_what_was_pruned_and_how_well() {
 #[test]
 fn without_a_range_nothing_is_pruned_and_that_is_said() {
     let functions = Functions::of(["gravity_forces"]).unwrap();
-    let scene = Scene { functions, tolerance: Some(0.01) };
+    let scene = Scene { functions, tolerance: Some(0.01), ..Scene::default() };
     let (name, runtime) = (quote::format_ident!("Kr5"), quote::quote!(::redysim_runtime));
     let generated =
         implementation_with(&model("kr5"), &name, &runtime, &scene, &Passes::all()).expect("no pass changes a value");

@@ -104,6 +104,12 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 
     #[inline]
+    fn without_turns<const N: usize>(angles: [Self; N]) -> [Self; N] {
+        let values = S::without_turns(angles.map(|angle| angle.value));
+        core::array::from_fn(|i| Dual { value: values[i], ..angles[i] })
+    }
+
+    #[inline]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         Dual { value: root, slope: self.slope / (root + root) }

@@ -45,6 +45,13 @@ pub trait Scalar:
         (sines, cosines)
     }
 
+    /// The same angles, large ones without whole turns, for sums of angles: these would else be rounded to the digits
+    /// of their size, and so would their sines.
+    #[inline(always)]
+    fn without_turns<const N: usize>(angles: [Self; N]) -> [Self; N] {
+        angles
+    }
+
     /// The non-negative square root.
     fn sqrt(self) -> Self;
 
@@ -142,6 +149,10 @@ macro_rules! real {
             #[inline(always)]
             fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
                 $sin_cos_all(angles)
+            }
+            #[inline(always)]
+            fn without_turns<const N: usize>(angles: [Self; N]) -> [Self; N] {
+                trigonometry::turns::without_turns(angles)
             }
             #[inline]
             fn sqrt(self) -> Self {

@@ -3,7 +3,7 @@
 use super::{constant, local};
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::{HashMap, HashSet};
 
@@ -17,6 +17,8 @@ pub struct Angles {
 struct Angle {
     /// The coordinates it depends on.
     coordinates: Vec<u32>,
+    /// Whether it is more than one coordinate.
+    is_sum: bool,
     /// The expression, which also tells one angle from another.
     tokens: TokenStream,
     text: String,
@@ -63,7 +65,16 @@ impl Angles {
             .expect("all angles are collected before any is looked up")
     }
 
-    /// The angles at the given positions, as elements of an array.
+    /// The coordinates whose sums are among the angles at the given positions, in order.
+    pub fn summed(&self, positions: impl IntoIterator<Item = usize>) -> Vec<u32> {
+        let sums = positions.into_iter().map(|position| &self.angles[position]).filter(|angle| angle.is_sum);
+        let mut coordinates: Vec<u32> = sums.flat_map(|angle| angle.coordinates.clone()).collect();
+        coordinates.sort_unstable();
+        coordinates.dedup();
+        coordinates
+    }
+
+    /// The angles at the given positions, as elements of an array. In sums coordinates stand [by name](without_turns).
     pub fn expressions(&self, positions: impl IntoIterator<Item = usize>) -> Vec<TokenStream> {
         positions.into_iter().map(|position| self.angles[position].tokens.clone()).collect()
     }
@@ -89,7 +100,8 @@ impl Angles {
                 open.extend(graph.node(index).operands().map(Edge::node));
             }
             coordinates.sort_unstable();
-            self.angles.push(Angle { coordinates, tokens, text });
+            let is_sum = !matches!(graph.node(edge.node()), Node::Input { .. });
+            self.angles.push(Angle { coordinates, is_sum, tokens, text });
         }
     }
 }
@@ -105,27 +117,43 @@ fn trigonometric(expressions: &Expressions) -> impl Iterator<Item = (usize, Edge
     })
 }
 
-/// An angle as an expression of the coordinates: a sum of a few terms.
+/// The name of a coordinate without whole turns.
+pub fn without_turns(coordinate: u32) -> Ident {
+    local(&format!("near_{coordinate}"))
+}
+
+/// An angle as an expression of the coordinates: one of them, or a sum of a few terms.
 fn rendered(graph: &Graph, edge: Edge) -> TokenStream {
-    let value = match graph.node(edge.node()) {
+    match graph.node(edge.node()) {
         Node::Input { index, .. } => {
             let (q, index) = (local("q"), Literal::u32_unsuffixed(index));
-            quote!(#q[#index])
+            let value = quote!(#q[#index]);
+            if edge.is_negative() { quote!(-#value) } else { value }
+        }
+        _ => rendered_sum(graph, edge),
+    }
+}
+
+fn rendered_sum(graph: &Graph, edge: Edge) -> TokenStream {
+    let value = match graph.node(edge.node()) {
+        Node::Input { index, .. } => {
+            let near = without_turns(index);
+            quote!(#near)
         }
         Node::Constant(bits) => {
             let value = constant(f64::from_bits(bits));
             quote!(S::from_f64(#value))
         }
         Node::Add(a, b) => {
-            let (a, b) = (rendered(graph, a), rendered(graph, b));
+            let (a, b) = (rendered_sum(graph, a), rendered_sum(graph, b));
             quote!((#a + #b))
         }
         Node::Subtract(a, b) => {
-            let (a, b) = (rendered(graph, a), rendered(graph, b));
+            let (a, b) = (rendered_sum(graph, a), rendered_sum(graph, b));
             quote!((#a - #b))
         }
         Node::Multiply(a, b) => {
-            let (a, b) = (rendered(graph, a), rendered(graph, b));
+            let (a, b) = (rendered_sum(graph, a), rendered_sum(graph, b));
             quote!((#a * #b))
         }
         node @ (Node::Divide(..) | Node::Sin(_) | Node::Cos(_) | Node::Sqrt(_)) => {

@@ -10,7 +10,7 @@ mod render;
 use crate::expressions::Expressions;
 use crate::graph::{Graph, Node};
 use crate::rolled::{Rolled, is_operation};
-pub use angles::Angles;
+pub use angles::{Angles, without_turns};
 use blocks::{Statement, in_blocks};
 use names::Identifiers;
 use proc_macro2::{Ident, Literal, Span, TokenStream};

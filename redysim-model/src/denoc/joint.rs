@@ -70,12 +70,14 @@ fn angles<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Option<Angle<S>>> {
     let mut angles: Vec<Option<Angle<S>>> = Vec::with_capacity(tree.bodies.len());
     for body in &tree.bodies {
         let q = q[body.coordinate];
+        let still_parent = body.parent.filter(|&parent| tree.bodies[parent].still && body.is_parallel());
+        let [near] =
+            if body.still || still_parent.is_some() || body.offset != 0.0 { S::without_turns([q]) } else { [q] };
         let own = match body.joint {
-            Joint::Revolute if body.offset == 0.0 => Some(q),
-            Joint::Revolute => Some(q + S::from_f64(body.offset)),
+            Joint::Revolute if body.offset == 0.0 => Some(near),
+            Joint::Revolute => Some(near + S::from_f64(body.offset)),
             Joint::Prismatic => None,
         };
-        let still_parent = body.parent.filter(|&parent| tree.bodies[parent].still && body.is_parallel());
         let carried = still_parent.and_then(|parent| angles[parent]).map(|angle| {
             let opposite = body.placement.rotation.0[2][2] < 0.0;
             if opposite { -angle.value } else { angle.value }

@@ -20,7 +20,7 @@ use crate::scalar::Scalar;
 use crate::trigonometry::angle::{Angle, Number};
 use crate::trigonometry::reduction::Reduced;
 use crate::trigonometry::several::several;
-use crate::trigonometry::{double, single};
+use crate::trigonometry::{double, single, turns};
 use core::arch::x86_64::*;
 use core::fmt;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -99,6 +99,11 @@ macro_rules! numbers {
             }
 
             #[inline(always)]
+            fn without_turns<const N: usize>(angles: [Self; N]) -> [Self; N] {
+                turns::without_turns(angles)
+            }
+
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 Self(self.0.sqrt())
             }
@@ -110,6 +115,8 @@ macro_rules! numbers {
         }
 
         impl Number for $name {
+            const HALF_PI: [Self; 2] = [Self($float::HALF_PI[0]), Self($float::HALF_PI[1])];
+
             #[inline(always)]
             fn reduced(self) -> Reduced<Self> {
                 let Reduced { rounded, rest, tail } = Number::reduced(self.0);
@@ -267,6 +274,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $kernel::sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn without_turns<const N: usize>(angles: [Self; N]) -> [Self; N] {
+                turns::without_turns(angles)
             }
 
             #[inline(always)]

@@ -114,6 +114,11 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn without_turns<const N: usize>(angles: [Self; N]) -> [Self; N] {
+                trigonometry::turns::without_turns(angles)
+            }
+
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 Self(self.0.sqrt())
             }

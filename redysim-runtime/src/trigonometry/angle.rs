@@ -29,13 +29,18 @@ pub trait Angle: Scalar {
 
 /// One angle.
 pub trait Number: Angle<Number = Self> {
+    /// π/2 as the sum of two numbers.
+    const HALF_PI: [Self; 2];
+
     /// The reduction of any angle, however hard; NaN where it is not finite.
     fn reduced(self) -> Reduced<Self>;
 }
 
 macro_rules! one_angle {
-    ($float:ident, $second_bit_to_sign:literal, $reduced:path) => {
+    ($float:ident, $second_bit_to_sign:literal, $reduced:path, $half_pi:expr) => {
         impl Number for $float {
+            const HALF_PI: [Self; 2] = $half_pi;
+
             #[inline(always)]
             fn reduced(self) -> Reduced<Self> {
                 $reduced(self)
@@ -117,8 +122,8 @@ macro_rules! angles {
     };
 }
 
-one_angle!(f64, 62, reduction::reduced);
-one_angle!(f32, 30, single_reduction::by_digits);
+one_angle!(f64, 62, reduction::reduced, [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17]);
+one_angle!(f32, 30, single_reduction::by_digits, [core::f32::consts::FRAC_PI_2, -4.371_139e-8]);
 angles!(F64x2 of f64, u64x2 << 62_u64);
 angles!(F64x4 of f64, u64x4 << 62_u64);
 angles!(F64x8 of f64, u64x8 << 62_u64);

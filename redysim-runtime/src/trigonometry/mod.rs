@@ -12,3 +12,4 @@ pub(crate) mod reduction;
 pub(crate) mod several;
 pub mod single;
 mod single_reduction;
+pub mod turns;

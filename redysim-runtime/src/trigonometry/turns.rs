@@ -1,0 +1,35 @@
+//! Angles without whole turns, for sums of angles.
+//!
+//! The sum of a joint's angle and an offset, or of the angles of joints with parallel axes, is rounded to the digits of
+//! its size: at 1000 rad to 1e-13, an error that its sine then has, too. Without whole turns the terms are small.
+
+use super::angle::{Angle, Number};
+use super::reduction::Reduced;
+
+/// Angles up to here, a little more than one turn, stay as they are: of their sums no more than the last digit is lost.
+const LARGEST: f64 = 7.0;
+
+/// The same angles, the large ones without whole turns.
+#[inline(always)]
+pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
+    let limit = A::from_f64(LARGEST);
+    for angle in &mut angles {
+        if !angle.all_within(limit) {
+            (*angle, _) = angle.one_by_one(without_turns_of_one);
+        }
+    }
+    angles
+}
+
+/// One angle, and nothing of interest.
+fn without_turns_of_one<A: Number>(angle: A) -> (A, A) {
+    if angle.all_within(A::from_f64(LARGEST)) {
+        return (angle, angle);
+    }
+    let Reduced { rounded, rest, tail } = angle.reduced();
+    // Sine and cosine of the quarter turns are 0 or ±1, which tells how many there are: −1, 0, 1 or 2.
+    let (sin, cos) = A::turned(rounded, A::zero(), A::one());
+    let quarters = sin + (A::one() - cos) * (A::one() - sin * sin);
+    let [high, low] = A::HALF_PI;
+    (quarters * high + (rest + (tail + quarters * low)), angle)
+}
