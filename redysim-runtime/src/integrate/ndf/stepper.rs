@@ -30,7 +30,7 @@ const LARGEST_CORRECTION: f64 = 10.0;
 /// The largest change of h f by a larger correction with which the past is kept, in the same unit: what the iteration
 /// leaves open changes h f by that much.
 const LARGEST_CHANGE_OF_SLOPE: f64 = 2.0;
-/// The smallest factor by which a step of order 1 grows before the differences that choose the order are known.
+/// The smallest factor by which a step grows after a correction that has taken the past away.
 const WORTH_AN_EARLY_CHANGE: f64 = 2.0;
 
 /// What is evaluated at the state that is reached.
@@ -58,6 +58,8 @@ pub struct NdfStepper<S, Y: Vector<S>> {
     /// rtol over the error that the attempted step would have had with the order below and with the order above; 0 if
     /// there is none.
     neighbours: [S; 2],
+    /// Whether the correction of the last step has taken the past away.
+    restarted: bool,
 }
 
 impl<S: Real, Y: Vector<S>> NdfStepper<S, Y> {
@@ -87,6 +89,7 @@ impl<S: Real, Y: Vector<S>> NdfStepper<S, Y> {
             allowed: zero.clone(),
             scratch: zero,
             neighbours: [S::zero(); 2],
+            restarted: false,
         })
     }
 
@@ -292,10 +295,12 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
         // stays what it was: near a singular position of closed loops a projection moves velocities by rounding errors
         // over the distance from it, step after step, whatever their size. After any other the past is that of another
         // solution, and nothing but the derivative is left of it.
+        self.restarted = false;
         if self.progress.take_correction() && !small {
             self.evaluate(ode)?;
             if !self.keeps_its_slope() {
                 self.differences.restart(&self.rate);
+                self.restarted = true;
             }
         }
         Ok(())
@@ -318,10 +323,11 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
         let limited = |factor: S| factor.minimum(S::from_f64(LARGEST_GROWTH));
         // Only then are all differences that choose the order those of steps of one size.
         if self.differences.steps() < order + 2 {
-            // The error of order 1 is known from the first step on. Corrections that take the past away again and again
-            // must not leave steps as small as they once became.
+            // Where corrections take the past away step after step, there never are so many, and steps would stay as
+            // small as they once became.
             let (_, factor) = self.best(ratio, 1, limited);
-            return if order == 1 && factor >= S::from_f64(WORTH_AN_EARLY_CHANGE) { factor } else { S::one() };
+            let grows = self.restarted && factor >= S::from_f64(WORTH_AN_EARLY_CHANGE);
+            return if grows { factor } else { S::one() };
         }
         let (order, factor) = self.best(ratio, 3, limited);
         if factor > S::one() {
