@@ -296,7 +296,7 @@ fn show<S: Real, Y: Vector<S>>(
 ) -> Result<ControlFlow<()>, IntegrationError<S>> {
     let progress = stepper.progress();
     if observer.looks_within(progress.t, progress.t_new) {
-        stepper.look_within(ode)?;
+        stepper.look_within(ode, tolerances)?;
     }
     stepper.progress_mut().finish(ode)?;
     observer.look(stepper, ode, tolerances)

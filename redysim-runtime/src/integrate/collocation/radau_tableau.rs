@@ -69,6 +69,20 @@ pub const RADAU_IIA_5: RadauTableau = RadauTableau {
     },
 };
 
+/// Where the solution within a step is known beside its end, in units of the step.
+pub(super) const WITHIN_NODES: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
+
+/// The polynomials of θ, without constant terms, that are 1 at one of the [`WITHIN_NODES`] or at 1, and those whose slope
+/// is 1 there; the values and slopes at the others are 0.
+pub(super) const WITHIN: [&[f64]; 6] = [
+    &[-27.0, 297.0, -4239.0 / 4.0, 1701.0, -5103.0 / 4.0, 729.0 / 2.0],
+    &[27.0, -945.0 / 4.0, 756.0, -2187.0 / 2.0, 729.0, -729.0 / 4.0],
+    &[11.0, -109.0, 1647.0 / 4.0, -738.0, 2511.0 / 4.0, -405.0 / 2.0],
+    &[-9.0, 72.0, -873.0 / 4.0, 1269.0 / 4.0, -891.0 / 4.0, 243.0 / 4.0],
+    &[-9.0, 171.0 / 2.0, -306.0, 513.0, -405.0, 243.0 / 2.0],
+    &[-1.0, 10.0, -153.0 / 4.0, 279.0 / 4.0, -243.0 / 4.0, 81.0 / 4.0],
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -107,6 +121,19 @@ mod tests {
     fn the_eigenvalues_are_the_poles_of_the_stability_function() {
         for value in [real(RADAU_IIA_5.real.value), RADAU_IIA_5.complex.value] {
             near(((value - real(9.0)) * value + real(36.0)) * value * real(1.0 / 60.0), real(1.0));
+        }
+    }
+
+    #[test]
+    fn the_polynomials_within_a_step_have_their_values_and_slopes_at_the_nodes() {
+        let nodes = [WITHIN_NODES[0], WITHIN_NODES[1], 1.0];
+        for (k, coefficients) in WITHIN.iter().enumerate() {
+            for (j, x) in nodes.into_iter().enumerate() {
+                let (value, slope) =
+                    coefficients.iter().rfold((0.0, 0.0), |(value, slope), c| (x * (c + value), c + value + x * slope));
+                let expected = [f64::from(u8::from(k == j)), f64::from(u8::from(k == j + 3))];
+                assert!((value - expected[0]).abs() < 1e-11 && (slope - expected[1]).abs() < 1e-11, "{k} at {x}");
+            }
         }
     }
 }
