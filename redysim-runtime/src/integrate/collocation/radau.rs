@@ -37,10 +37,11 @@ const LARGEST_RATIO: f64 = 1000.0;
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.
 /// Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more. Where somebody
-/// looks within a step, two shorter ones are taken from its start, to a third and two thirds of it, and the solution is
+/// looks within a step, two shorter ones are taken from its start, to a quarter and five eighths of it, and the solution is
 /// the polynomial of degree 6 through their ends and its own, with the derivatives there: as accurate as the ends, for
-/// twice the work of such a step. It does not use the derivative at the start, which a fast transient may have made
-/// large.
+/// two or three times the work. It does not use the derivative at the start, which a fast transient may have made large.
+/// Where the equation is so stiff that steps become long, it is of order 3, as the stages are, and the ends of steps are
+/// the more exact the stiffer the equation; a largest step keeps the error within small.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Radau5};
@@ -95,7 +96,7 @@ pub struct Radau<S: Real, Y: Vector<S>> {
     /// The factor to the size of a step for which the iteration failed.
     retreat: Option<S>,
     /// What [`WITHIN`] is multiplied by, once somebody looks within the attempted step: how far the solution is from the
-    /// start at a third of the step, at two thirds and at its end, and h times its derivatives there.
+    /// start at the [`WITHIN_NODES`] and at the end, and h times its derivatives there.
     within: [Y; 6],
     /// Whether that is known of the attempted step.
     looked: bool,

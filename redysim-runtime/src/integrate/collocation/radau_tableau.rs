@@ -69,18 +69,20 @@ pub const RADAU_IIA_5: RadauTableau = RadauTableau {
     },
 };
 
-/// Where the solution within a step is known beside its end, in units of the step.
-pub(super) const WITHIN_NODES: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
+/// Where the solution within a step is known beside its end, in units of the step. Of a stiff equation the slopes have
+/// the order of the stages, 3; with these nodes that costs less than the collocation polynomial errs there, and where the
+/// equation is not stiff the interpolation of degree 6 errs by 1.2·10⁻⁷ y⁽⁷⁾ h⁷ at most.
+pub(super) const WITHIN_NODES: [f64; 2] = [1.0 / 4.0, 5.0 / 8.0];
 
 /// The polynomials of θ, without constant terms, that are 1 at one of the [`WITHIN_NODES`] or at 1, and those whose slope
 /// is 1 there; the values and slopes at the others are 0.
 pub(super) const WITHIN: [&[f64]; 6] = [
-    &[-27.0, 297.0, -4239.0 / 4.0, 1701.0, -5103.0 / 4.0, 729.0 / 2.0],
-    &[27.0, -945.0 / 4.0, 756.0, -2187.0 / 2.0, 729.0, -729.0 / 4.0],
-    &[11.0, -109.0, 1647.0 / 4.0, -738.0, 2511.0 / 4.0, -405.0 / 2.0],
-    &[-9.0, 72.0, -873.0 / 4.0, 1269.0 / 4.0, -891.0 / 4.0, 243.0 / 4.0],
-    &[-9.0, 171.0 / 2.0, -306.0, 513.0, -405.0, 243.0 / 2.0],
-    &[-1.0, 10.0, -153.0 / 4.0, 279.0 / 4.0, -243.0 / 4.0, 81.0 / 4.0],
+    &[0.0, 6400.0 / 81.0, -33280.0 / 81.0, 21248.0 / 27.0, -53248.0 / 81.0, 16384.0 / 81.0],
+    &[4096.0 / 405.0, -8192.0 / 75.0, 167936.0 / 405.0, -1359872.0 / 2025.0, 65536.0 / 135.0, -262144.0 / 2025.0],
+    &[250.0 / 81.0, -3025.0 / 81.0, 4520.0 / 27.0, -27856.0 / 81.0, 26368.0 / 81.0, -1024.0 / 9.0],
+    &[-400.0 / 81.0, 3680.0 / 81.0, -12304.0 / 81.0, 19264.0 / 81.0, -14336.0 / 81.0, 4096.0 / 81.0],
+    &[-256.0 / 81.0, 14848.0 / 405.0, -12544.0 / 81.0, 118784.0 / 405.0, -20480.0 / 81.0, 32768.0 / 405.0],
+    &[-25.0 / 81.0, 305.0 / 81.0, -1384.0 / 81.0, 2896.0 / 81.0, -2816.0 / 81.0, 1024.0 / 81.0],
 ];
 
 #[cfg(test)]
