@@ -96,21 +96,17 @@ fn the_projection_costs_ode15s_no_steps() {
 /// The slider passes the crank's pivot, a singular position, at 0.785 s and 2.355 s. There the projection moves
 /// velocities by rounding errors that are larger than these tolerances.
 #[test]
-fn ode15s_passes_singular_positions_at_every_tolerance() {
+fn ode15s_passes_singular_positions_at_tolerances_below_the_rounding_errors_there() {
     let loops = ClosedLoop::new(&SliderCrank);
     let guess = [-core::f64::consts::FRAC_PI_2, core::f64::consts::TAU, 2.0];
     let assembly = loops.assemble(&guess, &[0.0; 3], &[0]).expect("it closes");
-    let fall = |method: &dyn Fn(&mut ClosedLoopSimulation<'_, f64, SliderCrank, Free>, [f64; 7]) -> _| {
-        let mut fall = ClosedLoopSimulation::new(loops, Free);
-        let start = fall.assembled(&assembly);
-        method(&mut fall, start)
-    };
-    let explicit = Dop853::new().rtol(1e-13).atol(1e-13);
-    let reference = fall(&|ode, start| explicit.integrate(ode, (0.0, 3.0), start)).expect("it passes").y;
+    let mut fall = ClosedLoopSimulation::new(loops, Free);
+    let start = fall.assembled(&assembly);
+    let reference = Dop853::new().rtol(1e-13).atol(1e-13).integrate(&mut fall, (0.0, 3.0), start).expect("it passes").y;
     let mut looser = u64::MAX / 10;
     for tolerance in [3e-12, 1e-12] {
         let method = Ode15s::new().rtol(tolerance).atol(tolerance).max_steps(100_000);
-        let end = fall(&|ode, start| method.integrate(ode, (0.0, 3.0), start)).expect("it passes");
+        let end = method.integrate(&mut fall, (0.0, 3.0), start).expect("it passes");
         let error = difference(&end.y, &reference);
         println!("tolerance {tolerance:e}: {error:.1e}, {:?}", end.statistics);
         assert!(error < 1e-7, "{error:e}");
