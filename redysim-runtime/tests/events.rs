@@ -123,7 +123,7 @@ fn power_of_times<M: Integrator<f64>>(method: impl Fn(f64) -> M) -> (f64, u64) {
     ((coarse / fine).log2(), evaluations)
 }
 
-/// Steps of order p err with the power p + 1; extensions are of order 4, 2, 3 and 3.
+/// Steps of order p err with the power p + 1; the extension of `Ode5` is of order 4.
 #[test]
 fn times_converge_as_the_steps_do_and_not_as_the_extension_does() {
     let (power, evaluations) = power_of_times(Ode5::new);

@@ -256,3 +256,61 @@ fn after_a_large_correction_the_past_is_that_of_another_solution() {
         assert!(rejected <= 10, "{rejected}");
     }
 }
+
+/// ẍ = −x whose velocity each step leaves wrong by rounding errors over the distance from x = 0, alternately up and
+/// down: as the projection of closed loops does near a singular position.
+struct Noisy {
+    up: bool,
+}
+
+impl Ode<f64, [f64; 2]> for Noisy {
+    fn derivative(&mut self, _t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
+        *dydt = [y[1], -y[0]];
+    }
+
+    fn accepted(&mut self, _t: f64, _step: f64, y: &mut [f64; 2]) -> Accepted {
+        self.up = !self.up;
+        let noise = (1e-12 / y[0].abs()).min(1e-8);
+        y[1] += if self.up { noise } else { -noise };
+        Accepted::Corrected
+    }
+}
+
+#[test]
+fn corrections_by_noise_that_exceeds_the_tolerance_keep_the_past() {
+    let steps = |tolerance: f64| {
+        let method = Ode15s::new().rtol(tolerance).atol(tolerance).max_steps(100_000);
+        let end = method.integrate(&mut Noisy { up: false }, (0.0, 4.0), [1.0, 0.0]).unwrap();
+        println!("tolerance {tolerance:e}: error {:.1e}, {:?}", end.y[0] - 4.0_f64.cos(), end.statistics);
+        assert!((end.y[0] - 4.0_f64.cos()).abs() < 1e-7, "{:?}", end.y);
+        end.statistics.steps
+    };
+    let mut looser = steps(3e-11);
+    for tolerance in [1e-11, 3e-12, 1e-12, 3e-13, 1e-13] {
+        let tighter = steps(tolerance);
+        assert!(tighter < 10 * looser, "{tighter} steps at {tolerance:e}, {looser} at three times as much");
+        looser = tighter;
+    }
+}
+
+/// ẏ₁ = cos t + y₂, where the end of every step moves y₂ by 1: the past is that of another solution each time.
+struct Switched;
+
+impl Ode<f64, [f64; 2]> for Switched {
+    fn derivative(&mut self, t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
+        *dydt = [t.cos() + y[1], 0.0];
+    }
+
+    fn accepted(&mut self, _t: f64, _step: f64, y: &mut [f64; 2]) -> Accepted {
+        y[1] = 1.0 - y[1];
+        Accepted::Corrected
+    }
+}
+
+#[test]
+fn steps_that_became_small_grow_again_though_each_correction_takes_the_past_away() {
+    let method = Ode15s::new().rtol(1e-6).atol(1e-6).initial_step(1e-12).max_steps(10_000);
+    let end = method.integrate(&mut Switched, (0.0, 1.0), [0.0, 0.0]).unwrap();
+    println!("{:?}", end.statistics);
+    assert!(end.statistics.steps < 2000, "{:?}", end.statistics);
+}

@@ -53,34 +53,62 @@ fn the_estimate_is_blind_to_polynomials_of_degree_three() {
     assert!(dot(&RADAU_IIA_5.error, &RADAU_IIA_5.nodes.map(|c| c.powi(4))).abs() > 1e-3);
 }
 
-/// The error at the end, and the largest one within steps of one size.
+/// The largest errors at the ends of steps and within.
 fn errors_of_steps<const N: usize>(
+    method: impl Integrator<f64>,
     ode: &mut impl Ode<f64, [f64; N]>,
     exact: impl Fn(f64) -> [f64; N],
-    h: f64,
 ) -> (f64, f64) {
-    let (mut at_end, mut within) = (0.0_f64, 0.0_f64);
+    let (mut at_ends, mut within) = (0.0_f64, 0.0_f64);
     let look = |step: &Step<'_, f64, [f64; N]>| {
-        let ((from, _), (t, y)) = (step.start(), step.end());
-        at_end = distance(y, &exact(t));
-        for theta in [0.05, 0.3, 0.8] {
-            let t = from + theta * h;
+        let ((from, _), (to, y)) = (step.start(), step.end());
+        at_ends = at_ends.max(distance(y, &exact(to)));
+        for theta in [0.05, 0.2, 0.5, 0.8] {
+            let t = from + theta * (to - from);
             within = within.max(distance(&step.at(t), &exact(t)));
         }
     };
-    FixedStep::<f64, RadauIIA>::new(h).each_step(ode, (0.0, 3.0), exact(0.0), look).unwrap();
-    (at_end, within)
+    method.each_step(ode, (0.0, 3.0), exact(0.0), look).unwrap();
+    (at_ends, within)
+}
+
+fn fixed(h: f64) -> FixedStep<f64, RadauIIA> {
+    FixedStep::new(h)
 }
 
 #[test]
-fn it_converges_with_order_five_and_within_the_steps_with_the_fourth_power() {
-    let [coarse, fine] = [0.05, 0.025].map(|h| errors_of_steps(&mut nonlinear, exact, h).0);
-    let order = (coarse / fine).log2();
-    let [coarse, fine] = [6e-3, 3e-3].map(|h| errors_of_steps(&mut nonlinear, exact, h).1);
-    let power = (coarse / fine).log2();
-    println!("measured order {order:.3}, power within {power:.3}");
+fn it_converges_with_order_five_at_the_ends_of_steps_and_within() {
+    let [coarse, fine] = [0.05, 0.025].map(|h| errors_of_steps(fixed(h), &mut nonlinear, exact));
+    let (order, within) = ((coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2());
+    println!("{coarse:?}, {fine:?}: measured order {order:.3}, within {within:.3}");
     assert!((order - 5.0).abs() < 0.2, "{order}");
-    assert!((power - 4.0).abs() < 0.2, "{power}");
+    assert!(within > 4.7, "{within}");
+    assert!(coarse.1 < 3.0 * coarse.0 && fine.1 < 3.0 * fine.0);
+}
+
+#[test]
+fn within_the_steps_that_a_tolerance_chooses_the_error_is_that_of_the_ends() {
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let (ends, within) = errors_of_steps(radau(tolerance), &mut nonlinear, exact);
+        println!("tolerance {tolerance:e}: {ends:.1e} at the ends, {within:.1e} within");
+        assert!(within < 10.0 * ends, "{within:e} within, {ends:e} at the ends");
+    }
+}
+
+/// Where the derivative jumps within a step, the equations of a shorter one need not converge: the integration goes on as
+/// if nobody had looked.
+#[test]
+fn looking_within_changes_no_step_and_ends_no_integration() {
+    for tolerance in [1e-4, 1e-7, 1e-10] {
+        let mut jumps = |t: f64, y: &[f64; 2], rate: &mut [f64; 2]| {
+            *rate = [y[1], (3.0 * t).sin() - y[0] + if y[0] > 0.05 { 1.0 } else { -1.0 }];
+        };
+        let method = radau(tolerance).max_steps(2000);
+        let plain = method.integrate(&mut jumps, (0.0, 2.0), [0.1, -0.3]).unwrap();
+        let seen = method.each_step(&mut jumps, (0.0, 2.0), [0.1, -0.3], |_| {}).unwrap();
+        assert_eq!((plain.y, plain.statistics.steps), (seen.y, seen.statistics.steps));
+        assert!(seen.statistics.evaluations > plain.statistics.evaluations);
+    }
 }
 
 /// The decompositions of the first step serve the second, which is shorter by 4·10⁻⁵, but the equations are its own.
@@ -122,12 +150,14 @@ fn prothero_robinson(lambda: f64) -> impl FnMut(f64, &[f64; 1], &mut [f64; 1]) {
 #[test]
 fn the_errors_of_a_stiff_equation_shrink_with_its_stiffness_and_the_third_power_of_the_step() {
     let cosine = |t: f64| [t.cos()];
-    let [coarse, fine] = [0.1, 0.05].map(|h| errors_of_steps(&mut prothero_robinson(-1e6), cosine, h));
-    let stiffer = errors_of_steps(&mut prothero_robinson(-1e7), cosine, 0.1);
+    let [coarse, fine] = [0.1, 0.05].map(|h| errors_of_steps(fixed(h), &mut prothero_robinson(-1e6), cosine));
+    let stiffer = errors_of_steps(fixed(0.1), &mut prothero_robinson(-1e7), cosine);
     let (order, power) = ((coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2());
     println!("{coarse:?}, {fine:?}, stiffer {stiffer:?}: order {order:.3}, power within {power:.3}");
     assert!((order - 3.0).abs() < 0.3, "{order}");
     assert!((power - 4.0).abs() < 0.3, "{power}");
+    // The collocation polynomial errs by 6.7e-8.
+    assert!(coarse.1 < 5e-8, "{coarse:?}");
     assert!((coarse.0 / stiffer.0 - 10.0).abs() < 2.0, "{coarse:?} {stiffer:?}");
 }
 

@@ -4,7 +4,6 @@ use redysim_model::Mobility;
 use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::Stabilisation;
 
-use super::integrator::Fixed;
 use super::{Integrator, Prescribed, Span, Subject, Torque};
 
 /// A motion that is to be computed.
@@ -35,30 +34,12 @@ impl Forward {
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
             let torque = Torque::read(&mut reader, subject, trajectory);
             let stabilisation = stabilisation(&mut reader, subject);
-            if let (Some(span), Some(integrator)) = (span, integrator) {
-                warn_of_rows(&mut reader, span, integrator);
-            }
             if let (Some(Torque::Computed { .. }), Some(stabilisation)) = (&torque, stabilisation) {
                 warn_of_redundancy(&mut reader, subject, stabilisation);
             }
             Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
         })
     }
-}
-
-/// Gauss's methods are as exact as their order at the ends of steps only.
-fn warn_of_rows(reader: &mut Reader<'_, '_>, span: Span, integrator: Integrator) {
-    let Integrator::Fixed(Fixed::Gauss4 | Fixed::Gauss6, step) = integrator else { return };
-    let steps = span.step / step;
-    if (steps - steps.round()).abs() < 1e-9 * steps {
-        return;
-    }
-    let (item, name) = (reader.item(), integrator.name());
-    reader.warning_of_table(Message {
-        title: format!("{item}: rows lie between the steps of {name}, where it is far less exact than at their ends"),
-        label: format!("steps of {step:?} s, rows each {:?} s", span.step),
-        help: "give the integrator a `step` that goes a whole number of times into that of the rows".into(),
-    });
 }
 
 /// The law asks for what all conditions allow: where some follow from others, in loops that are slightly open they contradict

@@ -109,7 +109,11 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
         self.tableau.error_exponent
     }
 
-    fn look_within(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
+    fn look_within(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        _tolerances: &Tolerances<'_, S>,
+    ) -> Result<(), IntegrationError<S>> {
         if self.tableau.main == STAGES {
             return Ok(());
         }

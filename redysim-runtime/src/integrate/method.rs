@@ -87,8 +87,12 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.
-    fn look_within(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
-        let _ = ode;
+    fn look_within(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<(), IntegrationError<S>> {
+        let _ = (ode, tolerances);
         Ok(())
     }
 

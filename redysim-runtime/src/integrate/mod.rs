@@ -275,8 +275,8 @@ pub struct Statistics {
     pub steps: u64,
     /// Attempted steps that were rejected and tried again with a smaller size.
     pub rejected: u64,
-    /// Evaluations of the right-hand side, those after corrections, for differences and for events included;
-    /// [tangents](Ode::tangent) are not.
+    /// Evaluations of the right-hand side, those after corrections, for differences, for events and for looks within
+    /// steps included; [tangents](Ode::tangent) are not.
     pub evaluations: u64,
     /// Accepted steps whose end was corrected by [`Ode::accepted`]; a state at which an event ends the integration is
     /// none.
@@ -296,7 +296,7 @@ fn show<S: Real, Y: Vector<S>>(
 ) -> Result<ControlFlow<()>, IntegrationError<S>> {
     let progress = stepper.progress();
     if observer.looks_within(progress.t, progress.t_new) {
-        stepper.look_within(ode)?;
+        stepper.look_within(ode, tolerances)?;
     }
     stepper.progress_mut().finish(ode)?;
     observer.look(stepper, ode, tolerances)

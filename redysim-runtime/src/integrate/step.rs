@@ -7,11 +7,12 @@ use crate::{Real, Vector};
 /// The solution between the ends is the method's continuous extension: for [`Ode5`](crate::Ode5) and
 /// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, for [`Dop853`](crate::Dop853) one of
 /// degree 7 and order 7, for [`Ode4`](crate::Ode4) the cubic through values and derivatives at both ends; for
-/// [`Radau5`](crate::Radau5), [`Gauss4`](crate::Gauss4) and [`Gauss6`](crate::Gauss6) the collocation polynomial, whose
-/// degree and order are the number of stages; for [`Ode15s`](crate::Ode15s) the polynomial through the ends of the last
-/// steps. It agrees with the neighbouring steps in value and, for the explicit methods, in derivative (where
-/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction) and costs no evaluations, but
-/// with `Dop853` three for each step within which somebody looks.
+/// [`Gauss4`](crate::Gauss4) and [`Gauss6`](crate::Gauss6) one of degree 7, and for [`Radau5`](crate::Radau5) one of
+/// degree 6, as accurate as the ends of the steps; for [`Ode15s`](crate::Ode15s) the polynomial through the ends of the
+/// last steps. It agrees with the neighbouring steps in value and, for the explicit methods and those of Gauss, in
+/// derivative (where [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction). It costs no
+/// evaluations but with `Dop853`, the methods of Gauss and `Radau5`: for each step within which somebody looks three,
+/// ten, and those of two shorter steps.
 pub struct Step<'a, S, Y> {
     t: S,
     y: &'a Y,

@@ -6,12 +6,13 @@ use core::mem::swap;
 use super::extrapolate;
 use super::newton::{LARGEST_TURN, Newton, Outcome};
 pub use super::radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
+use super::radau_tableau::{WITHIN, WITHIN_NODES};
 use crate::integrate::adaptive::Adaptive;
 use crate::integrate::method::{EstimatesErrors, Method, Stepper, root, step_aside, usual_shrinkage};
 use crate::integrate::progress::{Progress, zeros};
-use crate::integrate::step::{Step, weighted_sum};
+use crate::integrate::step::{Step, weighted_sum, without_constant};
 use crate::integrate::tolerance::Tolerances;
-use crate::integrate::{IntegrationError, Ode};
+use crate::integrate::{IntegrationError, Ode, Statistics};
 use crate::{Real, Vector};
 
 /// A new step aims at 0.9^6 of the tolerance, less where the iteration took many turns.
@@ -30,15 +31,17 @@ const LARGEST_RATIO: f64 = 1000.0;
 /// Ordinary Differential Equations II*, 2nd ed., Springer (1996), section IV.8, the source of all that follows). The
 /// stages are found by simplified Newton iteration, which takes the Jacobian ∂f/∂y from [`Ode::tangent`] or from
 /// differences, keeps it as long as the iteration converges fast, and decomposes one real and one complex matrix of the
-/// size of the state for each new step size or Jacobian. The start of the iteration, the solution between the ends of a
-/// step, accurate to order 3, and the sizes of the steps come from the collocation polynomial and from the errors of
-/// the last two steps.
+/// size of the state for each new step size or Jacobian. The start of the iteration and the sizes of the steps come from
+/// the collocation polynomial and from the errors of the last two steps.
 ///
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.
-/// Between the ends of the steps, where the order is 3, nothing controls the error: it is about the power 2/3 of the
-/// tolerance, and more where the equation is so stiff that steps become long; a largest step keeps it small. Each step
-/// costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more.
+/// Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more. Where somebody
+/// looks within a step, two shorter ones are taken from its start, to a quarter and five eighths of it, and the solution is
+/// the polynomial of degree 6 through their ends and its own, with the derivatives there: as accurate as the ends, for
+/// two or three times the work. It does not use the derivative at the start, which a fast transient may have made large.
+/// Where the equation is so stiff that steps become long, it is of order 3, as the stages are, and the ends of steps are
+/// the more exact the stiffer the equation; a largest step keeps the error within small.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Radau5};
@@ -92,6 +95,11 @@ pub struct Radau<S: Real, Y: Vector<S>> {
     rejected: bool,
     /// The factor to the size of a step for which the iteration failed.
     retreat: Option<S>,
+    /// What [`WITHIN`] is multiplied by, once somebody looks within the attempted step: how far the solution is from the
+    /// start at the [`WITHIN_NODES`] and at the end, and h times its derivatives there.
+    within: [Y; 6],
+    /// Whether that is known of the attempted step.
+    looked: bool,
 }
 
 /// What the choice of the next step asks of a step.
@@ -117,6 +125,8 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
             increments: from_fn(|_| zero.clone()),
             last_increments: from_fn(|_| zero.clone()),
             newton: Newton::new(&zero),
+            within: from_fn(|_| zero.clone()),
+            looked: false,
             estimate: zero,
             attempted: Taken { size: S::zero(), ratio: S::zero(), turns: 0 },
             last: None,
@@ -146,14 +156,13 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
         }
     }
 
-    /// Solves for the stages. Where the iteration fails with a Jacobian of an earlier state, it begins anew with that
+    /// Solves for the stages from the increments at hand. Where the iteration fails with a Jacobian of an earlier state, it begins anew with that
     /// of this state.
     fn solve(
         &mut self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
         tolerances: &Tolerances<'_, S>,
     ) -> Result<u32, IntegrationError<S>> {
-        self.predict();
         loop {
             let Self { progress, rate, increments, newton, .. } = self;
             newton.prepare(ode, progress, rate, tolerances)?;
@@ -166,6 +175,33 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
                 }
             }
         }
+    }
+
+    /// Takes a step of the part `node` of the attempted one from its start, and writes what it adds to the state and h
+    /// times the derivative at its end; `false` if its stages are not found.
+    fn shorter(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        node: f64,
+        tolerances: &Tolerances<'_, S>,
+        [increment, slope]: [&mut Y; 2],
+    ) -> (Result<bool, IntegrationError<S>>, Statistics) {
+        let mut aside = self.clone();
+        aside.progress.t_new = self.progress.time_at(node);
+        for (start, &c) in aside.increments.iter_mut().zip(&RADAU_IIA_5.nodes) {
+            let theta = S::from_f64(node * c);
+            let weights = RADAU_IIA_5.dense.iter().map(|p| without_constant(p, theta));
+            weighted_sum(weights, &self.increments, start);
+        }
+        let outcome = match aside.solve(ode, tolerances) {
+            Ok(_) => Ok(true),
+            Err(IntegrationError::NotConverged { .. }) => Ok(false),
+            Err(fault) => Err(fault),
+        };
+        let [.., end] = &aside.increments;
+        increment.clone_from(end);
+        slope_at_end(&aside.increments, node, slope);
+        (outcome, aside.progress.statistics)
     }
 
     /// Estimates the error of the step whose end is `y_new`, from the derivative `rate` or, if there is none, at the
@@ -188,6 +224,14 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
     }
 }
 
+/// Writes h times the derivative at the end of a step, which is the part `node` of h long, from its stages: the
+/// derivative of the collocation polynomial satisfies the equation there, and unlike f(t, y) it does not multiply what
+/// the iteration has left by the stiffness.
+fn slope_at_end<S: Real, Y: Vector<S>>(increments: &[Y; 3], node: f64, slope: &mut Y) {
+    let at_end = |p: &&[f64]| (1..).zip(p.iter()).fold(0.0, |sum, (power, c)| sum + f64::from(power) * c);
+    weighted_sum(RADAU_IIA_5.dense.iter().map(|p| S::from_f64(at_end(p) / node)), increments, slope);
+}
+
 impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
     fn progress(&self) -> &Progress<S, Y> {
         &self.progress
@@ -208,6 +252,8 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
         tolerances: &Tolerances<'_, S>,
     ) -> Result<(), IntegrationError<S>> {
         self.progress.t_new = t_new;
+        self.looked = false;
+        self.predict();
         let turns = self.solve(ode, tolerances)?;
         let [.., end] = &self.increments;
         self.progress.advance_by(end);
@@ -237,6 +283,29 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
         6
     }
 
+    /// Where the stages of a shorter step are not found, as about a jump of the derivative, the collocation polynomial
+    /// remains.
+    fn look_within(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<(), IntegrationError<S>> {
+        let mut within = self.within.clone();
+        let [first, second, end, first_slope, second_slope, end_slope] = &mut within;
+        for (node, values) in WITHIN_NODES.into_iter().zip([[first, first_slope], [second, second_slope]]) {
+            let (outcome, statistics) = self.shorter(ode, node, tolerances, values);
+            self.progress.statistics = statistics;
+            if !outcome? {
+                return Ok(());
+            }
+        }
+        let [.., last] = &self.increments;
+        end.clone_from(last);
+        slope_at_end(&self.increments, 1.0, end_slope);
+        (self.within, self.looked) = (within, true);
+        Ok(())
+    }
+
     fn state_at(
         &mut self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
@@ -248,7 +317,12 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
 
     fn step(&self) -> Step<'_, S, Y> {
         let Progress { t, y, t_new, y_new, .. } = &self.progress;
-        Step::new((*t, y), (*t_new, y_new), S::one(), &self.increments, &RADAU_IIA_5.dense)
+        let (start, end) = ((*t, y), (*t_new, y_new));
+        if self.looked {
+            Step::new(start, end, S::one(), &self.within, &WITHIN)
+        } else {
+            Step::new(start, end, S::one(), &self.increments, &RADAU_IIA_5.dense)
+        }
     }
 
     fn accept(&mut self) {

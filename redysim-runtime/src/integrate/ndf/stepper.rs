@@ -27,6 +27,11 @@ const SAFETY_OF_START: f64 = 0.8;
 /// The largest correction of a state with which the past is kept, in units of the error that a step is allowed. A
 /// projection may move a state further than the step was wrong, and in components that were not.
 const LARGEST_CORRECTION: f64 = 10.0;
+/// The largest change of h f by a larger correction with which the past is kept, in the same unit: what the iteration
+/// leaves open changes h f by that much.
+const LARGEST_CHANGE_OF_SLOPE: f64 = 2.0;
+/// The smallest factor by which a step grows after a correction that has taken the past away.
+const WORTH_AN_EARLY_CHANGE: f64 = 2.0;
 
 /// What is evaluated at the state that is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -53,6 +58,8 @@ pub struct NdfStepper<S, Y: Vector<S>> {
     /// rtol over the error that the attempted step would have had with the order below and with the order above; 0 if
     /// there is none.
     neighbours: [S; 2],
+    /// Whether the correction of the last step has taken the past away.
+    restarted: bool,
 }
 
 impl<S: Real, Y: Vector<S>> NdfStepper<S, Y> {
@@ -82,6 +89,7 @@ impl<S: Real, Y: Vector<S>> NdfStepper<S, Y> {
             allowed: zero.clone(),
             scratch: zero,
             neighbours: [S::zero(); 2],
+            restarted: false,
         })
     }
 
@@ -162,6 +170,22 @@ impl<S: Real, Y: Vector<S>> NdfStepper<S, Y> {
         let most = S::from_f64(LARGEST_CORRECTION);
         ends.zip(self.allowed.as_ref())
             .all(|((&y, (&old, &increment)), &allowed)| (y - (old + increment)).abs() <= most * allowed)
+    }
+
+    /// Whether h f at the corrected state is that at the end of the step, which by the formula of order k was
+    /// Σ_{m=1}^k (1/m) ∇^m y_{n+1} − κ γ_k d.
+    fn keeps_its_slope(&mut self) -> bool {
+        let order = self.differences.order();
+        let Some(formula) = Formula::new(self.kappas, order) else { return false };
+        let shares = (1..=order).map(|m| S::one() / S::from_f64(m as f64));
+        weighted_sum(shares, self.differences.all(), &mut self.scratch);
+        let kappa_gamma = S::from_f64(formula.error - 1.0 / (order as f64 + 1.0));
+        add(&mut self.scratch, -kappa_gamma, &self.newton.correction);
+        let slopes = self.scratch.as_ref().iter().zip(self.rate.as_ref());
+        let (size, most) = (self.differences.size(), S::from_f64(LARGEST_CHANGE_OF_SLOPE));
+        slopes
+            .zip(self.allowed.as_ref())
+            .all(|((&slope, &rate), &allowed)| (size * rate - slope).abs() <= most * allowed)
     }
 }
 
@@ -267,11 +291,17 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
         // an error like those of steps, and where it is of their order the method keeps its own: E. Eich, *Convergence
         // results for a coordinate projection method applied to mechanical systems with algebraic constraints*, SIAM J.
         // Numer. Anal. 30 (1993). The next correction d changes by at most about what was corrected, so that the
-        // estimate of the error notices if that is too much. After one that is no error of a step the past is that of
-        // another solution, and nothing but the derivative is left of it.
+        // estimate of the error notices if that is too much. A larger one moves the past along, too, where the derivative
+        // stays what it was: near a singular position of closed loops a projection moves velocities by rounding errors
+        // over the distance from it, step after step, whatever their size. After any other the past is that of another
+        // solution, and nothing but the derivative is left of it.
+        self.restarted = false;
         if self.progress.take_correction() && !small {
             self.evaluate(ode)?;
-            self.differences.restart(&self.rate);
+            if !self.keeps_its_slope() {
+                self.differences.restart(&self.rate);
+                self.restarted = true;
+            }
         }
         Ok(())
     }
@@ -290,11 +320,16 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
 
     fn growth(&mut self, ratio: S) -> S {
         let order = self.differences.order();
+        let limited = |factor: S| factor.minimum(S::from_f64(LARGEST_GROWTH));
         // Only then are all differences that choose the order those of steps of one size.
         if self.differences.steps() < order + 2 {
-            return S::one();
+            // Where corrections take the past away step after step, there never are so many, and steps would stay as
+            // small as they once became.
+            let (_, factor) = self.best(ratio, 1, limited);
+            let grows = self.restarted && factor >= S::from_f64(WORTH_AN_EARLY_CHANGE);
+            return if grows { factor } else { S::one() };
         }
-        let (order, factor) = self.best(ratio, 3, |factor| factor.minimum(S::from_f64(LARGEST_GROWTH)));
+        let (order, factor) = self.best(ratio, 3, limited);
         if factor > S::one() {
             self.differences.set_order(order);
             factor
