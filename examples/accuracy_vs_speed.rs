@@ -5,12 +5,24 @@
 //!
 //! It takes some minutes, and builds itself twice again: for this machine's instructions, and with the feature
 //! `deterministic`. The names of parts (`kr5`, `gripper`, `fourbar`, `stiff`,
-//! `swing`, `iftomm`, `drift`, `evaluation`) may follow behind `--`, to have those alone.
+//! `swing`, `iftomm`, `drift`, `digits`, `evaluation`) may follow behind `--`, to have those alone.
 
 mod common;
 
+// Robots that tests have, too.
+#[path = "../tests/common/chains.rs"]
+#[allow(dead_code, reason = "tests use more of it")]
+mod chains;
+#[path = "../tests/common/random.rs"]
+#[allow(dead_code, reason = "tests use more of it")]
+mod random;
+#[path = "../tests/common/styles.rs"]
+#[allow(dead_code, reason = "tests use more of it")]
+mod styles;
+
 mod accuracy {
     pub mod benchmarks;
+    pub mod digits;
     pub mod drift;
     pub mod evaluation;
     pub mod models;
@@ -19,7 +31,7 @@ mod accuracy {
 }
 
 #[allow(dead_code, reason = "tests use more of it")]
-use accuracy::{benchmarks, drift, evaluation, scene, work_precision};
+use accuracy::{benchmarks, digits, drift, evaluation, scene, work_precision};
 use common::{Failure, Outputs};
 
 fn main() -> Result<(), Failure> {
@@ -52,6 +64,9 @@ fn main() -> Result<(), Failure> {
     }
     if asked("drift") {
         drift::report(&mut outputs)?;
+    }
+    if asked("digits") {
+        digits::report(&mut outputs)?;
     }
     if asked("evaluation") {
         evaluation::report(&mut outputs)?;
