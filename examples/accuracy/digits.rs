@@ -89,10 +89,13 @@ fn panel(name: &'static str, tree: &Tree, csv: &mut Csv) -> Result<Panel, Failur
         table.row(cells);
     }
     table.print();
-    let names = ["recursion", "recursion, a pass less", "factorisation", "factorisation, a pass less"];
-    let mut panel = Panel::new(name, "loss", "").logarithmic().over("operations");
-    for (colour, (name, points)) in (1..).zip(names.iter().zip(&points)) {
-        panel = panel.dots(name, colour, points);
-    }
-    Ok(panel)
+    let [recursion, recursions, factorisation, factorisations] = points;
+    // What is drawn last lies on top.
+    Ok(Panel::new(name, "loss", "share of the largest")
+        .logarithmic()
+        .over("operations")
+        .scatter("recursion, passes left out", 2, &recursions)
+        .scatter("factorisation, passes left out", 4, &factorisations)
+        .scatter("recursion", 1, &recursion)
+        .scatter("factorisation", 3, &factorisation))
 }
