@@ -43,3 +43,17 @@ fn the_table_of_passes_is_that_of_the_snapshot() {
         assert!(documentation.contains(&row), "docs/performance.md lacks the row\n{row}");
     }
 }
+
+#[test]
+fn the_changelog_has_the_operations_of_the_snapshot() {
+    let counts = snapshot();
+    let [inverse, forward, matrix]: [&str; 3] =
+        counts[&("all".to_string(), ROBOTS[0])].split(" / ").collect::<Vec<_>>().try_into().expect("three functions");
+    let sentence = format!(
+        "KR5 takes {inverse} operations for inverse dynamics, {forward} for forward dynamics and {matrix} for the mass matrix \
+         (`models/{}.toml`)",
+        ROBOTS[0]
+    );
+    let changelog = read("CHANGELOG.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(changelog.contains(&sentence), "CHANGELOG.md lacks: {sentence}");
+}

@@ -142,3 +142,39 @@ fn a_larger_tolerance_never_costs_more() {
     let [inverse, forward, mass, ..] = flops(&To2::OPS);
     assert!(inverse <= 250 && forward <= 500 && mass <= 85, "{inverse} {forward} {mass}");
 }
+
+/// The row of the README's table of the KR5 whose first cell is `name`.
+fn stated_row(name: &str) -> Vec<u32> {
+    let readme = include_str!("../README.md");
+    let table = readme.split_once("| operations of the KR5").expect("its table").1;
+    let row = table.lines().find_map(|line| line.strip_prefix(&format!("| {name} | "))).expect("a row");
+    row.trim_end_matches(" |").split(" | ").map(|count| count.parse().expect("a count")).collect()
+}
+
+#[test]
+fn the_readme_states_the_operations_at_each_tolerance() {
+    let columns = [Kr5::OPS, To4::OPS, To3::OPS, To2::OPS, To1::OPS].map(|operations| flops(&operations));
+    for (row, name) in NAMES[..3].iter().enumerate() {
+        assert_eq!(stated_row(&name.replace('_', " ")), columns.map(|column| column[row]), "{name}");
+    }
+}
+
+/// The scale of the mass matrix has the largest diagonal elements; at a position where they are smaller, the same error is a
+/// larger share.
+#[test]
+fn the_readme_states_what_share_of_the_mass_matrix_at_the_position_itself_is_lost() {
+    let (mut random, ranges) = (Random::new(99), ranges());
+    let mut worst = 0.0_f64;
+    for _ in 0..20_000 {
+        let [q, ..] = state(&mut random, &ranges);
+        let (exact, pruned) = (Kr5::mass_matrix(&q), To1::mass_matrix(&q));
+        for (i, row) in exact.iter().enumerate() {
+            for (j, element) in row.iter().enumerate() {
+                worst = worst.max((pruned[i][j] - element).abs() / (exact[i][i] * exact[j][j]).sqrt());
+            }
+        }
+    }
+    let readme = include_str!("../README.md");
+    let stated = readme.split_once("of the KR5 at 1e-1, ").expect("a sentence").1.split_once(" %").expect("a share").0;
+    assert_eq!(stated.parse(), Ok((100.0 * worst).round()), "{worst}");
+}

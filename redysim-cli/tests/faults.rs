@@ -3,28 +3,8 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
 
-use common::{SWING, fail, names, scenario, scratch, succeed};
-
-const LIFT: &str = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
-
-/// Runs a scenario of two links that must fail with `code`, say every one of `words`, and leave nothing.
-fn refuses(name: &str, command: &str, rest: &str, code: i32, words: &[&str]) {
-    let folder = scratch(&format!("faults-{name}"));
-    refuses_in(&folder, command, &scenario(&folder, "two_link.toml", rest), code, words);
-}
-
-fn refuses_in(folder: &Path, command: &str, path: &str, code: i32, words: &[&str]) {
-    let before = names(folder);
-    let said = fail(folder, &[command, path], code);
-    println!("{said}\n");
-    for word in words {
-        assert!(said.contains(word), "no `{word}` in: {said}");
-    }
-    assert_eq!(said.lines().filter(|line| line.starts_with("error")).count(), 1, "one message: {said}");
-    assert_eq!(names(folder), before, "nothing is left");
-}
+use common::{LIFT, SWING, fail, refuses, refuses_in, scenario, scratch, succeed};
 
 #[test]
 fn a_missing_scenario() {

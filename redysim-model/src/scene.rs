@@ -83,6 +83,15 @@ impl Functions {
         Ok(functions)
     }
 
+    /// The same but for the function of this name.
+    pub(crate) fn without(self, name: &str) -> Functions {
+        let mut functions = self;
+        for (_, wanted) in FUNCTIONS.iter().zip(&mut functions.0).filter(|(known, _)| **known == name) {
+            *wanted = false;
+        }
+        functions
+    }
+
     /// Whether the function of this name is among them.
     pub fn contains(&self, name: &str) -> bool {
         FUNCTIONS.iter().zip(self.0).any(|(known, wanted)| *known == name && wanted)

@@ -12,8 +12,7 @@ use crate::scenario::{Absolute, Integrator, Scenario, Tolerances, Torque, USUAL_
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
-    let mut document: DocumentMut =
-        scenario.text.parse().map_err(|error| Failure::outside(format!("cannot copy the scenario: {error}")))?;
+    let mut document = scenario.document.clone();
     folder.write(MODEL, scenario.model_text.as_bytes())?;
     document["model"] = value(MODEL);
     keep(document.as_item_mut(), "name", value(&scenario.name));

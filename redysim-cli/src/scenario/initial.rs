@@ -1,6 +1,10 @@
 //! Where a mechanism starts.
 
+use std::ops::Range;
+
 use redysim_model::document::{Reader, Shape};
+
+use toml::Spanned;
 
 use super::joints::{Quantity, some, values};
 use super::{Subject, asked};
@@ -9,6 +13,8 @@ use super::{Subject, asked};
 pub struct Initial {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
+    /// Where the scenario says so, if it does.
+    pub place_of_v: Range<usize>,
     /// Whether closed loops are closed from there.
     pub assemble: bool,
     /// The joints that stay where they are while loops are closed.
@@ -25,17 +31,18 @@ impl Initial {
         let rest = || vec![0.0; joints.len()];
         let field = reader.table("initial", &INITIAL, |mut reader| {
             let q = values(&mut reader, "q", Quantity::Coordinate, joints, &all).value_or(rest());
-            let v = values(&mut reader, "v", Quantity::Rate, joints, &all).value_or(rest());
+            let v = values(&mut reader, "v", Quantity::Rate, joints, &all);
+            let (v, place_of_v) = (v.value_or(rest()), v.spanned().map_or(0..0, Spanned::span));
             let assemble = reader.flag("assemble");
             subject.expect_loops(&mut reader, "initial.assemble", &assemble);
             let held = some(&mut reader, "held", joints);
             subject.expect_loops(&mut reader, "initial.held", &held);
             let (assemble, held) = (assemble.value_or(true), held.value_or(actuated.clone()));
-            Some(Initial { q: q?, v: v?, assemble: assemble?, held: held? })
+            Some(Initial { q: q?, v: v?, place_of_v, assemble: assemble?, held: held? })
         });
         match asked(field)? {
             Some(initial) => Some(initial),
-            None => Some(Initial { q: rest(), v: rest(), assemble: true, held: actuated }),
+            None => Some(Initial { q: rest(), v: rest(), place_of_v: 0..0, assemble: true, held: actuated }),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The integrators by their names.
 
 use redysim_model::GenericMechanism;
-use redysim_model::document::{Message, Reader, Shape};
+use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::integrate::stability::{StepWarning, largest_stable_step};
 use redysim_runtime::integrate::{self, Observer, Solution};
 use redysim_runtime::{
@@ -85,6 +85,9 @@ impl Absolute {
 const USUAL_RTOL: f64 = 1e-3;
 const USUAL_ATOL: f64 = 1e-6;
 const USUAL_MAX_STEP: f64 = 0.1;
+/// The integrators' own limits of the number of steps.
+const MOST_FIXED: f64 = 1e9;
+const MOST_ADAPTIVE: f64 = 1e8;
 /// A step that is longer than the run by this part of it is as long.
 const ROUNDING: f64 = 1e-6;
 
@@ -140,11 +143,14 @@ impl Integrator {
                 if size > length * (1.0 + ROUNDING) {
                     return reader.fault_at(spanned.span(), too_long(reader.item(), size, length));
                 }
+                check_count(&mut reader, "step", &step, (length, MOST_FIXED))?;
                 Some(Integrator::Fixed(method, size))
             }
             Method::Adaptive(method) => {
-                let [rtol, max_step] = [("rtol", USUAL_RTOL), ("max_step", max_step)]
-                    .map(|(key, usual)| reader.positive(key).value_or(usual));
+                let rtol = reader.positive("rtol").value_or(USUAL_RTOL);
+                let largest = reader.positive("max_step");
+                let max_step = largest.value_or(max_step);
+                check_count(&mut reader, "max_step", &largest, (length, MOST_ADAPTIVE))?;
                 let atol = Absolute::read(&mut reader);
                 Some(Integrator::Adaptive(method, Tolerances { rtol: rtol?, atol: atol?, max_step: max_step? }))
             }
@@ -219,6 +225,23 @@ impl Tolerances {
     fn on<'a, M>(self, method: integrate::Adaptive<'a, f64, M>, atol: &'a [f64]) -> integrate::Adaptive<'a, f64, M> {
         method.rtol(self.rtol).atol_each(atol).max_step(self.max_step)
     }
+}
+
+/// Fails where steps no larger than that under `key` are more than a run may take.
+fn check_count(reader: &mut Reader<'_, '_>, key: &str, step: &Field<f64>, (length, most): (f64, f64)) -> Option<()> {
+    let Some(spanned) = step.spanned() else { return Some(()) };
+    let step = *spanned.get_ref();
+    if !length.is_finite() || length / step <= most {
+        return Some(());
+    }
+    let title = format!(
+        "{}: with the integrator's `{key}` of {step:?} s the {length:?} s of the run take {:.1e} steps, and at most {most:e} \
+         are taken",
+        reader.item(),
+        length / step
+    );
+    let help = format!("give a `{key}`, s, that is larger, or end earlier");
+    reader.fault_at(spanned.span(), Message { title, label: "too small for this run".into(), help })
 }
 
 fn too_long(item: &str, step: f64, length: f64) -> Message {

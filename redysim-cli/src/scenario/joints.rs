@@ -8,6 +8,8 @@ use redysim_model::{JointKind, Model};
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::limits;
+
 /// A moving joint.
 #[derive(Clone, Debug)]
 pub struct Joint {
@@ -167,7 +169,10 @@ fn list(
 
 fn one(reader: &mut Reader<'_, '_>, path: &str, value: &Value<'_>, quantity: Quantity, joint: &Joint) -> Option<f64> {
     match quantity {
-        Quantity::Coordinate if joint.turns => reader.an_angle(path, value),
+        Quantity::Coordinate if joint.turns => {
+            let angle = reader.an_angle(path, value)?;
+            limits::coordinate(reader, value.span(), path, joint, angle)
+        }
         Quantity::Rate => reader.displacement(path, value, joint.turns, "/s"),
         Quantity::Coordinate | Quantity::Gain => reader.a_number(path, value),
     }

@@ -6,6 +6,7 @@ mod initial;
 mod integrator;
 pub mod joints;
 mod law;
+mod limits;
 mod manual;
 mod span;
 mod table;
@@ -20,6 +21,7 @@ use redysim_model::document::{self, Field, Message, Reader, Shape};
 use redysim_model::{Diagnostic, GenericMechanism, Mobility, Model};
 use redysim_runtime::LoopClosure;
 use toml::de::DeValue;
+use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
 use crate::model;
@@ -56,8 +58,8 @@ impl fmt::Display for Dynamics {
 pub struct Scenario {
     /// Its name: that of the file, unless it says another.
     pub name: String,
-    /// The text of its file.
-    pub text: String,
+    /// Its file, as it is copied into results.
+    pub document: DocumentMut,
     /// The text of the model's file.
     pub model_text: String,
     /// The model.
@@ -232,7 +234,26 @@ fn read(
     };
     let (inverse, forward) = (asked(inverse)?, asked(forward)?);
     let (name, initial, trajectory) = (name?, initial?, trajectory?);
-    Some(Scenario { name, text, model_text, mechanism, joints, initial, trajectory, inverse, forward })
+    let followed = forward.as_ref().and_then(|forward| Some((forward.torque.followed()?, forward.span)));
+    if let Some(motion) = trajectory.as_ref().zip(inverse).or(followed) {
+        limits::check_motion(&mut reader, &subject, &initial, motion)?;
+    }
+    if let Some(Forward { span, .. }) = forward {
+        limits::check_start(&mut reader, &subject, &initial, span)?;
+    }
+    let document = document(&mut reader, &text)?;
+    Some(Scenario { name, document, model_text, mechanism, joints, initial, trajectory, inverse, forward })
+}
+
+/// The file as it can be edited. It is read again for that, whole: also what this run has not looked at must be TOML.
+fn document(reader: &mut Reader<'_, '_>, text: &str) -> Option<DocumentMut> {
+    let fault = match text.parse() {
+        Ok(document) => return Some(document),
+        Err::<_, toml_edit::TomlError>(fault) => fault,
+    };
+    let title = format!("{}: not TOML: {}", reader.item(), fault.message());
+    let help = "TOML has integers from -2^63 to 2^63 - 1 and floats up to 1.8e308".to_owned();
+    reader.fault_at(fault.span().unwrap_or(0..0), Message { title, label: "here".into(), help })
 }
 
 /// The scenario's name, after which a folder is called.

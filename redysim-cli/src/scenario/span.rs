@@ -31,7 +31,7 @@ impl Span {
         let step = reader.positive("step");
         let step = reader.required("step", step);
         let (start, spanned) = (start.value_or(0.0)?, end.spanned()?);
-        let span = Span::new(start, *spanned.get_ref(), *step.value()?);
+        let span = Span { start, end: *spanned.get_ref(), step: *step.value()?, decimals: None };
         let count = span.steps();
         let item = reader.item();
         let fault = if span.end <= start {
@@ -65,14 +65,14 @@ impl Span {
                 help: "give a larger `step`, or begin at 0".into(),
             }
         } else {
-            return Some(span);
+            return Some(span.in_decimals());
         };
         reader.fault_at(spanned.span(), fault)
     }
 
-    fn new(start: f64, end: f64, step: f64) -> Span {
-        let span = Span { start, end, step, decimals: None };
-        Span { decimals: Decimals::of(start, step, span.steps()), ..span }
+    /// The same with its instants as decimals where they are some: for a span that has been checked.
+    fn in_decimals(self) -> Span {
+        Span { decimals: Decimals::of(self.start, self.step, self.steps()), ..self }
     }
 
     fn steps(&self) -> f64 {
@@ -114,7 +114,7 @@ struct Decimals {
 /// Powers of ten up to this one are exact in binary.
 const MOST_DIGITS: u32 = 22;
 /// So are whole numbers up to here.
-const MOST_UNITS: i64 = 1 << f64::MANTISSA_DIGITS;
+const MOST_UNITS: u64 = 1 << f64::MANTISSA_DIGITS;
 
 impl Decimals {
     /// If start, step and all `steps` are whole numbers of a unit.
@@ -124,7 +124,7 @@ impl Decimals {
         let scaled = |units: i64, own: u32| units.checked_mul(10_i64.checked_pow(digits - own)?);
         let (start, step) = (scaled(start, a)?, scaled(step, b)?);
         let last = step.checked_mul(steps as i64)?.checked_add(start)?;
-        let fits = digits <= MOST_DIGITS && start.abs().max(last.abs()) <= MOST_UNITS;
+        let fits = digits <= MOST_DIGITS && start.unsigned_abs().max(last.unsigned_abs()) <= MOST_UNITS;
         fits.then(|| Decimals { start, step, per_unit: 10_f64.powi(digits as i32) })
     }
 
@@ -151,12 +151,16 @@ fn decimal(value: f64) -> Option<(i64, u32)> {
 mod tests {
     use super::Span;
 
+    fn span(start: f64, end: f64, step: f64) -> Span {
+        Span { start, end, step, decimals: None }.in_decimals()
+    }
+
     #[test]
     fn instants_are_the_decimals_that_are_meant() {
         for (start, step, count) in
             [(0.0, 0.1, 1000), (-2.5, 0.05, 400), (1e3, 1e-6, 1000), (0.0, 20.0, 50), (0.3, 7e-9, 99)]
         {
-            let span = Span::new(start, start + step * f64::from(count), step);
+            let span = span(start, start + step * f64::from(count), step);
             for k in 0..=count {
                 let meant = (start * 1e9_f64).round() as i64 + i64::from(k) * (step * 1e9_f64).round() as i64;
                 let text = format!("{meant}e-9");
@@ -168,7 +172,7 @@ mod tests {
     #[test]
     fn steps_that_are_no_decimals_are_multiples() {
         for (start, step) in [(0.0, 1.0 / 3.0), (0.1 + 0.2, 0.1), (1e15, 0.7), (0.0, f64::MIN_POSITIVE)] {
-            let span = Span::new(start, start + 300.0 * step, step);
+            let span = span(start, start + 300.0 * step, step);
             assert!((0..=300).all(|k| span.instant(k) == start + k as f64 * step), "{start} {step}");
         }
     }

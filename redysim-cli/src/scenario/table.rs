@@ -6,6 +6,9 @@ use super::joints::Joint;
 use crate::failure::Failure;
 use crate::table::{self, Column};
 
+/// The largest number, as in a scenario: products of a few of them are finite.
+const LARGEST: f64 = 1e100;
+
 /// A table whose numbers are finite and whose times grow.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -32,6 +35,12 @@ impl Table {
                 let (header, found) = (column.header(), column.values[row]);
                 let fault = read.fault(row, format!("`{header}` must be a finite number, found {found}"));
                 return Err(fault.help("take the row out, or put a number there"));
+            }
+            let too_large = |column: &&Column| column.values[row].abs() > LARGEST;
+            if let Some(column) = read.columns.iter().find(too_large) {
+                let (header, found) = (column.header(), column.values[row]);
+                let fault = read.fault(row, format!("`{header}` is {found:e}, with which nothing can be computed"));
+                return Err(fault.help(format!("a number is at most {LARGEST:e} in size")));
             }
             if row > 0 && read.t[row] <= read.t[row - 1] {
                 let fault = read.fault(row, format!("t is {:?} s again", read.t[row]));

@@ -1,5 +1,7 @@
 //! Prescribed motions.
 
+use std::ops::Range;
+
 use redysim_model::Mobility;
 use redysim_model::document::{Message, Reader, Shape};
 use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
@@ -16,6 +18,8 @@ use crate::number::counted;
 pub struct Prescribed {
     /// The coordinates that it prescribes.
     pub joints: Vec<usize>,
+    /// Where the scenario says how fast or where to.
+    pub place: Range<usize>,
     /// The table that it is read from, if it is.
     pub table: Option<Table>,
     motion: Kind,
@@ -68,6 +72,7 @@ impl Prescribed {
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Option<Prescribed>> {
         let joints = subject.joints;
         let usual = if subject.loops() { subject.actuated() } else { (0..joints.len()).collect() };
+        let mut place = None;
         let field = reader.table_of_kind("trajectory", "kind", &KINDS, KINDS[0].1, |mut reader, tag| {
             let chosen = some(&mut reader, "joints", joints).value_or(usual.clone())?;
             let coordinates = |reader: &mut Reader<'_, '_>, key: &str| {
@@ -88,6 +93,7 @@ impl Prescribed {
                     let from = coordinates(&mut reader, "from");
                     let speed = values(&mut reader, "speed", Quantity::Rate, joints, &chosen);
                     let speed = reader.required("speed", speed);
+                    place = speed.spanned().map(Spanned::span);
                     Kind::ConstantSpeed { from: from?, speed: speed.value()?.clone() }
                 }
                 Tag::Via(smooth) => {
@@ -111,7 +117,7 @@ impl Prescribed {
                     Kind::ViaPoints(through)
                 }
             };
-            let prescribed = Prescribed { joints: chosen, table, motion };
+            let prescribed = Prescribed { joints: chosen, place: 0..0, table, motion };
             let checked = match subject.dynamics {
                 Dynamics::Inverse => prescribed.check_joints(subject),
                 // What a law needs to follow, it says itself.
@@ -125,7 +131,12 @@ impl Prescribed {
                 }
             }
         });
-        if field.is_missing() { Some(None) } else { Some(Some(field.value()?.clone()?)) }
+        if field.is_missing() {
+            return Some(None);
+        }
+        let read = field.spanned()?;
+        let place = place.unwrap_or(read.span());
+        Some(Some(Prescribed { place, ..read.get_ref().clone()? }))
     }
 
     /// Fails, with what is wrong and what to do, unless it says how all of a mechanism moves and nothing twice: a tree every

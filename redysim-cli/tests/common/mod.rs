@@ -2,6 +2,7 @@
 #![allow(dead_code, unused_imports, reason = "each test uses a part")]
 
 mod program;
+mod refusals;
 #[cfg(unix)]
 pub mod running;
 mod scenarios;
@@ -13,7 +14,8 @@ use std::path::{Path, PathBuf};
 pub use program::{Run, call, fail, program, succeed};
 #[cfg(unix)]
 pub use program::{bash, on_a_full_disk};
-pub use scenarios::{AGAINST_CLOSED_FORMS, LONG, SWING, results, scenario, slide, swing, turn};
+pub use refusals::{refuses, refuses_in};
+pub use scenarios::{AGAINST_CLOSED_FORMS, LIFT, LONG, SWING, results, scenario, slide, swing, turn};
 pub use table::{Table, deviation};
 
 /// The repository.

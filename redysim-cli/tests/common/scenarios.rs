@@ -8,6 +8,9 @@ use super::{root, succeed};
 /// A double pendulum that falls for a second.
 pub const SWING: &str = "initial = { q = [0, 1] }\n[forward]\nend = 1.0\nstep = 0.1\n";
 
+/// The forces that lift two links in a second.
+pub const LIFT: &str = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
+
 /// Hours of steps.
 pub const LONG: &str =
     "initial = { q = [0, 1] }\n[forward]\nend = 1e5\nstep = 0.01\nintegrator = { method = 'Ode5', step = 0.001 }\n";

@@ -56,7 +56,7 @@ fn share_of(error: f64, scale: f64) -> f64 {
 }
 
 /// What the error of each output is a share of: for joint forces, the force that the joint's range states; for an
-/// element of the mass matrix, √(M_ii M_jj); else its largest size.
+/// element of the mass matrix, √(M_ii M_jj) at its largest; else its largest size.
 pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
     match shape {
         Shape::Vector if states.forces.is_none() => {

@@ -1,12 +1,12 @@
 //! Every joint moves something: the structural reason for a singular mass matrix. The numerical one is in
 //! [`super::singular`].
 
-use crate::diagnostic::{Findings, messages};
+use crate::diagnostic::{Message, messages};
 use crate::model::Inertia;
 use crate::schema::{Document, LinkTable};
 
-/// Reports each moving link that has neither mass nor inertia and carries none: its row of the mass matrix is zero.
-pub(super) fn check(document: &Document, parents: &[Option<usize>], findings: &mut Findings) {
+/// Each moving link that has neither mass nor inertia and carries none, with its message: its row of the mass matrix is zero.
+pub(super) fn check(document: &Document, parents: &[Option<usize>]) -> Vec<(usize, Message)> {
     let mut carries = vec![false; document.links.len()];
     for (i, link) in document.links.iter().enumerate() {
         let mut at = Some(i).filter(|_| has_mass(link));
@@ -15,12 +15,11 @@ pub(super) fn check(document: &Document, parents: &[Option<usize>], findings: &m
             at = parents[link];
         }
     }
-    for (link, _) in document.links.iter().zip(carries).filter(|(_, carries)| !carries) {
-        let moves = link.joint.value().is_some() && !link.is_rigid();
-        if let Some(joint) = link.joint_name().filter(|_| moves) {
-            findings.error(link.place(), messages::massless(&link.item, joint.get_ref()));
-        }
-    }
+    let weightless = document.links.iter().enumerate().zip(carries).filter(|(_, carries)| !carries);
+    let moving = weightless.map(|(link, _)| link).filter(|(_, link)| link.joint.value().is_some() && !link.is_rigid());
+    moving
+        .filter_map(|(index, link)| Some((index, messages::massless(&link.item, link.joint_name()?.get_ref()))))
+        .collect()
 }
 
 /// Mass or inertia; a faulty entry counts, since it may have been meant so.

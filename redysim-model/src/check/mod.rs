@@ -1,5 +1,6 @@
 //! What a model file says, checked rule by rule. Every rule reports all it finds; none stops another.
 
+mod closed;
 mod cut;
 mod inertia;
 mod massless;
@@ -10,7 +11,7 @@ mod scene;
 mod singular;
 mod tree;
 
-use crate::diagnostic::{Findings, messages};
+use crate::diagnostic::{Findings, Message, messages};
 use crate::model::{JointKind, Link, Model};
 use crate::scene::Scene;
 use crate::schema::{Document, LinkTable};
@@ -26,7 +27,11 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     let links: Vec<_> = document.links.iter().map(|table| link(table, findings)).collect();
     let loops = cut::loops(document, parents.as_deref(), findings);
     let parents = parents?;
-    massless::check(document, &parents, findings);
+    let massless = massless::check(document, &parents);
+    if document.loops.is_empty() {
+        // Loops may hold what has no mass; whether they do shows in a model without faults.
+        report(document, &massless, findings);
+    }
 
     let mut links = links.into_iter().collect::<Option<Vec<_>>>()?;
     for ((link, table), parent) in links.iter_mut().zip(&document.links).zip(parents) {
@@ -36,13 +41,18 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
         }
     }
     let gravity = Vec3(*document.gravity.value()?);
+    let mut scene = scene;
     let model = Model { name: document.name.value()?.clone(), gravity, links, loops: loops? };
     if findings.errors() > 0 {
         return None;
     }
-    for (link, message) in singular::check(&model) {
-        let message = message.with_locks(&document.locks());
-        findings.error(document.links.get(link).map_or(document.place.clone(), LinkTable::place), message);
+    let unmoved = if massless.is_empty() { singular::check(&model) } else { massless };
+    if let Some((link, _)) = unmoved.first() {
+        if closed::is_well_posed(&model) {
+            scene::without_dynamics_of_tree(document, &model.links[*link], scene.as_mut(), findings);
+        } else {
+            report(document, &unmoved, findings);
+        }
     }
     if findings.errors() > 0 {
         return None;
@@ -53,6 +63,14 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
         findings.warning(table.map_or(document.place.clone(), Spanned::span), message);
     }
     Some((model, scene?))
+}
+
+/// Reports links whose joints meet no inertia.
+fn report(document: &Document, links: &[(usize, Message)], findings: &mut Findings) {
+    for (link, message) in links {
+        let message = message.clone().with_locks(&document.locks());
+        findings.error(document.links.get(*link).map_or(document.place.clone(), LinkTable::place), message);
+    }
 }
 
 /// One link by itself, still without its parent.

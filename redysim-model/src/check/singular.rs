@@ -20,7 +20,7 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
         if suspects.is_empty() {
             return Vec::new();
         }
-        let free = without_pivot(&tree, &tree.sample(position));
+        let free = pivotless(&tree, &mass_matrix(&tree, &tree.sample(position)));
         suspects.retain(|body| free.contains(body));
     }
     let moving: Vec<usize> = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0).collect();
@@ -42,9 +42,9 @@ fn meets_own_inertia(body: &Body) -> bool {
     }
 }
 
-/// The bodies whose pivot in the elimination of M(q), from the tips to the ground, is nothing but roundoff.
-fn without_pivot(tree: &Tree, q: &[f64]) -> Vec<usize> {
-    let matrix = mass_matrix(tree, q);
+/// The bodies whose pivot in the elimination of a symmetric `matrix` over the coordinates, from the tips to the ground, is
+/// nothing but roundoff.
+pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>]) -> Vec<usize> {
     let at: Vec<usize> = tree.bodies.iter().map(|body| body.coordinate).collect();
     let mut reduced: Vec<Vec<f64>> = at.iter().map(|&i| at.iter().map(|&j| matrix[i][j]).collect()).collect();
     let mut without = Vec::new();

@@ -22,7 +22,13 @@ impl Reader<'_, '_> {
     pub fn a_number(&mut self, path: &str, value: &Value<'_>) -> Option<f64> {
         let (number, text) = match value.get_ref() {
             DeValue::Float(float) => (float.as_str().parse().unwrap_or(f64::NAN), float.as_str()),
-            DeValue::Integer(integer) => (integer_value(integer), integer.as_str()),
+            DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
+                Ok(number) => (number as f64, integer.as_str()),
+                Err(_) => {
+                    let message = messages::integer_out_of_range(self.item(), path, integer.as_str(), rounded(integer));
+                    return self.fault(value, message);
+                }
+            },
             _ => return self.wrong_type(path, value, "a number"),
         };
         self.finite(path, value, number, text)
@@ -87,13 +93,13 @@ impl Reader<'_, '_> {
     }
 }
 
-/// TOML's integers are exact; as coordinates they are rounded to the nearest `f64`.
-fn integer_value(integer: &DeInteger<'_>) -> f64 {
-    match (integer.radix(), i128::from_str_radix(integer.as_str(), integer.radix())) {
-        (_, Ok(value)) => value as f64,
-        (10, Err(_)) => integer.as_str().parse().unwrap_or(f64::INFINITY),
-        (_, Err(_)) => f64::INFINITY,
-    }
+/// The float nearest to an integer of any size, if there is one.
+fn rounded(integer: &DeInteger<'_>) -> Option<f64> {
+    let rounded = match integer.radix() {
+        10 => integer.as_str().parse().ok(),
+        radix => i128::from_str_radix(integer.as_str(), radix).ok().map(|integer| integer as f64),
+    };
+    rounded.filter(|rounded| rounded.is_finite())
 }
 
 /// A value in a few words, with its article.

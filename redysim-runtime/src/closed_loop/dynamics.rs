@@ -1,6 +1,6 @@
 //! Accelerations of closed loops, and the forces that keep them closed.
 
-use super::linear::{difference, largest};
+use super::linear::{add_scaled, difference, largest};
 use super::linearised::Linearised;
 use super::{ClosedLoop, LoopError};
 use crate::vector::entry;
@@ -24,8 +24,10 @@ impl<M, C> ClosedLoop<'_, M, C> {
     /// Redundant rows share the constraint force so that |λ| is least. In a singular position, the rows that say
     /// nothing new there are left out: the answer is finite and the rank is lower.
     ///
+    /// M may be singular, as with a rod without mass, if it is positive definite on the velocities that the loops leave free.
+    ///
     /// # Errors
-    /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    /// [`LoopError::SingularInertia`] if the loops leave a motion free that moves no mass, and [`LoopError::NotFinite`].
     pub fn dynamics<S: Real>(
         &self,
         q: &M::Coordinates,
@@ -64,7 +66,12 @@ impl<M, C> ClosedLoop<'_, M, C> {
             *scaled += by_loops;
         }
         at.metric.unscale(&mut scaled);
-        let multipliers = at.space.multipliers(&change);
+        let mut multipliers = at.space.multipliers(&change);
+        if at.augmentation != S::zero() {
+            // Of w Jᵀ J a, which the metric has on the side of the inertia, what can be reached of J a.
+            let missed = at.space.unreachable(&wanted);
+            add_scaled(multipliers.as_mut(), -at.augmentation, difference(&wanted, &missed).as_ref());
+        }
         let finite = |values: &[S]| largest(values.iter().copied()).0.is_finite();
         if !(finite(scaled.as_ref()) && finite(multipliers.as_ref())) {
             return Err(LoopError::NotFinite);

@@ -93,7 +93,7 @@ pub enum LoopError<S> {
         /// The given rate, 1/s.
         alpha: S,
     },
-    /// The generalised inertia matrix is not positive definite.
+    /// The generalised inertia matrix is not positive definite on the velocities that the loops leave free.
     SingularInertia {
         /// The coordinate of the first pivot that is not positive.
         coordinate: usize,
@@ -194,8 +194,8 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             }
             Self::SingularInertia { coordinate } => write!(
                 f,
-                "the generalised inertia matrix is not positive definite at coordinate {coordinate}; give the links \
-                 that its joint moves a mass and an inertia"
+                "the generalised inertia matrix is not positive definite at coordinate {coordinate}, and the loops do not \
+                 determine how it moves; give the links that its joint moves a mass and an inertia"
             ),
             Self::NotFinite => f.write_str(
                 "a position, a velocity or a force is infinite or not a number; look at the start and at the torque \

@@ -4,12 +4,15 @@ use super::linear::largest;
 use super::mass_metric::MassMetric;
 use super::row_space::RowSpace;
 use super::{ClosedLoop, LoopError};
+use crate::vector::entry;
 use crate::{LoopClosure, MassMatrix, Mechanism, Real, Vector};
 
 /// J(q) and the decomposition of W = J U⁻ᵀ D^−½.
 pub(super) struct Linearised<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
     pub jacobian: C::Jacobian,
     pub metric: MassMetric<M::Matrix>,
+    /// What the metric adds to M: this times JᵀJ.
+    pub augmentation: S,
     pub space: RowSpace<S, M, C>,
 }
 
@@ -62,8 +65,33 @@ impl<M, C> ClosedLoop<'_, M, C> {
     {
         let jacobian = self.closure.loop_jacobian(q);
         let mut rows = jacobian.clone();
+        for row in rows.as_mut() {
+            without(row, held);
+        }
+        let of_tree = MassMetric::new(self.matrix(metric, q, held));
+        let (metric, augmentation) = match of_tree {
+            Ok(of_tree) if of_tree.is_regular() => (of_tree, S::zero()),
+            of_tree => {
+                let mut matrix = self.matrix(metric, q, held);
+                let augmentation = augment(&mut matrix, rows.as_ref(), held);
+                match MassMetric::new(matrix) {
+                    Ok(augmented) if augmented.is_regular() => (augmented, augmentation),
+                    _ => (of_tree?, S::zero()),
+                }
+            }
+        };
+        for row in rows.as_mut() {
+            metric.scale(row);
+        }
+        Ok(Linearised { jacobian, metric, augmentation, space: RowSpace::new(rows, self.mechanism.nv())? })
+    }
+
+    /// M(q), or the unit matrix; a coordinate that is held is a block by itself.
+    fn matrix<S: Real>(&self, metric: Metric, q: &M::Coordinates, held: &[usize]) -> M::Matrix
+    where
+        M: MassMatrix<S>,
+    {
         let mut matrix = self.mechanism.mass_matrix(q);
-        // A coordinate that is held is a block of M by itself, and no row of J knows it.
         for (i, row) in matrix.as_mut().iter_mut().enumerate() {
             for (j, element) in row.as_mut().iter_mut().enumerate() {
                 if metric == Metric::Unit || held.contains(&i) || held.contains(&j) {
@@ -71,13 +99,28 @@ impl<M, C> ClosedLoop<'_, M, C> {
                 }
             }
         }
-        let metric = MassMetric::new(matrix)?;
-        for row in rows.as_mut() {
-            without(row, held);
-            metric.scale(row);
-        }
-        Ok(Linearised { jacobian, metric, space: RowSpace::new(rows, self.mechanism.nv())? })
+        matrix
     }
+}
+
+/// Adds w JᵀJ to the matrix M of a tree, with J given by `rows`, and returns w (the augmented Lagrangian formulation).
+///
+/// What keeps the loops closed has the same motion whatever w is, since J a is prescribed: only the multipliers are less
+/// by w J a. And where M is positive definite on the motions that the loops allow, M + w JᵀJ is positive definite for every
+/// w > 0, though M may be singular: a rod without mass moves with the links that hold it. w makes the largest elements of
+/// both terms alike, so that neither costs the other digits.
+fn augment<S: Real, V: Vector<S>, A: Vector<V>>(matrix: &mut A, rows: &[V], held: &[usize]) -> S {
+    let diagonal = matrix.as_ref().iter().enumerate().filter(|(i, _)| !held.contains(i));
+    let (heaviest, _) = largest(diagonal.map(|(i, row)| entry(row, i)));
+    let lever = size(rows);
+    let weight = heaviest / (lever * lever);
+    for (i, row) in matrix.as_mut().iter_mut().enumerate() {
+        for (j, element) in row.as_mut().iter_mut().enumerate() {
+            let gram = rows.iter().fold(S::zero(), |sum, row| sum + entry(row, i) * entry(row, j));
+            *element += weight * gram;
+        }
+    }
+    weight
 }
 
 /// The size of a mechanism as its loops see it, m: the largest element of J, the longest lever.

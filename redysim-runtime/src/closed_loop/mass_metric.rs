@@ -6,12 +6,17 @@
 
 use super::LoopError;
 use super::linear::{add_scaled, dot};
+use crate::vector::entry;
 use crate::{Real, Vector};
 
 /// M = U D Uᵀ, in the room of M. Row k holds column k of U above its diagonal, then D_k^−½; what follows is not used.
 pub(super) struct MassMetric<A> {
     factors: A,
+    regular: bool,
 }
+
+/// A pivot of so many roundings of its diagonal element may be nothing but roundoff.
+const ROUNDINGS: f64 = 16.0;
 
 impl<A> MassMetric<A> {
     /// Factorises `matrix`, of which the lower triangle is looked at. Zeros that branches leave cost nothing.
@@ -19,6 +24,9 @@ impl<A> MassMetric<A> {
     where
         A: Vector<V>,
     {
+        let mut regular = true;
+        let rows = matrix.as_ref();
+        let diagonal = V::from_fn(rows.len(), |k| rows.get(k).map_or(S::zero(), |row| entry(row, k)));
         for k in (0..matrix.as_ref().len()).rev() {
             let Some((above, [row, ..])) = matrix.as_mut().split_at_mut_checked(k) else { continue };
             let Some((column, [pivot, ..])) = row.as_mut().split_at_mut_checked(k) else { continue };
@@ -26,6 +34,7 @@ impl<A> MassMetric<A> {
             if !(size > S::zero() && size.is_finite()) {
                 return Err(LoopError::SingularInertia { coordinate: k });
             }
+            regular &= size > S::from_f64(ROUNDINGS) * S::EPSILON * entry(&diagonal, k);
             for (i, other) in above.iter_mut().enumerate() {
                 let factor = column.get(i).map_or(S::zero(), |&element| element / size);
                 if factor != S::zero() {
@@ -40,7 +49,12 @@ impl<A> MassMetric<A> {
             }
             *pivot = S::one() / size.sqrt();
         }
-        Ok(Self { factors: matrix })
+        Ok(Self { factors: matrix, regular })
+    }
+
+    /// Whether every pivot is more than roundoff.
+    pub fn is_regular(&self) -> bool {
+        self.regular
     }
 
     /// D^−½ U⁻¹ f of a generalised force f (or a row of a Jacobian), in place.
@@ -105,6 +119,14 @@ mod tests {
         for (a, b) in of_velocity.iter().zip(&x) {
             assert!((a - b).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn a_pivot_of_roundoff_is_told_from_a_small_one() {
+        let near =
+            |gap: f64| MassMetric::new::<f64, [f64; 2]>([[1.0 + gap, 1.0], [1.0, 1.0]]).map(|metric| metric.regular);
+        assert_eq!(near(2.0 * f64::EPSILON), Ok(false));
+        assert_eq!(near(1e-14), Ok(true));
     }
 
     #[test]

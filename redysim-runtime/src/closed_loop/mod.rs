@@ -8,7 +8,8 @@
 //! of the independent coordinates, which [`ClosedLoopComputedTorque`] follows under control.
 //!
 //! Everything stands on one decomposition: the rows of J in the metric of M, split into a part
-//! that is independent and a part that is not. So redundant rows and singular positions are ordinary cases.
+//! that is independent and a part that is not. So redundant rows and singular positions are ordinary cases. Where M is
+//! singular, since a rod has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
 
 mod assembly;
 mod closing;

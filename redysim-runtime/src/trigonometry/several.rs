@@ -48,12 +48,12 @@ fn group<T, Narrow, Wide, const NARROW: usize, const WIDE: usize, const N: usize
 {
     if start + NARROW < N {
         let (sines, cosines) = in_lanes::<T, Wide, WIDE, N>(angles, start);
-        put(split::<T, Narrow, NARROW, WIDE>(sines, N - start), &mut found.0, start);
-        put(split::<T, Narrow, NARROW, WIDE>(cosines, N - start), &mut found.1, start);
+        put(split(sines, N - start), &mut found.0, start);
+        put(split(cosines, N - start), &mut found.1, start);
     } else if start + 1 < N {
         let (sines, cosines) = in_lanes::<T, Narrow, NARROW, N>(angles, start);
-        put(split::<T, Narrow, NARROW, NARROW>(sines, N - start), &mut found.0, start);
-        put(split::<T, Narrow, NARROW, NARROW>(cosines, N - start), &mut found.1, start);
+        put(split(sines, N - start), &mut found.0, start);
+        put(split(cosines, N - start), &mut found.1, start);
     } else if start < N {
         (found.0[start], found.1[start]) = angles[start].sin_cos();
     }
@@ -86,14 +86,11 @@ fn taken<T: Scalar + Default, const W: usize, const N: usize>(angles: &[T; N], s
     taken
 }
 
-/// The same numbers; where only `count` of them are wanted, the first in a vector of half as many, the others one by one.
+/// The same numbers; where only `count` of them are wanted, the last of these apart from the others.
 ///
 /// Of a group that is not full LLVM would make stores with a mask, which hold up whatever reads them next.
 #[inline(always)]
-fn split<T: Scalar, Half: Lanes<T, HALF>, const HALF: usize, const W: usize>(
-    mut numbers: [T; W],
-    count: usize,
-) -> [T; W] {
+fn split<T: Scalar, const W: usize>(mut numbers: [T; W], count: usize) -> [T; W] {
     if count >= W {
         return numbers;
     }

@@ -145,6 +145,21 @@ pub(crate) fn singular_mass_matrix(link: &str, joint_name: &str, joint: Joint) -
     )
 }
 
+/// Closed loops move, but the function `name` is that of the tree, in which `link` moves no mass.
+pub(crate) fn singular_tree(item: &str, name: &str, link: &str, joint: &str) -> Message {
+    message(
+        format!(
+            "{item}: `{name}` is that of the tree with its loops open, whose mass matrix is singular: the joint {} of link {} \
+             meets no inertia",
+            quoted(joint),
+            quoted(link)
+        ),
+        "the closed mechanism alone has accelerations",
+        "leave it out and take `ClosedLoop::dynamics`, for which the loops hold the link, or give the link a small mass and \
+         inertia",
+    )
+}
+
 pub(crate) fn no_links(item: &str) -> Message {
     message(format!("{item}: it has no links"), "no links", "add a [[link]] table for each link")
 }

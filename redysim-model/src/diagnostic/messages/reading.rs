@@ -149,6 +149,18 @@ pub(crate) fn not_finite(manual: &Manual, item: &str, path: &str, found: &str) -
     )
 }
 
+/// `nearest` is the float next to the integer.
+pub(crate) fn integer_out_of_range(item: &str, path: &str, found: &str, nearest: Option<f64>) -> Message {
+    message(
+        format!("{item}: `{path}` is the integer {}, and integers in TOML have 64 bits", quoted(found)),
+        "not from -2^63 to 2^63 - 1",
+        match nearest {
+            Some(nearest) => format!("write a larger number with an exponent, as in {nearest:e}"),
+            None => "write a larger number with an exponent, as in 1e20".into(),
+        },
+    )
+}
+
 pub(crate) fn not_positive(manual: &Manual, item: &str, path: &str, found: f64) -> Message {
     let title = format!("{item}: `{path}` is {found:?}, which is not above zero");
     message(title, "not above zero", example(manual, path))

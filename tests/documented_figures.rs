@@ -1,0 +1,294 @@
+//! The figures of the README and of the table of A01 are those of the runs that they tell of.
+//!
+//! Errors of rounding size depend on the last bits of the arithmetic, which is another where multiply-add is fused. The
+//! README states bounds of them with one digit; a bound ten times what is measured is called stale.
+#![cfg(feature = "generic")]
+
+mod common;
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
+use std::fs;
+
+use common::andrews;
+use common::models::Kr5;
+use redysim::generic::Model;
+use redysim::{
+    Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Cycloid, Dop853, ForwardSimulation, Free,
+    Integrator, Motion, Ode4, Ode45, OperationCount, Trajectory, redysim,
+};
+use redysim_codegen::functions::trace_scene;
+use redysim_codegen::passes::Passes;
+use redysim_model::{Functions, Scene};
+
+redysim! { struct Fourbar("models/fourbar.toml"); }
+redysim! { struct ThreeRrr("models/three_rrr.toml"); }
+redysim! { struct Windows("models/n_fourbar_2.toml"); }
+redysim! { struct Andrews("models/andrews.toml"); }
+redysim! { struct SimplePendulum("models/simple_pendulum.toml"); }
+
+fn read(path: &str) -> String {
+    fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a file of the repository")
+}
+
+/// The cells of the row of `document` whose first cells are `head`, behind them.
+fn cells(document: &str, head: &str) -> Vec<String> {
+    let text = read(document);
+    let row = text.lines().find_map(|line| line.strip_prefix(&format!("| {head} |")));
+    let row = row.unwrap_or_else(|| panic!("{document} has a row `{head}`"));
+    row.trim_end_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
+}
+
+/// The numbers in a row of the README, but for whole ones.
+fn stated(head: &str) -> Vec<f64> {
+    let words = cells("README.md", head).join(" ");
+    let numbers = words.split(|c: char| !(c.is_ascii_alphanumeric() || ".-".contains(c)));
+    numbers.filter(|word| word.contains(['.', '-'])).filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Fails unless each stated bound holds and is not stale.
+fn assert_bounds(head: &str, measured: &[f64]) {
+    let stated = stated(head);
+    println!("{head}: stated {stated:?}, measured {measured:?}");
+    assert_eq!(stated.len(), measured.len(), "{head}: {stated:?}");
+    for (stated, measured) in stated.iter().zip(measured) {
+        assert!(measured <= stated, "{head}: {measured:e}, and the README states {stated:e}");
+        assert!(*stated <= 10.0 * measured, "{head}: {measured:e}, and the README's {stated:e} is stale");
+    }
+}
+
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| line.split(',').map(|number| number.parse().expect("a number")).collect()).collect()
+}
+
+/// The largest difference; what is not a number counts as infinite.
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, |most, size| if size <= most { most } else { size })
+}
+
+/// Largest errors of each component, as a share of its largest value.
+fn shares(pairs: &[(Vec<f64>, Vec<f64>)]) -> f64 {
+    let of = |component: usize| {
+        let error = pairs.iter().map(|(a, b)| (a[component] - b[component]).abs()).fold(0.0, f64::max);
+        error / pairs.iter().map(|(_, b)| b[component].abs()).fold(0.0, f64::max)
+    };
+    (0..pairs[0].0.len()).map(of).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_joint_forces_of_the_kr5_deviate_as_the_readme_states() {
+    let turn = Cycloid::new([0.0; 6], [FRAC_PI_3; 6], 1.0).expect("a motion");
+    let reference = rows(include_str!("reference/golden_octave_ID_KUKA_Robot.csv"));
+    let forces = |row: &Vec<f64>| {
+        let Motion { q, v, a } = turn.at(row[0]);
+        (Kr5::inverse_dynamics(&q, &v, &a).to_vec(), row[19..25].to_vec())
+    };
+    let pairs: Vec<_> = reference.iter().map(forces).collect();
+    assert_bounds(&format!("joint forces, {} instants of ReDySim's own run", pairs.len()), &[shares(&pairs)]);
+}
+
+#[test]
+fn the_free_fall_of_the_kr5_deviates_as_the_readme_states() {
+    let reference = rows(include_str!("reference/golden_ref_kuka.csv"));
+    let reference: Vec<_> = reference.into_iter().filter(|row| row[0] <= 1.0).collect();
+    let mut fall = ForwardSimulation::new(&Kr5, Free);
+    let copy = ForwardSimulation::new(&Kr5, Free);
+    let start = fall.state(&[0.0; 6], &[0.0; 6]);
+    let at_rest = Kr5::energy(&[0.0; 6], &[0.0; 6]).total();
+    let (mut angle, mut drift, mut row) = (0.0_f64, 0.0_f64, 0);
+    let method = Ode45::new().rtol(3e-14).atol(1e-15);
+    // Energies at every instant that the example looks at.
+    let times = (0..=1000).map(|k| f64::from(k) / 1000.0);
+    let solved = method.solve(&mut fall, (0.0, 1.0), start, times, |t, state| {
+        let now = copy.split(state);
+        drift = drift.max((Kr5::energy(&now.q, &now.v).total() - at_rest).abs());
+        if reference.get(row).is_some_and(|row| (row[0] - t).abs() < 1e-9) {
+            angle = angle.max(difference(&now.q, &reference[row][1..7]));
+            row += 1;
+        }
+    });
+    solved.expect("it falls");
+    assert_bounds(&format!("free fall for 1 s, {row} instants in quad precision"), &[angle]);
+    assert_bounds("energy in that fall", &[drift]);
+}
+
+#[test]
+fn the_operations_of_the_kr5_are_those_that_the_readme_states() {
+    for (name, count) in [
+        ("inverse dynamics", Kr5::OPS.inverse_dynamics),
+        ("forward dynamics", Kr5::OPS.forward_dynamics),
+        ("mass matrix", Kr5::OPS.mass_matrix),
+    ] {
+        let OperationCount { trig, .. } = count;
+        assert_eq!(cells("README.md", name)[..2], [count.flops().to_string(), trig.to_string()], "{name}");
+    }
+}
+
+/// Those of the KR5 are in `tolerance.rs`, which compiles them.
+#[test]
+fn the_operations_of_the_puma_within_tolerances_are_those_that_the_readme_states() {
+    let model = Model::load(format!("{}/models/test/puma560.toml", env!("CARGO_MANIFEST_DIR"))).expect("a model").model;
+    let functions = Functions::of(["inverse_dynamics", "bias_forces"]).expect("functions");
+    // To find what may be left out takes seconds in debug builds; the first column behind the exact one takes the least.
+    let exponents = if cfg!(debug_assertions) { 4..=4 } else { 1..=4 };
+    for exponent in exponents {
+        let scene = Scene { functions, tolerance: Some(10_f64.powi(-exponent)) };
+        let traced = trace_scene(&model, &scene, &Passes::all()).expect("functions");
+        for (name, title) in [("inverse_dynamics", "inverse dynamics"), ("bias_forces", "bias forces")] {
+            let function = traced.iter().find(|function| function.signature.name == name).expect("asked for");
+            let counts = [function.pruning.expect("pruned").before.flops(), function.expressions.count().flops()];
+            let text = read("README.md");
+            let table = text.split_once("PUMA 560").expect("its table").1;
+            let row = table.lines().find_map(|line| line.strip_prefix(&format!("| {title} | "))).expect("a row");
+            let stated: Vec<u32> =
+                row.trim_end_matches(" |").split(" | ").map(|n| n.parse().expect("a count")).collect();
+            assert_eq!([stated[0], stated[5 - exponent as usize]], counts, "{title} to 1e-{exponent}");
+        }
+    }
+}
+
+#[test]
+fn the_forces_of_closed_loops_deviate_as_the_readme_states() {
+    const SPEED: f64 = 0.75 * TAU;
+    let crank = |t: f64| Motion { q: [SPEED * t], v: [SPEED], a: [0.0] };
+    let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], [0.0, 0.9844, 4.3144]);
+    let reference = rows(include_str!("reference/golden_octave_ID_Hoken_Fourbar.csv"));
+    let mut four = Vec::new();
+    // The position of an instant is found from the one before it, 1 ms earlier as in `examples/fourbar.rs`.
+    for t in (0..=1333).map(|k| f64::from(k) / 1000.0).chain([1.3333]) {
+        let found = inverse.at(t, &crank).expect("the crank turns freely");
+        if let Some(row) = reference.iter().find(|row| (row[0] - t).abs() < 1e-9) {
+            let forces = vec![found.forces[0], found.multipliers[0], found.multipliers[1]];
+            four.push((forces, row[10..13].to_vec()));
+        }
+    }
+    assert_eq!(four.len(), reference.len());
+    let legs = rows(include_str!("reference/golden_octave_ID_3-RRR_Parallel_robot.csv"));
+    let guess: [f64; 7] = core::array::from_fn(|i| legs[0][1 + i]);
+    let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&ThreeRrr), &[0, 3, 5], guess);
+    let of_legs = |row: &Vec<f64>| {
+        let pick = |from: usize| [row[from], row[from + 3], row[from + 5]];
+        let prescribed = |_: f64| Motion { q: pick(1), v: pick(8), a: pick(15) };
+        let found = inverse.at(row[0], &prescribed).expect("it closes");
+        let torques = [0, 3, 5].map(|i| found.forces[i]);
+        ([&torques[..], &found.multipliers[..]].concat(), row[22..29].to_vec())
+    };
+    let legs: Vec<_> = legs.iter().map(of_legs).collect();
+    assert_bounds("four-bar and 3-RRR inverse dynamics, against ReDySim's own", &[shares(&four), shares(&legs)]);
+}
+
+/// The angles that ship with ReDySim, closed with the crank held, as in `examples/fourbar.rs`.
+fn closed_at_rest() -> Assembly<f64, [f64; 3], [f64; 3]> {
+    ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &[0.0; 3], &[0]).expect("it closes")
+}
+
+#[test]
+fn the_four_bar_falls_as_closely_as_the_readme_states() {
+    let reference = rows(include_str!("reference/golden_ref_hoken_rest_consistent.csv"));
+    let reference: Vec<_> = reference.into_iter().filter(|row| row[0] <= 0.68 + 1e-9).collect();
+    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+    let mut copy = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+    let start = fall.assembled(&closed_at_rest());
+    let (mut angle, mut lambda) = (0.0_f64, 0.0_f64);
+    let mut expected = reference.iter();
+    let times = reference.iter().map(|row| row[0]);
+    let solved = Ode45::new().rtol(3e-14).atol(1e-15).solve(&mut fall, (0.0, 0.68), start, times, |t, state| {
+        let row = expected.next().expect("a row for every time");
+        angle = angle.max(difference(&copy.split(state).q, &row[1..4]));
+        let motion = copy.motion(t, state).expect("a regular position");
+        lambda = lambda.max(difference(&motion.multipliers, &row[10..12]));
+    });
+    solved.expect("it falls");
+    assert_bounds("four-bar in free fall for 0.68 s, against quad precision", &[angle, lambda]);
+}
+
+#[test]
+fn the_four_bar_drifts_as_little_as_the_readme_states() {
+    // 10 s in optimised builds; in debug builds a tenth of them, in which there is no more drift.
+    let end = if cfg!(debug_assertions) { 1.0 } else { 10.0 };
+    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+    let copy = ClosedLoopSimulation::<f64, _, _>::new(ClosedLoop::new(&Fourbar), Free);
+    let closed = closed_at_rest();
+    let start = fall.assembled(&closed);
+    let energy = Fourbar::energy(&closed.q, &closed.v).total();
+    let (mut gap, mut change) = (0.0_f64, 0.0_f64);
+    let fallen = Ode4::new(1e-4).each_step(&mut fall, (0.0, end), start, |step| {
+        let now = copy.split(step.end().1);
+        gap = gap.max(difference(&Fourbar::loop_residual(&now.q), &[0.0; 2]));
+        change = change.max((Fourbar::energy(&now.q, &now.v).total() - energy).abs());
+    });
+    fallen.expect("it falls");
+    const HEAD: &str = "four-bar for 10 s in steps of 0.1 ms";
+    let change = if cfg!(debug_assertions) { change.max(0.1 * stated(HEAD)[1]) } else { change };
+    assert_bounds(HEAD, &[gap, change]);
+}
+
+#[test]
+fn andrews_mechanism_has_the_digits_that_the_readme_states() {
+    let law = |_t: f64, q: &[f64; 7], _v: &[f64; 7]| andrews::torques(q);
+    let mut squeezing = ClosedLoopSimulation::new(ClosedLoop::new(&Andrews), law);
+    let start = squeezing.start(&andrews::START, &[0.0; 7]).expect("the published start closes");
+    let end = Ode45::new().rtol(1e-12).atol(1e-12).integrate(&mut squeezing, (0.0, 0.03), start).expect("it ends").y;
+    let digits = |i: usize| -((end[i] - andrews::END[i]) / andrews::END[i]).abs().max(1e-16).log10();
+    let fewest = (0..7).map(digits).fold(f64::INFINITY, f64::min);
+    // The published positions are rounded, so that what is missing is theirs.
+    assert_eq!(stated("Andrews' squeezing mechanism at 0.03 s"), [(10.0 * fewest).round() / 10.0]);
+}
+
+#[test]
+fn the_windows_fold_as_exactly_as_the_readme_states() {
+    const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_179_860_1];
+    let error = |step: f64| {
+        let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), Free);
+        let start = turn.start(&[0.0; 5], &[-1.0, 1.0, -1.0, 1.0, -1.0]).expect("a closed start");
+        let end = Ode4::new(step).integrate(&mut turn, (0.0, 10.0), start).expect("it passes").y;
+        difference(&[-end[0].sin(), end[0].cos()], &TIP)
+    };
+    const HEAD: &str = "two windows folding flat for 10 s, steps of 10 ms to 0.1 ms";
+    let coarse = error(1e-2);
+    // 100,000 steps take half a minute in debug builds.
+    let fine = if cfg!(debug_assertions) { stated(HEAD)[1] } else { error(1e-4) };
+    assert_bounds(HEAD, &[coarse, fine]);
+}
+
+/// Fails unless the row of the pendulum's table that contains `row` states the error that the method makes.
+fn assert_error_of_pendulum(row: &str, method: &impl Integrator<f64>) {
+    // By Jacobi's elliptic functions.
+    const END: [f64; 2] = [-0.814_603_068_589_032_2, -0.580_018_827_836_935_5];
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let start = simulation.state(&[FRAC_PI_2], &[0.0]);
+    let end = method.integrate(&mut simulation, (0.0, 2000.0), start).expect("it swings").y;
+    let error = 1e3 * (end[0].sin() - END[0]).hypot(-end[0].cos() - END[1]);
+    let document = read("docs/accuracy.md");
+    let row = document.lines().find(|line| line.contains(row)).unwrap_or_else(|| panic!("a row {row}"));
+    let stated: f64 = row.split('|').nth(4).expect("its error").trim().trim_end_matches(" mm").parse().expect("mm");
+    println!("{row}: {error:.3} mm");
+    assert!((error - stated).abs() <= 0.05 * stated, "{row}: {error:.3} mm");
+}
+
+/// Errors of truncation: they are the same in all digits that the table has.
+#[test]
+fn the_pendulum_of_a01_is_as_exact_as_the_table_states() {
+    assert_error_of_pendulum("`Ode4`, 10 ms | 2,000 s", &Ode4::new(1e-2));
+    assert_error_of_pendulum("`Ode45`, rtol 1e-8, atol 1e-10 | 2,000 s", &Ode45::new().rtol(1e-8).atol(1e-10));
+    assert_error_of_pendulum("`Dop853`, rtol 1e-8, atol 1e-10 | 2,000 s", &Dop853::new().rtol(1e-8).atol(1e-10));
+}
+
+/// `peers/urdf/run` has written the table.
+#[test]
+fn the_readme_counts_the_published_robots_as_their_table_has_them() {
+    let table = read("peers/urdf/robots.md");
+    let rows = table.lines().filter(|line| line.starts_with('|')).skip(2);
+    let robots: Vec<Vec<&str>> = rows.map(|line| line.split('|').map(str::trim).collect()).collect();
+    let [generic, compiled] = [3, 7].map(|column| robots.iter().filter(|row| !row[column].is_empty()).count());
+    let sentence = format!(
+        "Of {} published robots, {generic} are imported, and {} more with `--fuse-fixed`; these {compiled} compile and agree \
+         with Pinocchio. The other {} say why they are no mechanism",
+        robots.len(),
+        compiled - generic,
+        robots.len() - compiled
+    );
+    let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat(&read("README.md")).contains(&sentence), "README.md lacks: {sentence}");
+}
