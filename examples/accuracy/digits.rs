@@ -14,8 +14,11 @@ use crate::common::{Failure, Outputs};
 use crate::random::Random;
 use crate::styles::Style;
 
+/// Switches passes off.
+type Switch = fn(&mut Passes);
+
 /// What is left out of all passes.
-const LEFT_OUT: [(&str, fn(&mut Passes)); 8] = [
+const LEFT_OUT: [(&str, Switch); 8] = [
     ("nothing", |_| {}),
     ("frames", |passes| passes.frames = false),
     ("base parameters", |passes| passes.base_parameters = false),

@@ -52,6 +52,6 @@ mod shape;
 mod source;
 mod trees;
 
-pub use mechanism::{Generated, implementation, implementation_with, operations, stub};
+pub use mechanism::{Counted, Generated, implementation, implementation_with, operations, stub};
 pub use pruning::Pruning;
 pub use source::{SourceError, source_file, source_file_with};

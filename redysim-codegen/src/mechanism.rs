@@ -22,6 +22,15 @@ pub struct Generated {
     pub warnings: Vec<String>,
 }
 
+/// What the functions of a mechanism cost.
+#[derive(Clone, Debug)]
+pub struct Counted {
+    /// Name and operations of each function.
+    pub operations: Vec<(&'static str, OperationCount)>,
+    /// What was asked for and cannot be.
+    pub warnings: Vec<String>,
+}
+
 /// The `impl`s of the type `name` for `model`; `runtime` is the path of the crate `redysim_runtime`.
 ///
 /// # Errors
@@ -63,12 +72,9 @@ pub fn implementation_with(
 /// # Errors
 ///
 /// As [`implementation`].
-pub fn operations(
-    model: &Model,
-    scene: &Scene,
-) -> Result<(Vec<(&'static str, OperationCount)>, Vec<String>), ChangedValue> {
+pub fn operations(model: &Model, scene: &Scene) -> Result<Counted, ChangedValue> {
     let (functions, warnings) = functions(model, scene, &Passes::default())?;
-    Ok((operations_of(&functions), warnings))
+    Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
 /// The functions that a scene asks for, and what of it cannot be.

@@ -3,6 +3,7 @@
 mod suspicions;
 mod table;
 
+use redysim_codegen::Counted;
 use redysim_codegen::passes::ChangedValue;
 use redysim_model::{Link, Loaded, Mobility, Model, Tree};
 use redysim_runtime::OperationCount;
@@ -104,9 +105,9 @@ impl Summary {
     pub fn of(loaded: &Loaded) -> Result<Summary, ChangedValue> {
         let model = &loaded.model;
         let found = Mobility::of(model);
-        let (operations, unpruned) = redysim_codegen::operations(model, &loaded.scene)?;
+        let Counted { operations, warnings } = redysim_codegen::operations(model, &loaded.scene)?;
         let mut suspicions = suspicions::of(model, &found);
-        suspicions.extend(unpruned);
+        suspicions.extend(warnings);
         let joints = |actuated: bool| {
             let chosen = model.moving_links().filter(move |link| link.actuated == actuated);
             chosen.map(|link| link.joint_name.clone()).collect()

@@ -48,12 +48,12 @@ fn group<T, Narrow, Wide, const NARROW: usize, const WIDE: usize, const N: usize
 {
     if start + NARROW < N {
         let (sines, cosines) = in_lanes::<T, Wide, WIDE, N>(angles, start);
-        put(split(sines, N - start), &mut found.0, start);
-        put(split(cosines, N - start), &mut found.1, start);
+        put(last_apart(sines, N - start), &mut found.0, start);
+        put(last_apart(cosines, N - start), &mut found.1, start);
     } else if start + 1 < N {
         let (sines, cosines) = in_lanes::<T, Narrow, NARROW, N>(angles, start);
-        put(split(sines, N - start), &mut found.0, start);
-        put(split(cosines, N - start), &mut found.1, start);
+        put(last_apart(sines, N - start), &mut found.0, start);
+        put(last_apart(cosines, N - start), &mut found.1, start);
     } else if start < N {
         (found.0[start], found.1[start]) = angles[start].sin_cos();
     }
@@ -90,7 +90,7 @@ fn taken<T: Scalar + Default, const W: usize, const N: usize>(angles: &[T; N], s
 ///
 /// Of a group that is not full LLVM would make stores with a mask, which hold up whatever reads them next.
 #[inline(always)]
-fn split<T: Scalar, const W: usize>(mut numbers: [T; W], count: usize) -> [T; W] {
+fn last_apart<T: Scalar, const W: usize>(mut numbers: [T; W], count: usize) -> [T; W] {
     if count >= W {
         return numbers;
     }
