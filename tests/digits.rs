@@ -12,7 +12,7 @@ use redysim_codegen::passes::Passes;
 use redysim_model::{AccelerationMethod, Functions, Model, Scene, Tree};
 
 /// Of each style. Unoptimised, a tree takes a second.
-const TREES: u64 = if cfg!(debug_assertions) { 2 } else { 40 };
+const TREES: u64 = if cfg!(debug_assertions) { 1 } else { 20 };
 /// A loss smaller than this is a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
@@ -49,7 +49,7 @@ fn random_trees(style: Style) -> impl Iterator<Item = Tree> {
     (0..TREES).map(move |seed| Tree::new(&style.model(&mut Random::new(seed), 12)))
 }
 
-/// All passes, and each one off, against none of them.
+/// All passes, and each one off, against none of them, on numbers as they are or rounded otherwise.
 #[test]
 fn no_pass_costs_forces_or_the_mass_matrix_a_factor_of_four() {
     let switched_off: [fn(&mut Passes); 7] = [
@@ -73,7 +73,8 @@ fn no_pass_costs_forces_or_the_mass_matrix_a_factor_of_four() {
                 let all = traced(&tree, &passes, AccelerationMethod::Recursion);
                 let quantities = [Quantity::Forces, Quantity::BiasForces, Quantity::GravityForces, Quantity::Matrix];
                 for quantity in quantities {
-                    let (least, now) = (lost(&states, &none, quantity), lost(&states, &all, quantity));
+                    let least = states.iter().map(|states| states.least_loss(quantity)).fold(0.0, f64::max);
+                    let (least, now) = (lost(&states, &none, quantity).max(least), lost(&states, &all, quantity));
                     let factor = now / least.max(ROUNDINGS);
                     assert!(factor <= 4.0, "{style:?} {index}, {quantity:?}: {now:.1e} instead of {least:.1e}");
                     worst = worst.max(factor);

@@ -133,7 +133,7 @@ fn the_operations_of_the_puma_within_tolerances_are_those_that_the_readme_states
     // To find what may be left out takes seconds in debug builds; the first column behind the exact one takes the least.
     let exponents = if cfg!(debug_assertions) { 4..=4 } else { 1..=4 };
     for exponent in exponents {
-        let scene = Scene { functions, tolerance: Some(10_f64.powi(-exponent)) };
+        let scene = Scene { functions, tolerance: Some(10_f64.powi(-exponent)), ..Scene::default() };
         let traced = trace_scene(&model, &scene, &Passes::all()).expect("functions");
         for (name, title) in [("inverse_dynamics", "inverse dynamics"), ("bias_forces", "bias forces")] {
             let function = traced.iter().find(|function| function.signature.name == name).expect("asked for");

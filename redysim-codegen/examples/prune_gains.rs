@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{path}");
         for exponent in 1..=6 {
             let tolerance = 10_f64.powi(-exponent);
-            let scene = Scene { functions: Functions::of(functions)?, tolerance: Some(tolerance) };
+            let scene = Scene { functions: Functions::of(functions)?, tolerance: Some(tolerance), ..Scene::default() };
             let start = Instant::now();
             let traced = trace_scene(&model, &scene, &Passes::all())?;
             println!("  to {tolerance:e}, in {:.1?}", start.elapsed());

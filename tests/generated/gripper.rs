@@ -107,14 +107,20 @@ impl Gripper {
         S::with_target_features(
             #[inline(always)]
             || {
+                let [near_0, near_1, near_2, near_3] = S::without_turns([
+                    q[0],
+                    q[1],
+                    q[2],
+                    q[3],
+                ]);
                 let (sin, cos) = S::sin_cos_all([
                     q[0],
                     q[1],
                     q[2],
                     q[3],
-                    (q[0] + q[1]),
-                    (q[0] + q[3]),
-                    (q[2] + (q[0] + q[1])),
+                    (near_0 + near_1),
+                    (near_0 + near_3),
+                    (near_2 + (near_0 + near_1)),
                 ]);
                 ::redysim_runtime::Posture::new(q, &sin, &cos)
             },
@@ -235,7 +241,7 @@ impl Gripper {
     }
     /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree.
     ///
-    /// By the factorisation M = U D Uᵀ of the generalised inertia matrix.
+    /// By the factorisation M = U D Uᵀ of the generalised inertia matrix (CRBA): 104 flops, errors of 2e-15; the O(n) recursion over articulated bodies (ABA) takes 156, errors of 3e-16. Errors are the largest √M_ii |Δa_i| at sampled states, as shares of the largest √M_jj |a_j|.
     ///
     /// 104 flops: 46 additions, 56 multiplications, 2 divisions; 4 sine-cosine pairs.
     pub fn forward_dynamics<S: ::redysim_runtime::Scalar>(
@@ -697,11 +703,17 @@ impl Gripper {
         S::with_target_features(
             #[inline(always)]
             || {
+                let [near_0, near_1, near_2, near_3] = S::without_turns([
+                    q[0],
+                    q[1],
+                    q[2],
+                    q[3],
+                ]);
                 let (sin, cos) = S::sin_cos_all([
                     q[0],
-                    (q[0] + q[1]),
-                    (q[0] + q[3]),
-                    (q[2] + (q[0] + q[1])),
+                    (near_0 + near_1),
+                    (near_0 + near_3),
+                    (near_2 + (near_0 + near_1)),
                 ]);
                 Self::link_kinematics_inlined(
                     q,

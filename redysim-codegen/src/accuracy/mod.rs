@@ -12,6 +12,8 @@ use crate::random::Random;
 use double_double::{exact, rounded};
 use redysim_model::Tree;
 use redysim_model::denoc::{self, Method};
+use redysim_model::inertia::Sym3;
+use redysim_model::pseudo::PseudoInertia;
 use redysim_model::tree::Joint;
 use std::cell::OnceCell;
 use std::f64::consts::PI;
@@ -22,6 +24,8 @@ const JOINT_STATES: usize = 240;
 const MOST_STATES: usize = 16;
 /// The fewest.
 const FEWEST_STATES: usize = 2;
+/// By how much numbers are rounded otherwise.
+const OTHERWISE: f64 = f64::EPSILON;
 /// With more joints the mass matrix is left out: its n² elements in double-double take seconds.
 const LARGEST_MATRIX: usize = 100;
 
@@ -121,6 +125,17 @@ impl<'a> Reference<'a> {
         })
     }
 
+    /// What is lost of `quantity` in any description: what the recursion loses on the model's own, with its numbers as
+    /// they are and with each [rounded otherwise](rounded_otherwise).
+    ///
+    /// A mechanism that lies in a plane of space, or a link whose centre of mass nearly balances another's, depends on the
+    /// last digits of its numbers so much that no description has the digits of the model's own.
+    pub fn least_loss(&self, quantity: Quantity) -> f64 {
+        let others = [1, 2].map(|seed| rounded_otherwise(self.tree, seed));
+        let losses = others.iter().chain([self.tree]).map(|tree| self.lost_on(tree, quantity));
+        losses.fold(0.0, |largest, loss| if loss.is_finite() { largest.max(loss) } else { largest })
+    }
+
     /// What `function` loses, which computes `quantity`, the mass matrix by rows, from coordinates, velocities, and
     /// accelerations or forces.
     pub fn lost_by(&self, quantity: Quantity, function: impl Fn(&[&[f64]]) -> Vec<f64>) -> f64 {
@@ -209,6 +224,30 @@ fn extremes(found: &[f64], expected: &[f64], weight: impl Fn(usize) -> f64) -> E
         |values: &mut dyn Iterator<Item = f64>| values.enumerate().map(|(i, x)| x.abs() * weight(i)).fold(0.0, worse);
     let error = of(&mut found.iter().zip(expected).map(|(x, y)| x - y));
     Extremes { error, size: of(&mut expected.iter().copied()) }
+}
+
+/// The robot with numbers that differ from those of `tree` by a few roundings: of lengths and moments as shares of the
+/// largest component of their vector or tensor, as they have after a change of axes.
+pub fn rounded_otherwise(tree: &Tree, seed: u64) -> Tree {
+    let mut random = Random::new(seed);
+    let mut tree = tree.clone();
+    for body in &mut tree.bodies {
+        let PseudoInertia { mass, moment, second } = &mut body.inertia;
+        round_otherwise(&mut random, &mut body.placement.position.0);
+        round_otherwise(&mut random, body.placement.rotation.0.as_flattened_mut());
+        round_otherwise(&mut random, std::slice::from_mut(mass));
+        round_otherwise(&mut random, &mut moment.0);
+        let mut elements = [second.xx, second.yy, second.zz, second.xy, second.yz, second.xz];
+        round_otherwise(&mut random, &mut elements);
+        let [xx, yy, zz, xy, yz, xz] = elements;
+        *second = Sym3 { xx, yy, zz, xy, yz, xz };
+    }
+    tree
+}
+
+fn round_otherwise(random: &mut Random, numbers: &mut [f64]) {
+    let largest = numbers.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
+    numbers.iter_mut().for_each(|number| *number += OTHERWISE * largest * random.share(false));
 }
 
 /// The larger of two errors, of which one that is not a number is the largest.

@@ -23,7 +23,7 @@ pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
 pub type Keeps<'a> = &'a dyn Fn(&Tree) -> bool;
 
 /// By how much more digits may be lost in another description of the robot than in the model's own.
-const MOST_LOST: f64 = 2.0;
+const MOST_LOST: f64 = 2.5;
 /// What is computed on the tree for inverse dynamics and bias forces.
 const FORCES: &[Quantity] = &[Quantity::Forces, Quantity::BiasForces];
 /// What is computed on the tree for the mass matrix and gravity.
@@ -39,7 +39,7 @@ pub struct Trees<'a> {
     tree: &'a Tree,
     passes: &'a Passes,
     reference: &'a Reference<'a>,
-    /// What the model's own description loses.
+    /// What is lost in any case.
     lost: OnceCell<[f64; Quantity::ALL.len()]>,
     plain: OnceCell<Tree>,
     base: OnceCell<Tree>,
@@ -66,8 +66,10 @@ impl<'a> Trees<'a> {
 
     /// How much of a quantity may be lost.
     pub fn bearable(&self, quantity: Quantity) -> f64 {
-        let least = self.lost.get_or_init(|| Quantity::ALL.map(|quantity| self.reference.lost_on(self.tree, quantity)));
-        MOST_LOST * least[quantity as usize].max(ROUNDINGS)
+        let least = self.lost.get_or_init(|| Quantity::ALL.map(|quantity| self.reference.least_loss(quantity)));
+        // Accelerations are quotients: even a small robot's have some more roundings.
+        let few = if quantity == Quantity::Accelerations { 4.0 * ROUNDINGS } else { ROUNDINGS };
+        MOST_LOST * least[quantity as usize].max(few)
     }
 
     /// The descriptions on which a quantity may be computed, from the cheapest to the model's own.
