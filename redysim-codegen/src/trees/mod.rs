@@ -23,7 +23,7 @@ pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
 pub type Keeps<'a> = &'a dyn Fn(&Tree) -> bool;
 
 /// By how much more digits may be lost in another description of the robot than in the model's own.
-const MOST_LOST: f64 = 2.5;
+const MOST_LOST: f64 = 1.5;
 /// What is computed on the tree for inverse dynamics and bias forces.
 const FORCES: &[Quantity] = &[Quantity::Forces, Quantity::BiasForces];
 /// What is computed on the tree for the mass matrix and gravity.
