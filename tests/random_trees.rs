@@ -7,7 +7,9 @@ mod common;
 
 use common::kane::{Kane, kane};
 use common::random::{Random, State};
+use common::styles::Style;
 use nalgebra::{DVector, Matrix3, Rotation3, Unit, Vector3};
+use redysim_codegen::accuracy::{Quantity, Reference};
 use redysim_codegen::functions::{Function, trace};
 use redysim_model::denoc::{self, Method};
 use redysim_model::regroup::{Vanishing, base_parameters};
@@ -200,4 +202,46 @@ fn traced_expressions_agree_with_kanes_equations() {
         errors.add("link_kinematics", &links, &wanted.collect::<Vec<_>>(), 1e-13);
     });
     println!("{:?}", errors.0);
+}
+
+/// The largest losses that are allowed on trees of a style: of joint forces and the mass matrix, and of accelerations, in
+/// the metric of [`Reference`] (an error of 1e-16 is a rounding of the largest number).
+///
+/// Forces are sums of products: tens of roundings, more where links on a heavy arm weigh nothing beside it. Accelerations
+/// are multiplied by the condition of the mass matrix, which the masses spread.
+const ALLOWED: [(Style, f64, f64); 9] = [
+    (Style::Ordinary, 2e-14, 1e-12),
+    (Style::SpreadMasses, 5e-14, 1e-6),
+    (Style::SpreadLengths, 1e-13, 1e-8),
+    (Style::SpreadMassesAndLengths, 1e-12, 1e-3),
+    (Style::Tilted, 2e-14, 1e-12),
+    (Style::LongAndTilted, 2e-14, 1e-7),
+    (Style::PointMasses, 5e-14, 1e-11),
+    (Style::Rods, 2e-14, 1e-11),
+    (Style::HeavyTip, 1e-13, 1e-4),
+];
+
+/// The compiled graph against the recursions in double-double arithmetic.
+#[test]
+fn compiled_functions_keep_their_digits_on_trees_of_every_style() {
+    let trees = if cfg!(debug_assertions) { 1 } else { 40 };
+    for (style, of_forces, of_accelerations) in ALLOWED {
+        let mut worst = [0.0_f64; 3];
+        for seed in 100..100 + trees {
+            let tree = Tree::new(&style.model(&mut Random::new(seed), 12));
+            let functions = trace(&tree).expect("no pass changes a value");
+            let reference = Reference::at(&tree, 1);
+            let computed = [
+                (Quantity::Forces, "inverse_dynamics"),
+                (Quantity::Matrix, "mass_matrix"),
+                (Quantity::Accelerations, "forward_dynamics"),
+            ];
+            for (worst, (quantity, name)) in worst.iter_mut().zip(computed) {
+                *worst = worst.max(reference.lost_by(quantity, |arguments| evaluated(&functions, name, arguments)));
+            }
+        }
+        println!("{style:?}: forces {:.1e}, matrix {:.1e}, accelerations {:.1e}", worst[0], worst[1], worst[2]);
+        assert!(worst[0] <= of_forces && worst[1] <= of_forces, "{style:?}: {worst:?}");
+        assert!(worst[2] <= of_accelerations, "{style:?}: {worst:?}");
+    }
 }

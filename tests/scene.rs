@@ -21,6 +21,16 @@ redysim! {
 struct FewByDerive;
 
 redysim! {
+    /// Accelerations by the recursion, whatever it costs.
+    struct ByRecursion("models/kr5.toml", functions = [forward_dynamics], forward_dynamics = recursion);
+}
+
+/// The same, declared by the derive.
+#[derive(Mechanism)]
+#[mechanism("models/kr5.toml", functions = [forward_dynamics], forward_dynamics = "recursion")]
+struct ByRecursionByDerive;
+
+redysim! {
     /// A function that needs fewer sines and cosines than the others together.
     struct Weight("models/kr5.toml", functions = [gravity_forces]);
 }
@@ -51,6 +61,21 @@ fn a_scene_of_few_functions_computes_the_same_bits() {
         assert_eq!(InverseDynamics::inverse_dynamics(&FewByDerive, &q, &v, &a), Kr5::inverse_dynamics(&q, &v, &a));
         assert_eq!(Few::mass_matrix_at(&Few::posture(&q)), Kr5::mass_matrix(&q));
         assert_eq!(Weight::gravity_forces(&q), Kr5::gravity_forces(&q));
+    }
+}
+
+#[test]
+fn a_declaration_decides_how_accelerations_are_computed() {
+    let (recursion, factorisation) = (ByRecursion::OPS.forward_dynamics, Kr5::OPS.forward_dynamics);
+    assert!(recursion.flops() > factorisation.flops(), "{recursion:?}, {factorisation:?}");
+    assert_eq!(ByRecursionByDerive::OPS.forward_dynamics, recursion);
+    let mut random = Random::new(2);
+    for _ in 0..100 {
+        let State { q, v, a: tau } = random.state(6);
+        let [q, v, tau] = [q, v, tau].map(|x| <[f64; 6]>::try_from(x).unwrap());
+        let [one, other] = [ByRecursion::forward_dynamics(&q, &v, &tau), Kr5::forward_dynamics(&q, &v, &tau)];
+        let size = other.iter().fold(0.0_f64, |size, a| size.max(a.abs()));
+        assert!(one.iter().zip(other).all(|(x, y)| (x - y).abs() <= 1e-12 * size), "{one:?} {other:?}");
     }
 }
 

@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn nan_is_no_value_of_a_finite_function() {
+    fn a_number_does_not_become_nan() {
         assert!(same_values("sums", &scaled_sum(3.0), &scaled_sum(f64::NAN)).is_err());
     }
 

@@ -13,8 +13,9 @@ const LARGEST: f64 = 7.0;
 #[inline(always)]
 pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
     let limit = A::from_f64(LARGEST);
-    for angle in &mut angles {
-        if !angle.all_within(limit) {
+    // One branch for all angles, which nearly always are small.
+    if !angles.iter().fold(true, |small, angle| small & angle.all_within(limit)) {
+        for angle in &mut angles {
             (*angle, _) = angle.one_by_one(without_turns_of_one);
         }
     }
