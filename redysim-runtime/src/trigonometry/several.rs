@@ -47,13 +47,9 @@ fn group<T, Narrow, Wide, const NARROW: usize, const WIDE: usize, const N: usize
     Wide: Lanes<T, WIDE>,
 {
     if start + NARROW < N {
-        let (sines, cosines) = in_lanes::<T, Wide, WIDE, N>(angles, start);
-        put(last_apart(sines, N - start), &mut found.0, start);
-        put(last_apart(cosines, N - start), &mut found.1, start);
+        put(in_lanes::<T, Wide, WIDE, N>(angles, start), found, start);
     } else if start + 1 < N {
-        let (sines, cosines) = in_lanes::<T, Narrow, NARROW, N>(angles, start);
-        put(last_apart(sines, N - start), &mut found.0, start);
-        put(last_apart(cosines, N - start), &mut found.1, start);
+        put(in_lanes::<T, Narrow, NARROW, N>(angles, start), found, start);
     } else if start < N {
         (found.0[start], found.1[start]) = angles[start].sin_cos();
     }
@@ -98,12 +94,18 @@ fn last_apart<T: Scalar, const W: usize>(mut numbers: [T; W], count: usize) -> [
     numbers
 }
 
-/// Writes what fits of `numbers` from `start` on.
+/// Writes what fits of a group from `start` on, sine and cosine in turn: LLVM joins the stores of neighbouring vectors.
 #[inline(always)]
-fn put<T: Scalar, const W: usize, const N: usize>(numbers: [T; W], found: &mut [T; N], start: usize) {
-    for (lane, number) in numbers.into_iter().enumerate() {
+fn put<T: Scalar, const W: usize, const N: usize>(
+    (sines, cosines): Pairs<T, W>,
+    found: &mut Pairs<T, N>,
+    start: usize,
+) {
+    let (sines, cosines) = (last_apart(sines, N - start), last_apart(cosines, N - start));
+    for lane in 0..W {
         if start + lane < N {
-            found[start + lane] = number;
+            found.0[start + lane] = sines[lane];
+            found.1[start + lane] = cosines[lane];
         }
     }
 }
