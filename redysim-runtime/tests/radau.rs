@@ -72,6 +72,18 @@ fn errors_of_steps<const N: usize>(
     (at_ends, within)
 }
 
+/// The largest error of rows at times that no method chooses.
+fn error_of_rows<const N: usize>(
+    method: impl Integrator<f64>,
+    ode: &mut impl Ode<f64, [f64; N]>,
+    exact: impl Fn(f64) -> [f64; N],
+) -> f64 {
+    let mut largest = 0.0_f64;
+    let times = (1..=70).map(|row| 3.0 / 70.0 * f64::from(row)).map(|t| t.min(3.0));
+    method.solve(ode, (0.0, 3.0), exact(0.0), times, |t, y| largest = largest.max(distance(y, &exact(t)))).unwrap();
+    largest
+}
+
 fn fixed(h: f64) -> FixedStep<f64, RadauIIA> {
     FixedStep::new(h)
 }
@@ -95,8 +107,33 @@ fn within_the_steps_that_a_tolerance_chooses_the_error_is_that_of_the_ends() {
     }
 }
 
+/// The polynomial of a long step of a stiff equation is far worse than its ends, which are the more accurate the stiffer
+/// the equation.
+#[test]
+fn rows_within_the_steps_of_a_stiff_equation_are_as_accurate_as_the_ends() {
+    for stiffness in [1e2, 1e3, 1e4, 1e6] {
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+            let (ends, _) = errors_of_steps(radau(tolerance), &mut prothero_robinson(-stiffness), |t| [t.cos()]);
+            let rows = error_of_rows(radau(tolerance), &mut prothero_robinson(-stiffness), |t| [t.cos()]);
+            println!("{stiffness:e}, tolerance {tolerance:e}: {ends:.1e} at the ends, {rows:.1e} in rows");
+            assert!(rows < (2.0 * ends).max(tolerance), "{rows:e} in rows, {ends:e} at the ends");
+        }
+    }
+}
+
+#[test]
+fn rows_within_steps_of_one_size_are_as_accurate_as_the_ends() {
+    for stiffness in [1e2, 1e4, 1e6] {
+        let (ends, _) = errors_of_steps(fixed(0.1), &mut prothero_robinson(-stiffness), |t| [t.cos()]);
+        let rows = error_of_rows(fixed(0.1), &mut prothero_robinson(-stiffness), |t| [t.cos()]);
+        assert!(rows < 2.0 * ends + 1e-14, "{rows:e} in rows, {ends:e} at the ends");
+    }
+    let (ends, _) = errors_of_steps(fixed(0.05), &mut nonlinear, exact);
+    assert!(error_of_rows(fixed(0.05), &mut nonlinear, exact) < 2.0 * ends);
+}
+
 /// Where the derivative jumps within a step, the equations of a shorter one need not converge: the integration goes on as
-/// if nobody had looked.
+/// without the look.
 #[test]
 fn looking_within_changes_no_step_and_ends_no_integration() {
     for tolerance in [1e-4, 1e-7, 1e-10] {

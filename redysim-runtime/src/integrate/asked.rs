@@ -3,7 +3,8 @@
 use core::ops::ControlFlow;
 
 use super::interval::Interval;
-use super::{IntegrationError, Observer, Step};
+use super::method::Stepper;
+use super::{IntegrationError, Observer, Ode, Step, Tolerances};
 use crate::{Real, Vector};
 
 /// The times still to be answered. Each is checked when the iterator yields it.
@@ -29,17 +30,21 @@ impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> AskedTimes<I
         self.fault
     }
 
-    /// Calls `output` for every asked time that `step` covers.
-    fn answer(&mut self, step: &Step<'_, S, Y>) -> Result<(), IntegrationError<S>> {
-        while let Some(t) = self.next {
-            if !self.interval.reaches(step.end().0, t) {
-                break;
+    /// The next asked time up to `end`, the end of a step.
+    fn next_until(&self, end: S) -> Option<S> {
+        self.next.filter(|&t| self.interval.reaches(end, t))
+    }
+
+    /// Calls `output` with the state at `t`, which `y` holds, and proceeds to the next asked time.
+    fn answer(&mut self, t: S) -> ControlFlow<()> {
+        (self.output)(t, &self.y);
+        match self.pull(t) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(fault) => {
+                self.fault = Some(fault);
+                ControlFlow::Break(())
             }
-            step.write_at(t, &mut self.y);
-            (self.output)(t, &self.y);
-            self.pull(t)?;
         }
-        Ok(())
     }
 
     fn pull(&mut self, previous: S) -> Result<(), IntegrationError<S>> {
@@ -63,12 +68,25 @@ impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> Observer<S, 
     }
 
     fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()> {
-        match self.answer(step) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(fault) => {
-                self.fault = Some(fault);
-                ControlFlow::Break(())
+        while let Some(t) = self.next_until(step.end().0) {
+            step.write_at(t, &mut self.y);
+            self.answer(t)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn look(
+        &mut self,
+        stepper: &mut impl Stepper<S, Y>,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        tolerances: &Tolerances<'_, S>,
+    ) -> Result<ControlFlow<()>, IntegrationError<S>> {
+        while let Some(t) = self.next_until(stepper.progress().t_new) {
+            stepper.write_state_at(ode, t, tolerances, &mut self.y)?;
+            if self.answer(t).is_break() {
+                return Ok(ControlFlow::Break(()));
             }
         }
+        Ok(ControlFlow::Continue(()))
     }
 }

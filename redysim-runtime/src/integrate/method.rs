@@ -96,6 +96,35 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
         Ok(())
     }
 
+    /// Whether the continuous extension of the attempted step is as accurate as the method provides within steps. The
+    /// default is `true`.
+    fn extension_suffices(&self) -> bool {
+        true
+    }
+
+    /// Writes to `y` the solution at `t`, within the attempted step or at its end: that of the continuous extension or,
+    /// where it [does not suffice](Self::extension_suffices), that of [`state_at`](Self::state_at).
+    ///
+    /// # Errors
+    /// If a derivative is infinite or not a number.
+    fn write_state_at(
+        &mut self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        t: S,
+        tolerances: &Tolerances<'_, S>,
+        y: &mut Y,
+    ) -> Result<(), IntegrationError<S>> {
+        if t != self.progress().t_new
+            && !self.extension_suffices()
+            && let Some(state) = self.state_at(ode, t, tolerances)?
+        {
+            y.clone_from(&state);
+        } else {
+            self.step().write_at(t, y);
+        }
+        Ok(())
+    }
+
     /// h |λ| for the largest eigenvalue λ of the Jacobian, as far as the attempted step shows it, and how large it may
     /// be for a damped motion, λ < 0; `None`, as unless told, if nothing limits it or the method cannot tell.
     fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {

@@ -18,8 +18,8 @@ pub trait Observer<S, Y> {
     /// Looks at a step. [`ControlFlow::Break`] ends the integration after it.
     fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()>;
 
-    /// What is called for every accepted step: as unless told, [`step`](Self::step). Who needs states within that are
-    /// more exact than the continuous extension, [takes steps](Stepper::state_at) to them here.
+    /// Is called for every accepted step; the default calls [`step`](Self::step). An observer that needs states within
+    /// the step more accurately than the continuous extension has them [takes steps](Stepper::state_at) to them here.
     ///
     /// # Errors
     /// If a state within cannot be computed.

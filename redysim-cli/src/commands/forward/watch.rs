@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use redysim_runtime::integrate::Observer;
-use redysim_runtime::{SimulationState, Step};
+use redysim_runtime::integrate::method::Stepper;
+use redysim_runtime::integrate::{Observer, Tolerances};
+use redysim_runtime::{IntegrationError, Ode, SimulationState, Step};
 
 use super::system::System;
 use crate::failure::Failure;
@@ -61,19 +62,28 @@ impl Observer<f64, Vec<f64>> for Watch<'_, '_> {
     }
 
     fn step(&mut self, step: &Step<'_, f64, Vec<f64>>) -> ControlFlow<()> {
-        let (end, state) = step.end();
+        let (_, state) = step.end();
         self.steps += 1;
         self.see(state);
-        while let Some(t) = self.record.next().filter(|&t| t <= end) {
-            if interrupt::asked() {
+        self.record.show_progress();
+        if self.failed.is_some() || interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn look(
+        &mut self,
+        stepper: &mut impl Stepper<f64, Vec<f64>>,
+        ode: &mut (impl Ode<f64, Vec<f64>> + ?Sized),
+        tolerances: &Tolerances<'_, f64>,
+    ) -> Result<ControlFlow<()>, IntegrationError<f64>> {
+        let end = stepper.progress().t_new;
+        let mut state = stepper.progress().y_new.clone();
+        while let Some(t) = self.record.next().filter(|&t| t <= end && !interrupt::asked()) {
+            stepper.write_state_at(ode, t, tolerances, &mut state)?;
+            if let Err(reason) = self.write(t, &state) {
+                self.failed = Some(reason);
                 break;
             }
-            if let Err(reason) = self.write(t, &step.at(t)) {
-                self.failed = Some(reason);
-                return ControlFlow::Break(());
-            }
         }
-        self.record.show_progress();
-        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        Ok(self.step(&stepper.step()))
     }
 }

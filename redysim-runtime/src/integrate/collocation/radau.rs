@@ -5,8 +5,8 @@ use core::mem::swap;
 
 use super::extrapolate;
 use super::newton::{LARGEST_TURN, Newton, Outcome};
+use super::radau_tableau::{CHECKED_NODE, WITHIN, WITHIN_NODES};
 pub use super::radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
-use super::radau_tableau::{WITHIN, WITHIN_NODES};
 use crate::integrate::adaptive::Adaptive;
 use crate::integrate::method::{EstimatesErrors, Method, Stepper, root, step_aside, usual_shrinkage};
 use crate::integrate::progress::{Progress, zeros};
@@ -36,12 +36,15 @@ const LARGEST_RATIO: f64 = 1000.0;
 ///
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.
-/// Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more. Where somebody
-/// looks within a step, two shorter ones are taken from its start, to a quarter and five eighths of it, and the solution is
-/// the polynomial of degree 6 through their ends and its own, with the derivatives there: as accurate as the ends, for
-/// two or three times the work. It does not use the derivative at the start, which a fast transient may have made large.
-/// Where the equation is so stiff that steps become long, it is of order 3, as the stages are, and the ends of steps are
-/// the more exact the stiffer the equation; a largest step keeps the error within small.
+/// Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more.
+///
+/// The solution within a step that is observed there is the polynomial of degree 6 through the ends of two shorter steps
+/// from its start, to a quarter and five eighths of it, and its own end, with the derivatives there. It does not use the
+/// derivative at the start, which a fast transient may have made large. A third shorter step, to a twelfth, compares it
+/// with the solution. Where the polynomial meets the tolerance, it is as accurate as the ends of steps, for three or four
+/// times the work. Where it does not, because the equation is stiff and steps are long, its order is 3; [asked
+/// times](crate::Integrator::solve) and [events](crate::Integrator::watch) are then each the end of a shorter step, as
+/// accurate as the ends of steps.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Radau5};
@@ -98,8 +101,19 @@ pub struct Radau<S: Real, Y: Vector<S>> {
     /// What [`WITHIN`] is multiplied by, once somebody looks within the attempted step: how far the solution is from the
     /// start at the [`WITHIN_NODES`] and at the end, and h times its derivatives there.
     within: [Y; 6],
-    /// Whether that is known of the attempted step.
-    looked: bool,
+    /// Whether that is known of the attempted step, and whether the polynomial through it meets the tolerance.
+    interpolation: Interpolation,
+}
+
+/// The polynomial through the values and slopes within a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Interpolation {
+    /// Not evaluated, or the stages of a shorter step were not found.
+    Absent,
+    /// Evaluated, and at [`CHECKED_NODE`] further from the solution than the tolerance: the equation is stiff.
+    Coarse,
+    /// Evaluated, and as accurate as the ends of steps.
+    Accurate,
 }
 
 /// What the choice of the next step asks of a step.
@@ -126,7 +140,7 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
             last_increments: from_fn(|_| zero.clone()),
             newton: Newton::new(&zero),
             within: from_fn(|_| zero.clone()),
-            looked: false,
+            interpolation: Interpolation::Absent,
             estimate: zero,
             attempted: Taken { size: S::zero(), ratio: S::zero(), turns: 0 },
             last: None,
@@ -156,8 +170,8 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
         }
     }
 
-    /// Solves for the stages from the increments at hand. Where the iteration fails with a Jacobian of an earlier state, it begins anew with that
-    /// of this state.
+    /// Solves for the stages from the increments at hand. Where the iteration fails with a Jacobian of an earlier state,
+    /// it begins anew with that of this state.
     fn solve(
         &mut self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
@@ -252,7 +266,7 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
         tolerances: &Tolerances<'_, S>,
     ) -> Result<(), IntegrationError<S>> {
         self.progress.t_new = t_new;
-        self.looked = false;
+        self.interpolation = Interpolation::Absent;
         self.predict();
         let turns = self.solve(ode, tolerances)?;
         let [.., end] = &self.increments;
@@ -292,7 +306,13 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
     ) -> Result<(), IntegrationError<S>> {
         let mut within = self.within.clone();
         let [first, second, end, first_slope, second_slope, end_slope] = &mut within;
-        for (node, values) in WITHIN_NODES.into_iter().zip([[first, first_slope], [second, second_slope]]) {
+        let (mut checked, mut unused) = (zeros(end), zeros(end));
+        let shorter_steps = [
+            (WITHIN_NODES[0], [first, first_slope]),
+            (WITHIN_NODES[1], [second, second_slope]),
+            (CHECKED_NODE, [&mut checked, &mut unused]),
+        ];
+        for (node, values) in shorter_steps {
             let (outcome, statistics) = self.shorter(ode, node, tolerances, values);
             self.progress.statistics = statistics;
             if !outcome? {
@@ -302,8 +322,22 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
         let [.., last] = &self.increments;
         end.clone_from(last);
         slope_at_end(&self.increments, 1.0, end_slope);
-        (self.within, self.looked) = (within, true);
+        self.within = within;
+
+        let mut error = unused;
+        let weights = WITHIN.iter().map(|p| without_constant(p, S::from_f64(CHECKED_NODE)));
+        weighted_sum(weights, &self.within, &mut error);
+        for (error, &value) in error.as_mut().iter_mut().zip(checked.as_ref()) {
+            *error -= value;
+        }
+        let Progress { y, y_new, .. } = &self.progress;
+        let accurate = tolerances.norm(&error, y, y_new) <= tolerances.relative();
+        self.interpolation = if accurate { Interpolation::Accurate } else { Interpolation::Coarse };
         Ok(())
+    }
+
+    fn extension_suffices(&self) -> bool {
+        self.interpolation == Interpolation::Accurate
     }
 
     fn state_at(
@@ -318,10 +352,9 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
     fn step(&self) -> Step<'_, S, Y> {
         let Progress { t, y, t_new, y_new, .. } = &self.progress;
         let (start, end) = ((*t, y), (*t_new, y_new));
-        if self.looked {
-            Step::new(start, end, S::one(), &self.within, &WITHIN)
-        } else {
-            Step::new(start, end, S::one(), &self.increments, &RADAU_IIA_5.dense)
+        match self.interpolation {
+            Interpolation::Absent => Step::new(start, end, S::one(), &self.increments, &RADAU_IIA_5.dense),
+            _ => Step::new(start, end, S::one(), &self.within, &WITHIN),
         }
     }
 

@@ -74,6 +74,10 @@ pub const RADAU_IIA_5: RadauTableau = RadauTableau {
 /// equation is not stiff the interpolation of degree 6 errs by 1.2·10⁻⁷ y⁽⁷⁾ h⁷ at most.
 pub(super) const WITHIN_NODES: [f64; 2] = [1.0 / 4.0, 5.0 / 8.0];
 
+/// Where the interpolation is compared with the solution, in units of the step: about where both the interpolation and what
+/// the slopes err have their largest effect.
+pub(super) const CHECKED_NODE: f64 = 1.0 / 12.0;
+
 /// The polynomials of θ, without constant terms, that are 1 at one of the [`WITHIN_NODES`] or at 1, and those whose slope
 /// is 1 there; the values and slopes at the others are 0.
 pub(super) const WITHIN: [&[f64]; 6] = [
