@@ -15,7 +15,7 @@ use common::models::{Gantry, Gripper, Kr5, generic};
 use common::random::Random;
 use nalgebra::DMatrix;
 use redysim::{Scalar, TreeDynamics};
-use redysim_model::denoc::{self, Method};
+use redysim_model::denoc::{self, Method, Untraced};
 
 const STATES: usize = 300;
 
@@ -188,7 +188,7 @@ fn both_ways_to_accelerations_agree() {
         for State { q, v, a } in states(&m) {
             let tau = inverse_dynamics(&m, &q, &v, &a);
             let [explicit, recursion] = [Method::Factorisation, Method::Recursion]
-                .map(|method| rounded(denoc::forward_dynamics(method, m.tree(), &q, &v, &tau)));
+                .map(|method| rounded(denoc::forward_dynamics(method, m.tree(), &Untraced, &q, &v, &tau)));
             ways.add(&explicit, &recursion);
         }
         ways.assert_within(1e-12);

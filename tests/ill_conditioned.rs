@@ -9,7 +9,7 @@ mod common;
 use common::chains::{Rod, Z, chain, oblique, universal};
 use common::double_double::{DoubleDouble, exact, rounded};
 use common::random::Random;
-use redysim_model::denoc::{Method, forward_dynamics};
+use redysim_model::denoc::{Method, Untraced, forward_dynamics};
 use redysim_model::regroup::{Vanishing, base_parameters};
 use redysim_model::{Model, Tree};
 use redysim_runtime::Real;
@@ -41,10 +41,10 @@ fn error_in<S: Real>(method: Method, tree: &Tree, judge: &Tree) -> f64 {
         };
         let (q, v, tau) = (values(0.5), values(1.0), values(1.0));
         let [exact_q, exact_v, exact_tau] = [&q, &v, &tau].map(|values| exact(values));
-        let expected: Vec<DoubleDouble> = forward_dynamics(Method::Recursion, judge, &exact_q, &exact_v, &exact_tau);
+        let expected: Vec<DoubleDouble> = forward_dynamics(Method::Recursion, judge, &Untraced, &exact_q, &exact_v, &exact_tau);
         let expected = rounded(expected);
         let [q, v, tau] = [q, v, tau].map(|values| values.into_iter().map(S::from_f64).collect::<Vec<S>>());
-        let found = forward_dynamics(method, tree, &q, &v, &tau);
+        let found = forward_dynamics(method, tree, &Untraced, &q, &v, &tau);
         let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         let off = |(x, y): (&S, &f64)| if x.is_finite() { (x.to_f64() - y).abs() } else { f64::INFINITY };
         found.iter().zip(&expected).map(off).fold(0.0, f64::max) / size

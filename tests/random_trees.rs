@@ -11,7 +11,7 @@ use common::styles::Style;
 use nalgebra::{DVector, Matrix3, Rotation3, Unit, Vector3};
 use redysim_codegen::accuracy::{Quantity, Reference};
 use redysim_codegen::functions::{Function, trace};
-use redysim_model::denoc::{self, Method};
+use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::regroup::{Vanishing, base_parameters};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_model::{Inertia, JointKind, Link, Model, Tree};
@@ -128,16 +128,16 @@ fn recursions_agree_with_kanes_equations() {
                 errors.add(&format!("{path}: {what}"), computed, expected, tolerance);
             };
             let tau = forces(expected, a);
-            add("inverse", &denoc::inverse_dynamics(tree, q, v, a), tau.as_slice(), 1e-12);
-            add("matrix", &denoc::mass_matrix(tree, q).concat(), expected.matrix.as_slice(), 1e-12);
-            add("bias", &denoc::bias_forces(tree, q, v), expected.bias.as_slice(), 1e-12);
-            add("gravity", &denoc::gravity_forces(tree, q), expected.gravity.as_slice(), 1e-12);
-            let energy = denoc::energy(tree, q, v);
+            add("inverse", &denoc::inverse_dynamics(tree, &Untraced, q, v, a), tau.as_slice(), 1e-12);
+            add("matrix", &denoc::mass_matrix(tree, &Untraced, q).concat(), expected.matrix.as_slice(), 1e-12);
+            add("bias", &denoc::bias_forces(tree, &Untraced, q, v), expected.bias.as_slice(), 1e-12);
+            add("gravity", &denoc::gravity_forces(tree, &Untraced, q), expected.gravity.as_slice(), 1e-12);
+            let energy = denoc::energy(tree, &Untraced, q, v);
             add("kinetic", &[energy.kinetic], &[expected.kinetic], 1e-12);
             add("potential", &[energy.potential - expected.potential + 1.0], &[1.0], 1e-12);
             let (wanted, condition) = accelerations(expected, &tau);
             for method in [Method::Factorisation, Method::Recursion] {
-                let found = denoc::forward_dynamics(method, tree, q, v, tau.as_slice());
+                let found = denoc::forward_dynamics(method, tree, &Untraced, q, v, tau.as_slice());
                 add(&format!("{method:?}"), &found, wanted.as_slice(), 1e-15 * condition.max(1e3));
             }
         }
@@ -149,7 +149,7 @@ fn recursions_agree_with_kanes_equations() {
 fn link_kinematics_agree_with_jacobians() {
     let mut errors = Errors::default();
     on_random_trees(|_, tree, State { q, v, .. }, expected| {
-        for (link, body) in denoc::link_kinematics(tree, q, v).iter().zip(&expected.links) {
+        for (link, body) in denoc::link_kinematics(tree, &Untraced, q, v).iter().zip(&expected.links) {
             // One is added, so that vectors which happen to vanish are held against numbers of size one.
             let mut add = |what: &str, computed: &[f64], expected: &[f64]| {
                 let from_one = |values: &[f64]| values.iter().map(|x| x + 1.0).collect::<Vec<_>>();

@@ -72,17 +72,17 @@ fn recursion(trees: &Trees, passes: &Passes) -> Result<Way, ChangedValue> {
     // subtracted from them on the way would cost the digits for which the recursion is chosen.
     let method = Method::Recursion;
     let expressions = keeping_digits(trees, passes, Quantity::Accelerations, |tree, passes| {
-        traced(tree, passes, 3, |x| denoc::forward_dynamics(method, tree, x[0], x[1], x[2]))
+        traced(tree, passes, 3, |t, x| denoc::forward_dynamics(method, tree, t, x[0], x[1], x[2]))
     })?;
     Ok(Way::measured(method, expressions, trees.reference()))
 }
 
 fn factorisation(trees: &Trees, passes: &Passes) -> Result<Way, ChangedValue> {
     let (matrix, bias) = (trees.matrix(), trees.bias());
-    let expressions = traced(matrix, passes, 3, |x| {
-        let forces = denoc::bias_forces(bias, x[0], x[1]);
+    let expressions = traced(matrix, passes, 3, |t, x| {
+        let forces = denoc::bias_forces(bias, t, x[0], x[1]);
         let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();
-        Factorisation::new(matrix, &denoc::mass_matrix(matrix, x[0])).solve(&drive)
+        Factorisation::new(matrix, t, &denoc::mass_matrix(matrix, t, x[0])).solve(&drive)
     })?;
     Ok(Way::measured(Method::Factorisation, expressions, trees.reference()))
 }

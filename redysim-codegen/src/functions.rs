@@ -268,33 +268,33 @@ impl std::error::Error for TraceError {}
 
 fn function(signature: Signature, scene: &Scene, trees: &Trees, passes: &Passes) -> Result<Function, ChangedValue> {
     let on_kinematics = |arguments, function: TreeFunction| {
-        cheapest(&trees.kinematics(), |tree| traced(tree, passes, arguments, |x| function(tree, x)))
+        cheapest(&trees.kinematics(), |tree| traced(tree, passes, arguments, |t, x| function(tree, t, x)))
     };
     let measured = |quantity, arguments, function: TreeFunction| {
-        keeping_digits(trees, passes, quantity, |tree, passes| traced(tree, passes, arguments, |x| function(tree, x)))
+        keeping_digits(trees, passes, quantity, |tree, passes| traced(tree, passes, arguments, |t, x| function(tree, t, x)))
     };
     let expressions = match signature {
-        INVERSE_DYNAMICS => measured(Quantity::Forces, 3, |tree, x| denoc::inverse_dynamics(tree, x[0], x[1], x[2])),
+        INVERSE_DYNAMICS => measured(Quantity::Forces, 3, |tree, t, x| denoc::inverse_dynamics(tree, t, x[0], x[1], x[2])),
         FORWARD_DYNAMICS => {
             let chosen = forward_dynamics::chosen(trees, scene.forward_dynamics, passes)?;
             let remark = Some(chosen.to_string());
             return Ok(Function { signature, remark, expressions: chosen.expressions, pruning: None });
         }
-        MASS_MATRIX => measured(Quantity::Matrix, 1, |tree, x| denoc::mass_matrix(tree, x[0]).concat()),
-        BIAS_FORCES => measured(Quantity::BiasForces, 2, |tree, x| denoc::bias_forces(tree, x[0], x[1])),
-        GRAVITY_FORCES => measured(Quantity::GravityForces, 1, |tree, x| denoc::gravity_forces(tree, x[0])),
-        ENERGY => cheapest(&trees.energy(), |tree| traced(tree, passes, 2, |x| energy(tree, x[0], x[1]))),
-        LINK_KINEMATICS => on_kinematics(2, |tree, x| link_kinematics(tree, x[0], x[1])),
-        LOOP_RESIDUAL => on_kinematics(1, |tree, x| denoc::loop_residual(tree, x[0])),
-        LOOP_JACOBIAN => on_kinematics(1, |tree, x| denoc::loop_jacobian(tree, x[0]).concat()),
-        LOOP_BIAS => on_kinematics(2, |tree, x| denoc::loop_bias(tree, x[0], x[1])),
+        MASS_MATRIX => measured(Quantity::Matrix, 1, |tree, t, x| denoc::mass_matrix(tree, t, x[0]).concat()),
+        BIAS_FORCES => measured(Quantity::BiasForces, 2, |tree, t, x| denoc::bias_forces(tree, t, x[0], x[1])),
+        GRAVITY_FORCES => measured(Quantity::GravityForces, 1, |tree, t, x| denoc::gravity_forces(tree, t, x[0])),
+        ENERGY => cheapest(&trees.energy(), |tree| traced(tree, passes, 2, |t, x| energy(tree, t, x[0], x[1]))),
+        LINK_KINEMATICS => on_kinematics(2, |tree, t, x| link_kinematics(tree, t, x[0], x[1])),
+        LOOP_RESIDUAL => on_kinematics(1, |tree, t, x| denoc::loop_residual(tree, t, x[0])),
+        LOOP_JACOBIAN => on_kinematics(1, |tree, t, x| denoc::loop_jacobian(tree, t, x[0]).concat()),
+        LOOP_BIAS => on_kinematics(2, |tree, t, x| denoc::loop_bias(tree, t, x[0], x[1])),
         _ => unreachable!("`{}` is none of the functions of a mechanism", signature.name),
     }?;
     Ok(Function { signature, remark: None, expressions, pruning: None })
 }
 
 /// A function of a tree and its arguments.
-type TreeFunction = for<'g> fn(&Tree, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>;
+type TreeFunction = for<'g> fn(&Tree, &'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>;
 
 /// A function on the cheapest description of the robot on which it keeps its digits; in the end on the model's own,
 /// without passes over expressions.
@@ -324,13 +324,13 @@ fn cheapest(
     Ok(all.into_iter().min_by_key(Expressions::price).expect("at least one tree"))
 }
 
-fn energy<'g>(tree: &Tree, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<Symbol<'g>> {
-    let energy = denoc::energy(tree, q, v);
+fn energy<'g>(tree: &Tree, trace: &'g Tracer, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<Symbol<'g>> {
+    let energy = denoc::energy(tree, trace, q, v);
     vec![energy.kinetic, energy.potential]
 }
 
-fn link_kinematics<'g>(tree: &Tree, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<Symbol<'g>> {
-    let links = denoc::link_kinematics(tree, q, v);
+fn link_kinematics<'g>(tree: &Tree, trace: &'g Tracer, q: &[Symbol<'g>], v: &[Symbol<'g>]) -> Vec<Symbol<'g>> {
+    let links = denoc::link_kinematics(tree, trace, q, v);
     let vectors = links.into_iter().flat_map(|link| {
         link.rotation.into_iter().chain([link.origin, link.com, link.velocity, link.angular_velocity])
     });
@@ -342,7 +342,7 @@ pub(crate) fn traced(
     tree: &Tree,
     passes: &Passes,
     arguments: u8,
-    function: impl for<'g> Fn(&[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
+    function: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 ) -> Result<Expressions, ChangedValue> {
     passes::simplified(as_traced(tree, arguments, function), passes)
 }
@@ -351,13 +351,13 @@ pub(crate) fn traced(
 pub(crate) fn as_traced(
     tree: &Tree,
     arguments: u8,
-    function: impl for<'g> Fn(&[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
+    function: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 ) -> Expressions {
     let tracer = Tracer::default();
     let outputs = {
         let symbols: Vec<Vec<Symbol>> = (0..arguments).map(|argument| tracer.argument(argument, tree.dof())).collect();
         let symbols: Vec<&[Symbol]> = symbols.iter().map(Vec::as_slice).collect();
-        tracer.edges(&function(&symbols))
+        tracer.edges(&function(&tracer, &symbols))
     };
     Expressions { graph: tracer.into_graph(), outputs }
 }

@@ -1,6 +1,7 @@
 //! The symbolic scalar: run through the recursions, it leaves their expressions behind.
 
 use crate::graph::{Edge, Graph, Name, Step};
+use redysim_model::denoc::Trace;
 use redysim_runtime::Scalar;
 use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -32,6 +33,21 @@ impl Tracer {
     /// The graph traced so far.
     pub fn into_graph(self) -> Graph {
         self.0.into_inner()
+    }
+}
+
+impl Trace<Symbol<'_>> for Tracer {
+    fn step<R>(&self, sweep: &'static str, body: usize, work: impl FnOnce() -> R) -> R {
+        self.0.borrow_mut().enter_step(Some(Step { sweep, body }));
+        let result = work();
+        self.0.borrow_mut().enter_step(None);
+        result
+    }
+
+    fn name(&self, value: Symbol<'_>, quantity: &'static str, body: usize, component: &'static str) {
+        if let Symbol::Value(_, edge) = value {
+            self.0.borrow_mut().set_name(edge, Name { quantity, body, component, negative: false });
+        }
     }
 }
 
@@ -90,18 +106,6 @@ impl Scalar for Symbol<'_> {
         self.unary(f64::sqrt, Graph::sqrt)
     }
 
-    fn named(self, quantity: &'static str, body: usize, component: &'static str) -> Self {
-        if let Symbol::Value(tracer, edge) = self {
-            tracer.0.borrow_mut().set_name(edge, Name { quantity, body, component, negative: false });
-        }
-        self
-    }
-
-    fn step(self, sweep: &'static str, body: usize) {
-        if let Symbol::Value(tracer, _) = self {
-            tracer.0.borrow_mut().enter_step(Some(Step { sweep, body }));
-        }
-    }
 }
 
 impl Add for Symbol<'_> {

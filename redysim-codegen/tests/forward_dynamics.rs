@@ -2,7 +2,7 @@
 
 use redysim_codegen::functions::trace;
 use redysim_codegen::source_file;
-use redysim_model::denoc::{Method, forward_dynamics};
+use redysim_model::denoc::{Method, Untraced, forward_dynamics};
 use redysim_model::{Model, Tree};
 use std::fmt::Write;
 
@@ -52,8 +52,8 @@ fn both_ways_agree() {
     let tree = Tree::new(&rods(2, 4));
     let [q, v, tau] =
         [0.3_f64, 0.7, 1.1].map(|rate| (0..8).map(|i| (rate * f64::from(i + 1)).sin()).collect::<Vec<_>>());
-    let recursion = forward_dynamics(Method::Recursion, &tree, &q, &v, &tau);
-    let explicit = forward_dynamics(Method::Factorisation, &tree, &q, &v, &tau);
+    let recursion = forward_dynamics(Method::Recursion, &tree, &Untraced, &q, &v, &tau);
+    let explicit = forward_dynamics(Method::Factorisation, &tree, &Untraced, &q, &v, &tau);
     for (a, b) in recursion.iter().zip(&explicit) {
         assert!((a - b).abs() <= 1e-10 * (1.0 + a.abs()), "{a} {b}");
     }

@@ -1,6 +1,6 @@
 //! The generic path: the recursions at `f64` (or any other scalar), driven by a model that is read at run time.
 
-use crate::denoc::{self, Method};
+use crate::denoc::{self, Method, Untraced};
 use crate::model::Model;
 use crate::tree::Tree;
 use redysim_runtime::dual;
@@ -84,7 +84,7 @@ impl<S: Scalar> Mechanism<S> for GenericMechanism {
 impl<S: Scalar> InverseDynamics<S> for GenericMechanism {
     fn inverse_dynamics(&self, q: &Vec<S>, v: &Vec<S>, a: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q), ("v", v), ("a", a)]);
-        denoc::inverse_dynamics(&self.tree, q, v, a)
+        denoc::inverse_dynamics(&self.tree, &Untraced, q, v, a)
     }
     fn inverse_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
         Some(dual::inverse_dynamics_tangent(self, at, slopes))
@@ -95,7 +95,7 @@ impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
     /// By the O(n) recursion, which stays accurate for chains of any length.
     fn forward_dynamics(&self, q: &Vec<S>, v: &Vec<S>, tau: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q), ("v", v), ("tau", tau)]);
-        denoc::forward_dynamics(Method::Recursion, &self.tree, q, v, tau)
+        denoc::forward_dynamics(Method::Recursion, &self.tree, &Untraced, q, v, tau)
     }
     fn forward_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
         Some(dual::forward_dynamics_tangent(self, at, slopes))
@@ -105,35 +105,35 @@ impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
 impl<S: Scalar> MassMatrix<S> for GenericMechanism {
     fn mass_matrix(&self, q: &Vec<S>) -> Vec<Vec<S>> {
         self.check(&[("q", q)]);
-        denoc::mass_matrix(&self.tree, q)
+        denoc::mass_matrix(&self.tree, &Untraced, q)
     }
 }
 
 impl<S: Scalar> BiasForces<S> for GenericMechanism {
     fn bias_forces(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q), ("v", v)]);
-        denoc::bias_forces(&self.tree, q, v)
+        denoc::bias_forces(&self.tree, &Untraced, q, v)
     }
 }
 
 impl<S: Scalar> GravityForces<S> for GenericMechanism {
     fn gravity_forces(&self, q: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q)]);
-        denoc::gravity_forces(&self.tree, q)
+        denoc::gravity_forces(&self.tree, &Untraced, q)
     }
 }
 
 impl<S: Scalar> MechanicalEnergy<S> for GenericMechanism {
     fn energy(&self, q: &Vec<S>, v: &Vec<S>) -> Energy<S> {
         self.check(&[("q", q), ("v", v)]);
-        denoc::energy(&self.tree, q, v)
+        denoc::energy(&self.tree, &Untraced, q, v)
     }
 }
 
 impl<S: Scalar> LinkKinematics<S> for GenericMechanism {
     fn link_kinematics(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<LinkState<S>> {
         self.check(&[("q", q), ("v", v)]);
-        denoc::link_kinematics(&self.tree, q, v)
+        denoc::link_kinematics(&self.tree, &Untraced, q, v)
     }
 }
 
@@ -147,15 +147,15 @@ impl<S: Scalar> LoopClosure<S, GenericMechanism> for GenericMechanism {
     }
     fn loop_residual(&self, q: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q)]);
-        denoc::loop_residual(&self.tree, q)
+        denoc::loop_residual(&self.tree, &Untraced, q)
     }
     fn loop_jacobian(&self, q: &Vec<S>) -> Vec<Vec<S>> {
         self.check(&[("q", q)]);
-        denoc::loop_jacobian(&self.tree, q)
+        denoc::loop_jacobian(&self.tree, &Untraced, q)
     }
     fn loop_bias(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q), ("v", v)]);
-        denoc::loop_bias(&self.tree, q, v)
+        denoc::loop_bias(&self.tree, &Untraced, q, v)
     }
     fn loop_name(&self, row: usize) -> Option<&str> {
         self.tree.loops_of_rows().nth(row).map(|index| self.model.loops[index].name.as_str())

@@ -70,19 +70,6 @@ impl<S: Scalar> Sym3<S> {
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Sym3<T> {
         Sym3 { xx: f(self.xx), yy: f(self.yy), zz: f(self.zz), xy: f(self.xy), yz: f(self.yz), xz: f(self.xz) }
     }
-
-    /// Names the six elements for a symbolic scalar (see [`Scalar::named`]).
-    pub fn named(self, quantity: &'static str, body: usize) -> Self {
-        let name = |value: S, component| value.named(quantity, body, component);
-        Sym3 {
-            xx: name(self.xx, "xx"),
-            yy: name(self.yy, "yy"),
-            zz: name(self.zz, "zz"),
-            xy: name(self.xy, "xy"),
-            yz: name(self.yz, "yz"),
-            xz: name(self.xz, "xz"),
-        }
-    }
 }
 
 impl<S: Scalar> Add for Sym3<S> {

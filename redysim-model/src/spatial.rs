@@ -57,11 +57,6 @@ impl<S: Scalar> Vec3<S> {
         let (zero, [x, y, z]) = (S::zero(), self.0);
         Mat3([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
     }
-
-    /// Names the three components for a symbolic scalar (see [`Scalar::named`]).
-    pub fn named(self, quantity: &'static str, body: usize) -> Self {
-        Self::from_fn(|i| self[i].named(quantity, body, ["x", "y", "z"][i]))
-    }
 }
 
 impl<S: Scalar> Mat3<S> {

@@ -214,6 +214,16 @@ impl Tree {
         self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
     }
 
+    /// The bodies from the ground outwards: parents before their children.
+    pub fn outward(&self) -> std::ops::Range<usize> {
+        0..self.bodies.len()
+    }
+
+    /// The bodies from the tips inwards: children before their parents.
+    pub fn inward(&self) -> std::iter::Rev<std::ops::Range<usize>> {
+        self.outward().rev()
+    }
+
     /// The bodies whose parent is `body`.
     pub fn children(&self, body: usize) -> impl Iterator<Item = usize> {
         let later = self.bodies.iter().enumerate().skip(body + 1);

@@ -1,6 +1,6 @@
 //! Passes from tree to tree describe the same robot: every quantity of the whole mechanism stays what it was.
 
-use redysim_model::denoc::{self, Method};
+use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::frames::{canonical, reframe};
 use redysim_model::inertia::Sym3;
 use redysim_model::pseudo::PseudoInertia;
@@ -27,12 +27,12 @@ fn trees() -> Vec<(&'static str, Tree)> {
 /// What the whole mechanism does at a state.
 fn dynamics(tree: &Tree) -> Vec<Vec<f64>> {
     let (q, v, a) = (tree.sample(0), tree.sample(1), tree.sample(2));
-    let energy = denoc::energy(tree, &q, &v);
+    let energy = denoc::energy(tree, &Untraced, &q, &v);
     vec![
-        denoc::inverse_dynamics(tree, &q, &v, &a),
-        denoc::mass_matrix(tree, &q).concat(),
-        denoc::bias_forces(tree, &q, &v),
-        denoc::gravity_forces(tree, &q),
+        denoc::inverse_dynamics(tree, &Untraced, &q, &v, &a),
+        denoc::mass_matrix(tree, &Untraced, &q).concat(),
+        denoc::bias_forces(tree, &Untraced, &q, &v),
+        denoc::gravity_forces(tree, &Untraced, &q),
         vec![energy.kinetic],
         vec![energy.potential],
     ]
@@ -42,8 +42,8 @@ fn dynamics(tree: &Tree) -> Vec<Vec<f64>> {
 fn kinematics(tree: &Tree) -> Vec<Vec<f64>> {
     let (q, v) = (tree.sample(0), tree.sample(1));
     let mut values =
-        vec![denoc::loop_residual(tree, &q), denoc::loop_jacobian(tree, &q).concat(), denoc::loop_bias(tree, &q, &v)];
-    for link in denoc::link_kinematics(tree, &q, &v) {
+        vec![denoc::loop_residual(tree, &Untraced, &q), denoc::loop_jacobian(tree, &Untraced, &q).concat(), denoc::loop_bias(tree, &Untraced, &q, &v)];
+    for link in denoc::link_kinematics(tree, &Untraced, &q, &v) {
         values.push(link.rotation.concat());
         values.extend([link.origin, link.com, link.velocity, link.angular_velocity].map(Vec::from));
     }
@@ -107,7 +107,7 @@ fn still_axes_change_no_quantity() {
             assert_same(&format!("{name} {pattern}"), &dynamics(&still), &dynamics(&tree));
             assert_same(&format!("{name} {pattern}"), &kinematics(&still), &kinematics(&tree));
             let forward = |tree: &Tree| {
-                denoc::forward_dynamics(Method::Recursion, tree, &tree.sample(0), &tree.sample(1), &tree.sample(2))
+                denoc::forward_dynamics(Method::Recursion, tree, &Untraced, &tree.sample(0), &tree.sample(1), &tree.sample(2))
             };
             let (found, expected) = (forward(&still), forward(&tree));
             let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));

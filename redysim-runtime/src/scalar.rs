@@ -88,21 +88,6 @@ pub trait Scalar:
     fn one() -> Self {
         Self::from_f64(1.0)
     }
-
-    /// Says what this value is: component `component` of `quantity` of body `body`. A symbolic scalar keeps the name
-    /// for the code it will emit; a number returns itself.
-    #[inline(always)]
-    fn named(self, quantity: &'static str, body: usize, component: &'static str) -> Self {
-        let _ = (quantity, body, component);
-        self
-    }
-
-    /// Says that the operations from here on are those of body `body` in the sweep `sweep` over all bodies. A symbolic
-    /// scalar notes it, to recognise bodies on which the same is done; a number does nothing.
-    #[inline(always)]
-    fn step(self, sweep: &'static str, body: usize) {
-        let _ = (sweep, body);
-    }
 }
 
 /// A scalar that stands for one real number: ordered, and convertible to `f64`.

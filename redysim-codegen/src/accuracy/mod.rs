@@ -11,7 +11,7 @@ pub mod rounding;
 use crate::random::Random;
 use double_double::{exact, rounded};
 use redysim_model::Tree;
-use redysim_model::denoc::{self, Method};
+use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::inertia::Sym3;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::tree::Joint;
@@ -117,11 +117,11 @@ impl<'a> Reference<'a> {
     /// What the recursion for `quantity` loses in `f64` on `tree`, another description of the robot.
     pub fn lost_on(&self, tree: &Tree, quantity: Quantity) -> f64 {
         self.lost_by(quantity, |x| match quantity {
-            Quantity::Forces => denoc::inverse_dynamics(tree, x[0], x[1], x[2]),
-            Quantity::BiasForces => denoc::bias_forces(tree, x[0], x[1]),
-            Quantity::GravityForces => denoc::gravity_forces(tree, x[0]),
-            Quantity::Matrix => denoc::mass_matrix(tree, x[0]).concat(),
-            Quantity::Accelerations => denoc::forward_dynamics(Method::Recursion, tree, x[0], x[1], x[2]),
+            Quantity::Forces => denoc::inverse_dynamics(tree, &Untraced, x[0], x[1], x[2]),
+            Quantity::BiasForces => denoc::bias_forces(tree, &Untraced, x[0], x[1]),
+            Quantity::GravityForces => denoc::gravity_forces(tree, &Untraced, x[0]),
+            Quantity::Matrix => denoc::mass_matrix(tree, &Untraced, x[0]).concat(),
+            Quantity::Accelerations => denoc::forward_dynamics(Method::Recursion, tree, &Untraced, x[0], x[1], x[2]),
         })
     }
 
@@ -185,7 +185,7 @@ impl State {
         for body in &tree.bodies {
             q[body.coordinate] *= if body.joint == Joint::Prismatic { 1.0 } else { PI };
         }
-        let diagonal = denoc::mass_matrix(tree, &q).into_iter().enumerate().map(|(joint, row)| row[joint]);
+        let diagonal = denoc::mass_matrix(tree, &Untraced, &q).into_iter().enumerate().map(|(joint, row)| row[joint]);
         let weights: Vec<f64> = diagonal.map(f64::sqrt).collect();
         for joint in 0..joints {
             let speed = match kind {
@@ -197,13 +197,13 @@ impl State {
             a[joint] *= 10.0 * speed;
         }
         let nothing = vec![0.0; joints];
-        let forces_of = |v: &[f64], a: &[f64]| rounded(denoc::inverse_dynamics(tree, &exact(&q), &exact(v), &exact(a)));
+        let forces_of = |v: &[f64], a: &[f64]| rounded(denoc::inverse_dynamics(tree, &Untraced, &exact(&q), &exact(v), &exact(a)));
         let [forces, bias, gravity] = [(&v, &a), (&v, &nothing), (&nothing, &nothing)].map(|(v, a)| forces_of(v, a));
         let tau = if kind == Kind::Rest { nothing } else { forces.clone() };
         let accelerations =
-            rounded(denoc::forward_dynamics(Method::Recursion, tree, &exact(&q), &exact(&v), &exact(&tau)));
+            rounded(denoc::forward_dynamics(Method::Recursion, tree, &Untraced, &exact(&q), &exact(&v), &exact(&tau)));
         let matrix =
-            if joints > LARGEST_MATRIX { Vec::new() } else { rounded(denoc::mass_matrix(tree, &exact(&q)).concat()) };
+            if joints > LARGEST_MATRIX { Vec::new() } else { rounded(denoc::mass_matrix(tree, &Untraced, &exact(&q)).concat()) };
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
         let positive = weights.iter().all(|&weight| weight > 0.0);
         let usable =

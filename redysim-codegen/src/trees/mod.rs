@@ -182,9 +182,9 @@ fn matrix_price(tree: &Tree) -> u32 {
 /// What inverse dynamics and the mass matrix cost, without the passes over expressions: these take most of the time,
 /// and what they gain differs little from choice to choice.
 fn inverse_dynamics(tree: &Tree) -> Expressions {
-    as_traced(tree, 3, |x| denoc::inverse_dynamics(tree, x[0], x[1], x[2]))
+    as_traced(tree, 3, |t, x| denoc::inverse_dynamics(tree, t, x[0], x[1], x[2]))
 }
 
 fn mass_matrix(tree: &Tree) -> Expressions {
-    as_traced(tree, 1, |x| denoc::mass_matrix(tree, x[0]).concat())
+    as_traced(tree, 1, |t, x| denoc::mass_matrix(tree, t, x[0]).concat())
 }

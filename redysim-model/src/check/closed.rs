@@ -2,7 +2,7 @@
 //! links at its ends.
 
 use super::singular::pivotless;
-use crate::denoc::mass_matrix;
+use crate::denoc::{Untraced, mass_matrix};
 use crate::generic::GenericMechanism;
 use crate::mobility::STARTS;
 use crate::model::Model;
@@ -23,7 +23,7 @@ pub(super) fn is_well_posed(model: &Model) -> bool {
     let starts = (0..STARTS).map(|start| if start == 0 { rest.clone() } else { tree.sample(start) });
     starts.filter_map(|start| loops.assemble(&start, &rest, &[]).ok()).any(|closed| {
         let jacobian: Vec<Vec<f64>> = mechanism.loop_jacobian(&closed.q);
-        let mut matrix = mass_matrix(tree, &closed.q);
+        let mut matrix = mass_matrix(tree, &Untraced, &closed.q);
         let largest =
             |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, value| most.max(value.abs()));
         let heaviest = largest(&mut (0..tree.dof()).map(|i| matrix[i][i]));

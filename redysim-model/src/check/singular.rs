@@ -1,6 +1,6 @@
 //! The numerical test for a singular mass matrix: joints that move mass, yet are met by no inertia at any position.
 
-use crate::denoc::mass_matrix;
+use crate::denoc::{Untraced, mass_matrix};
 use crate::diagnostic::{Message, messages};
 use crate::model::Model;
 use crate::tree::{Body, Joint, Tree};
@@ -20,7 +20,7 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
         if suspects.is_empty() {
             return Vec::new();
         }
-        let free = pivotless(&tree, &mass_matrix(&tree, &tree.sample(position)));
+        let free = pivotless(&tree, &mass_matrix(&tree, &Untraced, &tree.sample(position)));
         suspects.retain(|body| free.contains(body));
     }
     let moving: Vec<usize> = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0).collect();

@@ -1,6 +1,7 @@
 //! The inertia of a body with everything it carries on free joints.
 
 use super::joint::JointFrame;
+use super::trace::Trace;
 use crate::inertia::{RigidInertia, Sym3};
 use crate::spatial::{Mat3, Vec3};
 use redysim_runtime::Scalar;
@@ -37,8 +38,9 @@ impl<S: Scalar> Spatial<S> {
         Spatial { angular: self.angular + other.angular, linear: self.linear + other.linear }
     }
 
-    pub fn named(self, angular: &'static str, linear: &'static str, body: usize) -> Self {
-        Spatial { angular: self.angular.named(angular, body), linear: self.linear.named(linear, body) }
+    pub fn name(self, trace: &impl Trace<S>, angular: &'static str, linear: &'static str, body: usize) {
+        trace.name_vector(self.angular, angular, body);
+        trace.name_vector(self.linear, linear, body);
     }
 }
 
@@ -117,12 +119,9 @@ impl<S: Scalar> ArticulatedInertia<S> {
         ArticulatedInertia { tensor: tensor + steiner, coupling, mass }
     }
 
-    pub fn named(self, body: usize) -> Self {
-        const AXES: [[&str; 3]; 3] = [["xx", "xy", "xz"], ["yx", "yy", "yz"], ["zx", "zy", "zz"]];
-        ArticulatedInertia {
-            tensor: self.tensor.named("J", body),
-            coupling: Mat3::from_fn(|i, j| self.coupling.0[i][j].named("H", body, AXES[i][j])),
-            mass: self.mass.named("M", body),
-        }
+    pub fn name(self, trace: &impl Trace<S>, body: usize) {
+        trace.name_symmetric(self.tensor, "J", body);
+        trace.name_matrix(self.coupling, "H", body);
+        trace.name_symmetric(self.mass, "M", body);
     }
 }

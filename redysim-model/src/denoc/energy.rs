@@ -1,18 +1,19 @@
 //! Kinetic and potential energy.
 
 use super::joint::{JointFrame, joint_frames};
+use super::trace::Trace;
 use crate::inertia::RigidInertia;
 use crate::spatial::Vec3;
 use crate::tree::{Body, Joint, Tree};
 use redysim_runtime::{Energy, Scalar};
 
 /// Kinetic energy ½ Σ (m v² + 2 v·(ω × h) + ωᵀ J ω) and potential energy −Σ m g·c, zero at the base frame's origin, J.
-pub fn energy<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Energy<S> {
-    let frames = joint_frames(tree, q);
+pub fn energy<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Energy<S> {
+    let frames = joint_frames(tree, trace, q);
     let mut motions: Vec<(Vec3<S>, Vec3<S>)> = Vec::with_capacity(tree.bodies.len());
     let mut twice_kinetic = S::zero();
-    for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate() {
-        q[body.coordinate].step("outward", index);
+    trace.sweep("outward", tree.outward(), |index| {
+        let (body, frame) = (&tree.bodies[index], &frames[index]);
         let (angular, linear) = body.parent.map_or((Vec3::zero(), Vec3::zero()), |parent| motions[parent]);
         let mut linear = frame.to_body(linear + angular.cross(frame.position));
         let mut angular = frame.to_body(angular);
@@ -20,16 +21,17 @@ pub fn energy<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Energy<S> {
             Joint::Revolute => angular[2] += v[body.coordinate],
             Joint::Prismatic => linear[2] += v[body.coordinate],
         }
-        let (angular, linear) = (angular.named("w", index), linear.named("vel", index));
+        trace.name_vector(angular, "w", index);
+        trace.name_vector(linear, "vel", index);
         twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), angular, linear);
         motions.push((angular, linear));
-    }
+    });
     let of_body = |(body, frame): (&Body, &JointFrame<S>)| frame.fixed_vector(Vec3::constant(body.inertia.moment));
     let mut moments: Vec<Vec3<S>> = tree.bodies.iter().zip(&frames).map(of_body).collect();
     let mut masses: Vec<f64> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
     let mut total = Vec3::constant(tree.ground.moment);
-    for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
-        q[body.coordinate].step("inward", index);
+    trace.sweep("inward", tree.inward(), |index| {
+        let (body, frame) = (&tree.bodies[index], &frames[index]);
         let moment = frame.position.scale(S::from_f64(masses[index])) + frame.to_parent(moments[index]);
         match body.parent {
             Some(parent) => {
@@ -38,7 +40,7 @@ pub fn energy<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Energy<S> {
             }
             None => total = total + moment,
         }
-    }
+    });
     Energy { kinetic: S::from_f64(0.5) * twice_kinetic, potential: -Vec3::constant(tree.gravity).dot(total) }
 }
 

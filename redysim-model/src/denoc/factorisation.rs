@@ -1,5 +1,6 @@
 //! The factorisation M = U D Uᵀ of the generalised inertia matrix (DeNOC's reverse Gaussian elimination).
 
+use super::trace::Trace;
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
@@ -19,14 +20,16 @@ pub struct Factorisation<S> {
 
 impl<S: Scalar> Factorisation<S> {
     /// Factorises the mass matrix of `tree`, given by rows in the model's order.
-    pub fn new(tree: &Tree, matrix: &[Vec<S>]) -> Self {
+    pub fn new(tree: &Tree, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
         let coordinates: Vec<usize> = tree.bodies.iter().map(|body| body.coordinate).collect();
         let parents: Vec<Option<usize>> = tree.bodies.iter().map(|body| body.parent).collect();
         let mut upper: Vec<Vec<S>> =
             coordinates.iter().map(|&i| coordinates.iter().map(|&j| matrix[i][j]).collect()).collect();
         let mut inverse_pivots = vec![S::zero(); tree.dof()];
         for k in (0..tree.dof()).rev() {
-            let inverse = (S::one() / upper[k][k].named("D", k, "")).named("inv_D", k, "");
+            let inverse = S::one() / upper[k][k];
+            trace.name(upper[k][k], "D", k, "");
+            trace.name(inverse, "inv_D", k, "");
             inverse_pivots[k] = inverse;
             for i in ancestors(&parents, k) {
                 let factor = inverse * upper[i][k];

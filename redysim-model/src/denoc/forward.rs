@@ -5,6 +5,7 @@ use super::factorisation::Factorisation;
 use super::inverse::bias_forces;
 use super::joint::{JointFrame, joint_frames};
 use super::mass_matrix::mass_matrix;
+use super::trace::Trace;
 use crate::inertia::RigidInertia;
 use crate::spatial::Vec3;
 use crate::tree::{Joint, Tree};
@@ -21,18 +22,31 @@ pub enum Method {
 }
 
 /// M(q)⁻¹ (τ − C(q, v) v − g(q)) by the given method.
-pub fn forward_dynamics<S: Scalar>(method: Method, tree: &Tree, q: &[S], v: &[S], tau: &[S]) -> Vec<S> {
+pub fn forward_dynamics<S: Scalar>(
+    method: Method,
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    tau: &[S],
+) -> Vec<S> {
     match method {
-        Method::Factorisation => forward_dynamics_by_factorisation(tree, q, v, tau),
-        Method::Recursion => forward_dynamics_by_recursion(tree, q, v, tau),
+        Method::Factorisation => forward_dynamics_by_factorisation(tree, trace, q, v, tau),
+        Method::Recursion => forward_dynamics_by_recursion(tree, trace, q, v, tau),
     }
 }
 
 /// Accelerations from the explicit mass matrix: M = U D Uᵀ, then three substitutions.
-pub fn forward_dynamics_by_factorisation<S: Scalar>(tree: &Tree, q: &[S], v: &[S], tau: &[S]) -> Vec<S> {
-    let bias = bias_forces(tree, q, v);
+pub fn forward_dynamics_by_factorisation<S: Scalar>(
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    tau: &[S],
+) -> Vec<S> {
+    let bias = bias_forces(tree, trace, q, v);
     let drive: Vec<S> = tau.iter().zip(bias).map(|(&tau, bias)| tau - bias).collect();
-    Factorisation::new(tree, &mass_matrix(tree, q)).solve(&drive)
+    Factorisation::new(tree, trace, &mass_matrix(tree, trace, q)).solve(&drive)
 }
 
 /// Accelerations by recursion: inertias and bias wrenches inwards, accelerations outwards.
@@ -40,9 +54,15 @@ pub fn forward_dynamics_by_factorisation<S: Scalar>(tree: &Tree, q: &[S], v: &[S
 /// The same elimination, M = U D Uᵀ, without the matrix: the pivot D of a joint is what its body and all it carries,
 /// on free joints, set against it. The bias is carried along as a wrench instead of being summed up as joint forces
 /// first, since their roundoff would be multiplied by the condition of M.
-pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], tau: &[S]) -> Vec<S> {
-    let frames = joint_frames(tree, q);
-    let drifts = drifts(tree, &frames, q, v);
+pub fn forward_dynamics_by_recursion<S: Scalar>(
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    tau: &[S],
+) -> Vec<S> {
+    let frames = joint_frames(tree, trace, q);
+    let drifts = drifts(tree, trace, &frames, v);
     let mut inertias: Vec<ArticulatedInertia<S>> = tree
         .bodies
         .iter()
@@ -51,17 +71,21 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], t
         .collect();
     let mut biases = vec![Spatial::zero(); tree.bodies.len()];
     let mut pivots: Vec<Pivot<S>> = Vec::with_capacity(tree.bodies.len());
-    for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate().rev() {
-        q[body.coordinate].step("inward", index);
+    trace.sweep("inward", tree.inward(), |index| {
+        let (body, frame) = (&tree.bodies[index], &frames[index]);
         let free = free_axis(body.joint);
-        let inertia = inertias[index].named(index);
+        let inertia = inertias[index];
+        inertia.name(trace, index);
         let own = frame.own_inertia(body.inertia).to_rigid();
         let bias = biases[index].plus(centrifugal_wrench(own, drifts[index].angular));
-        let bias = bias.named("bias_n", "bias_f", index);
+        bias.name(trace, "bias_n", "bias_f", index);
         let column = inertia.column(free);
-        let inverse = (S::one() / column.component(free)).named("inv_D", index, "");
-        let ratio = column.scale(inverse).named("ratio_n", "ratio_f", index);
-        let drive = (tau[body.coordinate] - bias.component(free)).named("drive", index, "");
+        let inverse = S::one() / column.component(free);
+        trace.name(inverse, "inv_D", index, "");
+        let ratio = column.scale(inverse);
+        ratio.name(trace, "ratio_n", "ratio_f", index);
+        let drive = tau[body.coordinate] - bias.component(free);
+        trace.name(drive, "drive", index, "");
         if let Some(parent) = body.parent {
             let felt = inertia.felt_through(free, column, ratio);
             let mut wrench = bias.plus(felt.apply(drifts[index].acceleration)).plus(ratio.scale(drive));
@@ -71,14 +95,14 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], t
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
         }
         pivots.push(Pivot { inverse, ratio, drive });
-    }
+    });
     pivots.reverse();
 
     let ground = Spatial { angular: Vec3::zero(), linear: Vec3::constant(-tree.gravity) };
     let mut accelerations: Vec<Spatial<S>> = Vec::with_capacity(tree.bodies.len());
     let mut result = vec![S::zero(); tree.dof()];
-    for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate() {
-        q[body.coordinate].step("accelerations", index);
+    trace.sweep("accelerations", tree.outward(), |index| {
+        let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| accelerations[parent]);
         let mut acceleration = Spatial {
             angular: frame.to_body(parent.angular),
@@ -92,9 +116,11 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(tree: &Tree, q: &[S], v: &[S], t
         *ratio.component_mut(free) = S::zero();
         let joint = inverse * drive - (ratio.dot(acceleration) + carried);
         *acceleration.component_mut(free) += joint;
-        result[body.coordinate] = joint.named("acc", index, "");
-        accelerations.push(acceleration.named("dw", "acc", index));
-    }
+        trace.name(joint, "acc", index, "");
+        result[body.coordinate] = joint;
+        acceleration.name(trace, "dw", "acc", index);
+        accelerations.push(acceleration);
+    });
     result
 }
 
@@ -113,10 +139,10 @@ struct Drift<S> {
     acceleration: Spatial<S>,
 }
 
-fn drifts<S: Scalar>(tree: &Tree, frames: &[JointFrame<S>], q: &[S], v: &[S]) -> Vec<Drift<S>> {
+fn drifts<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, frames: &[JointFrame<S>], v: &[S]) -> Vec<Drift<S>> {
     let mut drifts: Vec<Drift<S>> = Vec::with_capacity(tree.bodies.len());
-    for (index, (body, frame)) in tree.bodies.iter().zip(frames).enumerate() {
-        q[body.coordinate].step("velocities", index);
+    trace.sweep("velocities", tree.outward(), |index| {
+        let (body, frame) = (&tree.bodies[index], &frames[index]);
         let rate = v[body.coordinate];
         let parent = body.parent.map_or(Vec3::zero(), |parent| drifts[parent].angular);
         let mut acceleration = Spatial::zero();
@@ -133,9 +159,10 @@ fn drifts<S: Scalar>(tree: &Tree, frames: &[JointFrame<S>], q: &[S], v: &[S]) ->
                 acceleration.linear = acceleration.linear + Vec3([y * twice, -(x * twice), S::zero()]);
             }
         }
-        let angular = angular.named("w", index);
-        drifts.push(Drift { angular, acceleration: acceleration.named("drift_n", "drift_f", index) });
-    }
+        trace.name_vector(angular, "w", index);
+        acceleration.name(trace, "drift_n", "drift_f", index);
+        drifts.push(Drift { angular, acceleration });
+    });
     drifts
 }
 

@@ -1,6 +1,7 @@
 //! Inverse dynamics: joint forces from motion, by one recursion outwards and one inwards (recursive Newton-Euler).
 
 use super::joint::{JointFrame, along_joint, joint_frames};
+use super::trace::Trace;
 use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Vec3};
@@ -63,13 +64,10 @@ impl<S: Scalar> BodyMotion<S> {
         Self::new(w, frame.to_body(self.angular_rate), acceleration)
     }
 
-    fn named(self, index: usize) -> Self {
-        BodyMotion {
-            angular: self.angular.named("w", index),
-            angular_rate: self.angular_rate.named("dw", index),
-            acceleration: self.acceleration.named("acc", index),
-            ..self
-        }
+    fn name(&self, trace: &impl Trace<S>, body: usize) {
+        trace.name_vector(self.angular, "w", body);
+        trace.name_vector(self.angular_rate, "dw", body);
+        trace.name_vector(self.acceleration, "acc", body);
     }
 
     /// Force and moment about the origin that give a body of these moments of mass this motion: f = m a + U h, and n
@@ -125,44 +123,47 @@ impl<S: Scalar> Shape<S> {
 }
 
 /// τ = M(q) a + C(q, v) v + g(q): the joint forces for accelerations `a` at coordinates `q` and velocities `v`.
-pub fn inverse_dynamics<S: Scalar>(tree: &Tree, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
-    let frames = joint_frames(tree, q);
+pub fn inverse_dynamics<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
+    let frames = joint_frames(tree, trace, q);
     let ground = BodyMotion::ground(tree.gravity);
     let mut motions: Vec<BodyMotion<S>> = Vec::with_capacity(tree.bodies.len());
     let mut wrenches: Vec<(Vec3<S>, Vec3<S>)> = Vec::with_capacity(tree.bodies.len());
-    for (index, (body, frame)) in tree.bodies.iter().zip(&frames).enumerate() {
-        q[body.coordinate].step("outward", index);
+    trace.sweep("outward", tree.outward(), |index| {
+        let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| motions[parent]);
         let (rate, joint) = (v[body.coordinate], a[body.coordinate]);
         let motion = match body.joint {
             Joint::Revolute => parent.behind_revolute(frame, rate, joint),
             Joint::Prismatic => parent.behind_prismatic(frame, rate, joint),
         };
-        let motion = motion.named(index);
+        motion.name(trace, index);
         wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), Shape::new(&body.inertia, frame)));
         motions.push(motion);
-    }
+    });
     let mut tau = vec![S::zero(); tree.dof()];
-    for (index, body) in tree.bodies.iter().enumerate().rev() {
-        q[body.coordinate].step("inward", index);
+    trace.sweep("inward", tree.inward(), |index| {
+        let body = &tree.bodies[index];
         let (mut force, mut moment) = wrenches[index];
         // Taken from the children, not handed to the parent: so the sum for one body is one sum.
         for child in tree.children(index) {
             let load = frames[child].wrench_to_parent(wrenches[child].0, wrenches[child].1);
             (force, moment) = (force + load.0, moment + load.1);
         }
-        wrenches[index] = (force.named("force", index), moment.named("moment", index));
-        tau[body.coordinate] = along_joint(body.joint, force, moment).named("tau", index, "");
-    }
+        trace.name_vector(force, "force", index);
+        trace.name_vector(moment, "moment", index);
+        wrenches[index] = (force, moment);
+        tau[body.coordinate] = along_joint(body.joint, force, moment);
+        trace.name(tau[body.coordinate], "tau", index, "");
+    });
     tau
 }
 
 /// C(q, v) v + g(q): the joint forces at zero acceleration.
-pub fn bias_forces<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<S> {
-    inverse_dynamics(tree, q, v, &vec![S::zero(); tree.dof()])
+pub fn bias_forces<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
+    inverse_dynamics(tree, trace, q, v, &vec![S::zero(); tree.dof()])
 }
 
 /// g(q): the joint forces at rest.
-pub fn gravity_forces<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<S> {
-    bias_forces(tree, q, &vec![S::zero(); tree.dof()])
+pub fn gravity_forces<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
+    bias_forces(tree, trace, q, &vec![S::zero(); tree.dof()])
 }

@@ -1,5 +1,6 @@
 //! One joint at one position: how vectors, forces and inertias pass between a body and its parent.
 
+use super::trace::Trace;
 use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -30,17 +31,19 @@ pub(super) struct JointFrame<S> {
 }
 
 /// The frames of all bodies at the coordinates `q`.
-pub(super) fn joint_frames<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<JointFrame<S>> {
+pub(super) fn joint_frames<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<JointFrame<S>> {
     // All angles first, so that compiled code can take their sines and cosines together.
     let angles = angles(tree, q);
     let mut frames: Vec<JointFrame<S>> = Vec::with_capacity(tree.bodies.len());
-    for (index, (body, angle)) in tree.bodies.iter().zip(angles).enumerate() {
-        q[body.coordinate].step("frames", index);
+    trace.sweep("frames", tree.outward(), |index| {
+        let (body, angle) = (&tree.bodies[index], angles[index]);
         let parent = body.parent.and_then(|parent| frames[parent].attitude);
         let turn = angle.map(|Angle { value, is_sum }| {
             let (sin, cos) = value.sin_cos();
             let [cosine, sine] = if is_sum { ["cos_sum", "sin_sum"] } else { ["cos", "sin"] };
-            (cos.named(cosine, index, ""), sin.named(sine, index, ""))
+            trace.name(cos, cosine, index, "");
+            trace.name(sin, sine, index, "");
+            (cos, sin)
         });
         let Pose { rotation, position } = body.placement;
         let fixed = Mat3::constant(rotation);
@@ -52,7 +55,7 @@ pub(super) fn joint_frames<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<JointFrame<S>
         let along_axis = before.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
         frames.push(JointFrame { before, fixed, turn, attitude, along_axis, position });
-    }
+    });
     frames
 }
 

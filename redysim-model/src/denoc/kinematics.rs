@@ -1,8 +1,9 @@
 //! Positions and velocities of all links in the base frame.
 
 use super::joint::joint_frames;
+use super::trace::Trace;
 use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::{Joint, Tree};
+use crate::tree::{Attachment, Joint, Tree};
 use redysim_runtime::{LinkState, Scalar};
 
 /// A frame that moves, seen from the base frame.
@@ -27,14 +28,26 @@ impl<S: Scalar> MovingFrame<S> {
             angular_velocity: self.angular_velocity,
         }
     }
+
+    /// The state of the link whose frame this is.
+    fn state_of(self, link: &Attachment) -> LinkState<S> {
+        let Mat3(rotation) = self.pose.rotation;
+        LinkState {
+            rotation,
+            origin: self.pose.position.0,
+            com: self.pose.transform(Vec3::constant(link.com)).0,
+            velocity: self.velocity.0,
+            angular_velocity: self.angular_velocity.0,
+        }
+    }
 }
 
 /// Rotation, origin, centre of mass, velocity of the origin and angular velocity of every link, in the model's order.
-pub fn link_kinematics<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<LinkState<S>> {
-    let joints = joint_frames(tree, q);
+pub fn link_kinematics<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<LinkState<S>> {
+    let joints = joint_frames(tree, trace, q);
     let mut frames: Vec<MovingFrame<S>> = Vec::with_capacity(tree.bodies.len());
-    for (index, (body, joint)) in tree.bodies.iter().zip(&joints).enumerate() {
-        q[body.coordinate].step("outward", index);
+    trace.sweep("outward", tree.outward(), |index| {
+        let (body, joint) = (&tree.bodies[index], &joints[index]);
         let parent = body.parent.map_or(MovingFrame::ground(), |parent| frames[parent]);
         let mut frame = parent.carry(Pose { rotation: Mat3::identity(), position: joint.position });
         frame.pose.rotation = Mat3(frame.pose.rotation.0.map(|row| joint.to_body(Vec3(row)).0));
@@ -44,26 +57,16 @@ pub fn link_kinematics<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<LinkStat
             Joint::Prismatic => frame.velocity = frame.velocity + along,
         }
         frames.push(frame);
-    }
-    tree.links
-        .iter()
-        .map(|link| {
-            if let Some(body) = link.body {
-                q[tree.bodies[body].coordinate].step("links", body);
+    });
+    let state = |link: &Attachment| {
+        let pose = Pose::constant(link.pose);
+        match link.body {
+            Some(body) => {
+                let fixed = || frames[body].carry(joints[body].fixed_pose(pose)).state_of(link);
+                trace.step("links", body, fixed)
             }
-            let pose = Pose::constant(link.pose);
-            let frame = match link.body {
-                Some(body) => frames[body].carry(joints[body].fixed_pose(pose)),
-                None => MovingFrame::ground().carry(pose),
-            };
-            let Mat3(rotation) = frame.pose.rotation;
-            LinkState {
-                rotation,
-                origin: frame.pose.position.0,
-                com: frame.pose.transform(Vec3::constant(link.com)).0,
-                velocity: frame.velocity.0,
-                angular_velocity: frame.angular_velocity.0,
-            }
-        })
-        .collect()
+            None => MovingFrame::ground().carry(pose).state_of(link),
+        }
+    };
+    tree.links.iter().map(state).collect()
 }

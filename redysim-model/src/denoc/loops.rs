@@ -5,6 +5,7 @@
 //! position are left out ([`Cut::rows`](crate::tree::Cut::rows)), so that a planar mechanism costs planar code.
 
 use super::joint::{JointFrame, joint_frames};
+use super::trace::{Trace, Untraced};
 use crate::model::CutKind;
 use crate::spatial::{Mat3, Pose, Vec3};
 use crate::tree::{Cut, CutEnd, Joint, Tree};
@@ -66,9 +67,9 @@ impl<S: Scalar> Placed<S> {
 }
 
 /// All bodies at the coordinates `q` and velocities `v`.
-fn placed<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<Placed<S>> {
+fn placed<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<Placed<S>> {
     let mut bodies: Vec<Placed<S>> = Vec::with_capacity(tree.bodies.len());
-    for (body, joint) in tree.bodies.iter().zip(joint_frames(tree, q)) {
+    for (body, joint) in tree.bodies.iter().zip(joint_frames(tree, trace, q)) {
         let parent = body.parent.map_or(Placed::ground(), |parent| bodies[parent]);
         let arm = parent.pose.rotation * joint.position;
         let pose = Pose { rotation: turned(parent.pose.rotation, &joint), position: parent.pose.position + arm };
@@ -148,8 +149,8 @@ fn weighted<S: Scalar>(terms: &[Alignment], term: impl Fn(usize, usize) -> S) ->
 }
 
 /// How far each loop is from closed: m for points, sines for directions.
-pub fn loop_residual<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<S> {
-    let bodies = placed(tree, q, &vec![S::zero(); tree.dof()]);
+pub fn loop_residual<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
+    let bodies = placed(tree, trace, q, &vec![S::zero(); tree.dof()]);
     rows(
         tree,
         &bodies,
@@ -159,8 +160,8 @@ pub fn loop_residual<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<S> {
 }
 
 /// The Jacobian J of the residual, by rows of length NV: the residual changes by J v.
-pub fn loop_jacobian<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Vec<S>> {
-    let bodies = placed(tree, q, &vec![S::zero(); tree.dof()]);
+pub fn loop_jacobian<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
+    let bodies = placed(tree, trace, q, &vec![S::zero(); tree.dof()]);
     // A joint that carries both sides turns their difference; one that carries one side moves that side alone.
     let over_joints = |a: &Side<S>, b: &Side<S>, effect: &dyn Fn(usize, bool, bool) -> S| {
         let mut row = vec![S::zero(); tree.dof()];
@@ -202,8 +203,8 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Vec<S>> {
 }
 
 /// J̇ v: how the rates J v of the residual change at zero joint accelerations.
-pub fn loop_bias<S: Scalar>(tree: &Tree, q: &[S], v: &[S]) -> Vec<S> {
-    let bodies = placed(tree, q, v);
+pub fn loop_bias<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
+    let bodies = placed(tree, trace, q, v);
     let acceleration = |side: &Side<S>| side.body.acceleration + side.body.second_rate(side.arm);
     rows(
         tree,
@@ -228,8 +229,8 @@ pub(crate) fn rows_that_vary(tree: &Tree) -> Vec<bool> {
     let mut kept = Vec::new();
     for position in 0..POSITIONS {
         let q = tree.sample(position);
-        let residual = loop_residual(tree, &q);
-        let jacobian = loop_jacobian(tree, &q);
+        let residual = loop_residual(tree, &Untraced, &q);
+        let jacobian = loop_jacobian(tree, &Untraced, &q);
         let largest = jacobian.iter().flatten().chain(&residual).fold(1.0_f64, |largest, x| largest.max(x.abs()));
         kept.resize(residual.len(), false);
         for ((kept, residual), row) in kept.iter_mut().zip(residual).zip(jacobian) {

@@ -1,6 +1,7 @@
 //! The generalised inertia matrix, from composite bodies.
 
 use super::joint::{JointFrame, along_joint, joint_frames};
+use super::trace::Trace;
 use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
@@ -11,14 +12,15 @@ use redysim_runtime::Scalar;
 ///
 /// Body j and all it carries, taken as one rigid body, meet the acceleration with a wrench; what joint i on the way to
 /// the ground feels of it is the element. Joints that are not on one way to the ground do not feel each other.
-pub fn mass_matrix<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Vec<S>> {
-    let frames = joint_frames(tree, q);
+pub fn mass_matrix<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
+    let frames = joint_frames(tree, trace, q);
     let upright = upright(tree);
     let own_inertia = |(body, frame): (&Body, &JointFrame<S>)| Composite::new(body.inertia, frame);
     let mut composites: Vec<Composite<S>> = tree.bodies.iter().zip(&frames).map(own_inertia).collect();
     let mut matrix = vec![vec![S::zero(); tree.dof()]; tree.dof()];
     for (index, body) in tree.bodies.iter().enumerate().rev() {
-        let composite = composites[index].named(index);
+        let composite = composites[index];
+        composite.name(trace, index);
         if let Some(parent) = body.parent {
             let carried = composite.to_parent(&frames[index], upright[index]);
             composites[parent] = composites[parent].plus(carried);
@@ -88,9 +90,9 @@ impl<S: Scalar> Composite<S> {
         }
     }
 
-    fn named(self, index: usize) -> Self {
-        let PseudoInertia { mass, moment, second } = self.inertia;
-        let inertia = PseudoInertia { mass, moment: moment.named("h", index), second: second.named("S", index) };
-        Composite { inertia, polar: self.polar.named("J", index, "zz") }
+    fn name(self, trace: &impl Trace<S>, body: usize) {
+        trace.name_vector(self.inertia.moment, "h", body);
+        trace.name_symmetric(self.inertia.second, "S", body);
+        trace.name(self.polar, "J", body, "zz");
     }
 }

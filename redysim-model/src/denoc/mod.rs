@@ -4,6 +4,8 @@
 //! specialised code is made. All of them walk the bodies of a [`Tree`](crate::tree::Tree): outwards (parents first) for
 //! motion, inwards for forces and inertias. Vectors are in the body's own frame, moments about its origin.
 //!
+//! Each takes an observer, a [`Trace`]: [`Untraced`] for numbers.
+//!
 //! Inputs and outputs are in the model's order of joints; every function expects slices of length
 //! [`Tree::dof`](crate::tree::Tree::dof).
 //!
@@ -19,6 +21,7 @@ mod joint;
 mod kinematics;
 mod loops;
 mod mass_matrix;
+mod trace;
 
 pub use energy::energy;
 pub use factorisation::Factorisation;
@@ -28,3 +31,4 @@ pub use kinematics::link_kinematics;
 pub(crate) use loops::rows_that_vary;
 pub use loops::{loop_bias, loop_jacobian, loop_residual};
 pub use mass_matrix::mass_matrix;
+pub use trace::{Trace, Untraced};
