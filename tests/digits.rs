@@ -6,38 +6,30 @@ mod common;
 use common::chains::{self, Rod};
 use common::random::Random;
 use common::styles::Style;
-use redysim_codegen::accuracy::{Quantity, Reference};
-use redysim_codegen::functions::{Function, trace_of};
+use redysim_codegen::accuracy::{MEASURED, Reference};
+use redysim_codegen::functions::{TracedFunction, trace_of};
 use redysim_codegen::passes::Passes;
-use redysim_model::{AccelerationMethod, Functions, Model, Scene, Tree};
+use redysim_model::{AccelerationMethod, Function, Functions, Model, Scene, Tree};
 
 /// Of each style. Unoptimised, a tree takes a second.
 const TREES: u64 = if cfg!(debug_assertions) { 1 } else { 20 };
 /// A loss smaller than this is a few roundings.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-fn traced(tree: &Tree, passes: &Passes, forward_dynamics: AccelerationMethod) -> Vec<Function> {
-    let functions = ["inverse_dynamics", "forward_dynamics", "mass_matrix", "bias_forces", "gravity_forces"];
-    let functions = Functions::of(functions).expect("functions of a mechanism");
+fn traced(tree: &Tree, passes: &Passes, forward_dynamics: AccelerationMethod) -> Vec<TracedFunction> {
+    let functions = Functions::of(MEASURED);
     trace_of(tree, &Scene { functions, forward_dynamics, ..Scene::default() }, passes).expect("no pass changes a value")
 }
 
 /// The expressions of one function among `functions`.
-fn computed(functions: &[Function], quantity: Quantity) -> &Function {
-    let name = match quantity {
-        Quantity::Forces => "inverse_dynamics",
-        Quantity::BiasForces => "bias_forces",
-        Quantity::GravityForces => "gravity_forces",
-        Quantity::Matrix => "mass_matrix",
-        Quantity::Accelerations => "forward_dynamics",
-    };
-    functions.iter().find(|function| function.signature.name == name).expect("it is traced")
+fn computed(functions: &[TracedFunction], function: Function) -> &TracedFunction {
+    functions.iter().find(|traced| traced.function == function).expect("it is traced")
 }
 
 /// The largest loss at states that the generator has not seen.
-fn lost(references: &[Reference], functions: &[Function], quantity: Quantity) -> f64 {
-    let function = computed(functions, quantity);
-    let losses = references.iter().map(|reference| reference.lost_by(quantity, |x| function.expressions.evaluate(x)));
+fn lost(references: &[Reference], functions: &[TracedFunction], function: Function) -> f64 {
+    let traced = computed(functions, function);
+    let losses = references.iter().map(|reference| reference.lost_by(function, |x| traced.expressions.evaluate(x)));
     losses.fold(0.0, f64::max)
 }
 
@@ -71,12 +63,11 @@ fn no_pass_costs_forces_or_the_mass_matrix_a_factor_of_four() {
                 let mut passes = Passes::all();
                 switch(&mut passes);
                 let all = traced(&tree, &passes, AccelerationMethod::Recursion);
-                let quantities = [Quantity::Forces, Quantity::BiasForces, Quantity::GravityForces, Quantity::Matrix];
-                for quantity in quantities {
-                    let least = states.iter().map(|states| states.least_loss(quantity)).fold(0.0, f64::max);
-                    let (least, now) = (lost(&states, &none, quantity).max(least), lost(&states, &all, quantity));
+                for function in MEASURED.into_iter().filter(|&function| function != Function::ForwardDynamics) {
+                    let least = states.iter().map(|states| states.least_loss(function)).fold(0.0, f64::max);
+                    let (least, now) = (lost(&states, &none, function).max(least), lost(&states, &all, function));
                     let factor = now / least.max(ROUNDINGS);
-                    assert!(factor <= 4.0, "{style:?} {index}, {quantity:?}: {now:.1e} instead of {least:.1e}");
+                    assert!(factor <= 4.0, "{style:?} {index}, {function:?}: {now:.1e} instead of {least:.1e}");
                     worst = worst.max(factor);
                 }
             }
@@ -94,7 +85,7 @@ fn passes_cost_the_recursion_for_accelerations_no_digits() {
             .map(|tree| {
                 let states = unseen_states(&tree);
                 let [none, all] = [Passes::none(), Passes::all()].map(|passes| {
-                    lost(&states, &traced(&tree, &passes, AccelerationMethod::Recursion), Quantity::Accelerations)
+                    lost(&states, &traced(&tree, &passes, AccelerationMethod::Recursion), Function::ForwardDynamics)
                 });
                 all / none.max(1e-14)
             })
@@ -107,10 +98,10 @@ fn passes_cost_the_recursion_for_accelerations_no_digits() {
 }
 
 /// The largest losses of accelerations, for each kind of motion, at states that the generator has not seen.
-fn losses(references: &[Reference], functions: &[Function]) -> [f64; 3] {
-    let function = computed(functions, Quantity::Accelerations);
+fn losses(references: &[Reference], functions: &[TracedFunction]) -> [f64; 3] {
+    let function = computed(functions, Function::ForwardDynamics);
     let of = |reference: &Reference| {
-        reference.losses_by(Quantity::Accelerations, |arguments| function.expressions.evaluate(arguments))
+        reference.losses_by(Function::ForwardDynamics, |arguments| function.expressions.evaluate(arguments))
     };
     references.iter().map(of).fold([0.0_f64; 3], |a, b| std::array::from_fn(|kind| a[kind].max(b[kind])))
 }
@@ -149,8 +140,8 @@ fn a_heavy_tip_and_a_palm_with_fingers_keep_the_digits_of_the_recursion() {
     }
 }
 
-fn remark(functions: &[Function]) -> &str {
-    computed(functions, Quantity::Accelerations).remark.as_deref().expect("forward dynamics states its way")
+fn remark(functions: &[TracedFunction]) -> &str {
+    computed(functions, Function::ForwardDynamics).remark.as_deref().expect("forward dynamics states its way")
 }
 
 fn model(name: &str) -> Model {
@@ -171,7 +162,8 @@ fn the_key_forward_dynamics_decides_and_the_documentation_states_both_ways() {
     let tree = Tree::new(&model("kr5"));
     let of = |method| traced(&tree, &Passes::all(), method);
     let (recursion, factorisation) = (of(AccelerationMethod::Recursion), of(AccelerationMethod::Factorisation));
-    let flops = |functions: &[Function]| computed(functions, Quantity::Accelerations).expressions.count().flops();
+    let flops =
+        |functions: &[TracedFunction]| computed(functions, Function::ForwardDynamics).expressions.count().flops();
     assert!(remark(&recursion).starts_with("By the O(n) recursion over articulated bodies (ABA)"));
     assert!(remark(&factorisation).starts_with("By the factorisation M = U D Uᵀ"));
     for functions in [&recursion, &factorisation] {

@@ -129,14 +129,14 @@ fn the_operations_of_the_kr5_are_those_that_the_readme_states() {
 #[test]
 fn the_operations_of_the_puma_within_tolerances_are_those_that_the_readme_states() {
     let model = Model::load(format!("{}/models/test/puma560.toml", env!("CARGO_MANIFEST_DIR"))).expect("a model").model;
-    let functions = Functions::of(["inverse_dynamics", "bias_forces"]).expect("functions");
+    let functions = Functions::named(["inverse_dynamics", "bias_forces"]).expect("functions");
     // To find what may be left out takes seconds in debug builds; the first column behind the exact one takes the least.
     let exponents = if cfg!(debug_assertions) { 4..=4 } else { 1..=4 };
     for exponent in exponents {
         let scene = Scene { functions, tolerance: Some(10_f64.powi(-exponent)), ..Scene::default() };
         let traced = trace_scene(&model, &scene, &Passes::all()).expect("functions");
         for (name, title) in [("inverse_dynamics", "inverse dynamics"), ("bias_forces", "bias forces")] {
-            let function = traced.iter().find(|function| function.signature.name == name).expect("asked for");
+            let function = traced.iter().find(|function| function.function.name() == name).expect("asked for");
             let counts = [function.pruning.expect("pruned").before.flops(), function.expressions.count().flops()];
             let text = read("README.md");
             let table = text.split_once("PUMA 560").expect("its table").1;

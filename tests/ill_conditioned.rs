@@ -41,7 +41,8 @@ fn error_in<S: Real>(method: Method, tree: &Tree, judge: &Tree) -> f64 {
         };
         let (q, v, tau) = (values(0.5), values(1.0), values(1.0));
         let [exact_q, exact_v, exact_tau] = [&q, &v, &tau].map(|values| exact(values));
-        let expected: Vec<DoubleDouble> = forward_dynamics(Method::Recursion, judge, &Untraced, &exact_q, &exact_v, &exact_tau);
+        let expected: Vec<DoubleDouble> =
+            forward_dynamics(Method::Recursion, judge, &Untraced, &exact_q, &exact_v, &exact_tau);
         let expected = rounded(expected);
         let [q, v, tau] = [q, v, tau].map(|values| values.into_iter().map(S::from_f64).collect::<Vec<S>>());
         let found = forward_dynamics(method, tree, &Untraced, &q, &v, &tau);

@@ -14,7 +14,7 @@ use common::random::Random;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use redysim::Scalar;
 use redysim::generic::{GenericMechanism, Model};
-use redysim_codegen::functions::{Function, trace};
+use redysim_codegen::functions::{TracedFunction, trace};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_model::{CutKind, CutSide, Inertia, JointKind, Link, Loop};
 use std::collections::BTreeMap;
@@ -189,8 +189,8 @@ impl Errors {
 }
 
 /// The outputs of a traced function.
-fn evaluated(functions: &[Function], name: &str, arguments: &[&[f64]]) -> Vec<f64> {
-    let function = functions.iter().find(|function| function.signature.name == name).expect("a function");
+fn evaluated(functions: &[TracedFunction], name: &str, arguments: &[&[f64]]) -> Vec<f64> {
+    let function = functions.iter().find(|function| function.function.name() == name).expect("a function");
     function.expressions.evaluate(arguments)
 }
 

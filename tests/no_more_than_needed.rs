@@ -14,7 +14,7 @@ fn model(name: &str) -> Model {
 
 fn counts(model: &Model) -> Counts {
     let functions = trace(&Tree::new(model)).expect("no pass changes a value").into_iter();
-    functions.map(|function| (function.signature.name, function.expressions.count())).collect()
+    functions.map(|function| (function.function.name(), function.expressions.count())).collect()
 }
 
 fn of(counts: &Counts, name: &str) -> OperationCount {

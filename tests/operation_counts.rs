@@ -113,7 +113,7 @@ fn longer_chains() {
         let counts = trace(&tree)
             .expect("no pass changes a value")
             .into_iter()
-            .map(|function| (function.signature.name, function.expressions.count()));
+            .map(|function| (function.function.name(), function.expressions.count()));
         for (function, count) in counts.filter(|(_, count)| *count != OperationCount::NONE) {
             writeln!(lines, "{name} {function:<16} {:>6}", count.flops()).unwrap();
         }

@@ -4,7 +4,7 @@ mod common;
 
 use common::double_double::{DoubleDouble, exact, rounded};
 use common::random::{Random, State};
-use redysim_codegen::functions::{Function, trace_with};
+use redysim_codegen::functions::{TracedFunction, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_model::spatial::{Mat3, Vec3};
 use redysim_model::{Inertia, Link, Model, Tree, rotation};
@@ -86,7 +86,7 @@ fn mixed_tree() -> Model {
 
 /// The largest difference between two sets of functions in units of the largest component of each output, in
 /// double-double, so that only what the passes do to constants is left.
-fn difference(before: &[Function], after: &[Function], dof: usize) -> f64 {
+fn difference(before: &[TracedFunction], after: &[TracedFunction], dof: usize) -> f64 {
     let mut random = Random::new(5);
     let mut worst = 0.0_f64;
     for (before, after) in before.iter().zip(after) {
@@ -97,7 +97,7 @@ fn difference(before: &[Function], after: &[Function], dof: usize) -> f64 {
             let [old, new] = [before, after].map(|function| rounded(function.expressions.evaluate(&arguments)));
             let scale = old.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
             // What an ill-conditioned mass matrix makes of the constants' roundoff is no fault of a pass.
-            let condition = if before.signature.name == "forward_dynamics" { 1e5 } else { 1.0 };
+            let condition = if before.function.name() == "forward_dynamics" { 1e5 } else { 1.0 };
             let differences = old.iter().zip(&new).map(|(x, y)| (x - y).abs());
             worst = differences.fold(worst, |worst, x| worst.max(x / (condition * scale.max(1e-9))));
         }
@@ -156,7 +156,7 @@ fn a_robot_far_from_the_origin_keeps_its_inertias() {
     moved.links[0].placement.position = moved.links[0].placement.position + Vec3([1e6, 3e5, -2e6]);
     let [here, far] = [model("kr5"), moved]
         .map(|model| trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value"));
-    let forces = |functions: &[Function]| functions[..5].to_vec();
+    let forces = |functions: &[TracedFunction]| functions[..5].to_vec();
     let worst = difference(&forces(&here), &forces(&far), 6);
     assert!(worst <= 1e-14, "{worst:e}");
 }
@@ -171,7 +171,7 @@ fn gains_of_the_passes() {
         for (set, passes) in sets() {
             let traced = trace_with(&tree, &passes).expect("no pass changes a value");
             let flops = functions.map(|name| {
-                let function = traced.iter().find(|function| function.signature.name == name).expect("a function");
+                let function = traced.iter().find(|function| function.function.name() == name).expect("a function");
                 format!("{:>18}", function.expressions.count().flops())
             });
             writeln!(table, "{set:<22}{}", flops.concat()).unwrap();
@@ -239,6 +239,6 @@ fn frames_placed_anyhow_cost_what_denavit_hartenberg_frames_cost() {
 fn counts(model: &Model) -> Vec<(&'static str, u32)> {
     let wanted = ["inverse_dynamics", "forward_dynamics", "mass_matrix", "bias_forces", "gravity_forces"];
     let traced = trace_with(&Tree::new(model), &Passes::all()).expect("no pass changes a value").into_iter();
-    let of = |function: Function| (function.signature.name, function.expressions.count().flops());
+    let of = |function: TracedFunction| (function.function.name(), function.expressions.count().flops());
     traced.map(of).filter(|(name, _)| wanted.contains(name)).collect()
 }

@@ -9,12 +9,13 @@ use common::kane::{Kane, kane};
 use common::random::{Random, State};
 use common::styles::Style;
 use nalgebra::{DVector, Matrix3, Rotation3, Unit, Vector3};
-use redysim_codegen::accuracy::{Quantity, Reference};
-use redysim_codegen::functions::{Function, trace};
+use redysim_codegen::accuracy::Reference;
+use redysim_codegen::functions::{TracedFunction, trace};
+
 use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::regroup::{Vanishing, base_parameters};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
-use redysim_model::{Inertia, JointKind, Link, Model, Tree};
+use redysim_model::{Function, Inertia, JointKind, Link, Model, Tree};
 use std::collections::BTreeMap;
 
 const TREES: u64 = 200;
@@ -166,15 +167,15 @@ fn link_kinematics_agree_with_jacobians() {
 }
 
 /// The outputs of a traced function.
-fn evaluated(functions: &[Function], name: &str, arguments: &[&[f64]]) -> Vec<f64> {
-    let function = functions.iter().find(|function| function.signature.name == name).expect("a function");
+fn evaluated(functions: &[TracedFunction], name: &str, arguments: &[&[f64]]) -> Vec<f64> {
+    let function = functions.iter().find(|function| function.function.name() == name).expect("a function");
     function.expressions.evaluate(arguments)
 }
 
 #[test]
 fn traced_expressions_agree_with_kanes_equations() {
     let mut errors = Errors::default();
-    let mut traced: Option<(Tree, Vec<Function>)> = None;
+    let mut traced: Option<(Tree, Vec<TracedFunction>)> = None;
     on_random_trees(|_, tree, State { q, v, a }, expected| {
         if traced.as_ref().is_none_or(|(of, _)| of != tree) {
             traced = Some((tree.clone(), trace(tree).expect("no pass changes a value")));
@@ -232,13 +233,9 @@ fn compiled_functions_keep_their_digits_on_trees_of_every_style() {
             let tree = Tree::new(&style.model(&mut Random::new(seed), 12));
             let functions = trace(&tree).expect("no pass changes a value");
             let reference = Reference::at(&tree, 1);
-            let computed = [
-                (Quantity::Forces, "inverse_dynamics"),
-                (Quantity::Matrix, "mass_matrix"),
-                (Quantity::Accelerations, "forward_dynamics"),
-            ];
-            for (worst, (quantity, name)) in worst.iter_mut().zip(computed) {
-                *worst = worst.max(reference.lost_by(quantity, |arguments| evaluated(&functions, name, arguments)));
+            let computed = [Function::InverseDynamics, Function::MassMatrix, Function::ForwardDynamics];
+            for (worst, function) in worst.iter_mut().zip(computed) {
+                *worst = worst.max(reference.lost_by(function, |x| evaluated(&functions, function.name(), x)));
             }
         }
         println!("{style:?}: forces {:.1e}, matrix {:.1e}, accelerations {:.1e}", worst[0], worst[1], worst[2]);

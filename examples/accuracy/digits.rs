@@ -1,10 +1,10 @@
 //! Digits against operations: both ways to accelerations, and each pass of the generator left out, on robots for which
 //! the one or the other costs digits.
 
-use redysim_codegen::accuracy::{Quantity, Reference};
+use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::trace_of;
 use redysim_codegen::passes::Passes;
-use redysim_model::{AccelerationMethod, Functions, Model, Scene, Tree};
+use redysim_model::{AccelerationMethod, Function, Functions, Model, Scene, Tree};
 
 use crate::chains::{Rod, chain, oblique, palm};
 use crate::common::csv::Csv;
@@ -65,7 +65,7 @@ fn robots() -> Result<[(&'static str, Tree); 6], Failure> {
 /// The points of one robot, of which `csv` and a printed table get the numbers.
 fn panel(name: &'static str, tree: &Tree, csv: &mut Csv) -> Result<Panel, Failure> {
     let reference = Reference::at(tree, 1);
-    let only = Functions::of(["forward_dynamics"])?;
+    let only = Functions::named(["forward_dynamics"])?;
     let mut table = Table::new(&[name, "recursion, flops", "loss", "factorisation, flops", "loss", "taken"]);
     let mut points = [const { Vec::new() }; 4];
     for (left_out, switch) in LEFT_OUT {
@@ -75,7 +75,7 @@ fn panel(name: &'static str, tree: &Tree, csv: &mut Csv) -> Result<Panel, Failur
             let scene = Scene { functions: only, forward_dynamics, ..Scene::default() };
             let function = trace_of(tree, &scene, &passes)?.swap_remove(0);
             let flops = f64::from(function.expressions.count().flops());
-            let [lost, ..] = reference.losses_by(Quantity::Accelerations, |x| function.expressions.evaluate(x));
+            let [lost, ..] = reference.losses_by(Function::ForwardDynamics, |x| function.expressions.evaluate(x));
             Ok((function.remark.unwrap_or_default(), flops, lost))
         };
         let mut cells = vec![format!("without {left_out}")];

@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             for function in functions {
                 let count = function.expressions.count();
                 if count.flops() > 0 {
-                    let name = function.signature.name;
+                    let name = function.function.name();
                     println!("    {name:<18}{:>7} flops, {:>3} sine-cosine pairs", count.flops(), count.trig);
                 }
             }

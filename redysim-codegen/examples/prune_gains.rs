@@ -13,7 +13,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{path}");
         for exponent in 1..=6 {
             let tolerance = 10_f64.powi(-exponent);
-            let scene = Scene { functions: Functions::of(functions)?, tolerance: Some(tolerance), ..Scene::default() };
+            let scene =
+                Scene { functions: Functions::named(functions)?, tolerance: Some(tolerance), ..Scene::default() };
             let start = Instant::now();
             let traced = trace_scene(&model, &scene, &Passes::all())?;
             println!("  to {tolerance:e}, in {:.1?}", start.elapsed());
@@ -21,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let (Some(pruning), count) = (function.pruning, function.expressions.count()) else { continue };
                 println!(
                     "    {:<18}{:>5} flops of {:>5}, {} pairs of {}, error {:.1e}{}",
-                    function.signature.name,
+                    function.function.name(),
                     count.flops(),
                     pruning.before.flops(),
                     count.trig,

@@ -1,31 +1,32 @@
 //! What the documentation of a generated function says.
 
-use crate::functions::{Function, Shape, Signature};
+use crate::functions::TracedFunction;
 use crate::pruning::Pruning;
-use redysim_model::{JointKind, JointRange, Model};
+use redysim_model::{Function, JointKind, JointRange, Model};
 use redysim_runtime::OperationCount;
+use redysim_runtime::function::Shape;
 
 /// The paragraphs of a function.
-pub fn paragraphs(function: &Function, model: &Model) -> Vec<String> {
-    let Function { signature, remark, expressions, pruning } = function;
-    let mut paragraphs = vec![signature.summary.to_string()];
+pub fn paragraphs(traced: &TracedFunction, model: &Model) -> Vec<String> {
+    let TracedFunction { function, remark, expressions, pruning } = traced;
+    let mut paragraphs = vec![function.signature().summary.to_string()];
     paragraphs.extend(remark.clone());
     paragraphs.push(cost(&expressions.count()));
     if let Some(pruning) = pruning {
-        paragraphs.push(pruned(pruning, signature));
+        paragraphs.push(pruned(pruning, *function));
         paragraphs.push(ranges(model));
     }
     paragraphs
 }
 
 /// What a person who compiles is told of pruning that came to nothing.
-pub fn warning(function: &Function) -> Option<String> {
-    let Pruning { tolerance, worst, states, .. } = function.pruning.filter(|pruning| !pruning.holds)?;
+pub fn warning(traced: &TracedFunction) -> Option<String> {
+    let Pruning { tolerance, worst, states, .. } = traced.pruning.filter(|pruning| !pruning.holds)?;
     Some(format!(
         "`{}` is not pruned: the tolerance {tolerance:?} did not hold, the worst error of {states} sampled states was {worst:.1e} \
          of {}",
-        function.signature.name,
-        scale(&function.signature),
+        traced.function.name(),
+        scale(traced.function),
     ))
 }
 
@@ -37,7 +38,7 @@ fn cost(count: &OperationCount) -> String {
     )
 }
 
-fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, signature: &Signature) -> String {
+fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, function: Function) -> String {
     if !holds {
         return format!("Not pruned: a tolerance of {tolerance:?} did not hold in {states} sampled states.");
     }
@@ -46,15 +47,15 @@ fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, signatu
          states within the ranges below is {worst:.1e} of {}.",
         before.flops(),
         before.trig,
-        scale(signature),
+        scale(function),
     )
 }
 
 /// What the error is a share of.
-fn scale(signature: &Signature) -> &'static str {
-    match signature.shape {
-        Shape::Matrix => "√(M_ii M_jj) at its largest",
-        _ if signature.name == "forward_dynamics" => "each joint's largest acceleration",
+fn scale(function: Function) -> &'static str {
+    match function.signature().result {
+        Shape::MassMatrix => "√(M_ii M_jj) at its largest",
+        Shape::Accelerations => "each joint's largest acceleration",
         _ => "each joint's force: the one stated for it, else its largest",
     }
 }

@@ -1,11 +1,9 @@
 //! The body of one function: a graph and the values it returns.
 
 use crate::graph::{Edge, Graph, Node};
+use crate::policies::{LONGEST_UNROLLED, PRICE_PER_PAIR};
 use redysim_runtime::{OperationCount, Scalar};
 use std::collections::HashSet;
-
-/// A sine-cosine pair takes about the time of so many multiplications.
-pub(crate) const PRICE_PER_PAIR: u32 = 20;
 
 /// A graph with its outputs.
 #[derive(Clone, Debug)]
@@ -48,10 +46,9 @@ impl Expressions {
         uses
     }
 
-    /// Whether unrolled code of this would be too long: past some 3,000 operations it no longer fits the instruction
-    /// cache of 32 KB, and every operation costs about twice as much.
+    /// Whether unrolled code of this would be too long for an instruction cache.
     pub fn is_long(&self) -> bool {
-        self.count().flops() > 3000
+        self.count().flops() > LONGEST_UNROLLED
     }
 
     /// Operations of what the outputs need. A sine and a cosine of one angle are a pair; unary minus is free.

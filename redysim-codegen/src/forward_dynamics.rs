@@ -1,21 +1,14 @@
 //! The two ways to accelerations, and which of them a robot takes.
 
-use crate::accuracy::{Quantity, Reference};
+use crate::accuracy::Reference;
 use crate::expressions::Expressions;
-use crate::functions::{keeping_digits, traced};
-use crate::passes::{ChangedValue, Passes};
+use crate::passes::{ChangedValue, Passes, simplified};
+use crate::policies::{LONGEST_CHAIN_BY_FACTORISATION, MOST_LOST_AGAINST_RECURSION, NEGLIGIBLE_LOSS};
 use crate::symbol::Symbol;
+use crate::tracing::traced;
 use crate::trees::Trees;
-use redysim_model::AccelerationMethod;
 use redysim_model::denoc::{self, Factorisation, Method};
-
-/// The longest chain for which the explicit mass matrix is considered at all: it takes O(n³) operations there, and the
-/// condition of the matrix costs digits.
-const LONGEST_CHAIN_BY_FACTORISATION: usize = 25;
-/// By how much more the factorisation may lose than the recursion where it takes fewer operations.
-const MOST_LOST_AGAINST_RECURSION: f64 = 10.0;
-/// What the factorisation may lose in any case.
-const NEGLIGIBLE_LOSS: f64 = 1e-13;
+use redysim_model::{AccelerationMethod, Function};
 
 /// One way to accelerations.
 struct Way {
@@ -43,7 +36,7 @@ struct Described {
 /// The way that `asked` names, or the one that takes fewer operations, as long as it is not the factorisation and loses
 /// digits that the recursion keeps.
 pub fn chosen(trees: &Trees, asked: AccelerationMethod, passes: &Passes) -> Result<Chosen, ChangedValue> {
-    let recursion = recursion(trees, passes)?;
+    let recursion = recursion(trees)?;
     let is_long_chain = trees.plain().depth() > LONGEST_CHAIN_BY_FACTORISATION;
     if is_long_chain && asked != AccelerationMethod::Factorisation {
         let taken = recursion.described(0);
@@ -67,29 +60,26 @@ pub fn chosen(trees: &Trees, asked: AccelerationMethod, passes: &Passes) -> Resu
     Ok(Chosen { expressions: taken.expressions, taken: described, other: Some(other) })
 }
 
-fn recursion(trees: &Trees, passes: &Passes) -> Result<Way, ChangedValue> {
+fn recursion(trees: &Trees) -> Result<Way, ChangedValue> {
     // The recursion takes the inertias as they are: moved towards the ground they would pile up there, and what is
     // subtracted from them on the way would cost the digits for which the recursion is chosen.
-    let method = Method::Recursion;
-    let expressions = keeping_digits(trees, passes, Quantity::Accelerations, |tree, passes| {
-        traced(tree, passes, 3, |t, x| denoc::forward_dynamics(method, tree, t, x[0], x[1], x[2]))
-    })?;
-    Ok(Way::measured(method, expressions, trees.reference()))
+    let expressions = trees.keeping_digits(Function::ForwardDynamics)?;
+    Ok(Way::measured(Method::Recursion, expressions, trees.reference()))
 }
 
 fn factorisation(trees: &Trees, passes: &Passes) -> Result<Way, ChangedValue> {
     let (matrix, bias) = (trees.matrix(), trees.bias());
-    let expressions = traced(matrix, passes, 3, |t, x| {
+    let expressions = traced(matrix, Function::ForwardDynamics, |t, x| {
         let forces = denoc::bias_forces(bias, t, x[0], x[1]);
         let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();
         Factorisation::new(matrix, t, &denoc::mass_matrix(matrix, t, x[0])).solve(&drive)
-    })?;
-    Ok(Way::measured(Method::Factorisation, expressions, trees.reference()))
+    });
+    Ok(Way::measured(Method::Factorisation, simplified(expressions, passes)?, trees.reference()))
 }
 
 impl Way {
     fn measured(method: Method, expressions: Expressions, reference: &Reference) -> Self {
-        let losses = reference.losses_by(Quantity::Accelerations, |x| expressions.evaluate(x));
+        let losses = reference.losses_by(Function::ForwardDynamics, |x| expressions.evaluate(x));
         Way { method, expressions, losses }
     }
 

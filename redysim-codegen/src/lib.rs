@@ -34,6 +34,7 @@
 //! ```
 
 pub mod accuracy;
+mod angles;
 pub mod expressions;
 pub mod functions;
 pub mod graph;
@@ -45,11 +46,13 @@ mod emit;
 mod forward_dynamics;
 mod hash;
 mod mechanism;
+mod policies;
 mod pruning;
 mod random;
 mod rolled;
 mod shape;
 mod source;
+mod tracing;
 mod trees;
 
 pub use mechanism::{Counted, Generated, implementation, implementation_with, operations, stub};

@@ -1,23 +1,25 @@
 //! The compiled type: constants, functions and traits of one mechanism.
 
+use crate::angles::Angles;
 use crate::documentation;
-use crate::emit::{Angles, COS, SIN, Vocabulary, function_body, local, without_turns};
+use crate::emit::{COS, SIN, Vocabulary, angle, function_body, local, without_turns};
 use crate::expressions::Expressions;
-use crate::functions::{Function, SIGNATURES, Signature, TraceError, trace_of, trace_scene};
+use crate::functions::{TraceError, TracedFunction, trace_of, trace_scene};
 use crate::passes::{ChangedValue, Passes};
 use crate::shape;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Model, Outline, Scene, Tree};
+use redysim_model::{Function, Model, Outline, Scene, Tree};
 use redysim_runtime::OperationCount;
+use redysim_runtime::function::Interface;
 
 /// The code of a mechanism, and what it costs.
 #[derive(Clone, Debug)]
 pub struct Generated {
     /// `impl` blocks for a type that is declared elsewhere.
     pub tokens: TokenStream,
-    /// Name and operations of each function.
-    pub operations: Vec<(&'static str, OperationCount)>,
+    /// Operations of each function.
+    pub operations: Vec<(Function, OperationCount)>,
     /// What was asked for and cannot be.
     pub warnings: Vec<String>,
 }
@@ -25,8 +27,8 @@ pub struct Generated {
 /// What the functions of a mechanism cost.
 #[derive(Clone, Debug)]
 pub struct Counted {
-    /// Name and operations of each function.
-    pub operations: Vec<(&'static str, OperationCount)>,
+    /// Operations of each function.
+    pub operations: Vec<(Function, OperationCount)>,
     /// What was asked for and cannot be.
     pub warnings: Vec<String>,
 }
@@ -78,7 +80,11 @@ pub fn operations(model: &Model, scene: &Scene) -> Result<Counted, ChangedValue>
 }
 
 /// The functions that a scene asks for, and what of it cannot be.
-fn functions(model: &Model, scene: &Scene, passes: &Passes) -> Result<(Vec<Function>, Vec<String>), ChangedValue> {
+fn functions(
+    model: &Model,
+    scene: &Scene,
+    passes: &Passes,
+) -> Result<(Vec<TracedFunction>, Vec<String>), ChangedValue> {
     let (functions, unpruned) = match trace_scene(model, scene, passes) {
         Ok(functions) => (functions, None),
         Err(TraceError::ChangedValue(changed)) => return Err(changed),
@@ -91,8 +97,8 @@ fn functions(model: &Model, scene: &Scene, passes: &Passes) -> Result<(Vec<Funct
     Ok((functions, warnings))
 }
 
-fn operations_of(functions: &[Function]) -> Vec<(&'static str, OperationCount)> {
-    functions.iter().map(|function| (function.signature.name, function.expressions.count())).collect()
+fn operations_of(functions: &[TracedFunction]) -> Vec<(Function, OperationCount)> {
+    functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect()
 }
 
 /// The `impl`s of a type whose model has faults: everything has its type and nothing has a meaning, so that the faults
@@ -100,8 +106,9 @@ fn operations_of(functions: &[Function]) -> Vec<(&'static str, OperationCount)> 
 pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let nq = outline.joints.len();
     let posture = posture_head(nq, nq, runtime);
-    let heads = signatures(outline)
-        .flat_map(|signature| [head(signature, outline, runtime), head_at(signature, outline, nq, runtime)]);
+    let functions = outline.functions.iter();
+    let heads =
+        functions.flat_map(|function| [head(function, outline, runtime), head_at(function, outline, nq, runtime)]);
     let definitions = std::iter::once(posture).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
     type_impls(outline, name, runtime, &[], definitions.collect())
 }
@@ -109,26 +116,17 @@ pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStre
 /// The name of the argument that has the coordinates with the sines and cosines.
 const POSTURE: &str = "at";
 
-/// The trait that has several functions.
-const CLOSURE: &str = "LoopClosure";
-
-/// The functions that the mechanism has.
-fn signatures(outline: &Outline) -> impl Iterator<Item = &'static Signature> {
-    SIGNATURES.iter().filter(|signature| outline.functions.contains(signature.name))
-}
-
 fn type_impls(
     outline: &Outline,
     name: &Ident,
     runtime: &TokenStream,
-    operations: &[(&str, OperationCount)],
+    operations: &[(Function, OperationCount)],
     definitions: Vec<TokenStream>,
 ) -> TokenStream {
     let constants = constants(outline, operations, runtime);
     let mechanism = mechanism_trait(outline, name, runtime);
     let closure = closure_trait(outline, name, runtime);
-    let own_trait = signatures(outline).filter(|signature| signature.trait_name != CLOSURE);
-    let traits = own_trait.map(|signature| trait_impl(signature, outline, name, runtime));
+    let traits = outline.functions.iter().map(|function| trait_impl(function, outline, name, runtime));
     quote! {
         #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
         impl #name {
@@ -141,12 +139,12 @@ fn type_impls(
     }
 }
 
-fn constants(outline: &Outline, operations: &[(&str, OperationCount)], runtime: &TokenStream) -> TokenStream {
+fn constants(outline: &Outline, operations: &[(Function, OperationCount)], runtime: &TokenStream) -> TokenStream {
     let Outline { name, links, joints, actuated, loop_rows, .. } = outline;
     let (nv, nl) = (Literal::usize_unsuffixed(joints.len()), Literal::usize_unsuffixed(links.len()));
     let nc = Literal::usize_unsuffixed(loop_rows.len());
-    let counts = operations.iter().map(|(field, count)| {
-        let field = format_ident!("{field}");
+    let counts = operations.iter().map(|(function, count)| {
+        let field = format_ident!("{}", function.name());
         let [additions, multiplications, divisions, trig] =
             [count.additions, count.multiplications, count.divisions, count.trig].map(Literal::u32_unsuffixed);
         quote!(#field: #runtime::OperationCount {
@@ -191,7 +189,8 @@ impl Writer<'_> {
     fn posture(&self) -> TokenStream {
         let head = posture_head(self.outline.joints.len(), self.angles.len(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
-        let (terms, angles) = (self.terms_of_sums(0..self.angles.len()), self.angles.expressions(0..self.angles.len()));
+        let (terms, angles) =
+            (self.terms_of_sums(0..self.angles.len()), self.angles.at(0..self.angles.len()).map(angle));
         let body = with_target_features(&quote! {
             #terms
             let (sin, cos) = S::sin_cos_all([#(#angles),*]);
@@ -217,20 +216,22 @@ impl Writer<'_> {
 
     /// One function with its documentation: of coordinates, and of a posture. What both compute after the sines and
     /// cosines is a function of its own, which becomes part of either, so that no posture goes through memory.
-    fn function(&self, function: &Function) -> TokenStream {
-        let Function { signature, expressions, .. } = function;
+    fn function(&self, traced: &TracedFunction) -> TokenStream {
+        let TracedFunction { function, ref expressions, .. } = *traced;
+        let signature = function.signature();
         let Writer { model, bodies, angles, outline, runtime } = *self;
-        let (head, head_at) = (head(signature, outline, runtime), head_at(signature, outline, angles.len(), runtime));
-        let head_inlined = head_inlined(signature, outline, angles.len(), runtime);
-        let vocabulary = Vocabulary { arguments: signature.arguments, bodies, angles };
-        let result = |outputs: &[TokenStream]| shape::value(signature.shape, outline, outputs, runtime);
+        let (head, head_at) = (head(function, outline, runtime), head_at(function, outline, angles.len(), runtime));
+        let head_inlined = head_inlined(function, outline, angles.len(), runtime);
+        let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
+        let vocabulary = Vocabulary { arguments: &arguments, bodies, angles };
+        let result = |outputs: &[TokenStream]| shape::value(signature.result, outline, outputs, runtime);
         let body = function_body(expressions, &vocabulary, result);
-        let paragraphs = documentation::paragraphs(function, model);
+        let paragraphs = documentation::paragraphs(traced, model);
         let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
-        let docs_at = format!(" [`{0}`](Self::{0}) where the sines and cosines are there already.", signature.name);
-        let (inlined, q, at) = (inlined(signature), local("q"), local(POSTURE));
-        let others: Vec<Ident> = signature.arguments[1..].iter().map(|argument| local(argument)).collect();
+        let docs_at = format!(" [`{0}`](Self::{0}) where the sines and cosines are there already.", function.name());
+        let (inlined, q, at) = (inlined(function), local("q"), local(POSTURE));
+        let others: Vec<Ident> = others(function).collect();
         let (computed, sin, cos) = self.needed_angles(expressions);
         let of_coordinates = with_target_features(&quote! {
             #computed
@@ -257,7 +258,7 @@ impl Writer<'_> {
     /// what it never reads is zero.
     fn needed_angles(&self, expressions: &Expressions) -> (Option<TokenStream>, TokenStream, TokenStream) {
         let needed = self.angles.needed_by(expressions);
-        let values = self.angles.expressions(needed.iter().copied());
+        let values: Vec<TokenStream> = self.angles.at(needed.iter().copied()).map(angle).collect();
         let terms = self.terms_of_sums(needed.iter().copied());
         let computed = (!values.is_empty()).then(|| quote!(#terms let (sin, cos) = S::sin_cos_all([#(#values),*]);));
         if needed.len() == self.angles.len() && !needed.is_empty() {
@@ -283,18 +284,28 @@ fn with_target_features(body: &TokenStream) -> TokenStream {
     quote!(S::with_target_features(#[inline(always)] || { #body }))
 }
 
+/// The names of a function's arguments.
+fn arguments(function: Function) -> impl Iterator<Item = Ident> {
+    function.signature().arguments.iter().map(|argument| local(argument.name()))
+}
+
+/// The names of those after the coordinates.
+fn others(function: Function) -> impl Iterator<Item = Ident> {
+    arguments(function).skip(1)
+}
+
 /// The name of what a function computes after the sines and cosines.
-fn inlined(signature: &Signature) -> Ident {
-    format_ident!("{}_inlined", signature.name)
+fn inlined(function: Function) -> Ident {
+    format_ident!("{}_inlined", function.name())
 }
 
 /// Name, arguments and result of what a function computes after the sines and cosines of `angles` angles.
-fn head_inlined(signature: &Signature, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
-    let name = inlined(signature);
+fn head_inlined(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let name = inlined(function);
     let [nv, angles] = [outline.joints.len(), angles].map(Literal::usize_unsuffixed);
     let [q, sin, cos] = ["q", SIN, COS].map(local);
-    let others = signature.arguments[1..].iter().map(|argument| local(argument));
-    let output = shape::output_type(signature.shape, outline, runtime);
+    let others = others(function);
+    let output = shape::output_type(function.signature().result, outline, runtime);
     quote!(fn #name<S: #runtime::Scalar>(
         #q: &[S; #nv], #sin: &[S; #angles], #cos: &[S; #angles] #(, #others: &[S; #nv])*
     ) -> #output)
@@ -308,30 +319,35 @@ fn posture_head(coordinates: usize, angles: usize, runtime: &TokenStream) -> Tok
 }
 
 /// Name, arguments and result of a function of a posture with `angles` angles.
-fn head_at(signature: &Signature, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
-    let name = format_ident!("{}_at", signature.name);
+fn head_at(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}_at", function.name());
     let [nv, angles] = [outline.joints.len(), angles].map(Literal::usize_unsuffixed);
     let at = local(POSTURE);
-    let others = signature.arguments[1..].iter().map(|argument| local(argument));
-    let output = shape::output_type(signature.shape, outline, runtime);
+    let others = others(function);
+    let output = shape::output_type(function.signature().result, outline, runtime);
     quote!(fn #name<S: #runtime::Scalar>(
         #at: &#runtime::Posture<S, #nv, #angles> #(, #others: &[S; #nv])*
     ) -> #output)
 }
 
 /// Name, arguments and result of a function.
-fn head(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> TokenStream {
-    let name = format_ident!("{}", signature.name);
-    let arguments = signature.arguments.iter().map(|argument| local(argument));
+fn head(function: Function, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}", function.name());
+    let arguments = arguments(function);
     let nv = Literal::usize_unsuffixed(outline.joints.len());
-    let output = shape::output_type(signature.shape, outline, runtime);
+    let output = shape::output_type(function.signature().result, outline, runtime);
     quote!(fn #name<S: #runtime::Scalar>(#(#arguments: &[S; #nv]),*) -> #output)
 }
 
-fn trait_impl(signature: &Signature, outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
-    let trait_name = format_ident!("{}", signature.trait_name);
-    let method = method(signature, outline, runtime);
-    let tangent = tangent(signature, runtime);
+/// The trait that has the function alone; nothing for a function of a trait that has several.
+fn trait_impl(function: Function, outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let (trait_name, tangent) = match function.signature().interface {
+        Interface::Own(trait_name) => (trait_name, None),
+        Interface::WithTangent(trait_name) => (trait_name, Some(tangent(function, runtime))),
+        Interface::LoopClosure => return TokenStream::new(),
+    };
+    let trait_name = format_ident!("{trait_name}");
+    let method = method(function, outline, runtime);
     quote! {
         impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
             #method
@@ -341,12 +357,9 @@ fn trait_impl(signature: &Signature, outline: &Outline, name: &Ident, runtime: &
 }
 
 /// The derivative of a function whose trait asks for one: the same code over dual numbers.
-fn tangent(signature: &Signature, runtime: &TokenStream) -> Option<TokenStream> {
-    if !matches!(signature.name, "inverse_dynamics" | "forward_dynamics") {
-        return None;
-    }
-    let name = format_ident!("{}_tangent", signature.name);
-    Some(quote! {
+fn tangent(function: Function, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}_tangent", function.name());
+    quote! {
         fn #name(
             &self,
             at: #runtime::mechanism::Arguments<'_, S, Self>,
@@ -354,32 +367,32 @@ fn tangent(signature: &Signature, runtime: &TokenStream) -> Option<TokenStream> 
         ) -> ::core::option::Option<Self::Velocities> {
             ::core::option::Option::Some(#runtime::dual::#name(self, at, slopes))
         }
-    })
+    }
 }
 
 /// The method of a trait that is one of the type's own functions.
-fn method(signature: &Signature, outline: &Outline, runtime: &TokenStream) -> TokenStream {
-    let function = format_ident!("{}", signature.name);
-    let arguments: Vec<Ident> = signature.arguments.iter().map(|argument| local(argument)).collect();
+fn method(function: Function, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}", function.name());
+    let arguments: Vec<Ident> = arguments(function).collect();
     let nv = Literal::usize_unsuffixed(outline.joints.len());
-    let output = shape::output_type(signature.shape, outline, runtime);
+    let output = shape::output_type(function.signature().result, outline, runtime);
     quote! {
         #[inline]
-        fn #function(&self, #(#arguments: &[S; #nv]),*) -> #output {
-            Self::#function(#(#arguments),*)
+        fn #name(&self, #(#arguments: &[S; #nv]),*) -> #output {
+            Self::#name(#(#arguments),*)
         }
     }
 }
 
 /// The closure of the loops, for a type that has all of its functions.
 fn closure_trait(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
-    let own = SIGNATURES.iter().filter(|signature| signature.trait_name == CLOSURE);
-    if !own.clone().all(|signature| outline.functions.contains(signature.name)) {
+    let own = Function::ALL.iter().copied().filter(|function| function.needs_loops());
+    if !own.clone().all(|function| outline.functions.contains(function)) {
         return TokenStream::new();
     }
     let nv = Literal::usize_unsuffixed(outline.joints.len());
     let nc = Literal::usize_unsuffixed(outline.loop_rows.len());
-    let methods = own.map(|signature| method(signature, outline, runtime));
+    let methods = own.map(|function| method(function, outline, runtime));
     quote! {
         impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {
             type Rows = [S; #nc];

@@ -1,9 +1,9 @@
 //! What a generated function returns: its type, and its value from the outputs of a graph.
 
-use crate::functions::Shape;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use redysim_model::Outline;
+use redysim_runtime::function::Shape;
 
 /// The return type.
 pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> TokenStream {
@@ -11,8 +11,8 @@ pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> To
     let nl = Literal::usize_unsuffixed(outline.links.len());
     let nc = Literal::usize_unsuffixed(outline.loop_rows.len());
     match shape {
-        Shape::Vector => quote!([S; #nv]),
-        Shape::Matrix => quote!([[S; #nv]; #nv]),
+        Shape::Forces | Shape::Accelerations => quote!([S; #nv]),
+        Shape::MassMatrix => quote!([[S; #nv]; #nv]),
         Shape::Energy => quote!(#runtime::Energy<S>),
         Shape::Links => quote!([#runtime::LinkState<S>; #nl]),
         Shape::LoopRows => quote!([S; #nc]),
@@ -23,8 +23,8 @@ pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> To
 /// The value returned, made of the outputs in the order in which they were traced.
 pub fn value(shape: Shape, outline: &Outline, outputs: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     match shape {
-        Shape::Vector | Shape::LoopRows => array(outputs),
-        Shape::Matrix | Shape::LoopJacobian => array(&rows(outputs, outline.joints.len())),
+        Shape::Forces | Shape::Accelerations | Shape::LoopRows => array(outputs),
+        Shape::MassMatrix | Shape::LoopJacobian => array(&rows(outputs, outline.joints.len())),
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
             quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })

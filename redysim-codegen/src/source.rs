@@ -44,7 +44,7 @@ pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<Stri
         header += &format!("// Warning: {warning}.\n//\n");
     }
     for (function, count) in operations {
-        header += &format!("// {function:18}{:6} flops, {:3} sine-cosine pairs\n", count.flops(), count.trig);
+        header += &format!("// {:18}{:6} flops, {:3} sine-cosine pairs\n", function.name(), count.flops(), count.trig);
     }
     Ok(header + "\n" + &prettyplease::unparse(&file))
 }

@@ -105,7 +105,6 @@ impl Scalar for Symbol<'_> {
     fn sqrt(self) -> Self {
         self.unary(f64::sqrt, Graph::sqrt)
     }
-
 }
 
 impl Add for Symbol<'_> {

@@ -26,7 +26,7 @@ fn rods(arms: usize, links: usize) -> Model {
 
 fn remark(model: &Model) -> String {
     let functions = trace(&Tree::new(model)).expect("no pass changes a value");
-    let forward = functions.iter().find(|function| function.signature.name == "forward_dynamics");
+    let forward = functions.iter().find(|function| function.function.name() == "forward_dynamics");
     forward.and_then(|function| function.remark.clone()).expect("forward dynamics says how")
 }
 

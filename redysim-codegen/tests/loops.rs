@@ -14,7 +14,7 @@ fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
     let text = without_spaces(tokens);
     let start = |name: &str| text.find(&format!("pubfn{name}_at<")).expect("every function has a form of a posture");
     let body = |name: &str| text[start(name)..].split("pubfn").nth(1).unwrap_or_default().to_string();
-    operations.into_iter().map(|(name, _)| (name.to_string(), body(name))).collect()
+    operations.into_iter().map(|(function, _)| (function.to_string(), body(function.name()))).collect()
 }
 
 fn without_spaces(tokens: TokenStream) -> String {

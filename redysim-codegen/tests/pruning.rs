@@ -1,6 +1,6 @@
 //! Terms that do not matter are left out, and nothing else is.
 
-use redysim_codegen::functions::{Function, trace_scene, trace_with};
+use redysim_codegen::functions::{TracedFunction, trace_scene, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, source_file_with};
 use redysim_model::{Functions, JointRange, Model, Scene, Tree};
@@ -16,8 +16,8 @@ fn with_range(mut model: Model, range: JointRange) -> Model {
     model
 }
 
-fn traced(model: &Model, functions: &[&str], tolerance: f64) -> Vec<Function> {
-    let functions = Functions::of(functions.iter().copied()).unwrap();
+fn traced(model: &Model, functions: &[&str], tolerance: f64) -> Vec<TracedFunction> {
+    let functions = Functions::named(functions.iter().copied()).unwrap();
     trace_scene(model, &Scene { functions, tolerance: Some(tolerance), ..Scene::default() }, &Passes::all()).unwrap()
 }
 
@@ -27,7 +27,7 @@ fn spread(number: usize) -> f64 {
 }
 
 /// The worst error of a function at other states than those it was pruned at, as a share of the largest value.
-fn worst(whole: &Function, pruned: &Function, range: JointRange, joints: usize) -> f64 {
+fn worst(whole: &TracedFunction, pruned: &TracedFunction, range: JointRange, joints: usize) -> f64 {
     let JointRange { position: [least, largest], velocity, acceleration, .. } = range;
     let (mut sizes, mut errors) = (vec![0.0_f64; joints], vec![0.0_f64; joints]);
     for state in 0..4000 {
@@ -140,7 +140,7 @@ fn energies_places_and_loops_are_exact() {
     let exact = ["energy", "link_kinematics", "loop_residual", "loop_jacobian", "loop_bias"];
     let whole = trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value");
     for function in traced(&model, &exact, 0.1) {
-        let whole = whole.iter().find(|whole| whole.signature == function.signature).unwrap();
+        let whole = whole.iter().find(|whole| whole.function == function.function).unwrap();
         assert_eq!(function.expressions.count(), whole.expressions.count());
         assert!(function.pruning.is_none());
     }
@@ -148,7 +148,7 @@ fn energies_places_and_loops_are_exact() {
 
 #[test]
 fn the_code_says_what_was_pruned_and_how_well() {
-    let functions = Functions::of(["inverse_dynamics"]).unwrap();
+    let functions = Functions::named(["inverse_dynamics"]).unwrap();
     let scene = Scene { functions, tolerance: Some(0.01), ..Scene::default() };
     let source = source_file_with(&model("test/kr5_ranges"), "Kr5", &scene).unwrap();
     assert!(source.contains(
@@ -160,7 +160,7 @@ fn the_code_says_what_was_pruned_and_how_well() {
 
 #[test]
 fn without_a_range_nothing_is_pruned_and_that_is_said() {
-    let functions = Functions::of(["gravity_forces"]).unwrap();
+    let functions = Functions::named(["gravity_forces"]).unwrap();
     let scene = Scene { functions, tolerance: Some(0.01), ..Scene::default() };
     let (name, runtime) = (quote::format_ident!("Kr5"), quote::quote!(::redysim_runtime));
     let generated =

@@ -1,9 +1,7 @@
 //! The generated code as people see it: the same every time, whole, and readable.
 
-use redysim_codegen::functions::SIGNATURES;
 use redysim_codegen::{implementation, source_file, source_file_with, stub};
-use redysim_model::scene::FUNCTIONS;
-use redysim_model::{Functions, Model, Outline, Scene};
+use redysim_model::{Function, Functions, Model, Outline, Scene};
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -65,11 +63,12 @@ fn a_name_that_is_no_type_is_refused() {
 
 #[test]
 fn a_scene_has_its_functions_and_their_traits_only() {
-    let functions = Functions::of(["gravity_forces", "loop_residual", "loop_jacobian"]).unwrap();
+    let functions = Functions::named(["gravity_forces", "loop_residual", "loop_jacobian"]).unwrap();
     let scene = Scene { functions, ..Scene::default() };
     let source = source_file_with(&model("fourbar.toml"), "Fourbar", &scene).unwrap();
-    for function in FUNCTIONS {
-        for form in [format!("pub fn {function}<"), format!("pub fn {function}_at<"), format!("// {function} ")] {
+    for &function in Function::ALL {
+        let name = function.name();
+        for form in [format!("pub fn {name}<"), format!("pub fn {name}_at<"), format!("// {name} ")] {
             assert_eq!(source.contains(&form), functions.contains(function), "{form}");
         }
     }
@@ -83,7 +82,7 @@ fn a_scene_has_its_functions_and_their_traits_only() {
 
 #[test]
 fn a_stub_has_what_the_scene_asks_for() {
-    let functions = Functions::of(["energy"]).unwrap();
+    let functions = Functions::named(["energy"]).unwrap();
     let outline = Outline { functions, ..Outline::default() };
     let stub = stub(&outline, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
     assert!(
@@ -94,5 +93,9 @@ fn a_stub_has_what_the_scene_asks_for() {
 
 #[test]
 fn every_function_can_be_asked_for_by_its_name() {
-    assert_eq!(SIGNATURES.map(|signature| signature.name), FUNCTIONS);
+    for &function in Function::ALL {
+        let functions = Functions::named([function.name()]).unwrap();
+        assert_eq!(functions.iter().collect::<Vec<_>>(), [function]);
+    }
+    assert!(Functions::named(["inverse_kinematics"]).is_err());
 }

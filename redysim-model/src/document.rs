@@ -8,7 +8,7 @@ use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, Faults, Findings, Source};
 use crate::load::report_syntax;
-use crate::model::Outline;
+use crate::outline::Outline;
 
 pub use crate::diagnostic::Message;
 pub use crate::diagnostic::messages::Manual;

@@ -1,5 +1,6 @@
 //! The model of a mechanism: read from TOML, checked, and driven through the DeNOC recursions.
 
+mod assembly;
 mod check;
 pub mod denoc;
 mod diagnostic;
@@ -11,9 +12,11 @@ mod load;
 mod lock;
 mod mobility;
 pub mod model;
+mod outline;
 pub mod pseudo;
 pub mod regroup;
 pub mod rotation;
+mod roundoff;
 pub mod scaling;
 pub mod scene;
 mod schema;
@@ -26,6 +29,8 @@ pub use generic::GenericMechanism;
 pub use load::Loaded;
 pub use lock::LockError;
 pub use mobility::Mobility;
-pub use model::{CutKind, CutSide, Inertia, JointKind, JointRange, Link, Loop, Model, Outline};
-pub use scene::{AccelerationMethod, Functions, Scene, UnknownFunction};
+pub use model::{CutKind, CutSide, Inertia, JointKind, JointRange, Link, Loop, Model};
+pub use outline::Outline;
+pub use redysim_runtime::{Function, Functions};
+pub use scene::{AccelerationMethod, Scene};
 pub use tree::Tree;

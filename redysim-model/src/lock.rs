@@ -3,8 +3,8 @@
 use crate::diagnostic::messages::{did_you_mean, nearest, quoted};
 use crate::model::{JointKind, Link, Model};
 use crate::rotation;
+use crate::rotation::align_z;
 use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::align_z;
 use std::fmt;
 
 impl Model {

@@ -1,8 +1,6 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
-use crate::scene::{Functions, Scene};
 use crate::spatial::{Pose, Vec3};
-use crate::tree::Tree;
 
 /// A mechanism whose file passed every check. Links and loops stand in the file's order.
 #[derive(Clone, Debug, PartialEq)]
@@ -180,37 +178,5 @@ impl Model {
     /// The links whose joints move, in the file's order: entry `i` carries joint variable `i`.
     pub fn moving_links(&self) -> impl Iterator<Item = &Link> {
         self.links.iter().filter(|link| link.joint.dof() > 0)
-    }
-}
-
-/// What the outside of a mechanism's type depends on. A model whose file has faults still has one, as far as the file
-/// can be read.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Outline {
-    /// Name of the mechanism; empty if it cannot be read.
-    pub name: String,
-    /// Names of the links; "link #2" stands for one that cannot be read.
-    pub links: Vec<String>,
-    /// Names of the joints that move. A joint of unreadable kind is taken for one.
-    pub joints: Vec<String>,
-    /// Whether each of these has an actuator.
-    pub actuated: Vec<bool>,
-    /// For each row of the loops, the name of its loop.
-    pub loop_rows: Vec<String>,
-    /// The functions that it has.
-    pub functions: Functions,
-}
-
-impl Outline {
-    /// The outline of a checked model and what is asked of it.
-    pub fn new(model: &Model, scene: &Scene) -> Self {
-        Outline {
-            name: model.name.clone(),
-            links: model.links.iter().map(|link| link.name.clone()).collect(),
-            joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
-            actuated: model.moving_links().map(|link| link.actuated).collect(),
-            loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
-            functions: scene.functions,
-        }
     }
 }

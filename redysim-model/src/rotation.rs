@@ -1,6 +1,6 @@
 //! Rotations whose entries are exact at quarter turns, so that no noise such as cos(90°) = 6e-17 enters a model.
 
-use crate::spatial::Mat3;
+use crate::spatial::{Mat3, Vec3};
 use redysim_runtime::Scalar;
 use std::f64::consts::FRAC_PI_2;
 
@@ -44,6 +44,15 @@ pub fn about_z(angle: f64) -> Mat3<f64> {
 /// Rz(yaw) Ry(pitch) Rx(roll), the `rpy` of URDF.
 pub fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> Mat3<f64> {
     about_z(yaw) * about_y(pitch) * about_x(roll)
+}
+
+/// A rotation that takes z to the unit vector `axis`: a signed permutation where the axis is one of the frame's.
+pub(crate) fn align_z(axis: Vec3<f64>) -> Mat3<f64> {
+    let least = (0..3).fold(0, |least, i| if axis[i].abs() < axis[least].abs() { i } else { least });
+    let mut y = axis.cross(Mat3::identity().column(least));
+    y = y.scale(1.0 / y.dot(y).sqrt());
+    let x = y.cross(axis);
+    Mat3::from_fn(|i, j| [x, y, axis][j][i])
 }
 
 #[cfg(test)]

@@ -1,18 +1,6 @@
 //! What one program asks of a mechanism: no more than that is traced, emitted and compiled.
 
-/// The functions that a mechanism can have, in the order in which its code has them.
-pub const FUNCTIONS: [&str; 10] = [
-    "inverse_dynamics",
-    "forward_dynamics",
-    "mass_matrix",
-    "bias_forces",
-    "gravity_forces",
-    "energy",
-    "link_kinematics",
-    "loop_residual",
-    "loop_jacobian",
-    "loop_bias",
-];
+use redysim_runtime::Functions;
 
 /// What is asked of a mechanism. By default, everything.
 ///
@@ -21,12 +9,12 @@ pub const FUNCTIONS: [&str; 10] = [
 /// fixed already.
 ///
 /// ```
-/// use redysim_model::{Functions, Scene};
+/// use redysim_model::{Function, Functions, Scene};
 ///
-/// let scene = Scene { functions: Functions::of(["inverse_dynamics", "mass_matrix"])?, ..Scene::default() };
-/// assert!(scene.functions.contains("mass_matrix") && !scene.functions.contains("energy"));
-/// assert!(Scene::default().functions.contains("energy"));
-/// # Ok::<(), redysim_model::UnknownFunction>(())
+/// let functions = Functions::of([Function::InverseDynamics, Function::MassMatrix]);
+/// let scene = Scene { functions, ..Scene::default() };
+/// assert!(scene.functions.contains(Function::MassMatrix) && !scene.functions.contains(Function::Energy));
+/// assert!(Scene::default().functions.contains(Function::Energy));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scene {
@@ -60,59 +48,3 @@ impl AccelerationMethod {
         ("factorisation", AccelerationMethod::Factorisation),
     ];
 }
-
-/// A set of [`FUNCTIONS`]; by default all of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Functions([bool; FUNCTIONS.len()]);
-
-impl Functions {
-    /// Every function.
-    pub const ALL: Functions = Functions([true; FUNCTIONS.len()]);
-
-    /// The functions of these names.
-    ///
-    /// # Errors
-    ///
-    /// The first name that is none of [`FUNCTIONS`].
-    pub fn of<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<Functions, UnknownFunction> {
-        let mut functions = Functions([false; FUNCTIONS.len()]);
-        for name in names {
-            let place = FUNCTIONS.iter().position(|known| *known == name);
-            functions.0[place.ok_or_else(|| UnknownFunction(name.to_string()))?] = true;
-        }
-        Ok(functions)
-    }
-
-    /// The same but for the function of this name.
-    pub(crate) fn without(self, name: &str) -> Functions {
-        let mut functions = self;
-        for (_, wanted) in FUNCTIONS.iter().zip(&mut functions.0).filter(|(known, _)| **known == name) {
-            *wanted = false;
-        }
-        functions
-    }
-
-    /// Whether the function of this name is among them.
-    pub fn contains(&self, name: &str) -> bool {
-        FUNCTIONS.iter().zip(self.0).any(|(known, wanted)| *known == name && wanted)
-    }
-}
-
-impl Default for Functions {
-    /// Every function.
-    fn default() -> Self {
-        Functions::ALL
-    }
-}
-
-/// A name that no function of a mechanism has.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownFunction(String);
-
-impl std::fmt::Display for UnknownFunction {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "`{}` is no function of a mechanism; the functions are: {}", self.0, FUNCTIONS.join(", "))
-    }
-}
-
-impl std::error::Error for UnknownFunction {}

@@ -3,11 +3,8 @@
 //! Links joined rigidly become one body, parents stand before their children, and each body's frame is turned so that
 //! its joint axis is z. All of this happens in numbers, before any recursion runs, so it costs the recursions nothing.
 
-use crate::denoc;
-use crate::inertia::Sym3;
-use crate::model::{CutKind, CutSide, JointKind, Link, Model};
+use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
-use crate::rotation;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Moving bodies, parents first, and where the model's links stand on them.
@@ -102,108 +99,6 @@ pub struct CutEnd {
 }
 
 impl Tree {
-    /// The tree of a checked model.
-    pub fn new(model: &Model) -> Tree {
-        let mut tree = Tree {
-            gravity: model.gravity,
-            ground: PseudoInertia::zero(),
-            bodies: Vec::new(),
-            links: model
-                .links
-                .iter()
-                .map(|link| Attachment { body: None, pose: Pose::identity(), com: link.com })
-                .collect(),
-            cuts: Vec::new(),
-        };
-        let coordinates = coordinates(model);
-        for index in parents_first(model) {
-            let link = &model.links[index];
-            let (parent, reference) = match link.parent {
-                Some(parent) => (tree.links[parent].body, tree.links[parent].pose),
-                None => (None, Pose::identity()),
-            };
-            let placement = reference * link.placement;
-            let (body, pose) = match link.joint {
-                JointKind::Fixed => (parent, placement),
-                JointKind::Revolute => tree.add_body(parent, placement, link, Joint::Revolute, coordinates[index]),
-                JointKind::Prismatic => tree.add_body(parent, placement, link, Joint::Prismatic, coordinates[index]),
-            };
-            let pose = pose.without_roundoff();
-            tree.links[index].body = body;
-            tree.links[index].pose = pose;
-            let inertia = link_inertia(link).transformed(pose).without_roundoff();
-            let carrier = match body {
-                Some(body) => &mut tree.bodies[body].inertia,
-                None => &mut tree.ground,
-            };
-            *carrier = *carrier + inertia;
-        }
-        tree.cut(model);
-        tree
-    }
-
-    /// Adds the cut joints, with the rows that do not vanish at every position.
-    fn cut(&mut self, model: &Model) {
-        for each in &model.loops {
-            let rows = vec![true; 3 + each.joint.alignments().len()];
-            let (a, b) = (self.cut_end(each.joint, &each.a), self.cut_end(each.joint, &each.b));
-            self.cuts.push(Cut { joint: each.joint, a, b, rows });
-        }
-        let mut kept = denoc::rows_that_vary(self).into_iter();
-        for row in self.cuts.iter_mut().flat_map(|cut| &mut cut.rows) {
-            *row = kept.next().unwrap_or(true);
-        }
-    }
-
-    fn cut_end(&self, joint: CutKind, side: &CutSide) -> CutEnd {
-        let (body, pose) =
-            side.link.map_or((None, Pose::identity()), |link| (self.links[link].body, self.links[link].pose));
-        let axes = match joint {
-            CutKind::Weld => Mat3::identity(),
-            CutKind::Revolute | CutKind::Spherical => align_z(side.axis),
-        };
-        let end = (pose * Pose { rotation: axes, position: side.point }).without_roundoff();
-        CutEnd { body, point: end.position, axes: end.rotation }
-    }
-
-    /// Adds a body for a moving link; returns its index and the link's frame on it.
-    fn add_body(
-        &mut self,
-        parent: Option<usize>,
-        placement: Pose<f64>,
-        link: &Link,
-        joint: Joint,
-        coordinate: usize,
-    ) -> (Option<usize>, Pose<f64>) {
-        let aligned = align_z(link.axis);
-        let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
-        let mut offset = 0.0;
-        match joint {
-            Joint::Revolute => {
-                let (sin, cos) = rotation::sin_cos(link.offset);
-                if sin == 0.0 || cos == 0.0 {
-                    placement.rotation = placement.rotation * rotation::about_z(link.offset);
-                } else {
-                    offset = link.offset;
-                }
-            }
-            Joint::Prismatic => {
-                placement.position = placement.position + placement.rotation.column(2).scale(link.offset);
-            }
-        }
-        self.bodies.push(Body {
-            parent,
-            placement: placement.without_roundoff(),
-            joint,
-            offset,
-            still: false,
-            coordinate,
-            inertia: PseudoInertia::zero(),
-        });
-        let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
-        (Some(self.bodies.len() - 1), pose)
-    }
-
     /// Number of joint velocities.
     pub fn dof(&self) -> usize {
         self.bodies.len()
@@ -251,94 +146,5 @@ impl Tree {
         let mut order: Vec<usize> = (0..self.bodies.len()).collect();
         order.sort_by_key(|&body| self.bodies[body].coordinate);
         order
-    }
-}
-
-/// A rotation that takes z to the unit vector `axis`: a signed permutation where the axis is one of the frame's.
-pub(crate) fn align_z(axis: Vec3<f64>) -> Mat3<f64> {
-    let least = (0..3).fold(0, |least, i| if axis[i].abs() < axis[least].abs() { i } else { least });
-    let mut y = axis.cross(Mat3::identity().column(least));
-    y = y.scale(1.0 / y.dot(y).sqrt());
-    let x = y.cross(axis);
-    Mat3::from_fn(|i, j| [x, y, axis][j][i])
-}
-
-/// For each link, the index of its joint variable (for fixed links, of the next one).
-fn coordinates(model: &Model) -> Vec<usize> {
-    model
-        .links
-        .iter()
-        .scan(0, |next, link| {
-            let coordinate = *next;
-            *next += link.joint.dof();
-            Some(coordinate)
-        })
-        .collect()
-}
-
-/// The links' indices with parents before children, else in the model's order.
-fn parents_first(model: &Model) -> Vec<usize> {
-    let mut order = Vec::with_capacity(model.links.len());
-    let mut placed = vec![false; model.links.len()];
-    while order.len() < model.links.len() {
-        let before = order.len();
-        for (index, link) in model.links.iter().enumerate() {
-            if !placed[index] && link.parent.is_none_or(|parent| placed[parent]) {
-                placed[index] = true;
-                order.push(index);
-            }
-        }
-        assert!(order.len() > before, "a checked model has no cycle of parents");
-    }
-    order
-}
-
-fn link_inertia(link: &Link) -> PseudoInertia<f64> {
-    let i = link.inertia;
-    let central = Sym3 { xx: i.xx, yy: i.yy, zz: i.zz, xy: i.xy, yz: i.yz, xz: i.xz };
-    PseudoInertia::from_central(link.mass, link.com, central)
-}
-
-/// Sets to zero what is smaller than the roundoff of the largest element, so that the noise of a fixed rotation never
-/// becomes a term of a recursion.
-fn without_noise(values: &mut [&mut f64]) {
-    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    for value in values {
-        if value.abs() < 4.0 * f64::EPSILON * largest {
-            **value = 0.0;
-        }
-    }
-}
-
-impl Pose<f64> {
-    /// -0.0 is nobody's coordinate: it comes from products with zero, and would be printed.
-    pub(crate) fn without_negative_zeros(self) -> Self {
-        Pose {
-            rotation: Mat3::from_fn(|i, j| self.rotation.0[i][j] + 0.0),
-            position: Vec3::from_fn(|i| self.position[i] + 0.0),
-        }
-    }
-
-    pub(crate) fn without_roundoff(mut self) -> Self {
-        let Mat3(rows) = &mut self.rotation;
-        for element in rows.iter_mut().flatten() {
-            let nearest = element.round();
-            if (*element - nearest).abs() < 4.0 * f64::EPSILON {
-                *element = nearest;
-            }
-        }
-        let [x, y, z] = &mut self.position.0;
-        without_noise(&mut [x, y, z]);
-        self
-    }
-}
-
-impl PseudoInertia<f64> {
-    pub(crate) fn without_roundoff(mut self) -> Self {
-        let [x, y, z] = &mut self.moment.0;
-        without_noise(&mut [x, y, z]);
-        let Sym3 { xx, yy, zz, xy, yz, xz } = &mut self.second;
-        without_noise(&mut [xx, yy, zz, xy, yz, xz]);
-        self
     }
 }

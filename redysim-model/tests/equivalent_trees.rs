@@ -41,8 +41,11 @@ fn dynamics(tree: &Tree) -> Vec<Vec<f64>> {
 /// Where the links are and how far the loops are from closed.
 fn kinematics(tree: &Tree) -> Vec<Vec<f64>> {
     let (q, v) = (tree.sample(0), tree.sample(1));
-    let mut values =
-        vec![denoc::loop_residual(tree, &Untraced, &q), denoc::loop_jacobian(tree, &Untraced, &q).concat(), denoc::loop_bias(tree, &Untraced, &q, &v)];
+    let mut values = vec![
+        denoc::loop_residual(tree, &Untraced, &q),
+        denoc::loop_jacobian(tree, &Untraced, &q).concat(),
+        denoc::loop_bias(tree, &Untraced, &q, &v),
+    ];
     for link in denoc::link_kinematics(tree, &Untraced, &q, &v) {
         values.push(link.rotation.concat());
         values.extend([link.origin, link.com, link.velocity, link.angular_velocity].map(Vec::from));
@@ -107,7 +110,14 @@ fn still_axes_change_no_quantity() {
             assert_same(&format!("{name} {pattern}"), &dynamics(&still), &dynamics(&tree));
             assert_same(&format!("{name} {pattern}"), &kinematics(&still), &kinematics(&tree));
             let forward = |tree: &Tree| {
-                denoc::forward_dynamics(Method::Recursion, tree, &Untraced, &tree.sample(0), &tree.sample(1), &tree.sample(2))
+                denoc::forward_dynamics(
+                    Method::Recursion,
+                    tree,
+                    &Untraced,
+                    &tree.sample(0),
+                    &tree.sample(1),
+                    &tree.sample(2),
+                )
             };
             let (found, expected) = (forward(&still), forward(&tree));
             let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));

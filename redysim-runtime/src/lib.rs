@@ -18,6 +18,8 @@ pub mod control;
 #[cfg(feature = "std")]
 pub mod dispatch;
 pub mod dual;
+mod floats;
+pub mod function;
 pub mod integrate;
 pub mod lanes;
 pub mod mechanism;
@@ -38,6 +40,7 @@ pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, To
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched};
 pub use dual::Dual;
+pub use function::{Function, Functions, Operations};
 pub use integrate::{
     Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,
     Radau5, SemiImplicitEuler, Solution, Statistics, Step,
@@ -46,7 +49,7 @@ pub use mechanism::{
     BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
     MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
 };
-pub use operations::{OperationCount, Operations};
+pub use operations::OperationCount;
 pub use posture::Posture;
 pub use scalar::{Real, Scalar};
 pub use simulate::{ForwardSimulation, SimulationState};

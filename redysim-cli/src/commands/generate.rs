@@ -8,8 +8,7 @@ use crate::failure::Failure;
 use crate::model;
 use crate::output::{print, tell, write_beside};
 use redysim_codegen::{SourceError, source_file_with};
-use redysim_model::scene::FUNCTIONS;
-use redysim_model::{Loaded, Model};
+use redysim_model::{Function, Loaded, Model};
 
 /// Print the Rust source that `redysim!` would make of a model.
 ///
@@ -32,11 +31,15 @@ pub struct Arguments {
     #[arg(long)]
     name: Option<String>,
     /// Only these functions [default: those that the model file asks for, or all].
-    #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(FUNCTIONS))]
+    #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(names_of_functions()))]
     functions: Vec<String>,
     /// Overwrite a file that is there already.
     #[arg(long)]
     force: bool,
+}
+
+fn names_of_functions() -> impl Iterator<Item = &'static str> {
+    Function::ALL.iter().map(|function| function.name())
 }
 
 /// Generates the source.

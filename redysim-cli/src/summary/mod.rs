@@ -126,8 +126,8 @@ impl Summary {
             loops: loop_summaries(model, &found.added),
             operations: operations
                 .into_iter()
-                .filter(|(function, _)| !model.loops.is_empty() || !function.starts_with("loop_"))
-                .map(|(function, count)| FunctionSummary { function, count })
+                .filter(|(function, _)| !model.loops.is_empty() || !function.needs_loops())
+                .map(|(function, count)| FunctionSummary { function: function.name(), count })
                 .collect(),
             suspicions,
         })

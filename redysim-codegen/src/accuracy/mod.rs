@@ -9,12 +9,13 @@ pub mod double_double;
 pub mod rounding;
 
 use crate::random::Random;
-use double_double::{exact, rounded};
-use redysim_model::Tree;
-use redysim_model::denoc::{self, Method, Untraced};
+use double_double::{DoubleDouble, exact, rounded};
+use redysim_model::denoc::{self, Untraced};
 use redysim_model::inertia::Sym3;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::tree::Joint;
+use redysim_model::{Function, Tree};
+use redysim_runtime::function::{Argument, Shape};
 use std::cell::OnceCell;
 use std::f64::consts::PI;
 
@@ -29,26 +30,14 @@ const OTHERWISE: f64 = f64::EPSILON;
 /// With more joints the mass matrix is left out: its n² elements in double-double take seconds.
 const LARGEST_MATRIX: usize = 100;
 
-/// What is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// The joint forces that inverse dynamics gives.
-    Forces,
-    /// The joint forces at zero acceleration.
-    BiasForces,
-    /// The joint forces at rest.
-    GravityForces,
-    /// The mass matrix.
-    Matrix,
-    /// The accelerations that forward dynamics gives.
-    Accelerations,
-}
-
-impl Quantity {
-    /// Every quantity.
-    pub const ALL: [Quantity; 5] =
-        [Quantity::Forces, Quantity::BiasForces, Quantity::GravityForces, Quantity::Matrix, Quantity::Accelerations];
-}
+/// The functions of which losses are measured.
+pub const MEASURED: [Function; 5] = [
+    Function::InverseDynamics,
+    Function::BiasForces,
+    Function::GravityForces,
+    Function::MassMatrix,
+    Function::ForwardDynamics,
+];
 
 /// What the functions of a robot are, to all digits of `f64`, at states spread over its workspace.
 ///
@@ -84,14 +73,8 @@ struct State {
     tau: Vec<f64>,
     /// √M_ii.
     weights: Vec<f64>,
-    /// The forces of `a`, those at zero acceleration and those at rest.
-    forces: Vec<f64>,
-    bias: Vec<f64>,
-    gravity: Vec<f64>,
-    /// The accelerations of `tau`.
-    accelerations: Vec<f64>,
-    /// By rows; empty for a large robot.
-    matrix: Vec<f64>,
+    /// The exact values of measured functions; of the mass matrix of a large robot there are none.
+    exact: Vec<(Function, Vec<f64>)>,
 }
 
 impl<'a> Reference<'a> {
@@ -114,51 +97,41 @@ impl<'a> Reference<'a> {
         })
     }
 
-    /// What the recursion for `quantity` loses in `f64` on `tree`, another description of the robot.
-    pub fn lost_on(&self, tree: &Tree, quantity: Quantity) -> f64 {
-        self.lost_by(quantity, |x| match quantity {
-            Quantity::Forces => denoc::inverse_dynamics(tree, &Untraced, x[0], x[1], x[2]),
-            Quantity::BiasForces => denoc::bias_forces(tree, &Untraced, x[0], x[1]),
-            Quantity::GravityForces => denoc::gravity_forces(tree, &Untraced, x[0]),
-            Quantity::Matrix => denoc::mass_matrix(tree, &Untraced, x[0]).concat(),
-            Quantity::Accelerations => denoc::forward_dynamics(Method::Recursion, tree, &Untraced, x[0], x[1], x[2]),
-        })
+    /// What the recursion for `function` loses in `f64` on `tree`, another description of the robot.
+    pub fn lost_on(&self, tree: &Tree, function: Function) -> f64 {
+        self.lost_by(function, |x| denoc::evaluate(function, tree, &Untraced, x))
     }
 
-    /// What is lost of `quantity` in any description: what the recursion loses on the model's own, with its numbers as
-    /// they are and with each [rounded otherwise](rounded_otherwise).
+    /// What is lost of `function` in any description: what the recursion loses on the model's own, with its numbers as
+    /// they are and with each rounded otherwise.
     ///
     /// A mechanism that lies in a plane of space, or a link whose centre of mass nearly balances another's, depends on the
     /// last digits of its numbers so much that no description has the digits of the model's own.
-    pub fn least_loss(&self, quantity: Quantity) -> f64 {
+    pub fn least_loss(&self, function: Function) -> f64 {
         let others = [1, 2].map(|seed| rounded_otherwise(self.tree, seed));
-        let losses = others.iter().chain([self.tree]).map(|tree| self.lost_on(tree, quantity));
+        let losses = others.iter().chain([self.tree]).map(|tree| self.lost_on(tree, function));
         losses.fold(0.0, |largest, loss| if loss.is_finite() { largest.max(loss) } else { largest })
     }
 
-    /// What `function` loses, which computes `quantity`, the mass matrix by rows, from coordinates, velocities, and
-    /// accelerations or forces.
-    pub fn lost_by(&self, quantity: Quantity, function: impl Fn(&[&[f64]]) -> Vec<f64>) -> f64 {
-        self.losses_by(quantity, function).into_iter().fold(0.0, worse)
+    /// What `computed` loses, which computes `function` from its arguments. Nothing is known of functions that are not
+    /// [`MEASURED`].
+    pub fn lost_by(&self, function: Function, computed: impl Fn(&[&[f64]]) -> Vec<f64>) -> f64 {
+        self.losses_by(function, computed).into_iter().fold(0.0, worse)
     }
 
     /// The same for each kind of motion: at like speeds of the joints, with like energies, and at rest. What loses
     /// nothing in one of them may lose all digits in another.
-    pub fn losses_by(&self, quantity: Quantity, function: impl Fn(&[&[f64]]) -> Vec<f64>) -> [f64; 3] {
+    pub fn losses_by(&self, function: Function, computed: impl Fn(&[&[f64]]) -> Vec<f64>) -> [f64; 3] {
         self.losses(|state| {
-            let State { q, v, a, tau, weights, forces, bias, gravity, accelerations, matrix, .. } = state;
-            let joints = weights.len();
-            let of_forces = |expected| extremes(&function(&[q, v, a]), expected, |i| 1.0 / weights[i]);
-            match quantity {
-                Quantity::Forces => of_forces(forces),
-                Quantity::BiasForces => of_forces(bias),
-                Quantity::GravityForces => of_forces(gravity),
-                Quantity::Matrix if matrix.is_empty() => Extremes::default(),
-                Quantity::Matrix => {
-                    extremes(&function(&[q]), matrix, |k| 1.0 / (weights[k / joints] * weights[k % joints]))
-                }
-                Quantity::Accelerations => extremes(&function(&[q, v, tau]), accelerations, |i| weights[i]),
-            }
+            let Some(exact) = state.exact(function) else { return Extremes::default() };
+            let weights = &state.weights;
+            let weight = |k: usize| match function.signature().result {
+                Shape::Forces => 1.0 / weights[k],
+                Shape::Accelerations => weights[k],
+                Shape::MassMatrix => 1.0 / (weights[k / weights.len()] * weights[k % weights.len()]),
+                Shape::Energy | Shape::Links | Shape::LoopRows | Shape::LoopJacobian => 1.0,
+            };
+            extremes(&computed(&state.arguments(function)), exact, weight)
         })
     }
 
@@ -196,19 +169,39 @@ impl State {
             v[joint] *= 3.0 * speed;
             a[joint] *= 10.0 * speed;
         }
-        let nothing = vec![0.0; joints];
-        let forces_of = |v: &[f64], a: &[f64]| rounded(denoc::inverse_dynamics(tree, &Untraced, &exact(&q), &exact(v), &exact(a)));
-        let [forces, bias, gravity] = [(&v, &a), (&v, &nothing), (&nothing, &nothing)].map(|(v, a)| forces_of(v, a));
-        let tau = if kind == Kind::Rest { nothing } else { forces.clone() };
-        let accelerations =
-            rounded(denoc::forward_dynamics(Method::Recursion, tree, &Untraced, &exact(&q), &exact(&v), &exact(&tau)));
-        let matrix =
-            if joints > LARGEST_MATRIX { Vec::new() } else { rounded(denoc::mass_matrix(tree, &Untraced, &exact(&q)).concat()) };
-        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-        let positive = weights.iter().all(|&weight| weight > 0.0);
-        let usable =
-            positive && [&forces, &bias, &gravity, &accelerations, &matrix].into_iter().all(|values| finite(values));
-        usable.then_some(State { kind, q, v, a, tau, weights, forces, bias, gravity, accelerations, matrix })
+        let exactly = |function: Function, state: &State| {
+            let arguments: Vec<Vec<DoubleDouble>> = state.arguments(function).into_iter().map(exact).collect();
+            let arguments: Vec<&[DoubleDouble]> = arguments.iter().map(Vec::as_slice).collect();
+            rounded(denoc::evaluate(function, tree, &Untraced, &arguments))
+        };
+        let mut state = State { kind, q, v, a, tau: vec![0.0; joints], weights, exact: Vec::new() };
+        if kind != Kind::Rest {
+            state.tau = exactly(Function::InverseDynamics, &state);
+        }
+        for function in MEASURED {
+            if function != Function::MassMatrix || joints <= LARGEST_MATRIX {
+                state.exact.push((function, exactly(function, &state)));
+            }
+        }
+        let positive = state.weights.iter().all(|&weight| weight > 0.0);
+        let finite = state.exact.iter().flat_map(|(_, values)| values).all(|value| value.is_finite());
+        (positive && finite).then_some(state)
+    }
+
+    /// The exact values of a function, if they are known.
+    fn exact(&self, function: Function) -> Option<&[f64]> {
+        self.exact.iter().find(|(known, _)| *known == function).map(|(_, values)| values.as_slice())
+    }
+
+    /// The arguments of a function.
+    fn arguments(&self, function: Function) -> Vec<&[f64]> {
+        let of = |argument: &Argument| match argument {
+            Argument::Coordinates => self.q.as_slice(),
+            Argument::Velocities => &self.v,
+            Argument::Accelerations => &self.a,
+            Argument::Forces => &self.tau,
+        };
+        function.signature().arguments.iter().map(of).collect()
     }
 }
 

@@ -7,10 +7,11 @@ mod loops;
 mod names;
 mod render;
 
+use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::graph::{Graph, Node};
 use crate::rolled::{Rolled, is_operation};
-pub use angles::{Angles, without_turns};
+pub use angles::{angle, without_turns};
 use blocks::{Statement, in_blocks};
 use names::Identifiers;
 use proc_macro2::{Ident, Literal, Span, TokenStream};

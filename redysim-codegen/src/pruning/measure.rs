@@ -3,8 +3,8 @@
 use super::columns::{Columns, evaluate, live, sign};
 use super::states::States;
 use crate::expressions::Expressions;
-use crate::functions::Shape;
 use crate::graph::{Edge, Graph};
+use redysim_runtime::function::Shape;
 use std::ops::Range;
 
 /// States that are evaluated at a time: their values stay in the cache.
@@ -59,11 +59,11 @@ fn share_of(error: f64, scale: f64) -> f64 {
 /// element of the mass matrix, √(M_ii M_jj) at its largest; else its largest size.
 pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
     match shape {
-        Shape::Vector if states.forces.is_none() => {
+        Shape::Forces => {
             let stated = states.ranges.iter().map(|range| range.force);
             stated.zip(sizes).map(|(stated, &size)| stated.unwrap_or(size)).collect()
         }
-        Shape::Matrix => {
+        Shape::MassMatrix => {
             let order = sizes.len().isqrt();
             let diagonal = |i: usize| sizes[i * (order + 1)];
             (0..sizes.len()).map(|k| (diagonal(k / order) * diagonal(k % order)).sqrt()).collect()

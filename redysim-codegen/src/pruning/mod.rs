@@ -17,12 +17,12 @@ mod round;
 mod states;
 
 use crate::expressions::Expressions;
-use crate::functions::Shape;
 use crate::graph::Edge;
 use crate::passes::{ChangedValue, Passes, simplified};
 use columns::{Columns, evaluate, live, sign};
 use measure::{scales, worst_error};
 use redysim_runtime::OperationCount;
+use redysim_runtime::function::Shape;
 use round::{Sample, round};
 pub use states::States;
 

@@ -2,8 +2,9 @@
 //! the small change of a cosine is left out.
 
 use super::columns::{Columns, sign};
-use crate::expressions::{Expressions, PRICE_PER_PAIR};
+use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
+use crate::policies::PRICE_PER_PAIR;
 use std::collections::HashMap;
 
 /// Something simpler in the place of a node.

@@ -13,7 +13,7 @@ mod alike;
 mod signs;
 mod table;
 
-use crate::emit::Angles;
+use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 use alike::Steps;

@@ -9,12 +9,13 @@ pub mod neighbourhood;
 pub mod still;
 pub mod units;
 
-use crate::accuracy::{Quantity, Reference};
+use crate::accuracy::{MEASURED, Reference};
 use crate::expressions::Expressions;
-use crate::functions::as_traced;
-use crate::passes::Passes;
+use crate::passes::{ChangedValue, Passes};
+use crate::policies::{MOST_LOST_BY_DESCRIPTION, ROUNDINGS};
+use crate::tracing::{simplified_on, traced_on};
 use redysim_model::regroup::{Vanishing, move_to_parent};
-use redysim_model::{Tree, denoc};
+use redysim_model::{Function, Tree};
 use std::cell::OnceCell;
 
 /// What a function costs on a tree, in operations.
@@ -22,14 +23,10 @@ pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
 /// Whether a tree keeps the digits that the model's own description has.
 pub type Keeps<'a> = &'a dyn Fn(&Tree) -> bool;
 
-/// By how much more digits may be lost in another description of the robot than in the model's own.
-const MOST_LOST: f64 = 1.5;
 /// What is computed on the tree for inverse dynamics and bias forces.
-const FORCES: &[Quantity] = &[Quantity::Forces, Quantity::BiasForces];
+const FORCES: &[Function] = &[Function::InverseDynamics, Function::BiasForces];
 /// What is computed on the tree for the mass matrix and gravity.
-const MATRIX: &[Quantity] = &[Quantity::Matrix, Quantity::GravityForces];
-/// What is lost in any description: a few roundings.
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+const MATRIX: &[Function] = &[Function::MassMatrix, Function::GravityForces];
 
 /// The same robot as different functions want it. What no function asks for is never made.
 ///
@@ -39,8 +36,8 @@ pub struct Trees<'a> {
     tree: &'a Tree,
     passes: &'a Passes,
     reference: &'a Reference<'a>,
-    /// What is lost in any case.
-    lost: OnceCell<[f64; Quantity::ALL.len()]>,
+    /// What is lost in any case, of each function.
+    lost: [OnceCell<f64>; Function::ALL.len()],
     plain: OnceCell<Tree>,
     base: OnceCell<Tree>,
     matrix: OnceCell<Tree>,
@@ -51,7 +48,16 @@ impl<'a> Trees<'a> {
     /// What the given passes make of one tree, of which `reference` has the exact numbers.
     pub fn new(tree: &'a Tree, passes: &'a Passes, reference: &'a Reference<'a>) -> Self {
         let [plain, base, matrix, bias] = [const { OnceCell::new() }; 4];
-        Trees { tree, passes, reference, lost: OnceCell::new(), plain, base, matrix, bias }
+        Trees {
+            tree,
+            passes,
+            reference,
+            lost: [const { OnceCell::new() }; Function::ALL.len()],
+            plain,
+            base,
+            matrix,
+            bias,
+        }
     }
 
     /// The exact numbers of the robot.
@@ -60,26 +66,41 @@ impl<'a> Trees<'a> {
     }
 
     /// Whether a description of the robot keeps the digits of what is computed on it.
-    fn keeps(&self, tree: &Tree, quantities: &[Quantity]) -> bool {
-        quantities.iter().all(|&quantity| self.reference.lost_on(tree, quantity) <= self.bearable(quantity))
+    fn keeps(&self, tree: &Tree, functions: &[Function]) -> bool {
+        functions.iter().all(|&function| self.reference.lost_on(tree, function) <= self.bearable(function))
     }
 
-    /// How much of a quantity may be lost.
-    pub fn bearable(&self, quantity: Quantity) -> f64 {
-        let least = self.lost.get_or_init(|| Quantity::ALL.map(|quantity| self.reference.least_loss(quantity)));
+    /// How much of a function may be lost.
+    fn bearable(&self, function: Function) -> f64 {
+        let least = *self.lost[function as usize].get_or_init(|| self.reference.least_loss(function));
         // Accelerations are quotients: even a small robot's have some more roundings.
-        let few = if quantity == Quantity::Accelerations { 4.0 * ROUNDINGS } else { ROUNDINGS };
-        MOST_LOST * least[quantity as usize].max(few)
+        let few = if function == Function::ForwardDynamics { 4.0 * ROUNDINGS } else { ROUNDINGS };
+        MOST_LOST_BY_DESCRIPTION * least.max(few)
     }
 
-    /// The descriptions on which a quantity may be computed, from the cheapest to the model's own.
-    pub fn descriptions(&'a self, quantity: Quantity) -> [&'a Tree; 3] {
-        let cheapest = match quantity {
-            Quantity::Forces | Quantity::BiasForces => self.bias(),
-            Quantity::Matrix | Quantity::GravityForces => self.matrix(),
-            Quantity::Accelerations => self.plain(),
+    /// The descriptions on which a function may be computed, from the cheapest to the model's own.
+    fn descriptions(&self, function: Function) -> [&Tree; 3] {
+        let cheapest = if FORCES.contains(&function) {
+            self.bias()
+        } else if MATRIX.contains(&function) {
+            self.matrix()
+        } else {
+            self.plain()
         };
         [cheapest, self.plain(), self.tree]
+    }
+
+    /// A function on the cheapest description of the robot on which it keeps its digits; in the end on the model's own,
+    /// without passes over expressions. Forward dynamics is by the recursion.
+    pub fn keeping_digits(&self, function: Function) -> Result<Expressions, ChangedValue> {
+        let bearable = self.bearable(function);
+        for tree in self.descriptions(function) {
+            let expressions = simplified_on(tree, function, self.passes)?;
+            if self.reference.lost_by(function, |x| expressions.evaluate(x)) <= bearable {
+                return Ok(expressions);
+            }
+        }
+        simplified_on(self.tree, function, &Passes { loops: self.passes.loops, ..Passes::none() })
     }
 
     /// With the inertias as they are.
@@ -87,7 +108,7 @@ impl<'a> Trees<'a> {
         self.plain.get_or_init(|| {
             if self.passes.frames {
                 let cost = |tree: &Tree| inverse_price(tree) + matrix_price(tree);
-                self.as_far_as_kept(&Quantity::ALL, |keeps| frames::chosen(self.tree, &cost, keeps))
+                self.as_far_as_kept(&MEASURED, |keeps| frames::chosen(self.tree, &cost, keeps))
             } else {
                 self.tree.clone()
             }
@@ -96,9 +117,9 @@ impl<'a> Trees<'a> {
 
     /// What `pass` makes of the robot if nothing stops it; where that costs digits, what it makes if each of its steps
     /// must keep them.
-    fn as_far_as_kept(&self, quantities: &[Quantity], pass: impl Fn(Keeps) -> Tree) -> Tree {
+    fn as_far_as_kept(&self, functions: &[Function], pass: impl Fn(Keeps) -> Tree) -> Tree {
         let all = pass(&|_| true);
-        if self.keeps(&all, quantities) { all } else { pass(&|tree| self.keeps(tree, quantities)) }
+        if self.keeps(&all, functions) { all } else { pass(&|tree| self.keeps(tree, functions)) }
     }
 
     /// Of base parameters: joint forces, the mass matrix and the energies of the whole mechanism are the same for them.
@@ -154,20 +175,20 @@ impl<'a> Trees<'a> {
         })
     }
 
-    fn stilled(&self, quantities: &[Quantity], cost: Cost) -> Tree {
+    fn stilled(&self, functions: &[Function], cost: Cost) -> Tree {
         if self.passes.parallel_axes {
-            self.as_far_as_kept(quantities, |keeps| still::stilled(self.base(), cost, keeps))
+            self.as_far_as_kept(functions, |keeps| still::stilled(self.base(), cost, keeps))
         } else {
             self.base().clone()
         }
     }
 
-    fn in_unit(&self, quantities: &[Quantity], tree: Tree, expressions: fn(&Tree) -> Expressions) -> Tree {
+    fn in_unit(&self, functions: &[Function], tree: Tree, expressions: fn(&Tree) -> Expressions) -> Tree {
         if !self.passes.units {
             return tree;
         }
         let other = units::chosen(&tree, &expressions(&tree));
-        if self.keeps(&other, quantities) { other } else { tree }
+        if self.keeps(&other, functions) { other } else { tree }
     }
 }
 
@@ -182,9 +203,9 @@ fn matrix_price(tree: &Tree) -> u32 {
 /// What inverse dynamics and the mass matrix cost, without the passes over expressions: these take most of the time,
 /// and what they gain differs little from choice to choice.
 fn inverse_dynamics(tree: &Tree) -> Expressions {
-    as_traced(tree, 3, |t, x| denoc::inverse_dynamics(tree, t, x[0], x[1], x[2]))
+    traced_on(tree, Function::InverseDynamics)
 }
 
 fn mass_matrix(tree: &Tree) -> Expressions {
-    as_traced(tree, 1, |t, x| denoc::mass_matrix(tree, t, x[0]).concat())
+    traced_on(tree, Function::MassMatrix)
 }

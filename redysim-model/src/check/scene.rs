@@ -2,22 +2,17 @@
 
 use crate::diagnostic::{Findings, messages};
 use crate::model::Link;
-use crate::scene::{AccelerationMethod, Functions, Scene};
+use crate::scene::{AccelerationMethod, Scene};
 use crate::schema::{Document, Entry};
-
-/// The functions that only a mechanism with loops has begin with this.
-const OF_LOOPS: &str = "loop_";
-
-/// The function that solves with the mass matrix of the tree.
-const OF_TREE: &str = "forward_dynamics";
+use redysim_runtime::{Function, Functions};
 
 /// The scene, if it has no fault.
 pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scene> {
     let Entry { text, said } = &document.scene.functions;
-    let asked = said.value().into_iter().flat_map(|names| &names.0);
-    for name in asked.filter(|name| name.get_ref().starts_with(OF_LOOPS) && document.loops.is_empty()) {
+    let asked = said.value().into_iter().flat_map(|functions| &functions.0);
+    for function in asked.filter(|function| function.get_ref().needs_loops() && document.loops.is_empty()) {
         findings.within(*text, |findings| {
-            findings.error(name.span(), messages::function_of_loops(&document.item, name.get_ref()));
+            findings.error(function.span(), messages::function_of_loops(&document.item, *function.get_ref()));
         });
     }
     let functions = if said.is_missing() { Functions::ALL } else { said.value()?.set() };
@@ -27,8 +22,8 @@ pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scen
     Some(Scene { functions, tolerance: tolerance(document, findings)?, forward_dynamics })
 }
 
-/// Leaves out what only the tree could do, whose mass matrix is singular because of `link`, though closed loops move: forward
-/// dynamics. To ask for it by name is a fault.
+/// Leaves out what only the tree could do, whose mass matrix is singular because of `link`, though closed loops move:
+/// forward dynamics. To ask for it by name is a fault.
 pub(super) fn without_dynamics_of_tree(
     document: &Document,
     link: &Link,
@@ -36,14 +31,16 @@ pub(super) fn without_dynamics_of_tree(
     findings: &mut Findings,
 ) {
     let Entry { text, said } = &document.scene.functions;
-    let asked = said.value().into_iter().flat_map(|names| &names.0);
-    for name in asked.filter(|name| *name.get_ref() == OF_TREE) {
+    let solving = Function::ForwardDynamics;
+    let asked = said.value().into_iter().flat_map(|functions| &functions.0);
+    for function in asked.filter(|function| *function.get_ref() == solving) {
         findings.within(*text, |findings| {
-            findings.error(name.span(), messages::singular_tree(&document.item, OF_TREE, &link.name, &link.joint_name));
+            let message = messages::singular_tree(&document.item, solving, &link.name, &link.joint_name);
+            findings.error(function.span(), message);
         });
     }
     if let Some(scene) = scene {
-        scene.functions = scene.functions.without(OF_TREE);
+        scene.functions = scene.functions.without(solving);
     }
 }
 

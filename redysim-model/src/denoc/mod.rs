@@ -14,6 +14,7 @@
 
 mod articulated;
 mod energy;
+mod evaluate;
 mod factorisation;
 mod forward;
 mod inverse;
@@ -24,6 +25,7 @@ mod mass_matrix;
 mod trace;
 
 pub use energy::energy;
+pub use evaluate::evaluate;
 pub use factorisation::Factorisation;
 pub use forward::{Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion};
 pub use inverse::{bias_forces, gravity_forces, inverse_dynamics};

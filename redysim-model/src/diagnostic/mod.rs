@@ -5,7 +5,7 @@ mod source;
 
 pub(crate) use source::Source;
 
-use crate::model::Outline;
+use crate::outline::Outline;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
 use std::fmt;
 use std::ops::Range;

@@ -15,9 +15,10 @@ pub(crate) use scene::{Entry, SceneTable};
 
 use crate::diagnostic::Findings;
 use crate::diagnostic::messages::quoted;
-use crate::model::Outline;
-use crate::scene::Functions;
+use crate::outline::Outline;
+
 use reader::{Reader, Shape};
+use redysim_runtime::Functions;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

@@ -5,7 +5,8 @@ use super::{Field, LinkTable};
 use crate::diagnostic::{Findings, Text, messages};
 use crate::lock::by_name;
 use crate::model::JointKind;
-use crate::scene::{AccelerationMethod, FUNCTIONS, Functions};
+use crate::scene::AccelerationMethod;
+use redysim_runtime::{Function, Functions};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -13,7 +14,7 @@ use toml::de::{DeTable, DeValue};
 /// What the scene beside the file says or, key by key, what the file says where that is silent.
 #[derive(Debug)]
 pub(crate) struct SceneTable {
-    pub(crate) functions: Entry<Field<FunctionNames>>,
+    pub(crate) functions: Entry<Field<AskedFunctions>>,
     /// The joints that are locked. One whose value is faulty is among them, at zero: what is around the model counts
     /// joints.
     pub(crate) locked: Entry<Vec<Lock>>,
@@ -39,14 +40,14 @@ pub(crate) struct Entry<T> {
     pub(crate) said: T,
 }
 
-/// Names of functions, each with its place.
+/// Functions that are asked for, each with its place.
 #[derive(Clone, Debug)]
-pub(crate) struct FunctionNames(pub(crate) Vec<Spanned<&'static str>>);
+pub(crate) struct AskedFunctions(pub(crate) Vec<Spanned<Function>>);
 
-impl FunctionNames {
+impl AskedFunctions {
     /// As a set.
     pub(crate) fn set(&self) -> Functions {
-        Functions::of(self.0.iter().map(|name| *name.get_ref())).unwrap_or_default()
+        Functions::of(self.0.iter().map(|function| *function.get_ref()))
     }
 }
 
@@ -77,7 +78,7 @@ impl SceneTable {
 
 /// What one text says.
 struct Keys {
-    functions: Field<FunctionNames>,
+    functions: Field<AskedFunctions>,
     locked: Option<Vec<Lock>>,
     tolerance: Field<f64>,
     forward_dynamics: Field<AccelerationMethod>,
@@ -123,7 +124,7 @@ fn forward_dynamics(reader: &mut Reader<'_, '_>) -> Field<AccelerationMethod> {
     })
 }
 
-fn functions(reader: &mut Reader<'_, '_>) -> Field<FunctionNames> {
+fn functions(reader: &mut Reader<'_, '_>) -> Field<AskedFunctions> {
     reader.field("functions", |reader, path, value| {
         let DeValue::Array(array) = value.get_ref() else {
             return reader.wrong_type(path, value, "an array of names of functions");
@@ -131,22 +132,22 @@ fn functions(reader: &mut Reader<'_, '_>) -> Field<FunctionNames> {
         if array.is_empty() {
             return reader.fault(value, messages::no_functions(reader.item()));
         }
-        let mut names: Vec<Spanned<&'static str>> = Vec::new();
+        let mut asked: Vec<Spanned<Function>> = Vec::new();
         for (index, value) in array.iter().enumerate() {
             let path = format!("{path}[{index}]");
             let DeValue::String(text) = value.get_ref() else {
                 reader.wrong_type::<()>(&path, value, "the name of a function");
                 continue;
             };
-            match FUNCTIONS.iter().find(|known| **known == text.as_ref()) {
-                None => _ = reader.fault::<()>(value, messages::unknown_function(reader.item(), text)),
-                Some(name) if names.iter().any(|other| other.get_ref() == name) => {
-                    _ = reader.fault::<()>(value, messages::repeated_function(reader.item(), name));
+            match text.parse() {
+                Err(_) => _ = reader.fault::<()>(value, messages::unknown_function(reader.item(), text)),
+                Ok(function) if asked.iter().any(|other| *other.get_ref() == function) => {
+                    _ = reader.fault::<()>(value, messages::repeated_function(reader.item(), function));
                 }
-                Some(name) => names.push(Spanned::new(value.span(), name)),
+                Ok(function) => asked.push(Spanned::new(value.span(), function)),
             }
         }
-        Some(FunctionNames(names))
+        Some(AskedFunctions(asked))
     })
 }
 

@@ -18,13 +18,12 @@
 //! assert_eq!(holding(F64x8::from(angles)).to_array(), angles.map(holding));
 //! ```
 
+mod scalar;
 mod transpose;
 
 pub use transpose::{pack, unpack};
 
-use crate::registers::Register;
-use crate::scalar::FUSED;
-use crate::{Scalar, trigonometry};
+use crate::scalar::Scalar;
 use core::fmt;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -53,7 +52,7 @@ macro_rules! operators {
 }
 
 macro_rules! lanes {
-    ($(#[$documentation:meta])* $lanes:ident($wide:ident): $width:literal of $float:ident, $sin_cos:path) => {
+    ($(#[$documentation:meta])* $lanes:ident($wide:ident): $width:literal of $float:ident) => {
         $(#[$documentation])*
         #[derive(Clone, Copy, Default, PartialEq)]
         #[repr(transparent)]
@@ -101,70 +100,35 @@ macro_rules! lanes {
                 Self(-self.0)
             }
         }
-
-        impl Scalar for $lanes {
-            #[inline(always)]
-            fn from_f64(value: f64) -> Self {
-                Self(wide::$wide::splat(value as $float))
-            }
-
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                $sin_cos(self)
-            }
-
-            #[inline(always)]
-            fn without_turns<const N: usize>(angles: [Self; N]) -> [Self; N] {
-                trigonometry::turns::without_turns(angles)
-            }
-
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                Self(self.0.sqrt())
-            }
-
-            #[inline(always)]
-            fn mul_add(self, factor: Self, addend: Self) -> Self {
-                if FUSED { Self(self.0.mul_add(factor.0, addend.0)) } else { self * factor + addend }
-            }
-
-            #[inline(always)]
-            fn apart<const N: usize>(mut numbers: [Self; N]) -> [Self; N] {
-                for number in &mut numbers {
-                    number.0 = Register::apart(number.0);
-                }
-                numbers
-            }
-        }
     };
 }
 
 lanes! {
     /// Two `f64`: the vectors of SSE2 (every x86-64) and NEON.
-    F64x2(f64x2): 2 of f64, trigonometry::double::sin_cos
+    F64x2(f64x2): 2 of f64
 }
 
 lanes! {
     /// Four `f64`: the vectors of AVX.
-    F64x4(f64x4): 4 of f64, trigonometry::double::sin_cos
+    F64x4(f64x4): 4 of f64
 }
 
 lanes! {
     /// Eight `f64`: the vectors of AVX-512.
-    F64x8(f64x8): 8 of f64, trigonometry::double::sin_cos
+    F64x8(f64x8): 8 of f64
 }
 
 lanes! {
     /// Four `f32`: the vectors of SSE2 (every x86-64) and NEON.
-    F32x4(f32x4): 4 of f32, trigonometry::single::sin_cos
+    F32x4(f32x4): 4 of f32
 }
 
 lanes! {
     /// Eight `f32`: the vectors of AVX.
-    F32x8(f32x8): 8 of f32, trigonometry::single::sin_cos
+    F32x8(f32x8): 8 of f32
 }
 
 lanes! {
     /// Sixteen `f32`: the vectors of AVX-512.
-    F32x16(f32x16): 16 of f32, trigonometry::single::sin_cos
+    F32x16(f32x16): 16 of f32
 }

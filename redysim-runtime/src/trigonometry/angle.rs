@@ -2,10 +2,9 @@
 
 use super::reduction::{self, Reduced};
 use super::single_reduction;
-use crate::Scalar;
 use crate::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 use crate::registers::Register;
-use crate::scalar::FUSED;
+use crate::scalar::{FUSED, Scalar};
 use bytemuck::cast;
 use wide::{u32x4, u32x8, u32x16, u64x2, u64x4, u64x8};
 

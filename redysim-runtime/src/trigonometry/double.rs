@@ -6,7 +6,7 @@
 //! cosine), are evaluated.
 
 use super::angle::{Angle, Number};
-use super::reduction::Reduced;
+use super::reduction::{ROUNDER, Reduced};
 
 /// 2¹⁷ quarter turns.
 const MANY_TURNS: f64 = 205_887.0;
@@ -14,8 +14,6 @@ const MANY_TURNS: f64 = 205_887.0;
 const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
 /// π/2 in a part of 36 bits, of which multiples up to 2¹⁷ are exact, and one of 53.
 const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
-/// Added to a number below 2⁵¹ and taken away again, it leaves the nearest integer, and shows its bits in between.
-pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]

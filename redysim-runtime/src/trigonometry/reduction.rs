@@ -4,8 +4,6 @@
 //! digits of 2/π are multiplied that make the fraction of a quarter turn (M. H. Payne and R. N. Hanek, *Radian
 //! reduction for trigonometric functions*, SIGNUM Newsletter 18, 1983).
 
-use super::double::ROUNDER;
-
 /// x = quarters · π/2 + rest + tail, with |rest| ≤ π/4.
 pub struct Reduced<A> {
     /// The quarters in its last bits.
@@ -14,6 +12,8 @@ pub struct Reduced<A> {
     pub tail: A,
 }
 
+/// Added to a number below 2⁵¹ and taken away again, it leaves the nearest integer, and shows its bits in between.
+pub const ROUNDER: f64 = 6_755_399_441_055_744.0;
 /// 2²⁰ quarter turns.
 const MOST_BY_PARTS: f64 = 1_647_099.0;
 

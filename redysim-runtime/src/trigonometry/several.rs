@@ -1,7 +1,7 @@
 //! A list of angles spread over lanes.
 
-use crate::Scalar;
 use crate::lanes::Lanes;
+use crate::scalar::Scalar;
 
 /// Sine and cosine of each of `W` angles.
 type Pairs<T, const W: usize> = ([T; W], [T; W]);

@@ -3,6 +3,7 @@
 use super::super::Message;
 use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
 use crate::tree::Joint;
+use redysim_runtime::Function;
 
 pub(crate) fn blank_name(item: &str, key: &str) -> Message {
     message(format!("{item}: `{key}` is blank"), "blank", "give it a name: messages and generated code use it")
@@ -146,7 +147,8 @@ pub(crate) fn singular_mass_matrix(link: &str, joint_name: &str, joint: Joint) -
 }
 
 /// Closed loops move, but the function `name` is that of the tree, in which `link` moves no mass.
-pub(crate) fn singular_tree(item: &str, name: &str, link: &str, joint: &str) -> Message {
+pub(crate) fn singular_tree(item: &str, function: Function, link: &str, joint: &str) -> Message {
+    let name = function.name();
     message(
         format!(
             "{item}: `{name}` is that of the tree with its loops open, whose mass matrix is singular: the joint {} of link {} \

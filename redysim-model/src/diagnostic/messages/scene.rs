@@ -2,18 +2,24 @@
 
 use super::super::Message;
 use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
-use crate::scene::{AccelerationMethod, FUNCTIONS};
+use crate::scene::AccelerationMethod;
+use redysim_runtime::Function;
+
+fn names_of_functions() -> Vec<&'static str> {
+    Function::ALL.iter().map(|function| function.name()).collect()
+}
 
 pub(crate) fn unknown_function(item: &str, name: &str) -> Message {
-    let meant = did_you_mean(nearest(name, FUNCTIONS));
+    let meant = did_you_mean(nearest(name, names_of_functions()));
     message(
         format!("{item}: `functions` names {}, but there is no such function", quoted(name)),
         "no such function",
-        format!("{meant}The functions are: {}", FUNCTIONS.join(", ")),
+        format!("{meant}The functions are: {}", names_of_functions().join(", ")),
     )
 }
 
-pub(crate) fn repeated_function(item: &str, name: &str) -> Message {
+pub(crate) fn repeated_function(item: &str, function: Function) -> Message {
+    let name = function.name();
     message(format!("{item}: `functions` names `{name}` twice"), "named before", "delete one of the two")
 }
 
@@ -21,11 +27,12 @@ pub(crate) fn no_functions(item: &str) -> Message {
     message(
         format!("{item}: `functions` names no function"),
         "nothing is wanted",
-        format!("without `functions` there are all of them: {}", FUNCTIONS.join(", ")),
+        format!("without `functions` there are all of them: {}", names_of_functions().join(", ")),
     )
 }
 
-pub(crate) fn function_of_loops(item: &str, name: &str) -> Message {
+pub(crate) fn function_of_loops(item: &str, function: Function) -> Message {
+    let name = function.name();
     message(
         format!("{item}: `functions` names `{name}`, but there are no loops"),
         "the model has no [[loop]]",

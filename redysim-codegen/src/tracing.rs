@@ -1,0 +1,32 @@
+//! From a function on a tree to its expressions.
+
+use crate::expressions::Expressions;
+use crate::passes::{ChangedValue, Passes, simplified};
+use crate::symbol::{Symbol, Tracer};
+use redysim_model::{Function, Tree, denoc};
+
+/// The expressions of `function` on `tree`, forward dynamics by the recursion, simplified.
+pub fn simplified_on(tree: &Tree, function: Function, passes: &Passes) -> Result<Expressions, ChangedValue> {
+    simplified(traced_on(tree, function), passes)
+}
+
+/// The expressions of `function` on `tree`, forward dynamics by the recursion, before any pass over them.
+pub fn traced_on(tree: &Tree, function: Function) -> Expressions {
+    traced(tree, function, |tracer, arguments| denoc::evaluate(function, tree, tracer, arguments))
+}
+
+/// The expressions of `computed`, which computes `function` on trees of the same joints as `tree`, before any pass.
+pub fn traced(
+    tree: &Tree,
+    function: Function,
+    computed: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
+) -> Expressions {
+    let tracer = Tracer::default();
+    let outputs = {
+        let arguments = (0..).zip(function.signature().arguments);
+        let symbols: Vec<Vec<Symbol>> = arguments.map(|(index, _)| tracer.argument(index, tree.dof())).collect();
+        let symbols: Vec<&[Symbol]> = symbols.iter().map(Vec::as_slice).collect();
+        tracer.edges(&computed(&tracer, &symbols))
+    };
+    Expressions { graph: tracer.into_graph(), outputs }
+}

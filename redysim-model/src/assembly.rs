@@ -1,0 +1,149 @@
+//! From a checked model to its tree of moving bodies.
+
+use crate::denoc;
+use crate::inertia::Sym3;
+use crate::model::{CutKind, CutSide, JointKind, Link, Model};
+use crate::pseudo::PseudoInertia;
+use crate::rotation::{self, align_z};
+use crate::spatial::{Mat3, Pose, Vec3};
+use crate::tree::{Attachment, Body, Cut, CutEnd, Joint, Tree};
+
+impl Tree {
+    /// The tree of a checked model.
+    pub fn new(model: &Model) -> Tree {
+        let mut tree = Tree {
+            gravity: model.gravity,
+            ground: PseudoInertia::zero(),
+            bodies: Vec::new(),
+            links: model
+                .links
+                .iter()
+                .map(|link| Attachment { body: None, pose: Pose::identity(), com: link.com })
+                .collect(),
+            cuts: Vec::new(),
+        };
+        let coordinates = coordinates(model);
+        for index in parents_first(model) {
+            let link = &model.links[index];
+            let (parent, reference) = match link.parent {
+                Some(parent) => (tree.links[parent].body, tree.links[parent].pose),
+                None => (None, Pose::identity()),
+            };
+            let placement = reference * link.placement;
+            let (body, pose) = match link.joint {
+                JointKind::Fixed => (parent, placement),
+                JointKind::Revolute => tree.add_body(parent, placement, link, Joint::Revolute, coordinates[index]),
+                JointKind::Prismatic => tree.add_body(parent, placement, link, Joint::Prismatic, coordinates[index]),
+            };
+            let pose = pose.without_roundoff();
+            tree.links[index].body = body;
+            tree.links[index].pose = pose;
+            let inertia = link_inertia(link).transformed(pose).without_roundoff();
+            let carrier = match body {
+                Some(body) => &mut tree.bodies[body].inertia,
+                None => &mut tree.ground,
+            };
+            *carrier = *carrier + inertia;
+        }
+        tree.cut(model);
+        tree
+    }
+
+    /// Adds the cut joints, with the rows that do not vanish at every position.
+    fn cut(&mut self, model: &Model) {
+        for each in &model.loops {
+            let rows = vec![true; 3 + each.joint.alignments().len()];
+            let (a, b) = (self.cut_end(each.joint, &each.a), self.cut_end(each.joint, &each.b));
+            self.cuts.push(Cut { joint: each.joint, a, b, rows });
+        }
+        let mut kept = denoc::rows_that_vary(self).into_iter();
+        for row in self.cuts.iter_mut().flat_map(|cut| &mut cut.rows) {
+            *row = kept.next().unwrap_or(true);
+        }
+    }
+
+    fn cut_end(&self, joint: CutKind, side: &CutSide) -> CutEnd {
+        let (body, pose) =
+            side.link.map_or((None, Pose::identity()), |link| (self.links[link].body, self.links[link].pose));
+        let axes = match joint {
+            CutKind::Weld => Mat3::identity(),
+            CutKind::Revolute | CutKind::Spherical => align_z(side.axis),
+        };
+        let end = (pose * Pose { rotation: axes, position: side.point }).without_roundoff();
+        CutEnd { body, point: end.position, axes: end.rotation }
+    }
+
+    /// Adds a body for a moving link; returns its index and the link's frame on it.
+    fn add_body(
+        &mut self,
+        parent: Option<usize>,
+        placement: Pose<f64>,
+        link: &Link,
+        joint: Joint,
+        coordinate: usize,
+    ) -> (Option<usize>, Pose<f64>) {
+        let aligned = align_z(link.axis);
+        let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
+        let mut offset = 0.0;
+        match joint {
+            Joint::Revolute => {
+                let (sin, cos) = rotation::sin_cos(link.offset);
+                if sin == 0.0 || cos == 0.0 {
+                    placement.rotation = placement.rotation * rotation::about_z(link.offset);
+                } else {
+                    offset = link.offset;
+                }
+            }
+            Joint::Prismatic => {
+                placement.position = placement.position + placement.rotation.column(2).scale(link.offset);
+            }
+        }
+        self.bodies.push(Body {
+            parent,
+            placement: placement.without_roundoff(),
+            joint,
+            offset,
+            still: false,
+            coordinate,
+            inertia: PseudoInertia::zero(),
+        });
+        let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
+        (Some(self.bodies.len() - 1), pose)
+    }
+}
+
+/// For each link, the index of its joint variable (for fixed links, of the next one).
+fn coordinates(model: &Model) -> Vec<usize> {
+    model
+        .links
+        .iter()
+        .scan(0, |next, link| {
+            let coordinate = *next;
+            *next += link.joint.dof();
+            Some(coordinate)
+        })
+        .collect()
+}
+
+/// The links' indices with parents before children, else in the model's order.
+fn parents_first(model: &Model) -> Vec<usize> {
+    let mut order = Vec::with_capacity(model.links.len());
+    let mut placed = vec![false; model.links.len()];
+    while order.len() < model.links.len() {
+        let before = order.len();
+        for (index, link) in model.links.iter().enumerate() {
+            if !placed[index] && link.parent.is_none_or(|parent| placed[parent]) {
+                placed[index] = true;
+                order.push(index);
+            }
+        }
+        assert!(order.len() > before, "a checked model has no cycle of parents");
+    }
+    order
+}
+
+fn link_inertia(link: &Link) -> PseudoInertia<f64> {
+    let i = link.inertia;
+    let central = Sym3 { xx: i.xx, yy: i.yy, zz: i.zz, xy: i.xy, yz: i.yz, xz: i.xz };
+    PseudoInertia::from_central(link.mass, link.com, central)
+}

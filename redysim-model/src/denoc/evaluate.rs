@@ -1,0 +1,34 @@
+//! Every function of a mechanism by its name in the table of functions.
+
+use super::trace::Trace;
+use super::{
+    Method, bias_forces, energy, forward_dynamics, gravity_forces, inverse_dynamics, link_kinematics, loop_bias,
+    loop_jacobian, loop_residual, mass_matrix,
+};
+use crate::tree::Tree;
+use redysim_runtime::{Energy, Function, LinkState, Scalar};
+
+/// The values of `function` in the order of its [`Shape`](redysim_runtime::function::Shape); forward dynamics by the
+/// recursion. `x` are the arguments that its [signature](Function::signature) lists.
+pub fn evaluate<S: Scalar>(function: Function, tree: &Tree, trace: &impl Trace<S>, x: &[&[S]]) -> Vec<S> {
+    match function {
+        Function::InverseDynamics => inverse_dynamics(tree, trace, x[0], x[1], x[2]),
+        Function::ForwardDynamics => forward_dynamics(Method::Recursion, tree, trace, x[0], x[1], x[2]),
+        Function::MassMatrix => mass_matrix(tree, trace, x[0]).concat(),
+        Function::BiasForces => bias_forces(tree, trace, x[0], x[1]),
+        Function::GravityForces => gravity_forces(tree, trace, x[0]),
+        Function::Energy => {
+            let Energy { kinetic, potential } = energy(tree, trace, x[0], x[1]);
+            vec![kinetic, potential]
+        }
+        Function::LinkKinematics => {
+            let vectors = link_kinematics(tree, trace, x[0], x[1]).into_iter().flat_map(|link: LinkState<S>| {
+                link.rotation.into_iter().chain([link.origin, link.com, link.velocity, link.angular_velocity])
+            });
+            vectors.flatten().collect()
+        }
+        Function::LoopResidual => loop_residual(tree, trace, x[0]),
+        Function::LoopJacobian => loop_jacobian(tree, trace, x[0]).concat(),
+        Function::LoopBias => loop_bias(tree, trace, x[0], x[1]),
+    }
+}

@@ -1,0 +1,38 @@
+//! What the outside of a mechanism's type depends on.
+
+use crate::model::Model;
+use crate::scene::Scene;
+use crate::tree::Tree;
+use redysim_runtime::Functions;
+
+/// What the outside of a mechanism's type depends on. A model whose file has faults still has one, as far as the file
+/// can be read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Outline {
+    /// Name of the mechanism; empty if it cannot be read.
+    pub name: String,
+    /// Names of the links; "link #2" stands for one that cannot be read.
+    pub links: Vec<String>,
+    /// Names of the joints that move. A joint of unreadable kind is taken for one.
+    pub joints: Vec<String>,
+    /// Whether each of these has an actuator.
+    pub actuated: Vec<bool>,
+    /// For each row of the loops, the name of its loop.
+    pub loop_rows: Vec<String>,
+    /// The functions that it has.
+    pub functions: Functions,
+}
+
+impl Outline {
+    /// The outline of a checked model and what is asked of it.
+    pub fn new(model: &Model, scene: &Scene) -> Self {
+        Outline {
+            name: model.name.clone(),
+            links: model.links.iter().map(|link| link.name.clone()).collect(),
+            joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
+            actuated: model.moving_links().map(|link| link.actuated).collect(),
+            loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
+            functions: scene.functions,
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Geometry and inertias without what is nothing but roundoff.
+
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
+use crate::spatial::{Mat3, Pose, Vec3};
+
+/// Sets to zero what is smaller than the roundoff of the largest element, so that the noise of a fixed rotation never
+/// becomes a term of a recursion.
+fn without_noise(values: &mut [&mut f64]) {
+    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    for value in values {
+        if value.abs() < 4.0 * f64::EPSILON * largest {
+            **value = 0.0;
+        }
+    }
+}
+
+impl Pose<f64> {
+    /// -0.0 is nobody's coordinate: it comes from products with zero, and would be printed.
+    pub(crate) fn without_negative_zeros(self) -> Self {
+        Pose {
+            rotation: Mat3::from_fn(|i, j| self.rotation.0[i][j] + 0.0),
+            position: Vec3::from_fn(|i| self.position[i] + 0.0),
+        }
+    }
+
+    pub(crate) fn without_roundoff(mut self) -> Self {
+        let Mat3(rows) = &mut self.rotation;
+        for element in rows.iter_mut().flatten() {
+            let nearest = element.round();
+            if (*element - nearest).abs() < 4.0 * f64::EPSILON {
+                *element = nearest;
+            }
+        }
+        let [x, y, z] = &mut self.position.0;
+        without_noise(&mut [x, y, z]);
+        self
+    }
+}
+
+impl PseudoInertia<f64> {
+    pub(crate) fn without_roundoff(mut self) -> Self {
+        let [x, y, z] = &mut self.moment.0;
+        without_noise(&mut [x, y, z]);
+        let Sym3 { xx, yy, zz, xy, yz, xz } = &mut self.second;
+        without_noise(&mut [xx, yy, zz, xy, yz, xz]);
+        self
+    }
+}
