@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 /// An angle: a sum of coordinates, each times a factor, and a constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Angle {
-    /// The coordinates in the order in which they are added.
+    /// The coordinates, in order.
     pub terms: Vec<Term>,
     /// What is added to them, rad.
     pub constant: f64,
@@ -27,6 +27,7 @@ impl Angle {
     fn of(graph: &Graph, edge: Edge) -> Angle {
         let mut angle = Angle { terms: Vec::new(), constant: 0.0 };
         angle.add(graph, edge, 1.0);
+        angle.terms.sort_unstable_by_key(|term| term.coordinate);
         angle
     }
 
@@ -62,9 +63,7 @@ impl Angle {
 
     /// The coordinates it depends on, in order.
     fn coordinates(&self) -> Vec<u32> {
-        let mut coordinates: Vec<u32> = self.terms.iter().map(|term| term.coordinate).collect();
-        coordinates.sort_unstable();
-        coordinates
+        self.terms.iter().map(|term| term.coordinate).collect()
     }
 }
 

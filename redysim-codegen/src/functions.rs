@@ -5,7 +5,7 @@ use crate::expressions::Expressions;
 use crate::forward_dynamics;
 use crate::passes::{ChangedValue, Passes};
 use crate::pruning::{Pruning, States, pruned};
-use crate::rolled;
+use crate::reroll;
 use crate::tracing::simplified_on;
 use crate::trees::Trees;
 use redysim_model::{Function, JointRange, Link, Model, Scene, Tree};
@@ -101,7 +101,7 @@ impl Pipeline<'_> {
                 return Ok(unrolled);
             }
             let alike = self.simplified(function, &even_trees, &even)?;
-            let shorter = rolled::code_size(&alike.expressions) < rolled::code_size(&unrolled.expressions);
+            let shorter = reroll::code_size(&alike.expressions) < reroll::code_size(&unrolled.expressions);
             Ok(if shorter { alike } else { unrolled })
         };
         let forces: OnceCell<Expressions> = OnceCell::new();

@@ -41,20 +41,19 @@ pub mod graph;
 pub mod passes;
 pub mod symbol;
 
-mod documentation;
-mod emit;
+mod backend;
 mod forward_dynamics;
+mod generate;
 mod hash;
-mod mechanism;
 mod policies;
+mod program;
 mod pruning;
 mod random;
-mod rolled;
-mod shape;
-mod source;
+mod reroll;
 mod tracing;
 mod trees;
 
-pub use mechanism::{Counted, Generated, implementation, implementation_with, operations, stub};
+pub use backend::rust::source::{SourceError, source_file, source_file_with};
+pub use backend::rust::stub;
+pub use generate::{Counted, Generated, implementation, implementation_with, operations};
 pub use pruning::Pruning;
-pub use source::{SourceError, source_file, source_file_with};

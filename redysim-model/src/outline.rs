@@ -4,6 +4,7 @@ use crate::model::Model;
 use crate::scene::Scene;
 use crate::tree::Tree;
 use redysim_runtime::Functions;
+use redysim_runtime::function::Dimension;
 
 /// What the outside of a mechanism's type depends on. A model whose file has faults still has one, as far as the file
 /// can be read.
@@ -24,6 +25,15 @@ pub struct Outline {
 }
 
 impl Outline {
+    /// A size of the mechanism.
+    pub fn size(&self, dimension: Dimension) -> usize {
+        match dimension {
+            Dimension::Coordinates | Dimension::Velocities => self.joints.len(),
+            Dimension::Links => self.links.len(),
+            Dimension::LoopRows => self.loop_rows.len(),
+        }
+    }
+
     /// The outline of a checked model and what is asked of it.
     pub fn new(model: &Model, scene: &Scene) -> Self {
         Outline {

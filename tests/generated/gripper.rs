@@ -118,9 +118,9 @@ impl Gripper {
                     q[1],
                     q[2],
                     q[3],
-                    (near_0 + near_1),
-                    (near_0 + near_3),
-                    (near_2 + (near_0 + near_1)),
+                    near_0 + near_1,
+                    near_0 + near_3,
+                    near_0 + near_1 + near_2,
                 ]);
                 ::redysim_runtime::Posture::new(q, &sin, &cos)
             },
@@ -652,11 +652,11 @@ impl Gripper {
         let t2 = S::mul_add(
             -vel_link3_y,
             k(0.0010000000000000002) * w_link3_z,
-            -(S::mul_add(
+            -S::mul_add(
                 v[0],
                 k(0.0058333333333333345) * v[0],
                 S::mul_add(vel_link4_y, k(0.0010000000000000002) * w_link4_z, t1),
-            )),
+            ),
         );
         let t3 = k(0.0005000000000000001) * sin_link3;
         let t4 = S::mul_add(
@@ -668,7 +668,7 @@ impl Gripper {
             * S::mul_add(
                 sin_link2,
                 t3,
-                -(S::mul_add(
+                -S::mul_add(
                     cos_link2,
                     t4,
                     S::mul_add(
@@ -676,7 +676,7 @@ impl Gripper {
                         cos_link4,
                         k(0.007000000000000001),
                     ),
-                )),
+                ),
             );
         let t6 = S::mul_add(
             -cos_link1,
@@ -711,9 +711,9 @@ impl Gripper {
                 ]);
                 let (sin, cos) = S::sin_cos_all([
                     q[0],
-                    (near_0 + near_1),
-                    (near_0 + near_3),
-                    (near_2 + (near_0 + near_1)),
+                    near_0 + near_1,
+                    near_0 + near_3,
+                    near_0 + near_1 + near_2,
                 ]);
                 Self::link_kinematics_inlined(
                     q,
@@ -794,7 +794,7 @@ impl Gripper {
                     S::mul_add(k(0.025), sin_sum_link3, t11),
                     k(0.0),
                 ],
-                velocity: [-(S::mul_add(t4, t9, t7)), S::mul_add(t3, t9, t8), k(0.0)],
+                velocity: [-S::mul_add(t4, t9, t7), S::mul_add(t3, t9, t8), k(0.0)],
                 angular_velocity: [k(0.0), k(0.0), v[2] + t9],
             },
             ::redysim_runtime::LinkState {

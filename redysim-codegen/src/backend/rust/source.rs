@@ -1,6 +1,6 @@
 //! The generated code as a formatted source file, for those who must review it or ship it.
 
-use crate::mechanism::{Generated, implementation_with};
+use crate::generate::{Generated, implementation_with};
 use crate::passes::{ChangedValue, Passes};
 use quote::{format_ident, quote};
 use redysim_model::{Model, Scene};

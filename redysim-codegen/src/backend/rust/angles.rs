@@ -1,6 +1,6 @@
 //! Angles as Rust expressions of the coordinates.
 
-use super::{constant, local};
+use super::body::{constant, local};
 use crate::angles::{Angle, Term};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;

@@ -30,7 +30,7 @@ const LONGEST_PERIOD: usize = 3;
 
 /// Part of a function as loops, one for each sweep, over the same bodies.
 #[derive(Clone, Debug)]
-pub struct Rolled {
+pub struct Rerolled {
     /// Number of groups, which is how often each loop runs.
     pub groups: usize,
     /// Bodies in a group.
@@ -59,7 +59,7 @@ pub struct Sweep {
     /// with its value before the loop, if any.
     pub carried: Vec<(usize, Option<Edge>)>,
     /// Nodes of the template of which other code reads the values of several groups.
-    pub kept: Vec<usize>,
+    pub live_out: Vec<usize>,
     /// Columns of the table of constants: for each, its value for every group.
     pub columns: Vec<Vec<f64>>,
 }
@@ -67,12 +67,12 @@ pub struct Sweep {
 /// What a node inside the loops is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// Index in [`Rolled::sweeps`].
+    /// Index in [`Rerolled::sweeps`].
     pub sweep: usize,
     /// The group it belongs to.
     pub group: usize,
     /// The node of the template that stands for it.
-    pub image: usize,
+    pub template: usize,
     /// Whether its value is the negative of what the loop computes.
     pub negative: bool,
 }
@@ -89,16 +89,16 @@ impl Sweep {
             start: (0..groups).flat_map(|group| nodes(name, group)).min()?,
             template,
             carried: Vec::new(),
-            kept: Vec::new(),
+            live_out: Vec::new(),
             columns: Vec::new(),
         })
     }
 }
 
-impl Rolled {
+impl Rerolled {
     /// The longest run of alike bodies, if the function is long enough for loops. `positions` says of each sine and
     /// cosine where it stands among all.
-    pub fn of(expressions: &Expressions, positions: &HashMap<usize, usize>) -> Option<Rolled> {
+    pub fn of(expressions: &Expressions, positions: &HashMap<usize, usize>) -> Option<Rerolled> {
         if !expressions.is_long() {
             return None;
         }
@@ -109,14 +109,14 @@ impl Rolled {
             let mut groups = bodies.len() / period;
             // The signs of a longer run may contradict each other where those of a shorter one do not.
             while groups >= FEWEST_GROUPS {
-                match Rolled::over(expressions, live, &steps, bodies.start, period, groups) {
-                    Some(rolled) => return Some(rolled),
+                match Rerolled::over(expressions, live, &steps, bodies.start, period, groups) {
+                    Some(rerolled) => return Some(rerolled),
                     None => groups = groups * 3 / 4,
                 }
             }
             None
         });
-        runs.max_by_key(|rolled| (rolled.groups * rolled.period, std::cmp::Reverse(rolled.period)))
+        runs.max_by_key(|rerolled| (rerolled.groups * rerolled.period, std::cmp::Reverse(rerolled.period)))
     }
 
     /// The place of a node in the loops; `None` where it is outside.
@@ -148,7 +148,7 @@ impl Rolled {
         first: usize,
         period: usize,
         groups: usize,
-    ) -> Option<Rolled> {
+    ) -> Option<Rerolled> {
         let graph = &expressions.graph;
         let nodes = |sweep: &'static str, group: usize| -> Vec<usize> {
             let bodies = first + group * period..first + (group + 1) * period;
@@ -158,10 +158,10 @@ impl Rolled {
         sweeps.sort_by_key(|sweep| sweep.start);
         let mut places = HashMap::new();
         for (index, sweep) in sweeps.iter().enumerate() {
-            let images = nodes(sweep.name, TEMPLATE);
+            let templates = nodes(sweep.name, TEMPLATE);
             for group in 0..groups {
-                for (node, &image) in nodes(sweep.name, group).into_iter().zip(&images) {
-                    places.insert(node, Place { sweep: index, group, image, negative: false });
+                for (node, &template) in nodes(sweep.name, group).into_iter().zip(&templates) {
+                    places.insert(node, Place { sweep: index, group, template, negative: false });
                 }
             }
         }
@@ -172,22 +172,22 @@ impl Rolled {
             place.negative = signs.is_negative(node);
         }
         let template_body = first + TEMPLATE * period;
-        let mut rolled = Rolled { groups, period, template_body, sweeps, places, constants: HashMap::new() };
-        rolled.connect(expressions, live, &signs)?;
-        rolled.tabulate(graph, &signs, &members);
-        Some(rolled)
+        let mut rerolled = Rerolled { groups, period, template_body, sweeps, places, constants: HashMap::new() };
+        rerolled.connect(expressions, live, &signs)?;
+        rerolled.tabulate(graph, &signs, &members);
+        Some(rerolled)
     }
 
     /// Finds what each loop carries on and keeps; `None` where the loops cannot run one after the other.
     fn connect(&mut self, expressions: &Expressions, live: &[bool], signs: &Signs) -> Option<()> {
         let graph = &expressions.graph;
-        let mut kept: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.sweeps.len()];
+        let mut live_out: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.sweeps.len()];
         let mut carried: Vec<BTreeMap<usize, Option<Edge>>> = vec![BTreeMap::new(); self.sweeps.len()];
-        let mut read_outside = |rolled: &Rolled, carried: &mut [BTreeMap<usize, Option<Edge>>], read: Place| {
-            if read.group == rolled.last_group(read.sweep) {
-                carried[read.sweep].entry(read.image).or_insert(None);
+        let mut read_outside = |rerolled: &Rerolled, carried: &mut [BTreeMap<usize, Option<Edge>>], read: Place| {
+            if read.group == rerolled.last_group(read.sweep) {
+                carried[read.sweep].entry(read.template).or_insert(None);
             } else {
-                kept[read.sweep].insert(read.image);
+                live_out[read.sweep].insert(read.template);
             }
         };
         for place in expressions.outputs.iter().filter_map(|output| self.place(output.node())) {
@@ -218,13 +218,13 @@ impl Rolled {
                             return None;
                         }
                         // At the start of a sweep, what the loop carries on comes from outside.
-                        let same = graph.node(user.image).operands().nth(operand)?;
-                        if let Some(image) = self.place(same.node()) {
-                            if user.group != self.first_group(user.sweep) || image.sweep != user.sweep {
+                        let same = graph.node(user.template).operands().nth(operand)?;
+                        if let Some(template) = self.place(same.node()) {
+                            if user.group != self.first_group(user.sweep) || template.sweep != user.sweep {
                                 return None;
                             }
                             let start = edge.abs().flipped_if(signs.is_negative(edge.node()));
-                            carried[user.sweep].insert(image.image, Some(start));
+                            carried[user.sweep].insert(template.template, Some(start));
                         }
                     }
                     _ => {}
@@ -232,7 +232,7 @@ impl Rolled {
             }
         }
         for (index, sweep) in self.sweeps.iter_mut().enumerate() {
-            sweep.kept = kept[index].iter().copied().collect();
+            sweep.live_out = live_out[index].iter().copied().collect();
             sweep.carried = std::mem::take(&mut carried[index]).into_iter().collect();
         }
         Some(())
@@ -243,8 +243,8 @@ impl Rolled {
         let mut values: HashMap<(usize, usize), Vec<f64>> = HashMap::new();
         for &node in members {
             let place = self.places[&node];
-            for (operand, value) in table::constants(graph, node, place.image, signs) {
-                let column = values.entry((place.image, operand)).or_insert_with(|| vec![0.0; self.groups]);
+            for (operand, value) in table::constants(graph, node, place.template, signs) {
+                let column = values.entry((place.template, operand)).or_insert_with(|| vec![0.0; self.groups]);
                 column[place.group] = value;
             }
         }
@@ -264,9 +264,9 @@ impl Rolled {
 pub fn code_size(expressions: &Expressions) -> usize {
     let angles = Angles::of([expressions]);
     let all = operations(expressions).into_iter().filter(|live| *live).count();
-    let saved = Rolled::of(expressions, &angles.positions(expressions)).map_or(0, |rolled| {
-        let in_loops: usize = rolled.sweeps.iter().map(|sweep| sweep.template.len()).sum();
-        in_loops * (rolled.groups - 1)
+    let saved = Rerolled::of(expressions, &angles.positions(expressions)).map_or(0, |rerolled| {
+        let in_loops: usize = rerolled.sweeps.iter().map(|sweep| sweep.template.len()).sum();
+        in_loops * (rerolled.groups - 1)
     });
     all - saved
 }

@@ -1,15 +1,15 @@
 //! What a generated function returns: its type, and its value from the outputs of a graph.
 
-use proc_macro2::{Literal, TokenStream};
+use super::length;
+use proc_macro2::TokenStream;
 use quote::quote;
 use redysim_model::Outline;
-use redysim_runtime::function::Shape;
+use redysim_runtime::function::{Dimension, Shape};
 
 /// The return type.
 pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> TokenStream {
-    let nv = Literal::usize_unsuffixed(outline.joints.len());
-    let nl = Literal::usize_unsuffixed(outline.links.len());
-    let nc = Literal::usize_unsuffixed(outline.loop_rows.len());
+    let [nv, nl, nc] =
+        [Dimension::Velocities, Dimension::Links, Dimension::LoopRows].map(|dimension| length(outline, dimension));
     match shape {
         Shape::Forces | Shape::Accelerations => quote!([S; #nv]),
         Shape::MassMatrix => quote!([[S; #nv]; #nv]),
@@ -24,7 +24,7 @@ pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> To
 pub fn value(shape: Shape, outline: &Outline, outputs: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     match shape {
         Shape::Forces | Shape::Accelerations | Shape::LoopRows => array(outputs),
-        Shape::MassMatrix | Shape::LoopJacobian => array(&rows(outputs, outline.joints.len())),
+        Shape::MassMatrix | Shape::LoopJacobian => array(&rows(outputs, outline.size(Dimension::Velocities))),
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
             quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })

@@ -13,16 +13,16 @@ pub enum Constant {
     Column(usize),
 }
 
-/// The constants among the operands of `node`, with the operands' numbers, as they stand in the formula of its image:
+/// The constants among the operands of `node`, with the operands' numbers, as they stand in the formula of its template:
 /// with the signs of all other values as there.
-pub fn constants(graph: &Graph, node: usize, image: usize, signs: &Signs) -> Vec<(usize, f64)> {
+pub fn constants(graph: &Graph, node: usize, template: usize, signs: &Signs) -> Vec<(usize, f64)> {
     let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
     let own = sign(signs.is_negative(node));
-    let relative = |operand: Edge, image: Edge| {
+    let relative = |operand: Edge, template: Edge| {
         let is_negative = |edge: Edge| is_operation(graph.node(edge.node())) && signs.is_negative(edge.node());
-        sign(is_negative(operand) != is_negative(image))
+        sign(is_negative(operand) != is_negative(template))
     };
-    match (graph.node(node), graph.node(image)) {
+    match (graph.node(node), graph.node(template)) {
         (Node::Multiply(a, b), Node::Multiply(_, y)) | (Node::Divide(a, b), Node::Divide(_, y)) => {
             graph.constant_value(a).map(|value| (0, own * relative(b, y) * value)).into_iter().collect()
         }

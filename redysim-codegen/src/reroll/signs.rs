@@ -10,7 +10,7 @@ use super::{Place, TEMPLATE};
 use crate::graph::{Edge, Graph, Node};
 use std::collections::HashMap;
 
-/// Signs of nodes relative to their images in the template.
+/// Signs of nodes relative to their templates in the template.
 pub struct Signs {
     /// A parent in the forest of classes, and the sign relative to the parent's.
     parents: Vec<(usize, Sign)>,
@@ -68,24 +68,24 @@ impl Signs {
         for &node in members {
             let place = places[&node];
             if place.group != TEMPLATE {
-                signs.relate(graph, node, place.image).ok()?;
+                signs.relate(graph, node, place.template).ok()?;
             }
         }
         Some(signs)
     }
 
-    /// Whether the value of `node` is the negative of its image's. Values that nothing ties have the sign plus.
+    /// Whether the value of `node` is the negative of its template's. Values that nothing ties have the sign plus.
     pub fn is_negative(&self, node: usize) -> bool {
         self.solved(self.find(node).1).has(127)
     }
 
-    fn relate(&mut self, graph: &Graph, node: usize, image: usize) -> Result<(), Contradiction> {
-        match (graph.node(node), graph.node(image)) {
+    fn relate(&mut self, graph: &Graph, node: usize, template: usize) -> Result<(), Contradiction> {
+        match (graph.node(node), graph.node(template)) {
             (own @ (Node::Add(a, b) | Node::Subtract(a, b)), other @ (Node::Add(x, y) | Node::Subtract(x, y))) => {
                 let differs = matches!(own, Node::Add(..)) != matches!(other, Node::Add(..));
-                for (operand, image, differs) in [(a, x, false), (b, y, differs)] {
+                for (operand, template, differs) in [(a, x, false), (b, y, differs)] {
                     if graph.constant_value(operand).is_none() {
-                        let known = self.known(self.element(graph, image))?;
+                        let known = self.known(self.element(graph, template))?;
                         self.join(node, self.element(graph, operand), Sign::minus_if(differs) * known)?;
                     }
                 }

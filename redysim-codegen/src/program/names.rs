@@ -1,11 +1,9 @@
-//! Identifiers of the generated code.
+//! Names of the variables of a program.
 
-use super::local;
 use crate::graph::Name;
-use proc_macro2::Ident;
 use std::collections::HashSet;
 
-/// Hands out identifiers, each once.
+/// Hands out names, each once.
 pub struct Identifiers<'a> {
     /// The name of each body of the tree, for the values that belong to it.
     bodies: &'a [String],
@@ -14,29 +12,24 @@ pub struct Identifiers<'a> {
 }
 
 impl<'a> Identifiers<'a> {
-    /// Identifiers for a function whose arguments have the names `reserved`.
+    /// Names beside those that are `reserved`.
     pub fn new(bodies: &'a [String], reserved: &[&str]) -> Self {
         Identifiers { bodies, taken: reserved.iter().map(|name| name.to_string()).collect(), unnamed: 0 }
     }
 
-    /// Keeps an identifier from being handed out.
-    pub fn reserve(&mut self, name: &str) {
-        self.taken.insert(name.to_string());
-    }
-
-    /// An identifier like `name`.
-    pub fn unique(&mut self, name: &str) -> Ident {
+    /// A name like `name`.
+    pub fn unique(&mut self, name: &str) -> String {
         let mut unique = name.to_string();
         let mut copies = 1;
         while !self.taken.insert(unique.clone()) {
             copies += 1;
             unique = format!("{name}_{copies}");
         }
-        local(&unique)
+        unique
     }
 
-    /// An identifier such as `w_a_z` for a named value of a loop over groups of bodies, which begin with body `first`.
-    pub fn make_in_loop(&mut self, name: Option<Name>, first: usize) -> Ident {
+    /// A name such as `w_a_z` for a named value of a loop over groups of bodies, which begin with body `first`.
+    pub fn make_in_loop(&mut self, name: Option<Name>, first: usize) -> String {
         let letters = ["a", "b", "c"];
         match name {
             Some(name) => {
@@ -47,8 +40,8 @@ impl<'a> Identifiers<'a> {
         }
     }
 
-    /// An identifier such as `w_link3_z` for a named value, `t7` for another.
-    pub fn make(&mut self, name: Option<Name>, flipped: bool) -> Ident {
+    /// A name such as `w_link3_z` for a named value, `t7` for another.
+    pub fn make(&mut self, name: Option<Name>, flipped: bool) -> String {
         match name {
             Some(name) => self.unique(&spelled(name, &word(&self.bodies[name.body]), flipped)),
             None => {
@@ -66,7 +59,7 @@ fn spelled(name: Name, body: &str, flipped: bool) -> String {
     format!("{sign}{}_{body}{component}", name.quantity)
 }
 
-/// The part of an identifier that stands for a name of the model.
+/// The part of a name that stands for a name of the model.
 fn word(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }

@@ -1,0 +1,3 @@
+//! Languages that a mechanism is written in.
+
+pub mod rust;

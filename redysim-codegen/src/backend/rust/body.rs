@@ -1,0 +1,254 @@
+//! A program as Rust: statements and expressions over `S: Scalar`.
+
+use crate::program::{Carried, Index, Kept, Loop, Program, Statement, Trig, Value};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+/// The names of the arguments that have the sines and the cosines of all angles.
+pub const SIN: &str = "sin";
+pub const COS: &str = "cos";
+/// The local name of `S::from_f64`.
+const FROM_F64: &str = "k";
+/// The variable of a loop: which group of bodies it is at.
+const GROUP: &str = "group";
+/// The constants of the group.
+const ROW: &str = "constants";
+
+/// The names that are not free for variables, beside those of arguments.
+pub const RESERVED: [&str; 5] = [FROM_F64, SIN, COS, GROUP, ROW];
+
+/// The name of an argument or a local value.
+pub fn local(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// A number in full precision: the shortest digits that give the same `f64`.
+pub fn constant(value: f64) -> TokenStream {
+    if !value.is_finite() {
+        // No checked model has one; should it come to that, the result is to show it.
+        return quote!(f64::NAN);
+    }
+    let digits: Literal = format!("{:?}", value.abs()).parse().expect("a finite number is a literal");
+    if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
+}
+
+/// Writes the bodies of functions.
+pub struct Printer<'a> {
+    /// The names of the function's arguments.
+    pub arguments: &'a [&'a str],
+}
+
+/// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Lowest,
+    Sum,
+    Product,
+    Unary,
+}
+
+impl Printer<'_> {
+    /// Statements, then the result that `result` makes of the outputs.
+    pub fn body(&self, program: &Program, result: impl FnOnce(&[TokenStream]) -> TokenStream) -> TokenStream {
+        let k = local(FROM_F64);
+        let statements = program.statements.iter().map(|statement| self.statement(statement));
+        let outputs: Vec<TokenStream> =
+            program.outputs.iter().map(|output| self.value(output, Binding::Lowest)).collect();
+        let result = result(&outputs);
+        quote! {
+            let #k = S::from_f64;
+            #(#statements)*
+            #result
+        }
+    }
+
+    fn statement(&self, statement: &Statement) -> TokenStream {
+        match statement {
+            Statement::Take { array, names } => {
+                let (array, names) = (trig(*array), patterns(names));
+                quote!(let [#(#names),*] = *#array;)
+            }
+            Statement::Let { name, value } => {
+                let (name, value) = (local(name), self.value(value, Binding::Lowest));
+                quote!(let #name = #value;)
+            }
+            Statement::Block { statements, live_out } => {
+                let code = statements.iter().map(|statement| self.statement(statement));
+                let live_out: Vec<Ident> = live_out.iter().map(|name| local(name)).collect();
+                quote! {
+                    let [#(#live_out),*] = {
+                        #(#code)*
+                        [#(#live_out),*]
+                    };
+                }
+            }
+            Statement::Loop(each) => self.sweep(each),
+        }
+    }
+
+    /// ```text
+    /// let mut last_w_a_x = w_link2_x;                       // what goes from body to body
+    /// let mut outward = [[S::zero(); 2]; 38];               // what is read elsewhere
+    /// for group in 0..38 {
+    ///     let constants = &CONSTANTS[group];
+    ///     let w_a_x = …;
+    ///     last_w_a_x = w_a_x;
+    ///     outward[group] = [force_a_x, moment_a_z];
+    /// }
+    /// ```
+    ///
+    /// An array from a closure would not have to be set to zero first, but where the compiler does not inline the
+    /// closure, what goes from body to body goes through memory.
+    fn sweep(&self, Loop { groups, ascending, carried, kept, constants, reads, body }: &Loop) -> TokenStream {
+        let (group, row) = (local(GROUP), local(ROW));
+        let length = Literal::usize_unsuffixed(*groups);
+        let range = if *ascending { quote!(0..#length) } else { quote!((0..#length).rev()) };
+        let starts = carried.iter().map(|Carried { name, start, .. }| {
+            let (name, start) = (local(name), self.start(start));
+            quote!(let mut #name = #start;)
+        });
+        let steps = carried.iter().map(|Carried { name, next, .. }| {
+            let (name, next) = (local(name), local(next));
+            quote!(#name = #next;)
+        });
+        let room = kept.iter().map(|Kept { array, values }| {
+            let (array, width) = (local(array), Literal::usize_unsuffixed(values.len()));
+            quote!(let mut #array = [[S::zero(); #width]; #length];)
+        });
+        let keep = kept.iter().map(|Kept { array, values }| {
+            let (array, values) = (local(array), values.iter().map(|name| local(name)));
+            quote!(#array[#group] = [#(#values),*];)
+        });
+        let reads = reads.iter().map(|(array, names)| {
+            let (array, names) = (local(array), patterns(names));
+            quote!(let [#(#names),*] = #array[#group];)
+        });
+        let table = table(constants);
+        let constants = (!constants.is_empty()).then(|| quote!(let #row = &CONSTANTS[#group];));
+        let code = body.iter().map(|statement| self.statement(statement));
+        quote! {
+            #(#starts)*
+            #(#room)*
+            {
+                #table
+                for #group in #range {
+                    #constants
+                    #(#reads)*
+                    #(#code)*
+                    #(#steps)*
+                    #(#keep)*
+                }
+            }
+        }
+    }
+
+    /// What a loop carries on before its first group.
+    fn start(&self, value: &Value) -> TokenStream {
+        if *value == Value::Constant(0.0) { quote!(S::zero()) } else { self.value(value, Binding::Lowest) }
+    }
+
+    fn value(&self, value: &Value, binding: Binding) -> TokenStream {
+        let (own, tokens) = match value {
+            Value::Constant(value) => {
+                let (k, value) = (local(FROM_F64), constant(*value));
+                return quote!(#k(#value));
+            }
+            Value::GroupConstant(column) => {
+                let (k, row, column) = (local(FROM_F64), local(ROW), Literal::usize_unsuffixed(*column));
+                return quote!(#k(#row[#column]));
+            }
+            Value::Variable(name) => {
+                let name = local(name);
+                return quote!(#name);
+            }
+            Value::Argument(argument, place) => {
+                let (argument, place) = (local(self.arguments[*argument]), index(*place));
+                return quote!(#argument[#place]);
+            }
+            Value::Trig(array, place) => {
+                let (array, place) = (trig(*array), index(*place));
+                return quote!(#array[#place]);
+            }
+            Value::Kept(array, group, column) => {
+                let (array, [group, column]) = (local(array), [*group, *column].map(Literal::usize_unsuffixed));
+                return quote!(#array[#group][#column]);
+            }
+            Value::Negative(a) => {
+                let a = self.value(a, Binding::Unary);
+                return quote!(-#a);
+            }
+            Value::MultiplyAdd(a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|operand| self.value(operand, Binding::Lowest));
+                return quote!(S::mul_add(#a, #b, #c));
+            }
+            Value::SquareRoot(a) => {
+                let a = self.value(a, Binding::Lowest);
+                return quote!(S::sqrt(#a));
+            }
+            Value::Sum(a, b) => {
+                let (a, b) = (self.value(a, Binding::Lowest), self.value(b, Binding::Sum));
+                (Binding::Sum, quote!(#a + #b))
+            }
+            Value::Difference(a, b) => {
+                let (a, b) = (self.value(a, Binding::Lowest), self.value(b, Binding::Sum));
+                (Binding::Sum, quote!(#a - #b))
+            }
+            Value::Product(a, b) => {
+                let (a, b) = (self.value(a, Binding::Sum), self.value(b, Binding::Product));
+                (Binding::Product, quote!(#a * #b))
+            }
+            Value::Quotient(a, b) => {
+                let (a, b) = (self.value(a, Binding::Sum), self.value(b, Binding::Product));
+                (Binding::Product, quote!(#a / #b))
+            }
+        };
+        if own <= binding && binding != Binding::Lowest { quote!((#tokens)) } else { tokens }
+    }
+}
+
+fn trig(array: Trig) -> Ident {
+    local(match array {
+        Trig::Sines => SIN,
+        Trig::Cosines => COS,
+    })
+}
+
+fn index(index: Index) -> TokenStream {
+    let group = local(GROUP);
+    match index {
+        Index::At(place) => {
+            let place = Literal::usize_unsuffixed(place);
+            quote!(#place)
+        }
+        Index::OfGroup { first, period } => {
+            let [first_place, length] = [first, period].map(Literal::usize_unsuffixed);
+            match (first, period) {
+                (0, 1) => quote!(#group),
+                (0, _) => quote!(#length * #group),
+                (_, 1) => quote!(#group + #first_place),
+                _ => quote!(#length * #group + #first_place),
+            }
+        }
+    }
+}
+
+/// A pattern for each element of an array.
+fn patterns(names: &[Option<String>]) -> Vec<TokenStream> {
+    let pattern = |name: &Option<String>| {
+        name.as_ref().map_or(quote!(_), |name| {
+            let name = local(name);
+            quote!(#name)
+        })
+    };
+    names.iter().map(pattern).collect()
+}
+
+/// The constants of all groups, by rows.
+fn table(rows: &[Vec<f64>]) -> Option<TokenStream> {
+    let [width, length] = [rows.first()?.len(), rows.len()].map(Literal::usize_unsuffixed);
+    let rows = rows.iter().map(|row| {
+        let values = row.iter().map(|&value| constant(value));
+        quote!([#(#values),*])
+    });
+    Some(quote!(static CONSTANTS: [[f64; #width]; #length] = [#(#rows),*];))
+}

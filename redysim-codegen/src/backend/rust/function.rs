@@ -1,0 +1,187 @@
+//! One function of a mechanism: of coordinates, and of a posture.
+
+use super::angles::{angle, without_turns};
+use super::body::{COS, Printer, RESERVED, SIN, local};
+use super::{documentation, length, results};
+use crate::angles::Angles;
+use crate::expressions::Expressions;
+use crate::functions::TracedFunction;
+use crate::program::{Names, program};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use redysim_model::{Function, Model, Outline};
+use redysim_runtime::function::{Argument, Dimension};
+
+/// The name of the argument that has the coordinates with the sines and cosines.
+const POSTURE: &str = "at";
+
+/// Writes the inherent functions of one type.
+pub struct Writer<'a> {
+    pub model: &'a Model,
+    pub bodies: &'a [String],
+    pub angles: &'a Angles,
+    pub outline: &'a Outline,
+    pub runtime: &'a TokenStream,
+}
+
+impl Writer<'_> {
+    /// The function that computes the sines and cosines of all angles.
+    pub fn posture(&self) -> TokenStream {
+        let head = posture_head(self.outline, self.angles.len(), self.runtime);
+        let (q, runtime) = (local("q"), self.runtime);
+        let (terms, angles) =
+            (self.terms_of_sums(0..self.angles.len()), self.angles.at(0..self.angles.len()).map(angle));
+        let body = with_target_features(&quote! {
+            #terms
+            let (sin, cos) = S::sin_cos_all([#(#angles),*]);
+            #runtime::Posture::new(#q, &sin, &cos)
+        });
+        quote! {
+            /// Coordinates with the sines and cosines of all angles: computed once, they serve every function whose
+            /// name ends in `_at`.
+            #[inline]
+            pub #head {
+                #body
+            }
+        }
+    }
+
+    /// The statement that takes whole turns off the coordinates whose sums are among the angles at `positions`.
+    fn terms_of_sums(&self, positions: impl IntoIterator<Item = usize>) -> Option<TokenStream> {
+        let coordinates = self.angles.summed(positions);
+        let (q, names) = (local("q"), coordinates.iter().map(|&coordinate| without_turns(coordinate)));
+        let places = coordinates.iter().map(|&coordinate| Literal::u32_unsuffixed(coordinate));
+        (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
+    }
+
+    /// One function with its documentation: of coordinates, and of a posture. What both compute after the sines and
+    /// cosines is a function of its own, which becomes part of either, so that no posture goes through memory.
+    pub fn function(&self, traced: &TracedFunction) -> TokenStream {
+        let TracedFunction { function, ref expressions, .. } = *traced;
+        let signature = function.signature();
+        let Writer { model, bodies, angles, outline, runtime } = *self;
+        let (head, head_at) = (head(function, outline, runtime), head_at(function, outline, angles.len(), runtime));
+        let head_inlined = head_inlined(function, outline, angles.len(), runtime);
+        let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
+        let reserved = [arguments.as_slice(), &RESERVED].concat();
+        let program = program(expressions, &Names { reserved: &reserved, bodies, angles });
+        let result = |outputs: &[TokenStream]| results::value(signature.result, outline, outputs, runtime);
+        let body = Printer { arguments: &arguments }.body(&program, result);
+        let paragraphs = documentation::paragraphs(traced, model);
+        let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
+        let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
+        let docs_at = format!(" [`{0}`](Self::{0}) where the sines and cosines are there already.", function.name());
+        let (inlined, q, at) = (inlined(function), local("q"), local(POSTURE));
+        let others: Vec<Ident> = others(function).collect();
+        let (computed, sin, cos) = self.needed_angles(expressions);
+        let of_coordinates = with_target_features(&quote! {
+            #computed
+            Self::#inlined(#q, #sin, #cos #(, #others)*)
+        });
+        let of_posture = with_target_features(&quote!(Self::#inlined(&#at.#q, &#at.sin, &#at.cos #(, #others)*)));
+        quote! {
+            #(#[doc = #docs])*
+            pub #head {
+                #of_coordinates
+            }
+            #[doc = #docs_at]
+            pub #head_at {
+                #of_posture
+            }
+            #[inline(always)]
+            #head_inlined {
+                #body
+            }
+        }
+    }
+
+    /// The statement that computes the sines and cosines that one function needs, and those of all angles, of which
+    /// what it never reads is zero.
+    fn needed_angles(&self, expressions: &Expressions) -> (Option<TokenStream>, TokenStream, TokenStream) {
+        let needed = self.angles.needed_by(expressions);
+        let values: Vec<TokenStream> = self.angles.at(needed.iter().copied()).map(angle).collect();
+        let terms = self.terms_of_sums(needed.iter().copied());
+        let computed = (!values.is_empty()).then(|| quote!(#terms let (sin, cos) = S::sin_cos_all([#(#values),*]);));
+        if needed.len() == self.angles.len() && !needed.is_empty() {
+            return (computed, quote!(&sin), quote!(&cos));
+        }
+        let [sin, cos] = [SIN, COS].map(|function| {
+            let elements = (0..self.angles.len()).map(|position| match needed.binary_search(&position) {
+                Ok(place) => {
+                    let (array, place) = (local(function), Literal::usize_unsuffixed(place));
+                    quote!(#array[#place])
+                }
+                Err(_) => quote!(S::zero()),
+            });
+            let elements: Vec<TokenStream> = elements.collect();
+            quote!(&[#(#elements),*])
+        });
+        (computed, sin, cos)
+    }
+}
+
+/// `body` in code for the instructions that the scalar stands on.
+fn with_target_features(body: &TokenStream) -> TokenStream {
+    quote!(S::with_target_features(#[inline(always)] || { #body }))
+}
+
+/// The names of a function's arguments.
+pub fn arguments(function: Function) -> impl Iterator<Item = Ident> {
+    function.signature().arguments.iter().map(|argument| local(argument.name()))
+}
+
+/// The names of those after the coordinates.
+fn others(function: Function) -> impl Iterator<Item = Ident> {
+    arguments(function).skip(1)
+}
+
+/// The arguments with their types.
+pub fn parameters(function: Function, outline: &Outline) -> impl Iterator<Item = TokenStream> {
+    function.signature().arguments.iter().map(|argument: &Argument| {
+        let (name, length) = (local(argument.name()), length(outline, argument.dimension()));
+        quote!(#name: &[S; #length])
+    })
+}
+
+/// The name of what a function computes after the sines and cosines.
+fn inlined(function: Function) -> Ident {
+    format_ident!("{}_inlined", function.name())
+}
+
+/// Name, arguments and result of what a function computes after the sines and cosines of `angles` angles.
+fn head_inlined(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let name = inlined(function);
+    let angles = Literal::usize_unsuffixed(angles);
+    let [sin, cos] = [SIN, COS].map(local);
+    let (q, others) = (parameters(function, outline).take(1), parameters(function, outline).skip(1));
+    let output = results::output_type(function.signature().result, outline, runtime);
+    quote!(fn #name<S: #runtime::Scalar>(
+        #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)*
+    ) -> #output)
+}
+
+/// Name, argument and result of the function that computes sines and cosines.
+pub fn posture_head(outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let (nq, angles) = (length(outline, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
+    let q = local("q");
+    quote!(fn posture<S: #runtime::Scalar>(#q: &[S; #nq]) -> #runtime::Posture<S, #nq, #angles>)
+}
+
+/// Name, arguments and result of a function of a posture with `angles` angles.
+pub fn head_at(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}_at", function.name());
+    let (nq, angles) = (length(outline, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
+    let (at, others) = (local(POSTURE), parameters(function, outline).skip(1));
+    let output = results::output_type(function.signature().result, outline, runtime);
+    quote!(fn #name<S: #runtime::Scalar>(
+        #at: &#runtime::Posture<S, #nq, #angles> #(, #others)*
+    ) -> #output)
+}
+
+/// Name, arguments and result of a function.
+pub fn head(function: Function, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}", function.name());
+    let parameters = parameters(function, outline);
+    let output = results::output_type(function.signature().result, outline, runtime);
+    quote!(fn #name<S: #runtime::Scalar>(#(#parameters),*) -> #output)
+}

@@ -1,0 +1,112 @@
+//! A mechanism as Rust: `impl`s of a type, over any `S: Scalar`.
+
+mod angles;
+mod body;
+pub mod documentation;
+mod function;
+mod results;
+pub mod source;
+mod traits;
+
+use crate::angles::Angles;
+use crate::functions::TracedFunction;
+use function::{Writer, head, head_at, posture_head};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use redysim_model::{Function, Model, Outline, Tree};
+use redysim_runtime::OperationCount;
+use redysim_runtime::function::Dimension;
+
+/// The `impl`s of the type `name` with the given functions.
+pub fn mechanism(
+    model: &Model,
+    outline: &Outline,
+    functions: &[TracedFunction],
+    name: &Ident,
+    runtime: &TokenStream,
+) -> TokenStream {
+    let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
+    let bodies: Vec<String> = Tree::new(model).bodies.iter().map(|body| moving[body.coordinate].to_string()).collect();
+    let angles = Angles::of(functions.iter().map(|function| &function.expressions));
+    let writer = Writer { model, bodies: &bodies, angles: &angles, outline, runtime };
+    let definitions =
+        std::iter::once(writer.posture()).chain(functions.iter().map(|function| writer.function(function)));
+    let operations: Vec<_> = functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect();
+    type_impls(outline, name, runtime, &operations, definitions.collect())
+}
+
+/// The `impl`s of a type whose model has faults: everything has its type and nothing has a meaning, so that the faults
+/// of the model are the only errors.
+pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let angles = outline.size(Dimension::Coordinates);
+    let posture = posture_head(outline, angles, runtime);
+    let functions = outline.functions.iter();
+    let heads =
+        functions.flat_map(|function| [head(function, outline, runtime), head_at(function, outline, angles, runtime)]);
+    let definitions = std::iter::once(posture).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
+    type_impls(outline, name, runtime, &[], definitions.collect())
+}
+
+fn type_impls(
+    outline: &Outline,
+    name: &Ident,
+    runtime: &TokenStream,
+    operations: &[(Function, OperationCount)],
+    definitions: Vec<TokenStream>,
+) -> TokenStream {
+    let constants = constants(outline, operations, runtime);
+    let mechanism = traits::mechanism(outline, name, runtime);
+    let closure = traits::closure(outline, name, runtime);
+    let traits = outline.functions.iter().map(|function| traits::own(function, outline, name, runtime));
+    quote! {
+        #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
+        impl #name {
+            #constants
+            #(#definitions)*
+        }
+        #mechanism
+        #(#traits)*
+        #closure
+    }
+}
+
+/// A size of the mechanism, as the length of an array.
+fn length(outline: &Outline, dimension: Dimension) -> Literal {
+    Literal::usize_unsuffixed(outline.size(dimension))
+}
+
+fn constants(outline: &Outline, operations: &[(Function, OperationCount)], runtime: &TokenStream) -> TokenStream {
+    let Outline { name, links, joints, actuated, loop_rows, .. } = outline;
+    let sizes = [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows];
+    let [nq, nv, nl, nc] = sizes.map(|dimension| length(outline, dimension));
+    let counts = operations.iter().map(|(function, count)| {
+        let field = format_ident!("{}", function.name());
+        let [additions, multiplications, divisions, trig] =
+            [count.additions, count.multiplications, count.divisions, count.trig].map(Literal::u32_unsuffixed);
+        quote!(#field: #runtime::OperationCount {
+            additions: #additions, multiplications: #multiplications, divisions: #divisions, trig: #trig,
+        })
+    });
+    quote! {
+        /// Name of the model.
+        pub const NAME: &'static str = #name;
+        /// Number of joint coordinates.
+        pub const NQ: usize = #nq;
+        /// Number of joint velocities.
+        pub const NV: usize = #nv;
+        /// Number of links.
+        pub const NL: usize = #nl;
+        /// Number of rows of the loop constraints.
+        pub const NC: usize = #nc;
+        /// Names of the links, in the model's order.
+        pub const LINK_NAMES: [&'static str; #nl] = [#(#links),*];
+        /// Names of the joints that move, in the model's order.
+        pub const JOINT_NAMES: [&'static str; #nv] = [#(#joints),*];
+        /// Name of the loop to which each row of the loop constraints belongs.
+        pub const LOOP_NAMES: [&'static str; #nc] = [#(#loop_rows),*];
+        /// Whether each moving joint has an actuator.
+        pub const ACTUATED: [bool; #nv] = [#(#actuated),*];
+        /// Operations of each function.
+        pub const OPS: #runtime::Operations = #runtime::Operations { #(#counts,)* ..#runtime::Operations::NONE };
+    }
+}

@@ -1,0 +1,114 @@
+//! The runtime's traits, for a type that has their functions.
+
+use super::function::{arguments, parameters};
+use super::{length, results};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use redysim_model::{Function, Outline};
+use redysim_runtime::function::{Dimension, Interface};
+
+/// The trait that has the function alone; nothing for a function of a trait that has several.
+pub fn own(function: Function, outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let (trait_name, tangent) = match function.signature().interface {
+        Interface::Own(trait_name) => (trait_name, None),
+        Interface::WithTangent(trait_name) => (trait_name, Some(tangent(function, runtime))),
+        Interface::LoopClosure => return TokenStream::new(),
+    };
+    let trait_name = format_ident!("{trait_name}");
+    let method = method(function, outline, runtime);
+    quote! {
+        impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
+            #method
+            #tangent
+        }
+    }
+}
+
+/// The derivative of a function whose trait asks for one: the same code over dual numbers.
+fn tangent(function: Function, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}_tangent", function.name());
+    quote! {
+        fn #name(
+            &self,
+            at: #runtime::mechanism::Arguments<'_, S, Self>,
+            slopes: #runtime::mechanism::Arguments<'_, S, Self>,
+        ) -> ::core::option::Option<Self::Velocities> {
+            ::core::option::Option::Some(#runtime::dual::#name(self, at, slopes))
+        }
+    }
+}
+
+/// The method of a trait that is one of the type's own functions.
+fn method(function: Function, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}", function.name());
+    let (arguments, parameters) = (arguments(function), parameters(function, outline));
+    let output = results::output_type(function.signature().result, outline, runtime);
+    quote! {
+        #[inline]
+        fn #name(&self, #(#parameters),*) -> #output {
+            Self::#name(#(#arguments),*)
+        }
+    }
+}
+
+/// The closure of the loops, for a type that has all of its functions.
+pub fn closure(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let own = Function::ALL.iter().copied().filter(|function| function.needs_loops());
+    if !own.clone().all(|function| outline.functions.contains(function)) {
+        return TokenStream::new();
+    }
+    let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| length(outline, dimension));
+    let methods = own.map(|function| method(function, outline, runtime));
+    quote! {
+        impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {
+            type Rows = [S; #nc];
+            type Jacobian = [[S; #nv]; #nc];
+            type Gram = [[S; #nc]; #nc];
+            fn nc(&self) -> usize {
+                Self::NC
+            }
+            fn loop_name(&self, row: usize) -> ::core::option::Option<&str> {
+                Self::LOOP_NAMES.get(row).copied()
+            }
+            #(#methods)*
+        }
+    }
+}
+
+pub fn mechanism(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let [nq, nv, nl] =
+        [Dimension::Coordinates, Dimension::Velocities, Dimension::Links].map(|dimension| length(outline, dimension));
+    // Coordinates, velocities, and the energy of the actuators.
+    let state = outline.size(Dimension::Coordinates) + outline.size(Dimension::Velocities) + 1;
+    let state = Literal::usize_unsuffixed(state);
+    quote! {
+        impl<S: #runtime::Scalar> #runtime::Mechanism<S> for #name {
+            type Coordinates = [S; #nq];
+            type Velocities = [S; #nv];
+            type State = [S; #state];
+            type Matrix = [[S; #nv]; #nv];
+            type Links = [#runtime::LinkState<S>; #nl];
+            fn name(&self) -> &str {
+                Self::NAME
+            }
+            fn nq(&self) -> usize {
+                Self::NQ
+            }
+            fn nv(&self) -> usize {
+                Self::NV
+            }
+            fn nl(&self) -> usize {
+                Self::NL
+            }
+            fn link_name(&self, index: usize) -> ::core::option::Option<&str> {
+                Self::LINK_NAMES.get(index).copied()
+            }
+            fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
+                Self::JOINT_NAMES.get(index).copied()
+            }
+            fn coordinate_rates(&self, _q: &[S; #nq], v: &[S; #nv]) -> [S; #nq] {
+                *v
+            }
+        }
+    }
+}

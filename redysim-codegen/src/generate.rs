@@ -1,0 +1,87 @@
+//! From a model to the code of a mechanism.
+
+use crate::backend::rust::{self, documentation};
+use crate::functions::{TraceError, TracedFunction, trace_of, trace_scene};
+use crate::passes::{ChangedValue, Passes};
+use proc_macro2::{Ident, TokenStream};
+use redysim_model::{Function, Model, Outline, Scene, Tree};
+use redysim_runtime::OperationCount;
+
+/// The code of a mechanism, and what it costs.
+#[derive(Clone, Debug)]
+pub struct Generated {
+    /// `impl` blocks for a type that is declared elsewhere.
+    pub tokens: TokenStream,
+    /// Operations of each function.
+    pub operations: Vec<(Function, OperationCount)>,
+    /// What was asked for and cannot be.
+    pub warnings: Vec<String>,
+}
+
+/// What the functions of a mechanism cost.
+#[derive(Clone, Debug)]
+pub struct Counted {
+    /// Operations of each function.
+    pub operations: Vec<(Function, OperationCount)>,
+    /// What was asked for and cannot be.
+    pub warnings: Vec<String>,
+}
+
+/// The `impl`s of the type `name` for `model`; `runtime` is the path of the crate `redysim_runtime`.
+///
+/// # Errors
+///
+/// In debug builds passes over expressions are verified, and one that changes a value is reported.
+pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Result<Generated, ChangedValue> {
+    implementation_with(model, name, runtime, &Scene::default(), &Passes::default())
+}
+
+/// The same with no more than what is asked of the mechanism, and with the given passes only, to see what the others
+/// gain.
+///
+/// # Errors
+///
+/// As [`implementation`].
+pub fn implementation_with(
+    model: &Model,
+    name: &Ident,
+    runtime: &TokenStream,
+    scene: &Scene,
+    passes: &Passes,
+) -> Result<Generated, ChangedValue> {
+    let (functions, warnings) = functions(model, scene, passes)?;
+    let tokens = rust::mechanism(model, &Outline::new(model, scene), &functions, name, runtime);
+    Ok(Generated { tokens, operations: operations_of(&functions), warnings })
+}
+
+/// What the functions of a compiled mechanism cost, and what was asked for and cannot be, without the code.
+///
+/// # Errors
+///
+/// As [`implementation`].
+pub fn operations(model: &Model, scene: &Scene) -> Result<Counted, ChangedValue> {
+    let (functions, warnings) = functions(model, scene, &Passes::default())?;
+    Ok(Counted { operations: operations_of(&functions), warnings })
+}
+
+/// The functions that a scene asks for, and what of it cannot be.
+fn functions(
+    model: &Model,
+    scene: &Scene,
+    passes: &Passes,
+) -> Result<(Vec<TracedFunction>, Vec<String>), ChangedValue> {
+    let (functions, unpruned) = match trace_scene(model, scene, passes) {
+        Ok(functions) => (functions, None),
+        Err(TraceError::ChangedValue(changed)) => return Err(changed),
+        Err(no_range @ TraceError::NoRange { .. }) => {
+            let unpruned = format!("nothing is pruned: {no_range}");
+            (trace_of(&Tree::new(model), scene, passes)?, Some(unpruned))
+        }
+    };
+    let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
+    Ok((functions, warnings))
+}
+
+fn operations_of(functions: &[TracedFunction]) -> Vec<(Function, OperationCount)> {
+    functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect()
+}

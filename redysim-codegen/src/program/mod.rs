@@ -1,0 +1,192 @@
+//! A function as statements over plain expressions: what a backend prints, in whatever language.
+//!
+//! A program is made once from a graph: values with a name or more than one use have a `let`, products and sums that are
+//! one fused operation are found, alike bodies become loops, and long functions blocks. A backend decides nothing; it
+//! writes what stands here.
+
+mod blocks;
+mod build;
+mod loops;
+mod names;
+mod values;
+
+pub use build::{Names, program};
+
+/// The body of a function that finds the sines and cosines of all angles in two arrays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// In order.
+    pub statements: Vec<Statement>,
+    /// What is returned, in the order of the function's [`Shape`](redysim_runtime::function::Shape).
+    pub outputs: Vec<Value>,
+}
+
+/// One statement. Every variable is defined once, before it is read.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// Takes elements of an array by name; `None` is not taken.
+    Take {
+        /// The array.
+        array: Trig,
+        /// A variable for each of its elements.
+        names: Vec<Option<String>>,
+    },
+    /// Defines a variable.
+    Let {
+        /// The variable.
+        name: String,
+        /// Its value.
+        value: Value,
+    },
+    /// Statements of which only some variables are read later.
+    Block {
+        /// The statements.
+        statements: Vec<Statement>,
+        /// The variables read later.
+        live_out: Vec<String>,
+    },
+    /// A loop over groups of alike bodies.
+    Loop(Loop),
+}
+
+/// The arrays of what is known of the angles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trig {
+    /// Their sines.
+    Sines,
+    /// Their cosines.
+    Cosines,
+}
+
+/// A sweep of a recursion over groups of alike bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loop {
+    /// Number of groups.
+    pub groups: usize,
+    /// Whether it starts at the first group; else at the last.
+    pub ascending: bool,
+    /// What goes from group to group, and is read after the loop.
+    pub carried: Vec<Carried>,
+    /// The array in which values of every group are kept for later, and these values.
+    pub kept: Option<Kept>,
+    /// The constants of each group, by rows; empty if there are none.
+    pub constants: Vec<Vec<f64>>,
+    /// What other loops have kept for the same group: their arrays, and a variable for each value that is read.
+    pub reads: Vec<(String, Vec<Option<String>>)>,
+    /// The statements for one group.
+    pub body: Vec<Statement>,
+}
+
+/// A variable that goes from group to group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Carried {
+    /// The variable.
+    pub name: String,
+    /// Its value before the loop.
+    pub start: Value,
+    /// The variable of the loop's body whose value it takes at the end of each group.
+    pub next: String,
+}
+
+/// Values of every group that are read after a loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// The array, by groups.
+    pub array: String,
+    /// The variables of the loop's body that are its columns.
+    pub values: Vec<String>,
+}
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number known now.
+    Constant(f64),
+    /// A constant of the group that a loop is at: its column.
+    GroupConstant(usize),
+    /// A variable.
+    Variable(String),
+    /// An element of an argument, which the function's signature numbers.
+    Argument(usize, Index),
+    /// An element of an array of sines or cosines.
+    Trig(Trig, Index),
+    /// A value that a loop has kept: array, group, column.
+    Kept(String, usize, usize),
+    /// −a.
+    Negative(Box<Value>),
+    /// a + b.
+    Sum(Box<Value>, Box<Value>),
+    /// a − b.
+    Difference(Box<Value>, Box<Value>),
+    /// a b.
+    Product(Box<Value>, Box<Value>),
+    /// a / b.
+    Quotient(Box<Value>, Box<Value>),
+    /// a b + c, which may be rounded once.
+    MultiplyAdd(Box<Value>, Box<Value>, Box<Value>),
+    /// The non-negative square root of a.
+    SquareRoot(Box<Value>),
+}
+
+/// Where an element stands in an array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Index {
+    /// At this place.
+    At(usize),
+    /// In a loop over groups of `period` bodies: at `first + period · group`.
+    OfGroup {
+        /// The place in the first group.
+        first: usize,
+        /// Places from group to group.
+        period: usize,
+    },
+}
+
+impl Value {
+    /// −a, without two signs.
+    fn negated(self) -> Value {
+        match self {
+            Value::Constant(value) => Value::Constant(-value),
+            Value::Negative(value) => *value,
+            value => Value::Negative(Box::new(value)),
+        }
+    }
+
+    /// Whether a sign stands in front.
+    fn is_negative(&self) -> bool {
+        matches!(self, Value::Negative(_)) || matches!(self, Value::Constant(value) if *value < 0.0)
+    }
+
+    /// Calls `visit` with every variable in the value.
+    fn variables<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
+        match self {
+            Value::Variable(name) => visit(name),
+            Value::Negative(a) | Value::SquareRoot(a) => a.variables(visit),
+            Value::Sum(a, b) | Value::Difference(a, b) | Value::Product(a, b) | Value::Quotient(a, b) => {
+                a.variables(visit);
+                b.variables(visit);
+            }
+            Value::MultiplyAdd(a, b, c) => {
+                a.variables(visit);
+                b.variables(visit);
+                c.variables(visit);
+            }
+            Value::Constant(_) | Value::GroupConstant(_) | Value::Argument(..) | Value::Trig(..) | Value::Kept(..) => {}
+        }
+    }
+}
+
+impl Statement {
+    /// Calls `visit` with every variable that the statement reads, its own among them.
+    fn reads<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
+        match self {
+            Statement::Take { .. } => {}
+            Statement::Let { value, .. } => value.variables(visit),
+            Statement::Block { statements, .. } => statements.iter().for_each(|statement| statement.reads(visit)),
+            Statement::Loop(each) => {
+                each.carried.iter().for_each(|carried| carried.start.variables(visit));
+                each.body.iter().for_each(|statement| statement.reads(visit));
+            }
+        }
+    }
+}
