@@ -3,8 +3,7 @@
 
 use super::blocks::in_blocks;
 use super::names::Identifiers;
-use super::values::Scope;
-use super::{Program, Statement, Trig, Value};
+use super::{Program, Scope, Statement, Trig, Value};
 use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::graph::{Graph, Node};

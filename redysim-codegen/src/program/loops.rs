@@ -1,14 +1,9 @@
 //! One sweep over alike bodies as a loop.
 
 use super::build::Builder;
-use super::values::Scope;
-use super::{Carried, Kept, Loop, Statement, Value};
+use super::names::carried;
+use super::{Carried, Kept, Loop, Scope, Statement, Value};
 use crate::reroll::{Rerolled, Sweep};
-
-/// What a loop carries from one group to the next.
-pub fn carried(name: &str) -> String {
-    format!("last_{name}")
-}
 
 impl Builder<'_> {
     /// The loop for sweep number `number`.

@@ -142,6 +142,15 @@ pub enum Index {
     },
 }
 
+/// Where a value is read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Scope {
+    /// Outside of loops.
+    Outside,
+    /// In the loop of this sweep.
+    Sweep(usize),
+}
+
 impl Value {
     /// −a, without two signs.
     fn negated(self) -> Value {

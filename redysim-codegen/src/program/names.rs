@@ -63,3 +63,8 @@ fn spelled(name: Name, body: &str, flipped: bool) -> String {
 fn word(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }
+
+/// What a loop carries from one group to the next.
+pub fn carried(name: &str) -> String {
+    format!("last_{name}")
+}

@@ -1,19 +1,10 @@
 //! Operations of the graph as values.
 
 use super::build::Builder;
-use super::loops::carried;
-use super::{Index, Trig, Value};
+use super::names::carried;
+use super::{Index, Scope, Trig, Value};
 use crate::graph::{Edge, Node};
 use crate::reroll::{Constant, TEMPLATE};
-
-/// Where a value is read.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Scope {
-    /// Outside of loops.
-    Outside,
-    /// In the loop of this sweep.
-    Sweep(usize),
-}
 
 /// An operand of an operation.
 #[derive(Clone, Copy)]
