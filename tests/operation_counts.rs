@@ -7,7 +7,7 @@
 mod linkages;
 
 use linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
-use redysim::{OperationCount, Operations, redysim};
+use redysim::{Function, OperationCount, Operations, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::{Model, Tree};
 use std::fmt::Write;
@@ -45,36 +45,13 @@ redysim! {
 
 /// A row for each function that the mechanism has.
 fn table(operations: &Operations) -> String {
-    let Operations {
-        inverse_dynamics,
-        forward_dynamics,
-        mass_matrix,
-        bias_forces,
-        gravity_forces,
-        energy,
-        link_kinematics,
-        loop_residual,
-        loop_jacobian,
-        loop_bias,
-    } = operations;
-    let rows = [
-        ("inverse_dynamics", inverse_dynamics),
-        ("forward_dynamics", forward_dynamics),
-        ("mass_matrix", mass_matrix),
-        ("bias_forces", bias_forces),
-        ("gravity_forces", gravity_forces),
-        ("energy", energy),
-        ("link_kinematics", link_kinematics),
-        ("loop_residual", loop_residual),
-        ("loop_jacobian", loop_jacobian),
-        ("loop_bias", loop_bias),
-    ];
     let head = format!("{:<16} {:>5} {:>5} {:>4} {:>5} {:>6}", "function", "add", "mul", "div", "trig", "flops");
-    let row = |(name, count): (&str, &OperationCount)| {
+    let row = |function: &Function| {
+        let count = operations[*function];
         let OperationCount { additions, multiplications, divisions, trig } = count;
-        format!("{name:<16} {additions:>5} {multiplications:>5} {divisions:>4} {trig:>5} {:>6}", count.flops())
+        format!("{function:<16} {additions:>5} {multiplications:>5} {divisions:>4} {trig:>5} {:>6}", count.flops())
     };
-    let present = rows.into_iter().filter(|(_, count)| **count != OperationCount::NONE);
+    let present = Function::ALL.iter().filter(|function| operations[**function] != OperationCount::NONE);
     std::iter::once(head).chain(present.map(row)).collect::<Vec<_>>().join("\n")
 }
 
