@@ -12,15 +12,15 @@ use common::dual::{Dual, moving};
 use common::models::{Gantry, Gripper, Kr5, generic};
 use common::random::{Random, State};
 use redysim::generic::{GenericMechanism, Model};
-use redysim::{LinkState, Scalar, TreeDynamics};
+use redysim::{CenterOfMass, LinkState, MassCenter, Scalar, TreeDynamics};
 
 const STATES: usize = 300;
 
 type Number = DoubleDouble;
 type Vector = [Number; 3];
 
-trait Smooth: TreeDynamics<Number> + TreeDynamics<Dual<Number>> {}
-impl<M: TreeDynamics<Number> + TreeDynamics<Dual<Number>>> Smooth for M {}
+trait Smooth: TreeDynamics<Number> + MassCenter<Number> + TreeDynamics<Dual<Number>> {}
+impl<M: TreeDynamics<Number> + MassCenter<Number> + TreeDynamics<Dual<Number>>> Smooth for M {}
 
 /// A check of a mechanism: its name, its model, and where its links are at a state.
 type Check = fn(&str, &GenericMechanism, &dyn Fn(&State) -> Links);
@@ -40,6 +40,7 @@ fn on_every_mechanism(check: Check) {
 struct Links {
     links: Vec<LinkState<Number>>,
     moving: Vec<LinkState<Dual<Number>>>,
+    center_of_mass: CenterOfMass<Number>,
     potential: Number,
 }
 
@@ -49,6 +50,7 @@ impl Links {
         Links {
             links: link_kinematics(m, &q, &v),
             moving: link_kinematics(m, &moving(&q, &v), &moving(&v, &a)),
+            center_of_mass: center_of_mass(m, &q, &v),
             potential: energy::<Number>(m, &q, &v).potential,
         }
     }
@@ -126,6 +128,31 @@ fn centre_of_mass_is_where_the_model_says() {
             }
         }
         centres.assert_within(1e-12);
+    });
+}
+
+#[test]
+fn the_centre_of_mass_of_a_mechanism_is_the_mean_of_its_links_and_moves_as_it_does() {
+    on_every_mechanism(|name, generic, links_at| {
+        let mut positions = Comparison::new(format!("{name}: M p = Σ m c"));
+        let mut velocities = Comparison::new(format!("{name}: M ṗ = Σ m ċ"));
+        let model = generic.model();
+        for links in states(model).map(|state| links_at(&state)) {
+            let mut moments = [[Number::zero(); 3]; 2];
+            for (link, moving) in model.links.iter().zip(&links.moving) {
+                for (axis, com) in moving.com.into_iter().enumerate() {
+                    moments[0][axis] += Number::from_f64(link.mass) * com.value;
+                    moments[1][axis] += Number::from_f64(link.mass) * com.rate;
+                }
+            }
+            let CenterOfMass { position, velocity } = links.center_of_mass;
+            let of_mass = |vector: Vector| rounded(vector.map(|x| Number::from_f64(model.mass()) * x));
+            positions.add(&of_mass(position), &rounded(moments[0]));
+            velocities.add(&of_mass(velocity), &rounded(moments[1]));
+        }
+        // The gantry's oblique rotations are constants, orthonormal to 1e-16 only.
+        positions.assert_within(if name.ends_with("gantry") { 1e-11 } else { 1e-12 });
+        velocities.assert_within(if name.ends_with("gantry") { 1e-11 } else { 1e-12 });
     });
 }
 

@@ -145,6 +145,7 @@ impl Pipeline<'_> {
                 (trees.keeping_digits(function)?, None)
             }
             Function::Energy => (cheapest(&trees.energy(), function, passes)?, None),
+            Function::CenterOfMass => (cheapest(&trees.moments(), function, passes)?, None),
             Function::LinkKinematics | Function::LoopResidual | Function::LoopJacobian | Function::LoopBias => {
                 (cheapest(&trees.kinematics(), function, passes)?, None)
             }

@@ -6,8 +6,8 @@ use crate::tree::Tree;
 use redysim_runtime::dual;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
-    MassMatrix, MechanicalEnergy, Mechanism, Scalar,
+    BiasForces, CenterOfMass, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
+    LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -127,6 +127,13 @@ impl<S: Scalar> MechanicalEnergy<S> for GenericMechanism {
     fn energy(&self, q: &Vec<S>, v: &Vec<S>) -> Energy<S> {
         self.check(&[("q", q), ("v", v)]);
         denoc::energy(&self.tree, &Untraced, q, v)
+    }
+}
+
+impl<S: Scalar> MassCenter<S> for GenericMechanism {
+    fn center_of_mass(&self, q: &Vec<S>, v: &Vec<S>) -> CenterOfMass<S> {
+        self.check(&[("q", q), ("v", v)]);
+        denoc::center_of_mass(&self.tree, &Untraced, q, v)
     }
 }
 

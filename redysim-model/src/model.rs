@@ -175,6 +175,11 @@ impl Model {
         self.links.iter().map(|link| link.joint.dof()).sum()
     }
 
+    /// Mass of all links, kg.
+    pub fn mass(&self) -> f64 {
+        self.links.iter().map(|link| link.mass).sum()
+    }
+
     /// The links whose joints move, in the file's order: entry `i` carries joint variable `i`.
     pub fn moving_links(&self) -> impl Iterator<Item = &Link> {
         self.links.iter().filter(|link| link.joint.dof() > 0)

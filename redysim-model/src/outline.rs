@@ -8,7 +8,7 @@ use redysim_runtime::function::Dimension;
 
 /// What the outside of a mechanism's type depends on. A model whose file has faults still has one, as far as the file
 /// can be read.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
     /// Name of the mechanism; empty if it cannot be read.
     pub name: String,
@@ -20,6 +20,8 @@ pub struct Outline {
     pub actuated: Vec<bool>,
     /// For each row of the loops, the name of its loop.
     pub loop_rows: Vec<String>,
+    /// Mass of all links, kg; zero if it cannot be read.
+    pub mass: f64,
     /// The functions that it has.
     pub functions: Functions,
 }
@@ -42,6 +44,7 @@ impl Outline {
             joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
             actuated: model.moving_links().map(|link| link.actuated).collect(),
             loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
+            mass: model.mass(),
             functions: scene.functions,
         }
     }

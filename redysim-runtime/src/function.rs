@@ -87,6 +87,8 @@ pub enum Shape {
     MassMatrix,
     /// `Energy<S>`: kinetic, potential.
     Energy,
+    /// `CenterOfMass<S>`: position, velocity.
+    CenterOfMass,
     /// `[LinkState<S>; NL]`: rotation by rows, origin, centre of mass, velocity, angular velocity.
     Links,
     /// Rows of the loop constraints, `[S; NC]`.
@@ -177,6 +179,9 @@ functions! {
     Energy energy, Interface::Own("MechanicalEnergy"),
         (Coordinates, Velocities) -> Energy,
         "Kinetic and potential energy, J; the potential is zero at the base frame's origin.";
+    CenterOfMass center_of_mass, Interface::Own("MassCenter"),
+        (Coordinates, Velocities) -> CenterOfMass,
+        "Position (m) and velocity (m/s) of the centre of mass of all links, in the base frame.";
     LinkKinematics link_kinematics, Interface::Own("LinkKinematics"),
         (Coordinates, Velocities) -> Links,
         "Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every link, in \

@@ -46,8 +46,8 @@ pub use integrate::{
     Radau5, SemiImplicitEuler, Solution, Statistics, Step,
 };
 pub use mechanism::{
-    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
-    MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
+    BiasForces, CenterOfMass, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
+    LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
 };
 pub use operations::OperationCount;
 pub use posture::Posture;

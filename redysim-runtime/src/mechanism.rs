@@ -98,6 +98,12 @@ pub trait MechanicalEnergy<S: Scalar>: Mechanism<S> {
     fn energy(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Energy<S>;
 }
 
+/// The centre of mass of a whole mechanism.
+pub trait MassCenter<S: Scalar>: Mechanism<S> {
+    /// Position and velocity of the centre of mass of all links, those that do not move among them, in the base frame.
+    fn center_of_mass(&self, q: &Self::Coordinates, v: &Self::Velocities) -> CenterOfMass<S>;
+}
+
 /// Where every link is and how it moves.
 pub trait LinkKinematics<S: Scalar>: Mechanism<S> {
     /// Position and velocity of every link, in the base frame, in the model's order.
@@ -169,6 +175,15 @@ impl<S: Scalar> Energy<S> {
     pub fn total(&self) -> S {
         self.kinetic + self.potential
     }
+}
+
+/// The centre of mass of a mechanism, in the base frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CenterOfMass<S> {
+    /// Σ m c / Σ m, m.
+    pub position: [S; 3],
+    /// Σ m ċ / Σ m, m/s: the linear momentum as a share of the mass.
+    pub velocity: [S; 3],
 }
 
 /// Position and velocity of one link, in the base frame.

@@ -1,8 +1,8 @@
 //! The functions of a mechanism on slices, whatever its own vectors are made of.
 
 use redysim::{
-    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure,
-    MassMatrix, MechanicalEnergy, Mechanism, Scalar, Vector,
+    BiasForces, CenterOfMass, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
+    LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar, Vector,
 };
 
 fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
@@ -37,6 +37,10 @@ pub fn gravity_forces<S: Scalar>(m: &impl GravityForces<S>, q: &[S]) -> Vec<S> {
 
 pub fn energy<S: Scalar>(m: &impl MechanicalEnergy<S>, q: &[S], v: &[S]) -> Energy<S> {
     m.energy(&vector(q), &vector(v))
+}
+
+pub fn center_of_mass<S: Scalar>(m: &impl MassCenter<S>, q: &[S], v: &[S]) -> CenterOfMass<S> {
+    m.center_of_mass(&vector(q), &vector(v))
 }
 
 pub fn link_kinematics<S: Scalar>(m: &impl LinkKinematics<S>, q: &[S], v: &[S]) -> Vec<LinkState<S>> {

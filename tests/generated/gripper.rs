@@ -6,6 +6,7 @@
 // bias_forces           46 flops,   4 sine-cosine pairs
 // gravity_forces        21 flops,   4 sine-cosine pairs
 // energy                51 flops,   4 sine-cosine pairs
+// center_of_mass        31 flops,   4 sine-cosine pairs
 // link_kinematics       34 flops,   4 sine-cosine pairs
 // loop_residual          0 flops,   0 sine-cosine pairs
 // loop_jacobian          0 flops,   0 sine-cosine pairs
@@ -26,6 +27,8 @@ impl Gripper {
     pub const NL: usize = 4;
     /// Number of rows of the loop constraints.
     pub const NC: usize = 0;
+    /// Mass of all links, kg.
+    pub const MASS: f64 = 1f64;
     /// Names of the links, in the model's order.
     pub const LINK_NAMES: [&'static str; 4] = ["link1", "link2", "link3", "link4"];
     /// Names of the joints that move, in the model's order.
@@ -69,6 +72,12 @@ impl Gripper {
         energy: ::redysim_runtime::OperationCount {
             additions: 18,
             multiplications: 33,
+            divisions: 0,
+            trig: 4,
+        },
+        center_of_mass: ::redysim_runtime::OperationCount {
+            additions: 15,
+            multiplications: 16,
             divisions: 0,
             trig: 4,
         },
@@ -693,6 +702,82 @@ impl Gripper {
             potential: -(k(98.10000000000001) * t6),
         }
     }
+    /// Position (m) and velocity (m/s) of the centre of mass of all links, in the base frame.
+    ///
+    /// 31 flops: 15 additions, 16 multiplications, 0 divisions; 4 sine-cosine pairs.
+    pub fn center_of_mass<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        v: &[S; 4],
+    ) -> ::redysim_runtime::CenterOfMass<S> {
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                let [near_0, near_1, near_2, near_3] = S::without_turns([
+                    q[0],
+                    q[1],
+                    q[2],
+                    q[3],
+                ]);
+                let (sin, cos) = S::sin_cos_all([
+                    q[0],
+                    near_0 + near_1,
+                    near_0 + near_3,
+                    near_0 + near_1 + near_2,
+                ]);
+                Self::center_of_mass_inlined(
+                    q,
+                    &[sin[0], S::zero(), S::zero(), S::zero(), sin[1], sin[2], sin[3]],
+                    &[cos[0], S::zero(), S::zero(), S::zero(), cos[1], cos[2], cos[3]],
+                    v,
+                )
+            },
+        )
+    }
+    /// [`center_of_mass`](Self::center_of_mass) where the sines and cosines are there already.
+    pub fn center_of_mass_at<S: ::redysim_runtime::Scalar>(
+        at: &::redysim_runtime::Posture<S, 4, 7>,
+        v: &[S; 4],
+    ) -> ::redysim_runtime::CenterOfMass<S> {
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::center_of_mass_inlined(&at.q, &at.sin, &at.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn center_of_mass_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> ::redysim_runtime::CenterOfMass<S> {
+        let k = S::from_f64;
+        let [sin_link1, _, _, _, sin_sum_link2, sin_sum_link4, sin_sum_link3] = *sin;
+        let [cos_link1, _, _, _, cos_sum_link2, cos_sum_link4, cos_sum_link3] = *cos;
+        let h_link3_x = k(0.005000000000000001) * cos_sum_link3;
+        let h_link3_y = k(0.005000000000000001) * sin_sum_link3;
+        let h_link4_x = k(0.005000000000000001) * cos_sum_link4;
+        let h_link4_y = k(0.005000000000000001) * sin_sum_link4;
+        let minus_p_link4_x = v[3] * h_link4_y;
+        let p_link4_y = v[3] * h_link4_x;
+        let h_link2_x = S::mul_add(k(0.015000000000000003), cos_sum_link2, h_link3_x);
+        let h_link2_y = S::mul_add(k(0.015000000000000003), sin_sum_link2, h_link3_y);
+        let h_link1_x = h_link2_x + S::mul_add(k(0.07), cos_link1, h_link4_x);
+        let h_link1_y = h_link2_y + S::mul_add(k(0.07), sin_link1, h_link4_y);
+        let minus_p_link1_x = S::mul_add(
+            v[0],
+            h_link1_y,
+            S::mul_add(v[1], h_link2_y, S::mul_add(v[2], h_link3_y, minus_p_link4_x)),
+        );
+        let p_link1_y = S::mul_add(
+            v[0],
+            h_link1_x,
+            S::mul_add(v[1], h_link2_x, S::mul_add(v[2], h_link3_x, p_link4_y)),
+        );
+        ::redysim_runtime::CenterOfMass {
+            position: [h_link1_x, h_link1_y, k(0.0)],
+            velocity: [-minus_p_link1_x, p_link1_y, k(0.0)],
+        }
+    }
     /// Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every link, in the base frame.
     ///
     /// 34 flops: 16 additions, 18 multiplications, 0 divisions; 4 sine-cosine pairs.
@@ -1045,6 +1130,16 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::MechanicalEnergy<S> for Gr
     #[inline]
     fn energy(&self, q: &[S; 4], v: &[S; 4]) -> ::redysim_runtime::Energy<S> {
         Self::energy(q, v)
+    }
+}
+impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::MassCenter<S> for Gripper {
+    #[inline]
+    fn center_of_mass(
+        &self,
+        q: &[S; 4],
+        v: &[S; 4],
+    ) -> ::redysim_runtime::CenterOfMass<S> {
+        Self::center_of_mass(q, v)
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LinkKinematics<S> for Gripper {

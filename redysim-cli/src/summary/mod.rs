@@ -115,7 +115,7 @@ impl Summary {
         Ok(Summary {
             name: model.name.clone(),
             gravity: model.gravity.0,
-            mass: model.links.iter().map(|link| link.mass).sum(),
+            mass: model.mass(),
             dof: model.dof(),
             mobility: found.mobility,
             loop_conditions: found.conditions,

@@ -129,7 +129,7 @@ impl<'a> Reference<'a> {
                 Shape::Forces => 1.0 / weights[k],
                 Shape::Accelerations => weights[k],
                 Shape::MassMatrix => 1.0 / (weights[k / weights.len()] * weights[k % weights.len()]),
-                Shape::Energy | Shape::Links | Shape::LoopRows | Shape::LoopJacobian => 1.0,
+                Shape::Energy | Shape::CenterOfMass | Shape::Links | Shape::LoopRows | Shape::LoopJacobian => 1.0,
             };
             extremes(&computed(&state.arguments(function)), exact, weight)
         })

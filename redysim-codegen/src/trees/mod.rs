@@ -150,6 +150,11 @@ impl<'a> Trees<'a> {
         vec![self.regrouped(Vanishing::TensorYy), self.matrix().clone()]
     }
 
+    /// For the centre of mass, one to be chosen: with the inertias as they are, or with mass moved towards the ground.
+    pub fn moments(&self) -> Vec<Tree> {
+        self.kinematics().into_iter().chain([self.regrouped(Vanishing::TensorYy)]).collect()
+    }
+
     /// For positions and velocities, one to be chosen.
     pub fn kinematics(&self) -> Vec<Tree> {
         let still = if self.passes.parallel_axes { still::everywhere(self.tree) } else { None };

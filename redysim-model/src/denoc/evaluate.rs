@@ -2,11 +2,11 @@
 
 use super::trace::Trace;
 use super::{
-    Method, bias_forces, energy, forward_dynamics, gravity_forces, inverse_dynamics, link_kinematics, loop_bias,
-    loop_jacobian, loop_residual, mass_matrix,
+    Method, bias_forces, center_of_mass, energy, forward_dynamics, gravity_forces, inverse_dynamics, link_kinematics,
+    loop_bias, loop_jacobian, loop_residual, mass_matrix,
 };
 use crate::tree::Tree;
-use redysim_runtime::{Energy, Function, LinkState, Scalar};
+use redysim_runtime::{CenterOfMass, Energy, Function, LinkState, Scalar};
 
 /// The values of `function` in the order of its [`Shape`](redysim_runtime::function::Shape); forward dynamics by the
 /// recursion. `x` are the arguments that its [signature](Function::signature) lists.
@@ -20,6 +20,10 @@ pub fn evaluate<S: Scalar>(function: Function, tree: &Tree, trace: &impl Trace<S
         Function::Energy => {
             let Energy { kinetic, potential } = energy(tree, trace, x[0], x[1]);
             vec![kinetic, potential]
+        }
+        Function::CenterOfMass => {
+            let CenterOfMass { position, velocity } = center_of_mass(tree, trace, x[0], x[1]);
+            [position, velocity].concat()
         }
         Function::LinkKinematics => {
             let vectors = link_kinematics(tree, trace, x[0], x[1]).into_iter().flat_map(|link: LinkState<S>| {

@@ -13,6 +13,7 @@
 //! Algorithms*, Springer 2008.
 
 mod articulated;
+mod center_of_mass;
 mod energy;
 mod evaluate;
 mod factorisation;
@@ -24,6 +25,7 @@ mod loops;
 mod mass_matrix;
 mod trace;
 
+pub use center_of_mass::center_of_mass;
 pub use energy::energy;
 pub use evaluate::evaluate;
 pub use factorisation::Factorisation;

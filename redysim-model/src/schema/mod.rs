@@ -130,6 +130,7 @@ impl Document {
             joints: moving.iter().map(|link| name(link.joint_name(), link)).collect(),
             actuated: moving.iter().map(|link| link.actuated.value_or(true).unwrap_or(true)).collect(),
             loop_rows: Vec::new(),
+            mass: self.links.iter().filter_map(|link| link.mass.value()).sum(),
             functions: self.scene.functions.said.value().map_or(Functions::ALL, |given| given.set()),
         }
     }

@@ -76,7 +76,7 @@ fn length(outline: &Outline, dimension: Dimension) -> Literal {
 }
 
 fn constants(outline: &Outline, operations: &[(Function, OperationCount)], runtime: &TokenStream) -> TokenStream {
-    let Outline { name, links, joints, actuated, loop_rows, .. } = outline;
+    let Outline { name, links, joints, actuated, loop_rows, mass, .. } = outline;
     let sizes = [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows];
     let [nq, nv, nl, nc] = sizes.map(|dimension| length(outline, dimension));
     let counts = operations.iter().map(|(function, count)| {
@@ -98,6 +98,8 @@ fn constants(outline: &Outline, operations: &[(Function, OperationCount)], runti
         pub const NL: usize = #nl;
         /// Number of rows of the loop constraints.
         pub const NC: usize = #nc;
+        /// Mass of all links, kg.
+        pub const MASS: f64 = #mass;
         /// Names of the links, in the model's order.
         pub const LINK_NAMES: [&'static str; #nl] = [#(#links),*];
         /// Names of the joints that move, in the model's order.

@@ -14,6 +14,7 @@ pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> To
         Shape::Forces | Shape::Accelerations => quote!([S; #nv]),
         Shape::MassMatrix => quote!([[S; #nv]; #nv]),
         Shape::Energy => quote!(#runtime::Energy<S>),
+        Shape::CenterOfMass => quote!(#runtime::CenterOfMass<S>),
         Shape::Links => quote!([#runtime::LinkState<S>; #nl]),
         Shape::LoopRows => quote!([S; #nc]),
         Shape::LoopJacobian => quote!([[S; #nv]; #nc]),
@@ -28,6 +29,11 @@ pub fn value(shape: Shape, outline: &Outline, outputs: &[TokenStream], runtime: 
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
             quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })
+        }
+        Shape::CenterOfMass => {
+            let vectors = rows(outputs, 3);
+            let [position, velocity] = [&vectors[0], &vectors[1]];
+            quote!(#runtime::CenterOfMass { position: #position, velocity: #velocity })
         }
         Shape::Links => {
             let vectors = rows(outputs, 3);

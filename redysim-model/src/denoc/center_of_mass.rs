@@ -1,0 +1,47 @@
+//! The centre of mass of the whole mechanism, from composite bodies.
+
+use super::joint::{JointFrame, joint_frames};
+use super::trace::Trace;
+use crate::spatial::Vec3;
+use crate::tree::{Body, Joint, Tree};
+use redysim_runtime::{CenterOfMass, Scalar};
+
+/// Position Σ m c / Σ m and velocity Σ m ċ / Σ m of the centre of mass, in the base frame.
+///
+/// Momentum is linear in the joint velocities: a joint that turns about z adds v (z × h) to that of what it carries,
+/// whose first moment about the joint is h, and one that slides along z adds v m z. So one recursion inwards has both.
+pub fn center_of_mass<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> CenterOfMass<S> {
+    let frames = joint_frames(tree, trace, q);
+    let of_body = |(body, frame): (&Body, &JointFrame<S>)| frame.fixed_vector(Vec3::constant(body.inertia.moment));
+    let mut moments: Vec<Vec3<S>> = tree.bodies.iter().zip(&frames).map(of_body).collect();
+    let mut masses: Vec<f64> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
+    let mut momenta = vec![Vec3::zero(); tree.bodies.len()];
+    let (mut moment, mut mass, mut momentum) = (Vec3::constant(tree.ground.moment), tree.ground.mass, Vec3::zero());
+    trace.sweep("inward", tree.inward(), |index| {
+        let (body, frame) = (&tree.bodies[index], &frames[index]);
+        let own = moments[index];
+        trace.name_vector(own, "h", index);
+        let along = match body.joint {
+            Joint::Revolute => Vec3([-own[1], own[0], S::zero()]),
+            Joint::Prismatic => Vec3([S::zero(), S::zero(), S::from_f64(masses[index])]),
+        };
+        let own_momentum = momenta[index] + along.scale(v[body.coordinate]);
+        trace.name_vector(own_momentum, "p", index);
+        let carried = frame.position.scale(S::from_f64(masses[index])) + frame.to_parent(own);
+        let carried_momentum = frame.to_parent(own_momentum);
+        match body.parent {
+            Some(parent) => {
+                masses[parent] += masses[index];
+                moments[parent] = moments[parent] + carried;
+                momenta[parent] = momenta[parent] + carried_momentum;
+            }
+            None => {
+                mass += masses[index];
+                moment = moment + carried;
+                momentum = momentum + carried_momentum;
+            }
+        }
+    });
+    let share = S::from_f64(1.0 / mass);
+    CenterOfMass { position: moment.scale(share).0, velocity: momentum.scale(share).0 }
+}
