@@ -56,7 +56,7 @@ fn exact_angle(windows: f64, duration: f64) -> f64 {
 fn forty_windows_fold_and_open_again() {
     let duration = if cfg!(debug_assertions) { 0.7 } else { 10.0 };
     let windows = generic("n_fourbar_40");
-    let dof = windows.tree().dof();
+    let dof = windows.tree().nv();
     let alternating: Vec<f64> =
         (0..dof).map(|i| if windows.model().links[i].name.starts_with("crank") { -1.0 } else { 1.0 }).collect();
     let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&windows), Free);

@@ -10,7 +10,8 @@ use common::chains::{Rod, Z, chain, oblique, universal};
 use common::double_double::{DoubleDouble, exact, rounded};
 use common::random::Random;
 use redysim_model::denoc::{Method, Untraced, forward_dynamics};
-use redysim_model::regroup::{Vanishing, base_parameters};
+use redysim_model::joint::Vanishing;
+use redysim_model::regroup::base_parameters;
 use redysim_model::{Model, Tree};
 use redysim_runtime::Real;
 
@@ -34,7 +35,7 @@ fn heavy_tip(count: usize) -> Tree {
 fn error_in<S: Real>(method: Method, tree: &Tree, judge: &Tree) -> f64 {
     let mut random = Random::new(7);
     let errors = (0..5).map(|_| {
-        let dof = tree.dof();
+        let dof = tree.nv();
         // Numbers that `S` has, so that its error is that of the arithmetic alone.
         let mut values = |size| -> Vec<f64> {
             random.vector(dof, size).into_iter().map(|value| S::from_f64(value).to_f64()).collect()

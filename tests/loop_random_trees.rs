@@ -216,21 +216,21 @@ fn loops_agree_with_homogeneous_transforms() {
         on_the_base += model.loops.iter().filter(|cut| cut.a.link.is_none() || cut.b.link.is_none()).count();
         with_common_ancestor += model.loops.iter().filter(|cut| share_a_joint(model, cut)).count();
         for _ in 0..STATES {
-            let state = random.state(tree.dof());
+            let state = random.state(tree.nv());
             let (q, v) = (&state.q[..], &state.v[..]);
             let expected = select(residual(model, &frames, q));
             errors.add("residual", &loop_residual(&mechanism, q), &expected, 1e-13);
             errors.add("traced residual", &evaluated(&traced, "loop_residual", &[q]), &expected, 1e-13);
             let jacobian = loop_jacobian(&mechanism, q);
             let by_expressions = evaluated(&traced, "loop_jacobian", &[q]);
-            for coordinate in 0..tree.dof() {
-                let mut direction = vec![0.0; tree.dof()];
+            for coordinate in 0..tree.nv() {
+                let mut direction = vec![0.0; tree.nv()];
                 direction[coordinate] = 1.0;
                 let rows = residual(model, &frames, &moving(q, &direction));
                 let expected = select(rows.iter().map(|row| row.rate).collect());
                 let column: Vec<f64> = jacobian.iter().map(|row| row[coordinate]).collect();
                 errors.add("jacobian", &column, &expected, 1e-13);
-                let column: Vec<f64> = by_expressions.iter().skip(coordinate).step_by(tree.dof()).copied().collect();
+                let column: Vec<f64> = by_expressions.iter().skip(coordinate).step_by(tree.nv()).copied().collect();
                 errors.add("traced jacobian", &column, &expected, 1e-13);
             }
             // Along q + v t, the second derivative of the residual is J̇ v.

@@ -141,8 +141,7 @@ fn small_tilts_and_offsets_cost_no_digits() {
         let error = 10.0_f64.powi(-exponent);
         let tree = Tree::new(&calibrated(error));
         let plain = trace_with(&tree, &Passes::none()).expect("no pass changes a value");
-        let worst =
-            difference(&plain, &trace_with(&tree, &Passes::all()).expect("no pass changes a value"), tree.dof());
+        let worst = difference(&plain, &trace_with(&tree, &Passes::all()).expect("no pass changes a value"), tree.nv());
         println!("errors of {error:.0e}: {worst:.1e}");
         assert!(worst <= 2e-13, "errors of {error:.0e}: {worst:e}");
     }

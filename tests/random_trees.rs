@@ -13,7 +13,8 @@ use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
 
 use redysim_model::denoc::{self, Method, Untraced};
-use redysim_model::regroup::{Vanishing, base_parameters};
+use redysim_model::joint::Vanishing;
+use redysim_model::regroup::base_parameters;
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_model::{Function, Inertia, JointKind, Link, Model, Tree};
 use std::collections::BTreeMap;

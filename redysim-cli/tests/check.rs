@@ -203,7 +203,7 @@ fn links_are_those_of_the_model() {
     let mechanism = GenericMechanism::new(Model::load(model("test/puma560.toml")).unwrap().model);
     let links = report["summary"]["links"].as_array().unwrap();
     assert_eq!(links.len(), mechanism.model().links.len());
-    assert_eq!(mechanism.mass_matrix(&vec![0.0; mechanism.tree().dof()]).len(), report["summary"]["dof"]);
+    assert_eq!(mechanism.mass_matrix(&vec![0.0; mechanism.tree().nv()]).len(), report["summary"]["dof"]);
     for (link, found) in mechanism.model().links.iter().zip(links) {
         assert_eq!((found["name"].as_str(), found["mass"].as_f64()), (Some(link.name.as_str()), Some(link.mass)));
     }

@@ -111,7 +111,7 @@ fn fusing_changes_nothing_that_moves() {
         let joints = tree(&mut numbers, 4 + round);
         let (kept, _) = import(&urdf(&joints), &[]);
         let (fused, run) = import(&urdf(&joints), &["--fuse-fixed"]);
-        let n = kept.tree().dof();
+        let n = kept.tree().nv();
         let [q, v, a] = [0; 3].map(|_| (0..n).map(|_| numbers.within(3.0)).collect::<Vec<f64>>());
         let forces = (kept.inverse_dynamics(&q, &v, &a), fused.inverse_dynamics(&q, &v, &a));
         let largest = forces.0.iter().fold(0.0_f64, |most, x| most.max(x.abs()));

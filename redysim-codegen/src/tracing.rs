@@ -4,6 +4,7 @@ use crate::expressions::Expressions;
 use crate::passes::{ChangedValue, Passes, simplified};
 use crate::symbol::{Symbol, Tracer};
 use redysim_model::{Function, Tree, denoc};
+use redysim_runtime::function::{Argument, Dimension};
 
 /// The expressions of `function` on `tree`, forward dynamics by the recursion, simplified.
 pub fn simplified_on(tree: &Tree, function: Function, passes: &Passes) -> Result<Expressions, ChangedValue> {
@@ -23,8 +24,15 @@ pub fn traced(
 ) -> Expressions {
     let tracer = Tracer::default();
     let outputs = {
+        let length = |argument: &Argument| match argument.dimension() {
+            Dimension::Coordinates => tree.nq(),
+            Dimension::Velocities => tree.nv(),
+            Dimension::Links => tree.links.len(),
+            Dimension::LoopRows => tree.loops_of_rows().count(),
+        };
         let arguments = (0..).zip(function.signature().arguments);
-        let symbols: Vec<Vec<Symbol>> = arguments.map(|(index, _)| tracer.argument(index, tree.dof())).collect();
+        let symbols: Vec<Vec<Symbol>> =
+            arguments.map(|(index, argument)| tracer.argument(index, length(argument))).collect();
         let symbols: Vec<&[Symbol]> = symbols.iter().map(Vec::as_slice).collect();
         tracer.edges(&computed(&tracer, &symbols))
     };

@@ -2,11 +2,12 @@
 
 use crate::denoc;
 use crate::inertia::Sym3;
-use crate::model::{CutKind, CutSide, JointKind, Link, Model};
+use crate::joint::Joint;
+use crate::model::{CutKind, CutSide, Link, Model};
 use crate::pseudo::PseudoInertia;
 use crate::rotation::{self, align_z};
 use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::{Attachment, Body, Cut, CutEnd, Joint, Tree};
+use crate::tree::{Attachment, Body, Cut, CutEnd, Tree};
 
 impl Tree {
     /// The tree of a checked model.
@@ -30,10 +31,9 @@ impl Tree {
                 None => (None, Pose::identity()),
             };
             let placement = reference * link.placement;
-            let (body, pose) = match link.joint {
-                JointKind::Fixed => (parent, placement),
-                JointKind::Revolute => tree.add_body(parent, placement, link, Joint::Revolute, coordinates[index]),
-                JointKind::Prismatic => tree.add_body(parent, placement, link, Joint::Prismatic, coordinates[index]),
+            let (body, pose) = match Joint::of(link) {
+                None => (parent, placement),
+                Some(joint) => tree.add_body(parent, placement, link, joint, coordinates[index]),
             };
             let pose = pose.without_roundoff();
             tree.links[index].body = body;
@@ -85,18 +85,17 @@ impl Tree {
         let aligned = align_z(link.axis);
         let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
         let mut offset = 0.0;
-        match joint {
-            Joint::Revolute => {
-                let (sin, cos) = rotation::sin_cos(link.offset);
-                if sin == 0.0 || cos == 0.0 {
-                    placement.rotation = placement.rotation * rotation::about_z(link.offset);
-                } else {
-                    offset = link.offset;
-                }
+        let screw = joint.screw();
+        if let Some(angle) = screw.turn(link.offset) {
+            let (sin, cos) = rotation::sin_cos(angle);
+            if sin == 0.0 || cos == 0.0 {
+                placement.rotation = placement.rotation * rotation::about_z(angle);
+            } else {
+                offset = angle;
             }
-            Joint::Prismatic => {
-                placement.position = placement.position + placement.rotation.column(2).scale(link.offset);
-            }
+        }
+        if let Some(slide) = screw.slide(link.offset) {
+            placement.position = placement.position + placement.rotation.column(2).scale(slide);
         }
         self.bodies.push(Body {
             parent,
@@ -104,7 +103,8 @@ impl Tree {
             joint,
             offset,
             still: false,
-            coordinate,
+            q: coordinate..coordinate + joint.nq(),
+            v: coordinate..coordinate + joint.nv(),
             inertia: PseudoInertia::zero(),
         });
         let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };

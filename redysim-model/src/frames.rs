@@ -10,7 +10,7 @@ use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;
 use crate::rotation;
 use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::{Body, Joint, Tree};
+use crate::tree::{Body, Tree};
 
 /// Elements of a rotation nearer than this to a quarter turn's are roundoff of the products they come from.
 const ROTATION_ROUNDOFF: f64 = 64.0 * f64::EPSILON;
@@ -139,8 +139,8 @@ fn settle_rotation(tree: &mut Tree, body: usize, size: f64) {
     let fixed = simplest_with_axis(whole.column(2));
     let rest = snapped(fixed.transpose() * whole);
     let quarter = rest.0[0].iter().all(|x| x.round() == *x);
-    let joint = tree.bodies[body].joint;
-    let (rotation, offset) = if quarter || joint == Joint::Prismatic {
+    let turns = tree.bodies[body].joint.screw().turn != 0.0;
+    let (rotation, offset) = if quarter || !turns {
         (if quarter { fixed * rest } else { whole }, 0.0)
     } else {
         (fixed, rest.0[1][0].atan2(rest.0[0][0]))

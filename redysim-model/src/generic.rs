@@ -39,11 +39,11 @@ impl GenericMechanism {
     }
 
     fn check<S>(&self, vectors: &[(&str, &[S])]) {
-        let dof = self.tree.dof();
         for (name, vector) in vectors {
+            let expected = if *name == "q" { self.tree.nq() } else { self.tree.nv() };
             assert!(
-                vector.len() == dof,
-                "`{name}` must have one element for each of the {dof} moving joints of `{}`, but it has {}",
+                vector.len() == expected,
+                "`{name}` must have one element for each of the {expected} moving joints of `{}`, but it has {}",
                 self.model.name,
                 vector.len()
             );
@@ -62,10 +62,10 @@ impl<S: Scalar> Mechanism<S> for GenericMechanism {
         &self.model.name
     }
     fn nq(&self) -> usize {
-        self.tree.dof()
+        self.tree.nq()
     }
     fn nv(&self) -> usize {
-        self.tree.dof()
+        self.tree.nv()
     }
     fn nl(&self) -> usize {
         self.model.links.len()

@@ -8,6 +8,7 @@ pub mod document;
 pub mod frames;
 pub mod generic;
 pub mod inertia;
+pub mod joint;
 mod load;
 mod lock;
 mod mobility;

@@ -115,12 +115,12 @@ impl Model {
     /// # Example
     ///
     /// ```
-    /// use redysim_model::Model;
+    /// use redysim_model::{Function, Model};
     ///
     /// # let pendulum = "name = 'pendulum'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
     /// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 1.0\ncom = [0.5, 0, 0]";
     /// let loaded = Model::from_toml_with(pendulum, "pendulum.toml", "functions = ['inverse_dynamics']").unwrap();
-    /// assert!(!loaded.scene.functions.contains("mass_matrix"));
+    /// assert!(!loaded.scene.functions.contains(Function::MassMatrix));
     /// ```
     pub fn from_toml_with(
         text: impl Into<String>,

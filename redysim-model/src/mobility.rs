@@ -65,7 +65,7 @@ impl Mobility {
                 (rank, added, Some(gap), None)
             }
         };
-        (Mobility { conditions, rank, added, mobility: mechanism.tree().dof() - rank, gap }, position)
+        (Mobility { conditions, rank, added, mobility: mechanism.tree().nv() - rank, gap }, position)
     }
 }
 
@@ -120,7 +120,7 @@ pub(crate) fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
 fn closed_position(mechanism: &GenericMechanism) -> Result<(Vec<f64>, usize), f64> {
     let loops = ClosedLoop::new(mechanism);
     let (mut closed, mut smallest) = (Vec::<(Vec<f64>, usize)>::new(), f64::INFINITY);
-    let rest = vec![0.0; mechanism.tree().dof()];
+    let rest = vec![0.0; mechanism.tree().nv()];
     let starts = (0..STARTS).map(|start| if start == 0 { rest.clone() } else { mechanism.tree().sample(start) });
     for start in starts {
         match loops.assemble(&start, &rest, &[]) {

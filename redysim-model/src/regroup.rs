@@ -9,36 +9,10 @@
 //! wrenches of single links do not, and a body left over need not be a possible one.
 
 use crate::inertia::Sym3;
+use crate::joint::{AxisMass, Vanishing};
 use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
-use crate::tree::{Body, Joint, Tree};
-
-/// Which number is made zero by the freedom to move an inertia diag(1, 1, 0) across a joint that turns about z.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Vanishing {
-    /// J_yy, so that J_xx − J_yy is left for J_xx: few terms in ωᵀ J ω.
-    TensorYy,
-    /// Σ_zz = ½ (J_xx + J_yy − J_zz): few terms in U Σ.
-    SecondMomentZz,
-}
-
-/// Moments of mass on a joint's axis, about the body's origin: ∫1, ∫z and ∫z².
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AxisMass {
-    /// ∫1 dm, kg.
-    pub mass: f64,
-    /// ∫z dm, kg m.
-    pub first: f64,
-    /// ∫z² dm, kg m².
-    pub second: f64,
-}
-
-impl AxisMass {
-    fn inertia(self) -> PseudoInertia<f64> {
-        let AxisMass { mass, first, second } = self;
-        PseudoInertia { mass, moment: Vec3([0.0, 0.0, first]), second: Sym3 { zz: second, ..Sym3::zero() } }
-    }
-}
+use crate::tree::{Body, Tree};
 
 /// The tree with as much inertia as possible moved towards the ground.
 pub fn base_parameters(tree: &Tree, vanishing: Vanishing) -> Tree {
@@ -67,7 +41,7 @@ fn sum(a: PseudoInertia<f64>, b: PseudoInertia<f64>) -> PseudoInertia<f64> {
 /// Moves as much inertia of one body as possible to its parent.
 pub fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
     let body = &mut tree.bodies[index];
-    let (own, shared) = split(body.joint, body.inertia, vanishing);
+    let (own, shared) = body.joint.split(body.inertia, vanishing);
     body.inertia = own;
     let (parent, moved) = (body.parent, shared.transformed(body.placement));
     let carrier = match parent {
@@ -75,30 +49,6 @@ pub fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
         None => &mut tree.ground,
     };
     *carrier = sum(*carrier, moved);
-}
-
-/// What stays with the body, and what its parent may carry as well.
-fn split(joint: Joint, inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
-    let PseudoInertia { mass, moment, second } = inertia;
-    match joint {
-        Joint::Revolute => {
-            // J_yy is Σ_zz + Σ_xx.
-            let left = match vanishing {
-                Vanishing::TensorYy => -second.xx,
-                Vanishing::SecondMomentZz => 0.0,
-            };
-            let own = PseudoInertia {
-                mass: 0.0,
-                moment: Vec3([moment[0], moment[1], 0.0]),
-                second: Sym3 { zz: left, ..second },
-            };
-            (own, AxisMass { mass, first: moment[2], second: second.zz - left }.inertia())
-        }
-        Joint::Prismatic => (
-            PseudoInertia { mass, moment, second: Sym3::zero() },
-            PseudoInertia { mass: 0.0, moment: Vec3::zero(), second },
-        ),
-    }
 }
 
 /// Takes mass on the axis of the joint of `body` from its parent and gives it to the body: the other way round from

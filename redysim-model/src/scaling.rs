@@ -5,11 +5,11 @@
 //! 1/L² or a first moment 1/L is 1, and multiplies nothing.
 
 use crate::pseudo::PseudoInertia;
-use crate::tree::{Joint, Tree};
+use crate::tree::Tree;
 
 /// The tree in the unit of length `unit`, m; `None` if a joint moves along its axis, whose coordinate is a length.
 pub fn in_unit(tree: &Tree, unit: f64) -> Option<Tree> {
-    if tree.bodies.iter().any(|body| body.joint == Joint::Prismatic) {
+    if tree.bodies.iter().any(|body| body.joint.screw().turn == 0.0) {
         return None;
     }
     let mut tree = tree.clone();

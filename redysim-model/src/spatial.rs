@@ -172,3 +172,74 @@ impl<S: Scalar> Mul for Mat3<S> {
         Self::from_fn(|i, j| Vec3(self.0[i]).dot(b.column(j)))
     }
 }
+
+/// A velocity or an acceleration of a body, (ω; v) or (ω̇; a), at the origin of a frame and in its axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist<S> {
+    /// The angular part.
+    pub angular: Vec3<S>,
+    /// The part of the point at the origin.
+    pub linear: Vec3<S>,
+}
+
+/// A moment about the origin of a frame and a force, (n; f), in its axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench<S> {
+    /// The moment, N m.
+    pub moment: Vec3<S>,
+    /// The force, N.
+    pub force: Vec3<S>,
+}
+
+impl<S: Scalar> Twist<S> {
+    /// No motion.
+    pub fn zero() -> Self {
+        Twist { angular: Vec3::zero(), linear: Vec3::zero() }
+    }
+
+    /// Component `i` of six, the angular ones first.
+    pub fn component(&self, i: usize) -> S {
+        if i < 3 { self.angular[i] } else { self.linear[i - 3] }
+    }
+}
+
+impl<S: Scalar> Wrench<S> {
+    /// Nothing.
+    pub fn zero() -> Self {
+        Wrench { moment: Vec3::zero(), force: Vec3::zero() }
+    }
+
+    /// Component `i` of six, the moment first.
+    pub fn component(&self, i: usize) -> S {
+        if i < 3 { self.moment[i] } else { self.force[i - 3] }
+    }
+
+    /// The same, to be changed.
+    pub fn component_mut(&mut self, i: usize) -> &mut S {
+        if i < 3 { &mut self.moment[i] } else { &mut self.force[i - 3] }
+    }
+
+    /// The wrench times a scalar.
+    pub fn scale(self, factor: S) -> Self {
+        Wrench { moment: self.moment.scale(factor), force: self.force.scale(factor) }
+    }
+
+    /// The power of the wrench at a motion.
+    pub fn dot(self, twist: Twist<S>) -> S {
+        self.moment.dot(twist.angular) + self.force.dot(twist.linear)
+    }
+}
+
+impl<S: Scalar> Add for Twist<S> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Twist { angular: self.angular + b.angular, linear: self.linear + b.linear }
+    }
+}
+
+impl<S: Scalar> Add for Wrench<S> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Wrench { moment: self.moment + b.moment, force: self.force + b.force }
+    }
+}

@@ -3,9 +3,11 @@
 //! Links joined rigidly become one body, parents stand before their children, and each body's frame is turned so that
 //! its joint axis is z. All of this happens in numbers, before any recursion runs, so it costs the recursions nothing.
 
+use crate::joint::Joint;
 use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
+use std::ops::Range;
 
 /// Moving bodies, parents first, and where the model's links stand on them.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,8 +39,10 @@ pub struct Body {
     /// fixed rotation. What is fixed to the body then turns against them, and a child with a parallel axis turns by the
     /// sum of angles.
     pub still: bool,
-    /// Index of the joint's variable, velocity and force in the model's order.
-    pub coordinate: usize,
+    /// The joint's coordinates in the model's order.
+    pub q: Range<usize>,
+    /// The joint's velocities and forces in the model's order.
+    pub v: Range<usize>,
     /// Moments of its mass about the origin of its frame.
     pub inertia: PseudoInertia<f64>,
 }
@@ -50,15 +54,6 @@ impl Body {
         let [x, y, _] = self.placement.rotation.column(2).0;
         x == 0.0 && y == 0.0
     }
-}
-
-/// What a joint of the tree does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Joint {
-    /// Turns the body about its z axis.
-    Revolute,
-    /// Moves the body along its z axis.
-    Prismatic,
 }
 
 /// Where a link stands on a body.
@@ -99,9 +94,14 @@ pub struct CutEnd {
 }
 
 impl Tree {
-    /// Number of joint velocities.
-    pub fn dof(&self) -> usize {
-        self.bodies.len()
+    /// Number of joint coordinates, NQ.
+    pub fn nq(&self) -> usize {
+        self.bodies.iter().map(|body| body.q.len()).sum()
+    }
+
+    /// Number of joint velocities, NV.
+    pub fn nv(&self) -> usize {
+        self.bodies.iter().map(|body| body.v.len()).sum()
     }
 
     /// For each row of the loops, the index of its cut; NC of them.
@@ -138,13 +138,14 @@ impl Tree {
     /// but for freak coincidences, at all.
     pub fn sample(&self, position: usize) -> Vec<f64> {
         let golden = 0.618_033_988_749_895;
-        (0..self.dof()).map(|joint| (golden * (position * self.dof() + joint + 1) as f64).fract() * 6.0 - 3.0).collect()
+        let nq = self.nq();
+        (0..nq).map(|k| (golden * (position * nq + k + 1) as f64).fract() * 6.0 - 3.0).collect()
     }
 
-    /// The index of the body whose joint has coordinate `coordinate`, for every coordinate in order.
-    pub fn bodies_by_coordinate(&self) -> Vec<usize> {
+    /// The bodies in the model's order of joints.
+    pub fn bodies_by_joint(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.bodies.len()).collect();
-        order.sort_by_key(|&body| self.bodies[body].coordinate);
+        order.sort_by_key(|&body| self.bodies[body].v.start);
         order
     }
 }

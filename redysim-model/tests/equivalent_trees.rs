@@ -3,11 +3,11 @@
 use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::frames::{canonical, reframe};
 use redysim_model::inertia::Sym3;
+use redysim_model::joint::{AxisMass, Joint, Vanishing};
 use redysim_model::pseudo::PseudoInertia;
-use redysim_model::regroup::{AxisMass, Vanishing, base_parameters, take_from_parent};
+use redysim_model::regroup::{base_parameters, take_from_parent};
 use redysim_model::scaling::in_unit;
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::tree::Joint;
 use redysim_model::{Model, Tree, rotation};
 
 /// Roundoff of values of size one over a few dozen operations.

@@ -13,7 +13,6 @@ use double_double::{DoubleDouble, exact, rounded};
 use redysim_model::denoc::{self, Untraced};
 use redysim_model::inertia::Sym3;
 use redysim_model::pseudo::PseudoInertia;
-use redysim_model::tree::Joint;
 use redysim_model::{Function, Tree};
 use redysim_runtime::function::{Argument, Shape};
 use std::cell::OnceCell;
@@ -91,7 +90,7 @@ impl<'a> Reference<'a> {
     /// States at which a number is not finite, as where the mass matrix is singular, are left out.
     fn states(&self) -> &[State] {
         self.states.get_or_init(|| {
-            let count = (JOINT_STATES / self.tree.dof().max(1)).clamp(FEWEST_STATES, MOST_STATES);
+            let count = (JOINT_STATES / self.tree.nv().max(1)).clamp(FEWEST_STATES, MOST_STATES);
             let kinds = (0..count).flat_map(|index| Kind::ALL.map(|kind| (index, kind)));
             kinds.filter_map(|(index, kind)| State::new(self.tree, self.seed, index, kind)).collect()
         })
@@ -151,12 +150,13 @@ impl<'a> Reference<'a> {
 impl State {
     /// State number `index` of a kind; `None` if something is not finite there.
     fn new(tree: &Tree, seed: u64, index: usize, kind: Kind) -> Option<Self> {
-        let joints = tree.dof();
+        let joints = tree.nv();
         let mut random = Random::new(1000 * seed + 10 * index as u64 + kind as u64 + 1);
         let mut shares = || (0..joints).map(|_| random.share(false)).collect::<Vec<f64>>();
         let [mut q, mut v, mut a] = [shares(), shares(), shares()];
         for body in &tree.bodies {
-            q[body.coordinate] *= if body.joint == Joint::Prismatic { 1.0 } else { PI };
+            let range = if body.joint.screw().turn == 0.0 { 1.0 } else { PI };
+            q[body.q.clone()].iter_mut().for_each(|q| *q *= range);
         }
         let diagonal = denoc::mass_matrix(tree, &Untraced, &q).into_iter().enumerate().map(|(joint, row)| row[joint]);
         let weights: Vec<f64> = diagonal.map(f64::sqrt).collect();

@@ -8,15 +8,15 @@
 use super::neighbourhood::neighbourhood;
 use super::{Cost, Keeps};
 use redysim_model::Tree;
+use redysim_model::joint::{AxisMass, Joint};
 use redysim_model::pseudo::PseudoInertia;
-use redysim_model::regroup::{AxisMass, take_from_parent};
-use redysim_model::tree::Joint;
+use redysim_model::regroup::take_from_parent;
 
 /// The tree, of base parameters, with masses on its axes where they lower the cost and are kept.
 pub fn placed(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
-        if tree.bodies[body].parent.is_none() || tree.bodies[body].joint == Joint::Prismatic {
+        if tree.bodies[body].parent.is_none() || tree.bodies[body].joint != Joint::Revolute {
             continue;
         }
         for kind in [Kind::Mass, Kind::First, Kind::Second] {

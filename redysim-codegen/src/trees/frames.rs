@@ -9,7 +9,8 @@ use redysim_model::Tree;
 use redysim_model::frames::{
     canonical, reframe, slide_to_child, slide_to_parent, turn_to_child, turn_to_inertia, turn_to_principal_axis,
 };
-use redysim_model::regroup::{Vanishing, base_parameters};
+use redysim_model::joint::Vanishing;
+use redysim_model::regroup::base_parameters;
 
 /// The tree with frames chosen anew, as far as they are kept.
 pub fn chosen(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {

@@ -14,7 +14,8 @@ use crate::expressions::Expressions;
 use crate::passes::{ChangedValue, Passes};
 use crate::policies::{MOST_LOST_BY_DESCRIPTION, ROUNDINGS};
 use crate::tracing::{simplified_on, traced_on};
-use redysim_model::regroup::{Vanishing, move_to_parent};
+use redysim_model::joint::Vanishing;
+use redysim_model::regroup::move_to_parent;
 use redysim_model::{Function, Tree};
 use std::cell::OnceCell;
 

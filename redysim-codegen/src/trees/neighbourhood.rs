@@ -2,9 +2,11 @@
 
 use redysim_model::Tree;
 use redysim_model::inertia::Sym3;
+use redysim_model::joint::Joint;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::tree::{Body, Joint};
+use redysim_model::tree::Body;
+use std::ops::Range;
 
 /// Bodies towards the ground that are kept, the parent among them.
 const ABOVE: usize = 2;
@@ -67,7 +69,7 @@ pub fn neighbourhood(tree: &Tree, body: usize) -> Neighbourhood {
         places[index] = Some(part.bodies.len());
         let parent =
             if index == top { part.bodies.len().checked_sub(1) } else { original.parent.and_then(|at| places[at]) };
-        let mut copy = Body { parent, coordinate: part.bodies.len(), ..original.clone() };
+        let mut copy = Body { parent, q: own(part.bodies.len()), v: own(part.bodies.len()), ..original.clone() };
         if generation == Some(BELOW) && tree.children(index).next().is_some() {
             copy.inertia = full_inertia();
         }
@@ -75,6 +77,11 @@ pub fn neighbourhood(tree: &Tree, body: usize) -> Neighbourhood {
         origins.push(Some(index));
     }
     Neighbourhood { tree: part, origins }
+}
+
+/// The coordinate of body number `index` of a part.
+fn own(index: usize) -> Range<usize> {
+    index..index + 1
 }
 
 /// A massless body on an oblique joint.
@@ -86,7 +93,8 @@ fn stand_in(parent: Option<usize>) -> Body {
         joint: Joint::Revolute,
         offset: 0.0,
         still: false,
-        coordinate: parent.map_or(0, |parent| parent + 1),
+        q: own(parent.map_or(0, |parent| parent + 1)),
+        v: own(parent.map_or(0, |parent| parent + 1)),
         inertia: PseudoInertia::zero(),
     }
 }

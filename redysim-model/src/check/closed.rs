@@ -19,14 +19,14 @@ pub(super) fn is_well_posed(model: &Model) -> bool {
     }
     let mechanism = GenericMechanism::new(model.clone());
     let (loops, tree) = (ClosedLoop::new(&mechanism), mechanism.tree());
-    let rest = vec![0.0; tree.dof()];
+    let rest = vec![0.0; tree.nv()];
     let starts = (0..STARTS).map(|start| if start == 0 { rest.clone() } else { tree.sample(start) });
     starts.filter_map(|start| loops.assemble(&start, &rest, &[]).ok()).any(|closed| {
         let jacobian: Vec<Vec<f64>> = mechanism.loop_jacobian(&closed.q);
         let mut matrix = mass_matrix(tree, &Untraced, &closed.q);
         let largest =
             |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, value| most.max(value.abs()));
-        let heaviest = largest(&mut (0..tree.dof()).map(|i| matrix[i][i]));
+        let heaviest = largest(&mut (0..tree.nv()).map(|i| matrix[i][i]));
         let lever = largest(&mut jacobian.iter().flatten().copied());
         let weight = heaviest / (lever * lever);
         for (i, row) in matrix.iter_mut().enumerate() {

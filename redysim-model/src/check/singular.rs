@@ -3,7 +3,7 @@
 use crate::denoc::{Untraced, mass_matrix};
 use crate::diagnostic::{Message, messages};
 use crate::model::Model;
-use crate::tree::{Body, Joint, Tree};
+use crate::tree::{Body, Tree};
 
 /// Positions that are looked at; a joint is reported if it is met by no inertia at all of them.
 const POSITIONS: usize = 3;
@@ -15,7 +15,7 @@ const ROUNDOFF: f64 = 1e-12;
 pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
     let tree = Tree::new(model);
     // A joint meets at least the inertia of its own body, so only bodies without any about their axis are in question.
-    let mut suspects: Vec<usize> = (0..tree.dof()).filter(|&body| !meets_own_inertia(&tree.bodies[body])).collect();
+    let mut suspects: Vec<usize> = (0..tree.nv()).filter(|&body| !meets_own_inertia(&tree.bodies[body])).collect();
     for position in 0..POSITIONS {
         if suspects.is_empty() {
             return Vec::new();
@@ -25,7 +25,7 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
     }
     let moving: Vec<usize> = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0).collect();
     let report = |body: usize| {
-        let link = moving[tree.bodies[body].coordinate];
+        let link = moving[tree.bodies[body].v.start];
         let Body { joint, .. } = tree.bodies[body];
         (link, messages::singular_mass_matrix(&model.links[link].name, &model.links[link].joint_name, joint))
     };
@@ -33,22 +33,16 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
 }
 
 fn meets_own_inertia(body: &Body) -> bool {
-    match body.joint {
-        Joint::Revolute => {
-            let second = body.inertia.second;
-            second.xx + second.yy > ROUNDOFF * (second.xx + second.yy + 2.0 * second.zz)
-        }
-        Joint::Prismatic => body.inertia.mass > 0.0,
-    }
+    body.joint.meets(body.inertia) > ROUNDOFF
 }
 
 /// The bodies whose pivot in the elimination of a symmetric `matrix` over the coordinates, from the tips to the ground, is
 /// nothing but roundoff.
 pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>]) -> Vec<usize> {
-    let at: Vec<usize> = tree.bodies.iter().map(|body| body.coordinate).collect();
+    let at: Vec<usize> = tree.bodies.iter().map(|body| body.v.start).collect();
     let mut reduced: Vec<Vec<f64>> = at.iter().map(|&i| at.iter().map(|&j| matrix[i][j]).collect()).collect();
     let mut without = Vec::new();
-    for k in (0..tree.dof()).rev() {
+    for k in (0..tree.nv()).rev() {
         let pivot = reduced[k][k];
         if pivot <= ROUNDOFF * matrix[at[k]][at[k]] {
             without.push(k);

@@ -1,48 +1,11 @@
 //! The inertia of a body with everything it carries on free joints.
 
-use super::joint::JointFrame;
+use super::frame::JointFrame;
 use super::trace::Trace;
 use crate::inertia::{RigidInertia, Sym3};
-use crate::spatial::{Mat3, Vec3};
+use crate::joint::Screw;
+use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use redysim_runtime::Scalar;
-
-/// A motion (ω̇, a) or a wrench (n, f): the angular part first, as six components.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Spatial<S> {
-    pub angular: Vec3<S>,
-    pub linear: Vec3<S>,
-}
-
-impl<S: Scalar> Spatial<S> {
-    pub fn zero() -> Self {
-        Spatial { angular: Vec3::zero(), linear: Vec3::zero() }
-    }
-
-    pub fn component(&self, i: usize) -> S {
-        if i < 3 { self.angular[i] } else { self.linear[i - 3] }
-    }
-
-    pub fn component_mut(&mut self, i: usize) -> &mut S {
-        if i < 3 { &mut self.angular[i] } else { &mut self.linear[i - 3] }
-    }
-
-    pub fn scale(self, factor: S) -> Self {
-        Spatial { angular: self.angular.scale(factor), linear: self.linear.scale(factor) }
-    }
-
-    pub fn dot(self, other: Self) -> S {
-        self.angular.dot(other.angular) + self.linear.dot(other.linear)
-    }
-
-    pub fn plus(self, other: Self) -> Self {
-        Spatial { angular: self.angular + other.angular, linear: self.linear + other.linear }
-    }
-
-    pub fn name(self, trace: &impl Trace<S>, angular: &'static str, linear: &'static str, body: usize) {
-        trace.name_vector(self.angular, angular, body);
-        trace.name_vector(self.linear, linear, body);
-    }
-}
 
 /// The symmetric 6×6 matrix [J H; Hᵀ M] that takes the acceleration (ω̇, a) of a body to the wrench (n, f) it needs,
 /// with the joints it carries free to move.
@@ -73,28 +36,31 @@ impl<S: Scalar> ArticulatedInertia<S> {
     }
 
     /// The wrench for an acceleration.
-    pub fn apply(&self, acceleration: Spatial<S>) -> Spatial<S> {
-        let Spatial { angular, linear } = acceleration;
-        Spatial {
-            angular: self.tensor.full() * angular + self.coupling * linear,
-            linear: self.coupling.transpose() * angular + self.mass.full() * linear,
+    pub fn apply(&self, acceleration: Twist<S>) -> Wrench<S> {
+        let Twist { angular, linear } = acceleration;
+        Wrench {
+            moment: self.tensor.full() * angular + self.coupling * linear,
+            force: self.coupling.transpose() * angular + self.mass.full() * linear,
         }
     }
 
-    /// Column `i` of the matrix: the wrench for a unit acceleration along axis `i` of six.
-    pub fn column(&self, i: usize) -> Spatial<S> {
-        if i < 3 {
-            Spatial { angular: self.tensor.full().column(i), linear: Vec3(self.coupling.0[i]) }
-        } else {
-            Spatial { angular: self.coupling.column(i - 3), linear: self.mass.full().column(i - 3) }
-        }
+    /// I S, the wrench for a unit acceleration of a joint.
+    pub fn column(&self, screw: Screw) -> Wrench<S> {
+        let turn = Wrench { moment: self.tensor.full().column(2), force: Vec3(self.coupling.0[2]) };
+        let slide = Wrench { moment: self.coupling.column(2), force: self.mass.full().column(2) };
+        screw.combined(turn, slide)
     }
 
-    /// I − U Uᵀ / D: what is felt through a joint that is free along axis `free` of six, where U is column `free` and
-    /// `ratio` = U / D. Row and column `free` of the result vanish identically, so they are set, not computed.
-    pub fn felt_through(&self, free: usize, column: Spatial<S>, ratio: Spatial<S>) -> Self {
+    /// I − U Uᵀ / D: what is felt through a free joint, where U = I S is `column` and `ratio` = U / D. Where S is an axis
+    /// of six, its row and column of the result vanish identically, so they are set, not computed.
+    pub fn project_through_joint(&self, screw: Screw, column: Wrench<S>, ratio: Wrench<S>) -> Self {
+        let free = screw.unit_axis();
         let element = |value: S, i: usize, j: usize| {
-            if i == free || j == free { S::zero() } else { value - ratio.component(i) * column.component(j) }
+            if free == Some(i) || free == Some(j) {
+                S::zero()
+            } else {
+                value - ratio.component(i) * column.component(j)
+            }
         };
         let (tensor, mass) = (self.tensor.full().0, self.mass.full().0);
         ArticulatedInertia {

@@ -1,9 +1,9 @@
 //! The centre of mass of the whole mechanism, from composite bodies.
 
-use super::joint::{JointFrame, joint_frames};
+use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
 use crate::spatial::Vec3;
-use crate::tree::{Body, Joint, Tree};
+use crate::tree::{Body, Tree};
 use redysim_runtime::{CenterOfMass, Scalar};
 
 /// Position Σ m c / Σ m and velocity Σ m ċ / Σ m of the centre of mass, in the base frame.
@@ -21,11 +21,14 @@ pub fn center_of_mass<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v:
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let own = moments[index];
         trace.name_vector(own, "h", index);
-        let along = match body.joint {
-            Joint::Revolute => Vec3([-own[1], own[0], S::zero()]),
-            Joint::Prismatic => Vec3([S::zero(), S::zero(), S::from_f64(masses[index])]),
-        };
-        let own_momentum = momenta[index] + along.scale(v[body.coordinate]);
+        let (screw, rate) = (body.joint.screw(), v[body.v.start]);
+        let mut own_momentum = momenta[index];
+        if let Some(turn) = screw.turn(rate) {
+            own_momentum = own_momentum + Vec3([-own[1], own[0], S::zero()]).scale(turn);
+        }
+        if let Some(slide) = screw.slide(rate) {
+            own_momentum[2] += S::from_f64(masses[index]) * slide;
+        }
         trace.name_vector(own_momentum, "p", index);
         let carried = frame.position.scale(S::from_f64(masses[index])) + frame.to_parent(own);
         let carried_momentum = frame.to_parent(own_momentum);

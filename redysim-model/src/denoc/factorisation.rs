@@ -21,12 +21,12 @@ pub struct Factorisation<S> {
 impl<S: Scalar> Factorisation<S> {
     /// Factorises the mass matrix of `tree`, given by rows in the model's order.
     pub fn new(tree: &Tree, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
-        let coordinates: Vec<usize> = tree.bodies.iter().map(|body| body.coordinate).collect();
+        let coordinates: Vec<usize> = tree.bodies.iter().map(|body| body.v.start).collect();
         let parents: Vec<Option<usize>> = tree.bodies.iter().map(|body| body.parent).collect();
         let mut upper: Vec<Vec<S>> =
             coordinates.iter().map(|&i| coordinates.iter().map(|&j| matrix[i][j]).collect()).collect();
-        let mut inverse_pivots = vec![S::zero(); tree.dof()];
-        for k in (0..tree.dof()).rev() {
+        let mut inverse_pivots = vec![S::zero(); tree.nv()];
+        for k in (0..tree.nv()).rev() {
             let inverse = S::one() / upper[k][k];
             trace.name(upper[k][k], "D", k, "");
             trace.name(inverse, "inv_D", k, "");

@@ -1,14 +1,15 @@
 //! Forward dynamics: accelerations from joint forces, in two ways.
 
-use super::articulated::{ArticulatedInertia, Spatial};
+use super::articulated::ArticulatedInertia;
 use super::factorisation::Factorisation;
+use super::frame::{JointFrame, joint_frames};
 use super::inverse::bias_forces;
-use super::joint::{JointFrame, joint_frames};
 use super::mass_matrix::mass_matrix;
 use super::trace::Trace;
 use crate::inertia::RigidInertia;
-use crate::spatial::Vec3;
-use crate::tree::{Joint, Tree};
+use crate::joint::Screw;
+use crate::spatial::{Twist, Vec3, Wrench};
+use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
 /// How accelerations are computed.
@@ -62,120 +63,116 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(
     tau: &[S],
 ) -> Vec<S> {
     let frames = joint_frames(tree, trace, q);
-    let drifts = drifts(tree, trace, &frames, v);
+    let drifts = bias_accelerations(tree, trace, &frames, v);
     let mut inertias: Vec<ArticulatedInertia<S>> = tree
         .bodies
         .iter()
         .zip(&frames)
         .map(|(body, frame)| ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid()))
         .collect();
-    let mut biases = vec![Spatial::zero(); tree.bodies.len()];
+    let mut wrenches = vec![Wrench::zero(); tree.bodies.len()];
     let mut pivots: Vec<Pivot<S>> = Vec::with_capacity(tree.bodies.len());
     trace.sweep("inward", tree.inward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let free = free_axis(body.joint);
+        let screw = body.joint.screw();
         let inertia = inertias[index];
         inertia.name(trace, index);
         let own = frame.own_inertia(body.inertia).to_rigid();
-        let bias = biases[index].plus(centrifugal_wrench(own, drifts[index].angular));
-        bias.name(trace, "bias_n", "bias_f", index);
-        let column = inertia.column(free);
-        let inverse = S::one() / column.component(free);
+        let bias = wrenches[index] + centrifugal_wrench(own, drifts[index].angular);
+        trace.name_wrench(bias, ["bias_n", "bias_f"], index);
+        let column = inertia.column(screw);
+        let inverse = S::one() / screw.project(column);
         trace.name(inverse, "inv_D", index, "");
         let ratio = column.scale(inverse);
-        ratio.name(trace, "ratio_n", "ratio_f", index);
-        let drive = tau[body.coordinate] - bias.component(free);
+        trace.name_wrench(ratio, ["ratio_n", "ratio_f"], index);
+        let drive = tau[body.v.start] - screw.project(bias);
         trace.name(drive, "drive", index, "");
         if let Some(parent) = body.parent {
-            let felt = inertia.felt_through(free, column, ratio);
-            let mut wrench = bias.plus(felt.apply(drifts[index].acceleration)).plus(ratio.scale(drive));
-            *wrench.component_mut(free) = tau[body.coordinate];
-            let (linear, angular) = frame.wrench_to_parent(wrench.linear, wrench.angular);
-            biases[parent] = biases[parent].plus(Spatial { angular, linear });
+            let felt = inertia.project_through_joint(screw, column, ratio);
+            let wrench = bias + felt.apply(drifts[index].acceleration) + ratio.scale(drive);
+            let wrench = screw.with_force(wrench, tau[body.v.start]);
+            wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
         }
         pivots.push(Pivot { inverse, ratio, drive });
     });
     pivots.reverse();
 
-    let ground = Spatial { angular: Vec3::zero(), linear: Vec3::constant(-tree.gravity) };
-    let mut accelerations: Vec<Spatial<S>> = Vec::with_capacity(tree.bodies.len());
-    let mut result = vec![S::zero(); tree.dof()];
+    let ground = Twist { angular: Vec3::zero(), linear: Vec3::constant(-tree.gravity) };
+    let mut accelerations: Vec<Twist<S>> = Vec::with_capacity(tree.bodies.len());
+    let mut result = vec![S::zero(); tree.nv()];
     trace.sweep("accelerations", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| accelerations[parent]);
-        let mut acceleration = Spatial {
+        let acceleration = Twist {
             angular: frame.to_body(parent.angular),
             linear: frame.to_body(parent.linear + parent.angular.cross(frame.position)),
-        }
-        .plus(drifts[index].acceleration);
-        let free = free_axis(body.joint);
-        let Pivot { inverse, mut ratio, drive } = pivots[index];
-        // The ratio's own component is one; the acceleration along the joint is what is still to be found.
-        let carried = acceleration.component(free);
-        *ratio.component_mut(free) = S::zero();
-        let joint = inverse * drive - (ratio.dot(acceleration) + carried);
-        *acceleration.component_mut(free) += joint;
+        } + drifts[index].acceleration;
+        let screw = body.joint.screw();
+        let Pivot { inverse, ratio, drive } = &pivots[index];
+        let joint = *inverse * *drive - power(screw, *ratio, acceleration);
+        let acceleration = screw.added(acceleration, joint);
         trace.name(joint, "acc", index, "");
-        result[body.coordinate] = joint;
-        acceleration.name(trace, "dw", "acc", index);
+        result[body.v.start] = joint;
+        trace.name_twist(acceleration, ["dw", "acc"], index);
         accelerations.push(acceleration);
     });
     result
 }
 
+/// `ratio` · `acceleration`, where Sᵀ `ratio` is one: where S is an axis of six, that component is not multiplied.
+fn power<S: Scalar>(screw: Screw, mut ratio: Wrench<S>, acceleration: Twist<S>) -> S {
+    match screw.unit_axis() {
+        Some(axis) => {
+            *ratio.component_mut(axis) = S::zero();
+            ratio.dot(acceleration) + acceleration.component(axis)
+        }
+        None => ratio.dot(acceleration),
+    }
+}
+
 /// One step of the elimination: 1/D, U/D and the force left to accelerate the joint.
 struct Pivot<S> {
     inverse: S,
-    ratio: Spatial<S>,
+    ratio: Wrench<S>,
     drive: S,
 }
 
 /// What velocities alone do to a body.
-struct Drift<S> {
+struct BiasAcceleration<S> {
     /// Angular velocity ω, in the body's frame.
     angular: Vec3<S>,
     /// Acceleration against the parent at zero joint acceleration.
-    acceleration: Spatial<S>,
+    acceleration: Twist<S>,
 }
 
-fn drifts<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, frames: &[JointFrame<S>], v: &[S]) -> Vec<Drift<S>> {
-    let mut drifts: Vec<Drift<S>> = Vec::with_capacity(tree.bodies.len());
+fn bias_accelerations<S: Scalar>(
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    frames: &[JointFrame<S>],
+    v: &[S],
+) -> Vec<BiasAcceleration<S>> {
+    let mut biases: Vec<BiasAcceleration<S>> = Vec::with_capacity(tree.bodies.len());
     trace.sweep("velocities", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let rate = v[body.coordinate];
-        let parent = body.parent.map_or(Vec3::zero(), |parent| drifts[parent].angular);
-        let mut acceleration = Spatial::zero();
-        acceleration.linear = frame.to_body(parent.cross(parent.cross(frame.position)));
+        let (screw, rate) = (body.joint.screw(), v[body.v.start]);
+        let parent = body.parent.map_or(Vec3::zero(), |parent| biases[parent].angular);
+        let centripetal = frame.to_body(parent.cross(parent.cross(frame.position)));
         let mut angular = frame.to_body(parent);
-        let [x, y, _] = angular.0;
-        match body.joint {
-            Joint::Revolute => {
-                acceleration.angular = Vec3([y * rate, -(x * rate), S::zero()]);
-                angular[2] += rate;
-            }
-            Joint::Prismatic => {
-                let twice = rate + rate;
-                acceleration.linear = acceleration.linear + Vec3([y * twice, -(x * twice), S::zero()]);
-            }
+        let across = screw.bias(angular, rate);
+        let acceleration = Twist { angular: across.angular, linear: centripetal + across.linear };
+        if let Some(turn) = screw.turn(rate) {
+            angular[2] += turn;
         }
         trace.name_vector(angular, "w", index);
-        acceleration.name(trace, "drift_n", "drift_f", index);
-        drifts.push(Drift { angular, acceleration });
+        trace.name_twist(acceleration, ["drift_n", "drift_f"], index);
+        biases.push(BiasAcceleration { angular, acceleration });
     });
-    drifts
+    biases
 }
 
 /// The wrench (ω × J ω, ω × (ω × h)) of a body that turns without acceleration.
-fn centrifugal_wrench<S: Scalar>(inertia: RigidInertia<S>, w: Vec3<S>) -> Spatial<S> {
+fn centrifugal_wrench<S: Scalar>(inertia: RigidInertia<S>, w: Vec3<S>) -> Wrench<S> {
     let RigidInertia { moment, tensor, .. } = inertia;
-    Spatial { angular: w.cross(tensor.full() * w), linear: w.cross(w.cross(moment)) }
-}
-
-/// The axis of six along which a joint moves.
-fn free_axis(joint: Joint) -> usize {
-    match joint {
-        Joint::Revolute => 2,
-        Joint::Prismatic => 5,
-    }
+    Wrench { moment: w.cross(tensor.full() * w), force: w.cross(w.cross(moment)) }
 }

@@ -1,11 +1,12 @@
 //! Inverse dynamics: joint forces from motion, by one recursion outwards and one inwards (recursive Newton-Euler).
 
-use super::joint::{JointFrame, along_joint, joint_frames};
+use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
 use crate::inertia::Sym3;
+use crate::joint::Screw;
 use crate::pseudo::PseudoInertia;
-use crate::spatial::{Mat3, Vec3};
-use crate::tree::{Joint, Tree};
+use crate::spatial::{Mat3, Vec3, Wrench};
+use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
 /// Motion of a body in its own frame. Gravity is an acceleration of the ground, so it needs no forces of its own.
@@ -14,77 +15,80 @@ struct BodyMotion<S> {
     /// Angular velocity ω.
     angular: Vec3<S>,
     /// Angular acceleration ω̇.
-    angular_rate: Vec3<S>,
+    angular_acceleration: Vec3<S>,
     /// U = ω̇× + (ω×)², which takes a point fixed to the body to its acceleration against the origin.
-    point_rate: Mat3<S>,
+    angular_acceleration_tensor: Mat3<S>,
     /// Acceleration of the origin, less gravity.
     acceleration: Vec3<S>,
 }
 
 impl<S: Scalar> BodyMotion<S> {
-    fn new(angular: Vec3<S>, angular_rate: Vec3<S>, acceleration: Vec3<S>) -> Self {
+    fn new(angular: Vec3<S>, angular_acceleration: Vec3<S>, acceleration: Vec3<S>) -> Self {
         let w = angular;
         let products = Mat3::from_fn(|i, j| {
             if i == j { -(w[(i + 1) % 3] * w[(i + 1) % 3] + w[(i + 2) % 3] * w[(i + 2) % 3]) } else { w[i] * w[j] }
         });
-        BodyMotion { angular, angular_rate, point_rate: products + angular_rate.skew(), acceleration }
+        BodyMotion {
+            angular,
+            angular_acceleration,
+            angular_acceleration_tensor: products + angular_acceleration.skew(),
+            acceleration,
+        }
     }
 
     fn ground(gravity: Vec3<f64>) -> Self {
         Self::new(Vec3::zero(), Vec3::zero(), Vec3::constant(-gravity))
     }
 
-    /// The motion behind a joint that turns about z with rate `rate` and acceleration `joint`.
-    fn behind_revolute(self, frame: &JointFrame<S>, rate: S, joint: S) -> Self {
-        let acceleration = frame.to_body(self.acceleration + self.point_rate * frame.position);
+    /// The motion across a joint of velocity `rate` and acceleration `joint`.
+    fn across(self, frame: &JointFrame<S>, screw: Screw, rate: S, joint: S) -> Self {
+        let mut acceleration = frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position);
         let mut w = frame.to_body(self.angular);
-        let before = frame.to_body(self.angular_rate);
-        let Some(image) = frame.axis_image(self.point_rate) else {
-            let rates = before + Vec3([w[1] * rate, -(w[0] * rate), joint]);
-            w[2] += rate;
-            return Self::new(w, rates, acceleration);
+        if let (Some(slide), Some(along)) = (screw.slide(rate), screw.slide(joint)) {
+            let twice = slide + slide;
+            acceleration = acceleration + Vec3([w[1] * twice, -(w[0] * twice), along]);
+        }
+        let before = frame.to_body(self.angular_acceleration);
+        let (Some(turn), Some(about)) = (screw.turn(rate), screw.turn(joint)) else {
+            return Self::new(w, before, acceleration);
         };
-        // The points of the axis belong to both bodies, so the third columns of their U are the same vector, and
-        // U_xz = ω_x ω_z + ω̇_y, U_yz = ω_y ω_z − ω̇_x give ω̇ without the products of ω and the joint's rate.
-        w[2] += rate;
-        let rates = Vec3([w[1] * w[2] - image[1], image[0] - w[0] * w[2], before[2] + joint]);
-        let mut motion = Self::new(w, rates, acceleration);
+        let Some(image) = frame.axis_image(self.angular_acceleration_tensor) else {
+            let angular_acceleration = before + Vec3([w[1] * turn, -(w[0] * turn), about]);
+            w[2] += turn;
+            return Self::new(w, angular_acceleration, acceleration);
+        };
+        // The directions of the axis belong to both bodies, so the third columns of their U are the same vector, and
+        // U_xz = ω_x ω_z + ω̇_y, U_yz = ω_y ω_z − ω̇_x give ω̇ without the products of ω and the joint's velocity.
+        w[2] += turn;
+        let angular_acceleration = Vec3([w[1] * w[2] - image[1], image[0] - w[0] * w[2], before[2] + about]);
+        let mut motion = Self::new(w, angular_acceleration, acceleration);
         for i in 0..3 {
-            motion.point_rate.0[i][2] = image[i];
+            motion.angular_acceleration_tensor.0[i][2] = image[i];
         }
         motion
     }
 
-    /// The motion behind a joint that moves along z with rate `rate` and acceleration `joint`.
-    fn behind_prismatic(self, frame: &JointFrame<S>, rate: S, joint: S) -> Self {
-        let w = frame.to_body(self.angular);
-        let twice = rate + rate;
-        let acceleration = frame.to_body(self.acceleration + self.point_rate * frame.position);
-        let acceleration = acceleration + Vec3([w[1] * twice, -(w[0] * twice), joint]);
-        Self::new(w, frame.to_body(self.angular_rate), acceleration)
-    }
-
     fn name(&self, trace: &impl Trace<S>, body: usize) {
         trace.name_vector(self.angular, "w", body);
-        trace.name_vector(self.angular_rate, "dw", body);
+        trace.name_vector(self.angular_acceleration, "dw", body);
         trace.name_vector(self.acceleration, "acc", body);
     }
 
     /// Force and moment about the origin that give a body of these moments of mass this motion: f = m a + U h, and n
     /// such that n× = U Σ − (U Σ)ᵀ, plus h × a.
-    fn wrench(&self, inertia: &PseudoInertia<S>, shape: Shape<S>) -> (Vec3<S>, Vec3<S>) {
+    fn wrench(&self, inertia: &PseudoInertia<S>, shape: Shape<S>) -> Wrench<S> {
         let PseudoInertia { mass, moment, second: s } = *inertia;
-        let force = self.acceleration.scale(mass) + self.point_rate * moment;
-        let (w, u) = (self.angular, self.point_rate.0);
+        let force = self.acceleration.scale(mass) + self.angular_acceleration_tensor * moment;
+        let (w, u) = (self.angular, self.angular_acceleration_tensor.0);
         // U_jj − U_ii.
         let squares = |i: usize, j: usize| w[j] * w[j] - w[i] * w[i];
         // Σ_jj U_kj − Σ_kk U_jk, for i, j, k in cyclic order: where the two moments are equal, only ω̇ is left of U.
         let across = |i: usize, j: usize, k: usize, first: S, second: S| {
             if shape.equal[i] {
-                (first + second) * self.angular_rate[i]
+                (first + second) * self.angular_acceleration[i]
             } else if shape.still && i == 2 {
                 // In axes that do not turn, the sum is a constant and the difference is not.
-                shape.polar * self.angular_rate[i] + (first - second) * (w[j] * w[k])
+                shape.polar * self.angular_acceleration[i] + (first - second) * (w[j] * w[k])
             } else {
                 first * u[k][j] - second * u[j][k]
             }
@@ -94,7 +98,7 @@ impl<S: Scalar> BodyMotion<S> {
             across(1, 2, 0, s.zz, s.xx) + s.yz * u[0][1] - s.xy * u[2][1] + s.xz * squares(2, 0),
             across(2, 0, 1, s.xx, s.yy) + s.xz * u[1][2] - s.yz * u[0][2] + s.xy * squares(0, 1),
         ]);
-        (force, own + moment.cross(self.acceleration))
+        Wrench { moment: own + moment.cross(self.acceleration), force }
     }
 }
 
@@ -127,43 +131,35 @@ pub fn inverse_dynamics<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], 
     let frames = joint_frames(tree, trace, q);
     let ground = BodyMotion::ground(tree.gravity);
     let mut motions: Vec<BodyMotion<S>> = Vec::with_capacity(tree.bodies.len());
-    let mut wrenches: Vec<(Vec3<S>, Vec3<S>)> = Vec::with_capacity(tree.bodies.len());
+    let mut wrenches: Vec<Wrench<S>> = Vec::with_capacity(tree.bodies.len());
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| motions[parent]);
-        let (rate, joint) = (v[body.coordinate], a[body.coordinate]);
-        let motion = match body.joint {
-            Joint::Revolute => parent.behind_revolute(frame, rate, joint),
-            Joint::Prismatic => parent.behind_prismatic(frame, rate, joint),
-        };
+        let motion = parent.across(frame, body.joint.screw(), v[body.v.start], a[body.v.start]);
         motion.name(trace, index);
         wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), Shape::new(&body.inertia, frame)));
         motions.push(motion);
     });
-    let mut tau = vec![S::zero(); tree.dof()];
+    let mut tau = vec![S::zero(); tree.nv()];
     trace.sweep("inward", tree.inward(), |index| {
         let body = &tree.bodies[index];
-        let (mut force, mut moment) = wrenches[index];
         // Taken from the children, not handed to the parent: so the sum for one body is one sum.
-        for child in tree.children(index) {
-            let load = frames[child].wrench_to_parent(wrenches[child].0, wrenches[child].1);
-            (force, moment) = (force + load.0, moment + load.1);
-        }
-        trace.name_vector(force, "force", index);
-        trace.name_vector(moment, "moment", index);
-        wrenches[index] = (force, moment);
-        tau[body.coordinate] = along_joint(body.joint, force, moment);
-        trace.name(tau[body.coordinate], "tau", index, "");
+        let loads = tree.children(index).map(|child| frames[child].wrench_to_parent(wrenches[child]));
+        let wrench = loads.fold(wrenches[index], |sum, load| sum + load);
+        trace.name_wrench(wrench, ["moment", "force"], index);
+        wrenches[index] = wrench;
+        tau[body.v.start] = body.joint.screw().project(wrench);
+        trace.name(tau[body.v.start], "tau", index, "");
     });
     tau
 }
 
 /// C(q, v) v + g(q): the joint forces at zero acceleration.
 pub fn bias_forces<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
-    inverse_dynamics(tree, trace, q, v, &vec![S::zero(); tree.dof()])
+    inverse_dynamics(tree, trace, q, v, &vec![S::zero(); tree.nv()])
 }
 
 /// g(q): the joint forces at rest.
 pub fn gravity_forces<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
-    bias_forces(tree, trace, q, &vec![S::zero(); tree.dof()])
+    bias_forces(tree, trace, q, &vec![S::zero(); tree.nv()])
 }

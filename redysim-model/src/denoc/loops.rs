@@ -4,11 +4,12 @@
 //! aligned: sums of products aᵢ·bⱼ of axes of the two sides ([`CutKind::alignments`]). Rows that vanish at every
 //! position are left out ([`Cut::rows`](crate::tree::Cut::rows)), so that a planar mechanism costs planar code.
 
-use super::joint::{JointFrame, joint_frames};
+use super::base_frame::{Order, Placed, bodies};
+use super::frame::JointFrame;
 use super::trace::{Trace, Untraced};
 use crate::model::CutKind;
-use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::{Cut, CutEnd, Joint, Tree};
+use crate::spatial::{Mat3, Vec3};
+use crate::tree::{Cut, CutEnd, Tree};
 use redysim_runtime::Scalar;
 
 /// One term of a row that aligns directions: factor, axis of side a, axis of side b.
@@ -29,72 +30,6 @@ impl CutKind {
     }
 }
 
-/// A body in the base frame.
-#[derive(Clone, Copy)]
-struct Placed<S> {
-    pose: Pose<S>,
-    /// The axes fixed to the body, which those of `pose` need not be.
-    fixed: Mat3<S>,
-    /// Angular velocity.
-    angular: Vec3<S>,
-    /// Angular acceleration at zero joint accelerations.
-    angular_rate: Vec3<S>,
-    /// Acceleration of the origin at zero joint accelerations, without gravity.
-    acceleration: Vec3<S>,
-}
-
-impl<S: Scalar> Placed<S> {
-    fn ground() -> Self {
-        let zero = Vec3::zero();
-        Placed {
-            pose: Pose::identity(),
-            fixed: Mat3::identity(),
-            angular: zero,
-            angular_rate: zero,
-            acceleration: zero,
-        }
-    }
-
-    /// How a vector fixed to the body changes, ω × r, ...
-    fn rate(&self, arm: Vec3<S>) -> Vec3<S> {
-        self.angular.cross(arm)
-    }
-
-    /// ... and how that changes, ω̇ × r + ω × (ω × r).
-    fn second_rate(&self, arm: Vec3<S>) -> Vec3<S> {
-        self.angular_rate.cross(arm) + self.rate(self.rate(arm))
-    }
-}
-
-/// All bodies at the coordinates `q` and velocities `v`.
-fn placed<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<Placed<S>> {
-    let mut bodies: Vec<Placed<S>> = Vec::with_capacity(tree.bodies.len());
-    for (body, joint) in tree.bodies.iter().zip(joint_frames(tree, trace, q)) {
-        let parent = body.parent.map_or(Placed::ground(), |parent| bodies[parent]);
-        let arm = parent.pose.rotation * joint.position;
-        let pose = Pose { rotation: turned(parent.pose.rotation, &joint), position: parent.pose.position + arm };
-        let along = pose.rotation.column(2).scale(v[body.coordinate]);
-        let fixed = joint.fixed_axes(pose.rotation);
-        let mut placed = Placed { pose, fixed, acceleration: parent.acceleration + parent.second_rate(arm), ..parent };
-        match body.joint {
-            Joint::Revolute => {
-                placed.angular_rate = parent.angular_rate + parent.rate(along);
-                placed.angular = parent.angular + along;
-            }
-            Joint::Prismatic => {
-                placed.acceleration = placed.acceleration + parent.rate(along) + parent.rate(along);
-            }
-        }
-        bodies.push(placed);
-    }
-    bodies
-}
-
-/// The axes of a body, of those of its parent.
-fn turned<S: Scalar>(parent: Mat3<S>, joint: &JointFrame<S>) -> Mat3<S> {
-    Mat3(parent.0.map(|row| joint.to_body(Vec3(row)).0))
-}
-
 /// One side of a cut, in the base frame.
 struct Side<S> {
     body: Placed<S>,
@@ -106,15 +41,16 @@ struct Side<S> {
 }
 
 impl<S: Scalar> Side<S> {
-    fn new(tree: &Tree, bodies: &[Placed<S>], end: &CutEnd) -> Self {
+    fn new(tree: &Tree, (bodies, joints): Bodies<S>, end: &CutEnd) -> Self {
         let body = end.body.map_or(Placed::ground(), |body| bodies[body]);
+        // The axes fixed to the body, which those of its pose need not be.
+        let rotation = end.body.map_or(Mat3::identity(), |body| joints[body].fixed_axes(bodies[body].pose.rotation));
         let mut carried = vec![false; bodies.len()];
         let mut at = end.body;
         while let Some(index) = at {
             carried[index] = true;
             at = tree.bodies[index].parent;
         }
-        let rotation = body.fixed;
         Side { body, arm: rotation * Vec3::constant(end.point), axes: rotation * Mat3::constant(end.axes), carried }
     }
 
@@ -127,10 +63,13 @@ impl<S: Scalar> Side<S> {
     }
 }
 
+/// The bodies in the base frame, and their joints' frames.
+type Bodies<'a, S> = (&'a [Placed<S>], &'a [JointFrame<S>]);
+
 /// The rows of all loops: of each cut, what `point` and `alignment` make of its sides a and b.
 fn rows<S: Scalar, R>(
     tree: &Tree,
-    bodies: &[Placed<S>],
+    bodies: Bodies<S>,
     point: impl Fn(&Side<S>, &Side<S>) -> [R; 3],
     alignment: impl Fn(&Side<S>, &Side<S>, &[Alignment]) -> R,
 ) -> Vec<R> {
@@ -150,10 +89,10 @@ fn weighted<S: Scalar>(terms: &[Alignment], term: impl Fn(usize, usize) -> S) ->
 
 /// How far each loop is from closed: m for points, sines for directions.
 pub fn loop_residual<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
-    let bodies = placed(tree, trace, q, &vec![S::zero(); tree.dof()]);
+    let (bodies, joints) = bodies(tree, trace, q, &[], Order::Positions);
     rows(
         tree,
-        &bodies,
+        (&bodies, &joints),
         |a, b| (b.point() - a.point()).0,
         |a, b, terms| weighted(terms, |i, j| a.axis(i).dot(b.axis(j))),
     )
@@ -161,36 +100,47 @@ pub fn loop_residual<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> 
 
 /// The Jacobian J of the residual, by rows of length NV: the residual changes by J v.
 pub fn loop_jacobian<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
-    let bodies = placed(tree, trace, q, &vec![S::zero(); tree.dof()]);
+    let (bodies, joints) = bodies(tree, trace, q, &[], Order::Positions);
     // A joint that carries both sides turns their difference; one that carries one side moves that side alone.
     let over_joints = |a: &Side<S>, b: &Side<S>, effect: &dyn Fn(usize, bool, bool) -> S| {
-        let mut row = vec![S::zero(); tree.dof()];
+        let mut row = vec![S::zero(); tree.nv()];
         for (index, body) in tree.bodies.iter().enumerate() {
             if a.carried[index] || b.carried[index] {
-                row[body.coordinate] = effect(index, a.carried[index], b.carried[index]);
+                row[body.v.start] = effect(index, a.carried[index], b.carried[index]);
             }
         }
         row
     };
+    let axis = |index: usize| bodies[index].pose.rotation.column(2);
     let point_effect = |index: usize, a: &Side<S>, b: &Side<S>, on_a: bool, on_b: bool| {
-        let Pose { rotation, position } = bodies[index].pose;
-        let (axis, sign) = (rotation.column(2), if on_b { S::one() } else { -S::one() });
-        match (tree.bodies[index].joint, on_a && on_b) {
-            (Joint::Revolute, true) => axis.cross(b.point() - a.point()),
-            (Joint::Revolute, false) => axis.cross(if on_b { b.point() } else { a.point() } - position).scale(sign),
-            (Joint::Prismatic, true) => Vec3::zero(),
-            (Joint::Prismatic, false) => axis.scale(sign),
+        let (screw, sign) = (tree.bodies[index].joint.screw(), if on_b { S::one() } else { -S::one() });
+        let turn = screw.turn(S::one()).map(|turn| {
+            let arm = match (on_a, on_b) {
+                (true, true) => b.point() - a.point(),
+                (_, true) => b.point() - bodies[index].pose.position,
+                _ => a.point() - bodies[index].pose.position,
+            };
+            let across = axis(index).cross(arm);
+            if on_a && on_b { across.scale(turn) } else { across.scale(sign * turn) }
+        });
+        // A joint that carries both sides displaces both.
+        let slide = screw.slide(S::one()).filter(|_| !(on_a && on_b)).map(|slide| axis(index).scale(sign * slide));
+        match (turn, slide) {
+            (Some(turn), Some(slide)) => turn + slide,
+            (turn, slide) => turn.or(slide).unwrap_or(Vec3::zero()),
         }
     };
-    let alignment_effect =
-        |index: usize, a: Vec3<S>, b: Vec3<S>, on_a: bool, on_b: bool| match (tree.bodies[index].joint, on_a, on_b) {
-            (Joint::Prismatic, ..) | (Joint::Revolute, true, true) => S::zero(),
-            (Joint::Revolute, _, true) => bodies[index].pose.rotation.column(2).dot(b.cross(a)),
-            (Joint::Revolute, ..) => bodies[index].pose.rotation.column(2).dot(a.cross(b)),
+    let alignment_effect = |index: usize, a: Vec3<S>, b: Vec3<S>, on_a: bool, on_b: bool| {
+        let across = match (on_a, on_b) {
+            (true, true) => return S::zero(),
+            (_, true) => b.cross(a),
+            _ => a.cross(b),
         };
+        tree.bodies[index].joint.screw().turn(axis(index).dot(across)).unwrap_or(S::zero())
+    };
     rows(
         tree,
-        &bodies,
+        (&bodies, &joints),
         |a, b| {
             [0, 1, 2].map(|axis| over_joints(a, b, &|index, on_a, on_b| point_effect(index, a, b, on_a, on_b)[axis]))
         },
@@ -204,17 +154,17 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> 
 
 /// J̇ v: how the rates J v of the residual change at zero joint accelerations.
 pub fn loop_bias<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
-    let bodies = placed(tree, trace, q, v);
-    let acceleration = |side: &Side<S>| side.body.acceleration + side.body.second_rate(side.arm);
+    let (bodies, joints) = bodies(tree, trace, q, v, Order::Accelerations);
+    let acceleration = |side: &Side<S>| side.body.acceleration + side.body.second_derivative(side.arm);
     rows(
         tree,
-        &bodies,
+        (&bodies, &joints),
         |a, b| (acceleration(b) - acceleration(a)).0,
         |a, b, terms| {
             weighted(terms, |i, j| {
                 let (of_a, of_b) = (a.axis(i), b.axis(j));
-                let both = a.body.rate(of_a).dot(b.body.rate(of_b));
-                a.body.second_rate(of_a).dot(of_b) + of_a.dot(b.body.second_rate(of_b)) + both + both
+                let both = a.body.derivative(of_a).dot(b.body.derivative(of_b));
+                a.body.second_derivative(of_a).dot(of_b) + of_a.dot(b.body.second_derivative(of_b)) + both + both
             })
         },
     )

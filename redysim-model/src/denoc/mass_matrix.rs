@@ -1,11 +1,12 @@
 //! The generalised inertia matrix, from composite bodies.
 
-use super::joint::{JointFrame, along_joint, joint_frames};
+use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
 use crate::inertia::Sym3;
+use crate::joint::Screw;
 use crate::pseudo::PseudoInertia;
-use crate::spatial::Vec3;
-use crate::tree::{Body, Joint, Tree};
+use crate::spatial::{Vec3, Wrench};
+use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
 
 /// M(q), by rows: element (i, j) is the force on joint i for a unit acceleration of joint j.
@@ -17,7 +18,7 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Ve
     let upright = upright(tree);
     let own_inertia = |(body, frame): (&Body, &JointFrame<S>)| Composite::new(body.inertia, frame);
     let mut composites: Vec<Composite<S>> = tree.bodies.iter().zip(&frames).map(own_inertia).collect();
-    let mut matrix = vec![vec![S::zero(); tree.dof()]; tree.dof()];
+    let mut matrix = vec![vec![S::zero(); tree.nv()]; tree.nv()];
     for (index, body) in tree.bodies.iter().enumerate().rev() {
         let composite = composites[index];
         composite.name(trace, index);
@@ -25,15 +26,15 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Ve
             let carried = composite.to_parent(&frames[index], upright[index]);
             composites[parent] = composites[parent].plus(carried);
         }
-        let (mut force, mut moment) = composite.unit_wrench(body.joint);
+        let mut wrench = composite.unit_wrench(body.joint.screw());
         let mut at = index;
         loop {
             let joint = &tree.bodies[at];
-            let element = along_joint(joint.joint, force, moment);
-            matrix[body.coordinate][joint.coordinate] = element;
-            matrix[joint.coordinate][body.coordinate] = element;
+            let element = joint.joint.screw().project(wrench);
+            matrix[body.v.start][joint.v.start] = element;
+            matrix[joint.v.start][body.v.start] = element;
             let Some(parent) = joint.parent else { break };
-            (force, moment) = frames[at].wrench_to_parent(force, moment);
+            wrench = frames[at].wrench_to_parent(wrench);
             at = parent;
         }
     }
@@ -80,14 +81,13 @@ impl<S: Scalar> Composite<S> {
         Composite { inertia, polar }
     }
 
-    /// Force and moment that give the body a unit acceleration of its joint from rest.
-    fn unit_wrench(self, joint: Joint) -> (Vec3<S>, Vec3<S>) {
+    /// The wrench that gives the body a unit acceleration of its joint from rest.
+    fn unit_wrench(self, screw: Screw) -> Wrench<S> {
         let Vec3([x, y, _]) = self.inertia.moment;
         let (zero, s) = (S::zero(), self.inertia.second);
-        match joint {
-            Joint::Revolute => (Vec3([-y, x, zero]), Vec3([-s.xz, -s.yz, self.polar])),
-            Joint::Prismatic => (Vec3([zero, zero, self.inertia.mass]), Vec3([y, -x, zero])),
-        }
+        let turn = Wrench { moment: Vec3([-s.xz, -s.yz, self.polar]), force: Vec3([-y, x, zero]) };
+        let slide = Wrench { moment: Vec3([y, -x, zero]), force: Vec3([zero, zero, self.inertia.mass]) };
+        screw.combined(turn, slide)
     }
 
     fn name(self, trace: &impl Trace<S>, body: usize) {

@@ -13,13 +13,14 @@
 //! Algorithms*, Springer 2008.
 
 mod articulated;
+mod base_frame;
 mod center_of_mass;
 mod energy;
 mod evaluate;
 mod factorisation;
 mod forward;
+mod frame;
 mod inverse;
-mod joint;
 mod kinematics;
 mod loops;
 mod mass_matrix;

@@ -1,7 +1,7 @@
 //! Who watches a recursion run: nobody for numbers, the code generator for symbols.
 
 use crate::inertia::Sym3;
-use crate::spatial::{Mat3, Vec3};
+use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 
 /// Observes a recursion over scalars `S`: which of its operations belong to which body, and what its values are called.
 ///
@@ -36,6 +36,20 @@ pub trait Trace<S: Copy> {
         for (element, component) in value.0.into_iter().zip(["x", "y", "z"]) {
             self.name(element, quantity, body, component);
         }
+    }
+
+    /// Names the components of a twist.
+    #[inline]
+    fn name_twist(&self, value: Twist<S>, [angular, linear]: [&'static str; 2], body: usize) {
+        self.name_vector(value.angular, angular, body);
+        self.name_vector(value.linear, linear, body);
+    }
+
+    /// Names the components of a wrench.
+    #[inline]
+    fn name_wrench(&self, value: Wrench<S>, [moment, force]: [&'static str; 2], body: usize) {
+        self.name_vector(value.moment, moment, body);
+        self.name_vector(value.force, force, body);
     }
 
     /// Names the elements of a matrix.

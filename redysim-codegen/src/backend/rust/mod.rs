@@ -26,7 +26,7 @@ pub fn mechanism(
     runtime: &TokenStream,
 ) -> TokenStream {
     let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
-    let bodies: Vec<String> = Tree::new(model).bodies.iter().map(|body| moving[body.coordinate].to_string()).collect();
+    let bodies: Vec<String> = Tree::new(model).bodies.iter().map(|body| moving[body.v.start].to_string()).collect();
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
     let writer = Writer { model, bodies: &bodies, angles: &angles, outline, runtime };
     let definitions =

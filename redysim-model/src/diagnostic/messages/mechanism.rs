@@ -2,7 +2,7 @@
 
 use super::super::Message;
 use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
-use crate::tree::Joint;
+use crate::joint::Joint;
 use redysim_runtime::Function;
 
 pub(crate) fn blank_name(item: &str, key: &str) -> Message {

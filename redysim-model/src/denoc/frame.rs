@@ -1,10 +1,10 @@
-//! One joint at one position: how vectors, forces and inertias pass between a body and its parent.
+//! One joint at one position: how vectors, wrenches and inertias pass between a body and its parent.
 
 use super::trace::Trace;
 use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;
-use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::{Joint, Tree};
+use crate::spatial::{Mat3, Pose, Vec3, Wrench};
+use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
 /// Cosine and sine of an angle about z.
@@ -49,8 +49,8 @@ pub(super) fn joint_frames<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S
         let fixed = Mat3::constant(rotation);
         let mut position = turned(parent, Vec3::constant(position));
         let before = parent.filter(|_| !body.is_parallel());
-        if body.joint == Joint::Prismatic {
-            position = position + turned(before, fixed.column(2)).scale(q[body.coordinate]);
+        if let Some(slide) = body.joint.screw().slide(q[body.q.start]) {
+            position = position + turned(before, fixed.column(2)).scale(slide);
         }
         let along_axis = before.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
@@ -72,15 +72,12 @@ struct Angle<S> {
 fn angles<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Option<Angle<S>>> {
     let mut angles: Vec<Option<Angle<S>>> = Vec::with_capacity(tree.bodies.len());
     for body in &tree.bodies {
-        let q = q[body.coordinate];
+        let q = q[body.q.start];
         let still_parent = body.parent.filter(|&parent| tree.bodies[parent].still && body.is_parallel());
         let [near] =
             if body.still || still_parent.is_some() || body.offset != 0.0 { S::without_turns([q]) } else { [q] };
-        let own = match body.joint {
-            Joint::Revolute if body.offset == 0.0 => Some(near),
-            Joint::Revolute => Some(near + S::from_f64(body.offset)),
-            Joint::Prismatic => None,
-        };
+        let offset = |turn: S| if body.offset == 0.0 { turn } else { turn + S::from_f64(body.offset) };
+        let own = body.joint.screw().turn(near).map(offset);
         let carried = still_parent.and_then(|parent| angles[parent]).map(|angle| {
             let opposite = body.placement.rotation.0[2][2] < 0.0;
             if opposite { -angle.value } else { angle.value }
@@ -145,11 +142,11 @@ impl<S: Scalar> JointFrame<S> {
         self.attitude.is_some()
     }
 
-    /// A force on the body and its moment about the body's origin, in the parent's axes and about the parent's origin.
+    /// A wrench on the body, in the parent's axes and about the parent's origin.
     #[inline]
-    pub fn wrench_to_parent(self, force: Vec3<S>, moment: Vec3<S>) -> (Vec3<S>, Vec3<S>) {
+    pub fn wrench_to_parent(self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
         let force = self.to_parent(force);
-        (force, self.to_parent(moment) + self.position.cross(force))
+        Wrench { moment: self.to_parent(moment) + self.position.cross(force), force }
     }
 
     /// A symmetric tensor of the body's axes, in the parent's.
@@ -193,12 +190,4 @@ fn turned_back<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
 #[inline]
 fn turned_tensor<S: Scalar>(turn: Option<Turn<S>>, tensor: Sym3<S>) -> Sym3<S> {
     turn.map_or(tensor, |(cos, sin)| tensor.rotated_about_z(cos, sin))
-}
-
-/// The component of a wrench that a joint's motion meets: the moment about z, or the force along it.
-pub(super) fn along_joint<S: Scalar>(joint: Joint, force: Vec3<S>, moment: Vec3<S>) -> S {
-    match joint {
-        Joint::Revolute => moment[2],
-        Joint::Prismatic => force[2],
-    }
 }

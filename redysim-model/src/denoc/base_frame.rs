@@ -1,0 +1,93 @@
+//! Where every body is and how it moves, seen from the base frame.
+
+use super::frame::{JointFrame, joint_frames};
+use super::trace::Trace;
+use crate::spatial::{Mat3, Pose, Vec3};
+use crate::tree::Tree;
+use redysim_runtime::Scalar;
+
+/// How many derivatives of positions are computed; the others are zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Order {
+    Positions,
+    Velocities,
+    Accelerations,
+}
+
+/// A frame in the base frame.
+#[derive(Clone, Copy)]
+pub(super) struct Placed<S> {
+    pub pose: Pose<S>,
+    /// Velocity of the origin.
+    pub velocity: Vec3<S>,
+    /// Angular velocity.
+    pub angular: Vec3<S>,
+    /// Acceleration of the origin at zero joint accelerations, without gravity.
+    pub acceleration: Vec3<S>,
+    /// Angular acceleration at zero joint accelerations.
+    pub angular_acceleration: Vec3<S>,
+}
+
+impl<S: Scalar> Placed<S> {
+    pub fn ground() -> Self {
+        let zero = Vec3::zero();
+        Placed { pose: Pose::identity(), velocity: zero, angular: zero, acceleration: zero, angular_acceleration: zero }
+    }
+
+    /// The derivative of a vector fixed to the frame, ω × r, ...
+    pub fn derivative(&self, arm: Vec3<S>) -> Vec3<S> {
+        self.angular.cross(arm)
+    }
+
+    /// ... and its second derivative, ω̇ × r + ω × (ω × r).
+    pub fn second_derivative(&self, arm: Vec3<S>) -> Vec3<S> {
+        self.angular_acceleration.cross(arm) + self.derivative(self.derivative(arm))
+    }
+
+    /// The frame that stands at `pose` on this one and does not move against it.
+    pub fn carry(self, pose: Pose<S>, order: Order) -> Self {
+        let arm = self.pose.rotation * pose.position;
+        let mut carried = self;
+        carried.pose = Pose { rotation: self.pose.rotation * pose.rotation, position: self.pose.position + arm };
+        if order >= Order::Velocities {
+            carried.velocity = self.velocity + self.derivative(arm);
+        }
+        if order >= Order::Accelerations {
+            carried.acceleration = self.acceleration + self.second_derivative(arm);
+        }
+        carried
+    }
+}
+
+/// All bodies at the coordinates `q` and velocities `v`, and their joints' frames.
+pub(super) fn bodies<S: Scalar>(
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    order: Order,
+) -> (Vec<Placed<S>>, Vec<JointFrame<S>>) {
+    let joints = joint_frames(tree, trace, q);
+    let mut bodies: Vec<Placed<S>> = Vec::with_capacity(tree.bodies.len());
+    trace.sweep("outward", tree.outward(), |index| {
+        let (body, joint) = (&tree.bodies[index], &joints[index]);
+        let parent = body.parent.map_or(Placed::ground(), |parent| bodies[parent]);
+        let mut placed = parent.carry(Pose { rotation: Mat3::identity(), position: joint.position }, order);
+        placed.pose.rotation = Mat3(parent.pose.rotation.0.map(|row| joint.to_body(Vec3(row)).0));
+        if order >= Order::Velocities {
+            let axis = placed.pose.rotation.column(2);
+            let (screw, rate) = (body.joint.screw(), v[body.v.start]);
+            if let Some(turn) = screw.turn(rate).map(|turn| axis.scale(turn)) {
+                placed.angular_acceleration = parent.angular_acceleration + parent.derivative(turn);
+                placed.angular = parent.angular + turn;
+            }
+            if let Some(slide) = screw.slide(rate).map(|slide| axis.scale(slide)) {
+                let across = parent.derivative(slide);
+                placed.acceleration = placed.acceleration + across + across;
+                placed.velocity = placed.velocity + slide;
+            }
+        }
+        bodies.push(placed);
+    });
+    (bodies, joints)
+}

@@ -1,0 +1,20 @@
+//! A joint that moves its body along z.
+
+use super::Screw;
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
+use crate::spatial::Vec3;
+
+pub const SCREW: Screw = Screw { turn: 0.0, slide: 1.0 };
+
+/// The body turns with its parent, so its second moments do not depend on the joint.
+pub fn split(inertia: PseudoInertia<f64>) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+    let PseudoInertia { mass, moment, second } = inertia;
+    let own = PseudoInertia { mass, moment, second: Sym3::zero() };
+    (own, PseudoInertia { mass: 0.0, moment: Vec3::zero(), second })
+}
+
+/// The mass.
+pub fn meets(inertia: PseudoInertia<f64>) -> f64 {
+    if inertia.mass > 0.0 { 1.0 } else { 0.0 }
+}

@@ -1,0 +1,28 @@
+//! A joint that turns its body about z.
+
+use super::{AxisMass, Screw, Vanishing};
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
+use crate::spatial::Vec3;
+
+pub const SCREW: Screw = Screw { turn: 1.0, slide: 0.0 };
+
+/// Mass on the axis belongs to both bodies.
+pub fn split(inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+    let PseudoInertia { mass, moment, second } = inertia;
+    // J_yy is Σ_zz + Σ_xx.
+    let left = match vanishing {
+        Vanishing::TensorYy => -second.xx,
+        Vanishing::SecondMomentZz => 0.0,
+    };
+    let own =
+        PseudoInertia { mass: 0.0, moment: Vec3([moment[0], moment[1], 0.0]), second: Sym3 { zz: left, ..second } };
+    (own, AxisMass { mass, first: moment[2], second: second.zz - left }.inertia())
+}
+
+/// The moment of inertia about the axis.
+pub fn meets(inertia: PseudoInertia<f64>) -> f64 {
+    let Sym3 { xx, yy, zz, .. } = inertia.second;
+    let moment = xx + yy;
+    if moment > 0.0 { moment / (moment + 2.0 * zz) } else { 0.0 }
+}

@@ -1,0 +1,94 @@
+//! The motion of a joint with one freedom, about and along z.
+
+use crate::spatial::{Twist, Vec3, Wrench};
+use redysim_runtime::Scalar;
+
+/// The motion subspace S = (turn e₃; slide e₃) of a joint with one freedom, in its body's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Screw {
+    /// Rotation about z for a unit of the coordinate.
+    pub turn: f64,
+    /// Displacement along z for a unit of the coordinate.
+    pub slide: f64,
+}
+
+impl Screw {
+    /// How much of `x` is rotation about z; `None` if the joint does not turn.
+    pub fn turn<S: Scalar>(self, x: S) -> Option<S> {
+        times(self.turn, x)
+    }
+
+    /// How much of `x` is displacement along z; `None` if the joint does not slide.
+    pub fn slide<S: Scalar>(self, x: S) -> Option<S> {
+        times(self.slide, x)
+    }
+
+    /// Which of the six axes (angular x, y, z, linear x, y, z) S is, if it is one.
+    pub fn unit_axis(self) -> Option<usize> {
+        match (self.turn, self.slide) {
+            (1.0, 0.0) => Some(2),
+            (0.0, 1.0) => Some(5),
+            _ => None,
+        }
+    }
+
+    /// The wrench for a unit of the coordinate, of those for a unit rotation and a unit displacement.
+    pub fn combined<S: Scalar>(self, turn: Wrench<S>, slide: Wrench<S>) -> Wrench<S> {
+        match self.unit_axis() {
+            Some(2) => turn,
+            Some(_) => slide,
+            None => turn.scale(S::from_f64(self.turn)) + slide.scale(S::from_f64(self.slide)),
+        }
+    }
+
+    /// Sᵀ w, the joint force of a wrench.
+    pub fn project<S: Scalar>(self, wrench: Wrench<S>) -> S {
+        match (self.turn(wrench.moment[2]), self.slide(wrench.force[2])) {
+            (Some(moment), Some(force)) => moment + force,
+            (Some(component), None) | (None, Some(component)) => component,
+            (None, None) => S::zero(),
+        }
+    }
+
+    /// `twist` + S `rate`.
+    pub fn added<S: Scalar>(self, mut twist: Twist<S>, rate: S) -> Twist<S> {
+        if let Some(turn) = self.turn(rate) {
+            twist.angular[2] += turn;
+        }
+        if let Some(slide) = self.slide(rate) {
+            twist.linear[2] += slide;
+        }
+        twist
+    }
+
+    /// The bias acceleration of the joint, (ω × turn; 2 ω × slide) for the velocity `rate`, where the parent's angular
+    /// velocity is `angular` in the body's axes.
+    pub fn bias<S: Scalar>(self, angular: Vec3<S>, rate: S) -> Twist<S> {
+        let [x, y, _] = angular.0;
+        let across = |along: S| Vec3([y * along, -(x * along), S::zero()]);
+        Twist {
+            angular: self.turn(rate).map_or(Vec3::zero(), across),
+            linear: self.slide(rate).map_or(Vec3::zero(), |slide| across(slide + slide)),
+        }
+    }
+
+    /// The wrench, of which the joint force is known to be `force`, with exactly that.
+    pub fn with_force<S: Scalar>(self, mut wrench: Wrench<S>, force: S) -> Wrench<S> {
+        match self.unit_axis() {
+            Some(axis) => *wrench.component_mut(axis) = force,
+            None => {
+                let missing = force - self.project(wrench);
+                wrench.moment[2] += missing * S::from_f64(1.0 / self.turn);
+            }
+        }
+        wrench
+    }
+}
+
+fn times<S: Scalar>(coefficient: f64, x: S) -> Option<S> {
+    match coefficient {
+        0.0 => None,
+        1.0 => Some(x),
+        other => Some(S::from_f64(other) * x),
+    }
+}
