@@ -39,7 +39,7 @@ fn product<S: Scalar>(a: &Transform<S>, b: &Transform<S>) -> Transform<S> {
 }
 
 /// What a joint variable does: Rodrigues' rotation 1 + sin q [u] + (1 − cos q) [u]² about, or a shift along, the axis.
-fn joint<S: Scalar>(kind: JointKind, u: [f64; 3], q: S) -> Transform<S> {
+fn joint<S: Scalar>(kind: JointKind, pitch: f64, u: [f64; 3], q: S) -> Transform<S> {
     let mut transform = constant::<S>(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [0.0; 3]);
     let cross = [[0.0, -u[2], u[1]], [u[2], 0.0, -u[0]], [-u[1], u[0], 0.0]];
     let (sin, cos) = q.sin_cos();
@@ -47,7 +47,10 @@ fn joint<S: Scalar>(kind: JointKind, u: [f64; 3], q: S) -> Transform<S> {
         match kind {
             JointKind::Fixed => {}
             JointKind::Prismatic => row[3] = S::from_f64(u[i]) * q,
-            JointKind::Revolute => {
+            JointKind::Revolute | JointKind::Helical => {
+                if kind == JointKind::Helical {
+                    row[3] = S::from_f64(pitch * u[i]) * q;
+                }
                 for (j, element) in row.iter_mut().enumerate().take(3) {
                     let square: f64 = (0..3).map(|k| cross[i][k] * cross[k][j]).sum();
                     *element += S::from_f64(cross[i][j]) * sin + S::from_f64(square) * (S::one() - cos);
@@ -60,13 +63,13 @@ fn joint<S: Scalar>(kind: JointKind, u: [f64; 3], q: S) -> Transform<S> {
 
 /// Link `link` in the base frame; without a link, the base.
 fn place<S: Scalar>(model: &Model, link: Option<usize>, q: &[S]) -> Transform<S> {
-    let Some(index) = link else { return joint(JointKind::Fixed, [0.0; 3], S::zero()) };
+    let Some(index) = link else { return joint(JointKind::Fixed, 0.0, [0.0; 3], S::zero()) };
     let link = &model.links[index];
     let coordinate = model.links[..index].iter().filter(|link| link.joint != JointKind::Fixed).count();
     let variable = q.get(coordinate).map_or(S::zero(), |&q| q + S::from_f64(link.offset));
     let placement = constant(&link.placement.rotation.0, link.placement.position.0);
     let parent = place(model, link.parent, q);
-    product(&product(&parent, &placement), &joint(link.joint, link.axis.0, variable))
+    product(&product(&parent, &placement), &joint(link.joint, link.pitch, link.axis.0, variable))
 }
 
 /// All rows of all loops, whether they vanish or not. `frames` are the axes of side a, as columns in its link's frame.
@@ -122,13 +125,14 @@ fn random_model(random: &mut Random) -> Model {
             name: format!("link{grown}"),
             joint_name: format!("link{grown}"),
             parent,
-            joint: [JointKind::Revolute, JointKind::Revolute, JointKind::Prismatic, JointKind::Fixed][random.below(4)],
+            joint: [JointKind::Revolute, JointKind::Helical, JointKind::Prismatic, JointKind::Fixed][random.below(4)],
             placement: Pose {
                 rotation: Mat3::from_fn(|i, j| turned[(i, j)]),
                 position: Vec3::from_fn(|_| random.within(0.5)),
             },
             axis: Vec3(unit_vector(random).into()),
             offset: if random.below(2) == 0 { 0.0 } else { random.within(1.0) },
+            pitch: 0.2,
             mass: 1.0,
             com: Vec3::zero(),
             inertia: Inertia { xx: 1.0, yy: 1.0, zz: 1.0, ..Inertia::default() },

@@ -71,6 +71,7 @@ fn random_model(random: &mut Random) -> Model {
         let joint = match random.below(5) {
             0 if grown > 0 => JointKind::Fixed,
             1 => JointKind::Prismatic,
+            2 if grown % 3 != 1 => JointKind::Helical,
             _ => JointKind::Revolute,
         };
         let name = format!("link{grown}");
@@ -86,6 +87,7 @@ fn random_model(random: &mut Random) -> Model {
             },
             axis: Vec3(axis(random).into()),
             offset: if random.below(2) == 0 { 0.0 } else { random.within(1.0) },
+            pitch: if joint == JointKind::Helical { 0.4 - 0.1 * grown as f64 } else { 0.0 },
             mass: 1.5 + random.within(1.0),
             com: Vec3::from_fn(|_| random.within(0.2)),
             inertia: inertia(random),

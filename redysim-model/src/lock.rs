@@ -1,6 +1,7 @@
 //! Joints held at a value: as if the file had them fixed there.
 
 use crate::diagnostic::messages::{did_you_mean, nearest, quoted};
+use crate::joint::Joint;
 use crate::model::{JointKind, Link, Model};
 use crate::rotation;
 use crate::rotation::align_z;
@@ -60,19 +61,17 @@ impl Link {
     /// Fixes the joint where its coordinate is `value`.
     pub(crate) fn lock(&mut self, value: f64) {
         let travel = self.offset + value;
-        let motion = match self.joint {
-            JointKind::Revolute => {
+        if let Some(screw) = Joint::of(self).map(Joint::screw) {
+            let turn = screw.turn(travel).map_or(Mat3::identity(), |angle| {
                 let aligned = align_z(self.axis);
-                let turn = aligned * rotation::about_z(travel) * aligned.transpose();
-                Pose { rotation: turn, position: Vec3::zero() }
-            }
-            JointKind::Prismatic => Pose { rotation: Mat3::identity(), position: self.axis.scale(travel) },
-            JointKind::Fixed => Pose::identity(),
-        };
-        self.placement = (self.placement * motion).without_negative_zeros();
+                aligned * rotation::about_z(angle) * aligned.transpose()
+            });
+            let slide = screw.slide(travel).map_or(Vec3::zero(), |slide| self.axis.scale(slide));
+            self.placement = (self.placement * Pose { rotation: turn, position: slide }).without_negative_zeros();
+        }
         self.joint = JointKind::Fixed;
         self.axis = Vec3([0.0, 0.0, 1.0]);
-        self.offset = 0.0;
+        (self.offset, self.pitch) = (0.0, 0.0);
     }
 }
 

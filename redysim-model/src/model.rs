@@ -18,7 +18,7 @@ pub struct Model {
 /// One rigid body and the joint that carries it.
 ///
 /// A joint variable q moves the link's frame to `placement · motion(offset + q)`, where the motion is a rotation about
-/// `axis` (revolute), a translation along it (prismatic), or nothing (fixed).
+/// `axis` (revolute), a translation along it (prismatic), both in proportion (helical), or nothing (fixed).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name of the link.
@@ -33,8 +33,10 @@ pub struct Link {
     pub placement: Pose<f64>,
     /// Unit vector of the joint axis, in the link's frame.
     pub axis: Vec3<f64>,
-    /// What is added to the joint variable: rad (revolute) or m (prismatic).
+    /// What is added to the joint variable: rad, or m (prismatic).
     pub offset: f64,
+    /// Translation along the axis for a unit of rotation, m/rad, of a helical joint; zero for others.
+    pub pitch: f64,
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass from the link's frame, in it, m.
@@ -69,15 +71,18 @@ pub enum JointKind {
     Revolute,
     /// Translation along the axis.
     Prismatic,
+    /// Rotation about the axis with a translation along it in proportion, as a screw moves.
+    Helical,
     /// No motion: the link is part of its parent.
     Fixed,
 }
 
 impl JointKind {
     /// Every kind with its name in a model file.
-    pub const ALL: [(&'static str, JointKind); 3] = [
+    pub const ALL: [(&'static str, JointKind); 4] = [
         (JointKind::Revolute.name(), JointKind::Revolute),
         (JointKind::Prismatic.name(), JointKind::Prismatic),
+        (JointKind::Helical.name(), JointKind::Helical),
         (JointKind::Fixed.name(), JointKind::Fixed),
     ];
 
@@ -86,6 +91,7 @@ impl JointKind {
         match self {
             JointKind::Revolute => "revolute",
             JointKind::Prismatic => "prismatic",
+            JointKind::Helical => "helical",
             JointKind::Fixed => "fixed",
         }
     }
@@ -93,9 +99,14 @@ impl JointKind {
     /// Number of joint velocities.
     pub fn dof(self) -> usize {
         match self {
-            JointKind::Revolute | JointKind::Prismatic => 1,
+            JointKind::Revolute | JointKind::Prismatic | JointKind::Helical => 1,
             JointKind::Fixed => 0,
         }
+    }
+
+    /// Whether its coordinate is an angle, rad, and its force a moment, N m.
+    pub fn turns(self) -> bool {
+        matches!(self, JointKind::Revolute | JointKind::Helical)
     }
 }
 

@@ -9,13 +9,11 @@ use crate::tree::Tree;
 
 /// The tree in the unit of length `unit`, m; `None` if a joint moves along its axis, whose coordinate is a length.
 pub fn in_unit(tree: &Tree, unit: f64) -> Option<Tree> {
-    if tree.bodies.iter().any(|body| body.joint.screw().turn == 0.0) {
-        return None;
-    }
     let mut tree = tree.clone();
     tree.gravity = tree.gravity.scale(1.0 / unit);
     tree.ground = scaled(tree.ground, unit);
     for body in &mut tree.bodies {
+        body.joint = body.joint.in_unit(unit)?;
         body.placement.position.0 = body.placement.position.0.map(|length| exact_one(length / unit));
         body.inertia = scaled(body.inertia, unit);
     }

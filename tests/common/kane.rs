@@ -33,8 +33,18 @@ pub struct Body {
     /// Accelerations at zero joint accelerations, of the origin and of the axes.
     acceleration: Vector3<f64>,
     angular_acceleration: Vector3<f64>,
-    /// Joints between the ground and the link: coordinate, kind, axis, a point on it.
-    joints: Vec<(usize, JointKind, Vector3<f64>, Vector3<f64>)>,
+    /// Joints between the ground and the link, with the coordinates.
+    joints: Vec<(usize, Screw)>,
+}
+
+/// A joint's motion for a unit of its coordinate.
+#[derive(Clone, Copy)]
+struct Screw {
+    axis: Vector3<f64>,
+    /// A point on the axis.
+    point: Vector3<f64>,
+    turn: f64,
+    slide: f64,
 }
 
 impl Body {
@@ -82,11 +92,26 @@ impl Body {
                 body.velocity += w.cross(&stroke) + z * v;
                 body.acceleration += dw.cross(&stroke) + w.cross(&w.cross(&stroke)) + 2.0 * w.cross(&z) * v;
             }
+            JointKind::Helical => {
+                let turn = link.offset + q;
+                let stroke = z * (link.pitch * turn);
+                body.rotation = at_zero * Rotation3::from_axis_angle(&Unit::new_normalize(axis), turn);
+                body.origin += stroke;
+                body.velocity += w.cross(&stroke) + z * (link.pitch * v);
+                body.acceleration +=
+                    dw.cross(&stroke) + w.cross(&w.cross(&stroke)) + 2.0 * link.pitch * w.cross(&z) * v;
+                body.angular_velocity += z * v;
+                body.angular_acceleration += w.cross(&z) * v;
+            }
             JointKind::Fixed => {}
         }
         body.com = body.origin + body.rotation * Vector3::from(link.com.0);
         if link.joint != JointKind::Fixed {
-            body.joints.push((coordinate, link.joint, z, body.origin));
+            let (turn, slide) = match link.joint {
+                JointKind::Prismatic => (0.0, 1.0),
+                _ => (1.0, link.pitch),
+            };
+            body.joints.push((coordinate, Screw { axis: z, point: body.origin, turn, slide }));
         }
         body
     }
@@ -94,13 +119,9 @@ impl Body {
     /// Jacobians of the centre of mass and of the axes, a column for each of `dof` velocities.
     fn jacobians(&self, dof: usize) -> (DMatrix<f64>, DMatrix<f64>) {
         let (mut linear, mut angular) = (DMatrix::zeros(3, dof), DMatrix::zeros(3, dof));
-        for &(coordinate, kind, z, point) in &self.joints {
-            if kind == JointKind::Revolute {
-                linear.set_column(coordinate, &z.cross(&(self.com - point)));
-                angular.set_column(coordinate, &z);
-            } else {
-                linear.set_column(coordinate, &z);
-            }
+        for &(coordinate, Screw { axis, point, turn, slide }) in &self.joints {
+            linear.set_column(coordinate, &(turn * axis.cross(&(self.com - point)) + slide * axis));
+            angular.set_column(coordinate, &(turn * axis));
         }
         (linear, angular)
     }

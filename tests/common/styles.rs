@@ -66,6 +66,7 @@ impl Style {
                 },
                 axis: Vec3([0.0, 0.0, 1.0]),
                 offset: if random.below(2) == 0 { 0.0 } else { random.within(1.0) },
+                pitch: 0.0,
                 mass,
                 com,
                 inertia: self.inertia(random, mass, length),

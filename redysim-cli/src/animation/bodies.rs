@@ -1,6 +1,7 @@
 //! What the model says about the looks of a mechanism: from where to where its links reach, and how they are joined.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use redysim_model::joint::{self, Screw};
 use redysim_model::spatial::{Mat3, Vec3};
 use redysim_model::{JointKind, Link, Model};
 use serde::Serialize;
@@ -30,6 +31,9 @@ struct Joint<'a> {
     /// The link's frame in that body's where the joint's motion is zero: origin, m, and quaternion x, y, z, w.
     position: [f64; 3],
     rotation: [f64; 4],
+    /// Rotation about the axis and displacement along it for a unit of its coordinate.
+    turn: f64,
+    slide: f64,
     /// What is added to its coordinate, rad or m.
     offset: f64,
     /// Number of its coordinate, which is that of its colour; none for a joint that does not move.
@@ -63,6 +67,7 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
     let mut coordinates = 0..;
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
+        let screw = joint::Joint::of(link).map_or(Screw { turn: 0.0, slide: 0.0 }, joint::Joint::screw);
         let joint = Joint {
             name: &link.joint_name,
             kind: link.joint.name(),
@@ -70,6 +75,8 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
             parent: number(link.parent),
             position: link.placement.position.0,
             rotation: quaternion(link.placement.rotation),
+            turn: screw.turn,
+            slide: screw.slide,
             offset: link.offset,
             coordinate: if link.joint.dof() > 0 { coordinates.next() } else { None },
             rail: (link.joint == JointKind::Prismatic).then(|| Place { body: number(link.parent), point: foot(link) }),
@@ -116,6 +123,7 @@ fn ends(model: &Model, link: Option<usize>) -> Vec<[f64; 3]> {
 fn foot(link: &Link) -> [f64; 3] {
     let slid = match link.joint {
         JointKind::Prismatic => link.offset,
+        JointKind::Helical => link.pitch * link.offset,
         JointKind::Revolute | JointKind::Fixed => 0.0,
     };
     (link.placement.position + link.placement.rotation * Vec3(link.axis.0.map(|x| x * slid))).0

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use redysim_model::{GenericMechanism, JointKind, Link, Model};
+use redysim_model::{GenericMechanism, Link, Model};
 use redysim_runtime::LoopClosure;
 use serde::Serialize;
 
@@ -94,7 +94,7 @@ fn rates(t: &[f64], q: &[f64], v: &[f64]) -> Vec<f64> {
 /// That a joint turns so far between instants that its motion cannot be followed.
 fn fast(joint: &Link, q: &[f64]) -> Option<String> {
     let most = q.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
-    let too_fast = joint.joint == JointKind::Revolute && most > QUARTER_TURN;
+    let too_fast = joint.joint.turns() && most > QUARTER_TURN;
     too_fast.then(|| {
         let (name, turns) = (&joint.joint_name, rounded(most.to_degrees()));
         format!("joint `{name}` turns by up to {turns} deg from one instant to the next: what lies between is a guess")

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use redysim_model::Model;
 use redysim_model::document::{Field, Message, Reader, Value};
-use redysim_model::{JointKind, Model};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -37,7 +37,7 @@ impl Joint {
 pub fn of_model(model: &Model) -> Vec<Joint> {
     let joint = |link: &redysim_model::Link| Joint {
         name: link.joint_name.clone(),
-        turns: link.joint == JointKind::Revolute,
+        turns: link.joint.turns(),
         actuated: link.actuated,
     };
     model.moving_links().map(joint).collect()

@@ -131,7 +131,11 @@ fn size(model: &Model) -> f64 {
 }
 
 fn own_length(link: &Link) -> f64 {
-    let offset = if link.joint == JointKind::Prismatic { link.offset.abs() } else { 0.0 };
+    let offset = match link.joint {
+        JointKind::Prismatic => link.offset.abs(),
+        JointKind::Helical => (link.pitch * link.offset).abs(),
+        JointKind::Revolute | JointKind::Fixed => 0.0,
+    };
     length(link.placement.position) + offset
 }
 

@@ -92,6 +92,7 @@ export class Mechanism {
     const r = this.thick;
     const shapes = {
       revolute: () => new CylinderGeometry(1.35 * r, 1.35 * r, 3.4 * r, 28),
+      helical: () => new CylinderGeometry(1.35 * r, 1.35 * r, 3.4 * r, 28),
       prismatic: () => new BoxGeometry(3 * r, 4.4 * r, 3 * r),
       spherical: () => new SphereGeometry(1.6 * r, 24, 16),
     };
@@ -101,7 +102,7 @@ export class Mechanism {
       solid.castShadow = true;
       group.add(solid);
     }
-    if (kind === "revolute" || kind === "prismatic") {
+    if (["revolute", "prismatic", "helical"].includes(kind)) {
       const thread = new CylinderGeometry(0.12 * r, 0.12 * r, 13 * r, 8);
       const line = new Mesh(thread, new MeshStandardMaterial({ color: JOINT }));
       this.layers.axes.push(line);

@@ -36,13 +36,13 @@ export class Motion {
   }
 
   #carry(link) {
-    const { parent, kind, axis, offset, coordinate, position, rotation } = this.joints[link];
+    const { parent, turn, slide, axis, offset, coordinate, position, rotation } = this.joints[link];
     const [carrier, pose] = [this.poses[parent], this.poses[link + 1]];
     const value = coordinate === null ? 0 : offset + this.#coordinate(coordinate);
     pose.rotation.copy(rotation);
     pose.position.set(0, 0, 0);
-    if (kind === "revolute") pose.rotation.multiply(this.turn.setFromAxisAngle(axis, value));
-    if (kind === "prismatic") pose.position.copy(axis).multiplyScalar(value).applyQuaternion(rotation);
+    if (turn) pose.rotation.multiply(this.turn.setFromAxisAngle(axis, turn * value));
+    if (slide) pose.position.copy(axis).multiplyScalar(slide * value).applyQuaternion(rotation);
     pose.position.add(position).applyQuaternion(carrier.rotation).add(carrier.position);
     pose.rotation.premultiply(carrier.rotation);
   }

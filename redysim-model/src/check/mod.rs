@@ -86,6 +86,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
         placement,
         axis,
         offset,
+        pitch: table.pitch.value_or(0.0)?,
         mass: *table.mass.value()?,
         com: Vec3(table.com.value_or([0.0; 3])?),
         inertia: table.inertia.value_or(Default::default())?,

@@ -19,8 +19,12 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<(Pose<f
     let axis_allowed = axis_allowed(link, findings);
     let axis = unit_axis(&link.item, "axis", &link.axis, axis_allowed, findings);
     let joint = *link.joint.value()?;
+    if let Some(pitch) = link.pitch.spanned().filter(|_| joint != JointKind::Helical) {
+        findings.error(pitch.span(), messages::pitch_on_another_joint(&link.item, joint.name()));
+    }
+    let pitch = link.pitch.value_or(0.0)?;
     if let Some(dh) = link.dh.value() {
-        let (placement, offset) = from_dh(joint, *dh);
+        let (placement, offset) = from_dh(joint, pitch, *dh);
         return Some((placement, Z, offset));
     }
     let Origin { xyz, rpy } = link.origin.value_or(Origin::default())?;
@@ -73,14 +77,17 @@ pub(super) fn unit_axis(
     Some(Vec3::from_fn(|i| scaled[i] / length + 0.0))
 }
 
-/// Rx(alpha) Tx(a) Rz(theta) Tz(b), with the joint variable added to theta (revolute) or b (prismatic). As Rz and Tz
+/// Rx(alpha) Tx(a) Rz(theta) Tz(b), with the joint variable added to theta (revolute), to b (prismatic), or to theta and
+/// `pitch` times to b (helical). As Rz and Tz
 /// commute, the variable's factor can stand last, where the joint's motion is.
-fn from_dh(joint: JointKind, dh: Dh) -> (Pose<f64>, f64) {
+fn from_dh(joint: JointKind, pitch: f64, dh: Dh) -> (Pose<f64>, f64) {
     let turned = |rotation| Pose { rotation, position: Vec3::zero() };
     let moved = |x, z| Pose { rotation: Mat3::identity(), position: Vec3([x, 0.0, z]) };
     let before = turned(about_x(dh.alpha));
     let (placement, offset) = match joint {
         JointKind::Revolute => (before * moved(dh.a, dh.b), dh.theta),
+        // The motion of the offset slides, too.
+        JointKind::Helical => (before * moved(dh.a, dh.b - pitch * dh.theta), dh.theta),
         JointKind::Prismatic => (before * moved(dh.a, 0.0) * turned(about_z(dh.theta)), dh.b),
         JointKind::Fixed => (before * moved(dh.a, dh.b) * turned(about_z(dh.theta)), 0.0),
     };
@@ -110,20 +117,20 @@ mod tests {
     fn the_joint_motion_stands_last() {
         let dh = Dh { a: 0.3, alpha: 0.7, b: -0.2, theta: 1.1 };
         let expected = khalil_kleinfinger(dh);
-        let (placement, offset) = from_dh(JointKind::Revolute, dh);
+        let (placement, offset) = from_dh(JointKind::Revolute, 0.0, dh);
         let motion = Pose { rotation: about_z(offset), position: Vec3::zero() };
         assert!(distance(placement * motion, expected) < 1e-15);
-        let (placement, offset) = from_dh(JointKind::Prismatic, dh);
+        let (placement, offset) = from_dh(JointKind::Prismatic, 0.0, dh);
         let motion = Pose { rotation: Mat3::identity(), position: Vec3([0.0, 0.0, offset]) };
         assert!(distance(placement * motion, expected) < 1e-15);
-        let (placement, offset) = from_dh(JointKind::Fixed, dh);
+        let (placement, offset) = from_dh(JointKind::Fixed, 0.0, dh);
         assert!(distance(placement, expected) < 1e-15 && offset == 0.0);
     }
 
     #[test]
     fn quarter_turns_stay_exact() {
         let dh = Dh { a: 0.12, alpha: FRAC_PI_2, b: 0.62, theta: -FRAC_PI_2 };
-        let (placement, _) = from_dh(JointKind::Fixed, dh);
+        let (placement, _) = from_dh(JointKind::Fixed, 0.0, dh);
         assert_eq!(placement.rotation, Mat3([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]]));
         assert_eq!(placement.position, Vec3([0.12, -0.62, 0.0]));
     }
@@ -132,7 +139,7 @@ mod tests {
     fn no_coordinate_is_a_negative_zero() {
         for theta in [0.0, 1.0, 2.0, 4.0, 5.0] {
             let dh = Dh { alpha: FRAC_PI_2, theta, ..Dh::default() };
-            let (placement, _) = from_dh(JointKind::Fixed, dh);
+            let (placement, _) = from_dh(JointKind::Fixed, 0.0, dh);
             let mut numbers = placement.rotation.0.as_flattened().iter().chain(&placement.position.0);
             assert!(numbers.all(|x| *x != 0.0 || x.is_sign_positive()), "{placement:?}");
         }

@@ -21,6 +21,7 @@ pub(crate) struct LinkTable {
     pub(crate) dh: Field<Dh>,
     pub(crate) origin: Field<Origin>,
     pub(crate) axis: Field<[f64; 3]>,
+    pub(crate) pitch: Field<f64>,
     pub(crate) mass: Field<f64>,
     pub(crate) com: Field<[f64; 3]>,
     pub(crate) inertia: Field<Inertia>,
@@ -56,6 +57,7 @@ const LINK: Shape = Shape {
         "dh",
         "origin",
         "axis",
+        "pitch",
         "mass",
         "com",
         "inertia",
@@ -79,6 +81,8 @@ impl LinkTable {
         let name = reader.text("name");
         let parent = reader.text("parent");
         let joint = reader.choice("joint", &JointKind::ALL, UNSUPPORTED);
+        let pitch = reader.number("pitch");
+        let helical = joint.value() == Some(&JointKind::Helical);
         let mass = reader.number("mass");
         let turns = joint.value() != Some(&JointKind::Prismatic);
         LinkTable {
@@ -89,6 +93,7 @@ impl LinkTable {
             dh: reader.table("dh", &DH, dh),
             origin: reader.table("origin", &ORIGIN, origin),
             axis: reader.vector("axis"),
+            pitch: if helical { reader.required("pitch", pitch) } else { pitch },
             mass: reader.required("mass", mass),
             com: reader.vector("com"),
             inertia: reader.table("inertia", &INERTIA, inertia),

@@ -62,13 +62,12 @@ fn scale(function: Function) -> &'static str {
 
 fn ranges(model: &Model) -> String {
     let line = |(name, kind, range): (&str, JointKind, JointRange)| {
-        let unit = if kind == JointKind::Revolute { "rad" } else { "m" };
+        let unit = if kind.turns() { "rad" } else { "m" };
         let JointRange { position: [least, largest], velocity, acceleration, force } = range;
         let motion =
             format!("{least:.4} to {largest:.4} {unit}, ±{velocity:.4} {unit}/s, ±{acceleration:.4} {unit}/s²");
-        let force = force.map_or(String::new(), |force| {
-            format!(", force {force} {}", if kind == JointKind::Revolute { "N m" } else { "N" })
-        });
+        let force =
+            force.map_or(String::new(), |force| format!(", force {force} {}", if kind.turns() { "N m" } else { "N" }));
         format!("- `{name}`: {motion}{force}")
     };
     let moving = model.moving_links().filter_map(|link| Some((link.joint_name.as_str(), link.joint, link.range?)));

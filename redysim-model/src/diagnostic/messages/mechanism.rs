@@ -77,6 +77,14 @@ pub(crate) fn axis_on_fixed(item: &str) -> Message {
     message(format!("{item}: a fixed joint has no axis"), "no axis", "delete `axis`, or make the joint move")
 }
 
+pub(crate) fn pitch_on_another_joint(item: &str, kind: &str) -> Message {
+    message(
+        format!("{item}: a {kind} joint has no `pitch`"),
+        "not helical",
+        "delete `pitch`, or make the joint helical",
+    )
+}
+
 pub(crate) fn axis_on_cut(item: &str, key: &str, kind: &str) -> Message {
     message(
         format!("{item}: a {kind} cut has no `{key}`"),
@@ -137,6 +145,7 @@ pub(crate) fn singular_mass_matrix(link: &str, joint_name: &str, joint: Joint) -
     let why = match joint {
         Joint::Revolute => "all mass that it could turn lies on its axis, or on another free axis that takes its place",
         Joint::Prismatic => "all mass that it could push is as free along another joint",
+        Joint::Helical { .. } => "all mass that it could move is as free along or about another joint",
     };
     message(
         format!("link {}: its joint {} meets no inertia at any position", quoted(link), quoted(joint_name)),

@@ -35,6 +35,7 @@ const EXAMPLES: &[(&str, &str, &str)] = &[
     ("origin.rpy", "rpy = [\"90 deg\", 0, 0]", "roll, pitch, yaw; without a unit in rad"),
     ("axis", "axis = [0.0, 0.0, 1.0]", "in the link's frame"),
     ("mass", "mass = 1.5", "kg"),
+    ("pitch", "pitch = 0.005", "m/rad: the translation for a unit of rotation"),
     ("com", "com = [0.0, 0.0, 0.1]", "m, in the link's frame"),
     ("inertia", "inertia = { xx = 0.1, yy = 0.1, zz = 0.02 }", "kg m², about the centre of mass; missing = 0"),
     ("inertia.xx", "xx = 0.1", "kg m²"),

@@ -1,0 +1,27 @@
+//! A joint that turns its body about z and moves it along in proportion, as a screw does.
+
+use super::{AxisMass, Screw, Vanishing};
+use crate::inertia::Sym3;
+use crate::pseudo::PseudoInertia;
+
+pub fn screw(pitch: f64) -> Screw {
+    Screw { turn: 1.0, slide: pitch }
+}
+
+/// Mass on the axis moves along it, so of what a revolute joint shares the second moment alone is left.
+pub fn split(inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+    let PseudoInertia { second, .. } = inertia;
+    let left = match vanishing {
+        Vanishing::TensorYy => -second.xx,
+        Vanishing::SecondMomentZz => 0.0,
+    };
+    let own = PseudoInertia { second: Sym3 { zz: left, ..second }, ..inertia };
+    (own, AxisMass { mass: 0.0, first: 0.0, second: second.zz - left }.inertia())
+}
+
+/// The moment of inertia about the axis, and the mass along it.
+pub fn meets(pitch: f64, inertia: PseudoInertia<f64>) -> f64 {
+    let Sym3 { xx, yy, zz, .. } = inertia.second;
+    let resisting = xx + yy + inertia.mass * pitch * pitch;
+    if resisting > 0.0 { resisting / (resisting + 2.0 * zz) } else { 0.0 }
+}
