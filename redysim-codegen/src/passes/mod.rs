@@ -1,7 +1,6 @@
 //! Passes over expressions: each takes a graph and returns one of equal value.
 
 mod factors;
-mod squares;
 mod sums;
 mod terms;
 mod verification;
@@ -25,8 +24,6 @@ pub struct Passes {
     pub units: bool,
     /// Like terms of sums are collected.
     pub sums: bool,
-    /// s² + c² = 1.
-    pub squares: bool,
     /// Common factors of sums.
     pub factors: bool,
     /// Loops over bodies on which the same is done, where the code is long.
@@ -43,7 +40,6 @@ impl Passes {
             parallel_axes: false,
             units: false,
             sums: false,
-            squares: false,
             factors: false,
             loops: false,
         }
@@ -58,7 +54,6 @@ impl Passes {
             parallel_axes: true,
             units: true,
             sums: true,
-            squares: true,
             factors: true,
             loops: true,
         }
@@ -94,8 +89,7 @@ pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expre
     let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
     let collected = sums(expressions)?;
     let price = collected.price();
-    let merged = applied("squares", passes.squares, squares::merged, collected)?;
-    let shared = applied("factors", passes.factors, factors::shared, merged)?;
+    let shared = applied("factors", passes.factors, factors::shared, collected)?;
     // What has moved has new neighbours.
     if shared.price() < price { sums(shared) } else { Ok(shared) }
 }
