@@ -1,6 +1,7 @@
 //! Passes over expressions: each takes a graph and returns one of equal value.
 
 mod factors;
+mod squares;
 mod sums;
 mod terms;
 mod verification;
@@ -24,6 +25,8 @@ pub struct Passes {
     pub units: bool,
     /// Like terms of sums are collected.
     pub sums: bool,
+    /// s² + c² = 1.
+    pub squares: bool,
     /// Common factors of sums.
     pub factors: bool,
     /// Loops over bodies on which the same is done, where the code is long.
@@ -40,6 +43,7 @@ impl Passes {
             parallel_axes: false,
             units: false,
             sums: false,
+            squares: false,
             factors: false,
             loops: false,
         }
@@ -54,6 +58,7 @@ impl Passes {
             parallel_axes: true,
             units: true,
             sums: true,
+            squares: true,
             factors: true,
             loops: true,
         }
@@ -89,7 +94,8 @@ pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expre
     let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
     let collected = sums(expressions)?;
     let price = collected.price();
-    let shared = applied("factors", passes.factors, factors::shared, collected)?;
+    let merged = applied("squares", passes.squares, squares::merged, collected)?;
+    let shared = applied("factors", passes.factors, factors::shared, merged)?;
     // What has moved has new neighbours.
     if shared.price() < price { sums(shared) } else { Ok(shared) }
 }
