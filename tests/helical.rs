@@ -55,7 +55,8 @@ fn free_motion_of_screws_keeps_its_energy_and_both_paths_agree() {
     let mut simulation = ForwardSimulation::new(&Spindle, Free);
     let start = simulation.state(&q, &v);
     let end = Ode45::new().rtol(1e-11).atol(1e-12).integrate(&mut simulation, (0.0, 2.0), start).unwrap().y;
-    let [before, after]: [f64; 2] = [(q, v), ([end[0], end[1]], [end[2], end[3]])].map(|(q, v)| Spindle::energy(&q, &v).total());
+    let [before, after]: [f64; 2] =
+        [(q, v), ([end[0], end[1]], [end[2], end[3]])].map(|(q, v)| Spindle::energy(&q, &v).total());
     assert!((after - before).abs() < 1e-9, "{}", after - before);
 
     let path = generic("test/spindle");

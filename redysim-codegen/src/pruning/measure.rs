@@ -17,7 +17,7 @@ struct Extremes {
     errors: Vec<f64>,
 }
 
-/// The largest error of `pruned` in `count` states, as a share of the [scale](scales) of its output.
+/// The largest error of `pruned` in `count` states against `whole`, or against the accelerations of the motion, as a share of the [scale](scales) of its output.
 pub fn worst_error(
     whole: &Expressions,
     pruned: &Expressions,
@@ -82,8 +82,14 @@ fn extremes(both: &Expressions, states: &States, blocks: Range<usize>, seed: u64
     for block in blocks {
         let arguments = states.arguments(BLOCK, seed + block as u64);
         evaluate(both, &live, &arguments, &mut values);
+        // Of accelerations the exact values are known: those that the forces were computed for.
+        let exact = states.forces.map(|_| states.motion(BLOCK, seed + block as u64));
         for (output, (&old, &new)) in whole.iter().zip(pruned).enumerate() {
-            let (size, error) = compared((old, values.column(old.node())), (new, values.column(new.node())));
+            let old = match &exact {
+                Some([_, _, accelerations]) => (1.0, accelerations.column(output)),
+                None => (sign(old), values.column(old.node())),
+            };
+            let (size, error) = compared(old, (sign(new), values.column(new.node())));
             extremes.sizes[output] = extremes.sizes[output].max(size);
             extremes.errors[output] = extremes.errors[output].max(error);
         }
@@ -107,9 +113,8 @@ fn together(functions: [&Expressions; 2]) -> Expressions {
 }
 
 /// The largest size of the first, and the largest difference; infinite if something is no number.
-fn compared((old, before): (Edge, &[f64]), (new, after): (Edge, &[f64])) -> (f64, f64) {
+fn compared((old, before): (f64, &[f64]), (new, after): (f64, &[f64])) -> (f64, f64) {
     let (mut size, mut error) = (0.0_f64, 0.0_f64);
-    let (old, new) = (sign(old), sign(new));
     let mut i = 0;
     while i < before.len() {
         let difference = (new * after[i] - old * before[i]).abs();

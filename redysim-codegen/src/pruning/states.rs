@@ -19,6 +19,22 @@ impl States<'_> {
     /// In half of the states velocities, in half accelerations are at their limits, in every eighth so are coordinates:
     /// joint forces are linear in accelerations and quadratic in velocities, so that this is where terms are largest.
     pub fn arguments(&self, states: usize, seed: u64) -> Vec<Columns> {
+        let [q, v, a] = self.motion(states, seed);
+        let Some(forces) = self.forces else { return vec![q, v, a] };
+        let motion = vec![q, v, a];
+        let mut values = Columns::new(forces.graph.len(), states);
+        evaluate(forces, &live(forces), &motion, &mut values);
+        let mut tau = Columns::new(self.ranges.len(), states);
+        for (joint, &output) in forces.outputs.iter().enumerate() {
+            let given = values.column(output.node());
+            tau.column_mut(joint).iter_mut().zip(given).for_each(|(tau, value)| *tau = sign(output) * value);
+        }
+        let [q, v, _] = <[Columns; 3]>::try_from(motion).expect("three arguments");
+        vec![q, v, tau]
+    }
+
+    /// Coordinates, velocities and accelerations in the same states.
+    pub fn motion(&self, states: usize, seed: u64) -> [Columns; 3] {
         let mut random = Random::new(seed);
         let joints = self.ranges.len();
         let [mut q, mut v, mut a] = [0; 3].map(|_| Columns::new(joints, states));
@@ -33,16 +49,6 @@ impl States<'_> {
                 a.column_mut(joint)[state] = acceleration * random.share(corners & 16 == 0);
             }
         }
-        let Some(forces) = self.forces else { return vec![q, v, a] };
-        let motion = vec![q, v, a];
-        let mut values = Columns::new(forces.graph.len(), states);
-        evaluate(forces, &live(forces), &motion, &mut values);
-        let mut tau = Columns::new(joints, states);
-        for (joint, &output) in forces.outputs.iter().enumerate() {
-            let given = values.column(output.node());
-            tau.column_mut(joint).iter_mut().zip(given).for_each(|(tau, value)| *tau = sign(output) * value);
-        }
-        let [q, v, _] = <[Columns; 3]>::try_from(motion).expect("three arguments");
-        vec![q, v, tau]
+        [q, v, a]
     }
 }
