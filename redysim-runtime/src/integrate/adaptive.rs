@@ -74,29 +74,29 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
         self
     }
 
-    /// Sets the size of the first step to try, > 0; unless told, it follows from the derivatives at the start.
+    /// Sets the size of the first step to try, > 0. By default it follows from the derivatives at the start.
     pub fn initial_step(mut self, size: S) -> Self {
         self.initial_step = Some(size);
         self
     }
 
-    /// Sets the largest size of a step, > 0; unless told, a tenth of the interval. The last step may be a tenth longer,
-    /// so that it ends at the end.
+    /// Sets the largest size of a step, > 0. The default is a tenth of the interval. The last step may be a tenth
+    /// longer, so that it ends at the end.
     pub fn max_step(mut self, size: S) -> Self {
         self.max_step = Some(size);
         self
     }
 
-    /// Gives up after `max_steps` steps, accepted or rejected; 10⁸ unless told. Where a derivative jumps to and fro, as
-    /// with friction by the sign of a velocity, steps stay as small as the tolerances, so that runs may be that long: a
-    /// smaller limit ends them soon.
+    /// Gives up after `max_steps` steps, accepted or rejected. The default is 10⁸. Where a derivative jumps to and fro,
+    /// as with friction by the sign of a velocity, steps stay as small as the tolerances, so that runs may be that
+    /// long: a smaller limit ends them soon.
     pub fn max_steps(mut self, max_steps: u64) -> Self {
         self.max_steps = max_steps;
         self
     }
 
     /// Sets how many steps may lie ahead of an explicit method whose steps are small for stability, not for accuracy;
-    /// with more of them to the end it gives up with [`IntegrationError::Stiff`]. 10⁴ unless told; `None` lets it
+    /// with more of them to the end it gives up with [`IntegrationError::Stiff`]. The default is 10⁵; `None` lets it
     /// crawl. Implicit methods do not ask.
     pub fn stiffness_limit(mut self, steps: Option<u64>) -> Self {
         self.stiffness_limit = steps;
