@@ -17,7 +17,7 @@ pub trait TorqueLaw<S: Scalar, M: Mechanism<S>> {
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities;
 
     /// The derivative of the joint forces along `(dq, dv)`, (∂τ/∂q) dq + (∂τ/∂v) dv, for the Jacobians of implicit
-    /// integrators. `None`, as unless told, leaves it to differences of [`torque`](Self::torque).
+    /// integrators. `None`, the default, leaves it to differences of [`torque`](Self::torque).
     fn torque_tangent(
         &mut self,
         t: S,

@@ -24,7 +24,7 @@ pub use tables::Format;
 pub struct Arguments {
     /// The scenario file.
     pub scenario: PathBuf,
-    /// The folder that is written; results/<scenario's name>/forward or …/inverse unless told.
+    /// The folder of results [default: results/<scenario's name>/forward or …/inverse].
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// How numbers are written: tables with names and units, or ReDySim's own columns.

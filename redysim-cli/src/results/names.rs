@@ -6,7 +6,7 @@ pub const RUN_FILE: &str = "run.toml";
 pub const MODEL: &str = "model.toml";
 pub const TRAJECTORY: &str = "trajectory.csv";
 pub const TORQUE: &str = "torque.csv";
-/// The page that lies beside the tables it shows, unless told.
+/// The page, which by default lies beside the tables it shows.
 pub const PAGE: &str = "animation.html";
 
 /// The tables, each with the ending of its format.

@@ -23,7 +23,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// Reads `start` (0 unless told), `end` and `step`.
+    /// Reads `start` (0 by default), `end` and `step`.
     pub fn read(reader: &mut Reader<'_, '_>) -> Option<Span> {
         let start = reader.number("start");
         let end = reader.number("end");

@@ -89,7 +89,7 @@ impl Torque {
         }
     }
 
-    /// The joints that the law was told to drive, or does unless told.
+    /// The joints that the law drives, given or by default.
     pub fn joints(&self) -> Option<&[usize]> {
         match self {
             Torque::Free | Torque::Computed { .. } => None,

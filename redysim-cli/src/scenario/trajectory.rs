@@ -52,7 +52,7 @@ enum Smooth {
 }
 
 const SMOOTH: [(&str, Smooth); 2] = [(USUAL_THROUGH, Smooth::LeastJerk), ("cubic", Smooth::Cubic)];
-/// What `through` is unless told.
+/// The default of `through`.
 pub const USUAL_THROUGH: &str = "minimum-jerk";
 const CYCLOID: Shape = Shape { owner: "A cycloid", keys: &["kind", "joints", "from", "to", "duration"] };
 const CONSTANT_SPEED: Shape = Shape { owner: "A motion of constant speed", keys: &["kind", "joints", "from", "speed"] };

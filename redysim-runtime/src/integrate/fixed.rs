@@ -33,7 +33,7 @@ impl<S: Real, M> FixedStep<S, M> {
         self.step
     }
 
-    /// Refuses, before it begins, what would take more than `max_steps` steps; 10⁹ unless told.
+    /// Refuses, before it begins, what would take more than `max_steps` steps. The default is 10⁹.
     pub fn max_steps(self, max_steps: u64) -> Self {
         Self { max_steps, ..self }
     }

@@ -49,7 +49,7 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     fn rate(&self) -> &Y;
 
     /// The size of a first step that the tolerances will probably allow; `reach`, with its sign, is the largest that
-    /// may be. Unless told, the one with which a first-order step would change the state by 0.8 rtol^(1/exponent) of
+    /// may be. The default is the one with which a first-order step would change the state by 0.8 rtol^(1/exponent) of
     /// itself.
     ///
     /// # Errors
@@ -126,15 +126,15 @@ pub trait Stepper<S: Real, Y: Vector<S>> {
     }
 
     /// h |λ| for the largest eigenvalue λ of the Jacobian, as far as the attempted step shows it, and how large it may
-    /// be for a damped motion, λ < 0; `None`, as unless told, if nothing limits it or the method cannot tell.
+    /// be for a damped motion, λ < 0; `None`, the default, if nothing limits it or the method cannot tell.
     fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {
         let _ = tolerances;
         None
     }
 
     /// The state at which a step of the method from the start of the attempted one to `t`, within it, arrives; `None`
-    /// if it cannot be had and, as unless told, if the continuous extension is as good. The attempted step stays what
-    /// it is.
+    /// if it cannot be computed or if the continuous extension is as good. The default is `None`. The attempted step
+    /// stays what it is.
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.
@@ -192,7 +192,7 @@ pub(super) fn step_aside<S: Real, Y: Vector<S>>(
     }
 }
 
-/// What [`Stepper::shrinkage`] is unless told.
+/// The default of [`Stepper::shrinkage`].
 pub(super) fn usual_shrinkage<S: Real>(ratio: S, failures: u32, error_exponent: u32) -> S {
     if failures > 0 {
         return S::from_f64(0.5);

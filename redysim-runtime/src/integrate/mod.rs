@@ -74,14 +74,14 @@ pub trait Ode<S, Y> {
     /// corrected in place: brought back to what an invariant of the equation demands. What an integration shows as the
     /// end of the step is the corrected state, and from there it goes on; within the step the solution is that of the
     /// method. Where an event ends the integration within a step, it is called once more, for the state there, which is
-    /// earlier. Unless told, nothing happens.
+    /// earlier. By default, nothing happens.
     fn accepted(&mut self, t: S, step: S, y: &mut Y) -> Accepted {
         let _ = (t, step, y);
         Accepted::AsItIs
     }
 
     /// Writes (∂f/∂y) `direction` at (t, y) to `slope` and returns `true`, if it can do that without differences; from
-    /// such products implicit methods have their Jacobians. `false`, as unless told, leaves them to differences.
+    /// such products implicit methods have their Jacobians. `false`, the default, leaves them to differences.
     fn tangent(&mut self, t: S, y: &Y, direction: &Y, slope: &mut Y) -> bool {
         let _ = (t, y, direction, slope);
         false
@@ -89,7 +89,7 @@ pub trait Ode<S, Y> {
 
     /// Writes the rates of the leading components of y that are coordinates of a mechanical system, those whose rates
     /// depend on the coordinates and velocities alone, and returns how many there are: what a method needs that treats
-    /// coordinates and velocities differently. None, unless told.
+    /// coordinates and velocities differently. The default is 0.
     fn coordinate_rates(&mut self, t: S, y: &Y, rates: &mut Y) -> usize {
         let _ = (t, y, rates);
         0
