@@ -77,10 +77,10 @@ pub(crate) fn unknown_acceleration_method(item: &str, name: &str) -> Message {
     let names = AccelerationMethod::NAMES.map(|(name, _)| name);
     let meant = did_you_mean(nearest(name, names));
     message(
-        format!("{item}: `forward_dynamics` is {}, but there is no such way to compute accelerations", quoted(name)),
-        "no such way",
+        format!("{item}: `forward_dynamics` is {}, which is invalid", quoted(name)),
+        "not a method",
         format!(
-            "{meant}The ways are: {}; with `auto`, the default, the generator takes the factorisation where it is cheaper \
+            "{meant}The methods are: {}; with `auto`, the default, the generator takes the factorisation where it is cheaper \
              and keeps the digits that the recursion keeps",
             names.join(", ")
         ),
