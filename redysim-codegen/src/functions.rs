@@ -169,7 +169,7 @@ fn has_tolerance(function: Function) -> bool {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TraceError {
-    /// A tolerance holds within ranges, and a joint has none.
+    /// A tolerance needs a range for every joint, but a joint does not have one.
     NoRange {
         /// The joint.
         joint: String,
@@ -188,7 +188,11 @@ impl std::fmt::Display for TraceError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             TraceError::NoRange { joint } => {
-                write!(f, "a tolerance holds within ranges, but joint `{joint}` has none: give its link a `range`")
+                write!(
+                    f,
+                    "a tolerance needs a range for every joint, but joint `{joint}` does not have one: give its link a \
+                     `range`"
+                )
             }
             TraceError::ChangedValue(changed) => changed.fmt(f),
         }

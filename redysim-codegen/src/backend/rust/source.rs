@@ -49,7 +49,7 @@ pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<Stri
     Ok(header + "\n" + &prettyplease::unparse(&file))
 }
 
-/// Why there is no source file.
+/// Why a source file cannot be generated.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SourceError {
