@@ -94,7 +94,7 @@ fn a_motion_at_a_million_radians_per_second_keeps_its_energy() {
     assert!((end.y[0] - 1e6 - 1e4).abs() < 1e-6, "{}", end.y[0]);
 }
 
-/// Starts, intervals and forces that are no numbers.
+/// Starts, intervals and forces that are infinite or NaN.
 struct BadInput;
 
 impl WithMethod for BadInput {
@@ -131,7 +131,7 @@ impl WithMethod for BadInput {
 }
 
 #[test]
-fn what_is_no_number_is_a_typed_error_with_bounded_work_in_every_method() {
+fn infinite_and_nan_are_typed_errors_with_bounded_work_in_every_method() {
     every_fixed(1e-2, &mut BadInput);
     every_adaptive(1e-6, 1e-9, &mut BadInput);
 }

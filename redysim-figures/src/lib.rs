@@ -28,7 +28,7 @@ pub fn column(rows: &[Vec<f64>], joint: usize) -> Vec<f64> {
     rows.iter().map(|row| row[joint]).collect()
 }
 
-/// The largest magnitude; what is no number counts as infinite, so that it cannot hide.
+/// The largest magnitude; NaN counts as infinite, so that it is not overlooked.
 pub fn peak(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |peak, value| if value.is_nan() { f64::INFINITY } else { value.abs().max(peak) })
 }

@@ -22,7 +22,7 @@ impl Comparison {
         self.samples.push((computed.to_vec(), expected.to_vec()));
     }
 
-    /// The largest error of the run and where it is. What is no number is infinitely wrong.
+    /// The largest error of the run and where it is. NaN counts as infinite.
     pub fn worst(&self) -> (f64, String) {
         let expected = self.samples.iter().flat_map(|(_, expected)| expected);
         let floor = FLOOR * expected.fold(0.0_f64, |largest, x| largest.max(x.abs()));

@@ -55,7 +55,7 @@ pub fn deviation(found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
         assert_eq!(found.len(), expected.len(), "as many columns");
         found.iter().zip(expected)
     });
-    // What is no number counts as infinite, so that it cannot hide.
+    // NaN counts as infinite, so that it is not overlooked.
     let sizes = pairs.map(|(found, expected)| (found - expected).abs());
     sizes.fold(0.0, |most, size| if size.is_nan() { f64::INFINITY } else { f64::max(most, size) })
 }

@@ -243,7 +243,7 @@ fn round_otherwise(random: &mut Random, numbers: &mut [f64]) {
     numbers.iter_mut().for_each(|number| *number += OTHERWISE * largest * random.share(false));
 }
 
-/// The larger of two errors, of which one that is not a number is the largest.
+/// The larger of two errors; NaN counts as infinite.
 fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }

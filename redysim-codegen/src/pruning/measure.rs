@@ -49,7 +49,7 @@ pub fn worst_error(
     shares.fold(0.0, f64::max)
 }
 
-/// What is no error is none of nothing, either; what is no number is infinitely wrong.
+/// An error of 0 is a share of 0, even of a scale of 0; NaN counts as infinite.
 fn share_of(error: f64, scale: f64) -> f64 {
     let share = if error == 0.0 { 0.0 } else { error / scale };
     if share.is_nan() { f64::INFINITY } else { share }
@@ -112,7 +112,7 @@ fn together(functions: [&Expressions; 2]) -> Expressions {
     Expressions { graph, outputs }
 }
 
-/// The largest size of the first, and the largest difference; infinite if something is no number.
+/// The largest size of the first, and the largest difference; NaN counts as infinite.
 fn compared((old, before): (f64, &[f64]), (new, after): (f64, &[f64])) -> (f64, f64) {
     let (mut size, mut error) = (0.0_f64, 0.0_f64);
     let mut i = 0;

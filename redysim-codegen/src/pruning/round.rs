@@ -111,7 +111,7 @@ impl Output {
     }
 }
 
-/// False for what is no number.
+/// False for NaN.
 fn within(value: f64, bound: f64) -> bool {
     value.abs() <= bound
 }
