@@ -1,32 +1,33 @@
 //! Numbers of about 31 digits, to judge the last digits of `f64` by.
 //!
-//! A value is an unevaluated sum of two `f64`. Sums and products follow Dekker, "A floating-point technique for
+//! A number is an unevaluated sum of two `f64`. Sums and products follow Dekker, "A floating-point technique for
 //! extending the available precision", Numerische Mathematik 18, 1971, with Knuth's branch-free exact sum.
 
+use super::with_error::WithError;
 use redysim_runtime::Scalar;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg};
 
-/// `high` + `low`, with |low| at most half a unit in the last place of `high`.
+/// The error is what the value lacks: the number is their sum.
 #[derive(Clone, Copy, Debug)]
-pub struct DoubleDouble {
-    high: f64,
-    low: f64,
-}
+pub enum Rest {}
+
+/// `value` + `error`, with |error| at most half a unit in the last place of `value`.
+pub type DoubleDouble = WithError<Rest>;
 
 /// π/2, to three times the digits of `f64`.
 const QUARTER_TURN: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_183_3e-33];
 
 /// a + b as a sum of two numbers, without error.
 fn exact_sum(a: f64, b: f64) -> DoubleDouble {
-    let high = a + b;
-    let part = high - a;
-    DoubleDouble { high, low: (a - (high - part)) + (b - part) }
+    let sum = a + b;
+    let part = sum - a;
+    DoubleDouble::new(sum, (a - (sum - part)) + (b - part))
 }
 
 /// a · b as a sum of two numbers, without error.
 fn exact_product(a: f64, b: f64) -> DoubleDouble {
-    let high = a * b;
-    DoubleDouble { high, low: a.mul_add(b, -high) }
+    let product = a * b;
+    DoubleDouble::new(product, a.mul_add(b, -product))
 }
 
 /// Numbers without error.
@@ -42,7 +43,7 @@ pub fn rounded(values: impl AsRef<[DoubleDouble]>) -> Vec<f64> {
 impl DoubleDouble {
     /// The nearest `f64`.
     pub fn to_f64(self) -> f64 {
-        self.high
+        self.value
     }
 
     /// Sine and cosine of an angle of at most an eighth of a turn, by their power series.
@@ -65,10 +66,10 @@ impl DoubleDouble {
 
 impl Scalar for DoubleDouble {
     fn from_f64(value: f64) -> Self {
-        DoubleDouble { high: value, low: 0.0 }
+        DoubleDouble::new(value, 0.0)
     }
     fn sin_cos(self) -> (Self, Self) {
-        let turns = (self.high / QUARTER_TURN[0]).round();
+        let turns = (self.value / QUARTER_TURN[0]).round();
         let reduced = QUARTER_TURN.iter().fold(self, |rest, &part| rest - exact_product(turns, part));
         let (sin, cos) = reduced.small_sin_cos();
         match (turns as i64).rem_euclid(4) {
@@ -79,7 +80,7 @@ impl Scalar for DoubleDouble {
         }
     }
     fn sqrt(self) -> Self {
-        let root = Self::from_f64(self.high.sqrt());
+        let root = Self::from_f64(self.value.sqrt());
         root + (self - root * root) / (root + root)
     }
 }
@@ -87,31 +88,24 @@ impl Scalar for DoubleDouble {
 impl Add for DoubleDouble {
     type Output = Self;
     fn add(self, b: Self) -> Self {
-        let (high, low) = (exact_sum(self.high, b.high), exact_sum(self.low, b.low));
-        let sum = exact_sum(high.high, high.low + low.high);
-        exact_sum(sum.high, sum.low + low.low)
-    }
-}
-
-impl Sub for DoubleDouble {
-    type Output = Self;
-    fn sub(self, b: Self) -> Self {
-        self + -b
+        let (values, errors) = (exact_sum(self.value, b.value), exact_sum(self.error, b.error));
+        let sum = exact_sum(values.value, values.error + errors.value);
+        exact_sum(sum.value, sum.error + errors.error)
     }
 }
 
 impl Mul for DoubleDouble {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
-        let product = exact_product(self.high, b.high);
-        exact_sum(product.high, product.low + (self.high * b.low + self.low * b.high))
+        let product = exact_product(self.value, b.value);
+        exact_sum(product.value, product.error + (self.value * b.error + self.error * b.value))
     }
 }
 
 impl Div for DoubleDouble {
     type Output = Self;
     fn div(self, b: Self) -> Self {
-        let quotient = |rest: Self| Self::from_f64(rest.high / b.high);
+        let quotient = |rest: Self| Self::from_f64(rest.value / b.value);
         let first = quotient(self);
         let rest = self - first * b;
         let second = quotient(rest);
@@ -122,18 +116,6 @@ impl Div for DoubleDouble {
 impl Neg for DoubleDouble {
     type Output = Self;
     fn neg(self) -> Self {
-        DoubleDouble { high: -self.high, low: -self.low }
-    }
-}
-
-impl AddAssign for DoubleDouble {
-    fn add_assign(&mut self, b: Self) {
-        *self = *self + b;
-    }
-}
-
-impl SubAssign for DoubleDouble {
-    fn sub_assign(&mut self, b: Self) {
-        *self = *self - b;
+        DoubleDouble::new(-self.value, -self.error)
     }
 }

@@ -7,6 +7,7 @@
 
 pub mod double_double;
 pub mod rounding;
+pub mod with_error;
 
 use crate::random::Random;
 use double_double::{DoubleDouble, exact, rounded};

@@ -4,8 +4,9 @@
 //! operation adds half a unit in the last place of its result to what the errors of its operands become. Constants of
 //! a model have been computed with a few roundings each, which a pass over expressions may do otherwise.
 
+use super::with_error::WithError;
 use redysim_runtime::Scalar;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg};
 
 /// The largest relative error of one operation, 2⁻⁵³.
 const UNIT: f64 = 0.5 * f64::EPSILON;
@@ -14,19 +15,18 @@ const OF_CONSTANT: f64 = 8.0;
 /// Roundings of a sine or a cosine.
 const OF_SINE: f64 = 2.0;
 
-/// A computed number and how far it may be from the one that exact arithmetic gives.
+/// The error is a bound.
 #[derive(Clone, Copy, Debug)]
-pub struct Rounded {
-    /// What `f64` computes.
-    pub value: f64,
-    /// |value − exact| is at most this; infinite or NaN where nothing is known.
-    pub error: f64,
-}
+pub enum Bound {}
+
+/// What `f64` computes, and how far it may be from what exact arithmetic gives: |`value` − exact| ≤ `error`, which is
+/// infinite or NaN where nothing is known.
+pub type Rounded = WithError<Bound>;
 
 impl Rounded {
     /// A number that is given, so without error.
     pub fn given(value: f64) -> Self {
-        Rounded { value, error: 0.0 }
+        Rounded::new(value, 0.0)
     }
 
     /// A result with the errors of its operands, and those of its own roundings.
@@ -34,7 +34,7 @@ impl Rounded {
         // The bound is computed with roundings, too: a part in 10⁹ covers them. Below the normal numbers the error of
         // an operation is absolute.
         let own = roundings * UNIT * value.abs() + f64::MIN_POSITIVE;
-        Rounded { value, error: (from_operands + own) * (1.0 + 1e-9) }
+        Rounded::new(value, (from_operands + own) * (1.0 + 1e-9))
     }
 
     /// Whether two numbers may be the same in exact arithmetic.
@@ -73,13 +73,6 @@ impl Add for Rounded {
     }
 }
 
-impl Sub for Rounded {
-    type Output = Self;
-    fn sub(self, b: Self) -> Self {
-        self + -b
-    }
-}
-
 impl Mul for Rounded {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
@@ -101,18 +94,6 @@ impl Div for Rounded {
 impl Neg for Rounded {
     type Output = Self;
     fn neg(self) -> Self {
-        Rounded { value: -self.value, ..self }
-    }
-}
-
-impl AddAssign for Rounded {
-    fn add_assign(&mut self, b: Self) {
-        *self = *self + b;
-    }
-}
-
-impl SubAssign for Rounded {
-    fn sub_assign(&mut self, b: Self) {
-        *self = *self - b;
+        Rounded::new(-self.value, self.error)
     }
 }
