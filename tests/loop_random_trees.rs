@@ -11,11 +11,12 @@ mod common;
 use common::call::{constants, loop_bias, loop_jacobian, loop_residual};
 use common::dual::{Dual, moving};
 use common::random::Random;
+use common::styles::{link, offset, placed};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use redysim::Scalar;
 use redysim::generic::{GenericMechanism, Model};
 use redysim_codegen::functions::{TracedFunction, trace};
-use redysim_model::spatial::{Mat3, Pose, Vec3};
+use redysim_model::spatial::{Mat3, Vec3};
 use redysim_model::{CutKind, CutSide, Inertia, JointKind, Link, Loop};
 use std::collections::BTreeMap;
 
@@ -121,23 +122,16 @@ fn random_model(random: &mut Random) -> Model {
     let links = random.tree(count, |random, grown, parent| {
         let axis = Unit::new_normalize(unit_vector(random));
         let turned = Rotation3::from_axis_angle(&axis, random.within(3.0));
+        let kinds = [JointKind::Revolute, JointKind::Helical, JointKind::Prismatic, JointKind::Fixed];
+        let joint = kinds[random.below(4)];
+        let at = Vec3::from_fn(|_| random.within(0.5));
         Link {
-            name: format!("link{grown}"),
-            joint_name: format!("link{grown}"),
-            parent,
-            joint: [JointKind::Revolute, JointKind::Helical, JointKind::Prismatic, JointKind::Fixed][random.below(4)],
-            placement: Pose {
-                rotation: Mat3::from_fn(|i, j| turned[(i, j)]),
-                position: Vec3::from_fn(|_| random.within(0.5)),
-            },
             axis: Vec3(unit_vector(random).into()),
-            offset: if random.below(2) == 0 { 0.0 } else { random.within(1.0) },
+            offset: offset(random),
             pitch: 0.2,
             mass: 1.0,
-            com: Vec3::zero(),
             inertia: Inertia { xx: 1.0, yy: 1.0, zz: 1.0, ..Inertia::default() },
-            actuated: true,
-            range: None,
+            ..link(grown, parent, joint, placed(turned.matrix(), at))
         }
     });
     let mut loops = Vec::new();

@@ -7,7 +7,7 @@ mod common;
 
 use common::kane::{Kane, kane};
 use common::random::{Random, State};
-use common::styles::Style;
+use common::styles::{Style, inertia, link, offset, placed};
 use nalgebra::{DVector, Matrix3, Rotation3, Unit, Vector3};
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
@@ -15,8 +15,8 @@ use redysim_codegen::functions::{TracedFunction, trace};
 use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::joint::Vanishing;
 use redysim_model::regroup::base_parameters;
-use redysim_model::spatial::{Mat3, Pose, Vec3};
-use redysim_model::{Function, Inertia, JointKind, Link, Model, Tree};
+use redysim_model::spatial::Vec3;
+use redysim_model::{Function, JointKind, Link, Model, Tree};
 use std::collections::BTreeMap;
 
 const TREES: u64 = 200;
@@ -55,15 +55,6 @@ fn axis(random: &mut Random) -> Vector3<f64> {
     }
 }
 
-/// A body of a few kilogrammes and decimetres: R diag(b + c, a + c, a + b) Rᵀ is a possible inertia for positive a, b,
-/// c.
-fn inertia(random: &mut Random) -> Inertia {
-    let [a, b, c] = [0; 3].map(|_| 0.01 + random.within(0.009));
-    let turned = rotation(random);
-    let i = turned * Matrix3::from_diagonal(&Vector3::new(b + c, a + c, a + b)) * turned.transpose();
-    Inertia { xx: i[(0, 0)], yy: i[(1, 1)], zz: i[(2, 2)], xy: i[(0, 1)], yz: i[(1, 2)], xz: i[(0, 2)] }
-}
-
 /// A tree of up to twelve links on joints of all kinds.
 fn random_model(random: &mut Random) -> Model {
     let count = 1 + random.below(12);
@@ -74,25 +65,20 @@ fn random_model(random: &mut Random) -> Model {
             2 if grown % 3 != 1 => JointKind::Helical,
             _ => JointKind::Revolute,
         };
-        let name = format!("link{grown}");
         let turned = rotation(random);
+        let at = Vec3::from_fn(|_| random.within(0.5));
+        // A body of a few kilogrammes and decimetres.
         Link {
-            joint_name: name.clone(),
-            name,
-            parent,
-            joint,
-            placement: Pose {
-                rotation: Mat3::from_fn(|i, j| turned[(i, j)]),
-                position: Vec3::from_fn(|_| random.within(0.5)),
-            },
             axis: Vec3(axis(random).into()),
-            offset: if random.below(2) == 0 { 0.0 } else { random.within(1.0) },
+            offset: offset(random),
             pitch: if joint == JointKind::Helical { 0.4 - 0.1 * grown as f64 } else { 0.0 },
             mass: 1.5 + random.within(1.0),
             com: Vec3::from_fn(|_| random.within(0.2)),
-            inertia: inertia(random),
-            actuated: true,
-            range: None,
+            inertia: {
+                let shares = [0; 3].map(|_| 0.01 + random.within(0.009));
+                inertia(&rotation(random), shares)
+            },
+            ..link(grown, parent, joint, placed(&turned, at))
         }
     });
     Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops: Vec::new() }

@@ -27,35 +27,40 @@ pub fn oblique(index: usize) -> [f64; 3] {
     if index.is_multiple_of(2) { [0.0, 0.6, 0.8] } else { [0.6, 0.8, 0.0] }
 }
 
+/// A rod along x whose joint is at `start` of its parent.
+fn link(index: usize, parent: Option<usize>, start: [f64; 3], Rod { axis, mass, length }: Rod) -> Link {
+    let inertia = mass * length * length;
+    Link {
+        name: format!("link{index}"),
+        joint_name: format!("joint{index}"),
+        parent,
+        joint: JointKind::Revolute,
+        placement: Pose { rotation: Mat3::identity(), position: Vec3(start) },
+        axis: Vec3(axis),
+        offset: 0.0,
+        pitch: 0.0,
+        mass,
+        com: Vec3([length / 2.0, 0.0, 0.0]),
+        inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },
+        actuated: true,
+        range: None,
+    }
+}
+
 /// A chain of `count` rods along x, each hinged at the end of the one before.
 pub fn chain(count: usize, rod: impl Fn(usize) -> Rod) -> Tree {
-    let link = |index: usize| {
-        let Rod { axis, mass, length } = rod(index);
-        let start = index.checked_sub(1).map_or(0.0, |parent| rod(parent).length);
-        let inertia = mass * length * length;
-        Link {
-            name: format!("link{index}"),
-            joint_name: format!("joint{index}"),
-            parent: index.checked_sub(1),
-            joint: JointKind::Revolute,
-            placement: Pose { rotation: Mat3::identity(), position: Vec3([start, 0.0, 0.0]) },
-            axis: Vec3(axis),
-            offset: 0.0,
-            pitch: 0.0,
-            mass,
-            com: Vec3([length / 2.0, 0.0, 0.0]),
-            inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },
-            actuated: false,
-            range: None,
-        }
+    let numbered = |index: usize| {
+        let parent = index.checked_sub(1);
+        let start = parent.map_or(0.0, |parent| rod(parent).length);
+        link(index, parent, [start, 0.0, 0.0], rod(index))
     };
-    let links = (0..count).map(link).collect();
+    let links = (0..count).map(numbered).collect();
     Tree::new(&Model { name: "chain".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
 }
 
 /// A palm on a joint, with `fingers` chains of `joints` light links each.
 pub fn palm(fingers: usize, joints: usize) -> Tree {
-    let link = |index: usize| {
+    let numbered = |index: usize| {
         let (finger, joint) = ((index.max(1) - 1) / joints, (index.max(1) - 1) % joints);
         let (mass, length) = if index == 0 { (1.0, 0.1) } else { (0.02, 0.03) };
         let parent = if index == 0 { None } else { Some(if joint == 0 { 0 } else { index - 1 }) };
@@ -64,23 +69,9 @@ pub fn palm(fingers: usize, joints: usize) -> Tree {
             (_, 0) => [0.1, 0.02 * finger as f64 - 0.04, 0.01],
             _ => [length, 0.0, 0.0],
         };
-        let inertia = mass * length * length;
-        Link {
-            name: format!("link{index}"),
-            joint_name: format!("joint{index}"),
-            parent,
-            joint: JointKind::Revolute,
-            placement: Pose { rotation: Mat3::identity(), position: Vec3(start) },
-            axis: Vec3(if joint == 0 { oblique(finger) } else { universal(joint) }),
-            offset: 0.0,
-            pitch: 0.0,
-            mass,
-            com: Vec3([length / 2.0, 0.0, 0.0]),
-            inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },
-            actuated: true,
-            range: None,
-        }
+        let axis = if joint == 0 { oblique(finger) } else { universal(joint) };
+        link(index, parent, start, Rod { axis, mass, length })
     };
-    let links = (0..=fingers * joints).map(link).collect();
+    let links = (0..=fingers * joints).map(numbered).collect();
     Tree::new(&Model { name: "palm".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
 }

@@ -47,7 +47,6 @@ impl Style {
         let heavy = if self == Style::HeavyTip { random.below(count) } else { usize::MAX };
         let links = random.tree(count, |random, grown, parent| {
             let joint = if random.below(5) == 0 { JointKind::Prismatic } else { JointKind::Revolute };
-            let name = format!("link{grown}");
             let turned = self.rotation(random);
             let length = self.length(random);
             let mut mass = self.mass(random);
@@ -55,24 +54,10 @@ impl Style {
                 mass *= 1e6;
             }
             let com = Vec3::from_fn(|_| random.within(0.4 * length));
-            Link {
-                joint_name: name.clone(),
-                name,
-                parent,
-                joint,
-                placement: Pose {
-                    rotation: Mat3::from_fn(|i, j| turned[(i, j)]),
-                    position: Vec3::from_fn(|_| random.within(length)),
-                },
-                axis: Vec3([0.0, 0.0, 1.0]),
-                offset: if random.below(2) == 0 { 0.0 } else { random.within(1.0) },
-                pitch: 0.0,
-                mass,
-                com,
-                inertia: self.inertia(random, mass, length),
-                actuated: true,
-                range: None,
-            }
+            let at = Vec3::from_fn(|_| random.within(length));
+            let offset = offset(random);
+            let inertia = self.inertia(random, mass, length);
+            Link { offset, mass, com, inertia, ..link(grown, parent, joint, placed(&turned, at)) }
         });
         Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops: Vec::new() }
     }
@@ -118,7 +103,7 @@ impl Style {
         *turned.matrix()
     }
 
-    /// About the centre of mass: R diag(b + c, a + c, a + b) Rᵀ is a possible inertia for a, b, c that are not negative.
+    /// About the centre of mass.
     fn inertia(self, random: &mut Random, mass: f64, length: f64) -> Inertia {
         let size = 0.05 * mass * length * length;
         let mut shares = [0; 3].map(|_| size * (1.0 + random.within(0.9)));
@@ -130,14 +115,48 @@ impl Style {
             }
             _ => {}
         }
-        let [a, b, c] = shares;
-        let turned = if self == Style::Rods { Matrix3::identity() } else { Style::Ordinary.rotation(random) };
-        let i = turned * Matrix3::from_diagonal(&Vector3::new(b + c, a + c, a + b)) * turned.transpose();
-        Inertia { xx: i[(0, 0)], yy: i[(1, 1)], zz: i[(2, 2)], xy: i[(0, 1)], yz: i[(1, 2)], xz: i[(0, 2)] }
+        let axes = if self == Style::Rods { Matrix3::identity() } else { Style::Ordinary.rotation(random) };
+        inertia(&axes, shares)
     }
 }
 
 /// A number whose logarithm is spread evenly.
 fn power_of_ten(random: &mut Random, least: f64, largest: f64) -> f64 {
     10.0_f64.powf(0.5 * (least + largest) + random.within(0.5 * (largest - least)))
+}
+
+/// The link `link<number>` without mass, on a joint about or along z.
+pub fn link(number: usize, parent: Option<usize>, joint: JointKind, placement: Pose<f64>) -> Link {
+    let name = format!("link{number}");
+    Link {
+        joint_name: name.clone(),
+        name,
+        parent,
+        joint,
+        placement,
+        axis: Vec3([0.0, 0.0, 1.0]),
+        offset: 0.0,
+        pitch: 0.0,
+        mass: 0.0,
+        com: Vec3([0.0; 3]),
+        inertia: Inertia::default(),
+        actuated: true,
+        range: None,
+    }
+}
+
+/// A frame with the axes `turned`, at `position`.
+pub fn placed(turned: &Matrix3<f64>, position: Vec3<f64>) -> Pose<f64> {
+    Pose { rotation: Mat3::from_fn(|i, j| turned[(i, j)]), position }
+}
+
+/// What is added to a joint variable: nothing in half of the joints.
+pub fn offset(random: &mut Random) -> f64 {
+    if random.below(2) == 0 { 0.0 } else { random.within(1.0) }
+}
+
+/// R diag(b + c, a + c, a + b) Rᵀ, which is a possible inertia for a, b, c that are not negative.
+pub fn inertia(axes: &Matrix3<f64>, [a, b, c]: [f64; 3]) -> Inertia {
+    let i = axes * Matrix3::from_diagonal(&Vector3::new(b + c, a + c, a + b)) * axes.transpose();
+    Inertia { xx: i[(0, 0)], yy: i[(1, 1)], zz: i[(2, 2)], xy: i[(0, 1)], yz: i[(1, 2)], xz: i[(0, 2)] }
 }
