@@ -127,20 +127,16 @@ fn subtract<S: Real, Y: Vector<S>>(from: &mut Y, what: &Y) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::value_and_slope;
     use super::*;
-
-    /// Σ c_i x^i and its derivative.
-    fn polynomial(coefficients: &[f64], x: f64) -> (f64, f64) {
-        coefficients.iter().rfold((0.0, 0.0), |(value, slope), c| (x * (c + value), c + value + x * slope))
-    }
 
     #[test]
     fn the_polynomials_have_their_slopes_at_the_nodes_and_end_at_zero() {
         let nodes = [0.0, NODES[0], NODES[1], NODES[2], NODES[3], 1.0];
         for (k, coefficients) in DENSE.iter().take(6).enumerate() {
-            assert!(polynomial(coefficients, 1.0).0.abs() < 1e-12, "w_{k}(1)");
+            assert!(value_and_slope(coefficients, 1.0).0.abs() < 1e-12, "w_{k}(1)");
             for (j, node) in nodes.into_iter().enumerate() {
-                let slope = polynomial(coefficients, node).1;
+                let slope = value_and_slope(coefficients, node).1;
                 assert!((slope - f64::from(u8::from(j == k))).abs() < 1e-11, "w_{k} has the slope {slope} at {node}");
             }
         }

@@ -33,3 +33,9 @@ fn extrapolate<S: Real, Y: Vector<S>, const STAGES: usize>(
         weighted_sum(dense.iter().map(weight), stages, start);
     }
 }
+
+/// c₁ x + c₂ x² + … and its derivative.
+#[cfg(test)]
+fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
+    coefficients.iter().rfold((0.0, 0.0), |(value, slope), c| (x * (c + value), c + value + x * slope))
+}

@@ -91,6 +91,7 @@ pub(super) const WITHIN: [&[f64]; 6] = [
 
 #[cfg(test)]
 mod tests {
+    use super::super::value_and_slope;
     use super::*;
 
     fn real(re: f64) -> Complex<f64> {
@@ -135,8 +136,7 @@ mod tests {
         let nodes = [WITHIN_NODES[0], WITHIN_NODES[1], 1.0];
         for (k, coefficients) in WITHIN.iter().enumerate() {
             for (j, x) in nodes.into_iter().enumerate() {
-                let (value, slope) =
-                    coefficients.iter().rfold((0.0, 0.0), |(value, slope), c| (x * (c + value), c + value + x * slope));
+                let (value, slope) = value_and_slope(coefficients, x);
                 let expected = [f64::from(u8::from(k == j)), f64::from(u8::from(k == j + 3))];
                 assert!((value - expected[0]).abs() < 1e-11 && (slope - expected[1]).abs() < 1e-11, "{k} at {x}");
             }
