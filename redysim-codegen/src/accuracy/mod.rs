@@ -222,7 +222,7 @@ fn extremes(found: &[f64], expected: &[f64], weight: impl Fn(usize) -> f64) -> E
 
 /// The robot with numbers that differ from those of `tree` by a few roundings: of lengths and moments as shares of the
 /// largest component of their vector or tensor, as they have after a change of axes.
-pub fn rounded_otherwise(tree: &Tree, seed: u64) -> Tree {
+fn rounded_otherwise(tree: &Tree, seed: u64) -> Tree {
     let mut random = Random::new(seed);
     let mut tree = tree.clone();
     for body in &mut tree.bodies {
