@@ -5,8 +5,8 @@
 //! loses more than it wins. Putting two vectors together and taking them apart again takes longer than the few
 //! operations that are saved, and with 512 bits, on some processors (Intel's Sapphire Rapids), one instruction costs
 //! the scalar code around it 40 ns, more than a whole call of the inverse dynamics of six joints. LLVM has no option
-//! for it that a crate could set for its users, so numbers pass through [`Register::apart`], which LLVM cannot look
-//! into: what comes out of it has no known neighbours.
+//! for it that a crate could set for its users, so numbers pass through [`Register::apart`], an optimisation barrier,
+//! which LLVM cannot look into: what comes out of it has no known neighbours.
 
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 use core::arch::{asm, x86_64};
@@ -24,14 +24,16 @@ pub trait Register: Copy {
     }
 }
 
-macro_rules! joined_nowhere {
+/// Implements [`Register`] without a barrier, for numbers that are not joined on the target.
+macro_rules! without_barrier {
     ($($number:ty),*) => {$(
         impl Register for $number {}
     )*};
 }
 
+/// Implements [`Register`] with empty assembly as the barrier.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
-macro_rules! registers {
+macro_rules! with_barrier {
     ($($number:ty, $register:ty, $class:ident;)*) => {$(
         impl Register for $number {
             #[inline(always)]
@@ -52,22 +54,22 @@ macro_rules! registers {
 
 // Into 256 bits.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
-registers! {
+with_barrier! {
     wide::f64x2, x86_64::__m128d, xmm_reg;
     wide::f32x4, x86_64::__m128, xmm_reg;
 }
 #[cfg(not(all(target_arch = "x86_64", target_feature = "avx")))]
-joined_nowhere!(wide::f64x2, wide::f32x4);
+without_barrier!(wide::f64x2, wide::f32x4);
 
 // Into 512 bits.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
-registers! {
+with_barrier! {
     f32, f32, xmm_reg;
     f64, f64, xmm_reg;
     wide::f64x4, x86_64::__m256d, ymm_reg;
     wide::f32x8, x86_64::__m256, ymm_reg;
 }
 #[cfg(not(all(target_arch = "x86_64", target_feature = "avx512f")))]
-joined_nowhere!(f32, f64, wide::f64x4, wide::f32x8);
+without_barrier!(f32, f64, wide::f64x4, wide::f32x8);
 
-joined_nowhere!(wide::f64x8, wide::f32x16);
+without_barrier!(wide::f64x8, wide::f32x16);
