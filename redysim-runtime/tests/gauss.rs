@@ -9,7 +9,7 @@ mod problems;
 
 use mechanisms::{Arm, Pendulum, distance};
 use order_conditions::{defect, dot, values};
-use problems::{error_at, exact, nonlinear};
+use problems::{error_at, errors_of_steps, exact, nonlinear};
 use redysim_runtime::integrate::collocation::gauss::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, GaussTableau};
 use redysim_runtime::{
     ForwardSimulation, Free, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Step,
@@ -70,29 +70,14 @@ fn the_rounded_coefficients_are_those_of_symmetric_and_symplectic_methods() {
     check_geometry(&GAUSS_LEGENDRE_3);
 }
 
-/// The largest errors at the ends of the steps and within.
-fn errors(method: impl Integrator<f64>) -> [f64; 2] {
-    let (mut at_ends, mut within) = (0.0_f64, 0.0_f64);
-    let look = |step: &Step<'_, f64, [f64; 2]>| {
-        let ((from, _), (to, y)) = (step.start(), step.end());
-        at_ends = at_ends.max(error_at(to, y));
-        for theta in [0.05, 0.2, 0.4, 0.6, 0.8, 0.95] {
-            let t = from + theta * (to - from);
-            within = within.max(error_at(t, &step.at(t)));
-        }
-    };
-    method.each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();
-    [at_ends, within]
-}
-
 /// From coarse steps to fine ones.
 fn check_orders<M: Integrator<f64>>(method: impl Fn(f64) -> M, order: f64, h: f64) {
-    let (coarse, fine) = (errors(method(h)), errors(method(h / 2.0)));
-    let measured = [0, 1].map(|i| (coarse[i] / fine[i]).log2());
+    let [coarse, fine] = [h, h / 2.0].map(|h| errors_of_steps(method(h), &mut nonlinear, exact));
+    let measured = [(coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2()];
     println!("errors {coarse:?} and {fine:?}: measured orders {measured:?} at the ends and within");
     assert!((measured[0] - order).abs() < 0.2, "{measured:?}");
     assert!(measured[1] > order - 0.3, "{measured:?}");
-    assert!(coarse[1] < 3.0 * coarse[0] && fine[1] < 3.0 * fine[0], "{coarse:?}, {fine:?}");
+    assert!(coarse.1 < 3.0 * coarse.0 && fine.1 < 3.0 * fine.0, "{coarse:?}, {fine:?}");
 }
 
 #[test]

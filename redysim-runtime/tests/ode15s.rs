@@ -6,18 +6,12 @@ mod mechanisms;
 mod problems;
 
 use mechanisms::{Arm, distance};
-use problems::{error_at, exact, nonlinear};
+use problems::{error_at, exact, nonlinear, prothero_robinson};
 use redysim_runtime::integrate::method::EstimatesErrors;
 use redysim_runtime::integrate::{Adaptive, Bdf, Ndf};
 use redysim_runtime::{
     ForwardSimulation, Free, Integrator, Ode, Ode15s, Ode45, ProportionalDerivative, Statistics, Step,
 };
-
-/// The equation of Prothero and Robinson, ẏ = λ (y − cos t) − sin t: from y(0) = 1 the solution is cos t, from other
-/// starts it soon is.
-fn prothero_robinson(lambda: f64) -> impl FnMut(f64, &[f64; 1], &mut [f64; 1]) {
-    move |t, y, dydt| dydt[0] = lambda * (y[0] - t.cos()) - t.sin()
-}
 
 /// The reactions of H. H. Robertson, with rates from 0.04 to 3·10⁷.
 fn robertson(_t: f64, y: &[f64; 3], dydt: &mut [f64; 3]) {

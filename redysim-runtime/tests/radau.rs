@@ -9,12 +9,11 @@ mod problems;
 
 use mechanisms::{Arm, distance};
 use order_conditions::{defect, dot, values};
-use problems::{error_at, exact, nonlinear, run};
+use problems::{error_at, errors_of_steps, exact, nonlinear, prothero_robinson, run};
 use redysim_runtime::integrate::collocation::radau::RADAU_IIA_5;
 use redysim_runtime::integrate::{Accepted, FixedStep, Ndf, RadauIIA};
 use redysim_runtime::{
-    ForwardSimulation, Free, IntegrationError, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real,
-    Statistics, Step,
+    ForwardSimulation, Free, IntegrationError, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Statistics,
 };
 
 #[test]
@@ -51,25 +50,6 @@ fn the_estimate_is_blind_to_polynomials_of_degree_three() {
         assert!((estimate + f64::from(u8::from(power == 1))).abs() < 1e-14, "t^{power}: {estimate}");
     }
     assert!(dot(&RADAU_IIA_5.error, &RADAU_IIA_5.nodes.map(|c| c.powi(4))).abs() > 1e-3);
-}
-
-/// The largest errors at the ends of steps and within.
-fn errors_of_steps<const N: usize>(
-    method: impl Integrator<f64>,
-    ode: &mut impl Ode<f64, [f64; N]>,
-    exact: impl Fn(f64) -> [f64; N],
-) -> (f64, f64) {
-    let (mut at_ends, mut within) = (0.0_f64, 0.0_f64);
-    let look = |step: &Step<'_, f64, [f64; N]>| {
-        let ((from, _), (to, y)) = (step.start(), step.end());
-        at_ends = at_ends.max(distance(y, &exact(to)));
-        for theta in [0.05, 0.2, 0.5, 0.8] {
-            let t = from + theta * (to - from);
-            within = within.max(distance(&step.at(t), &exact(t)));
-        }
-    };
-    method.each_step(ode, (0.0, 3.0), exact(0.0), look).unwrap();
-    (at_ends, within)
 }
 
 /// The largest error of rows at times that no method chooses.
@@ -176,11 +156,6 @@ fn steps_of_one_size_have_differences_also_where_components_are_zero() {
         let end = FixedStep::<f64, Ndf>::new(0.001).integrate(&mut joint, (0.0, 0.5), [0.0, 0.0]).unwrap();
         assert!((end.y[0] - exact).abs() < 1e-2, "damping {damping}: {} instead of {exact}", end.y[0]);
     }
-}
-
-/// ẏ = λ (y − cos t) − sin t, with the solution cos t.
-fn prothero_robinson(lambda: f64) -> impl FnMut(f64, &[f64; 1], &mut [f64; 1]) {
-    move |t, y, dydt| dydt[0] = lambda * (y[0] - t.cos()) - t.sin()
 }
 
 /// The order of the stages is 3: where λ is large, so is that of the steps, but their error is that much smaller.
