@@ -177,7 +177,7 @@ fn every_integrator_keeps_the_loop_closed_and_counts_what_it_costs() {
 }
 
 /// Where B₀, the tip of the first crank, is at 10 s: `nfourbar_iftomm_A02_N2`, by elliptic functions.
-const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_179_860_1];
+const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
 
 #[test]
 fn the_windows_pass_through_their_singular_positions_with_steps_of_every_size() {
