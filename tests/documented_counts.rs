@@ -1,13 +1,13 @@
 //! The operation counts that `docs/performance.md` tells are those that the tests hold.
 
+#[path = "common/documented.rs"]
+mod documented;
+
 use std::collections::BTreeMap;
-use std::fs;
+
+use documented::read;
 
 const ROBOTS: [&str; 5] = ["peers/kr5", "peers/gripper", "peers/humanoid30", "peers/chain10", "test/kr5_origin_axis"];
-
-fn read(path: &str) -> String {
-    fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a file of the repository")
-}
 
 /// From set of passes and robot to the operations of inverse dynamics, forward dynamics and the mass matrix, as
 /// `tests/passes.rs` has found them.

@@ -1,20 +1,22 @@
-//! The figures of the README and of the table of A01 are those of the runs that they tell of.
+//! The figures of the README are those of the runs that they tell of.
 //!
 //! Errors of rounding size depend on the last bits of the arithmetic, which is another where multiply-add is fused. The
 //! README states bounds of them with one digit; a bound ten times what is measured is called stale.
 #![cfg(feature = "generic")]
 
 mod common;
+#[path = "common/documented.rs"]
+mod documented;
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
-use std::fs;
+use std::f64::consts::{FRAC_PI_3, TAU};
 
 use common::andrews;
 use common::models::Kr5;
+use documented::{assert_bounds, cells, read, rows, stated};
 use redysim::generic::Model;
 use redysim::{
-    Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Cycloid, Dop853, ForwardSimulation, Free,
-    Integrator, Motion, Ode4, Ode45, OperationCount, Trajectory, redysim,
+    Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Cycloid, ForwardSimulation, Free, Integrator,
+    Motion, Ode4, Ode45, OperationCount, Trajectory, redysim,
 };
 use redysim_codegen::functions::trace_scene;
 use redysim_codegen::passes::Passes;
@@ -22,43 +24,11 @@ use redysim_model::{Functions, Scene};
 
 redysim! { struct Fourbar("models/fourbar.toml"); }
 redysim! { struct ThreeRrr("models/three_rrr.toml"); }
-redysim! { struct Windows("models/n_fourbar_2.toml"); }
 redysim! { struct Andrews("models/andrews.toml"); }
-redysim! { struct SimplePendulum("models/simple_pendulum.toml"); }
 
-fn read(path: &str) -> String {
-    fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("a file of the repository")
-}
-
-/// The cells of the row of `document` whose first cells are `head`, behind them.
-fn cells(document: &str, head: &str) -> Vec<String> {
-    let text = read(document);
-    let row = text.lines().find_map(|line| line.strip_prefix(&format!("| {head} |")));
-    let row = row.unwrap_or_else(|| panic!("{document} has a row `{head}`"));
-    row.trim_end_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
-}
-
-/// The numbers in a row of the README, but for whole ones.
-fn stated(head: &str) -> Vec<f64> {
-    let words = cells("README.md", head).join(" ");
-    let numbers = words.split(|c: char| !(c.is_ascii_alphanumeric() || ".-".contains(c)));
-    numbers.filter(|word| word.contains(['.', '-'])).filter_map(|word| word.parse().ok()).collect()
-}
-
-/// Fails unless each stated bound holds and is not stale.
-fn assert_bounds(head: &str, measured: &[f64]) {
-    let stated = stated(head);
-    println!("{head}: stated {stated:?}, measured {measured:?}");
-    assert_eq!(stated.len(), measured.len(), "{head}: {stated:?}");
-    for (stated, measured) in stated.iter().zip(measured) {
-        assert!(measured <= stated, "{head}: {measured:e}, and the README states {stated:e}");
-        assert!(*stated <= 10.0 * measured, "{head}: {measured:e}, and the README's {stated:e} is stale");
-    }
-}
-
-fn rows(text: &str) -> Vec<Vec<f64>> {
-    let lines = text.lines().filter(|line| !line.starts_with('#'));
-    lines.map(|line| line.split(',').map(|number| number.parse().expect("a number")).collect()).collect()
+/// Fails unless each bound in a row of the README holds and is not stale.
+fn assert_row(head: &str, measured: &[f64]) {
+    assert_bounds(head, &stated(head), measured);
 }
 
 /// The largest difference; NaN counts as infinite.
@@ -85,7 +55,7 @@ fn the_joint_forces_of_the_kr5_deviate_as_the_readme_states() {
         (Kr5::inverse_dynamics(&q, &v, &a).to_vec(), row[19..25].to_vec())
     };
     let pairs: Vec<_> = reference.iter().map(forces).collect();
-    assert_bounds(&format!("joint forces, {} instants of ReDySim's own run", pairs.len()), &[shares(&pairs)]);
+    assert_row(&format!("joint forces, {} instants of ReDySim's own run", pairs.len()), &[shares(&pairs)]);
 }
 
 #[test]
@@ -109,8 +79,8 @@ fn the_free_fall_of_the_kr5_deviates_as_the_readme_states() {
         }
     });
     solved.expect("it falls");
-    assert_bounds(&format!("free fall for 1 s, {row} instants in quad precision"), &[angle]);
-    assert_bounds("energy in that fall", &[drift]);
+    assert_row(&format!("free fall for 1 s, {row} instants in quad precision"), &[angle]);
+    assert_row("energy in that fall", &[drift]);
 }
 
 #[test]
@@ -175,7 +145,7 @@ fn the_forces_of_closed_loops_deviate_as_the_readme_states() {
         ([&torques[..], &found.multipliers[..]].concat(), row[22..29].to_vec())
     };
     let legs: Vec<_> = legs.iter().map(of_legs).collect();
-    assert_bounds("four-bar and 3-RRR inverse dynamics, against ReDySim's own", &[shares(&four), shares(&legs)]);
+    assert_row("four-bar and 3-RRR inverse dynamics, against ReDySim's own", &[shares(&four), shares(&legs)]);
 }
 
 /// The angles that ship with ReDySim, closed with the crank held, as in `examples/fourbar.rs`.
@@ -200,7 +170,7 @@ fn the_four_bar_falls_as_closely_as_the_readme_states() {
         lambda = lambda.max(difference(&motion.multipliers, &row[10..12]));
     });
     solved.expect("it falls");
-    assert_bounds("four-bar in free fall for 0.68 s, against quad precision", &[angle, lambda]);
+    assert_row("four-bar in free fall for 0.68 s, against quad precision", &[angle, lambda]);
 }
 
 #[test]
@@ -221,7 +191,7 @@ fn the_four_bar_drifts_as_little_as_the_readme_states() {
     fallen.expect("it falls");
     const HEAD: &str = "four-bar for 10 s in steps of 0.1 ms";
     let change = if cfg!(debug_assertions) { change.max(0.1 * stated(HEAD)[1]) } else { change };
-    assert_bounds(HEAD, &[gap, change]);
+    assert_row(HEAD, &[gap, change]);
 }
 
 #[test]
@@ -234,45 +204,6 @@ fn andrews_mechanism_has_the_digits_that_the_readme_states() {
     let fewest = (0..7).map(digits).fold(f64::INFINITY, f64::min);
     // The published positions are rounded, so that what is missing is theirs.
     assert_eq!(stated("Andrews' squeezing mechanism at 0.03 s"), [(10.0 * fewest).round() / 10.0]);
-}
-
-#[test]
-fn the_windows_fold_as_exactly_as_the_readme_states() {
-    const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_179_860_1];
-    let error = |step: f64| {
-        let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), Free);
-        let start = turn.start(&[0.0; 5], &[-1.0, 1.0, -1.0, 1.0, -1.0]).expect("a closed start");
-        let end = Ode4::new(step).integrate(&mut turn, (0.0, 10.0), start).expect("it passes").y;
-        difference(&[-end[0].sin(), end[0].cos()], &TIP)
-    };
-    const HEAD: &str = "two windows folding flat for 10 s, steps of 10 ms to 0.1 ms";
-    let coarse = error(1e-2);
-    // 100,000 steps take half a minute in debug builds.
-    let fine = if cfg!(debug_assertions) { stated(HEAD)[1] } else { error(1e-4) };
-    assert_bounds(HEAD, &[coarse, fine]);
-}
-
-/// Fails unless the row of the pendulum's table that contains `row` states the error that the method makes.
-fn assert_error_of_pendulum(row: &str, method: &impl Integrator<f64>) {
-    // By Jacobi's elliptic functions.
-    const END: [f64; 2] = [-0.814_603_068_589_032_2, -0.580_018_827_836_935_5];
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
-    let start = simulation.state(&[FRAC_PI_2], &[0.0]);
-    let end = method.integrate(&mut simulation, (0.0, 2000.0), start).expect("it swings").y;
-    let error = 1e3 * (end[0].sin() - END[0]).hypot(-end[0].cos() - END[1]);
-    let document = read("docs/accuracy.md");
-    let row = document.lines().find(|line| line.contains(row)).unwrap_or_else(|| panic!("a row {row}"));
-    let stated: f64 = row.split('|').nth(4).expect("its error").trim().trim_end_matches(" mm").parse().expect("mm");
-    println!("{row}: {error:.3} mm");
-    assert!((error - stated).abs() <= 0.05 * stated, "{row}: {error:.3} mm");
-}
-
-/// Errors of truncation: they are the same in all digits that the table has.
-#[test]
-fn the_pendulum_of_a01_is_as_exact_as_the_table_states() {
-    assert_error_of_pendulum("`Ode4`, 10 ms | 2,000 s", &Ode4::new(1e-2));
-    assert_error_of_pendulum("`Ode45`, rtol 1e-8, atol 1e-10 | 2,000 s", &Ode45::new().rtol(1e-8).atol(1e-10));
-    assert_error_of_pendulum("`Dop853`, rtol 1e-8, atol 1e-10 | 2,000 s", &Dop853::new().rtol(1e-8).atol(1e-10));
 }
 
 /// `peers/urdf/run` has written the table.
