@@ -13,14 +13,14 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 use common::andrews;
 use common::models::Kr5;
 use documented::{assert_bounds, cells, read, rows, stated};
-use redysim::generic::Model;
+use redysim::generic::{GenericMechanism, Model};
 use redysim::{
     Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Cycloid, ForwardSimulation, Free, Integrator,
     Motion, Ode4, Ode45, OperationCount, Trajectory, redysim,
 };
 use redysim_codegen::functions::trace_scene;
 use redysim_codegen::passes::Passes;
-use redysim_model::{Functions, Scene};
+use redysim_model::{Functions, Inertia, Scene};
 
 redysim! { struct Fourbar("models/fourbar.toml"); }
 redysim! { struct ThreeRrr("models/three_rrr.toml"); }
@@ -204,6 +204,36 @@ fn andrews_mechanism_has_the_digits_that_the_readme_states() {
     let fewest = (0..7).map(digits).fold(f64::INFINITY, f64::min);
     // The published positions are rounded, so that what is missing is theirs.
     assert_eq!(stated("Andrews' squeezing mechanism at 0.03 s"), [(10.0 * fewest).round() / 10.0]);
+}
+
+/// Two four-bars that share nothing, the masses of one 10^`-exponent` of the other's.
+#[test]
+fn the_loops_beside_one_of_far_lighter_links_are_lost_where_the_readme_states() {
+    let rank = |exponent: i32| {
+        let mut model =
+            Model::load(format!("{}/models/fourbar.toml", env!("CARGO_MANIFEST_DIR"))).expect("a model").model;
+        let (share, count) = (10_f64.powi(-exponent), model.links.len());
+        for mut link in model.links.clone() {
+            let Inertia { xx, yy, zz, .. } = link.inertia;
+            link.inertia = Inertia { xx: share * xx, yy: share * yy, zz: share * zz, ..Inertia::default() };
+            link.mass *= share;
+            link.parent = link.parent.map(|parent| parent + count);
+            model.links.push(link);
+        }
+        let mut cut = model.loops[0].clone();
+        for side in [&mut cut.a, &mut cut.b] {
+            side.link = side.link.map(|link| link + count);
+        }
+        model.loops.push(cut);
+        let pair = GenericMechanism::new(model);
+        let loops = ClosedLoop::new(&pair);
+        let closed = loops.assemble(&[0.0, 0.9844, 4.3144].repeat(2), &vec![0.0; 6], &[0, 3]).expect("it closes");
+        loops.dynamics(&closed.q, &closed.v, &vec![0.0; 6]).expect("a solution").rank
+    };
+    let readme = read("README.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(readme.contains("beside a loop of links some ten orders of magnitude lighter, the loops of the others"));
+    // Of ranks 2 and 2, only the light one's remains.
+    assert_eq!((rank(9), rank(11)), (4, 2));
 }
 
 /// `peers/urdf/run` has written the table.
