@@ -1,7 +1,13 @@
 //! Calls of the program.
 
+use std::io::Read;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, ExitStatus, Stdio};
+use std::thread::{sleep, spawn};
+use std::time::{Duration, Instant};
+
+/// A call that takes longer, which none does on a slow machine, is killed, so that its test fails.
+const LONGEST: Duration = Duration::from_secs(120);
 
 /// What a command printed, and its exit code.
 pub struct Run {
@@ -14,9 +20,12 @@ impl Run {
     /// Runs a command until it ends.
     pub fn of(command: &mut Command) -> Run {
         let output = command.output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        let code = output.status.code().expect("it ends by itself");
-        Run { stdout: text(output.stdout), stderr: text(output.stderr), code }
+        Run::ended([output.stdout, output.stderr], output.status)
+    }
+
+    fn ended(streams: [Vec<u8>; 2], status: ExitStatus) -> Run {
+        let [stdout, stderr] = streams.map(|bytes| String::from_utf8(bytes).unwrap());
+        Run { stdout, stderr, code: status.code().expect("it ends by itself") }
     }
 
     /// What was printed, be it on which stream it may.
@@ -34,7 +43,22 @@ pub fn program(folder: &Path, arguments: &[&str]) -> Command {
 
 /// Calls the program in `folder`.
 pub fn call(folder: &Path, arguments: &[&str]) -> Run {
-    Run::of(&mut program(folder, arguments))
+    fn read(mut stream: impl Read + Send + 'static) -> impl FnOnce() -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let reader = spawn(move || stream.read_to_end(&mut bytes).map(|_| bytes));
+        || reader.join().unwrap().unwrap()
+    }
+    let mut program = program(folder, arguments);
+    let mut child = program.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let (stdout, stderr) = (read(child.stdout.take().unwrap()), read(child.stderr.take().unwrap()));
+    let begun = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if begun.elapsed() > LONGEST {
+            child.kill().unwrap();
+        }
+        sleep(Duration::from_millis(1));
+    }
+    Run::ended([stdout(), stderr()], child.wait().unwrap())
 }
 
 /// Calls the program in `folder`, which must go well, and returns what it prints.
