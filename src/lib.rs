@@ -85,6 +85,7 @@ pub use redysim_runtime::*;
 /// The generic path: the same recursions, driven by a model that is read at run time.
 #[cfg(feature = "generic")]
 pub mod generic {
+    pub use redysim_model::denoc::Workspace;
     pub use redysim_model::{Diagnostic, Faults, GenericMechanism, JointRange, Loaded, Model, Severity};
 }
 

@@ -83,3 +83,44 @@ fn integrators_allocate_nothing() {
     every_fixed(1e-3, &mut Fall);
     every_adaptive(1e-6, 1e-8, &mut Fall);
 }
+
+#[cfg(feature = "generic")]
+#[test]
+fn the_run_time_path_allocates_nothing_after_the_first_call() {
+    use redysim::generic::Workspace;
+
+    for name in ["kr5", "test/gantry"] {
+        let mechanism = common::models::generic(name);
+        let nv = mechanism.tree().nv();
+        let (q, v, x) = (vec![0.1; nv], vec![0.2; nv], vec![0.3; nv]);
+        let (mut workspace, mut vector, mut matrix) = (Workspace::default(), vec![0.0; nv], vec![0.0; nv * nv]);
+        let mut every_function = || {
+            mechanism.inverse_dynamics_in(&mut workspace, &q, &v, &x, &mut vector);
+            mechanism.forward_dynamics_in(&mut workspace, &q, &v, &x, &mut vector);
+            mechanism.mass_matrix_in(&mut workspace, &q, &mut matrix);
+        };
+        assert!(allocations(&mut every_function) > 0, "{name} makes room");
+        assert_eq!(allocations(&mut every_function), 0, "{name}");
+    }
+}
+
+#[cfg(feature = "generic")]
+#[test]
+fn the_room_of_one_mechanism_serves_another() {
+    use redysim::generic::Workspace;
+    use redysim::{ForwardDynamics, InverseDynamics, MassMatrix};
+
+    let mut workspace = Workspace::default();
+    for name in ["kr5", "gripper", "test/gantry", "kr5"] {
+        let mechanism = common::models::generic(name);
+        let nv = mechanism.tree().nv();
+        let (q, v, x): (Vec<f64>, Vec<f64>, Vec<f64>) = (vec![0.4; nv], vec![-0.2; nv], vec![0.3; nv]);
+        let (mut vector, mut matrix) = (vec![0.0; nv], vec![0.0; nv * nv]);
+        mechanism.inverse_dynamics_in(&mut workspace, &q, &v, &x, &mut vector);
+        assert_eq!(vector, mechanism.inverse_dynamics(&q, &v, &x), "{name}");
+        mechanism.forward_dynamics_in(&mut workspace, &q, &v, &x, &mut vector);
+        assert_eq!(vector, mechanism.forward_dynamics(&q, &v, &x), "{name}");
+        mechanism.mass_matrix_in(&mut workspace, &q, &mut matrix);
+        assert_eq!(matrix, mechanism.mass_matrix(&q).concat(), "{name}");
+    }
+}

@@ -1,6 +1,6 @@
 //! The generic path: the recursions at `f64` (or any other scalar), driven by a model that is read at run time.
 
-use crate::denoc::{self, Method, Untraced};
+use crate::denoc::{self, Method, Untraced, Workspace};
 use crate::model::Model;
 use crate::tree::Tree;
 use redysim_runtime::dual;
@@ -36,6 +36,62 @@ impl GenericMechanism {
     /// The tree of moving bodies, on which the functions of [`denoc`] run.
     pub fn tree(&self) -> &Tree {
         &self.tree
+    }
+
+    /// [`InverseDynamics::inverse_dynamics`], written to `tau`. A `workspace` that is kept from call to call is all the
+    /// memory that is needed: later calls allocate nothing.
+    ///
+    /// ```
+    /// use redysim_model::denoc::Workspace;
+    /// use redysim_model::{GenericMechanism, Model};
+    ///
+    /// # let pendulum = "name = 'pendulum'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
+    /// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 2.0\ncom = [0.5, 0, 0]";
+    /// let pendulum = GenericMechanism::new(Model::from_toml(pendulum, "pendulum.toml")?.model);
+    /// let (mut workspace, mut tau) = (Workspace::default(), [0.0]);
+    /// for step in 0..1000 {
+    ///     let q = 0.001 * f64::from(step);
+    ///     pendulum.inverse_dynamics_in(&mut workspace, &[q], &[0.0], &[0.0], &mut tau);
+    ///     assert!((tau[0] + 9.81 * q.cos()).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), redysim_model::Faults>(())
+    /// ```
+    pub fn inverse_dynamics_in<S: Scalar>(
+        &self,
+        workspace: &mut Workspace<S>,
+        q: &[S],
+        v: &[S],
+        a: &[S],
+        tau: &mut [S],
+    ) {
+        self.check(&[("q", q), ("v", v), ("a", a), ("tau", tau)]);
+        denoc::inverse_dynamics_in(workspace, &self.tree, &Untraced, q, v, a, tau);
+    }
+
+    /// [`ForwardDynamics::forward_dynamics`], written to `a`, in the room of `workspace`.
+    pub fn forward_dynamics_in<S: Scalar>(
+        &self,
+        workspace: &mut Workspace<S>,
+        q: &[S],
+        v: &[S],
+        tau: &[S],
+        a: &mut [S],
+    ) {
+        self.check(&[("q", q), ("v", v), ("tau", tau), ("a", a)]);
+        denoc::forward_dynamics_in(workspace, &self.tree, &Untraced, q, v, tau, a);
+    }
+
+    /// [`MassMatrix::mass_matrix`], written by rows to `matrix` of length NV², in the room of `workspace`.
+    pub fn mass_matrix_in<S: Scalar>(&self, workspace: &mut Workspace<S>, q: &[S], matrix: &mut [S]) {
+        self.check(&[("q", q)]);
+        let nv = self.tree.nv();
+        assert!(
+            matrix.len() == nv * nv,
+            "`matrix` must have {nv} rows of {nv} elements for `{}`, but it has {} elements",
+            self.model.name,
+            matrix.len()
+        );
+        denoc::mass_matrix_in(workspace, &self.tree, &Untraced, q, matrix);
     }
 
     fn check<S>(&self, vectors: &[(&str, &[S])]) {

@@ -49,6 +49,7 @@ pub struct Body {
 
 impl Body {
     /// Whether the joint's axis is parallel to the z axis of the parent's frame.
+    #[inline]
     pub fn is_parallel(&self) -> bool {
         // The cosine of a tilt of 1e-8 is 1 already.
         let [x, y, _] = self.placement.rotation.column(2).0;
@@ -95,11 +96,13 @@ pub struct CutEnd {
 
 impl Tree {
     /// Number of joint coordinates, NQ.
+    #[inline]
     pub fn nq(&self) -> usize {
         self.bodies.iter().map(|body| body.q.len()).sum()
     }
 
     /// Number of joint velocities, NV.
+    #[inline]
     pub fn nv(&self) -> usize {
         self.bodies.iter().map(|body| body.v.len()).sum()
     }
@@ -110,11 +113,13 @@ impl Tree {
     }
 
     /// The bodies from the ground outwards: parents before their children.
+    #[inline]
     pub fn outward(&self) -> std::ops::Range<usize> {
         0..self.bodies.len()
     }
 
     /// The bodies from the tips inwards: children before their parents.
+    #[inline]
     pub fn inward(&self) -> std::iter::Rev<std::ops::Range<usize>> {
         self.outward().rev()
     }

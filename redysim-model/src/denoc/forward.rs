@@ -2,14 +2,15 @@
 
 use super::articulated::ArticulatedInertia;
 use super::factorisation::Factorisation;
-use super::frame::{JointFrame, joint_frames};
+use super::frame::{JointFrame, joint_frames_in};
 use super::inverse::bias_forces;
 use super::mass_matrix::mass_matrix;
 use super::trace::Trace;
+use super::workspace::Workspace;
 use crate::inertia::RigidInertia;
 use crate::joint::Screw;
 use crate::spatial::{Twist, Vec3, Wrench};
-use crate::tree::Tree;
+use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
 
 /// How accelerations are computed.
@@ -62,16 +63,31 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(
     v: &[S],
     tau: &[S],
 ) -> Vec<S> {
-    let frames = joint_frames(tree, trace, q);
-    let drifts = bias_accelerations(tree, trace, &frames, v);
-    let mut inertias: Vec<ArticulatedInertia<S>> = tree
-        .bodies
-        .iter()
-        .zip(&frames)
-        .map(|(body, frame)| ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid()))
-        .collect();
-    let mut wrenches = vec![Wrench::zero(); tree.bodies.len()];
-    let mut pivots: Vec<Pivot<S>> = Vec::with_capacity(tree.bodies.len());
+    let mut result = vec![S::zero(); tree.nv()];
+    forward_dynamics_in(&mut Workspace::default(), tree, trace, q, v, tau, &mut result);
+    result
+}
+
+/// [`forward_dynamics_by_recursion`] in the given room, written to `result`.
+pub fn forward_dynamics_in<S: Scalar>(
+    work: &mut Workspace<S>,
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    tau: &[S],
+    result: &mut [S],
+) {
+    let Workspace { angles, frames, biases: drifts, inertias, wrenches, pivots, accelerations, .. } = work;
+    joint_frames_in(angles, frames, tree, trace, q);
+    bias_accelerations(drifts, tree, trace, frames, v);
+    let rigid =
+        |(body, frame): (&Body, &JointFrame<S>)| ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid());
+    inertias.clear();
+    inertias.extend(tree.bodies.iter().zip(frames.iter()).map(rigid));
+    wrenches.clear();
+    wrenches.resize(tree.bodies.len(), Wrench::zero());
+    pivots.clear();
     trace.sweep("inward", tree.inward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let screw = body.joint.screw();
@@ -99,8 +115,7 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(
     pivots.reverse();
 
     let ground = Twist { angular: Vec3::zero(), linear: Vec3::constant(-tree.gravity) };
-    let mut accelerations: Vec<Twist<S>> = Vec::with_capacity(tree.bodies.len());
-    let mut result = vec![S::zero(); tree.nv()];
+    accelerations.clear();
     trace.sweep("accelerations", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| accelerations[parent]);
@@ -117,7 +132,6 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(
         trace.name_twist(acceleration, ["dw", "acc"], index);
         accelerations.push(acceleration);
     });
-    result
 }
 
 /// `ratio` · `acceleration`, where Sᵀ `ratio` is one: where S is an axis of six, that component is not multiplied.
@@ -132,14 +146,16 @@ fn power<S: Scalar>(screw: Screw, mut ratio: Wrench<S>, acceleration: Twist<S>) 
 }
 
 /// One step of the elimination: 1/D, U/D and the force left to accelerate the joint.
-struct Pivot<S> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pivot<S> {
     inverse: S,
     ratio: Wrench<S>,
     drive: S,
 }
 
 /// What velocities alone do to a body.
-struct BiasAcceleration<S> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BiasAcceleration<S> {
     /// Angular velocity ω, in the body's frame.
     angular: Vec3<S>,
     /// Acceleration against the parent at zero joint acceleration.
@@ -147,12 +163,13 @@ struct BiasAcceleration<S> {
 }
 
 fn bias_accelerations<S: Scalar>(
+    biases: &mut Vec<BiasAcceleration<S>>,
     tree: &Tree,
     trace: &impl Trace<S>,
     frames: &[JointFrame<S>],
     v: &[S],
-) -> Vec<BiasAcceleration<S>> {
-    let mut biases: Vec<BiasAcceleration<S>> = Vec::with_capacity(tree.bodies.len());
+) {
+    biases.clear();
     trace.sweep("velocities", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let (screw, rate) = (body.joint.screw(), v[body.v.start]);
@@ -168,7 +185,6 @@ fn bias_accelerations<S: Scalar>(
         trace.name_twist(acceleration, ["drift_n", "drift_f"], index);
         biases.push(BiasAcceleration { angular, acceleration });
     });
-    biases
 }
 
 /// The wrench (ω × J ω, ω × (ω × h)) of a body that turns without acceleration.

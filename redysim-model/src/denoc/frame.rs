@@ -32,9 +32,22 @@ pub(super) struct JointFrame<S> {
 
 /// The frames of all bodies at the coordinates `q`.
 pub(super) fn joint_frames<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<JointFrame<S>> {
+    let mut frames = Vec::with_capacity(tree.bodies.len());
+    joint_frames_in(&mut Vec::with_capacity(tree.bodies.len()), &mut frames, tree, trace, q);
+    frames
+}
+
+/// The same in the given room.
+pub(super) fn joint_frames_in<S: Scalar>(
+    angles: &mut Vec<Option<Angle<S>>>,
+    frames: &mut Vec<JointFrame<S>>,
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+) {
     // All angles first, so that compiled code can take their sines and cosines together.
-    let angles = angles(tree, q);
-    let mut frames: Vec<JointFrame<S>> = Vec::with_capacity(tree.bodies.len());
+    find_angles(angles, tree, q);
+    frames.clear();
     trace.sweep("frames", tree.outward(), |index| {
         let (body, angle) = (&tree.bodies[index], angles[index]);
         let parent = body.parent.and_then(|parent| frames[parent].attitude);
@@ -56,12 +69,11 @@ pub(super) fn joint_frames<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S
         let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
         frames.push(JointFrame { before, fixed, turn, attitude, along_axis, position });
     });
-    frames
 }
 
 /// By how much a body has turned about its z axis.
-#[derive(Clone, Copy)]
-struct Angle<S> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Angle<S> {
     value: S,
     /// Whether more than one joint has a part in it.
     is_sum: bool,
@@ -69,8 +81,8 @@ struct Angle<S> {
 
 /// By how much each body has turned about its z axis: against its parent, or if that is still and the axes are
 /// parallel, against the parent's axes.
-fn angles<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Option<Angle<S>>> {
-    let mut angles: Vec<Option<Angle<S>>> = Vec::with_capacity(tree.bodies.len());
+fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree, q: &[S]) {
+    angles.clear();
     for body in &tree.bodies {
         let q = q[body.q.start];
         let still_parent = body.parent.filter(|&parent| tree.bodies[parent].still && body.is_parallel());
@@ -87,7 +99,6 @@ fn angles<S: Scalar>(tree: &Tree, q: &[S]) -> Vec<Option<Angle<S>>> {
             (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some() }),
         });
     }
-    angles
 }
 
 impl<S: Scalar> JointFrame<S> {

@@ -1,7 +1,8 @@
 //! Inverse dynamics: joint forces from motion, by one recursion outwards and one inwards (recursive Newton-Euler).
 
-use super::frame::{JointFrame, joint_frames};
+use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
+use super::workspace::Workspace;
 use crate::inertia::Sym3;
 use crate::joint::Screw;
 use crate::pseudo::PseudoInertia;
@@ -10,8 +11,8 @@ use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
 /// Motion of a body in its own frame. Gravity is an acceleration of the ground, so it needs no forces of its own.
-#[derive(Clone, Copy)]
-struct BodyMotion<S> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BodyMotion<S> {
     /// Angular velocity ω.
     angular: Vec3<S>,
     /// Angular acceleration ω̇.
@@ -128,10 +129,27 @@ impl<S: Scalar> Shape<S> {
 
 /// τ = M(q) a + C(q, v) v + g(q): the joint forces for accelerations `a` at coordinates `q` and velocities `v`.
 pub fn inverse_dynamics<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
-    let frames = joint_frames(tree, trace, q);
+    let mut tau = vec![S::zero(); tree.nv()];
+    inverse_dynamics_in(&mut Workspace::default(), tree, trace, q, v, a, &mut tau);
+    tau
+}
+
+/// The same in the given room, written to `tau`.
+pub fn inverse_dynamics_in<S: Scalar>(
+    work: &mut Workspace<S>,
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    a: &[S],
+    tau: &mut [S],
+) {
+    let Workspace { angles, frames, children, motions, wrenches, .. } = work;
+    joint_frames_in(angles, frames, tree, trace, q);
+    children.find(tree);
     let ground = BodyMotion::ground(tree.gravity);
-    let mut motions: Vec<BodyMotion<S>> = Vec::with_capacity(tree.bodies.len());
-    let mut wrenches: Vec<Wrench<S>> = Vec::with_capacity(tree.bodies.len());
+    motions.clear();
+    wrenches.clear();
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| motions[parent]);
@@ -140,18 +158,16 @@ pub fn inverse_dynamics<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], 
         wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), Shape::new(&body.inertia, frame)));
         motions.push(motion);
     });
-    let mut tau = vec![S::zero(); tree.nv()];
     trace.sweep("inward", tree.inward(), |index| {
         let body = &tree.bodies[index];
         // Taken from the children, not handed to the parent: so the sum for one body is one sum.
-        let loads = tree.children(index).map(|child| frames[child].wrench_to_parent(wrenches[child]));
+        let loads = children.of(index).map(|child| frames[child].wrench_to_parent(wrenches[child]));
         let wrench = loads.fold(wrenches[index], |sum, load| sum + load);
         trace.name_wrench(wrench, ["moment", "force"], index);
         wrenches[index] = wrench;
         tau[body.v.start] = body.joint.screw().project(wrench);
         trace.name(tau[body.v.start], "tau", index, "");
     });
-    tau
 }
 
 /// C(q, v) v + g(q): the joint forces at zero acceleration.

@@ -1,7 +1,8 @@
 //! The generalised inertia matrix, from composite bodies.
 
-use super::frame::{JointFrame, joint_frames};
+use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
+use super::workspace::Workspace;
 use crate::inertia::Sym3;
 use crate::joint::Screw;
 use crate::pseudo::PseudoInertia;
@@ -14,16 +15,33 @@ use redysim_runtime::Scalar;
 /// Body j and all it carries, taken as one rigid body, meet the acceleration with a wrench; what joint i on the way to
 /// the ground feels of it is the element. Joints that are not on one way to the ground do not feel each other.
 pub fn mass_matrix<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
-    let frames = joint_frames(tree, trace, q);
-    let upright = upright(tree);
+    let nv = tree.nv();
+    let mut matrix = vec![S::zero(); nv * nv];
+    mass_matrix_in(&mut Workspace::default(), tree, trace, q, &mut matrix);
+    matrix.chunks(nv.max(1)).map(<[S]>::to_vec).collect()
+}
+
+/// The same in the given room, written to `matrix` by rows, of length NV².
+pub fn mass_matrix_in<S: Scalar>(
+    work: &mut Workspace<S>,
+    tree: &Tree,
+    trace: &impl Trace<S>,
+    q: &[S],
+    matrix: &mut [S],
+) {
+    let nv = tree.nv();
+    let Workspace { angles, frames, planar, composites, .. } = work;
+    joint_frames_in(angles, frames, tree, trace, q);
+    find_planar(planar, tree);
     let own_inertia = |(body, frame): (&Body, &JointFrame<S>)| Composite::new(body.inertia, frame);
-    let mut composites: Vec<Composite<S>> = tree.bodies.iter().zip(&frames).map(own_inertia).collect();
-    let mut matrix = vec![vec![S::zero(); tree.nv()]; tree.nv()];
+    composites.clear();
+    composites.extend(tree.bodies.iter().zip(frames.iter()).map(own_inertia));
+    matrix.fill(S::zero());
     for (index, body) in tree.bodies.iter().enumerate().rev() {
         let composite = composites[index];
         composite.name(trace, index);
         if let Some(parent) = body.parent {
-            let carried = composite.to_parent(&frames[index], upright[index]);
+            let carried = composite.to_parent(&frames[index], planar[index]);
             composites[parent] = composites[parent].plus(carried);
         }
         let mut wrench = composite.unit_wrench(body.joint.screw());
@@ -31,28 +49,26 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Ve
         loop {
             let joint = &tree.bodies[at];
             let element = joint.joint.screw().project(wrench);
-            matrix[body.v.start][joint.v.start] = element;
-            matrix[joint.v.start][body.v.start] = element;
+            matrix[body.v.start * nv + joint.v.start] = element;
+            matrix[joint.v.start * nv + body.v.start] = element;
             let Some(parent) = joint.parent else { break };
             wrench = frames[at].wrench_to_parent(wrench);
             at = parent;
         }
     }
-    matrix
 }
 
 /// Which bodies can turn about directions parallel to their own joint's axis only, as all bodies of a planar mechanism.
-fn upright(tree: &Tree) -> Vec<bool> {
-    let mut upright: Vec<bool> = Vec::with_capacity(tree.bodies.len());
+fn find_planar(planar: &mut Vec<bool>, tree: &Tree) {
+    planar.clear();
     for body in &tree.bodies {
-        upright.push(body.parent.is_none_or(|parent| body.is_parallel() && upright[parent]));
+        planar.push(body.parent.is_none_or(|parent| body.is_parallel() && planar[parent]));
     }
-    upright
 }
 
 /// A body and all it carries, as one rigid body.
-#[derive(Clone, Copy)]
-struct Composite<S> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Composite<S> {
     inertia: PseudoInertia<S>,
     /// The moment of inertia about z, Σ_xx + Σ_yy. A body that turns about z only has no other use for these two.
     polar: S,
@@ -69,9 +85,9 @@ impl<S: Scalar> Composite<S> {
     }
 
     /// The composite in the parent's axes and about the parent's origin.
-    fn to_parent(self, frame: &JointFrame<S>, upright: bool) -> Self {
+    fn to_parent(self, frame: &JointFrame<S>, planar: bool) -> Self {
         let inertia = frame.inertia_to_parent(self.inertia);
-        let polar = if upright {
+        let polar = if planar {
             // Steiner's theorem for this one moment.
             let (p, far, near) = (frame.position, inertia.moment, frame.to_parent(self.inertia.moment));
             self.polar + (p[0] * (near[0] + far[0]) + p[1] * (near[1] + far[1]))

@@ -25,15 +25,19 @@ mod kinematics;
 mod loops;
 mod mass_matrix;
 mod trace;
+mod workspace;
 
 pub use center_of_mass::center_of_mass;
 pub use energy::energy;
 pub use evaluate::evaluate;
 pub use factorisation::Factorisation;
-pub use forward::{Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion};
-pub use inverse::{bias_forces, gravity_forces, inverse_dynamics};
+pub use forward::{
+    Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion, forward_dynamics_in,
+};
+pub use inverse::{bias_forces, gravity_forces, inverse_dynamics, inverse_dynamics_in};
 pub use kinematics::link_kinematics;
 pub(crate) use loops::rows_that_vary;
 pub use loops::{loop_bias, loop_jacobian, loop_residual};
-pub use mass_matrix::mass_matrix;
+pub use mass_matrix::{mass_matrix, mass_matrix_in};
 pub use trace::{Trace, Untraced};
+pub use workspace::Workspace;

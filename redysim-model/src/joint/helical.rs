@@ -4,6 +4,7 @@ use super::{AxisMass, Screw, Vanishing};
 use crate::inertia::Sym3;
 use crate::pseudo::PseudoInertia;
 
+#[inline]
 pub fn screw(pitch: f64) -> Screw {
     Screw { turn: 1.0, slide: pitch }
 }

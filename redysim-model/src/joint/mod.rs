@@ -49,16 +49,19 @@ impl Joint {
     }
 
     /// Number of coordinates.
+    #[inline]
     pub fn nq(self) -> usize {
         1
     }
 
     /// Number of velocities.
+    #[inline]
     pub fn nv(self) -> usize {
         1
     }
 
     /// The motion subspace S.
+    #[inline]
     pub fn screw(self) -> Screw {
         match self {
             Joint::Revolute => revolute::SCREW,

@@ -14,16 +14,19 @@ pub struct Screw {
 
 impl Screw {
     /// How much of `x` is rotation about z; `None` if the joint does not turn.
+    #[inline]
     pub fn turn<S: Scalar>(self, x: S) -> Option<S> {
         times(self.turn, x)
     }
 
     /// How much of `x` is displacement along z; `None` if the joint does not slide.
+    #[inline]
     pub fn slide<S: Scalar>(self, x: S) -> Option<S> {
         times(self.slide, x)
     }
 
     /// Which of the six axes (angular x, y, z, linear x, y, z) S is, if it is one.
+    #[inline]
     pub fn unit_axis(self) -> Option<usize> {
         match (self.turn, self.slide) {
             (1.0, 0.0) => Some(2),
@@ -33,6 +36,7 @@ impl Screw {
     }
 
     /// The wrench for a unit of the coordinate, of those for a unit rotation and a unit displacement.
+    #[inline]
     pub fn combined<S: Scalar>(self, turn: Wrench<S>, slide: Wrench<S>) -> Wrench<S> {
         match self.unit_axis() {
             Some(2) => turn,
@@ -42,6 +46,7 @@ impl Screw {
     }
 
     /// Sᵀ w, the joint force of a wrench.
+    #[inline]
     pub fn project<S: Scalar>(self, wrench: Wrench<S>) -> S {
         match (self.turn(wrench.moment[2]), self.slide(wrench.force[2])) {
             (Some(moment), Some(force)) => moment + force,
@@ -51,6 +56,7 @@ impl Screw {
     }
 
     /// `twist` + S `rate`.
+    #[inline]
     pub fn added<S: Scalar>(self, mut twist: Twist<S>, rate: S) -> Twist<S> {
         if let Some(turn) = self.turn(rate) {
             twist.angular[2] += turn;
@@ -63,6 +69,7 @@ impl Screw {
 
     /// The bias acceleration of the joint, (ω × turn; 2 ω × slide) for the velocity `rate`, where the parent's angular
     /// velocity is `angular` in the body's axes.
+    #[inline]
     pub fn bias<S: Scalar>(self, angular: Vec3<S>, rate: S) -> Twist<S> {
         let [x, y, _] = angular.0;
         let across = |along: S| Vec3([y * along, -(x * along), S::zero()]);
@@ -73,6 +80,7 @@ impl Screw {
     }
 
     /// The wrench, of which the joint force is known to be `force`, with exactly that.
+    #[inline]
     pub fn with_force<S: Scalar>(self, mut wrench: Wrench<S>, force: S) -> Wrench<S> {
         match self.unit_axis() {
             Some(axis) => *wrench.component_mut(axis) = force,
@@ -85,6 +93,7 @@ impl Screw {
     }
 }
 
+#[inline]
 fn times<S: Scalar>(coefficient: f64, x: S) -> Option<S> {
     match coefficient {
         0.0 => None,
