@@ -69,7 +69,8 @@
 //! # Features
 //!
 //! - `generic` (on by default): [`generic`]; brings `std`.
-//! - `std`: [`batch`], [`dispatch`], and a fused multiply-add that is quicker to compile. Without it the crate is `no_std`.
+//! - `std`: [`batch`], [`dispatch`], and a fused multiply-add that is quicker to compile. Without it the crate is
+//!   `no_std`.
 //! - `deterministic`: the same bits on every target. Without it products and sums are fused where the target can (see
 //!   [`scalar::FUSED`]), so that a program compiled with `-C target-cpu=native` may differ from one that is not in the
 //!   last places; within one program, lanes and plain numbers agree to the bit either way, and so do batches and

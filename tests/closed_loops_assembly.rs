@@ -27,7 +27,8 @@ fn the_shipped_start_closes_with_the_crank_held_and_tells_how_far_it_moved() {
     assert_eq!(assembly.rank, 2);
 }
 
-/// With the crank held at rest nothing can move, and what rounding leaves of the speeds asked for is no fault of the loops.
+/// With the crank held at rest nothing can move, and what rounding leaves of the speeds asked for is no fault of the
+/// loops.
 #[test]
 fn a_held_crank_at_rest_stops_the_whole_linkage() {
     for asked in [[0.0_f64, 1.0, 0.0], [0.0, 0.0, -3e8], [0.0, 1e-9, 7.0]] {

@@ -1,5 +1,5 @@
-//! The tables of `docs/accuracy.md` that can be exact are: what each method takes, and what its error is. The bits, and so
-//! the steps, are the same on every machine with the feature `deterministic`.
+//! The tables of `docs/accuracy.md` that can be exact are: what each method takes, and what its error is. The bits, and
+//! so the steps, are the same on every machine with the feature `deterministic`.
 #![cfg(all(feature = "generic", feature = "deterministic"))]
 
 mod common;

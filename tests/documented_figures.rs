@@ -100,7 +100,8 @@ fn the_operations_of_the_kr5_are_those_that_the_readme_states() {
 fn the_operations_of_the_puma_within_tolerances_are_those_that_the_readme_states() {
     let model = Model::load(format!("{}/models/test/puma560.toml", env!("CARGO_MANIFEST_DIR"))).expect("a model").model;
     let functions = Functions::named(["inverse_dynamics", "bias_forces"]).expect("functions");
-    // To find what may be left out takes seconds in debug builds; the first column behind the exact one takes the least.
+    // To find what may be left out takes seconds in debug builds; the first column behind the exact one takes the
+    // least.
     let exponents = if cfg!(debug_assertions) { 4..=4 } else { 1..=4 };
     for exponent in exponents {
         let scene = Scene { functions, tolerance: Some(10_f64.powi(-exponent)), ..Scene::default() };

@@ -240,8 +240,8 @@ fn a_massless_coupler_in_space_moves_as_the_one_in_the_plane() {
     }
 }
 
-/// A coupler with all its mass on its joint with the rocker meets no inertia either: it moves as a massless one does on a rocker
-/// with that mass at its tip.
+/// A coupler with all its mass on its joint with the rocker meets no inertia either: it moves as a massless one does on
+/// a rocker with that mass at its tip.
 #[test]
 fn a_point_mass_on_the_axis_of_the_coupler_moves_with_the_rocker() {
     let massless = text("test/fourbar_massless_coupler");

@@ -194,11 +194,11 @@ fn traced_expressions_agree_with_kanes_equations() {
     println!("{:?}", errors.0);
 }
 
-/// The largest losses that are allowed on trees of a style: of joint forces and the mass matrix, and of accelerations, in
-/// the metric of [`Reference`] (an error of 1e-16 is a rounding of the largest number).
+/// The largest losses that are allowed on trees of a style: of joint forces and the mass matrix, and of accelerations,
+/// in the metric of [`Reference`] (an error of 1e-16 is a rounding of the largest number).
 ///
-/// Forces are sums of products: tens of roundings, and more where an axis is near a link and the frame in which the link is
-/// carried is a thousand times as far: the moment about the one is what the far moments leave. Accelerations
+/// Forces are sums of products: tens of roundings, and more where an axis is near a link and the frame in which the
+/// link is carried is a thousand times as far: the moment about the one is what the far moments leave. Accelerations
 /// are multiplied by the condition of the mass matrix, which the masses spread.
 const ALLOWED: [(Style, f64, f64); 9] = [
     (Style::Ordinary, 2e-14, 1e-12),

@@ -159,8 +159,8 @@ fn the_readme_states_the_operations_at_each_tolerance() {
     }
 }
 
-/// The scale of the mass matrix has the largest diagonal elements; at a position where they are smaller, the same error is a
-/// larger share.
+/// The scale of the mass matrix has the largest diagonal elements; at a position where they are smaller, the same error
+/// is a larger share.
 #[test]
 fn the_readme_states_what_share_of_the_mass_matrix_at_the_position_itself_is_lost() {
     let (mut random, ranges) = (Random::new(99), ranges());

@@ -1,5 +1,5 @@
-//! Ctrl-C, or a request to terminate, ends a computation, not the program: what was computed is kept. The second one ends
-//! the program.
+//! Ctrl-C, or a request to terminate, ends a computation, not the program: what was computed is kept. The second one
+//! ends the program.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 
-/// Writes `contents` to `path`: first beside it under another name, so that an interruption or a full disk leaves nothing
-/// half-written. A file that is there already stays, unless `force`. Links are followed; what is no file, such as a device
-/// or a pipe, is written into.
+/// Writes `contents` to `path`: first beside it under another name, so that an interruption or a full disk leaves
+/// nothing half-written. A file that is there already stays, unless `force`. Links are followed; what is no file, such
+/// as a device or a pipe, is written into.
 ///
 /// # Errors
 /// If the file is there and `force` is not given, or if it cannot be written.

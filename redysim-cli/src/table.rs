@@ -1,6 +1,7 @@
 //! Tables of numbers over time, in CSV: what a run writes, and what a scenario may name.
 //!
-//! The first column is `t [s]`; the others are called `<symbol> <name> [<unit>]`, as `q joint1 [rad]`, or `kinetic [J]`.
+//! The first column is `t [s]`; the others are called `<symbol> <name> [<unit>]`, as `q joint1 [rad]`, or `kinetic
+//! [J]`.
 
 use std::path::{Path, PathBuf};
 
@@ -138,7 +139,8 @@ fn columns(path: &Path, text: &str, headers: &StringRecord) -> Result<Vec<Column
     headers.iter().skip(1).map(column).collect()
 }
 
-/// The line on which a row stands: the reader tells where the one before it ended, and passes over empty lines and comments.
+/// The line on which a row stands: the reader tells where the one before it ended, and passes over empty lines and
+/// comments.
 fn line(text: &str, position: Option<&Position>) -> usize {
     let (before, byte) = position.map_or((1, 0), |position| (position.line() as usize, position.byte() as usize));
     let rest = text.get(byte..).unwrap_or_default();

@@ -28,8 +28,8 @@ fn run(folder: &Path, command: &str) -> String {
     succeed(folder, &command.split_whitespace().collect::<Vec<_>>())
 }
 
-/// Runs the commands between backticks in the first column of a table, and those in blocks without their comments, in the
-/// order in which they stand, for each uses what those before it have written.
+/// Runs the commands between backticks in the first column of a table, and those in blocks without their comments, in
+/// the order in which they stand, for each uses what those before it have written.
 fn run_all(name: &str, document: &str, least: usize) {
     let folder = folder_with_examples(name);
     let text = fs::read_to_string(root().join(document)).unwrap();

@@ -1,4 +1,5 @@
-//! The motions and forces of every shipped scenario obey equations of motion that nothing of this program's dynamics is used for.
+//! The motions and forces of every shipped scenario obey equations of motion that nothing of this program's dynamics is
+//! used for.
 
 mod common;
 #[path = "../../tests/common/kane.rs"]

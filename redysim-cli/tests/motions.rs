@@ -61,7 +61,8 @@ fn least_jerk_is_the_polynomial_of_flash_and_hogan() {
     });
 }
 
-/// Through points that are symmetric in time, at rest in the middle of their way back: two cubics at rest at three points.
+/// Through points that are symmetric in time, at rest in the middle of their way back: two cubics at rest at three
+/// points.
 #[test]
 fn a_cubic_passes_its_points() {
     let found = prescribed("cubic", "kind = 'cubic'\ntimes = [0, 1, 2]\npoints = [[0, 0], [0, 1], [0, 0]]");

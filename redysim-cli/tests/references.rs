@@ -24,8 +24,8 @@ fn by(folder: &Path, name: &str, method: &str) -> String {
     path.display().to_string()
 }
 
-/// The fall of a scenario by `method`, against a reference in quadruple precision: coordinates, velocities and energies, and
-/// with loops the multipliers.
+/// The fall of a scenario by `method`, against a reference in quadruple precision: coordinates, velocities and
+/// energies, and with loops the multipliers.
 fn falls(scenario: &str, reference: &str, joints: usize, rows: usize, method: &str) {
     let folder = scratch(&format!("falls-{scenario}"));
     succeed(&folder, &["forward", &by(&folder, scenario, method), "-o", "run"]);
@@ -47,8 +47,8 @@ fn falls(scenario: &str, reference: &str, joints: usize, rows: usize, method: &s
     }
 }
 
-/// The motion is chaotic: what a step does to it grows by 10⁶ in the last second. No tolerance is tight enough for that,
-/// but small steps of a method that keeps the energy are.
+/// The motion is chaotic: what a step does to it grows by 10⁶ in the last second. No tolerance is tight enough for
+/// that, but small steps of a method that keeps the energy are.
 #[test]
 fn kr5_falls_as_in_quadruple_precision() {
     falls("kuka", "golden_ref_kuka.csv", 6, 0, "method = \"Gauss6\", step = 2.5e-4");
@@ -74,8 +74,8 @@ fn the_fourbar_falls_as_in_quadruple_precision() {
     falls("fourbar", "golden_ref_hoken_rest_consistent.csv", 3, 2, AGAINST_QUADRUPLE_PRECISION);
 }
 
-/// The forces of a scenario's motion, against ReDySim's own: motion, forces of the actuated joints, and multipliers, each
-/// as a part of the largest in its column.
+/// The forces of a scenario's motion, against ReDySim's own: motion, forces of the actuated joints, and multipliers,
+/// each as a part of the largest in its column.
 fn takes(scenario: &str, reference: &str, joints: usize, actuated: &[usize], rows: usize) {
     let folder = scratch(&format!("takes-{scenario}"));
     succeed(&folder, &["inverse", &format!("{}/scenarios/{scenario}.toml", root().display()), "-o", "run"]);

@@ -8,8 +8,8 @@ use std::process::Command;
 
 use common::{model, results, scratch, slide, succeed, swing, turn};
 
-/// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of the
-/// same motion at more instants if there are.
+/// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of
+/// the same motion at more instants if there are.
 fn plays(folder: &Path, finer: Option<&Path>) {
     succeed(folder, &["animate", "."]);
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("viewer/test.mjs");

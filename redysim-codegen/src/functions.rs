@@ -43,8 +43,8 @@ pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<TracedFunction>, C
     trace_of(tree, &Scene::default(), passes)
 }
 
-/// Traces and simplifies the functions that `scene` asks for and no others, in the order of [`Function::ALL`]. Nothing is
-/// pruned.
+/// Traces and simplifies the functions that `scene` asks for and no others, in the order of [`Function::ALL`]. Nothing
+/// is pruned.
 ///
 /// # Errors
 ///
@@ -90,7 +90,8 @@ impl Pipeline<'_> {
     /// 1. It is traced on the cheapest description of the robot that keeps its digits; forward dynamics by the method
     ///    that [`forward_dynamics`] chooses.
     /// 2. Where it is too long to be unrolled, it is traced on alike bodies too, and the shorter code is taken.
-    /// 3. Where it has a tolerance and can be unrolled, what does not matter within the ranges of the joints is left out.
+    /// 3. Where it has a tolerance and can be unrolled, what does not matter within the ranges of the joints is left
+    /// out.
     fn run(&self) -> Result<Vec<TracedFunction>, ChangedValue> {
         let trees = Trees::new(self.tree, self.passes, self.reference);
         let even = self.passes.even();

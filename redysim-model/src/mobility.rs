@@ -96,8 +96,8 @@ fn rank_at(model: &Model, count: usize, q: &[f64]) -> usize {
     ClosedLoop::new(&mechanism).rank::<f64>(&q.to_vec()).unwrap_or(usize::MAX)
 }
 
-/// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank is,
-/// unless lengths and directions conspire (augmenting paths).
+/// The largest number of rows that can be paired with columns of their own in which they are not zero: what the rank
+/// is, unless lengths and directions conspire (augmenting paths).
 pub(crate) fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
     fn pair(row: usize, jacobian: &[Vec<f64>], seen: &mut [bool], rows_of: &mut [Option<usize>]) -> bool {
         for column in 0..rows_of.len() {
@@ -116,7 +116,8 @@ pub(crate) fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
     (0..jacobian.len()).filter(|&row| pair(row, jacobian, &mut vec![false; columns], &mut rows_of)).count()
 }
 
-/// A closed position at which the rank of the loops is largest, and that rank; or the smallest gap that any start leaves.
+/// A closed position at which the rank of the loops is largest, and that rank; or the smallest gap that any start
+/// leaves.
 fn closed_position(mechanism: &GenericMechanism) -> Result<(Vec<f64>, usize), f64> {
     let loops = ClosedLoop::new(mechanism);
     let (mut closed, mut smallest) = (Vec::<(Vec<f64>, usize)>::new(), f64::INFINITY);

@@ -2,18 +2,19 @@
 //! controllers, learning and identification. Needs the feature `std`.
 //!
 //! Each call finds out what the processor has and runs code for AVX-512, for AVX2 with fused multiply-add, or for what
-//! the program is compiled for, so that no compiler flag is needed ([`dispatch`](crate::dispatch)); [`map`] alone, whose
-//! function has lanes of one kind, takes those that the program is compiled for.
+//! the program is compiled for, so that no compiler flag is needed ([`dispatch`](crate::dispatch)); [`map`] alone,
+//! whose function has lanes of one kind, takes those that the program is compiled for.
 //!
 //! States and results are slices of arrays that the caller owns. Any number of states will do, and each result is the
 //! same on however many threads. It has the bits that [`Dispatched`](crate::Dispatched) gives for its state, whatever
 //! the program is compiled for. Those of the mechanism itself differ in the last places where the processor can fuse
 //! products and sums and the program is compiled for one that cannot; with the feature `deterministic` nothing is
-//! fused, and all are the same. Nothing is allocated beyond what the thread pool of `rayon` does when it is handed work; up to [`SERIAL`] states stay on the
-//! caller's thread. To choose the number of threads, call these functions within `rayon::ThreadPool::install`.
+//! fused, and all are the same. Nothing is allocated beyond what the thread pool of `rayon` does when it is handed
+//! work; up to [`SERIAL`] states stay on the caller's thread. To choose the number of threads, call these functions
+//! within `rayon::ThreadPool::install`.
 //!
-//! Code that is generic over mechanisms cannot name the lanes that these functions choose among, and so cannot call them;
-//! code for one mechanism can, and [`evaluate`] takes any function of any scalar.
+//! Code that is generic over mechanisms cannot name the lanes that these functions choose among, and so cannot call
+//! them; code for one mechanism can, and [`evaluate`] takes any function of any scalar.
 //!
 //! A rollout over many time steps is best done in one [`map`], whose function takes all the steps, so that threads are
 //! handed work once and not at every step.

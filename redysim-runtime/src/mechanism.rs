@@ -75,8 +75,8 @@ pub trait ForwardDynamics<S: Scalar>: Mechanism<S> {
 
 /// The generalised inertia matrix.
 pub trait MassMatrix<S: Scalar>: Mechanism<S> {
-    /// M(q), symmetric and positive definite: kg m², kg m or kg. Where a link has no mass and only loops hold it, M(q) is
-    /// singular, and the mechanism has no [`ForwardDynamics`].
+    /// M(q), symmetric and positive definite: kg m², kg m or kg. Where a link has no mass and only loops hold it, M(q)
+    /// is singular, and the mechanism has no [`ForwardDynamics`].
     fn mass_matrix(&self, q: &Self::Coordinates) -> Self::Matrix;
 }
 

@@ -59,8 +59,8 @@ pub trait Scalar:
     }
 
     /// Runs `computation` in code that is compiled for the target features that this number's operations need; plain
-    /// numbers need none but those that the program is compiled for. What `computation` calls must be `#[inline(always)]`
-    /// to be part of that code.
+    /// numbers need none but those that the program is compiled for. What `computation` calls must be
+    /// `#[inline(always)]` to be part of that code.
     #[inline(always)]
     fn with_target_features<R>(computation: impl FnOnce() -> R) -> R {
         computation()

@@ -87,8 +87,8 @@ fn within_the_steps_that_a_tolerance_chooses_the_error_is_that_of_the_ends() {
     }
 }
 
-/// The polynomial of a long step of a stiff equation is far worse than its ends, which are the more accurate the stiffer
-/// the equation.
+/// The polynomial of a long step of a stiff equation is far worse than its ends, which are the more accurate the
+/// stiffer the equation.
 #[test]
 fn rows_within_the_steps_of_a_stiff_equation_are_as_accurate_as_the_ends() {
     for stiffness in [1e2, 1e3, 1e4, 1e6] {
@@ -112,8 +112,8 @@ fn rows_within_steps_of_one_size_are_as_accurate_as_the_ends() {
     assert!(error_of_rows(fixed(0.05), &mut nonlinear, exact) < 2.0 * ends);
 }
 
-/// Where the derivative jumps within a step, the equations of a shorter one need not converge: the integration goes on as
-/// without the look.
+/// Where the derivative jumps within a step, the equations of a shorter one need not converge: the integration goes on
+/// as without the look.
 #[test]
 fn looking_within_changes_no_step_and_ends_no_integration() {
     for tolerance in [1e-4, 1e-7, 1e-10] {

@@ -34,7 +34,8 @@ fn between_two_points_the_cubic_is_the_one_at_rest_at_both_ends() {
 
 /// The k-th difference quotient of the coordinates ahead of `t` (`side` 1) or behind it (−1), extrapolated to `t`.
 fn derivative(motion: &impl Trajectory<f64, [f64; 2], [f64; 2]>, t: f64, side: f64, order: usize) -> f64 {
-    // Of accelerations, which are exact, so that no more than two differences are taken: the polynomial's own degree is 3.
+    // Of accelerations, which are exact, so that no more than two differences are taken: the polynomial's own degree is
+    // 3.
     let h = 0.01 * side;
     let a: Vec<f64> = (0..4).map(|k| motion.at(t + h * (f64::from(k) + 1e-9)).a[0]).collect();
     match order {

@@ -75,8 +75,8 @@ fn finite(table: &Table, column: &Column, row: usize) -> Result<f64, Failure> {
     Err(fault.help("did the run fail there? End it before, or make its tolerances tighter"))
 }
 
-/// The rates `v` where they fit the coordinates. Where a motion is too fast for its instants, they would carry the cubics
-/// far beyond all that was recorded: there, the mean rates between the neighbours.
+/// The rates `v` where they fit the coordinates. Where a motion is too fast for its instants, they would carry the
+/// cubics far beyond all that was recorded: there, the mean rates between the neighbours.
 fn rates(t: &[f64], q: &[f64], v: &[f64]) -> Vec<f64> {
     let fit = |k: usize| {
         let time = t[k + 1] - t[k];

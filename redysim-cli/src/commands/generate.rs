@@ -72,7 +72,8 @@ fn load(arguments: &Arguments, quiet: bool) -> Result<Loaded, Failure> {
     model::loaded(path, Model::load_with(path, path.display().to_string(), scene), quiet)
 }
 
-/// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is none for a type, such as `3rrr`, is `Mechanism3rrr`.
+/// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is none for a type, such as `3rrr`, is
+/// `Mechanism3rrr`.
 fn type_name(model: &str) -> String {
     let words = model.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let name: String = words

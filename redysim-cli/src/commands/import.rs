@@ -10,9 +10,9 @@ use crate::urdf::{Imported, Options, import};
 /// Make a model file from a URDF, and say what gets lost.
 ///
 /// Joints keep their order, names, origins and axes; inertias are turned into the links' axes. Continuous joints become
-/// revolute; the root link becomes the ground. A model has no visuals, collisions, transmissions, damping or friction, and
-/// no floating, planar or mimic joints: what of that is in the file is said, here and in the model's head. Limits stay as
-/// comments.
+/// revolute; the root link becomes the ground. A model has no visuals, collisions, transmissions, damping or friction,
+/// and no floating, planar or mimic joints: what of that is in the file is said, here and in the model's head. Limits
+/// stay as comments.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -31,7 +31,8 @@ pub struct Arguments {
     /// Make fixed links parts of the links that carry them; their frames are lost.
     #[arg(long)]
     fuse_fixed: bool,
-    /// Take angles that are within 1e-5 rad of a multiple of 90 deg, such as 1.5708, for it: compiled code gets shorter.
+    /// Take angles that are within 1e-5 rad of a multiple of 90 deg, such as 1.5708, for it: compiled code gets
+    /// shorter.
     #[arg(long)]
     quarter_turns: bool,
     /// Overwrite a file that is there already.

@@ -68,8 +68,8 @@ fn tell_start(scenario: &Scenario, trajectory: &Prescribed, record: &Record<'_>)
     }
 }
 
-/// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be. `most` has the largest
-/// force of each joint.
+/// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be. `most` has the
+/// largest force of each joint.
 fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
     for (joint, &most) in scenario.joints.iter().zip(most) {
         if most > 0.0 && !joint.actuated {

@@ -48,8 +48,8 @@ impl Recorded {
         if path.exists() { Table::read(&path).map(Some) } else { Ok(None) }
     }
 
-    /// The coordinates and velocities of the joints: the state of a forward run; of an inverse one the given motion, with
-    /// its accelerations.
+    /// The coordinates and velocities of the joints: the state of a forward run; of an inverse one the given motion,
+    /// with its accelerations.
     ///
     /// # Errors
     /// If they cannot be read.

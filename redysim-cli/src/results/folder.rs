@@ -70,8 +70,8 @@ impl Folder {
         write_file(&self.draft.path.join(name), contents, false)
     }
 
-    /// Gives it its name, and returns it. What was there before goes away only then, and only for what is `complete`: a part
-    /// of a run stands beside it.
+    /// Gives it its name, and returns it. What was there before goes away only then, and only for what is `complete`: a
+    /// part of a run stands beside it.
     ///
     /// # Errors
     /// If something is there by now that must not be replaced, or the name cannot be given: the folder then gets another,
@@ -134,8 +134,8 @@ impl Drop for Folder {
 
 impl Draft {
     fn discard(&self) {
-        // A run that is ended at once may be writing into it meanwhile, until it is gone; there is nobody left to tell if
-        // it stays.
+        // A run that is ended at once may be writing into it meanwhile, until it is gone; there is nobody left to tell
+        // if it stays.
         for _ in 0..TRIES {
             if fs::remove_dir_all(&self.path).is_ok() || !self.path.exists() {
                 break;

@@ -46,8 +46,8 @@ pub struct Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    /// Begins the folder of a run of `scenario` over `span`. It is made before anything is computed, so that what cannot
-    /// be written is said at once.
+    /// Begins the folder of a run of `scenario` over `span`. It is made before anything is computed, so that what
+    /// cannot be written is said at once.
     pub fn begin(
         arguments: &Arguments,
         scenario: &'a Scenario,

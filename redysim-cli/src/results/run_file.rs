@@ -1,7 +1,7 @@
 //! The scenario as it was run: with every setting that it left open, and how it went.
 //!
-//! It is a scenario itself, beside copies of the model and the tables that it names, so that the run can be done again from
-//! the folder alone.
+//! It is a scenario itself, beside copies of the model and the tables that it names, so that the run can be done again
+//! from the folder alone.
 
 use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
 

@@ -161,9 +161,9 @@ fn named(scenario: &Scenario) -> Vec<Table> {
 }
 
 /// ReDySim's files: the time has one of its own. Its states are q, q̇ and, of forward dynamics, the energy of the
-/// actuators, of inverse dynamics q̈; with closed loops its joint forces are those of the actuated joints and then λ; its
-/// energies are potential, kinetic, of the actuators, and the sum of these. What it does not write, kinematics and the λ
-/// of forward dynamics, is written as in the tables with names.
+/// actuators, of inverse dynamics q̈; with closed loops its joint forces are those of the actuated joints and then λ;
+/// its energies are potential, kinetic, of the actuators, and the sum of these. What it does not write, kinematics and
+/// the λ of forward dynamics, is written as in the tables with names.
 fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
     let plain = |name, make: Make| Table { name, headers: vec![], make };
     let mut tables = vec![

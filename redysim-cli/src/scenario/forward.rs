@@ -22,8 +22,8 @@ const PLAIN: Shape = Shape { owner: "This stabilisation", keys: &["kind"] };
 const BAUMGARTE: Shape = Shape { owner: "Baumgarte's stabilisation", keys: &["kind", "alpha"] };
 
 impl Forward {
-    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None`, if what is wrong with that has been
-    /// reported.
+    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None`, if what is wrong with that has
+    /// been reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,
@@ -42,8 +42,8 @@ impl Forward {
     }
 }
 
-/// The law asks for what all conditions allow: where some follow from others, in loops that are slightly open they contradict
-/// each other.
+/// The law asks for what all conditions allow: where some follow from others, in loops that are slightly open they
+/// contradict each other.
 fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabilisation: Stabilisation<f64>) {
     if !subject.loops() || stabilisation == Stabilisation::Projection {
         return;

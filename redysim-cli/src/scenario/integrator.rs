@@ -167,8 +167,8 @@ impl Integrator {
         }
     }
 
-    /// What says that steps of one size grow errors near the state at `t`, and which joint asks for smaller ones; nothing
-    /// where they do not, or where the method does not know.
+    /// What says that steps of one size grow errors near the state at `t`, and which joint asks for smaller ones;
+    /// nothing where they do not, or where the method does not know.
     pub fn step_warning<'m>(
         &self,
         ode: &mut dyn Ode<f64, Vec<f64>>,

@@ -54,8 +54,8 @@ pub enum Quantity {
     Gain,
 }
 
-/// One value for each of the joints `of`, indices into `joints`: an array in their order, or a table by their names, in which
-/// missing ones are zero.
+/// One value for each of the joints `of`, indices into `joints`: an array in their order, or a table by their names, in
+/// which missing ones are zero.
 pub fn values(
     reader: &mut Reader<'_, '_>,
     key: &str,

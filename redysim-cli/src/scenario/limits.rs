@@ -8,15 +8,16 @@ use redysim_runtime::{Motion, Trajectory};
 use super::joints::Joint;
 use super::{Dynamics, Initial, Prescribed, Span, Subject};
 
-/// The largest angle, rad. Neighbouring numbers are 1.2e-7 rad apart there, a tenth of the default absolute tolerance, and
-/// farther apart beyond.
+/// The largest angle, rad. Neighbouring numbers are 1.2e-7 rad apart there, a tenth of the default absolute tolerance,
+/// and farther apart beyond.
 pub const MOST_ANGLE: f64 = 1e9;
 
-/// The farthest that a prescribed joint of closed loops moves from row to row, rad or m: `ClosedLoopInverse` closes the loops
-/// at every 0.1 rad or m of the way, but no more than 10,000 times, and beyond that leaves the branch unnoticed.
+/// The farthest that a prescribed joint of closed loops moves from row to row, rad or m: `ClosedLoopInverse` closes the
+/// loops at every 0.1 rad or m of the way, but no more than 10,000 times, and beyond that leaves the branch unnoticed.
 const MOST_MOVE: f64 = 1e3;
 
-/// The coordinate `value` of a joint at `place`, called `path`, or a fault where it is an angle too large to be resolved.
+/// The coordinate `value` of a joint at `place`, called `path`, or a fault where it is an angle too large to be
+/// resolved.
 pub fn coordinate(
     reader: &mut Reader<'_, '_>,
     place: Range<usize>,
@@ -52,7 +53,8 @@ pub fn check_start(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, initial: 
     reader.fault_at(initial.place_of_v.clone(), Message { title, label: "too fast for this run".into(), help })
 }
 
-/// Fails where a prescribed motion is not finite within `span`, or farther than angles are resolved or loops are followed.
+/// Fails where a prescribed motion is not finite within `span`, or farther than angles are resolved or loops are
+/// followed.
 pub fn check_motion(
     reader: &mut Reader<'_, '_>,
     subject: &Subject<'_>,

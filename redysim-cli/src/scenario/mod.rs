@@ -80,8 +80,8 @@ const SCENARIO: Shape =
     Shape { owner: "A scenario", keys: &["name", "model", "initial", "trajectory", "inverse", "forward", "run"] };
 const INVERSE: Shape = Shape { owner: "`inverse`", keys: &["start", "end", "step"] };
 impl Scenario {
-    /// Reads what a scenario says of a run, and its model, and prints their warnings unless `quiet`. What it says of the other
-    /// run may wait for what this one writes.
+    /// Reads what a scenario says of a run, and its model, and prints their warnings unless `quiet`. What it says of
+    /// the other run may wait for what this one writes.
     ///
     /// # Errors
     /// Every fault of the scenario at once; or those of the model, or the first of a table.

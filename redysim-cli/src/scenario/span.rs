@@ -84,8 +84,9 @@ impl Span {
         self.steps() as usize + 1
     }
 
-    /// The instant `k`, s: where the steps are decimals, as they mostly are, the decimal that a person expects, such as 0.3
-    /// for the third of 0.1, and not 0.30000000000000004. Each is by itself away from the start, so that they do not drift.
+    /// The instant `k`, s: where the steps are decimals, as they mostly are, the decimal that a person expects, such as
+    /// 0.3 for the third of 0.1, and not 0.30000000000000004. Each is by itself away from the start, so that they do
+    /// not drift.
     pub fn instant(&self, k: usize) -> f64 {
         self.decimals.map_or(self.start + k as f64 * self.step, |decimals| decimals.at(k))
     }

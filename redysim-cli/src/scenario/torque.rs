@@ -34,7 +34,8 @@ pub enum Torque {
         kp: Vec<f64>,
         kd: Vec<f64>,
     },
-    /// The same, with the model; its gains are those of the joints that are prescribed, of closed loops the independent ones.
+    /// The same, with the model; its gains are those of the joints that are prescribed, of closed loops the independent
+    /// ones.
     Computed {
         actuated: Vec<usize>,
         trajectory: Prescribed,
@@ -75,8 +76,8 @@ struct Source<'s, 'a, 'f> {
 }
 
 impl Torque {
-    /// Reads the table `torque`; without one, nothing drives the joints. Where `trajectory` is `None`, what is wrong with it
-    /// has been reported.
+    /// Reads the table `torque`; without one, nothing drives the joints. Where `trajectory` is `None`, what is wrong
+    /// with it has been reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,

@@ -67,8 +67,8 @@ const KINDS: [(&str, (Tag, &Shape)); 5] = [
 ];
 
 impl Prescribed {
-    /// Reads the table `trajectory`, if there is one: unless it says which joints it prescribes, those of a tree, and the
-    /// actuated ones of closed loops.
+    /// Reads the table `trajectory`, if there is one: unless it says which joints it prescribes, those of a tree, and
+    /// the actuated ones of closed loops.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Option<Prescribed>> {
         let joints = subject.joints;
         let usual = if subject.loops() { subject.actuated() } else { (0..joints.len()).collect() };
@@ -139,8 +139,8 @@ impl Prescribed {
         Some(Some(Prescribed { place, ..read.get_ref().clone()? }))
     }
 
-    /// Fails, with what is wrong and what to do, unless it says how all of a mechanism moves and nothing twice: a tree every
-    /// joint, closed loops as many as they leave free.
+    /// Fails, with what is wrong and what to do, unless it says how all of a mechanism moves and nothing twice: a tree
+    /// every joint, closed loops as many as they leave free.
     pub fn check_joints(&self, subject: &Subject<'_>) -> Result<(), (String, String)> {
         let joints = subject.joints;
         if !subject.loops() {

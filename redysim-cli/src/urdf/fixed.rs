@@ -1,4 +1,5 @@
-//! Links that do not move against their parents: those without mass further out, and fixed ones as parts of their parents.
+//! Links that do not move against their parents: those without mass further out, and fixed ones as parts of their
+//! parents.
 
 use redysim_model::JointKind;
 use redysim_model::spatial::Pose;

@@ -36,8 +36,8 @@ impl Inertial {
         }
     }
 
-    /// Without an inertia that is nothing but the roundoff of the program that wrote it, and whether there was one. Left
-    /// in, its elements would not fit each other, and the inertia be none of a body.
+    /// Without an inertia that is nothing but the roundoff of the program that wrote it, and whether there was one.
+    /// Left in, its elements would not fit each other, and the inertia be none of a body.
     pub fn without_noise(self) -> (Self, bool) {
         let Sym3 { xx, yy, zz, xy, yz, xz } = self.inertia;
         let largest = [xx, yy, zz, xy, yz, xz].into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));

@@ -105,8 +105,8 @@ impl<'a> Reference<'a> {
     /// What is lost of `function` in any description: what the recursion loses on the model's own, with its numbers as
     /// they are and with each rounded otherwise.
     ///
-    /// A mechanism that lies in a plane of space, or a link whose centre of mass nearly balances another's, depends on the
-    /// last digits of its numbers so much that no description has the digits of the model's own.
+    /// A mechanism that lies in a plane of space, or a link whose centre of mass nearly balances another's, depends on
+    /// the last digits of its numbers so much that no description has the digits of the model's own.
     pub fn least_loss(&self, function: Function) -> f64 {
         let others = [1, 2].map(|seed| rounded_otherwise(self.tree, seed));
         let losses = others.iter().chain([self.tree]).map(|tree| self.lost_on(tree, function));

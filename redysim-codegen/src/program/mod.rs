@@ -1,8 +1,8 @@
 //! A function as statements over plain expressions: what a backend prints, in whatever language.
 //!
-//! A program is made once from a graph: values with a name or more than one use have a `let`, products and sums that are
-//! one fused operation are found, alike bodies become loops, and long functions blocks. A backend decides nothing; it
-//! writes what stands here.
+//! A program is made once from a graph: values with a name or more than one use have a `let`, products and sums that
+//! are one fused operation are found, alike bodies become loops, and long functions blocks. A backend decides nothing;
+//! it writes what stands here.
 
 mod blocks;
 mod build;

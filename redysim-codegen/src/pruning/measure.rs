@@ -17,7 +17,8 @@ struct Extremes {
     errors: Vec<f64>,
 }
 
-/// The largest error of `pruned` in `count` states against `whole`, or against the accelerations of the motion, as a share of the [scale](scales) of its output.
+/// The largest error of `pruned` in `count` states against `whole`, or against the accelerations of the motion, as a
+/// share of the [scale](scales) of its output.
 pub fn worst_error(
     whole: &Expressions,
     pruned: &Expressions,

@@ -13,8 +13,8 @@ pub enum Constant {
     Column(usize),
 }
 
-/// The constants among the operands of `node`, with the operands' numbers, as they stand in the formula of its template:
-/// with the signs of all other values as there.
+/// The constants among the operands of `node`, with the operands' numbers, as they stand in the formula of its
+/// template: with the signs of all other values as there.
 pub fn constants(graph: &Graph, node: usize, template: usize, signs: &Signs) -> Vec<(usize, f64)> {
     let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
     let own = sign(signs.is_negative(node));

@@ -1,5 +1,5 @@
-//! Whether loops close a mechanism whose tree has a singular mass matrix: a rod without mass that a loop holds moves with the
-//! links at its ends.
+//! Whether loops close a mechanism whose tree has a singular mass matrix: a rod without mass that a loop holds moves
+//! with the links at its ends.
 
 use super::singular::pivotless;
 use crate::denoc::{Untraced, mass_matrix};
@@ -9,8 +9,8 @@ use crate::model::Model;
 use redysim_runtime::LoopClosure;
 use redysim_runtime::closed_loop::ClosedLoop;
 
-/// Whether the mass matrix is positive definite on the velocities that closed loops leave free, at one closed position at
-/// least.
+/// Whether the mass matrix is positive definite on the velocities that closed loops leave free, at one closed position
+/// at least.
 ///
 /// M is so on the null space of J exactly if M + w JᵀJ is positive definite, for any w > 0.
 pub(super) fn is_well_posed(model: &Model) -> bool {

@@ -5,7 +5,8 @@ use crate::diagnostic::{Message, messages};
 use crate::model::Inertia;
 use crate::schema::{Document, LinkTable};
 
-/// Each moving link that has neither mass nor inertia and carries none, with its message: its row of the mass matrix is zero.
+/// Each moving link that has neither mass nor inertia and carries none, with its message: its row of the mass matrix is
+/// zero.
 pub(super) fn check(document: &Document, parents: &[Option<usize>]) -> Vec<(usize, Message)> {
     let mut carries = vec![false; document.links.len()];
     for (i, link) in document.links.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! What is odd about the loops of a model: their conditions, and the mobility they leave, against what the file seems to
-//! expect.
+//! What is odd about the loops of a model: their conditions, and the mobility they leave, against what the file seems
+//! to expect.
 
 use crate::diagnostic::{Message, messages};
 use crate::generic::GenericMechanism;

@@ -77,9 +77,9 @@ pub(super) fn unit_axis(
     Some(Vec3::from_fn(|i| scaled[i] / length + 0.0))
 }
 
-/// Rx(alpha) Tx(a) Rz(theta) Tz(b), with the joint variable added to theta (revolute), to b (prismatic), or to theta and
-/// `pitch` times to b (helical). As Rz and Tz
-/// commute, the variable's factor can stand last, where the joint's motion is.
+/// Rx(alpha) Tx(a) Rz(theta) Tz(b), with the joint variable added to theta (revolute), to b (prismatic), or to theta
+/// and `pitch` times to b (helical). As Rz and Tz commute, the variable's factor can stand last, where the joint's
+/// motion is.
 fn from_dh(joint: JointKind, pitch: f64, dh: Dh) -> (Pose<f64>, f64) {
     let turned = |rotation| Pose { rotation, position: Vec3::zero() };
     let moved = |x, z| Pose { rotation: Mat3::identity(), position: Vec3([x, 0.0, z]) };

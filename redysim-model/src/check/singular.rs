@@ -36,8 +36,8 @@ fn meets_own_inertia(body: &Body) -> bool {
     body.joint.meets(body.inertia) > ROUNDOFF
 }
 
-/// The bodies whose pivot in the elimination of a symmetric `matrix` over the coordinates, from the tips to the ground, is
-/// nothing but roundoff.
+/// The bodies whose pivot in the elimination of a symmetric `matrix` over the coordinates, from the tips to the ground,
+/// is nothing but roundoff.
 pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>]) -> Vec<usize> {
     let at: Vec<usize> = tree.bodies.iter().map(|body| body.v.start).collect();
     let mut reduced: Vec<Vec<f64>> = at.iter().map(|&i| at.iter().map(|&j| matrix[i][j]).collect()).collect();

@@ -51,8 +51,8 @@ impl<S: Scalar> ArticulatedInertia<S> {
         screw.combined(turn, slide)
     }
 
-    /// I − U Uᵀ / D: what is felt through a free joint, where U = I S is `column` and `ratio` = U / D. Where S is an axis
-    /// of six, its row and column of the result vanish identically, so they are set, not computed.
+    /// I − U Uᵀ / D: what is felt through a free joint, where U = I S is `column` and `ratio` = U / D. Where S is an
+    /// axis of six, its row and column of the result vanish identically, so they are set, not computed.
     pub fn project_through_joint(&self, screw: Screw, column: Wrench<S>, ratio: Wrench<S>) -> Self {
         let free = screw.unit_axis().unwrap_or(6);
         let element = |value: S, i: usize, j: usize| {

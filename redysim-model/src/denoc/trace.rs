@@ -5,9 +5,9 @@ use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 
 /// Observes a recursion over scalars `S`: which of its operations belong to which body, and what its values are called.
 ///
-/// Recursions call it; code generation implements it, to find bodies on which the same is done and to name the values of
-/// the generated code. Every function has a default that observes nothing, so that a recursion over numbers costs what it
-/// would without. [`Untraced`] has these defaults.
+/// Recursions call it; code generation implements it, to find bodies on which the same is done and to name the values
+/// of the generated code. Every function has a default that observes nothing, so that a recursion over numbers costs
+/// what it would without. [`Untraced`] has these defaults.
 pub trait Trace<S: Copy> {
     /// Does the `work` of body `body` in the sweep `sweep` over all bodies.
     #[inline]

@@ -45,7 +45,8 @@ impl<S> Default for Workspace<S> {
     }
 }
 
-/// For each body its first child, and the next child of its parent: found in a time that grows with the number of bodies.
+/// For each body its first child, and the next child of its parent: found in a time that grows with the number of
+/// bodies.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Children(Vec<[Option<usize>; 2]>);
 

@@ -9,8 +9,8 @@
 //! | `meets` | which inertia alone makes the joint's diagonal element of the mass matrix positive |
 //!
 //! and [`Joint`] has a variant that names them. From S follow the transform (a rotation about z by the turn of q, a
-//! displacement along z by its slide), the bias acceleration, and the joint force Sᵀ w of a wrench; the recursions know no
-//! kind of joint.
+//! displacement along z by its slide), the bias acceleration, and the joint force Sᵀ w of a wrench; the recursions know
+//! no kind of joint.
 
 mod helical;
 mod prismatic;
@@ -70,8 +70,8 @@ impl Joint {
         }
     }
 
-    /// The inertia of the body as what stays with it, in which `vanishing` vanishes, and what its parent may carry: joint
-    /// forces, the mass matrix and energies are then the same.
+    /// The inertia of the body as what stays with it, in which `vanishing` vanishes, and what its parent may carry:
+    /// joint forces, the mass matrix and energies are then the same.
     pub fn split(self, inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
         match self {
             Joint::Revolute => revolute::split(inertia, vanishing),

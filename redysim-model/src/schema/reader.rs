@@ -19,8 +19,8 @@ pub struct Shape {
 
 /// One table, and whose it is.
 ///
-/// What it reads is a [`Field`]; what is not as it should be is reported with its place. Keys are called by their `path` in
-/// messages: `dh.a` is `a` in the table `dh`, `com[1]` an element of `com`.
+/// What it reads is a [`Field`]; what is not as it should be is reported with its place. Keys are called by their
+/// `path` in messages: `dh.a` is `a` in the table `dh`, `com[1]` an element of `com`.
 pub struct Reader<'a, 'f> {
     table: &'a DeTable<'a>,
     /// A place for what the table lacks.

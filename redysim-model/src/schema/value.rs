@@ -39,8 +39,8 @@ impl Reader<'_, '_> {
         self.turned(path, value, "")
     }
 
-    /// A displacement of a joint, or that `per` something, as "/s": a number, or of a joint that turns also an angle with a
-    /// unit, in radians. Unlike of an angle, more than a turn of it is nothing odd.
+    /// A displacement of a joint, or that `per` something, as "/s": a number, or of a joint that turns also an angle
+    /// with a unit, in radians. Unlike of an angle, more than a turn of it is nothing odd.
     pub fn displacement(&mut self, path: &str, value: &Value<'_>, turns: bool, per: &str) -> Option<f64> {
         match value.get_ref() {
             DeValue::String(_) if turns => self.turned(path, value, per),

@@ -5,12 +5,13 @@ use super::{ClosedLoop, LoopError, LoopForces};
 use crate::vector::entry;
 use crate::{InverseDynamics, LoopClosure, Real, TorqueLaw, Trajectory, Vector};
 
-/// Computed torque of a mechanism with closed loops: the forces of its actuators that give the independent coordinates the
-/// accelerations q̈_d + Kd ė + Kp e, with the error e = q_d(t) − q.
+/// Computed torque of a mechanism with closed loops: the forces of its actuators that give the independent coordinates
+/// the accelerations q̈_d + Kd ė + Kp e, with the error e = q_d(t) − q.
 ///
-/// The other coordinates follow from the loops, and the forces are those that [`ClosedLoopInverse`](super::ClosedLoopInverse)
-/// finds for such a motion. For a model that is right they leave ë + Kd ė + Kp e = 0, as
-/// [`ComputedTorque`](crate::ComputedTorque) does for a tree. The gains multiply accelerations: Kp 1/s², Kd 1/s.
+/// The other coordinates follow from the loops, and the forces are those that
+/// [`ClosedLoopInverse`](super::ClosedLoopInverse) finds for such a motion. For a model that is right they leave ë + Kd
+/// ė + Kp e = 0, as [`ComputedTorque`](crate::ComputedTorque) does for a tree. The gains multiply accelerations: Kp
+/// 1/s², Kd 1/s.
 ///
 /// It expects positions with closed loops: in a [`ClosedLoopSimulation`](super::ClosedLoopSimulation), the projection.
 #[derive(Debug)]

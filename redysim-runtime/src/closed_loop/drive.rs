@@ -43,7 +43,8 @@ impl<M, C> Drive<'_, M, C> {
         }
     }
 
-    /// Motion and forces at the closed position `q` for these velocities and accelerations of the independent coordinates.
+    /// Motion and forces at the closed position `q` for these velocities and accelerations of the independent
+    /// coordinates.
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn forces<S: Real, I: Vector<S>>(
         &self,

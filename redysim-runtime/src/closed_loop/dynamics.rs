@@ -24,7 +24,8 @@ impl<M, C> ClosedLoop<'_, M, C> {
     /// Redundant rows share the constraint force so that |λ| is least. In a singular position, the rows that say
     /// nothing new there are left out: the answer is finite and the rank is lower.
     ///
-    /// M may be singular, as with a rod without mass, if it is positive definite on the velocities that the loops leave free.
+    /// M may be singular, as with a rod without mass, if it is positive definite on the velocities that the loops leave
+    /// free.
     ///
     /// # Errors
     /// [`LoopError::SingularInertia`] if the loops leave a motion free that moves no mass, and [`LoopError::NotFinite`].

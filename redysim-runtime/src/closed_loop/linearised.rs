@@ -26,8 +26,8 @@ pub(super) enum Metric {
 }
 
 impl<M, C> ClosedLoop<'_, M, C> {
-    /// How many of the loops' conditions are independent at `q`, by the rank of J(q) in the metric of M; the loops need not be
-    /// closed there.
+    /// How many of the loops' conditions are independent at `q`, by the rank of J(q) in the metric of M; the loops need
+    /// not be closed there.
     ///
     /// # Errors
     /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
@@ -105,10 +105,10 @@ impl<M, C> ClosedLoop<'_, M, C> {
 
 /// Adds w JᵀJ to the matrix M of a tree, with J given by `rows`, and returns w (the augmented Lagrangian formulation).
 ///
-/// What keeps the loops closed has the same motion whatever w is, since J a is prescribed: only the multipliers are less
-/// by w J a. And where M is positive definite on the motions that the loops allow, M + w JᵀJ is positive definite for every
-/// w > 0, though M may be singular: a rod without mass moves with the links that hold it. w makes the largest elements of
-/// both terms alike, so that neither costs the other digits.
+/// What keeps the loops closed has the same motion whatever w is, since J a is prescribed: only the multipliers are
+/// less by w J a. And where M is positive definite on the motions that the loops allow, M + w JᵀJ is positive definite
+/// for every w > 0, though M may be singular: a rod without mass moves with the links that hold it. w makes the largest
+/// elements of both terms alike, so that neither costs the other digits.
 fn augment<S: Real, V: Vector<S>, A: Vector<V>>(matrix: &mut A, rows: &[V], held: &[usize]) -> S {
     let diagonal = matrix.as_ref().iter().enumerate().filter(|(i, _)| !held.contains(i));
     let (heaviest, _) = largest(diagonal.map(|(i, row)| entry(row, i)));

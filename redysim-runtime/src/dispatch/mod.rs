@@ -1,10 +1,10 @@
 //! Code for the instructions that the processor turns out to have, in a program compiled for any x86-64.
 //!
-//! A number's type fixes the instructions: the operators of `x86::Avx512F64x8` are instructions of AVX-512, whatever the
-//! program is compiled for, and its `with_target_features` compiles what it runs for a processor that has them. So a
-//! function that takes any [`Scalar`](crate::Scalar) becomes code for AVX-512 by being called with these lanes, and the
-//! only question that is left for run time is which of its forms to call. [`batch`](crate::batch) asks it once for each
-//! call, [`Dispatched`] once when it is made.
+//! A number's type fixes the instructions: the operators of `x86::Avx512F64x8` are instructions of AVX-512, whatever
+//! the program is compiled for, and its `with_target_features` compiles what it runs for a processor that has them. So
+//! a function that takes any [`Scalar`](crate::Scalar) becomes code for AVX-512 by being called with these lanes, and
+//! the only question that is left for run time is which of its forms to call. [`batch`](crate::batch) asks it once for
+//! each call, [`Dispatched`] once when it is made.
 
 mod single_calls;
 #[cfg(all(test, target_arch = "x86_64"))]

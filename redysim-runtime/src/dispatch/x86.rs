@@ -8,8 +8,8 @@
 //! crate can name them, make a value of one, or call a function for one. This crate does so in two places,
 //! [`batch`](crate::batch) and [`Dispatched`](super::Dispatched), both behind
 //! [`Instructions::detected`](super::Instructions::detected), which has found the features. Code of other crates meets
-//! these types only as the parameter of a generic function that those two call. Therefore the processor has the features
-//! whenever an operation of these types runs.
+//! these types only as the parameter of a generic function that those two call. Therefore the processor has the
+//! features whenever an operation of these types runs.
 //!
 //! Vectors go in and out of functions through memory in Rust's own calling convention, so that no call depends on the
 //! features of either side. `loadu` and `storeu` read and write arrays as large as the vector, which need no alignment.

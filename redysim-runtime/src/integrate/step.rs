@@ -8,11 +8,12 @@ use crate::{Real, Vector};
 /// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, for [`Dop853`](crate::Dop853) one of
 /// degree 7 and order 7, for [`Ode4`](crate::Ode4) the cubic through values and derivatives at both ends; for
 /// [`Gauss4`](crate::Gauss4) and [`Gauss6`](crate::Gauss6) one of degree 7, and for [`Radau5`](crate::Radau5) one of
-/// degree 6, as accurate as the ends of the steps (of `Radau5` where the equation is not stiff); for [`Ode15s`](crate::Ode15s) the polynomial through the ends of the
-/// last steps. It agrees with the neighbouring steps in value and, for the explicit methods and those of Gauss, in
-/// derivative (where [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction). It costs no
-/// evaluations but with `Dop853`, the methods of Gauss and `Radau5`: for each step that is observed within three, ten, and
-/// those of three shorter steps.
+/// degree 6, as accurate as the ends of the steps (of `Radau5` where the equation is not stiff); for
+/// [`Ode15s`](crate::Ode15s) the polynomial through the ends of the last steps. It agrees with the neighbouring steps
+/// in value and, for the explicit methods and those of Gauss, in derivative (where
+/// [`Ode::accepted`](crate::Ode::accepted) has corrected the end, up to that correction). It costs no evaluations but
+/// with `Dop853`, the methods of Gauss and `Radau5`: for each step that is observed within three, ten, and those of
+/// three shorter steps.
 pub struct Step<'a, S, Y> {
     t: S,
     y: &'a Y,

@@ -1,9 +1,9 @@
 //! Splines: the velocities and accelerations at points with which the motion through them is smoothest.
 //!
 //! Of every joint, x = (v, a) at the points between the ends follows from equations that tie three neighbours together,
-//! L xₗ + M x + U xᵣ = l Δqₗ + r Δqᵣ, where Δq are the ways to the neighbours. They depend on time alone, are the same for all
-//! joints, and are solved by elimination from the first point to the last. C. de Boor, *A Practical Guide to Splines*,
-//! Springer (2001), chapter IV.
+//! L xₗ + M x + U xᵣ = l Δqₗ + r Δqᵣ, where Δq are the ways to the neighbours. They depend on time alone, are the same
+//! for all joints, and are solved by elimination from the first point to the last. C. de Boor, *A Practical Guide to
+//! Splines*, Springer (2001), chapter IV.
 
 use super::Motion;
 use crate::vector::entry;
@@ -40,8 +40,8 @@ pub(super) fn least_jerk<S: Real>(left: S, right: S) -> Equations<S> {
     }
 }
 
-/// Of least acceleration, ∫ q̈² dt: the cubic spline, whose acceleration goes on without a jump. The second equation says
-/// which acceleration that is.
+/// Of least acceleration, ∫ q̈² dt: the cubic spline, whose acceleration goes on without a jump. The second equation
+/// says which acceleration that is.
 pub(super) fn least_acceleration<S: Real>(left: S, right: S) -> Equations<S> {
     let c = S::from_f64;
     let [l, r] = [left, right].map(|h| S::one() / h);

@@ -52,8 +52,8 @@ pub fn order(coarse: (f64, f64), fine: (f64, f64)) -> f64 {
 
 pub type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
 
-/// Runs a right-hand side from [1, 1] at 0, which breaks the test if it is called without end; the outcome, and how often
-/// it was called.
+/// Runs a right-hand side from [1, 1] at 0, which breaks the test if it is called without end; the outcome, and how
+/// often it was called.
 pub fn run(method: &impl Integrator<f64>, to: f64, mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2]) -> (Outcome, u32) {
     let mut calls = 0;
     let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {

@@ -1,8 +1,8 @@
 //! Times the functions whose machine code `run` looks at. Prints for every function its name, the number of its angles,
 //! the time of a call in ns and the processor's clock in GHz.
 //!
-//! The clock is found by a chain of additions, of which every processor does one a cycle, in turns with the function. Of
-//! many short runs the fastest counts, since what else the machine does only makes them slower.
+//! The clock is found by a chain of additions, of which every processor does one a cycle, in turns with the function.
+//! Of many short runs the fastest counts, since what else the machine does only makes them slower.
 
 use processors::{Gripper, Kr5, gripper, kr5, lanes};
 use redysim::Scalar;

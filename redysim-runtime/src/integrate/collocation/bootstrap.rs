@@ -18,9 +18,9 @@ use crate::{Real, Vector};
 const NODES: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 2.0 / 3.0, 5.0 / 6.0];
 const PASSES: u32 = 2;
 
-/// The polynomials w_k of y(t + θ h) = y + h (Σ w_k(θ) (g_k − m) + θ m), with the derivatives g_k at 0, τ and 1 and their
-/// mean m = (y_new − y)/h: ẇ_k is 1 at the node of g_k and 0 at the others, and w_k is 0 at 0 and at 1. Coefficients of
-/// θ, θ², …
+/// The polynomials w_k of y(t + θ h) = y + h (Σ w_k(θ) (g_k − m) + θ m), with the derivatives g_k at 0, τ and 1 and
+/// their mean m = (y_new − y)/h: ẇ_k is 1 at the node of g_k and 0 at the others, and w_k is 0 at 0 and at 1.
+/// Coefficients of θ, θ², …
 pub const DENSE: [&[f64]; 7] = [
     &[1.0, -881.0 / 85.0, 17881.0 / 340.0, -2367.0 / 17.0, 66069.0 / 340.0, -23031.0 / 170.0, 3159.0 / 85.0],
     &[0.0, 36.0 / 17.0, 2556.0 / 85.0, -3096.0 / 17.0, 30348.0 / 85.0, -5076.0 / 17.0, 7776.0 / 85.0],
@@ -59,8 +59,8 @@ impl<Y> Bootstrap<Y> {
         self.ready = false;
     }
 
-    /// Evaluates the derivatives within the attempted step, from the collocation polynomial y + h Σ p_k(θ) f_k, given by
-    /// the coefficients of the p_k and the f_k.
+    /// Evaluates the derivatives within the attempted step, from the collocation polynomial y + h Σ p_k(θ) f_k, given
+    /// by the coefficients of the p_k and the f_k.
     ///
     /// # Errors
     /// If a state or a derivative is infinite or not a number.

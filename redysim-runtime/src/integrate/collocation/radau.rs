@@ -31,20 +31,20 @@ const LARGEST_RATIO: f64 = 1000.0;
 /// Ordinary Differential Equations II*, 2nd ed., Springer (1996), section IV.8, the source of all that follows). The
 /// stages are found by simplified Newton iteration, which takes the Jacobian ∂f/∂y from [`Ode::tangent`] or from
 /// differences, keeps it as long as the iteration converges fast, and decomposes one real and one complex matrix of the
-/// size of the state for each new step size or Jacobian. The start of the iteration and the sizes of the steps come from
-/// the collocation polynomial and from the errors of the last two steps.
+/// size of the state for each new step size or Jacobian. The start of the iteration and the sizes of the steps come
+/// from the collocation polynomial and from the errors of the last two steps.
 ///
 /// The estimate e of the error has order 3. As the solution has order 5, it is not e but (10 e)^(3/2), of the order of
 /// the error of the step, that must meet the tolerance; where the equation is stiff, the error itself is the smaller.
 /// Each step costs 3 evaluations for each turn of the iteration, of which there are 2 to 4, and one more.
 ///
-/// The solution within a step that is observed there is the polynomial of degree 6 through the ends of two shorter steps
-/// from its start, to a quarter and five eighths of it, and its own end, with the derivatives there. It does not use the
-/// derivative at the start, which a fast transient may have made large. A third shorter step, to a twelfth, compares it
-/// with the solution. Where the polynomial meets the tolerance, it is as accurate as the ends of steps, for three or four
-/// times the work. Where it does not, because the equation is stiff and steps are long, its order is 3; [asked
-/// times](crate::Integrator::solve) and [events](crate::Integrator::watch) are then each the end of a shorter step, as
-/// accurate as the ends of steps.
+/// The solution within a step that is observed there is the polynomial of degree 6 through the ends of two shorter
+/// steps from its start, to a quarter and five eighths of it, and its own end, with the derivatives there. It does not
+/// use the derivative at the start, which a fast transient may have made large. A third shorter step, to a twelfth,
+/// compares it with the solution. Where the polynomial meets the tolerance, it is as accurate as the ends of steps, for
+/// three or four times the work. Where it does not, because the equation is stiff and steps are long, its order is 3;
+/// [asked times](crate::Integrator::solve) and [events](crate::Integrator::watch) are then each the end of a shorter
+/// step, as accurate as the ends of steps.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Radau5};
@@ -98,8 +98,8 @@ pub struct Radau<S: Real, Y: Vector<S>> {
     rejected: bool,
     /// The factor to the size of a step for which the iteration failed.
     retreat: Option<S>,
-    /// What [`WITHIN`] is multiplied by, once somebody looks within the attempted step: how far the solution is from the
-    /// start at the [`WITHIN_NODES`] and at the end, and h times its derivatives there.
+    /// What [`WITHIN`] is multiplied by, once somebody looks within the attempted step: how far the solution is from
+    /// the start at the [`WITHIN_NODES`] and at the end, and h times its derivatives there.
     within: [Y; 6],
     /// Whether that is known of the attempted step, and whether the polynomial through it meets the tolerance.
     interpolation: Interpolation,
@@ -170,8 +170,8 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
         }
     }
 
-    /// Solves for the stages from the increments at hand. Where the iteration fails with a Jacobian of an earlier state,
-    /// it begins anew with that of this state.
+    /// Solves for the stages from the increments at hand. Where the iteration fails with a Jacobian of an earlier
+    /// state, it begins anew with that of this state.
     fn solve(
         &mut self,
         ode: &mut (impl Ode<S, Y> + ?Sized),

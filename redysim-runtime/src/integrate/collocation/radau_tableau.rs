@@ -70,16 +70,16 @@ pub const RADAU_IIA_5: RadauTableau = RadauTableau {
 };
 
 /// Where the solution within a step is known beside its end, in units of the step. Of a stiff equation the slopes have
-/// the order of the stages, 3; with these nodes that costs less than the collocation polynomial errs there, and where the
-/// equation is not stiff the interpolation of degree 6 errs by 1.2·10⁻⁷ y⁽⁷⁾ h⁷ at most.
+/// the order of the stages, 3; with these nodes that costs less than the collocation polynomial errs there, and where
+/// the equation is not stiff the interpolation of degree 6 errs by 1.2·10⁻⁷ y⁽⁷⁾ h⁷ at most.
 pub(super) const WITHIN_NODES: [f64; 2] = [1.0 / 4.0, 5.0 / 8.0];
 
-/// Where the interpolation is compared with the solution, in units of the step: about where both the interpolation and what
-/// the slopes err have their largest effect.
+/// Where the interpolation is compared with the solution, in units of the step: about where both the interpolation and
+/// what the slopes err have their largest effect.
 pub(super) const CHECKED_NODE: f64 = 1.0 / 12.0;
 
-/// The polynomials of θ, without constant terms, that are 1 at one of the [`WITHIN_NODES`] or at 1, and those whose slope
-/// is 1 there; the values and slopes at the others are 0.
+/// The polynomials of θ, without constant terms, that are 1 at one of the [`WITHIN_NODES`] or at 1, and those whose
+/// slope is 1 there; the values and slopes at the others are 0.
 pub(super) const WITHIN: [&[f64]; 6] = [
     &[0.0, 6400.0 / 81.0, -33280.0 / 81.0, 21248.0 / 27.0, -53248.0 / 81.0, 16384.0 / 81.0],
     &[4096.0 / 405.0, -8192.0 / 75.0, 167936.0 / 405.0, -1359872.0 / 2025.0, 65536.0 / 135.0, -262144.0 / 2025.0],

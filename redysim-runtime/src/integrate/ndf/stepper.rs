@@ -291,10 +291,10 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for NdfStepper<S, Y> {
         // an error like those of steps, and where it is of their order the method keeps its own: E. Eich, *Convergence
         // results for a coordinate projection method applied to mechanical systems with algebraic constraints*, SIAM J.
         // Numer. Anal. 30 (1993). The next correction d changes by at most about what was corrected, so that the
-        // estimate of the error notices if that is too much. A larger one moves the past along, too, where the derivative
-        // stays what it was: near a singular position of closed loops a projection moves velocities by rounding errors
-        // over the distance from it, step after step, whatever their size. After any other the past is that of another
-        // solution, and nothing but the derivative is left of it.
+        // estimate of the error notices if that is too much. A larger one moves the past along, too, where the
+        // derivative stays what it was: near a singular position of closed loops a projection moves velocities by
+        // rounding errors over the distance from it, step after step, whatever their size. After any other the past is
+        // that of another solution, and nothing but the derivative is left of it.
         self.restarted = false;
         if self.progress.take_correction() && !small {
             self.evaluate(ode)?;
