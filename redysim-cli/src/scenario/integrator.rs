@@ -74,10 +74,10 @@ impl Absolute {
         Some(Absolute { position: position?, velocity: velocity?, work: work? })
     }
 
-    /// One for each component of the state [q, q̇, E_act].
-    fn of_state(self, count: usize) -> Vec<f64> {
-        let dof = count / 2;
-        [vec![self.position; dof], vec![self.velocity; dof], vec![self.work; count - 2 * dof]].concat()
+    /// One for each component of the state [q, q̇, E_act] of a mechanism.
+    fn of_state(self, mechanism: &GenericMechanism) -> Vec<f64> {
+        let (nq, nv) = (mechanism.tree().nq(), mechanism.tree().nv());
+        [vec![self.position; nq], vec![self.velocity; nv], vec![self.work]].concat()
     }
 }
 
@@ -188,12 +188,13 @@ impl Integrator {
         stable.ok()?.warning(step, mechanism)
     }
 
-    /// Integrates `ode` over `interval`.
+    /// Integrates `ode`, the motion of `mechanism`, over `interval`.
     ///
     /// # Errors
     /// As [`redysim_runtime::Integrator::run`].
     pub fn run(
         &self,
+        mechanism: &GenericMechanism,
         ode: &mut dyn Ode<f64, Vec<f64>>,
         interval: (f64, f64),
         start: Vec<f64>,
@@ -209,7 +210,7 @@ impl Integrator {
                 Fixed::Gauss6 => Gauss6::new(step).run(ode, interval, start, observer),
             },
             Integrator::Adaptive(method, tolerances) => {
-                let atol = tolerances.atol.of_state(start.len());
+                let atol = tolerances.atol.of_state(mechanism);
                 match method {
                     Adaptive::Ode45 => tolerances.on(Ode45::new(), &atol).run(ode, interval, start, observer),
                     Adaptive::Dop853 => tolerances.on(Dop853::new(), &atol).run(ode, interval, start, observer),

@@ -46,7 +46,8 @@ fn move_on<'a>(
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
     let mut watch = Watch::new(scenario, forward, record, &start)?;
-    let solution = forward.integrator.run(system.ode(), forward.span.interval(), start, &mut watch);
+    let integrator = &forward.integrator;
+    let solution = integrator.run(&scenario.mechanism, system.ode(), forward.span.interval(), start, &mut watch);
     let Watch { steps, gap, failed, .. } = watch;
     let ended = match (&solution, failed) {
         (Err(error), _) => Ended::Failed(explained(error, scenario, &system)),
