@@ -91,7 +91,7 @@ impl Pipeline<'_> {
     ///    that [`forward_dynamics`] chooses.
     /// 2. Where it is too long to be unrolled, it is traced on alike bodies too, and the shorter code is taken.
     /// 3. Where it has a tolerance and can be unrolled, what does not matter within the ranges of the joints is left
-    /// out.
+    ///    out.
     fn run(&self) -> Result<Vec<TracedFunction>, ChangedValue> {
         let trees = Trees::new(self.tree, self.passes, self.reference);
         let even = self.passes.even();

@@ -44,8 +44,8 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
     }
 
     /// The motion of least jerk, ∫ q⃛² dt, from rest at the first point to rest at the last, through those between
-    /// without a stop: its fourth derivative is continuous. Between two points alone it is q₀ + (q₁ − q₀)(10 s³ − 15 s⁴
-    /// + 6 s⁵) with s = (t − t₀)/(t₁ − t₀). T. Flash and N. Hogan, *The coordination of arm movements*, J. Neurosci. 5
+    /// without a stop: its fourth derivative is continuous. Between two points alone it is
+    /// q₀ + (q₁ − q₀)(10 s³ − 15 s⁴ + 6 s⁵) with s = (t − t₀)/(t₁ − t₀). T. Flash and N. Hogan, *The coordination of arm movements*, J. Neurosci. 5
     /// (1985).
     ///
     /// # Errors
