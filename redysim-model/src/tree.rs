@@ -18,7 +18,7 @@ pub struct Tree {
     pub ground: PseudoInertia<f64>,
     /// The moving bodies; each parent has a smaller index.
     pub bodies: Vec<Body>,
-    /// Where each of [`Model::links`] stands, in the model's order.
+    /// Where each of [`Model::links`](crate::model::Model::links) stands, in the model's order.
     pub links: Vec<Attachment>,
     /// The cut joints, in the model's order.
     pub cuts: Vec<Cut>,

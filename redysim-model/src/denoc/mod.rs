@@ -7,7 +7,7 @@
 //! Each takes an observer, a [`Trace`]: [`Untraced`] for numbers.
 //!
 //! Inputs and outputs are in the model's order of joints; every function expects slices of length
-//! [`Tree::dof`](crate::tree::Tree::dof).
+//! [`Tree::nq`](crate::tree::Tree::nq) or [`Tree::nv`](crate::tree::Tree::nv).
 //!
 //! Source: Shah, Saha, Dutt, *Dynamics of Tree-Type Robotic Systems*, Springer 2013; Featherstone, *Rigid Body Dynamics
 //! Algorithms*, Springer 2008.
