@@ -53,6 +53,7 @@ mod reroll;
 mod tracing;
 mod trees;
 
+#[cfg(feature = "source")]
 pub use backend::rust::source::{SourceError, source_file, source_file_with};
 pub use backend::rust::stub;
 pub use generate::{Counted, Generated, implementation, implementation_with, operations};

@@ -5,6 +5,7 @@ mod body;
 pub mod documentation;
 mod function;
 mod results;
+#[cfg(feature = "source")]
 pub mod source;
 mod traits;
 
