@@ -2,7 +2,7 @@
 
 use crate::accuracy::Reference;
 use crate::expressions::Expressions;
-use crate::passes::{ChangedValue, Passes, simplified};
+use crate::passes::{PassError, Passes, simplified};
 use crate::policies::{LONGEST_CHAIN_BY_FACTORISATION, MOST_LOST_AGAINST_RECURSION, NEGLIGIBLE_LOSS};
 use crate::symbol::Symbol;
 use crate::tracing::traced;
@@ -35,7 +35,7 @@ struct Described {
 
 /// The way that `asked` names, or the one that takes fewer operations, as long as it is not the factorisation and loses
 /// digits that the recursion keeps.
-pub fn chosen(trees: &Trees, asked: AccelerationMethod, passes: &Passes) -> Result<Chosen, ChangedValue> {
+pub fn chosen(trees: &Trees, asked: AccelerationMethod, passes: &Passes) -> Result<Chosen, PassError> {
     let recursion = recursion(trees)?;
     let is_long_chain = trees.plain().depth() > LONGEST_CHAIN_BY_FACTORISATION;
     if is_long_chain && asked != AccelerationMethod::Factorisation {
@@ -60,14 +60,14 @@ pub fn chosen(trees: &Trees, asked: AccelerationMethod, passes: &Passes) -> Resu
     Ok(Chosen { expressions: taken.expressions, taken: described, other: Some(other) })
 }
 
-fn recursion(trees: &Trees) -> Result<Way, ChangedValue> {
+fn recursion(trees: &Trees) -> Result<Way, PassError> {
     // The recursion takes the inertias as they are: moved towards the ground they would pile up there, and what is
     // subtracted from them on the way would cost the digits for which the recursion is chosen.
     let expressions = trees.keeping_digits(Function::ForwardDynamics)?;
     Ok(Way::measured(Method::Recursion, expressions, trees.reference()))
 }
 
-fn factorisation(trees: &Trees, passes: &Passes) -> Result<Way, ChangedValue> {
+fn factorisation(trees: &Trees, passes: &Passes) -> Result<Way, PassError> {
     let (matrix, bias) = (trees.matrix(), trees.bias());
     let expressions = traced(matrix, Function::ForwardDynamics, |t, x| {
         let forces = denoc::bias_forces(bias, t, x[0], x[1]);

@@ -3,7 +3,7 @@
 use crate::accuracy::Reference;
 use crate::expressions::Expressions;
 use crate::forward_dynamics;
-use crate::passes::{ChangedValue, Passes};
+use crate::passes::{PassError, Passes};
 use crate::pruning::{Pruning, States, pruned};
 use crate::reroll;
 use crate::tracing::simplified_on;
@@ -30,7 +30,7 @@ pub struct TracedFunction {
 /// # Errors
 ///
 /// As [`trace_of`].
-pub fn trace(tree: &Tree) -> Result<Vec<TracedFunction>, ChangedValue> {
+pub fn trace(tree: &Tree) -> Result<Vec<TracedFunction>, PassError> {
     trace_with(tree, &Passes::default())
 }
 
@@ -39,7 +39,7 @@ pub fn trace(tree: &Tree) -> Result<Vec<TracedFunction>, ChangedValue> {
 /// # Errors
 ///
 /// As [`trace_of`].
-pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<TracedFunction>, ChangedValue> {
+pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<TracedFunction>, PassError> {
     trace_of(tree, &Scene::default(), passes)
 }
 
@@ -48,8 +48,8 @@ pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<TracedFunction>, C
 ///
 /// # Errors
 ///
-/// In debug builds passes over expressions are verified, and one that changes a value is reported.
-pub fn trace_of(tree: &Tree, scene: &Scene, passes: &Passes) -> Result<Vec<TracedFunction>, ChangedValue> {
+/// In debug builds passes over expressions are verified, and one that changes a value or breaks the graph is reported.
+pub fn trace_of(tree: &Tree, scene: &Scene, passes: &Passes) -> Result<Vec<TracedFunction>, PassError> {
     let pipeline = Pipeline { tree, scene, passes, reference: &Reference::new(tree), pruning: None };
     pipeline.run()
 }
@@ -92,7 +92,7 @@ impl Pipeline<'_> {
     /// 2. Where it is too long to be unrolled, it is traced on alike bodies too, and the shorter code is taken.
     /// 3. Where it has a tolerance and can be unrolled, what does not matter within the ranges of the joints is left
     ///    out.
-    fn run(&self) -> Result<Vec<TracedFunction>, ChangedValue> {
+    fn run(&self) -> Result<Vec<TracedFunction>, PassError> {
         let trees = Trees::new(self.tree, self.passes, self.reference);
         let even = self.passes.even();
         let even_trees = LazyCell::new(|| Trees::new(self.tree, &even, self.reference));
@@ -135,7 +135,7 @@ impl Pipeline<'_> {
     }
 
     /// The function on the description of the robot on which it is best computed.
-    fn simplified(&self, function: Function, trees: &Trees, passes: &Passes) -> Result<TracedFunction, ChangedValue> {
+    fn simplified(&self, function: Function, trees: &Trees, passes: &Passes) -> Result<TracedFunction, PassError> {
         let (expressions, remark) = match function {
             Function::ForwardDynamics => {
                 let chosen = forward_dynamics::chosen(trees, self.scene.forward_dynamics, passes)?;
@@ -156,7 +156,7 @@ impl Pipeline<'_> {
 }
 
 /// A function on the tree on which it costs least.
-fn cheapest(trees: &[Tree], function: Function, passes: &Passes) -> Result<Expressions, ChangedValue> {
+fn cheapest(trees: &[Tree], function: Function, passes: &Passes) -> Result<Expressions, PassError> {
     let all = trees.iter().map(|tree| simplified_on(tree, function, passes)).collect::<Result<Vec<_>, _>>()?;
     Ok(all.into_iter().min_by_key(Expressions::price).expect("at least one tree"))
 }
@@ -175,13 +175,13 @@ pub enum TraceError {
         /// The joint.
         joint: String,
     },
-    /// A pass over expressions changes a value.
-    ChangedValue(ChangedValue),
+    /// A pass over expressions is wrong.
+    Pass(PassError),
 }
 
-impl From<ChangedValue> for TraceError {
-    fn from(changed: ChangedValue) -> Self {
-        TraceError::ChangedValue(changed)
+impl From<PassError> for TraceError {
+    fn from(error: PassError) -> Self {
+        TraceError::Pass(error)
     }
 }
 
@@ -195,7 +195,7 @@ impl std::fmt::Display for TraceError {
                      `range`"
                 )
             }
-            TraceError::ChangedValue(changed) => changed.fmt(f),
+            TraceError::Pass(error) => error.fmt(f),
         }
     }
 }

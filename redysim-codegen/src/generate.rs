@@ -2,7 +2,7 @@
 
 use crate::backend::rust::{self, documentation};
 use crate::functions::{TraceError, TracedFunction, trace_of, trace_scene};
-use crate::passes::{ChangedValue, Passes};
+use crate::passes::{PassError, Passes};
 use proc_macro2::{Ident, TokenStream};
 use redysim_model::{Function, Model, Outline, Scene, Tree};
 use redysim_runtime::OperationCount;
@@ -31,8 +31,8 @@ pub struct Counted {
 ///
 /// # Errors
 ///
-/// In debug builds passes over expressions are verified, and one that changes a value is reported.
-pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Result<Generated, ChangedValue> {
+/// In debug builds passes over expressions are verified, and one that changes a value or breaks the graph is reported.
+pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Result<Generated, PassError> {
     implementation_with(model, name, runtime, &Scene::default(), &Passes::default())
 }
 
@@ -48,7 +48,7 @@ pub fn implementation_with(
     runtime: &TokenStream,
     scene: &Scene,
     passes: &Passes,
-) -> Result<Generated, ChangedValue> {
+) -> Result<Generated, PassError> {
     let (functions, warnings) = functions(model, scene, passes)?;
     let tokens = rust::mechanism(model, &Outline::new(model, scene), &functions, name, runtime);
     Ok(Generated { tokens, operations: operations_of(&functions), warnings })
@@ -59,20 +59,16 @@ pub fn implementation_with(
 /// # Errors
 ///
 /// As [`implementation`].
-pub fn operations(model: &Model, scene: &Scene) -> Result<Counted, ChangedValue> {
+pub fn operations(model: &Model, scene: &Scene) -> Result<Counted, PassError> {
     let (functions, warnings) = functions(model, scene, &Passes::default())?;
     Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
 /// The functions that a scene asks for, and what of it cannot be.
-fn functions(
-    model: &Model,
-    scene: &Scene,
-    passes: &Passes,
-) -> Result<(Vec<TracedFunction>, Vec<String>), ChangedValue> {
+fn functions(model: &Model, scene: &Scene, passes: &Passes) -> Result<(Vec<TracedFunction>, Vec<String>), PassError> {
     let (functions, unpruned) = match trace_scene(model, scene, passes) {
         Ok(functions) => (functions, None),
-        Err(TraceError::ChangedValue(changed)) => return Err(changed),
+        Err(TraceError::Pass(error)) => return Err(error),
         Err(no_range @ TraceError::NoRange { .. }) => {
             let unpruned = format!("nothing is pruned: {no_range}");
             (trace_of(&Tree::new(model), scene, passes)?, Some(unpruned))

@@ -321,6 +321,16 @@ impl Graph {
         }
     }
 
+    /// A node as it is, which no constructor has checked.
+    #[cfg(test)]
+    pub fn push_unchecked(&mut self, node: Node) {
+        let index = self.nodes.len() as u32;
+        self.nodes.push(node);
+        self.names.push(None);
+        self.steps.push(None);
+        self.indices.entry(node).or_insert(index);
+    }
+
     fn intern(&mut self, node: Node) -> Edge {
         let index = *self.indices.entry(node).or_insert_with(|| {
             self.nodes.push(node);

@@ -1,13 +1,13 @@
 //! From a function on a tree to its expressions.
 
 use crate::expressions::Expressions;
-use crate::passes::{ChangedValue, Passes, simplified};
+use crate::passes::{PassError, Passes, simplified};
 use crate::symbol::{Symbol, Tracer};
 use redysim_model::{Function, Tree, denoc};
 use redysim_runtime::function::{Argument, Dimension};
 
 /// The expressions of `function` on `tree`, forward dynamics by the recursion, simplified.
-pub fn simplified_on(tree: &Tree, function: Function, passes: &Passes) -> Result<Expressions, ChangedValue> {
+pub fn simplified_on(tree: &Tree, function: Function, passes: &Passes) -> Result<Expressions, PassError> {
     simplified(traced_on(tree, function), passes)
 }
 

@@ -4,7 +4,7 @@ mod suspicions;
 mod table;
 
 use redysim_codegen::Counted;
-use redysim_codegen::passes::ChangedValue;
+use redysim_codegen::passes::PassError;
 use redysim_model::{Link, Loaded, Mobility, Model, Tree};
 use redysim_runtime::OperationCount;
 use serde::{Serialize, Serializer};
@@ -102,7 +102,7 @@ impl Summary {
     /// # Errors
     ///
     /// If the generator's check of itself fails.
-    pub fn of(loaded: &Loaded) -> Result<Summary, ChangedValue> {
+    pub fn of(loaded: &Loaded) -> Result<Summary, PassError> {
         let model = &loaded.model;
         let found = Mobility::of(model);
         let Counted { operations, warnings } = redysim_codegen::operations(model, &loaded.scene)?;

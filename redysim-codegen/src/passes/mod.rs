@@ -2,12 +2,14 @@
 
 mod factors;
 mod squares;
+mod structure;
 mod sums;
 mod terms;
 mod verification;
 
 use crate::expressions::Expressions;
-pub use verification::ChangedValue;
+pub(crate) use verification::well_formed;
+pub use verification::{PassError, PassFault};
 
 /// Which passes are on. Each gives the same values with fewer operations; switched off, it shows what it gains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,8 +88,9 @@ type Pass = fn(&Expressions) -> Expressions;
 ///
 /// # Errors
 ///
-/// In debug builds each pass is checked, and one that changes a value by more than rounding errors is reported.
-pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expressions, ChangedValue> {
+/// In debug builds each pass is verified, and one that changes a value by more than rounding errors or breaks the graph
+/// is reported.
+pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expressions, PassError> {
     if !passes.loops {
         expressions.graph.forget_steps();
     }
@@ -101,13 +104,29 @@ pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expre
 }
 
 /// The expressions after a pass, if it is on and does not make them dearer.
-fn applied(name: &'static str, on: bool, pass: Pass, expressions: Expressions) -> Result<Expressions, ChangedValue> {
+fn applied(name: &'static str, on: bool, pass: Pass, expressions: Expressions) -> Result<Expressions, PassError> {
     if !on {
         return Ok(expressions);
     }
     let simpler = pass(&expressions);
     if cfg!(debug_assertions) {
-        verification::same_values(name, &expressions, &simpler)?;
+        verification::verified(name, &expressions, &simpler)?;
     }
     Ok(if simpler.price() <= expressions.price() { simpler } else { expressions })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Graph;
+
+    #[test]
+    #[cfg(debug_assertions)]
+    fn a_wrong_pass_is_reported_where_it_runs() {
+        let mut graph = Graph::default();
+        let outputs = vec![graph.input(0, 0)];
+        let negated: Pass = |before| Expressions { outputs: vec![-before.outputs[0]], ..before.clone() };
+        let error = applied("sums", true, negated, Expressions { graph, outputs }).unwrap_err();
+        assert!(matches!(error.fault, PassFault::Value { output: 0, .. }), "{error}");
+    }
 }

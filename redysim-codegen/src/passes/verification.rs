@@ -1,5 +1,6 @@
-//! A pass keeps every value, within the rounding errors of both ways to compute it.
+//! A pass keeps every value, within the rounding errors of both ways to compute it, and leaves a well-formed graph.
 
+use super::structure::broken;
 use crate::accuracy::rounding::Rounded;
 use crate::expressions::Expressions;
 use crate::graph::Node;
@@ -8,52 +9,136 @@ use crate::random::Random;
 /// Points at which a pass is verified.
 const POINTS: u64 = 8;
 
-/// A pass over expressions has changed a value: a fault of redysim.
+/// A pass over expressions is wrong: a bug in redysim.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ChangedValue {
-    /// The name of the pass, as in [`Passes`](super::Passes).
+pub struct PassError {
+    /// The name of the pass, as in [`Passes`](super::Passes), or `pruning`.
     pub pass: &'static str,
-    /// Which output of the function.
-    pub output: usize,
-    /// Its value before the pass.
-    pub before: f64,
-    /// Its value after the pass.
-    pub after: f64,
-    /// By how much rounding errors let the two differ.
-    pub bound: f64,
+    /// What is wrong with its result.
+    pub fault: PassFault,
 }
 
-impl std::fmt::Display for ChangedValue {
+/// What is wrong with the result of a pass.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PassFault {
+    /// An output has another value.
+    Value {
+        /// Which output of the function.
+        output: usize,
+        /// Its value before the pass.
+        before: f64,
+        /// Its value after the pass.
+        after: f64,
+        /// By how much rounding errors let the two differ.
+        bound: f64,
+    },
+    /// The function has another number of outputs.
+    OutputCount {
+        /// Outputs before the pass.
+        before: usize,
+        /// Outputs after the pass.
+        after: usize,
+    },
+    /// An output is a node that the graph does not have.
+    OutputOutOfRange {
+        /// Which output of the function.
+        output: usize,
+    },
+    /// The function reads an input that it did not read before.
+    NewInput {
+        /// Position in the function's list of arguments.
+        argument: u8,
+        /// Index in the array.
+        index: u32,
+    },
+    /// An operand does not precede the node that uses it, or the graph does not have it.
+    OperandOrder {
+        /// The node.
+        node: usize,
+        /// The operand.
+        operand: usize,
+    },
+    /// Two nodes of a graph in which equal values are one node are equal.
+    DuplicateNode {
+        /// The later of the two.
+        node: usize,
+    },
+    /// A node is not in the form in which equal values are equal nodes: a sign that belongs outside, operands out of
+    /// order, or an operation on constants.
+    NotCanonical {
+        /// The node.
+        node: usize,
+    },
+}
+
+impl std::fmt::Display for PassError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let ChangedValue { pass, output, before, after, bound } = self;
-        write!(
-            f,
-            "the pass `{pass}` changes output {output} from {before:e} to {after:e}, where rounding errors are at most \
-             {bound:.1e}: this is a fault of redysim; please report it with the model"
-        )
+        write!(f, "the pass `{}` {}; this is a bug in redysim: please report it with the model", self.pass, self.fault)
     }
 }
 
-impl std::error::Error for ChangedValue {}
+impl std::fmt::Display for PassFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            PassFault::Value { output, before, after, bound } => write!(
+                f,
+                "changes output {output} from {before:e} to {after:e}, where rounding errors are at most {bound:.1e}"
+            ),
+            PassFault::OutputCount { before, after } => write!(f, "returns {after} outputs instead of {before}"),
+            PassFault::OutputOutOfRange { output } => {
+                write!(f, "returns as output {output} a node that does not exist")
+            }
+            PassFault::NewInput { argument, index } => {
+                write!(f, "reads element {index} of argument {argument}, which the function does not need")
+            }
+            PassFault::OperandOrder { node, operand } => {
+                write!(f, "makes node {node} of node {operand}, which does not precede it")
+            }
+            PassFault::DuplicateNode { node } => write!(f, "makes node {node} a second time"),
+            PassFault::NotCanonical { node } => write!(f, "makes node {node} without the graph's constructors"),
+        }
+    }
+}
 
-/// Compares each output before and after a pass at a few points.
+impl std::error::Error for PassError {}
+
+/// Checks the structure of the graph that a pass returns, and compares each output before and after it at
+/// [`POINTS`] points.
 ///
 /// # Errors
 ///
-/// The first output that differs by more than the rounding errors of both ways.
-pub fn same_values(pass: &'static str, before: &Expressions, after: &Expressions) -> Result<(), ChangedValue> {
-    for seed in 1..=POINTS {
+/// The first fault of the structure, else the first output that differs by more than the rounding errors of both ways.
+pub fn verified(pass: &'static str, before: &Expressions, after: &Expressions) -> Result<(), PassError> {
+    well_formed(pass, before, after)?;
+    match changed(before, after) {
+        Some(fault) => Err(PassError { pass, fault }),
+        None => Ok(()),
+    }
+}
+
+/// Checks the structure alone, for a pass that is allowed to change values.
+///
+/// # Errors
+///
+/// The first fault.
+pub fn well_formed(pass: &'static str, before: &Expressions, after: &Expressions) -> Result<(), PassError> {
+    match broken(before, after) {
+        Some(fault) => Err(PassError { pass, fault }),
+        None => Ok(()),
+    }
+}
+
+/// The first output whose values differ.
+fn changed(before: &Expressions, after: &Expressions) -> Option<PassFault> {
+    (1..=POINTS).find_map(|seed| {
         let arguments = point(before, seed);
         let arguments: Vec<&[Rounded]> = arguments.iter().map(Vec::as_slice).collect();
         let [old, new] = [before, after].map(|expressions| expressions.evaluate(&arguments));
-        let changed = old.iter().zip(&new).position(|(old, new)| !old.may_equal(*new));
-        if let Some(output) = changed {
-            let (old, new) = (old[output], new[output]);
-            let bound = old.error + new.error;
-            return Err(ChangedValue { pass, output, before: old.value, after: new.value, bound });
-        }
-    }
-    Ok(())
+        let output = old.iter().zip(&new).position(|(old, new)| !old.may_equal(*new))?;
+        let (old, new) = (old[output], new[output]);
+        Some(PassFault::Value { output, before: old.value, after: new.value, bound: old.error + new.error })
+    })
 }
 
 /// A value within ±1 for every input.
@@ -78,31 +163,45 @@ mod tests {
     use super::*;
     use crate::graph::Graph;
 
-    /// x + y of two inputs, times `factor`.
-    fn scaled_sum(factor: f64) -> Expressions {
+    /// The sum of two inputs, times each of the factors.
+    fn scaled_sums(factors: &[f64]) -> Expressions {
         let mut graph = Graph::default();
         let (x, y) = (graph.input(0, 0), graph.input(0, 1));
         let sum = graph.add(x, y);
-        let factor = graph.constant(factor);
-        let output = graph.multiply(factor, sum);
-        Expressions { graph, outputs: vec![output] }
+        let scaled = |&factor: &f64| {
+            let factor = graph.constant(factor);
+            graph.multiply(factor, sum)
+        };
+        let outputs = factors.iter().map(scaled).collect();
+        Expressions { graph, outputs }
+    }
+
+    fn scaled_sum(factor: f64) -> Expressions {
+        scaled_sums(&[factor])
     }
 
     #[test]
     fn a_change_of_the_last_digits_is_rounding() {
-        assert_eq!(same_values("sums", &scaled_sum(3.0), &scaled_sum(3.0 * (1.0 + f64::EPSILON))), Ok(()));
+        assert_eq!(verified("sums", &scaled_sum(3.0), &scaled_sum(3.0 * (1.0 + f64::EPSILON))), Ok(()));
     }
 
     #[test]
     fn a_small_change_of_a_value_names_the_pass() {
-        let changed = same_values("sums", &scaled_sum(3.0), &scaled_sum(3.0 * (1.0 + 1e-13))).unwrap_err();
-        assert_eq!((changed.pass, changed.output), ("sums", 0));
-        assert!(changed.to_string().starts_with("the pass `sums` changes output 0 from "));
+        let error = verified("sums", &scaled_sum(3.0), &scaled_sum(3.0 * (1.0 + 1e-13))).unwrap_err();
+        assert_eq!(error.pass, "sums");
+        assert!(error.to_string().starts_with("the pass `sums` changes output 0 from "), "{error}");
     }
 
     #[test]
-    fn a_number_does_not_become_nan() {
-        assert!(same_values("sums", &scaled_sum(3.0), &scaled_sum(f64::NAN)).is_err());
+    fn a_wrong_small_output_beside_a_large_one_is_found() {
+        let error = verified("sums", &scaled_sums(&[1e9, 1e-6]), &scaled_sums(&[1e9, 1.001e-6])).unwrap_err();
+        assert!(matches!(error.fault, PassFault::Value { output: 1, .. }), "{error}");
+    }
+
+    #[test]
+    fn a_number_does_not_become_nan_nor_nan_a_number() {
+        assert!(verified("sums", &scaled_sum(3.0), &scaled_sum(f64::NAN)).is_err());
+        assert!(verified("sums", &scaled_sum(f64::NAN), &scaled_sum(3.0)).is_err());
     }
 
     #[test]

@@ -18,7 +18,7 @@ mod states;
 
 use crate::expressions::Expressions;
 use crate::graph::Edge;
-use crate::passes::{ChangedValue, Passes, simplified};
+use crate::passes::{PassError, Passes, simplified, well_formed};
 use columns::{Columns, evaluate, live, sign};
 use measure::{scales, worst_error};
 use redysim_runtime::OperationCount;
@@ -65,7 +65,7 @@ pub fn pruned(
     states: &States,
     tolerance: f64,
     passes: &Passes,
-) -> Result<(Expressions, Pruning), ChangedValue> {
+) -> Result<(Expressions, Pruning), PassError> {
     let before = whole.count();
     let mut sample = sample(whole, shape, states);
     let scales = sample.allowed.clone();
@@ -130,10 +130,14 @@ fn sample(whole: &Expressions, shape: Shape, states: &States) -> Sample {
     }
 }
 
-fn rounds(whole: &Expressions, sample: &Sample, passes: &Passes) -> Result<Expressions, ChangedValue> {
+fn rounds(whole: &Expressions, sample: &Sample, passes: &Passes) -> Result<Expressions, PassError> {
     let mut least = whole.clone();
     for _ in 0..ROUNDS {
-        let next = simplified(round(&least, sample), passes)?;
+        let pruned = round(&least, sample);
+        if cfg!(debug_assertions) {
+            well_formed("pruning", &least, &pruned)?;
+        }
+        let next = simplified(pruned, passes)?;
         if next.price() >= least.price() {
             break;
         }

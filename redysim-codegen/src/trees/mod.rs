@@ -11,7 +11,7 @@ pub mod units;
 
 use crate::accuracy::{MEASURED, Reference};
 use crate::expressions::Expressions;
-use crate::passes::{ChangedValue, Passes};
+use crate::passes::{PassError, Passes};
 use crate::policies::{MOST_LOST_BY_DESCRIPTION, ROUNDINGS};
 use crate::tracing::{simplified_on, traced_on};
 use redysim_model::joint::Vanishing;
@@ -93,7 +93,7 @@ impl<'a> Trees<'a> {
 
     /// A function on the cheapest description of the robot on which it keeps its digits; in the end on the model's own,
     /// without passes over expressions. Forward dynamics is by the recursion.
-    pub fn keeping_digits(&self, function: Function) -> Result<Expressions, ChangedValue> {
+    pub fn keeping_digits(&self, function: Function) -> Result<Expressions, PassError> {
         let bearable = self.bearable(function);
         for tree in self.descriptions(function) {
             let expressions = simplified_on(tree, function, self.passes)?;

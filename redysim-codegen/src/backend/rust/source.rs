@@ -1,7 +1,7 @@
 //! The generated code as a formatted source file, for those who must review it or ship it.
 
 use crate::generate::{Generated, implementation_with};
-use crate::passes::{ChangedValue, Passes};
+use crate::passes::{PassError, Passes};
 use quote::{format_ident, quote};
 use redysim_model::{Model, Scene};
 
@@ -11,7 +11,7 @@ use redysim_model::{Model, Scene};
 ///
 /// # Errors
 ///
-/// If `name` is not an identifier; in debug builds, if a pass over expressions changes a value.
+/// If `name` is not an identifier; in debug builds, if a pass over expressions is wrong.
 pub fn source_file(model: &Model, name: &str) -> Result<String, SourceError> {
     source_file_with(model, name, &Scene::default())
 }
@@ -55,13 +55,13 @@ pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<Stri
 pub enum SourceError {
     /// A name that cannot be a Rust type.
     InvalidName(String),
-    /// A pass over expressions changes a value.
-    ChangedValue(ChangedValue),
+    /// A pass over expressions is wrong.
+    Pass(PassError),
 }
 
-impl From<ChangedValue> for SourceError {
-    fn from(changed: ChangedValue) -> Self {
-        SourceError::ChangedValue(changed)
+impl From<PassError> for SourceError {
+    fn from(error: PassError) -> Self {
+        SourceError::Pass(error)
     }
 }
 
@@ -71,7 +71,7 @@ impl std::fmt::Display for SourceError {
             SourceError::InvalidName(name) => {
                 write!(f, "`{name}` is not a name for a Rust type; write for example `Robot`")
             }
-            SourceError::ChangedValue(changed) => changed.fmt(f),
+            SourceError::Pass(error) => error.fmt(f),
         }
     }
 }
