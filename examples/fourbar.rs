@@ -141,10 +141,13 @@ impl Fall {
     /// Falls by several methods, with projection and without, prints what each takes and gives, and returns the best.
     fn run(&self) -> Result<LoopMotion, Failure> {
         headline(&format!("Four-bar, free fall of 0.68 s {} (Fig 11)", self.name));
-        let Assembly { farthest, gap, .. } = self.start;
+        let Assembly { largest_displacement, position_residual, .. } = self.start;
         let joint = Mechanism::<f64>::joint_name(&Fourbar, self.start.coordinate).unwrap_or("");
-        let moved = tiny(farthest.abs());
-        remark(&format!("Assembly moves {joint} by {moved} rad, the most of all, and leaves {} m open.", tiny(gap)));
+        let moved = tiny(largest_displacement.abs());
+        remark(&format!(
+            "Assembly moves {joint} by {moved} rad, the most of all, and leaves {} m open.",
+            tiny(position_residual)
+        ));
         let mut table = Table::new(&[
             "method",
             "steps\n",

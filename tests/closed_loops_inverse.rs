@@ -119,16 +119,19 @@ fn what_cannot_be_followed_or_held_is_said() {
     let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[1], GUESS);
     inverse.at(0.1, &swing).expect("within reach");
     let error = inverse.at(3.0, &swing).unwrap_err();
-    assert!(matches!(error, LoopError::Unreachable { t: 3.0, coordinate: 1, gap } if gap > 1e-6), "{error}");
+    assert!(
+        matches!(error, LoopError::Unreachable { t: 3.0, coordinate: 1, position_residual: gap } if gap > 1e-6),
+        "{error}"
+    );
 
     let nothing = |_: f64| Motion { q: [0.0; 0], v: [0.0; 0], a: [0.0; 0] };
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[], GUESS).at(0.0, &nothing).unwrap_err();
-    assert_eq!(error, LoopError::LostRank { rank: 2, needed: 3, rows: redysim::Rows::default() });
+    assert_eq!(error, LoopError::RankDeficient { rank: 2, needed: 3, rows: redysim::RowSet::default() });
 
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).actuated(&[]).at(0.0, &turning);
-    assert!(matches!(error, Err(LoopError::Unsupported { .. })), "{error:?}");
+    assert!(matches!(error, Err(LoopError::Unactuated { .. })), "{error:?}");
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[3], GUESS).at(0.0, &turning).unwrap_err();
-    assert_eq!(error, LoopError::BadCoordinate { coordinate: 3, count: 3 });
+    assert_eq!(error, LoopError::CoordinateOutOfRange { coordinate: 3, count: 3 });
 }
 
 #[test]
@@ -138,7 +141,7 @@ fn accelerations_that_contradict_each_other_are_refused() {
     let (q, v) = ([closed.q[0], closed.q[1]], [closed.v[0], closed.v[1]]);
     let trajectory = |_t: f64| redysim::Motion { q, v, a: [0.0, 50.0] };
     let error = ClosedLoopInverse::new(loops, &[0, 1], closed.q).at(0.0, &trajectory).unwrap_err();
-    assert!(matches!(error, LoopError::PullsApart { .. }), "{error}");
+    assert!(matches!(error, LoopError::InconsistentVelocity { .. }), "{error}");
 }
 
 #[test]
@@ -148,7 +151,7 @@ fn each_independent_coordinate_has_one_component_of_the_trajectory() {
     let error = ClosedLoopInverse::new(loops, &[0, 0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
     assert_eq!(error, LoopError::RepeatedCoordinate { coordinate: 0 });
     let error = ClosedLoopInverse::new(loops, &[0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
-    assert_eq!(error, LoopError::WrongTrajectory { given: 2, wanted: 1 });
+    assert_eq!(error, LoopError::WrongTrajectoryLength { given: 2, needed: 1 });
 }
 
 redysim! { struct SliderCrank("models/slider_crank.toml"); }
@@ -160,7 +163,7 @@ fn lost_rank_names_the_rows_that_say_nothing_new() {
     let closed = loops.assemble(&[0.0, core::f64::consts::PI, 0.0], &[0.0; 3], &[0, 2]).expect("it closes");
     let rest = |_t: f64| Motion { q: [0.0], v: [0.0], a: [0.0] };
     let error = ClosedLoopInverse::new(loops, &[2], closed.q).at(0.0, &rest).unwrap_err();
-    let LoopError::LostRank { rank: 1, needed: 2, rows } = error else { panic!("{error}") };
+    let LoopError::RankDeficient { rank: 1, needed: 2, rows } = error else { panic!("{error}") };
     assert_eq!(rows.iter().count(), 1, "{error}");
-    assert!(loops.explain(error).to_string().contains(SliderCrank::LOOP_NAMES[0]), "{}", loops.explain(error));
+    assert!(loops.with_names(error).to_string().contains(SliderCrank::LOOP_NAMES[0]), "{}", loops.with_names(error));
 }

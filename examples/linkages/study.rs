@@ -64,7 +64,7 @@ impl Studies {
             start.rank.to_string(),
             (mechanism.nv() - start.rank).to_string(),
             tiny(gap),
-            tiny(start.farthest.abs()),
+            tiny(start.largest_displacement.abs()),
             t[t.len() - 1].to_string(),
             motion.statistics.steps.to_string(),
             tiny(motion.worst_gap()),
@@ -114,6 +114,6 @@ fn mended<Q, V>(name: &str, residual: &[f64], start: &Assembly<f64, Q, V>, joint
     format!(
         "{name}: the shipped start is open by ({}) mm. Assembly moves {joint} by {:.3}°, the others by less.",
         rows.join(", "),
-        start.farthest.abs().to_degrees()
+        start.largest_displacement.abs().to_degrees()
     )
 }

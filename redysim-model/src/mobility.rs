@@ -11,7 +11,7 @@ const SUCCESSES: usize = 2;
 /// A smaller element of the Jacobian is none.
 const ROUNDOFF: f64 = 1e-12;
 
-/// The conditions that the loops of a mechanism set, and what they leave.
+/// The constraints that the loops of a mechanism set, and what they leave.
 ///
 /// ```
 /// use redysim_model::{Mobility, Model};
@@ -23,18 +23,18 @@ const ROUNDOFF: f64 = 1e-12;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mobility {
-    /// Conditions that the loops set: NC.
-    pub conditions: usize,
+    /// Constraints that the loops set: NC.
+    pub constraints: usize,
     /// How many of them are independent: the largest rank of the loops' Jacobian at closed positions. Where no closed
     /// position was found, what the rank is unless lengths and directions conspire.
     pub rank: usize,
-    /// Of each loop, in the model's order, how many of its conditions do not follow from those of the loops before it:
+    /// Of each loop, in the model's order, how many of its constraints do not follow from those of the loops before it:
     /// their sum is the rank.
     pub added: Vec<usize>,
     /// Independent joint velocities: NV − rank.
     pub mobility: usize,
-    /// The smallest gap that was left, m, where the loops could not be closed from any start.
-    pub gap: Option<f64>,
+    /// The smallest position residual that was left, m, where the loops could not be closed from any start.
+    pub position_residual: Option<f64>,
 }
 
 impl Mobility {
@@ -48,46 +48,47 @@ impl Mobility {
 
     /// The same, with a closed position at which the rank was found.
     pub(crate) fn found(mechanism: &GenericMechanism) -> (Mobility, Option<Vec<f64>>) {
-        let conditions = LoopClosure::<f64, _>::nc(mechanism);
-        let (rank, added, gap, position) = match closed_position(mechanism) {
+        let constraints = LoopClosure::<f64, _>::nc(mechanism);
+        let (rank, added, position_residual, position) = match closed_position(mechanism) {
             // A position may be singular; the rank of the mechanism is the largest.
             Ok((q, rank)) => {
                 let added = added(mechanism, rank, |loops| rank_at(mechanism.model(), loops, &q));
                 (rank, added, None, Some(q))
             }
-            // Without a closed position, the structure alone says what the conditions could determine.
-            Err(gap) => {
+            // Without a closed position, the structure alone says what the constraints could determine.
+            Err(residual) => {
                 let jacobian: Vec<Vec<f64>> = mechanism.loop_jacobian(&mechanism.tree().sample(1));
                 let rows: Vec<usize> = mechanism.tree().loops_of_rows().collect();
                 let of_first = |loops: usize| rows.iter().filter(|cut| **cut < loops).count();
                 let rank = structural_rank(&jacobian);
                 let added = added(mechanism, rank, |loops| structural_rank(&jacobian[..of_first(loops)]));
-                (rank, added, Some(gap), None)
+                (rank, added, Some(residual), None)
             }
         };
-        (Mobility { conditions, rank, added, mobility: mechanism.tree().nv() - rank, gap }, position)
+        let mobility = mechanism.tree().nv() - rank;
+        (Mobility { constraints, rank, added, mobility, position_residual }, position)
     }
 }
 
-/// How many conditions each loop sets.
-pub(crate) fn conditions_of_loops(mechanism: &GenericMechanism) -> Vec<usize> {
+/// How many constraints each loop sets.
+pub(crate) fn constraints_of_loops(mechanism: &GenericMechanism) -> Vec<usize> {
     let count = |cut| mechanism.tree().loops_of_rows().filter(|other| *other == cut).count();
     (0..mechanism.model().loops.len()).map(count).collect()
 }
 
 /// By how much each loop raises the rank of so many `first` loops, up to `all`, the rank of all of them.
 fn added(mechanism: &GenericMechanism, all: usize, first: impl Fn(usize) -> usize) -> Vec<usize> {
-    let conditions = conditions_of_loops(mechanism);
-    if conditions.iter().sum::<usize>() == all {
-        return conditions;
+    let constraints = constraints_of_loops(mechanism);
+    if constraints.iter().sum::<usize>() == all {
+        return constraints;
     }
     let mut before = 0;
     let of_loop = |loops: usize| {
         // What is small in the first loops may be roundoff beside the others, so that their rank may be the larger one.
-        let rank = if loops == conditions.len() { all } else { first(loops).clamp(before, all) };
+        let rank = if loops == constraints.len() { all } else { first(loops).clamp(before, all) };
         rank - std::mem::replace(&mut before, rank)
     };
-    (1..=conditions.len()).map(of_loop).collect()
+    (1..=constraints.len()).map(of_loop).collect()
 }
 
 /// The rank of the first `count` loops at `q`, or no more than is known of all.
@@ -116,8 +117,8 @@ pub(crate) fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
     (0..jacobian.len()).filter(|&row| pair(row, jacobian, &mut vec![false; columns], &mut rows_of)).count()
 }
 
-/// A closed position at which the rank of the loops is largest, and that rank; or the smallest gap that any start
-/// leaves.
+/// A closed position at which the rank of the loops is largest, and that rank; or the smallest residual that any
+/// start leaves.
 fn closed_position(mechanism: &GenericMechanism) -> Result<(Vec<f64>, usize), f64> {
     let loops = ClosedLoop::new(mechanism);
     let (mut closed, mut smallest) = (Vec::<(Vec<f64>, usize)>::new(), f64::INFINITY);
@@ -126,8 +127,10 @@ fn closed_position(mechanism: &GenericMechanism) -> Result<(Vec<f64>, usize), f6
     for start in starts {
         match loops.assemble(&start, &rest, &[]) {
             Ok(assembly) => closed.push((assembly.q, assembly.rank)),
-            Err(LoopError::CannotClose { gap, .. } | LoopError::NoConvergence { gap, .. }) => {
-                smallest = smallest.min(gap)
+            Err(
+                LoopError::CannotClose { position_residual, .. } | LoopError::NoConvergence { position_residual, .. },
+            ) => {
+                smallest = smallest.min(position_residual);
             }
             Err(_) => {}
         }

@@ -34,7 +34,7 @@ pub mod vector;
 
 pub use closed_loop::{
     Assembly, ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConstrainedMotion,
-    Explained, LoopError, LoopForces, Projection, Rows, Stabilisation,
+    ForcedMotion, LoopError, LoopForces, NamedLoopError, Projection, RowSet, Stabilisation,
 };
 pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
 #[cfg(feature = "std")]

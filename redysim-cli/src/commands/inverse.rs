@@ -105,7 +105,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
             let forces = mechanism.inverse_dynamics(&motion.q, &motion.v, &motion.a);
             return Ok(Required { motion, forces, multipliers: vec![], gap: 0.0 });
         }
-        let failed = |reason| Failure::outside(format!("at t = {t:?} s: {}", loops.explain(reason)));
+        let failed = |reason| Failure::outside(format!("at t = {t:?} s: {}", loops.with_names(reason)));
         let LoopForces { motion, forces, multipliers, .. } = of_loops.at(t, trajectory).map_err(failed)?;
         let gap = scenario.gap(&motion.q);
         Ok(Required { motion, forces, multipliers, gap })

@@ -48,12 +48,12 @@ fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabil
     if !subject.loops() || stabilisation == Stabilisation::Projection {
         return;
     }
-    let Mobility { conditions, rank, .. } = *subject.mobility();
-    if rank < conditions {
+    let Mobility { constraints, rank, .. } = *subject.mobility();
+    if rank < constraints {
         let item = reader.item();
         reader.warning_of_table(Message {
             title: format!(
-                "{item}: of the loops' {conditions} conditions {rank} are independent, for which computed torque needs closed loops"
+                "{item}: of the loops' {constraints} conditions {rank} are independent, for which computed torque needs closed loops"
             ),
             label: "each step leaves them a little open".into(),
             help: "take stabilisation = \"projection\", or leave conditions out that follow from others".into(),

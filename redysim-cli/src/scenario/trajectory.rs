@@ -149,10 +149,10 @@ impl Prescribed {
             let help = "name all joints among its `joints`: without loops nothing else tells how they move";
             return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
         }
-        let Mobility { mobility: free, gap, .. } = *subject.mobility();
+        let Mobility { mobility: free, position_residual, .. } = *subject.mobility();
         let prescribed = self.joints.len();
         // Loops that were not closed from anywhere may leave another number free where they are.
-        if prescribed == free || gap.is_some() {
+        if prescribed == free || position_residual.is_some() {
             return Ok(());
         }
         let names: Vec<_> = self.joints.iter().map(|&joint| joints[joint].name.as_str()).collect();

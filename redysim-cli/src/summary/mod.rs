@@ -118,7 +118,7 @@ impl Summary {
             mass: model.mass(),
             dof: model.dof(),
             mobility: found.mobility,
-            loop_conditions: found.conditions,
+            loop_conditions: found.constraints,
             loop_rank: found.rank,
             actuated: joints(true),
             passive: joints(false),

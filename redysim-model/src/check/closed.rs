@@ -2,11 +2,9 @@
 //! with the links at its ends.
 
 use super::singular::pivotless;
-use crate::denoc::{Untraced, mass_matrix};
 use crate::generic::GenericMechanism;
 use crate::mobility::STARTS;
 use crate::model::Model;
-use redysim_runtime::LoopClosure;
 use redysim_runtime::closed_loop::ClosedLoop;
 
 /// Whether the mass matrix is positive definite on the velocities that closed loops leave free, at one closed position
@@ -21,19 +19,7 @@ pub(super) fn is_well_posed(model: &Model) -> bool {
     let (loops, tree) = (ClosedLoop::new(&mechanism), mechanism.tree());
     let rest = vec![0.0; tree.nv()];
     let starts = (0..STARTS).map(|start| if start == 0 { rest.clone() } else { tree.sample(start) });
-    starts.filter_map(|start| loops.assemble(&start, &rest, &[]).ok()).any(|closed| {
-        let jacobian: Vec<Vec<f64>> = mechanism.loop_jacobian(&closed.q);
-        let mut matrix = mass_matrix(tree, &Untraced, &closed.q);
-        let largest =
-            |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, value| most.max(value.abs()));
-        let heaviest = largest(&mut (0..tree.nv()).map(|i| matrix[i][i]));
-        let lever = largest(&mut jacobian.iter().flatten().copied());
-        let weight = heaviest / (lever * lever);
-        for (i, row) in matrix.iter_mut().enumerate() {
-            for (j, element) in row.iter_mut().enumerate() {
-                *element += weight * jacobian.iter().map(|row| row[i] * row[j]).sum::<f64>();
-            }
-        }
-        pivotless(tree, &matrix).is_empty()
-    })
+    starts
+        .filter_map(|start| loops.assemble(&start, &rest, &[]).ok())
+        .any(|closed| pivotless(tree, &loops.augmented_mass_matrix::<f64>(&closed.q)).is_empty())
 }

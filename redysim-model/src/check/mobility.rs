@@ -1,9 +1,9 @@
-//! What is odd about the loops of a model: their conditions, and the mobility they leave, against what the file seems
+//! What is odd about the loops of a model: their constraints, and the mobility they leave, against what the file seems
 //! to expect.
 
 use crate::diagnostic::{Message, messages};
 use crate::generic::GenericMechanism;
-use crate::mobility::{Mobility, STARTS, conditions_of_loops, structural_rank};
+use crate::mobility::{Mobility, STARTS, constraints_of_loops, structural_rank};
 use crate::model::Model;
 use redysim_runtime::LoopClosure;
 
@@ -18,14 +18,14 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     let mut findings: Vec<_> =
         empty.map(|cut| (Some(cut), messages::loop_without_conditions(&model.loops[cut].name))).collect();
     let (found, closed) = Mobility::found(&mechanism);
-    let Mobility { conditions, rank, ref added, mobility, gap } = found;
-    if let Some(gap) = gap {
+    let Mobility { constraints, rank, ref added, mobility, position_residual } = found;
+    if let Some(gap) = position_residual {
         findings.push((None, messages::loops_stay_open(&model.name, STARTS, gap)));
     }
-    if let Some(q) = closed.filter(|_| rank < conditions) {
+    if let Some(q) = closed.filter(|_| rank < constraints) {
         let structural = structural_rank(&mechanism.loop_jacobian(&q));
         let (loop_index, dependent) = first_redundant_loop(&mechanism, added);
-        let counts = [conditions, model.dof() - structural, mobility];
+        let counts = [constraints, model.dof() - structural, mobility];
         let message = messages::redundant_rows(&model.loops[loop_index].name, dependent, counts);
         findings.push((Some(loop_index), message));
     }
@@ -38,9 +38,9 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     findings
 }
 
-/// The first loop of which some conditions follow from those before, and how many.
+/// The first loop of which some constraints follow from those before, and how many.
 fn first_redundant_loop(mechanism: &GenericMechanism, added: &[usize]) -> (usize, usize) {
     let dependent =
-        conditions_of_loops(mechanism).into_iter().zip(added).map(|(rows, added)| rows.saturating_sub(*added));
+        constraints_of_loops(mechanism).into_iter().zip(added).map(|(rows, added)| rows.saturating_sub(*added));
     dependent.enumerate().find(|(_, dependent)| *dependent > 0).unwrap_or((added.len() - 1, 0))
 }

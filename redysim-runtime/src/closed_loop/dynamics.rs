@@ -1,7 +1,7 @@
 //! Accelerations of closed loops, and the forces that keep them closed.
 
-use super::linear::{add_scaled, difference, largest};
-use super::linearised::Linearised;
+use super::constraints::Constraints;
+use super::constraints::linear_algebra::{add_scaled, difference, largest};
 use super::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{BiasForces, LoopClosure, MassMatrix, Real, Vector};
@@ -21,14 +21,15 @@ pub struct ConstrainedMotion<V, R> {
 impl<M, C> ClosedLoop<'_, M, C> {
     /// The accelerations a and the multipliers λ with M a + h = τ + Jᵀ λ and J a = −J̇ q̇, for joint forces `tau`.
     ///
-    /// Redundant rows share the constraint force so that |λ| is least. In a singular position, the rows that say
-    /// nothing new there are left out: the answer is finite and the rank is lower.
+    /// Redundant rows share the constraint force so that |λ| is least. In a singular position, the rows that
+    /// depend on others there are left out: the answer is finite and the rank is lower.
     ///
     /// M may be singular, as with a rod without mass, if it is positive definite on the velocities that the loops leave
     /// free.
     ///
     /// # Errors
-    /// [`LoopError::SingularInertia`] if the loops leave a motion free that moves no mass, and [`LoopError::NotFinite`].
+    /// [`LoopError::SingularInertia`] if the loops leave a motion free that moves no mass, and
+    /// [`LoopError::NotFinite`].
     pub fn dynamics<S: Real>(
         &self,
         q: &M::Coordinates,
@@ -39,13 +40,13 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S> + BiasForces<S>,
         C: LoopClosure<S, M>,
     {
-        self.dynamics_at(&self.linearise(q, &[])?, q, v, tau, |_| S::zero())
+        self.dynamics_with(&self.constraints_at(q, &[])?, q, v, tau, |_| S::zero())
     }
 
-    /// As [`dynamics`](Self::dynamics), with the loops at `q` given and J a = −J̇ q̇ − feedback(row).
-    pub(super) fn dynamics_at<S: Real>(
+    /// As [`dynamics`](Self::dynamics), with the constraints at `q` given and J a = −J̇ q̇ − feedback(row).
+    pub(super) fn dynamics_with<S: Real>(
         &self,
-        at: &Linearised<S, M, C>,
+        constraints: &Constraints<S, M, C>,
         q: &M::Coordinates,
         v: &M::Velocities,
         tau: &M::Velocities,
@@ -60,23 +61,24 @@ impl<M, C> ClosedLoop<'_, M, C> {
         // In scaled coordinates: s = s₀ + Wᵀ λ with W s = b, so that Q s = R⁻¹ Tᵀ b.
         let of_tree = self.mechanism.bias_forces(q, v);
         let mut scaled = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(tau, i) - entry(&of_tree, i));
-        at.metric.scale(&mut scaled);
-        let change = difference(&at.space.solve(&wanted), &at.space.coordinates(&scaled));
-        let by_loops = at.space.combination(&change);
+        constraints.metric.scale(&mut scaled);
+        let change =
+            difference(&constraints.decomposition.solve(&wanted), &constraints.decomposition.coordinates(&scaled));
+        let by_loops = constraints.decomposition.combination(&change);
         for (scaled, &by_loops) in scaled.as_mut().iter_mut().zip(by_loops.as_ref()) {
             *scaled += by_loops;
         }
-        at.metric.unscale(&mut scaled);
-        let mut multipliers = at.space.multipliers(&change);
-        if at.augmentation != S::zero() {
+        constraints.metric.unscale(&mut scaled);
+        let mut multipliers = constraints.decomposition.multipliers(&change);
+        if constraints.augmentation != S::zero() {
             // Of w Jᵀ J a, which the metric has on the side of the inertia, what can be reached of J a.
-            let missed = at.space.unreachable(&wanted);
-            add_scaled(multipliers.as_mut(), -at.augmentation, difference(&wanted, &missed).as_ref());
+            let missed = constraints.decomposition.unreachable(&wanted);
+            add_scaled(multipliers.as_mut(), -constraints.augmentation, difference(&wanted, &missed).as_ref());
         }
         let finite = |values: &[S]| largest(values.iter().copied()).0.is_finite();
         if !(finite(scaled.as_ref()) && finite(multipliers.as_ref())) {
             return Err(LoopError::NotFinite);
         }
-        Ok(ConstrainedMotion { accelerations: scaled, multipliers, rank: at.space.rank() })
+        Ok(ConstrainedMotion { accelerations: scaled, multipliers, rank: constraints.decomposition.rank() })
     }
 }

@@ -10,34 +10,28 @@
 //! Everything stands on one decomposition: the rows of J in the metric of M, split into a part
 //! that is independent and a part that is not. So redundant rows and singular positions are ordinary cases. Where M is
 //! singular, since a rod has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
+//!
+//! | folder | what it solves |
+//! |---|---|
+//! | `constraints` | the constraints at one position: J in the metric of M, its rank and its least-norm solutions |
+//! | `position` | positions and velocities that satisfy the constraints: Newton's method from a guess, projection |
+//! | `dynamics` | accelerations and multipliers |
+//! | `inverse` | forces of the actuators for a motion of the independent coordinates |
+//! | `simulation` | motion in time; the only part that needs the integrators |
+//! | `error` | what can fail, with the names of loops and joints |
 
-mod assembly;
-mod closing;
-mod computed_torque;
-mod drive;
+mod constraints;
 mod dynamics;
 mod error;
-mod explained;
 mod inverse;
-mod linear;
-mod linearised;
-mod mass_metric;
-mod projection;
-mod row_space;
-mod rows;
+mod position;
 mod simulation;
-mod stabilisation;
 
-pub use assembly::Assembly;
-pub use computed_torque::ClosedLoopComputedTorque;
 pub use dynamics::ConstrainedMotion;
-pub use error::LoopError;
-pub use explained::Explained;
-pub use inverse::{ClosedLoopInverse, LoopForces};
-pub use projection::Projection;
-pub use rows::Rows;
-pub use simulation::ClosedLoopSimulation;
-pub use stabilisation::Stabilisation;
+pub use error::{LoopError, NamedLoopError, RowSet};
+pub use inverse::{ClosedLoopComputedTorque, ClosedLoopInverse, LoopForces};
+pub use position::{Assembly, Projection};
+pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
 
 /// A mechanism and the closure of its loops.
 #[derive(Debug)]

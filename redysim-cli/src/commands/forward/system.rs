@@ -2,8 +2,8 @@
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopSimulation, ForwardDynamics, ForwardSimulation, LoopError, Ode, SimulationState,
-    Stabilisation,
+    ClosedLoop, ClosedLoopSimulation, ForcedMotion, ForwardDynamics, ForwardSimulation, LoopError, Ode,
+    SimulationState, Stabilisation,
 };
 
 use crate::failure::Failure;
@@ -48,7 +48,7 @@ impl<'a> System<'a> {
         let System::Loops(simulation) = self else { return None };
         // A law that has no forces is why the loops have no accelerations.
         let reason = simulation.law().last_error().or(simulation.last_error())?;
-        Some(simulation.loops().explain(reason).to_string())
+        Some(simulation.loops().with_names(reason).to_string())
     }
 
     /// The state to start from; loops are closed there, unless the scenario forbids it.
@@ -59,7 +59,7 @@ impl<'a> System<'a> {
             System::Loops(simulation) => simulation,
         };
         let loops = simulation.loops();
-        let failed = |reason| Failure::input(format!("the start: {}", loops.explain(reason)));
+        let failed = |reason| Failure::input(format!("the start: {}", loops.with_names(reason)));
         if !initial.assemble {
             return match forward.stabilisation {
                 Stabilisation::Projection => simulation.start(&initial.q, &initial.v).map_err(failed),
@@ -101,14 +101,14 @@ impl<'a> System<'a> {
             System::Loops(simulation) => {
                 let loops = simulation.loops();
                 let failed =
-                    |reason: LoopError<f64>| Failure::outside(format!("at t = {t:?} s: {}", loops.explain(reason)));
+                    |reason: LoopError<f64>| Failure::outside(format!("at t = {t:?} s: {}", loops.with_names(reason)));
                 if forward.stabilisation == Stabilisation::Projection {
                     let closed = loops.project(&q, &v).map_err(failed)?;
                     (q, v) = (closed.q, closed.v);
                 }
-                let driven = simulation.driven_motion(t, &simulation.state(&q, &v));
+                let forced = simulation.forced_motion(t, &simulation.state(&q, &v));
                 simulation.law().last_error().map_or(Ok(()), Err).map_err(failed)?;
-                let (tau, motion) = driven.map_err(failed)?;
+                let ForcedMotion { tau, motion } = forced.map_err(failed)?;
                 (tau, motion.accelerations, motion.multipliers)
             }
         };

@@ -8,8 +8,8 @@
 
 use core::marker::PhantomData;
 
-use super::linear::{add_scaled, dot, largest, norm, zeros};
-use super::{LoopError, Rows};
+use super::linear_algebra::{add_scaled, dot, largest, norm, zeros};
+use super::{LoopError, RowSet};
 use crate::{LoopClosure, Mechanism, Real, Vector};
 
 /// A row counts as dependent when what remains of it is at most this part of the longest row.
@@ -27,7 +27,7 @@ fn rank_tolerance<S: Real>() -> S {
 }
 
 /// W = T R Q.
-pub(super) struct RowSpace<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+pub struct OrthogonalDecomposition<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
     /// The rows of Q.
     basis: C::Jacobian,
     /// The columns of T.
@@ -38,11 +38,11 @@ pub(super) struct RowSpace<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
     /// The length of a row.
     count: usize,
     nearly_singular: bool,
-    dependent: Rows,
+    dependent: RowSet,
     scalar: PhantomData<fn() -> (S, M)>,
 }
 
-impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
+impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> OrthogonalDecomposition<S, M, C> {
     /// Decomposes the matrix with the given rows, each of length `count`.
     pub fn new(mut rows: C::Jacobian, count: usize) -> Result<Self, LoopError<S>> {
         let nc = rows.as_ref().len();
@@ -87,7 +87,7 @@ impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
             rank = step + 1;
         }
         let unused = used.as_ref().iter().enumerate().filter(|(_, used)| **used == S::zero());
-        let dependent = unused.fold(Rows::default(), |rows, (row, _)| rows.with(row));
+        let dependent = unused.fold(RowSet::default(), |rows, (row, _)| rows.with(row));
         let triangle = orthonormalise(&mut columns, rank);
         Ok(Self { basis, columns, triangle, rank, count, nearly_singular, dependent, scalar: PhantomData })
     }
@@ -102,8 +102,8 @@ impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> RowSpace<S, M, C> {
         self.nearly_singular
     }
 
-    /// The rows that say nothing new at this position.
-    pub fn dependent_rows(&self) -> Rows {
+    /// The rows that depend on the others at this position.
+    pub fn dependent_rows(&self) -> RowSet {
         self.dependent
     }
 

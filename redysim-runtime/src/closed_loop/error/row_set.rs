@@ -4,14 +4,14 @@ use core::fmt;
 
 /// Some of the first 128 rows of the loop residual; rows beyond are not recorded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rows(u128);
+pub struct RowSet(u128);
 
-impl Rows {
+impl RowSet {
     /// The set with one more row.
     #[must_use]
     pub fn with(self, row: usize) -> Self {
         let bit = u32::try_from(row).ok().and_then(|row| 1_u128.checked_shl(row)).unwrap_or(0);
-        Rows(self.0 | bit)
+        RowSet(self.0 | bit)
     }
 
     /// Whether there are no rows in it.
@@ -26,7 +26,7 @@ impl Rows {
 }
 
 /// The rows, with commas between them.
-impl fmt::Display for Rows {
+impl fmt::Display for RowSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, row) in self.iter().enumerate() {
             write!(f, "{}{row}", if index == 0 { "" } else { ", " })?;

@@ -4,24 +4,24 @@ use crate::vector::entry;
 use crate::{Real, Scalar, Vector};
 
 /// Σ aᵢ bᵢ.
-pub(super) fn dot<S: Scalar>(a: &[S], b: &[S]) -> S {
+pub fn dot<S: Scalar>(a: &[S], b: &[S]) -> S {
     a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
 }
 
 /// The Euclidean length.
-pub(super) fn norm<S: Scalar>(x: &[S]) -> S {
+pub fn norm<S: Scalar>(x: &[S]) -> S {
     dot(x, x).sqrt()
 }
 
 /// y += factor · x.
-pub(super) fn add_scaled<S: Scalar>(y: &mut [S], factor: S, x: &[S]) {
+pub fn add_scaled<S: Scalar>(y: &mut [S], factor: S, x: &[S]) {
     for (y, &x) in y.iter_mut().zip(x) {
         *y += factor * x;
     }
 }
 
 /// The largest magnitude and where it is; NaN is larger than anything. Zero for no values.
-pub(super) fn largest<S: Real>(values: impl IntoIterator<Item = S>) -> (S, usize) {
+pub fn largest<S: Real>(values: impl IntoIterator<Item = S>) -> (S, usize) {
     values.into_iter().enumerate().fold((S::zero(), 0), |(largest, at), (index, value)| {
         let size = value.abs();
         if size <= largest || largest.to_f64().is_nan() { (largest, at) } else { (size, index) }
@@ -29,16 +29,16 @@ pub(super) fn largest<S: Real>(values: impl IntoIterator<Item = S>) -> (S, usize
 }
 
 /// A vector of zeros.
-pub(super) fn zeros<S: Scalar, V: Vector<S>>(len: usize) -> V {
+pub fn zeros<S: Scalar, V: Vector<S>>(len: usize) -> V {
     V::from_fn(len, |_| S::zero())
 }
 
 /// The difference of two vectors.
-pub(super) fn difference<S: Scalar, V: Vector<S>>(a: &V, b: &V) -> V {
+pub fn difference<S: Scalar, V: Vector<S>>(a: &V, b: &V) -> V {
     V::from_fn(a.as_ref().len(), |i| entry(a, i) - entry(b, i))
 }
 
 /// The product of a matrix, given by rows, and a vector.
-pub(super) fn product<S: Scalar, V: Vector<S>, R: Vector<S>>(rows: &[V], x: &[S]) -> R {
+pub fn product<S: Scalar, V: Vector<S>, R: Vector<S>>(rows: &[V], x: &[S]) -> R {
     R::from_fn(rows.len(), |i| rows.get(i).map_or(S::from_f64(f64::NAN), |row| dot(row.as_ref(), x)))
 }

@@ -1,8 +1,12 @@
 //! Why a loop could not be closed, or its dynamics not be solved.
 
+mod named;
+mod row_set;
+
 use core::fmt;
 
-use super::Rows;
+pub use named::NamedLoopError;
+pub use row_set::RowSet;
 
 /// What is wrong with a closed loop. Rows are counted from 0 in the order of `loop_residual`, coordinates in the
 /// model's.
@@ -10,41 +14,41 @@ use super::Rows;
 #[non_exhaustive]
 pub enum LoopError<S> {
     /// The start of a simulation leaves a loop open.
-    Open {
+    NotClosed {
         /// The largest component of the residual, m (or a sine).
-        gap: S,
+        position_residual: S,
         /// Its row.
         row: usize,
     },
-    /// The velocities pull a loop apart, or held velocities cannot be met.
-    PullsApart {
-        /// The largest component of J q̇, m/s (or 1/s).
-        rate: S,
+    /// The velocities violate the constraints, or prescribed velocities or accelerations cannot be met.
+    InconsistentVelocity {
+        /// The largest component of J q̇, m/s (or 1/s); of accelerations, that of J q̈ + J̇ q̇, m/s² (or 1/s²).
+        residual: S,
         /// Its row.
         row: usize,
     },
-    /// No motion of the free coordinates makes the gap any smaller.
+    /// No motion of the free coordinates makes the position residual any smaller.
     CannotClose {
-        /// The remaining gap, m (or a sine).
-        gap: S,
-        /// The row that is farthest open.
+        /// The remaining residual, m (or a sine).
+        position_residual: S,
+        /// Its row.
         row: usize,
     },
-    /// The search still made progress when its iterations were used up, or a step of integration left a gap.
+    /// The search still made progress when its iterations were used up, or a step of integration left loops open.
     NoConvergence {
-        /// The smallest gap that was reached, m (or a sine).
-        gap: S,
-        /// The row that is farthest open.
+        /// The smallest residual that was reached, m (or a sine).
+        position_residual: S,
+        /// Its row.
         row: usize,
     },
     /// The independent coordinates do not determine the others.
-    LostRank {
+    RankDeficient {
         /// How many coordinates the loops determine at this position.
         rank: usize,
         /// How many they must determine.
         needed: usize,
-        /// The rows that say nothing new at this position; none if the loops have too few rows at any.
-        rows: Rows,
+        /// The rows that depend on the others at this position; none if the loops have too few rows at any.
+        rows: RowSet,
     },
     /// The trajectory leaves what the mechanism can reach.
     Unreachable {
@@ -52,11 +56,11 @@ pub enum LoopError<S> {
         t: S,
         /// The independent coordinate that moves farthest in the step that fails.
         coordinate: usize,
-        /// The gap that remains, m (or a sine).
-        gap: S,
+        /// The residual that remains, m (or a sine).
+        position_residual: S,
     },
     /// A coordinate that is to be held, prescribed or actuated does not exist.
-    BadCoordinate {
+    CoordinateOutOfRange {
         /// The given number.
         coordinate: usize,
         /// How many coordinates there are.
@@ -68,14 +72,14 @@ pub enum LoopError<S> {
         coordinate: usize,
     },
     /// The trajectory has not one component for each independent coordinate.
-    WrongTrajectory {
+    WrongTrajectoryLength {
         /// How many components it has.
         given: usize,
         /// How many independent coordinates there are.
-        wanted: usize,
+        needed: usize,
     },
     /// A joint needs a force that neither its actuator nor the loops can give.
-    Unsupported {
+    Unactuated {
         /// The joint's coordinate.
         coordinate: usize,
         /// The force that is missing, N m or N.
@@ -89,7 +93,7 @@ pub enum LoopError<S> {
         step: S,
     },
     /// Baumgarte's rate α is zero, negative, infinite or not a number.
-    BadAlpha {
+    InvalidAlpha {
         /// The given rate, 1/s.
         alpha: S,
     },
@@ -106,11 +110,11 @@ impl<S> LoopError<S> {
     /// The row of the loop residual that the error is about.
     pub fn row(&self) -> Option<usize> {
         match self {
-            Self::Open { row, .. }
-            | Self::PullsApart { row, .. }
+            Self::NotClosed { row, .. }
+            | Self::InconsistentVelocity { row, .. }
             | Self::CannotClose { row, .. }
             | Self::NoConvergence { row, .. } => Some(*row),
-            Self::LostRank { rows, .. } => rows.iter().next(),
+            Self::RankDeficient { rows, .. } => rows.iter().next(),
             _ => None,
         }
     }
@@ -119,9 +123,9 @@ impl<S> LoopError<S> {
     pub fn coordinate(&self) -> Option<usize> {
         match self {
             Self::Unreachable { coordinate, .. }
-            | Self::BadCoordinate { coordinate, .. }
+            | Self::CoordinateOutOfRange { coordinate, .. }
             | Self::RepeatedCoordinate { coordinate }
-            | Self::Unsupported { coordinate, .. }
+            | Self::Unactuated { coordinate, .. }
             | Self::SingularInertia { coordinate } => Some(*coordinate),
             _ => None,
         }
@@ -131,28 +135,28 @@ impl<S> LoopError<S> {
 impl<S: fmt::Debug> fmt::Display for LoopError<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Open { gap, row } => write!(
+            Self::NotClosed { position_residual, row } => write!(
                 f,
-                "the start leaves a loop open: row {row} of the loop residual is {gap:?} m; close it with `assemble`, \
-                 which says how far the joints move"
+                "the start leaves a loop open: row {row} of the loop residual is {position_residual:?} m; close it \
+                 with `assemble`, which reports how far the joints move"
             ),
-            Self::PullsApart { rate, row } => write!(
+            Self::InconsistentVelocity { residual, row } => write!(
                 f,
-                "the velocities pull a loop apart: row {row} of the loop residual changes by {rate:?} m/s; `assemble` \
-                 finds the velocities that fit those that are held, so hold fewer, or others"
+                "the velocities violate the constraints: row {row} of the loop residual changes by {residual:?} m/s; \
+                 `assemble` finds the velocities that fit those that are held, so hold fewer, or others"
             ),
-            Self::CannotClose { gap, row } => write!(
+            Self::CannotClose { position_residual, row } => write!(
                 f,
-                "the loop cannot be closed from this guess: a gap of {gap:?} m remains in row {row} of the loop \
-                 residual; check the lengths of the links and the points of the cut, hold fewer coordinates, or guess \
-                 nearer, and not with the links in line"
+                "the loop cannot be closed from this guess: a position residual of {position_residual:?} m remains in \
+                 row {row} of the loop residual; check the lengths of the links and the points of the cut, hold fewer \
+                 coordinates, or guess nearer, and not with the links in line"
             ),
-            Self::NoConvergence { gap, row } => write!(
+            Self::NoConvergence { position_residual, row } => write!(
                 f,
-                "closing the loop did not converge: the smallest gap reached is {gap:?} m, in row {row} of the loop \
-                 residual; begin nearer to a closed position, or take smaller steps"
+                "closing the loop did not converge: the smallest position residual reached is {position_residual:?} \
+                 m, in row {row} of the loop residual; begin nearer to a closed position, or take smaller steps"
             ),
-            Self::LostRank { rank, needed, rows } => {
+            Self::RankDeficient { rank, needed, rows } => {
                 write!(
                     f,
                     "the loops determine {rank} of the {needed} coordinates that are not prescribed; prescribe others, \
@@ -161,25 +165,26 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
                 if rows.is_empty() {
                     return Ok(());
                 }
-                write!(f, ", where these rows of the loop residual say nothing new: {rows}")
+                write!(f, ", where these rows of the loop residual depend on the others: {rows}")
             }
-            Self::Unreachable { t, coordinate, gap } => write!(
+            Self::Unreachable { t, coordinate, position_residual } => write!(
                 f,
                 "the mechanism cannot follow its trajectory to t = {t:?} s: with coordinate {coordinate} moved on, \
-                 a gap of {gap:?} m remains; stay within the reach of the links, or ask for nearer instants"
+                 a position residual of {position_residual:?} m remains; stay within the reach of the links, or ask \
+                 for nearer instants"
             ),
-            Self::BadCoordinate { coordinate, count } => {
+            Self::CoordinateOutOfRange { coordinate, count } => {
                 write!(f, "there is no coordinate {coordinate}; the mechanism's {count} coordinates are counted from 0")
             }
             Self::RepeatedCoordinate { coordinate } => {
                 write!(f, "coordinate {coordinate} is prescribed twice; name each independent coordinate once")
             }
-            Self::WrongTrajectory { given, wanted } => write!(
+            Self::WrongTrajectoryLength { given, needed } => write!(
                 f,
-                "the trajectory has {given} components for {wanted} independent coordinates; give one for each, in \
+                "the trajectory has {given} components for {needed} independent coordinates; give one for each, in \
                  positions, velocities and accelerations"
             ),
-            Self::Unsupported { coordinate, force } => write!(
+            Self::Unactuated { coordinate, force } => write!(
                 f,
                 "the joint of coordinate {coordinate} needs a force of {force:?} that neither its actuator nor the \
                  loops give; actuate it, or keep away from this singular position"
@@ -189,13 +194,13 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
                 "Baumgarte's stabilisation with alpha = {alpha:?} 1/s blows up with steps of {step:?} s: their product \
                  must stay below 1.3; take smaller steps (`max_step`), a smaller alpha, or the projection"
             ),
-            Self::BadAlpha { alpha } => {
+            Self::InvalidAlpha { alpha } => {
                 write!(f, "Baumgarte's alpha must be positive and finite, but it is {alpha:?} 1/s")
             }
             Self::SingularInertia { coordinate } => write!(
                 f,
-                "the generalised inertia matrix is not positive definite at coordinate {coordinate}, and the loops do not \
-                 determine how it moves; give the links that its joint moves a mass and an inertia"
+                "the generalised inertia matrix is not positive definite at coordinate {coordinate}, and the \
+                 loops do not determine how it moves; give the links that its joint moves a mass and an inertia"
             ),
             Self::NotFinite => f.write_str(
                 "a position, a velocity or a force is infinite or not a number; look at the start and at the torque \

@@ -1,12 +1,17 @@
 //! Inverse dynamics of closed loops: joint forces for a trajectory of the independent coordinates.
 
-use super::closing::Ending;
-use super::drive::Drive;
-use super::linear::largest;
-use super::linearised::Metric;
+mod actuation;
+mod computed_torque;
+
+use super::constraints::Metric;
+use super::constraints::linear_algebra::largest;
+use super::position::NewtonStatus;
 use super::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{InverseDynamics, LoopClosure, MassMatrix, Motion, Real, Trajectory, Vector};
+use actuation::Actuation;
+
+pub use computed_torque::ClosedLoopComputedTorque;
 
 /// An independent coordinate moves by no more than this from one closed position to the next, rad or m, so that the
 /// branch is kept between instants far apart. Where that takes more than `MOST_MOVES`, the moves are longer.
@@ -19,7 +24,7 @@ const ITERATIONS: usize = 100;
 /// loops, then the forces of the actuators together with the multipliers.
 #[derive(Debug)]
 pub struct ClosedLoopInverse<'m, M, Q, C = M> {
-    drive: Drive<'m, M, C>,
+    actuation: Actuation<'m, M, C>,
     q: Q,
 }
 
@@ -42,22 +47,22 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     /// The inverse dynamics of `loops` with the coordinates `independent` prescribed (and actuated), beginning on the
     /// branch of the guess `q`.
     pub fn new(loops: ClosedLoop<'m, M, C>, independent: &'m [usize], q: Q) -> Self {
-        Self { drive: Drive { loops, independent, actuated: independent }, q }
+        Self { actuation: Actuation { loops, independent, actuated: independent }, q }
     }
 
     /// Sets which joints have actuators, if not just the independent ones.
     pub fn actuated(self, actuated: &'m [usize]) -> Self {
-        Self { drive: Drive { actuated, ..self.drive }, ..self }
+        Self { actuation: Actuation { actuated, ..self.actuation }, ..self }
     }
 
     /// The motion and the forces at time `t`. Component i of the trajectory belongs to coordinate `independent[i]`. The
     /// position found is the guess for the next instant.
     ///
     /// # Errors
-    /// [`LoopError::Unreachable`], [`LoopError::LostRank`] if the independent coordinates do not determine the others,
-    /// [`LoopError::PullsApart`] if they contradict each other, [`LoopError::Unsupported`] if there are too few
-    /// actuators, [`LoopError::WrongTrajectory`], [`LoopError::RepeatedCoordinate`], [`LoopError::BadCoordinate`],
-    /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    /// [`LoopError::Unreachable`], [`LoopError::RankDeficient`] if the independent coordinates do not determine the
+    /// others, [`LoopError::InconsistentVelocity`] if they contradict each other, [`LoopError::Unactuated`] if there
+    /// are too few actuators, [`LoopError::WrongTrajectoryLength`], [`LoopError::RepeatedCoordinate`],
+    /// [`LoopError::CoordinateOutOfRange`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn at<S: Real, I: Vector<S>>(
         &mut self,
@@ -69,11 +74,11 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         C: LoopClosure<S, M>,
         Q: Vector<S>,
     {
-        self.drive.check()?;
+        self.actuation.check()?;
         let wanted = trajectory.at(t);
-        self.drive.check_length(&wanted)?;
+        self.actuation.check_length(&wanted)?;
         let q = self.follow(t, &wanted.q)?;
-        let found = self.drive.forces(q, &wanted.v, &wanted.a)?;
+        let found = self.actuation.forces(q, &wanted.v, &wanted.a)?;
         self.q = found.motion.q.clone();
         Ok(found)
     }
@@ -86,7 +91,7 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         Q: Vector<S>,
     {
         let mut q = self.q.clone();
-        let ways = self.drive.independent.iter().enumerate().map(|(i, &index)| entry(wanted, i) - entry(&q, index));
+        let ways = self.actuation.independent.iter().enumerate().map(|(i, &index)| entry(wanted, i) - entry(&q, index));
         let (farthest, at) = largest(ways);
         if !farthest.is_finite() {
             return Err(LoopError::NotFinite);
@@ -95,18 +100,19 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         let moves = moves.min(MOST_MOVES);
         for left in (0..moves).rev() {
             let part = S::one() / S::from_f64((left + 1) as f64);
-            for (i, &index) in self.drive.independent.iter().enumerate() {
+            for (i, &index) in self.actuation.independent.iter().enumerate() {
                 let target = entry(wanted, i);
                 if let Some(element) = q.as_mut().get_mut(index) {
                     *element = if left == 0 { target } else { *element + part * (target - *element) };
                 }
             }
-            let closing = self.drive.loops.close(Metric::Mass, q, self.drive.independent, ITERATIONS)?;
-            if closing.ending != Ending::Closed {
-                let coordinate = self.drive.independent.get(at).copied().unwrap_or(0);
-                return Err(LoopError::Unreachable { t, coordinate, gap: closing.gap });
+            let solution =
+                self.actuation.loops.solve_position(Metric::Mass, q, self.actuation.independent, ITERATIONS)?;
+            if solution.status != NewtonStatus::Converged {
+                let coordinate = self.actuation.independent.get(at).copied().unwrap_or(0);
+                return Err(LoopError::Unreachable { t, coordinate, position_residual: solution.position_residual });
             }
-            q = closing.q;
+            q = solution.q;
         }
         Ok(q)
     }

@@ -2,12 +2,13 @@
 
 use core::fmt;
 
-use super::{ClosedLoop, LoopError};
+use super::LoopError;
+use crate::closed_loop::ClosedLoop;
 use crate::{LoopClosure, Mechanism, Scalar};
 
 /// A [`LoopError`] that names its loop and its joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Explained<'a, S> {
+pub struct NamedLoopError<'a, S> {
     /// The error.
     pub error: LoopError<S>,
     /// The loop that its row belongs to.
@@ -18,12 +19,12 @@ pub struct Explained<'a, S> {
 
 impl<M, C> ClosedLoop<'_, M, C> {
     /// The error with the names of the loop and the joint that it is about.
-    pub fn explain<S: Scalar>(&self, error: LoopError<S>) -> Explained<'_, S>
+    pub fn with_names<S: Scalar>(&self, error: LoopError<S>) -> NamedLoopError<'_, S>
     where
         M: Mechanism<S>,
         C: LoopClosure<S, M>,
     {
-        Explained {
+        NamedLoopError {
             loop_name: error.row().and_then(|row| self.closure.loop_name(row)),
             joint_name: error.coordinate().and_then(|coordinate| self.mechanism.joint_name(coordinate)),
             error,
@@ -31,7 +32,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
     }
 }
 
-impl<S: fmt::Debug> fmt::Display for Explained<'_, S> {
+impl<S: fmt::Debug> fmt::Display for NamedLoopError<'_, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.error.fmt(f)?;
         if let (Some(row), Some(name)) = (self.error.row(), self.loop_name) {
@@ -44,4 +45,4 @@ impl<S: fmt::Debug> fmt::Display for Explained<'_, S> {
     }
 }
 
-impl<S: fmt::Debug> core::error::Error for Explained<'_, S> {}
+impl<S: fmt::Debug> core::error::Error for NamedLoopError<'_, S> {}

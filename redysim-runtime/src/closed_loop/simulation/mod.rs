@@ -1,15 +1,21 @@
-//! Forward simulation of mechanisms with closed loops.
+//! Forward simulation of mechanisms with closed loops: the part of `closed_loop` that needs the integrators.
+
+mod stabilisation;
 
 use core::iter::once;
 
-use super::linear::{dot, largest, product};
-use super::linearised::{Linearised, size};
-use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError, Stabilisation};
+use super::constraints::linear_algebra::{dot, largest, product};
+use super::constraints::{Constraints, length_scale};
+use super::position::ProjectedPoint;
+use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
 use crate::integrate::Accepted;
 use crate::vector::entry;
 use crate::{BiasForces, ForwardSimulation, LoopClosure, MassMatrix, Mechanism, Ode, Real, SimulationState, TorqueLaw};
 
-/// A start may be open by this part of the mechanism's size, and pull apart by this part of its speed.
+pub use stabilisation::Stabilisation;
+
+/// A start may be open by this part of the mechanism's size, and its velocity violate the constraints by this part of
+/// its speed.
 const OPEN: f64 = 1e-8;
 
 /// A mechanism with closed loops, moved by a torque law, as an [`Ode`] in the state y = [q, q̇, E_act] of a
@@ -24,6 +30,22 @@ pub struct ClosedLoopSimulation<'m, S, M, L, C = M> {
     law: L,
     stabilisation: Stabilisation<S>,
     last_error: Option<LoopError<S>>,
+}
+
+/// The motion in a state with the joint forces that act there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForcedMotion<V, R> {
+    /// The joint forces of the torque law, N m or N.
+    pub tau: V,
+    /// Accelerations, multipliers and rank.
+    pub motion: ConstrainedMotion<V, R>,
+}
+
+/// Where the derivative is evaluated, and the constraints there.
+struct EvaluationPoint<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+    q: M::Coordinates,
+    v: M::Velocities,
+    constraints: Constraints<S, M, C>,
 }
 
 impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
@@ -55,8 +77,9 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     /// The state [q, v, 0] to start from.
     ///
     /// # Errors
-    /// A start that leaves loops open is refused with [`LoopError::Open`], one whose velocities pull them apart with
-    /// [`LoopError::PullsApart`]: [`ClosedLoop::assemble`] finds one that fits. [`state`](Self::state) takes any.
+    /// A start that leaves loops open is refused with [`LoopError::NotClosed`], one whose velocities violate the
+    /// constraints with [`LoopError::InconsistentVelocity`]: [`ClosedLoop::assemble`] finds one that fits.
+    /// [`state`](Self::state) takes any.
     pub fn start(&self, q: &M::Coordinates, v: &M::Velocities) -> Result<M::State, LoopError<S>>
     where
         M: Mechanism<S>,
@@ -64,19 +87,19 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     {
         let closure = self.loops.closure;
         let jacobian = closure.loop_jacobian(q);
-        let scale = size(jacobian.as_ref());
-        let (gap, row) = largest(closure.loop_residual(q).as_ref().iter().copied());
+        let scale = length_scale(jacobian.as_ref());
+        let (position_residual, row) = largest(closure.loop_residual(q).as_ref().iter().copied());
         let small = S::from_f64(OPEN).maximum(S::from_f64(100.0) * S::EPSILON);
-        if gap > small * scale {
-            return Err(LoopError::Open { gap, row });
+        if position_residual > small * scale {
+            return Err(LoopError::NotClosed { position_residual, row });
         }
         let rates: C::Rows = product(jacobian.as_ref(), v.as_ref());
-        let (rate, row) = largest(rates.as_ref().iter().copied());
+        let (residual, row) = largest(rates.as_ref().iter().copied());
         let (fastest, _) = largest(v.as_ref().iter().copied());
-        if rate > small * scale * fastest {
-            return Err(LoopError::PullsApart { rate, row });
+        if residual > small * scale * fastest {
+            return Err(LoopError::InconsistentVelocity { residual, row });
         }
-        if !(gap.is_finite() && rate.is_finite() && fastest.is_finite()) {
+        if !(position_residual.is_finite() && residual.is_finite() && fastest.is_finite()) {
             return Err(LoopError::NotFinite);
         }
         Ok(self.state(q, v))
@@ -116,19 +139,18 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         C: LoopClosure<S, M>,
         L: TorqueLaw<S, M>,
     {
-        self.driven_motion(t, state).map(|(_, motion)| motion)
+        self.forced_motion(t, state).map(|forced| forced.motion)
     }
 
-    /// As [`motion`](Self::motion), behind the joint forces of the law.
+    /// As [`motion`](Self::motion), with the joint forces of the law.
     ///
     /// # Errors
     /// As [`ClosedLoop::dynamics`].
-    #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
-    pub fn driven_motion(
+    pub fn forced_motion(
         &mut self,
         t: S,
         state: &M::State,
-    ) -> Result<(M::Velocities, ConstrainedMotion<M::Velocities, C::Rows>), LoopError<S>>
+    ) -> Result<ForcedMotion<M::Velocities, C::Rows>, LoopError<S>>
     where
         M: MassMatrix<S> + BiasForces<S>,
         C: LoopClosure<S, M>,
@@ -136,33 +158,33 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     {
         let SimulationState { q, v, .. } = self.split(state);
         let tau = self.law.torque(t, &q, &v);
-        let motion = self.constrained(&self.loops.linearise(&q, &[])?, &q, &v, &tau)?;
-        Ok((tau, motion))
+        let motion = self.constrained(&self.loops.constraints_at(&q, &[])?, &q, &v, &tau)?;
+        Ok(ForcedMotion { tau, motion })
     }
 
-    /// The parts of a state at which the derivative is taken, and the loops there: the state itself, or, with the
+    /// Where the derivative at a state is evaluated: the state itself, or, with the
     /// projection near a singular position or with redundant rows, the nearest one that keeps the loops closed: in a
     /// state that is slightly open rows contradict each other, and the rank may be another.
-    #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
-    fn taken_at(&self, state: &M::State) -> Result<(M::Coordinates, M::Velocities, Linearised<S, M, C>), LoopError<S>>
+    fn evaluation_point(&self, state: &M::State) -> Result<EvaluationPoint<S, M, C>, LoopError<S>>
     where
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
         let SimulationState { q, v, .. } = self.split(state);
-        let at = self.loops.linearise(&q, &[])?;
+        let constraints = self.loops.constraints_at(&q, &[])?;
         if self.stabilisation == Stabilisation::Projection
-            && (at.space.nearly_singular() || at.space.rank() < self.loops.closure.nc())
-            && let Ok((closing, v)) = self.loops.nearest(&q, &v)
+            && (constraints.decomposition.nearly_singular()
+                || constraints.decomposition.rank() < self.loops.closure.nc())
+            && let Ok(ProjectedPoint { projection, constraints }) = self.loops.project_with_constraints(&q, &v)
         {
-            return Ok((closing.q, v, closing.at));
+            return Ok(EvaluationPoint { q: projection.q, v: projection.v, constraints });
         }
-        Ok((q, v, at))
+        Ok(EvaluationPoint { q, v, constraints })
     }
 
     fn constrained(
         &self,
-        at: &Linearised<S, M, C>,
+        constraints: &Constraints<S, M, C>,
         q: &M::Coordinates,
         v: &M::Velocities,
         tau: &M::Velocities,
@@ -172,11 +194,11 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         C: LoopClosure<S, M>,
     {
         let Stabilisation::Baumgarte { alpha } = self.stabilisation else {
-            return self.loops.dynamics_at(at, q, v, tau, |_| S::zero());
+            return self.loops.dynamics_with(constraints, q, v, tau, |_| S::zero());
         };
         let residual = self.loops.closure.loop_residual(q);
-        let rates: C::Rows = product(at.jacobian.as_ref(), v.as_ref());
-        self.loops.dynamics_at(at, q, v, tau, |row| {
+        let rates: C::Rows = product(constraints.jacobian.as_ref(), v.as_ref());
+        self.loops.dynamics_with(constraints, q, v, tau, |row| {
             let rate = entry(&rates, row);
             alpha * (rate + rate + alpha * entry(&residual, row))
         })
@@ -192,9 +214,9 @@ where
 {
     /// Not a number where the loops cannot be solved; [`last_error`](Self::last_error) then says why.
     fn derivative(&mut self, t: S, state: &M::State, rate: &mut M::State) {
-        let taken = self.taken_at(state).and_then(|(q, v, at)| {
+        let taken = self.evaluation_point(state).and_then(|EvaluationPoint { q, v, constraints }| {
             let tau = self.law.torque(t, &q, &v);
-            let motion = self.constrained(&at, &q, &v, &tau)?;
+            let motion = self.constrained(&constraints, &q, &v, &tau)?;
             Ok((self.loops.mechanism.coordinate_rates(&q, &v), motion.accelerations, dot(tau.as_ref(), v.as_ref())))
         });
         match taken {

@@ -1,11 +1,11 @@
-//! Back to closed loops after a step of integration.
+//! The projection of position and velocity onto the constraints, as after a step of integration.
 
-use super::closing::Closing;
-use super::linear::largest;
-use super::linearised::Metric;
-use super::{ClosedLoop, LoopError};
+use super::NewtonSolution;
+use crate::closed_loop::constraints::linear_algebra::largest;
+use crate::closed_loop::constraints::{Constraints, Metric};
+use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
-use crate::{LoopClosure, MassMatrix, Real, Vector};
+use crate::{LoopClosure, MassMatrix, Mechanism, Real, Vector};
 
 /// A handful of iterations are enough from near; where the mechanism is singular, each only halves the error.
 const ITERATIONS: usize = 20;
@@ -18,9 +18,15 @@ pub struct Projection<S, Q, V> {
     /// Joint velocities.
     pub v: V,
     /// The largest component of the residual that is left, m (or a sine).
-    pub gap: S,
+    pub position_residual: S,
     /// How many rows are independent there.
     pub rank: usize,
+}
+
+/// A projection and the constraints there.
+pub struct ProjectedPoint<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+    pub projection: Projection<S, M::Coordinates, M::Velocities>,
+    pub constraints: Constraints<S, M, C>,
 }
 
 impl<M, C> ClosedLoop<'_, M, C> {
@@ -42,32 +48,32 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        let (closing, v) = self.nearest(q, v)?;
-        Ok(Projection { q: closing.q, v, gap: closing.gap, rank: closing.at.space.rank() })
+        Ok(self.project_with_constraints(q, v)?.projection)
     }
 
-    /// The projection, and the loops there.
-    #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
-    pub(super) fn nearest<S: Real>(
+    /// The projection, and the constraints there.
+    pub(in crate::closed_loop) fn project_with_constraints<S: Real>(
         &self,
         q: &M::Coordinates,
         v: &M::Velocities,
-    ) -> Result<(Closing<S, M, C>, M::Velocities), LoopError<S>>
+    ) -> Result<ProjectedPoint<S, M, C>, LoopError<S>>
     where
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        let closing = self.close(Metric::Mass, q.clone(), &[], ITERATIONS)?;
+        let NewtonSolution { q, constraints, position_residual, row, .. } =
+            self.solve_position(Metric::Mass, q.clone(), &[], ITERATIONS)?;
         let open = S::from_f64(1e-6).maximum(S::from_f64(10.0) * S::EPSILON.sqrt());
-        if closing.gap > open * closing.at.scale() {
-            return Err(LoopError::NoConvergence { gap: closing.gap, row: closing.row });
+        if position_residual > open * constraints.length_scale() {
+            return Err(LoopError::NoConvergence { position_residual, row });
         }
         // A velocity that a `Vec` lacks is NaN, and seen to be.
-        let apart = closing.at.pulling_apart(v);
-        let v = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(v, i) - entry(&apart, i));
+        let normal = constraints.normal_velocity(v);
+        let v = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(v, i) - entry(&normal, i));
         if !largest(v.as_ref().iter().copied()).0.is_finite() {
             return Err(LoopError::NotFinite);
         }
-        Ok((closing, v))
+        let rank = constraints.decomposition.rank();
+        Ok(ProjectedPoint { projection: Projection { q, v, position_residual, rank }, constraints })
     }
 }

@@ -5,12 +5,12 @@
 //! accelerations that keep the loops closed, the true one is nearest to the unconstrained one.
 
 use super::LoopError;
-use super::linear::{add_scaled, dot};
+use super::linear_algebra::{add_scaled, dot};
 use crate::vector::entry;
 use crate::{Real, Vector};
 
 /// M = U D Uᵀ, in the room of M. Row k holds column k of U above its diagonal, then D_k^−½; what follows is not used.
-pub(super) struct MassMetric<A> {
+pub struct MassMetric<A> {
     factors: A,
     regular: bool,
 }

@@ -1,7 +1,8 @@
 //! Computed torque for closed loops.
 
-use super::drive::Drive;
-use super::{ClosedLoop, LoopError, LoopForces};
+use super::LoopForces;
+use super::actuation::Actuation;
+use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{InverseDynamics, LoopClosure, Real, TorqueLaw, Trajectory, Vector};
 
@@ -16,7 +17,7 @@ use crate::{InverseDynamics, LoopClosure, Real, TorqueLaw, Trajectory, Vector};
 /// It expects positions with closed loops: in a [`ClosedLoopSimulation`](super::ClosedLoopSimulation), the projection.
 #[derive(Debug)]
 pub struct ClosedLoopComputedTorque<'m, S, M, T, I, C = M> {
-    drive: Drive<'m, M, C>,
+    actuation: Actuation<'m, M, C>,
     trajectory: T,
     kp: I,
     kd: I,
@@ -27,13 +28,13 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
     /// The law that has the coordinates `independent` (and actuated) follow `trajectory`, whose component i belongs to
     /// coordinate `independent[i]`, as do those of the gains.
     pub fn new(loops: ClosedLoop<'m, M, C>, independent: &'m [usize], trajectory: T, [kp, kd]: [I; 2]) -> Self {
-        let drive = Drive { loops, independent, actuated: independent };
-        Self { drive, trajectory, kp, kd, last_error: None }
+        let actuation = Actuation { loops, independent, actuated: independent };
+        Self { actuation, trajectory, kp, kd, last_error: None }
     }
 
     /// Sets which joints have actuators, if not just the independent ones.
     pub fn actuated(self, actuated: &'m [usize]) -> Self {
-        Self { drive: Drive { actuated, ..self.drive }, ..self }
+        Self { actuation: Actuation { actuated, ..self.actuation }, ..self }
     }
 
     /// Why the forces asked for last are not numbers; `None` if they are.
@@ -57,18 +58,18 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
         C: LoopClosure<S, M>,
         T: Trajectory<S, I, I>,
     {
-        self.drive.check()?;
+        self.actuation.check()?;
         let desired = self.trajectory.at(t);
-        self.drive.check_length(&desired)?;
-        let of = |i: usize| self.drive.independent.get(i).copied().unwrap_or(usize::MAX);
-        let count = self.drive.independent.len();
+        self.actuation.check_length(&desired)?;
+        let of = |i: usize| self.actuation.independent.get(i).copied().unwrap_or(usize::MAX);
+        let count = self.actuation.independent.len();
         let speeds = I::from_fn(count, |i| entry(v, of(i)));
         let wanted = I::from_fn(count, |i| {
             entry(&desired.a, i)
                 + entry(&self.kd, i) * (entry(&desired.v, i) - entry(&speeds, i))
                 + entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, of(i)))
         });
-        self.drive.forces(q.clone(), &speeds, &wanted)
+        self.actuation.forces(q.clone(), &speeds, &wanted)
     }
 }
 

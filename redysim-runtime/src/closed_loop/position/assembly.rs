@@ -1,14 +1,14 @@
 //! From a guess to closed loops.
 
-use super::closing::Ending;
-use super::linear::{difference, largest, norm, product};
-use super::linearised::Metric;
-use super::{ClosedLoop, LoopError};
+use super::NewtonStatus;
+use crate::closed_loop::constraints::Metric;
+use crate::closed_loop::constraints::linear_algebra::{difference, largest, norm, product};
+use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::{LoopClosure, MassMatrix, Real};
 
 /// Enough to cross several turns by the largest step.
 const ITERATIONS: usize = 200;
-/// A velocity that pulls the loops apart by less than this part of the largest speed at the cuts is rounding.
+/// A velocity that violates the constraints by less than this part of the largest speed at the cuts is rounding.
 const SLOW: f64 = 1e-10;
 
 /// A closed position near a guess, and a velocity that keeps it closed.
@@ -19,13 +19,13 @@ pub struct Assembly<S, Q, V> {
     /// Joint velocities.
     pub v: V,
     /// How far the coordinate moved that moved farthest, rad or m.
-    pub farthest: S,
+    pub largest_displacement: S,
     /// Which one that is.
     pub coordinate: usize,
     /// The length of the whole way, √Σ Δqᵢ².
     pub distance: S,
     /// The largest component of the residual that is left, m (or a sine).
-    pub gap: S,
+    pub position_residual: S,
     /// Its row.
     pub row: usize,
     /// How many rows are independent there.
@@ -38,11 +38,11 @@ impl<M, C> ClosedLoop<'_, M, C> {
     /// not close them, of the coordinates themselves).
     ///
     /// It stays on the branch of the guess: no coordinate moves by more than 0.2 rad (or m) in one iteration, and none
-    /// of them widens the gap. The result is closed to 10⁻¹⁴ of the mechanism's size.
+    /// of them enlarges the residual. The result is closed to 10⁻¹⁴ of the mechanism's size.
     ///
     /// # Errors
-    /// [`LoopError::BadCoordinate`], [`LoopError::CannotClose`], [`LoopError::NoConvergence`],
-    /// [`LoopError::PullsApart`] if held velocities cannot be met, [`LoopError::SingularInertia`] and
+    /// [`LoopError::CoordinateOutOfRange`], [`LoopError::CannotClose`], [`LoopError::NoConvergence`],
+    /// [`LoopError::InconsistentVelocity`] if held velocities cannot be met, [`LoopError::SingularInertia`] and
     /// [`LoopError::NotFinite`].
     pub fn assemble<S: Real>(
         &self,
@@ -56,25 +56,25 @@ impl<M, C> ClosedLoop<'_, M, C> {
     {
         let count = self.mechanism.nv();
         if let Some(&coordinate) = held.iter().find(|&&coordinate| coordinate >= count) {
-            return Err(LoopError::BadCoordinate { coordinate, count });
+            return Err(LoopError::CoordinateOutOfRange { coordinate, count });
         }
-        let mut closing = self.close(Metric::Mass, q.clone(), held, ITERATIONS)?;
-        if closing.ending != Ending::Closed {
-            // In the metric of M, a loop of links that weigh next to nothing seems to say nothing.
-            closing = self.close(Metric::Unit, q.clone(), held, ITERATIONS)?;
+        let mut solution = self.solve_position(Metric::Mass, q.clone(), held, ITERATIONS)?;
+        if solution.status != NewtonStatus::Converged {
+            // In the metric of M, a loop of links that weigh next to nothing seems to constrain nothing.
+            solution = self.solve_position(Metric::Unit, q.clone(), held, ITERATIONS)?;
         }
-        let (gap, row) = (closing.gap, closing.row);
-        match closing.ending {
-            Ending::Closed => {}
-            Ending::Stalled => return Err(LoopError::CannotClose { gap, row }),
-            Ending::Exhausted => return Err(LoopError::NoConvergence { gap, row }),
+        let (position_residual, row) = (solution.position_residual, solution.row);
+        match solution.status {
+            NewtonStatus::Converged => {}
+            NewtonStatus::Stalled => return Err(LoopError::CannotClose { position_residual, row }),
+            NewtonStatus::IterationLimit => return Err(LoopError::NoConvergence { position_residual, row }),
         }
         let (asked, _) = largest(v.as_ref().iter().copied());
         let mut v = v.clone();
         // The second time takes away what rounding left of the first.
         for _ in 0..2 {
-            let rates: C::Rows = product(closing.at.jacobian.as_ref(), v.as_ref());
-            v = difference(&v, &closing.at.shortest(&rates));
+            let rates: C::Rows = product(solution.constraints.jacobian.as_ref(), v.as_ref());
+            v = difference(&v, &solution.constraints.least_norm(&rates));
         }
         if largest(v.as_ref().iter().copied()).0 <= S::EPSILON * asked {
             // The loops stop all that was asked for: what is left is roundoff of it.
@@ -82,19 +82,28 @@ impl<M, C> ClosedLoop<'_, M, C> {
                 *speed = if held.contains(&coordinate) { *speed } else { S::zero() };
             }
         }
-        let rates: C::Rows = product(closing.at.jacobian.as_ref(), v.as_ref());
-        let (rate, at_row) = largest(rates.as_ref().iter().copied());
+        let rates: C::Rows = product(solution.constraints.jacobian.as_ref(), v.as_ref());
+        let (residual, at_row) = largest(rates.as_ref().iter().copied());
         let (fastest, _) = largest(v.as_ref().iter().copied());
         if !fastest.is_finite() {
             return Err(LoopError::NotFinite);
         }
         let slow = S::from_f64(SLOW).maximum(S::from_f64(100.0) * S::EPSILON);
-        if rate > slow * closing.at.scale() * fastest.maximum(S::EPSILON * asked) {
-            return Err(LoopError::PullsApart { rate, row: at_row });
+        if residual > slow * solution.constraints.length_scale() * fastest.maximum(S::EPSILON * asked) {
+            return Err(LoopError::InconsistentVelocity { residual, row: at_row });
         }
-        let way = difference(&closing.q, q);
-        let (farthest, coordinate) = largest(way.as_ref().iter().copied());
+        let way = difference(&solution.q, q);
+        let (largest_displacement, coordinate) = largest(way.as_ref().iter().copied());
         let distance = norm(way.as_ref());
-        Ok(Assembly { q: closing.q, v, farthest, coordinate, distance, gap, row, rank: closing.at.space.rank() })
+        Ok(Assembly {
+            q: solution.q,
+            v,
+            largest_displacement,
+            coordinate,
+            distance,
+            position_residual,
+            row,
+            rank: solution.constraints.decomposition.rank(),
+        })
     }
 }

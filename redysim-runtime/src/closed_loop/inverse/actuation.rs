@@ -1,24 +1,24 @@
 //! The forces of the actuators for given accelerations of the independent coordinates.
 
-use super::linear::{add_scaled, difference, dot, largest, product, zeros};
-use super::linearised::without;
-use super::row_space::RowSpace;
-use super::{ClosedLoop, LoopError, LoopForces};
+use super::LoopForces;
+use crate::closed_loop::constraints::linear_algebra::{add_scaled, difference, dot, largest, product, zeros};
+use crate::closed_loop::constraints::{OrthogonalDecomposition, zero_columns};
+use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{InverseDynamics, LoopClosure, Motion, Real, Vector};
 
-/// What a force may miss, as a part of the largest, before it counts as unsupported; likewise speeds.
+/// What a force may miss, as a part of the largest, before it counts as unactuated; likewise speeds.
 const SMALL: f64 = 1e-9;
 
 /// Closed loops, the coordinates that determine all others, and those that have actuators.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drive<'m, M, C> {
+pub(super) struct Actuation<'m, M, C> {
     pub loops: ClosedLoop<'m, M, C>,
     pub independent: &'m [usize],
     pub actuated: &'m [usize],
 }
 
-impl<M, C> Drive<'_, M, C> {
+impl<M, C> Actuation<'_, M, C> {
     /// Fails unless coordinates are there, and independent ones but once.
     pub fn check<S: Real>(&self) -> Result<(), LoopError<S>>
     where
@@ -26,7 +26,7 @@ impl<M, C> Drive<'_, M, C> {
     {
         let count = self.loops.mechanism.nv();
         if let Some(&coordinate) = self.independent.iter().chain(self.actuated).find(|&&index| index >= count) {
-            return Err(LoopError::BadCoordinate { coordinate, count });
+            return Err(LoopError::CoordinateOutOfRange { coordinate, count });
         }
         match repeated(self.independent) {
             Some(&coordinate) => Err(LoopError::RepeatedCoordinate { coordinate }),
@@ -38,7 +38,7 @@ impl<M, C> Drive<'_, M, C> {
     pub fn check_length<S: Real, I: Vector<S>>(&self, wanted: &Motion<I, I>) -> Result<(), LoopError<S>> {
         let wanted = [&wanted.q, &wanted.v, &wanted.a].map(|part| part.as_ref().len());
         match wanted.into_iter().find(|&given| given != self.independent.len()) {
-            Some(given) => Err(LoopError::WrongTrajectory { given, wanted: self.independent.len() }),
+            Some(given) => Err(LoopError::WrongTrajectoryLength { given, needed: self.independent.len() }),
             None => Ok(()),
         }
     }
@@ -62,7 +62,7 @@ impl<M, C> Drive<'_, M, C> {
         let dependent = self.without_columns(&jacobian, self.independent)?;
         let needed = count - self.independent.len();
         if dependent.rank() < needed {
-            return Err(LoopError::LostRank { rank: dependent.rank(), needed, rows: dependent.dependent_rows() });
+            return Err(LoopError::RankDeficient { rank: dependent.rank(), needed, rows: dependent.dependent_rows() });
         }
         // J_d x_d = b − J_i x_i.
         let complete = |given: &I, bias: &C::Rows| {
@@ -77,18 +77,18 @@ impl<M, C> Drive<'_, M, C> {
         };
         let v = complete(v_independent, &zeros(closure.nc()));
         let rates: C::Rows = product(jacobian.as_ref(), v.as_ref());
-        let (rate, row) = largest(rates.as_ref().iter().copied());
+        let (residual, row) = largest(rates.as_ref().iter().copied());
         let small = S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON);
-        if rate > small * (S::one() + largest(v.as_ref().iter().copied()).0) {
-            return Err(LoopError::PullsApart { rate, row });
+        if residual > small * (S::one() + largest(v.as_ref().iter().copied()).0) {
+            return Err(LoopError::InconsistentVelocity { residual, row });
         }
         let bias = closure.loop_bias(&q, &v);
         let a = complete(a_independent, &bias);
         let rates: C::Rows = product(jacobian.as_ref(), a.as_ref());
         let misses = (0..closure.nc()).map(|row| entry(&rates, row) + entry(&bias, row));
-        let (rate, row) = largest(misses);
-        if rate > small * (S::one() + largest(a.as_ref().iter().chain(bias.as_ref()).copied()).0) {
-            return Err(LoopError::PullsApart { rate, row });
+        let (residual, row) = largest(misses);
+        if residual > small * (S::one() + largest(a.as_ref().iter().chain(bias.as_ref()).copied()).0) {
+            return Err(LoopError::InconsistentVelocity { residual, row });
         }
         let of_tree = mechanism.inverse_dynamics(&q, &v, &a);
         if !largest(of_tree.as_ref().iter().copied()).0.is_finite() {
@@ -105,7 +105,7 @@ impl<M, C> Drive<'_, M, C> {
         for (coordinate, force) in forces.as_mut().iter_mut().enumerate() {
             if !self.actuated.contains(&coordinate) {
                 if force.abs() > small * most {
-                    return Err(LoopError::Unsupported { coordinate, force: *force });
+                    return Err(LoopError::Unactuated { coordinate, force: *force });
                 }
                 *force = S::zero();
             }
@@ -119,7 +119,7 @@ impl<M, C> Drive<'_, M, C> {
     fn multipliers<S: Real>(
         &self,
         jacobian: &C::Jacobian,
-        unactuated: &RowSpace<S, M, C>,
+        unactuated: &OrthogonalDecomposition<S, M, C>,
         of_tree: &M::Velocities,
     ) -> C::Rows
     where
@@ -128,7 +128,7 @@ impl<M, C> Drive<'_, M, C> {
     {
         let nc = self.loops.closure.nc();
         let mut of_unactuated = of_tree.clone();
-        without(&mut of_unactuated, self.actuated);
+        zero_columns(&mut of_unactuated, self.actuated);
         let mut multipliers = unactuated.multipliers(&unactuated.coordinates(&of_unactuated));
         if unactuated.rank() == nc {
             return multipliers;
@@ -164,16 +164,16 @@ impl<M, C> Drive<'_, M, C> {
         &self,
         jacobian: &C::Jacobian,
         known: &[usize],
-    ) -> Result<RowSpace<S, M, C>, LoopError<S>>
+    ) -> Result<OrthogonalDecomposition<S, M, C>, LoopError<S>>
     where
         M: InverseDynamics<S>,
         C: LoopClosure<S, M>,
     {
         let mut rows = jacobian.clone();
         for row in rows.as_mut() {
-            without(row, known);
+            zero_columns(row, known);
         }
-        RowSpace::new(rows, self.loops.mechanism.nv())
+        OrthogonalDecomposition::new(rows, self.loops.mechanism.nv())
     }
 
     fn prescribe<S: Real, V: Vector<S>, I: Vector<S>>(&self, x: &mut V, given: &I) {
