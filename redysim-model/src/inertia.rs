@@ -80,6 +80,33 @@ impl<S: Scalar> Add for Sym3<S> {
     }
 }
 
+impl Sym3<f64> {
+    /// The eigenvalues, from smallest to largest, by cyclic Jacobi rotations (Golub, Van Loan, Matrix Computations,
+    /// section 8.5). Errors are a few roundings of the largest eigenvalue.
+    pub fn eigenvalues(self) -> [f64; 3] {
+        /// Convergence is quadratic: of a matrix of six elements five sweeps leave roundoff.
+        const SWEEPS: usize = 10;
+        let Mat3(mut a) = self.full();
+        for (p, q) in [(0, 1), (0, 2), (1, 2)].into_iter().cycle().take(3 * SWEEPS) {
+            if a[p][q] == 0.0 {
+                continue;
+            }
+            // The smaller of the two rotations that make a[p][q] zero, and its tangent.
+            let cotangent = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+            let tangent = cotangent.signum() / (cotangent.abs() + cotangent.hypot(1.0));
+            let cos = 1.0 / tangent.hypot(1.0);
+            let sin = tangent * cos;
+            let (shift, r) = (tangent * a[p][q], 3 - p - q);
+            (a[p][p], a[q][q]) = (a[p][p] - shift, a[q][q] + shift);
+            let (rp, rq) = (cos * a[r][p] - sin * a[r][q], sin * a[r][p] + cos * a[r][q]);
+            [a[r][p], a[p][r], a[r][q], a[q][r], a[p][q], a[q][p]] = [rp, rp, rq, rq, 0.0, 0.0];
+        }
+        let mut eigenvalues = [a[0][0], a[1][1], a[2][2]];
+        eigenvalues.sort_by(f64::total_cmp);
+        eigenvalues
+    }
+}
+
 /// Mass, first moment and inertia tensor of a rigid body about the origin of a frame, in its axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidInertia<S> {
@@ -89,4 +116,25 @@ pub struct RigidInertia<S> {
     pub moment: Vec3<S>,
     /// Inertia tensor about the origin, kg m².
     pub tensor: Sym3<S>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rotation::about_z;
+
+    #[test]
+    fn eigenvalues_do_not_depend_on_the_axes() {
+        let turned_over = Mat3([[0.0, 0.6, 0.8], [1.0, 0.0, 0.0], [0.0, 0.8, -0.6]]);
+        for expected in [[1.0, 2.0, 3.0], [-1.0, 0.5, 0.5], [1e-9, 1.0, 1.0], [2.0, 2.0, 2.0]] {
+            let diagonal = Sym3 { xx: expected[1], yy: expected[2], zz: expected[0], ..Sym3::zero() };
+            for angle in [0.0, 0.3, -1.1, 2.9] {
+                let rotation = about_z(angle) * turned_over * about_z(0.7 * angle);
+                let found = diagonal.rotated(rotation).eigenvalues();
+                for (found, expected) in found.iter().zip(expected) {
+                    assert!((found - expected).abs() < 8.0 * f64::EPSILON * 3.0, "{found} instead of {expected}");
+                }
+            }
+        }
+    }
 }

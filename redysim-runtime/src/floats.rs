@@ -1,8 +1,10 @@
 //! `f64` and `f32` as scalars.
 
+#[cfg(feature = "lanes")]
 use crate::registers::{self, Register};
 use crate::scalar::{FUSED, Real, Scalar};
 use crate::trigonometry;
+#[cfg(feature = "lanes")]
 use wide::{f32x4, f64x2};
 
 macro_rules! real {
@@ -16,6 +18,7 @@ macro_rules! real {
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
             }
+            #[cfg(feature = "lanes")]
             #[inline(always)]
             fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
                 $sin_cos_all(angles)
@@ -28,12 +31,12 @@ macro_rules! real {
             fn sqrt(self) -> Self {
                 // The vector's square root becomes the scalar instruction, which that of `libm` hides in assembly that
                 // the compiler cannot see through; without the instruction, `libm` is the better one.
+                #[cfg(feature = "lanes")]
                 if cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128")) {
                     let [root, ..] = $vector::splat(self).sqrt().to_array();
-                    root
-                } else {
-                    $sqrt(self)
+                    return root;
                 }
+                $sqrt(self)
             }
             #[inline(always)]
             fn mul_add(self, factor: Self, addend: Self) -> Self {
@@ -44,10 +47,13 @@ macro_rules! real {
                 // rounds the same, but is slower to compile and leaves moves between lanes in long functions.
                 #[cfg(feature = "std")]
                 let sum = $float::mul_add(self, factor, addend);
-                #[cfg(not(feature = "std"))]
+                #[cfg(all(feature = "lanes", not(feature = "std")))]
                 let [sum, ..] = $vector::splat(self).mul_add(factor.into(), addend.into()).to_array();
+                #[cfg(not(feature = "lanes"))]
+                let sum = self * factor + addend;
                 sum
             }
+            #[cfg(feature = "lanes")]
             #[inline(always)]
             fn apart<const N: usize>(mut numbers: [Self; N]) -> [Self; N] {
                 if !registers::JOINED {

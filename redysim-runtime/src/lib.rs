@@ -21,10 +21,12 @@ pub mod dual;
 mod floats;
 pub mod function;
 pub mod integrate;
+#[cfg(feature = "lanes")]
 pub mod lanes;
 pub mod mechanism;
 pub mod operations;
 pub mod posture;
+#[cfg(feature = "lanes")]
 mod registers;
 pub mod scalar;
 pub mod simulate;

@@ -1,9 +1,9 @@
 //! Mass and inertia that a body can have.
 
 use crate::diagnostic::{Findings, messages};
+use crate::inertia::Sym3;
 use crate::model::Inertia;
 use crate::schema::LinkTable;
-use nalgebra::{Matrix3, SymmetricEigen};
 
 /// Roundoff allowed below zero, relative to the largest principal moment.
 const DEFINITE: f64 = 1e-12;
@@ -30,16 +30,13 @@ pub(super) fn check(link: &LinkTable, findings: &mut Findings) {
 /// The eigenvalues of the tensor, from smallest to largest; `None` for the zero tensor.
 fn principal_moments(inertia: &Inertia) -> Option<[f64; 3]> {
     let Inertia { xx, yy, zz, xy, yz, xz } = *inertia;
-    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     // Scaled, so that the iteration works on numbers near one.
-    let scale = tensor.amax();
+    let scale = [xx, yy, zz, xy, yz, xz].iter().fold(0.0, |largest: f64, element| largest.max(element.abs()));
     if scale == 0.0 {
         return None;
     }
-    let eigen = SymmetricEigen::try_new(tensor / scale, f64::EPSILON, 1000)?;
-    let mut moments: [f64; 3] = eigen.eigenvalues.into();
-    moments.sort_by(f64::total_cmp);
-    Some(moments.map(|moment| moment * scale))
+    let tensor = Sym3 { xx, yy, zz, xy, yz, xz }.map(|element| element / scale);
+    Some(tensor.eigenvalues().map(|moment| moment * scale))
 }
 
 #[cfg(test)]

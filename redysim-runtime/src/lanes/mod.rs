@@ -18,6 +18,7 @@
 //! assert_eq!(holding(F64x8::from(angles)).to_array(), angles.map(holding));
 //! ```
 
+mod angle;
 mod scalar;
 mod transpose;
 

@@ -2,11 +2,7 @@
 
 use super::reduction::{self, Reduced};
 use super::single_reduction;
-use crate::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
-use crate::registers::Register;
 use crate::scalar::{FUSED, Scalar};
-use bytemuck::cast;
-use wide::{u32x4, u32x8, u32x16, u64x2, u64x4, u64x8};
 
 /// One angle, or several side by side.
 pub trait Angle: Scalar {
@@ -74,58 +70,5 @@ macro_rules! one_angle {
     };
 }
 
-macro_rules! angles {
-    ($lanes:ident of $float:ident, $bits:ident << $second_bit_to_sign:literal) => {
-        impl Angle for $lanes {
-            type Number = $float;
-            const FUSED: bool = FUSED;
-
-            #[inline(always)]
-            fn all_within(self, limit: Self) -> bool {
-                self.0.abs().simd_le(limit.0.abs()).all()
-            }
-
-            #[inline(always)]
-            fn turned(rounded: Self, sin: Self, cos: Self) -> (Self, Self) {
-                let (one, two) = ($bits::splat(1), $bits::splat(2));
-                let [turns, sin, cos]: [$bits; 3] = [cast(rounded.0), cast(sin.0), cast(cos.0)];
-                let odd = $bits::splat(0) - (turns & one);
-                let differing = (sin ^ cos) & odd;
-                let sin_sign = (turns & two) << $second_bit_to_sign;
-                let cos_sign = ((turns + one) & two) << $second_bit_to_sign;
-                (Self(cast(sin ^ differing ^ sin_sign)), Self(cast(cos ^ differing ^ cos_sign)))
-            }
-
-            #[inline(always)]
-            fn one_by_one(self, function: impl Fn($float) -> ($float, $float)) -> (Self, Self) {
-                // A call that is not inlined takes the address of its lanes, which would keep these lanes in memory
-                // from where they are put together; and to read as a whole what was just written in parts stalls.
-                // Negative lanes are other lanes, made only when they are needed.
-                (-self).negatives_one_by_one(function)
-            }
-        }
-
-        impl $lanes {
-            /// `function` of the negative of each lane.
-            #[inline(never)]
-            #[cold]
-            fn negatives_one_by_one(self, function: impl Fn($float) -> ($float, $float)) -> (Self, Self) {
-                let (mut sin, mut cos) = (self.to_array(), self.to_array());
-                for (sin, cos) in sin.iter_mut().zip(&mut cos) {
-                    let (one_sin, one_cos) = function(-*sin);
-                    [*sin, *cos] = [one_sin, one_cos].map(Register::apart);
-                }
-                (Self::from(sin), Self::from(cos))
-            }
-        }
-    };
-}
-
 one_angle!(f64, 62, reduction::reduced, [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17]);
 one_angle!(f32, 30, single_reduction::by_digits, [core::f32::consts::FRAC_PI_2, -4.371_139e-8]);
-angles!(F64x2 of f64, u64x2 << 62_u64);
-angles!(F64x4 of f64, u64x4 << 62_u64);
-angles!(F64x8 of f64, u64x8 << 62_u64);
-angles!(F32x4 of f32, u32x4 << 30_u32);
-angles!(F32x8 of f32, u32x8 << 30_u32);
-angles!(F32x16 of f32, u32x16 << 30_u32);

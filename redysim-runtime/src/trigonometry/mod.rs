@@ -7,8 +7,10 @@
 
 pub(crate) mod angle;
 pub mod double;
+#[cfg(feature = "lanes")]
 pub mod lists;
 pub(crate) mod reduction;
+#[cfg(feature = "lanes")]
 pub(crate) mod several;
 pub mod single;
 mod single_reduction;

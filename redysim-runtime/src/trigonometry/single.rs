@@ -8,6 +8,7 @@
 
 use super::angle::{Angle, Number};
 use super::reduction::Reduced;
+#[cfg(feature = "lanes")]
 use crate::scalar::FUSED;
 
 /// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
@@ -29,6 +30,7 @@ const ROUNDER: f32 = 12_582_912.0;
 ///
 /// Up to eight become straight code after one decision, so that constants stay in registers from angle to angle.
 #[inline(always)]
+#[cfg(feature = "lanes")]
 pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     let mut found = ([0.0; N], [0.0; N]);
     let mut put = |index: usize, (sin, cos)| (found.0[index], found.1[index]) = (sin, cos);
