@@ -45,6 +45,7 @@ impl<S: Scalar> Sym3<S> {
     }
 
     /// R A Rᵀ.
+    #[inline(always)]
     pub fn rotated(self, rotation: Mat3<S>) -> Self {
         let half = rotation * self.full();
         Self::from_upper(|i, j| Vec3(half.0[i]).dot(Vec3(rotation.0[j])))
@@ -54,6 +55,7 @@ impl<S: Scalar> Sym3<S> {
     ///
     /// With t = (xx − yy) c − 2 xy s, the block in the plane becomes xx' = yy + c t, yy' = xx − c t, xy' = xy + s t:
     /// 15 operations where the triple product takes 75.
+    #[inline(always)]
     pub fn rotated_about_z(self, cos: S, sin: S) -> Self {
         let t = (self.xx - self.yy) * cos - (self.xy + self.xy) * sin;
         Sym3 {

@@ -66,6 +66,7 @@ impl<S: Scalar> PseudoInertia<S> {
 
     /// The same body about the origin of the reference, where `p` is the origin of its frame (of equal axes):
     /// h' = h + m p, Σ' = Σ + h pᵀ + p h'ᵀ.
+    #[inline(always)]
     pub fn translated(self, p: Vec3<S>) -> Self {
         let moment = self.moment + p.scale(self.mass);
         let steiner = Sym3::from_upper(|i, j| {

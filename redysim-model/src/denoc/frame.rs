@@ -20,6 +20,8 @@ pub(super) struct JointFrame<S> {
     /// The parent against its axes, where these are still and the joint's axis turns against them.
     before: Option<Turn<S>>,
     fixed: Mat3<S>,
+    /// The product of all rotations between the parent's axes and the body's, where it is wanted.
+    whole: Option<Mat3<S>>,
     /// The body's axes against the fixed rotation; `None` where they do not turn.
     turn: Option<Turn<S>>,
     /// The body against its axes; `None` where they are its own.
@@ -38,11 +40,11 @@ pub(super) fn joint_frames<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S
 }
 
 /// The same in the given room.
-pub(super) fn joint_frames_in<S: Scalar>(
+pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     angles: &mut Vec<Option<Angle<S>>>,
     frames: &mut Vec<JointFrame<S>>,
     tree: &Tree,
-    trace: &impl Trace<S>,
+    trace: &T,
     q: &[S],
 ) {
     // All angles first, so that compiled code can take their sines and cosines together.
@@ -67,7 +69,11 @@ pub(super) fn joint_frames_in<S: Scalar>(
         }
         let along_axis = before.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
-        frames.push(JointFrame { before, fixed, turn, attitude, along_axis, position });
+        let whole = T::WHOLE_ROTATIONS.then(|| {
+            let own = Mat3(fixed.0.map(|row| turned_back(turn, Vec3(row)).0));
+            before.map_or(own, |_| Mat3(own.transpose().0.map(|column| turned(before, Vec3(column)).0)).transpose())
+        });
+        frames.push(JointFrame { before, fixed, whole, turn, attitude, along_axis, position });
     });
 }
 
@@ -103,79 +109,95 @@ fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree, q: &[
 
 impl<S: Scalar> JointFrame<S> {
     /// A vector in the body's axes, in the parent's.
-    #[inline]
-    pub fn to_parent(self, v: Vec3<S>) -> Vec3<S> {
-        turned(self.before, self.fixed * turned(self.turn, v))
+    #[inline(always)]
+    pub fn to_parent(&self, v: Vec3<S>) -> Vec3<S> {
+        match self.whole {
+            Some(rotation) => product(rotation, v),
+            None => turned(self.before, self.fixed * turned(self.turn, v)),
+        }
     }
 
     /// A vector in the parent's axes, in the body's.
-    #[inline]
-    pub fn to_body(self, v: Vec3<S>) -> Vec3<S> {
-        turned_back(self.turn, self.fixed.transpose() * turned_back(self.before, v))
+    #[inline(always)]
+    pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
+        match self.whole {
+            Some(rotation) => product(rotation.transpose(), v),
+            None => turned_back(self.turn, self.fixed.transpose() * turned_back(self.before, v)),
+        }
     }
 
     /// What the matrix of the parent's axes makes of the joint's axis, in the body's axes; `None` where the joint's
     /// axis is none of the parent's axes and the product would cost.
-    #[inline]
-    pub fn axis_image(self, matrix: Mat3<S>) -> Option<Vec3<S>> {
+    #[inline(always)]
+    pub fn axis_image(&self, matrix: Mat3<S>) -> Option<Vec3<S>> {
         self.along_axis.then(|| self.to_body(matrix * self.fixed.column(2)))
     }
 
     /// A vector fixed to the body, in its axes.
-    #[inline]
-    pub fn fixed_vector(self, v: Vec3<S>) -> Vec3<S> {
+    #[inline(always)]
+    pub fn fixed_vector(&self, v: Vec3<S>) -> Vec3<S> {
         turned(self.attitude, v)
     }
 
     /// The axes fixed to the body as columns, where its own axes are the columns of `axes`.
-    #[inline]
-    pub fn fixed_axes(self, axes: Mat3<S>) -> Mat3<S> {
+    #[inline(always)]
+    pub fn fixed_axes(&self, axes: Mat3<S>) -> Mat3<S> {
         Mat3(axes.0.map(|row| turned_back(self.attitude, Vec3(row)).0))
     }
 
     /// A pose fixed to the body, in its axes.
-    #[inline]
-    pub fn fixed_pose(self, pose: Pose<S>) -> Pose<S> {
+    #[inline(always)]
+    pub fn fixed_pose(&self, pose: Pose<S>) -> Pose<S> {
         let columns = pose.rotation.transpose().0.map(|column| self.fixed_vector(Vec3(column)).0);
         Pose { rotation: Mat3(columns).transpose(), position: self.fixed_vector(pose.position) }
     }
 
     /// The moments of the body's own mass, in its axes.
-    #[inline]
-    pub fn own_inertia(self, inertia: PseudoInertia<f64>) -> PseudoInertia<S> {
+    #[inline(always)]
+    pub fn own_inertia(&self, inertia: PseudoInertia<f64>) -> PseudoInertia<S> {
         let PseudoInertia { mass, moment, second } = PseudoInertia::constant(inertia);
         PseudoInertia { mass, moment: self.fixed_vector(moment), second: turned_tensor(self.attitude, second) }
     }
 
     /// Whether what is fixed to the body turns against its axes.
-    #[inline]
-    pub fn is_still(self) -> bool {
+    #[inline(always)]
+    pub fn is_still(&self) -> bool {
         self.attitude.is_some()
     }
 
     /// A wrench on the body, in the parent's axes and about the parent's origin.
-    #[inline]
-    pub fn wrench_to_parent(self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
+    #[inline(always)]
+    pub fn wrench_to_parent(&self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
         let force = self.to_parent(force);
         Wrench { moment: self.to_parent(moment) + self.position.cross(force), force }
     }
 
     /// A symmetric tensor of the body's axes, in the parent's.
-    #[inline]
-    pub fn tensor_to_parent(self, tensor: Sym3<S>) -> Sym3<S> {
-        turned_tensor(self.before, turned_tensor(self.turn, tensor).rotated(self.fixed))
+    #[inline(always)]
+    pub fn tensor_to_parent(&self, tensor: Sym3<S>) -> Sym3<S> {
+        match self.whole {
+            Some(rotation) => {
+                let full = tensor.full();
+                let half = Mat3::from_fn(|i, j| product(full, Vec3(rotation.0[i]))[j]);
+                Sym3::from_upper(|i, j| product(rotation, Vec3(half.0[i]))[j])
+            }
+            None => turned_tensor(self.before, turned_tensor(self.turn, tensor).rotated(self.fixed)),
+        }
     }
 
     /// A general tensor of the body's axes, in the parent's.
-    #[inline]
-    pub fn matrix_to_parent(self, matrix: Mat3<S>) -> Mat3<S> {
+    #[inline(always)]
+    pub fn matrix_to_parent(&self, matrix: Mat3<S>) -> Mat3<S> {
+        if let Some(rotation) = self.whole {
+            return rotation * (matrix * rotation.transpose());
+        }
         let rows = Mat3(matrix.0.map(|row| self.to_parent(Vec3(row)).0)).transpose();
         Mat3(rows.0.map(|column| self.to_parent(Vec3(column)).0)).transpose()
     }
 
     /// Moments of mass about the body's origin, in the parent's axes and about the parent's origin.
-    #[inline]
-    pub fn inertia_to_parent(self, inertia: PseudoInertia<S>) -> PseudoInertia<S> {
+    #[inline(always)]
+    pub fn inertia_to_parent(&self, inertia: PseudoInertia<S>) -> PseudoInertia<S> {
         PseudoInertia {
             mass: inertia.mass,
             moment: self.to_parent(inertia.moment),
@@ -185,7 +207,13 @@ impl<S: Scalar> JointFrame<S> {
     }
 }
 
-#[inline]
+/// The product of a whole rotation and a vector.
+#[inline(always)]
+fn product<S: Scalar>(Mat3(rows): Mat3<S>, v: Vec3<S>) -> Vec3<S> {
+    Vec3(rows.map(|[x, y, z]| z.mul_add(v[2], y.mul_add(v[1], x * v[0]))))
+}
+
+#[inline(always)]
 fn turned<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
     match turn {
         Some((cos, sin)) => Vec3([cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]]),
@@ -193,12 +221,12 @@ fn turned<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn turned_back<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
     turned(turn.map(|(cos, sin)| (cos, -sin)), v)
 }
 
-#[inline]
+#[inline(always)]
 fn turned_tensor<S: Scalar>(turn: Option<Turn<S>>, tensor: Sym3<S>) -> Sym3<S> {
     turn.map_or(tensor, |(cos, sin)| tensor.rotated_about_z(cos, sin))
 }

@@ -38,13 +38,13 @@ pub fn mass_matrix_in<S: Scalar>(
     composites.extend(tree.bodies.iter().zip(frames.iter()).map(own_inertia));
     matrix.fill(S::zero());
     for (index, body) in tree.bodies.iter().enumerate().rev() {
-        let composite = composites[index];
+        let composite = &composites[index];
         composite.name(trace, index);
+        let mut wrench = composite.unit_wrench(body.joint.screw());
         if let Some(parent) = body.parent {
             let carried = composite.to_parent(&frames[index], planar[index]);
-            composites[parent] = composites[parent].plus(carried);
+            composites[parent] = composites[parent].plus(&carried);
         }
-        let mut wrench = composite.unit_wrench(body.joint.screw());
         let mut at = index;
         loop {
             let joint = &tree.bodies[at];
@@ -80,12 +80,14 @@ impl<S: Scalar> Composite<S> {
         Composite { inertia: frame.own_inertia(inertia), polar: xx + yy }
     }
 
-    fn plus(self, other: Self) -> Self {
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
         Composite { inertia: self.inertia + other.inertia, polar: self.polar + other.polar }
     }
 
     /// The composite in the parent's axes and about the parent's origin.
-    fn to_parent(self, frame: &JointFrame<S>, planar: bool) -> Self {
+    #[inline(always)]
+    fn to_parent(&self, frame: &JointFrame<S>, planar: bool) -> Self {
         let inertia = frame.inertia_to_parent(self.inertia);
         let polar = if planar {
             // Steiner's theorem for this one moment.
@@ -98,7 +100,8 @@ impl<S: Scalar> Composite<S> {
     }
 
     /// The wrench that gives the body a unit acceleration of its joint from rest.
-    fn unit_wrench(self, screw: Screw) -> Wrench<S> {
+    #[inline(always)]
+    fn unit_wrench(&self, screw: Screw) -> Wrench<S> {
         let Vec3([x, y, _]) = self.inertia.moment;
         let (zero, s) = (S::zero(), self.inertia.second);
         let turn = Wrench { moment: Vec3([-s.xz, -s.yz, self.polar]), force: Vec3([-y, x, zero]) };
@@ -106,7 +109,7 @@ impl<S: Scalar> Composite<S> {
         screw.combined(turn, slide)
     }
 
-    fn name(self, trace: &impl Trace<S>, body: usize) {
+    fn name(&self, trace: &impl Trace<S>, body: usize) {
         trace.name_vector(self.inertia.moment, "h", body);
         trace.name_symmetric(self.inertia.second, "S", body);
         trace.name(self.polar, "J", body, "zz");

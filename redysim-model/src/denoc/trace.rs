@@ -9,6 +9,10 @@ use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 /// of the generated code. Every function has a default that observes nothing, so that a recursion over numbers costs
 /// what it would without. [`Untraced`] has these defaults.
 pub trait Trace<S: Copy> {
+    /// Whether the product of the rotations between a body and its parent is computed once for each body. Numbers are
+    /// faster so; expressions leave out the zeros and ones of each rotation, which the product does not have.
+    const WHOLE_ROTATIONS: bool = false;
+
     /// Does the `work` of body `body` in the sweep `sweep` over all bodies.
     #[inline]
     fn step<R>(&self, sweep: &'static str, body: usize, work: impl FnOnce() -> R) -> R {
@@ -78,4 +82,6 @@ pub trait Trace<S: Copy> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Untraced;
 
-impl<S: Copy> Trace<S> for Untraced {}
+impl<S: Copy> Trace<S> for Untraced {
+    const WHOLE_ROTATIONS: bool = true;
+}
