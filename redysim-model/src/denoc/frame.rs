@@ -15,7 +15,7 @@ type Turn<S> = (S, S);
 /// The two rotations are kept apart, since the fixed one is mostly made of zeros and ones. The axes of a still body
 /// ([`Body::still`](crate::tree::Body::still)) do not turn with its joint; then what is fixed to the body turns against
 /// them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct JointFrame<S> {
     /// The parent against its axes, where these are still and the joint's axis turns against them.
     before: Option<Turn<S>>,

@@ -67,7 +67,7 @@ fn find_planar(planar: &mut Vec<bool>, tree: &Tree) {
 }
 
 /// A body and all it carries, as one rigid body.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Composite<S> {
     inertia: PseudoInertia<S>,
     /// The moment of inertia about z, Σ_xx + Σ_yy. A body that turns about z only has no other use for these two.
