@@ -46,13 +46,13 @@ pub fn derived(declaration: &Declaration) -> TokenStream {
                 (loaded.warnings, Vec::new(), [error, stub(&outline, name, &runtime)].into_iter().collect())
             }
         },
-        Err(faults) => (faults.diagnostics, Vec::new(), stub(&faults.outline, name, &runtime)),
+        Err(faults) => (faults.diagnostics.0, Vec::new(), stub(&faults.outline, name, &runtime)),
     };
     let messages = diagnostics.iter().map(|diagnostic| {
         let (message, span) = (message(diagnostic), place(declaration, diagnostic));
         match diagnostic.severity() {
             Severity::Error => compile_error(declaration, &message, span),
-            Severity::Warning => compile_warning(declaration, &message, span),
+            _ => compile_warning(declaration, &message, span),
         }
     });
     let warnings = warnings.iter().map(|warning| compile_warning(declaration, warning, model.span()));
@@ -92,7 +92,7 @@ fn message(diagnostic: &Diagnostic) -> String {
     let picture = diagnostic.to_string();
     let severity = match diagnostic.severity() {
         Severity::Error => "error: ",
-        Severity::Warning => "warning: ",
+        _ => "warning: ",
     };
     picture.strip_prefix(severity).unwrap_or(&picture).to_string()
 }

@@ -1,14 +1,14 @@
 //! From a file to a checked model.
 
 use crate::check;
-use crate::diagnostic::{Diagnostic, Faults, Findings, Message, Source, Text, messages};
+use crate::faults::Faults;
+use crate::messages;
 use crate::model::Model;
 use crate::scene::Scene;
 use crate::schema::Document;
-use std::ops::Range;
+use redysim_toml::{Diagnostic, Diagnostics, Findings, Message, Source, Text, parse};
 use std::path::Path;
 use std::sync::Arc;
-use toml::de::{DeTable, Error};
 
 /// A model, and what seems odd about its file.
 #[derive(Clone, Debug)]
@@ -127,23 +127,22 @@ impl Model {
         file_name: impl Into<String>,
         scene: impl Into<String>,
     ) -> Result<Loaded, Faults> {
-        let source = Arc::new(Source { name: file_name.into(), text: text.into() });
+        let source = Arc::new(Source::new(file_name, text));
         let scene_source = scene_source(scene.into());
-        let new_findings = || Findings::new(Arc::clone(&source), Arc::clone(&scene_source));
+        let new_findings = || Findings::with_beside(Arc::clone(&source), Arc::clone(&scene_source));
         let mut findings = new_findings();
-        let (root, errors) = DeTable::parse_recoverable(&source.text);
-        let (scene, scene_errors) = DeTable::parse_recoverable(&scene_source.text);
-        if !errors.is_empty() || !scene_errors.is_empty() {
-            // What a broken text says is read for the outline only: its faults would be echoes of the syntax errors.
-            let outline = Document::read(root.get_ref(), scene.get_ref(), &mut new_findings()).outline();
-            report_syntax(&errors, &source, &mut findings);
-            findings.within(Text::Scene, |findings| report_syntax(&scene_errors, &scene_source, findings));
+        let (file, scene) = (parse(&source), parse(&scene_source));
+        if !file.is_valid() || !scene.is_valid() {
+            // What stands in a broken text is read for the outline only: its errors would be echoes of the syntax errors.
+            let outline = Document::read(&file, &scene, &mut new_findings()).outline();
+            file.report(&mut findings);
+            findings.within(Text::Beside, |findings| scene.report(findings));
             return Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(outline), unread: false });
         }
-        let document = Document::read(root.get_ref(), scene.get_ref(), &mut findings);
+        let document = Document::read(&file, &scene, &mut findings);
         match check::check(&document, &mut findings) {
             Some((model, scene)) => {
-                Ok(Loaded { model, text: source.text.clone(), scene, warnings: findings.into_sorted() })
+                Ok(Loaded { model, text: source.text.clone(), scene, warnings: findings.into_sorted().0 })
             }
             None => Err(Faults {
                 diagnostics: findings.into_sorted(),
@@ -155,39 +154,14 @@ impl Model {
 }
 
 fn scene_source(text: String) -> Arc<Source> {
-    Arc::new(Source { name: "scene".into(), text })
-}
-
-/// More lines that are no TOML are not listed: the file is of another kind.
-const MOST_SYNTAX_ERRORS: usize = 10;
-
-/// Reports the first syntax error of each line; the parser stumbles on over the rest of a broken line.
-pub(crate) fn report_syntax(errors: &[Error], source: &Source, findings: &mut Findings) {
-    let start = source.text.len() - source.text.trim_start_matches('\u{feff}').trim_start().len();
-    if source.text[start..].starts_with('<') {
-        return findings.error(start..start + 1, messages::xml());
-    }
-    let mut lines = Vec::new();
-    for error in errors {
-        let span = error.span().unwrap_or(Range::default());
-        let line = source.place(&span).line;
-        if lines.contains(&line) {
-            continue;
-        }
-        if lines.len() == MOST_SYNTAX_ERRORS {
-            return findings.error(span, messages::more_is_no_toml());
-        }
-        lines.push(line);
-        findings.error(span, messages::syntax(error.message()));
-    }
+    Arc::new(Source::new("scene", text))
 }
 
 /// Without a file there are no links, but the scene still says which functions code around the model will call.
 fn nothing_of(name: String, message: Message, scene: &str, unread: bool) -> Faults {
-    let (nothing, scene_source) = (scene_source(String::new()), scene_source(scene.to_string()));
-    let (empty, _) = DeTable::parse_recoverable("");
-    let (scene, _) = DeTable::parse_recoverable(&scene_source.text);
-    let mut echoes = Findings::new(nothing, Arc::clone(&scene_source));
-    let outline = Document::read(empty.get_ref(), scene.get_ref(), &mut echoes).outline();
-    Faults { diagnostics: vec![Diagnostic::unreadable(name, message)], outline: Box::new(outline), unread }
+    let (nothing, scene_source) = (Source::new("", ""), scene_source(scene.to_string()));
+    let mut echoes = Findings::with_beside(scene_source.clone(), scene_source.clone());
+    let outline = Document::read(&parse(&nothing), &parse(&scene_source), &mut echoes).outline();
+    let diagnostics = Diagnostics(vec![Diagnostic::unreadable(name, message)]);
+    Faults { diagnostics, outline: Box::new(outline), unread }
 }

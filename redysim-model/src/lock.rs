@@ -1,11 +1,11 @@
 //! Joints held at a value: as if the file had them fixed there.
 
-use crate::diagnostic::messages::{did_you_mean, nearest, quoted};
 use crate::joint::Joint;
 use crate::model::{JointKind, Link, Model};
 use crate::rotation;
 use crate::rotation::align_z;
 use crate::spatial::{Mat3, Pose, Vec3};
+use redysim_toml::words::{did_you_mean, nearest, quoted};
 use std::fmt;
 
 impl Model {

@@ -72,10 +72,21 @@ fn table_2_has_an_impossible_last_link() {
 }
 
 #[test]
+fn the_documentation_lists_every_key_with_its_example_and_meaning() {
+    let path = models().join("../docs/model_keys.md");
+    let head = "# Keys of a model file\n\n";
+    let documentation = format!("{head}{}", redysim_model::key_documentation());
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&path, &documentation).unwrap();
+    }
+    assert!(fs::read_to_string(path).unwrap() == documentation, "BLESS=1 writes docs/model_keys.md anew");
+}
+
+#[test]
 fn a_file_that_cannot_be_read_is_a_diagnostic() {
     let shown = |path: PathBuf| {
         let faults = Model::load(&path).unwrap_err();
-        let [fault] = faults.diagnostics.as_slice() else { panic!("{faults}") };
+        let [fault] = &faults.diagnostics[..] else { panic!("{faults}") };
         assert_eq!((fault.position(), fault.file()), (None, path.to_str().unwrap()));
         assert!(faults.to_string().contains(fault.file()), "{faults}");
         fault.title().to_owned()

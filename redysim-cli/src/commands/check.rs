@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
             Some(failure) if !arguments.json => return Err(failure),
             other => {
                 let failure = other.unwrap_or_else(|| failure(arguments, &faults));
-                (faults.diagnostics, Err(failure))
+                (faults.diagnostics.0, Err(failure))
             }
         },
     };

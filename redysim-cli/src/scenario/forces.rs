@@ -4,7 +4,7 @@ use redysim_model::GenericMechanism;
 use redysim_runtime::TorqueLaw;
 
 use super::joints::Joint;
-use super::spread;
+use super::subject::spread;
 use super::table::Table;
 use crate::failure::Failure;
 

@@ -1,10 +1,15 @@
 //! A motion that is to be computed.
 
 use redysim_model::Mobility;
-use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::Stabilisation;
+use redysim_toml::{Field, Kind, Message, Reader};
 
-use super::{Integrator, Prescribed, Span, Subject, Torque};
+use super::integrator::Integrator;
+use super::keys;
+use super::span::Span;
+use super::subject::Subject;
+use super::torque::Torque;
+use super::trajectory::Prescribed;
 
 /// A motion that is to be computed.
 pub struct Forward {
@@ -15,12 +20,6 @@ pub struct Forward {
     pub stabilisation: Stabilisation<f64>,
 }
 
-const FORWARD: Shape =
-    Shape { owner: "`forward`", keys: &["start", "end", "step", "integrator", "torque", "stabilisation"] };
-
-const PLAIN: Shape = Shape { owner: "This stabilisation", keys: &["kind"] };
-const BAUMGARTE: Shape = Shape { owner: "Baumgarte's stabilisation", keys: &["kind", "alpha"] };
-
 impl Forward {
     /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None`, if what is wrong with that has
     /// been reported.
@@ -29,7 +28,7 @@ impl Forward {
         subject: &Subject<'_>,
         trajectory: Option<Option<&Prescribed>>,
     ) -> Field<Option<Forward>> {
-        reader.table("forward", &FORWARD, |mut reader| {
+        reader.table(&keys::FORWARD, |mut reader| {
             let span = Span::read(&mut reader);
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
             let torque = Torque::read(&mut reader, subject, trajectory);
@@ -62,18 +61,18 @@ fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabil
 }
 
 fn stabilisation(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Stabilisation<f64>> {
-    let kind = |name, kind| (name, (kind, &PLAIN));
+    let plain = |name, kind| Kind { name, kind: Some(kind), keys: &keys::PLAIN_STABILISATION };
     let kinds = [
-        kind("projection", Some(Stabilisation::Projection)),
-        kind("none", Some(Stabilisation::None)),
-        ("baumgarte", (None, &BAUMGARTE)),
+        plain("projection", Stabilisation::Projection),
+        plain("none", Stabilisation::None),
+        Kind { name: "baumgarte", kind: None, keys: &keys::BAUMGARTE },
     ];
-    let field = reader.table_of_kind("stabilisation", "kind", &kinds, kinds[0].1, |mut reader, kind| {
-        kind.or_else(|| {
-            let alpha = reader.positive("alpha");
-            Some(Stabilisation::Baumgarte { alpha: *reader.required("alpha", alpha).value()? })
-        })
-    });
+    let field =
+        reader.table_of_kind(&keys::STABILISATION, &keys::STABILISATION_KIND, &kinds, &kinds[0], |mut reader, kind| {
+            kind.or_else(|| {
+                Some(Stabilisation::Baumgarte { alpha: *reader.required(&keys::ALPHA, Reader::positive).value()? })
+            })
+        });
     subject.expect_loops(reader, "forward.stabilisation", &field);
     let stabilisation = field.value_or(Some(Stabilisation::Projection))??;
     Some(if subject.loops() { stabilisation } else { Stabilisation::Projection })

@@ -2,12 +2,11 @@
 
 use std::ops::Range;
 
-use redysim_model::document::{Reader, Shape};
-
-use toml::Spanned;
+use redysim_toml::{Reader, Spanned};
 
 use super::joints::{Quantity, some, values};
-use super::{Subject, asked};
+use super::keys;
+use super::subject::{Subject, given};
 
 /// A start.
 pub struct Initial {
@@ -21,26 +20,24 @@ pub struct Initial {
     pub held: Vec<usize>,
 }
 
-const INITIAL: Shape = Shape { owner: "`initial`", keys: &["q", "v", "assemble", "held"] };
-
 impl Initial {
     /// Reads the table `initial`; without one, all coordinates and velocities are zero.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Initial> {
         let (joints, actuated) = (subject.joints, subject.actuated());
         let all: Vec<usize> = (0..joints.len()).collect();
         let rest = || vec![0.0; joints.len()];
-        let field = reader.table("initial", &INITIAL, |mut reader| {
-            let q = values(&mut reader, "q", Quantity::Coordinate, joints, &all).value_or(rest());
-            let v = values(&mut reader, "v", Quantity::Rate, joints, &all);
+        let field = reader.table(&keys::INITIAL, |mut reader| {
+            let q = values(&mut reader, &keys::Q, Quantity::Coordinate, joints, &all).value_or(rest());
+            let v = values(&mut reader, &keys::V, Quantity::Rate, joints, &all);
             let (v, place_of_v) = (v.value_or(rest()), v.spanned().map_or(0..0, Spanned::span));
-            let assemble = reader.flag("assemble");
+            let assemble = reader.flag(&keys::ASSEMBLE);
             subject.expect_loops(&mut reader, "initial.assemble", &assemble);
-            let held = some(&mut reader, "held", joints);
+            let held = some(&mut reader, &keys::HELD, joints);
             subject.expect_loops(&mut reader, "initial.held", &held);
             let (assemble, held) = (assemble.value_or(true), held.value_or(actuated.clone()));
             Some(Initial { q: q?, v: v?, place_of_v, assemble: assemble?, held: held? })
         });
-        match asked(field)? {
+        match given(field)? {
             Some(initial) => Some(initial),
             None => Some(Initial { q: rest(), v: rest(), place_of_v: 0..0, assemble: true, held: actuated }),
         }

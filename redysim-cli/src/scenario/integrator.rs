@@ -1,13 +1,15 @@
 //! The integrators by their names.
 
 use redysim_model::GenericMechanism;
-use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::integrate::stability::{StepWarning, largest_stable_step};
 use redysim_runtime::integrate::{self, Observer, Solution};
 use redysim_runtime::{
     Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator as _, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
     SemiImplicitEuler,
 };
+use redysim_toml::{Field, Key, Kind, Message, Reader};
+
+use super::keys;
 
 /// An integrator and its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,11 +66,11 @@ impl Absolute {
     }
 
     fn read(reader: &mut Reader<'_, '_>) -> Option<Absolute> {
-        if !reader.has_table("atol") {
-            return reader.positive("atol").value_or(USUAL_ATOL).map(Absolute::uniform);
+        if !reader.has_table(&keys::ATOL) {
+            return reader.positive(&keys::ATOL).value_or(USUAL_ATOL).map(Absolute::uniform);
         }
-        let parts = reader.table("atol", &ATOL, |mut reader| {
-            ["position", "velocity", "work"].map(|key| reader.positive(key).value_or(USUAL_ATOL))
+        let parts = reader.table(&keys::ATOL, |mut reader| {
+            [keys::POSITION, keys::VELOCITY, keys::WORK].map(|key| reader.positive(&key).value_or(USUAL_ATOL))
         });
         let [position, velocity, work] = *parts.value()?;
         Some(Absolute { position: position?, velocity: velocity?, work: work? })
@@ -97,22 +99,16 @@ enum Method {
     Adaptive(Adaptive),
 }
 
-const FIXED: Shape = Shape { owner: "An integrator with steps of one size", keys: &["method", "step"] };
-const ADAPTIVE: Shape =
-    Shape { owner: "An integrator with steps from tolerances", keys: &["method", "rtol", "atol", "max_step"] };
-
-const ATOL: Shape = Shape { owner: "`atol`", keys: &["position", "velocity", "work"] };
-
-const fn fixed(name: &'static str, method: Fixed) -> (&'static str, (Method, &'static Shape)) {
-    (name, (Method::Fixed(method), &FIXED))
+const fn fixed(name: &'static str, method: Fixed) -> Kind<Method> {
+    Kind { name, kind: Method::Fixed(method), keys: &keys::FIXED_STEP }
 }
 
-const fn adaptive(name: &'static str, method: Adaptive) -> (&'static str, (Method, &'static Shape)) {
-    (name, (Method::Adaptive(method), &ADAPTIVE))
+const fn adaptive(name: &'static str, method: Adaptive) -> Kind<Method> {
+    Kind { name, kind: Method::Adaptive(method), keys: &keys::ADAPTIVE_STEP }
 }
 
 /// The names, and behind them other names of the same: the numbers are those of ReDySim's `int_type`.
-const METHODS: [(&str, (Method, &Shape)); 14] = [
+const METHODS: [Kind<Method>; 14] = [
     fixed("SemiImplicitEuler", Fixed::SemiImplicitEuler),
     fixed("Ode4", Fixed::Ode4),
     fixed("Ode5", Fixed::Ode5),
@@ -133,28 +129,34 @@ impl Integrator {
     /// Reads the table `integrator` of a run that takes `length`, s.
     pub fn read(reader: &mut Reader<'_, '_>, length: f64) -> Option<Integrator> {
         let max_step = USUAL_MAX_STEP * length;
-        let usual = (Method::Adaptive(Adaptive::Ode45), &ADAPTIVE);
-        let read = reader.table_of_kind("integrator", "method", &METHODS, usual, |mut reader, method| match method {
-            Method::Fixed(method) => {
-                let step = reader.positive("step");
-                let step = reader.required("step", step);
-                let spanned = step.spanned()?;
-                let size = *spanned.get_ref();
-                if size > length * (1.0 + ROUNDING) {
-                    return reader.fault_at(spanned.span(), too_long(reader.item(), size, length));
-                }
-                check_count(&mut reader, "step", &step, (length, MOST_FIXED))?;
-                Some(Integrator::Fixed(method, size))
-            }
-            Method::Adaptive(method) => {
-                let rtol = reader.positive("rtol").value_or(USUAL_RTOL);
-                let largest = reader.positive("max_step");
-                let max_step = largest.value_or(max_step);
-                check_count(&mut reader, "max_step", &largest, (length, MOST_ADAPTIVE))?;
-                let atol = Absolute::read(&mut reader);
-                Some(Integrator::Adaptive(method, Tolerances { rtol: rtol?, atol: atol?, max_step: max_step? }))
-            }
-        });
+        let usual = adaptive("Ode45", Adaptive::Ode45);
+        let read =
+            reader.table_of_kind(
+                &keys::INTEGRATOR,
+                &keys::METHOD,
+                &METHODS,
+                &usual,
+                |mut reader, method| match method {
+                    Method::Fixed(method) => {
+                        let step = reader.required(&keys::INTEGRATOR_STEP, Reader::positive);
+                        let spanned = step.spanned()?;
+                        let size = *spanned.get_ref();
+                        if size > length * (1.0 + ROUNDING) {
+                            return reader.error_at(spanned.span(), too_long(reader.item(), size, length));
+                        }
+                        check_count(&mut reader, &keys::INTEGRATOR_STEP, &step, (length, MOST_FIXED))?;
+                        Some(Integrator::Fixed(method, size))
+                    }
+                    Method::Adaptive(method) => {
+                        let rtol = reader.positive(&keys::RTOL).value_or(USUAL_RTOL);
+                        let largest = reader.positive(&keys::MAX_STEP);
+                        let max_step = largest.value_or(max_step);
+                        check_count(&mut reader, &keys::MAX_STEP, &largest, (length, MOST_ADAPTIVE))?;
+                        let atol = Absolute::read(&mut reader);
+                        Some(Integrator::Adaptive(method, Tolerances { rtol: rtol?, atol: atol?, max_step: max_step? }))
+                    }
+                },
+            );
         let usual = Tolerances { rtol: USUAL_RTOL, atol: Absolute::uniform(USUAL_ATOL), max_step };
         read.value_or(Some(Integrator::Adaptive(Adaptive::Ode45, usual)))?
     }
@@ -229,9 +231,9 @@ impl Tolerances {
 }
 
 /// Fails where steps no larger than that under `key` are more than a run may take.
-fn check_count(reader: &mut Reader<'_, '_>, key: &str, step: &Field<f64>, (length, most): (f64, f64)) -> Option<()> {
+fn check_count(reader: &mut Reader<'_, '_>, key: &Key, step: &Field<f64>, (length, most): (f64, f64)) -> Option<()> {
     let Some(spanned) = step.spanned() else { return Some(()) };
-    let step = *spanned.get_ref();
+    let (step, key) = (*spanned.get_ref(), key.name);
     if !length.is_finite() || length / step <= most {
         return Some(());
     }
@@ -242,7 +244,7 @@ fn check_count(reader: &mut Reader<'_, '_>, key: &str, step: &Field<f64>, (lengt
         length / step
     );
     let help = format!("give a `{key}`, s, that is larger, or end earlier");
-    reader.fault_at(spanned.span(), Message { title, label: "too small for this run".into(), help })
+    reader.error_at(spanned.span(), Message { title, label: "too small for this run".into(), help })
 }
 
 fn too_long(item: &str, step: f64, length: f64) -> Message {

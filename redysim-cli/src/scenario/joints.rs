@@ -4,11 +4,9 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use redysim_model::Model;
-use redysim_model::document::{Field, Message, Reader, Value};
-use toml::Spanned;
-use toml::de::DeValue;
+use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Spanned, Value};
 
-use super::limits;
+use super::resolution::resolved;
 
 /// A moving joint.
 #[derive(Clone, Debug)]
@@ -58,7 +56,7 @@ pub enum Quantity {
 /// which missing ones are zero.
 pub fn values(
     reader: &mut Reader<'_, '_>,
-    key: &str,
+    key: &Key,
     quantity: Quantity,
     joints: &[Joint],
     of: &[usize],
@@ -67,29 +65,21 @@ pub fn values(
 }
 
 /// Values for every point of a motion: an array of what [`values`] reads.
-pub fn points(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint], of: &[usize]) -> Field<Vec<Vec<f64>>> {
+pub fn points(reader: &mut Reader<'_, '_>, key: &Key, joints: &[Joint], of: &[usize]) -> Field<Vec<Vec<f64>>> {
     reader.field(key, |reader, path, value| {
-        let DeValue::Array(array) = value.get_ref() else {
-            return reader.wrong_type(path, value, "an array with the coordinates of each point");
-        };
-        let read = array
-            .iter()
-            .enumerate()
-            .map(|(k, value)| list(reader, &format!("{path}[{k}]"), value, Quantity::Coordinate, joints, of));
-        // Every point is read, so that each fault among them is reported.
-        read.collect::<Vec<_>>().into_iter().collect()
+        let array = reader.array(path, value, "an array with the coordinates of each point")?;
+        let read = |reader: &mut _, path: &_, value| list(reader, path, value, Quantity::Coordinate, joints, of);
+        reader.elements(path, array, read)
     })
 }
 
 /// Some of the joints, by their names.
-pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<Vec<usize>> {
+pub fn some(reader: &mut Reader<'_, '_>, key: &Key, joints: &[Joint]) -> Field<Vec<usize>> {
     reader.field(key, |reader, path, value| {
-        let DeValue::Array(array) = value.get_ref() else {
-            return reader.wrong_type(path, value, "an array of names of joints");
-        };
+        let array = reader.array(path, value, "an array of names of joints")?;
         let mut found = Vec::new();
         for (k, value) in array.iter().enumerate() {
-            let path = format!("{path}[{k}]");
+            let path = path.element(k);
             let DeValue::String(name) = value.get_ref() else {
                 return reader.wrong_type(&path, value, "the name of a joint");
             };
@@ -100,7 +90,7 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<V
                     label: "named before".into(),
                     help: "name each joint once".into(),
                 };
-                return reader.fault(value, message);
+                return reader.error(value, message);
             }
             found.push(joint);
         }
@@ -111,12 +101,12 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &str, joints: &[Joint]) -> Field<V
 /// The joint of a name that stands at `place`.
 fn index(reader: &mut Reader<'_, '_>, place: Range<usize>, name: &str, joints: &[Joint]) -> Option<usize> {
     let named: Vec<_> = joints.iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index)).collect();
-    reader.called(place, "joint", name, &named)
+    reader.lookup(place, "joint", name, &named)
 }
 
 /// A joint that is none of those that the values are for.
-fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &str, name: &str) -> Option<T> {
-    reader.fault_at(
+fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, name: &str) -> Option<T> {
+    reader.error_at(
         place,
         Message {
             title: format!("{}: `{path}` has nothing to do with the joint `{name}`", reader.item()),
@@ -128,7 +118,7 @@ fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &str, name
 
 fn list(
     reader: &mut Reader<'_, '_>,
-    path: &str,
+    path: &KeyPath,
     value: &Value<'_>,
     quantity: Quantity,
     joints: &[Joint],
@@ -142,8 +132,7 @@ fn list(
         }
         DeValue::Array(array) => {
             let pairs = array.iter().zip(of).enumerate();
-            let read =
-                pairs.map(|(i, (value, &joint))| one(reader, &format!("{path}[{i}]"), value, quantity, &joints[joint]));
+            let read = pairs.map(|(i, (value, &joint))| one(reader, &path.element(i), value, quantity, &joints[joint]));
             read.collect::<Vec<_>>().into_iter().collect()
         }
         DeValue::Table(table) => {
@@ -153,27 +142,33 @@ fn list(
                 let Some(at) = of.iter().position(|&other| other == joint) else {
                     return foreign(reader, name.span(), path, name.get_ref());
                 };
-                values[at] = one(reader, &format!("{path}.{}", name.get_ref()), value, quantity, &joints[joint])?;
+                values[at] = one(reader, &path.entry(name.get_ref()), value, quantity, &joints[joint])?;
                 Some(())
             };
-            // Every joint is read, so that each fault among them is reported.
+            // Every joint is read, so that each error among them is reported.
             table.iter().map(&mut read).collect::<Vec<_>>().into_iter().collect::<Option<()>>()?;
             Some(values)
         }
         DeValue::Integer(_) | DeValue::Float(_) if quantity == Quantity::Gain => {
-            Some(vec![reader.a_number(path, value)?; of.len()])
+            Some(vec![reader.parse_number(path, value)?; of.len()])
         }
         _ => reader.wrong_type(path, value, "an array with a value for each joint, or a table by their names"),
     }
 }
 
-fn one(reader: &mut Reader<'_, '_>, path: &str, value: &Value<'_>, quantity: Quantity, joint: &Joint) -> Option<f64> {
+fn one(
+    reader: &mut Reader<'_, '_>,
+    path: &KeyPath,
+    value: &Value<'_>,
+    quantity: Quantity,
+    joint: &Joint,
+) -> Option<f64> {
     match quantity {
         Quantity::Coordinate if joint.turns => {
-            let angle = reader.an_angle(path, value)?;
-            limits::coordinate(reader, value.span(), path, joint, angle)
+            let angle = reader.parse_angle(path, value)?;
+            resolved(reader, value.span(), path, angle)
         }
-        Quantity::Rate => reader.displacement(path, value, joint.turns, "/s"),
-        Quantity::Coordinate | Quantity::Gain => reader.a_number(path, value),
+        Quantity::Rate => reader.parse_displacement(path, value, joint.turns, "/s"),
+        Quantity::Coordinate | Quantity::Gain => reader.parse_number(path, value),
     }
 }

@@ -1,41 +1,18 @@
-//! How far joints may move: what numbers of 64 bits resolve, and what loops can be followed over.
+//! How far joints may move in a run: what numbers of 64 bits resolve, and what loops can be followed over.
 
-use std::ops::Range;
-
-use redysim_model::document::{Message, Reader};
 use redysim_runtime::{Motion, Trajectory};
+use redysim_toml::{Message, Reader};
 
+use super::initial::Initial;
 use super::joints::Joint;
-use super::{Dynamics, Initial, Prescribed, Span, Subject};
-
-/// The largest angle, rad. Neighbouring numbers are 1.2e-7 rad apart there, a tenth of the default absolute tolerance,
-/// and farther apart beyond.
-pub const MOST_ANGLE: f64 = 1e9;
+use super::resolution::{MOST_ANGLE, unresolved};
+use super::span::Span;
+use super::subject::{Dynamics, Subject};
+use super::trajectory::Prescribed;
 
 /// The farthest that a prescribed joint of closed loops moves from row to row, rad or m: `ClosedLoopInverse` closes the
 /// loops at every 0.1 rad or m of the way, but no more than 10,000 times, and beyond that leaves the branch unnoticed.
 const MOST_MOVE: f64 = 1e3;
-
-/// The coordinate `value` of a joint at `place`, called `path`, or a fault where it is an angle too large to be
-/// resolved.
-pub fn coordinate(
-    reader: &mut Reader<'_, '_>,
-    place: Range<usize>,
-    path: &str,
-    joint: &Joint,
-    value: f64,
-) -> Option<f64> {
-    if !joint.turns || value.abs() <= MOST_ANGLE {
-        return Some(value);
-    }
-    let title = format!("{}: `{path}` is {value:?} rad, and an angle is at most {MOST_ANGLE:e} rad", reader.item());
-    reader.fault_at(place, Message { title, label: "too many turns".into(), help: unresolved("leave whole turns out") })
-}
-
-/// What unresolved angles ask for.
-fn unresolved(remedy: &str) -> String {
-    format!("{remedy}: beyond {MOST_ANGLE:e} rad neighbouring numbers are more than 1e-7 rad apart")
-}
 
 /// Fails where a joint starts so fast that it would turn farther in `span` than angles are resolved.
 pub fn check_start(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, initial: &Initial, span: Span) -> Option<()> {
@@ -50,7 +27,7 @@ pub fn check_start(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, initial: 
         v.abs() * length
     );
     let help = unresolved("start more slowly, or end earlier");
-    reader.fault_at(initial.place_of_v.clone(), Message { title, label: "too fast for this run".into(), help })
+    reader.error_at(initial.place_of_v.clone(), Message { title, label: "too fast for this run".into(), help })
 }
 
 /// Fails where a prescribed motion is not finite within `span`, or farther than angles are resolved or loops are
@@ -93,7 +70,7 @@ pub fn check_motion(
                 continue;
             };
             return reader
-                .fault_at(prescribed.place.clone(), Message { title, label: "too fast or too far".into(), help });
+                .error_at(prescribed.place.clone(), Message { title, label: "too fast or too far".into(), help });
         }
         before = q;
     }

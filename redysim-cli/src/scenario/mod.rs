@@ -5,22 +5,22 @@ mod forward;
 mod initial;
 mod integrator;
 pub mod joints;
+mod keys;
 mod law;
 mod limits;
-mod manual;
+mod resolution;
 mod span;
+mod subject;
 mod table;
 mod torque;
 mod trajectory;
 
 use std::cell::OnceCell;
-use std::fmt;
 use std::path::Path;
 
-use redysim_model::document::{self, Field, Message, Reader, Shape};
-use redysim_model::{Diagnostic, GenericMechanism, Mobility, Model};
+use redysim_model::{Diagnostic, GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
-use toml::de::DeValue;
+use redysim_toml::{DeValue, Field, Message, Reader};
 use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
@@ -32,27 +32,11 @@ pub use integrator::{Absolute, Integrator, Tolerances};
 use joints::Joint;
 pub use law::Law;
 pub use span::Span;
+use subject::given;
+pub use subject::{Dynamics, Subject, indices};
 use table::Table;
 pub use torque::Torque;
 pub use trajectory::{Prescribed, USUAL_THROUGH};
-
-/// What may be computed of a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dynamics {
-    /// The forces that a prescribed motion takes.
-    Inverse,
-    /// The motion that forces make.
-    Forward,
-}
-
-impl fmt::Display for Dynamics {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Dynamics::Inverse => "inverse",
-            Dynamics::Forward => "forward",
-        })
-    }
-}
 
 /// What is to be computed of a model.
 pub struct Scenario {
@@ -76,9 +60,6 @@ pub struct Scenario {
     pub forward: Option<Forward>,
 }
 
-const SCENARIO: Shape =
-    Shape { owner: "A scenario", keys: &["name", "model", "initial", "trajectory", "inverse", "forward", "run"] };
-const INVERSE: Shape = Shape { owner: "`inverse`", keys: &["start", "end", "step"] };
 impl Scenario {
     /// Reads what a scenario says of a run, and its model, and prints their warnings unless `quiet`. What it says of
     /// the other run may wait for what this one writes.
@@ -96,7 +77,7 @@ impl Scenario {
         }
         let mut failure = None;
         let shown = path.display().to_string();
-        let read = document::read(text.clone(), shown, &manual::MANUAL, &SCENARIO, "the scenario", |reader| {
+        let read = redysim_toml::read(text.clone(), shown, &keys::SCENARIO, "the scenario", |reader| {
             read(reader, path, text, dynamics, quiet, &mut failure)
         });
         if let Some(failure) = failure {
@@ -138,60 +119,6 @@ impl Scenario {
     }
 }
 
-/// What a scenario is about.
-pub struct Subject<'s> {
-    /// What is to be computed.
-    dynamics: Dynamics,
-    joints: &'s [Joint],
-    model: &'s Model,
-    /// What its loops leave free, once somebody has asked: to find that closes them.
-    mobility: OnceCell<Mobility>,
-    /// Where the files are that it names.
-    folder: &'s Path,
-}
-
-impl Subject<'_> {
-    /// Whether there are closed loops.
-    fn loops(&self) -> bool {
-        !self.model.loops.is_empty()
-    }
-
-    /// What the loops leave free.
-    fn mobility(&self) -> &Mobility {
-        self.mobility.get_or_init(|| Mobility::of(self.model))
-    }
-
-    /// Warns of a setting of closed loops where there are none.
-    fn expect_loops<T>(&self, reader: &mut Reader<'_, '_>, key: &str, setting: &Field<T>) {
-        if let (false, Some(given)) = (self.loops(), setting.spanned()) {
-            let title = format!("{}: `{key}` is of closed loops, and the model has none", reader.item());
-            let message = Message { title, label: "without effect".into(), help: "leave it out".into() };
-            reader.warning(given.span(), message);
-        }
-    }
-
-    /// The joints that have an actuator.
-    fn actuated(&self) -> Vec<usize> {
-        indices(self.joints, |joint| joint.actuated)
-    }
-
-    /// What `read` makes of the table that stands under `file`; its faults are shown there.
-    fn table<T>(&self, reader: &mut Reader<'_, '_>, read: impl FnOnce(Table) -> Result<T, Failure>) -> Option<T> {
-        let file = reader.text("file");
-        let file = reader.required("file", file);
-        let named = file.spanned()?;
-        match Table::read(&self.folder.join(named.get_ref())).and_then(read) {
-            Ok(read) => Some(read),
-            Err(fault) => {
-                let help = Some(fault.advice()).filter(|help| !help.is_empty());
-                let (title, help) =
-                    (fault.message().to_owned(), help.unwrap_or("correct the table, or name another").into());
-                reader.fault_at(named.span(), Message { title, label: "named here".into(), help })
-            }
-        }
-    }
-}
-
 fn read(
     mut reader: Reader<'_, '_>,
     path: &Path,
@@ -203,8 +130,7 @@ fn read(
     let folder = path.parent().unwrap_or(Path::new(""));
     let stem = path.file_stem().map_or("scenario".into(), |stem| stem.to_string_lossy().into_owned());
     let name = name(&mut reader).value_or(stem);
-    let model = reader.text("model");
-    let model = reader.required("model", model);
+    let model = reader.required(&keys::MODEL, Reader::text);
     let named = model.spanned()?;
     let model_path = folder.join(named.get_ref());
     // What the rest of the scenario says depends on the joints.
@@ -213,7 +139,7 @@ fn read(
             let why = faults.errors().map(Diagnostic::title).collect::<String>();
             let title = format!("{}: {why}", model_path.display());
             let help = "the path of the model is taken from the folder of the scenario".into();
-            return reader.fault_at(named.span(), Message { title, label: "named here".into(), help });
+            return reader.error_at(named.span(), Message { title, label: "named here".into(), help });
         }
         read => match model::loaded(&model_path, read, quiet) {
             Ok(loaded) => (GenericMechanism::new(loaded.model), loaded.text),
@@ -229,10 +155,10 @@ fn read(
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);
     let (inverse, forward) = match dynamics {
-        Dynamics::Inverse => (reader.table("inverse", &INVERSE, |mut reader| Span::read(&mut reader)), Field::Missing),
+        Dynamics::Inverse => (reader.table(&keys::INVERSE, |mut reader| Span::read(&mut reader)), Field::Missing),
         Dynamics::Forward => (Field::Missing, Forward::read(&mut reader, &subject, followed)),
     };
-    let (inverse, forward) = (asked(inverse)?, asked(forward)?);
+    let (inverse, forward) = (given(inverse)?, given(forward)?);
     let (name, initial, trajectory) = (name?, initial?, trajectory?);
     let followed = forward.as_ref().and_then(|forward| Some((forward.torque.followed()?, forward.span)));
     if let Some(motion) = trajectory.as_ref().zip(inverse).or(followed) {
@@ -253,12 +179,12 @@ fn document(reader: &mut Reader<'_, '_>, text: &str) -> Option<DocumentMut> {
     };
     let title = format!("{}: not TOML: {}", reader.item(), fault.message());
     let help = "TOML has integers from -2^63 to 2^63 - 1 and floats up to 1.8e308".to_owned();
-    reader.fault_at(fault.span().unwrap_or(0..0), Message { title, label: "here".into(), help })
+    reader.error_at(fault.span().unwrap_or(0..0), Message { title, label: "here".into(), help })
 }
 
 /// The scenario's name, after which a folder is called.
 fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
-    reader.field("name", |reader, path, value| {
+    reader.field(&keys::NAME, |reader, path, value| {
         let DeValue::String(name) = value.get_ref() else {
             return reader.wrong_type(path, value, "a string");
         };
@@ -268,29 +194,6 @@ fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
         }
         let title = format!("{}: `{path}` is `{name}`, after which no folder can be called", reader.item());
         let help = "the results go to a folder of this name: give one without / and not empty".to_owned();
-        reader.fault(value, Message { title, label: "no name of a folder".into(), help })
+        reader.error(value, Message { title, label: "no name of a folder".into(), help })
     })
-}
-
-/// What a table says, if it is there; `None` where it is faulty.
-fn asked<T>(field: Field<Option<T>>) -> Option<Option<T>> {
-    match field {
-        Field::Missing => Some(None),
-        Field::Faulty => None,
-        Field::Value(value) => value.into_inner().map(Some),
-    }
-}
-
-/// The coordinates of the joints that are `wanted`.
-pub fn indices(joints: &[Joint], wanted: impl Fn(&Joint) -> bool) -> Vec<usize> {
-    joints.iter().enumerate().filter(|(_, joint)| wanted(joint)).map(|(index, _)| index).collect()
-}
-
-/// One entry for each of `count` coordinates: `values` for those `at`, zero for the others.
-pub fn spread(at: &[usize], values: &[f64], count: usize) -> Vec<f64> {
-    let mut all = vec![0.0; count];
-    for (&index, &value) in at.iter().zip(values) {
-        all[index] = value;
-    }
-    all
 }

@@ -1,6 +1,8 @@
 //! From when to when, and the instants that are written.
 
-use redysim_model::document::{Message, Reader};
+use redysim_toml::{Message, Reader};
+
+use super::keys;
 
 /// Nothing that is written has more rows: nobody reads them, and tens of gigabytes are written by mistake only.
 const MOST: f64 = 1e7;
@@ -25,11 +27,9 @@ pub struct Span {
 impl Span {
     /// Reads `start` (0 by default), `end` and `step`.
     pub fn read(reader: &mut Reader<'_, '_>) -> Option<Span> {
-        let start = reader.number("start");
-        let end = reader.number("end");
-        let end = reader.required("end", end);
-        let step = reader.positive("step");
-        let step = reader.required("step", step);
+        let start = reader.number(&keys::START);
+        let end = reader.required(&keys::END, Reader::number);
+        let step = reader.required(&keys::STEP, Reader::positive);
         let (start, spanned) = (start.value_or(0.0)?, end.spanned()?);
         let span = Span { start, end: *spanned.get_ref(), step: *step.value()?, decimals: None };
         let count = span.steps();
@@ -67,7 +67,7 @@ impl Span {
         } else {
             return Some(span.in_decimals());
         };
-        reader.fault_at(spanned.span(), fault)
+        reader.error_at(spanned.span(), fault)
     }
 
     /// The same with its instants as decimals where they are some: for a span that has been checked.

@@ -1,16 +1,17 @@
 //! What the actuators do.
 
 use redysim_model::GenericMechanism;
-use redysim_model::document::{Field, Message, Reader, Shape};
 use redysim_runtime::{
     ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Free, Proportional, ProportionalDerivative, TrackingPd,
 };
+use redysim_toml::{Field, Key, Kind, Message, Reader};
 
 use super::forces::Forces;
 use super::joints::{Joint, Quantity, some, values};
+use super::keys;
 use super::law::Law;
+use super::subject::{Subject, spread};
 use super::trajectory::Prescribed;
-use super::{Subject, spread};
 
 /// A torque law, as the scenario has it: its values are those of the joints that it drives.
 #[derive(Clone, Debug)]
@@ -49,23 +50,17 @@ pub enum Torque {
     },
 }
 
-const FREE: Shape = Shape { owner: "The law `free`", keys: &["law"] };
-const P: Shape = Shape { owner: "The law `p`", keys: &["law", "joints", "target", "kp"] };
-const PD: Shape = Shape { owner: "The law `pd`", keys: &["law", "joints", "target", "kp", "kd"] };
-const TRACKING: Shape = Shape { owner: "The law `tracking-pd`", keys: &["law", "joints", "kp", "kd"] };
-const COMPUTED: Shape = Shape { owner: "The law `computed-torque`", keys: &["law", "kp", "kd"] };
-const TABLE: Shape = Shape { owner: "The law `csv`", keys: &["law", "joints", "file"] };
-const LAWS: [(&str, (Kind, &Shape)); 6] = [
-    ("free", (|_| Some(Torque::Free), &FREE)),
-    ("p", (|law| law.p(), &P)),
-    ("pd", (|law| law.pd(), &PD)),
-    ("tracking-pd", (|law| law.tracking_pd(), &TRACKING)),
-    ("computed-torque", (|law| law.computed_torque(), &COMPUTED)),
-    ("csv", (|law| law.table(), &TABLE)),
+const LAWS: [Kind<ReadLaw>; 6] = [
+    Kind { name: "free", kind: |_| Some(Torque::Free), keys: &keys::FREE },
+    Kind { name: "p", kind: |law| law.p(), keys: &keys::P },
+    Kind { name: "pd", kind: |law| law.pd(), keys: &keys::PD },
+    Kind { name: "tracking-pd", kind: |law| law.tracking_pd(), keys: &keys::TRACKING_PD },
+    Kind { name: "computed-torque", kind: |law| law.computed_torque(), keys: &keys::COMPUTED_TORQUE },
+    Kind { name: "csv", kind: |law| law.table(), keys: &keys::FORCE_TABLE },
 ];
 
 /// How the keys of a law are read.
-type Kind = fn(Source<'_, '_, '_>) -> Option<Torque>;
+type ReadLaw = fn(Source<'_, '_, '_>) -> Option<Torque>;
 
 /// What a law is read from.
 struct Source<'s, 'a, 'f> {
@@ -83,8 +78,8 @@ impl Torque {
         subject: &Subject<'_>,
         trajectory: Option<Option<&Prescribed>>,
     ) -> Option<Torque> {
-        let read = |reader: Reader<'_, '_>, law: Kind| law(Source { reader, subject, trajectory });
-        match reader.table_of_kind("torque", "law", &LAWS, LAWS[0].1, read) {
+        let read = |reader: Reader<'_, '_>, law: ReadLaw| law(Source { reader, subject, trajectory });
+        match reader.table_of_kind(&keys::TORQUE, &keys::LAW, &LAWS, &LAWS[0], read) {
             Field::Missing => Some(Torque::Free),
             field => field.value()?.clone(),
         }
@@ -144,13 +139,13 @@ impl Torque {
 impl<'s> Source<'s, '_, '_> {
     fn p(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
-        let [target, kp] = [self.targets(&joints), self.gains("kp", &joints)];
+        let [target, kp] = [self.targets(&joints), self.gains(&keys::KP, &joints)];
         Some(Torque::P { joints, target: target?, kp: kp? })
     }
 
     fn pd(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
-        let [target, kp, kd] = [self.targets(&joints), self.gains("kp", &joints), self.gains("kd", &joints)];
+        let [target, kp, kd] = [self.targets(&joints), self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
         Some(Torque::Pd { joints, target: target?, kp: kp?, kd: kd? })
     }
 
@@ -159,7 +154,7 @@ impl<'s> Source<'s, '_, '_> {
         let actuated = self.subject.actuated();
         let usual = trajectory.joints.iter().copied().filter(|joint| actuated.contains(joint)).collect();
         let joints = self.driven(usual)?;
-        let [kp, kd] = [self.gains("kp", &joints), self.gains("kd", &joints)];
+        let [kp, kd] = [self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
         if let Some(&joint) = joints.iter().find(|joint| !trajectory.joints.contains(joint)) {
             return astray(&mut self.reader, &self.subject.joints[joint]);
         }
@@ -171,21 +166,23 @@ impl<'s> Source<'s, '_, '_> {
 
     fn computed_torque(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
-        let [kp, kd] = ["kp", "kd"].map(|key| self.gains(key, &trajectory.joints));
+        let [kp, kd] = [keys::KP, keys::KD].map(|key| self.gains(&key, &trajectory.joints));
         let actuated = self.subject.actuated();
         if let Some(passive) = self.subject.joints.iter().find(|joint| !joint.actuated && !self.subject.loops()) {
             return underactuated(&mut self.reader, passive);
         }
         if let Err((fault, help)) = trajectory.check_joints(self.subject) {
             let title = format!("{}: {fault}, and computed torque moves it whole", self.reader.item());
-            return self.reader.fault_of_table(Message { title, label: "not with this trajectory".into(), help });
+            return self.reader.error_of_table(Message { title, label: "not with this trajectory".into(), help });
         }
         Some(Torque::Computed { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
     }
 
     fn table(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
-        let forces = self.subject.table(&mut self.reader, |table| Forces::of(table, self.subject.joints, &joints))?;
+        let forces = self
+            .subject
+            .table(&mut self.reader, &keys::FORCE_FILE, |table| Forces::of(table, self.subject.joints, &joints))?;
         Some(Torque::Table { joints, forces })
     }
 
@@ -196,7 +193,7 @@ impl<'s> Source<'s, '_, '_> {
 
     /// The joints that the law drives, `usual` unless it says which.
     fn driven(&mut self, usual: Vec<usize>) -> Option<Vec<usize>> {
-        let field = some(&mut self.reader, "joints", self.subject.joints);
+        let field = some(&mut self.reader, &keys::DRIVEN, self.subject.joints);
         let passive = |joint: &&usize| !self.subject.joints[**joint].actuated;
         if let Some(named) = field.spanned()
             && let Some(&joint) = named.get_ref().iter().find(passive)
@@ -208,28 +205,29 @@ impl<'s> Source<'s, '_, '_> {
                 label: "one of these".into(),
                 help: "well if a spring or a damper is there; else leave it out, or give it an actuator".into(),
             };
-            self.reader.warning(named.span(), message);
+            self.reader.warning_at(named.span(), message);
         }
         field.value_or(usual)
     }
 
     fn targets(&mut self, joints: &[usize]) -> Option<Vec<f64>> {
-        self.of("target", Quantity::Coordinate, joints)
+        self.of(&keys::TARGET, Quantity::Coordinate, joints)
     }
 
-    fn gains(&mut self, key: &str, joints: &[usize]) -> Option<Vec<f64>> {
+    fn gains(&mut self, key: &Key, joints: &[usize]) -> Option<Vec<f64>> {
         self.of(key, Quantity::Gain, joints)
     }
 
     /// What stands under `key` for the joints `of`.
-    fn of(&mut self, key: &str, quantity: Quantity, of: &[usize]) -> Option<Vec<f64>> {
-        let field = values(&mut self.reader, key, quantity, self.subject.joints, of);
-        self.reader.required(key, field).value().cloned()
+    fn of(&mut self, key: &Key, quantity: Quantity, of: &[usize]) -> Option<Vec<f64>> {
+        let joints = self.subject.joints;
+        let field = self.reader.required(key, |reader, key| values(reader, key, quantity, joints, of));
+        field.value().cloned()
     }
 }
 
 fn unfollowed<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
-    reader.fault_of_table(Message {
+    reader.error_of_table(Message {
         title: format!("{}: the torque law follows a trajectory, and there is none", reader.item()),
         label: "follows what?".into(),
         help: "add a table `[trajectory]`".into(),
@@ -237,7 +235,7 @@ fn unfollowed<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
 }
 
 fn idle<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
-    reader.fault_of_table(Message {
+    reader.error_of_table(Message {
         title: format!("{}: no joint that the trajectory prescribes has an actuator", reader.item()),
         label: "drives nothing".into(),
         help: "prescribe actuated joints, or name those that the law drives under `joints`".into(),
@@ -245,7 +243,7 @@ fn idle<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
 }
 
 fn astray<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
-    reader.fault_of_table(Message {
+    reader.error_of_table(Message {
         title: format!(
             "{}: the trajectory does not prescribe the joint `{}` that the torque law drives",
             reader.item(),
@@ -257,7 +255,7 @@ fn astray<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
 }
 
 fn underactuated<T>(reader: &mut Reader<'_, '_>, passive: &Joint) -> Option<T> {
-    reader.fault_of_table(Message {
+    reader.error_of_table(Message {
         title: format!(
             "{}: computed torque moves every joint of a tree, but the joint `{}` has no actuator",
             reader.item(),

@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use redysim_model::Mobility;
-use redysim_model::document::{Message, Reader, Shape};
 use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
-use toml::Spanned;
+use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 
 use super::joints::{Joint, Quantity, points, some, values};
+use super::keys;
+use super::subject::{Dynamics, Subject, spread};
 use super::table::Table;
-use super::{Dynamics, Subject};
 use crate::failure::Failure;
 use crate::number::counted;
 
@@ -22,11 +22,11 @@ pub struct Prescribed {
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
     pub table: Option<Table>,
-    motion: Kind,
+    motion: Path,
 }
 
 #[derive(Clone, Debug)]
-enum Kind {
+enum Path {
     Cycloid(Cycloid<f64, Vec<f64>>),
     /// q = q₀ + q̇ t.
     ConstantSpeed {
@@ -54,16 +54,12 @@ enum Smooth {
 const SMOOTH: [(&str, Smooth); 2] = [(USUAL_THROUGH, Smooth::LeastJerk), ("cubic", Smooth::Cubic)];
 /// The default of `through`.
 pub const USUAL_THROUGH: &str = "minimum-jerk";
-const CYCLOID: Shape = Shape { owner: "A cycloid", keys: &["kind", "joints", "from", "to", "duration"] };
-const CONSTANT_SPEED: Shape = Shape { owner: "A motion of constant speed", keys: &["kind", "joints", "from", "speed"] };
-const VIA: Shape = Shape { owner: "A motion through points", keys: &["kind", "joints", "times", "points"] };
-const TABLE: Shape = Shape { owner: "A motion from a table", keys: &["kind", "joints", "file", "through"] };
-const KINDS: [(&str, (Tag, &Shape)); 5] = [
-    ("cycloid", (Tag::Cycloid, &CYCLOID)),
-    ("constant-speed", (Tag::ConstantSpeed, &CONSTANT_SPEED)),
-    ("minimum-jerk", (Tag::Via(Smooth::LeastJerk), &VIA)),
-    ("cubic", (Tag::Via(Smooth::Cubic), &VIA)),
-    ("csv", (Tag::Table, &TABLE)),
+const KINDS: [Kind<Tag>; 5] = [
+    Kind { name: "cycloid", kind: Tag::Cycloid, keys: &keys::CYCLOID },
+    Kind { name: "constant-speed", kind: Tag::ConstantSpeed, keys: &keys::CONSTANT_SPEED },
+    Kind { name: "minimum-jerk", kind: Tag::Via(Smooth::LeastJerk), keys: &keys::VIA_POINTS },
+    Kind { name: "cubic", kind: Tag::Via(Smooth::Cubic), keys: &keys::VIA_POINTS },
+    Kind { name: "csv", kind: Tag::Table, keys: &keys::MOTION_TABLE },
 ];
 
 impl Prescribed {
@@ -73,64 +69,63 @@ impl Prescribed {
         let joints = subject.joints;
         let usual = if subject.loops() { subject.actuated() } else { (0..joints.len()).collect() };
         let mut place = None;
-        let field = reader.table_of_kind("trajectory", "kind", &KINDS, KINDS[0].1, |mut reader, tag| {
-            let chosen = some(&mut reader, "joints", joints).value_or(usual.clone())?;
-            let coordinates = |reader: &mut Reader<'_, '_>, key: &str| {
-                let field = values(reader, key, Quantity::Coordinate, joints, &chosen);
-                reader.required(key, field).value().cloned()
-            };
-            let mut table = None;
-            let motion = match tag {
-                Tag::Cycloid => {
-                    let (from, to) = (coordinates(&mut reader, "from"), coordinates(&mut reader, "to"));
-                    let duration = reader.positive("duration");
-                    let duration = reader.required("duration", duration);
-                    let spanned = duration.spanned()?;
-                    let cycloid = Cycloid::new(from?, to?, *spanned.get_ref());
-                    Kind::Cycloid(accepted(&mut reader, spanned, cycloid)?)
+        let field =
+            reader.table_of_kind(&keys::TRAJECTORY, &keys::MOTION_KIND, &KINDS, &KINDS[0], |mut reader, tag| {
+                let chosen = some(&mut reader, &keys::PRESCRIBED, joints).value_or(usual.clone())?;
+                let coordinates = |reader: &mut Reader<'_, '_>, key: &Key| {
+                    let read = |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, joints, &chosen);
+                    reader.required(key, read).value().cloned()
+                };
+                let mut table = None;
+                let motion = match tag {
+                    Tag::Cycloid => {
+                        let (from, to) = (coordinates(&mut reader, &keys::FROM), coordinates(&mut reader, &keys::TO));
+                        let duration = reader.required(&keys::DURATION, Reader::positive);
+                        let spanned = duration.spanned()?;
+                        let cycloid = Cycloid::new(from?, to?, *spanned.get_ref());
+                        Path::Cycloid(accepted(&mut reader, spanned, cycloid)?)
+                    }
+                    Tag::ConstantSpeed => {
+                        let from = coordinates(&mut reader, &keys::FROM);
+                        let speed = |reader: &mut _, key: &_| values(reader, key, Quantity::Rate, joints, &chosen);
+                        let speed = reader.required(&keys::SPEED, speed);
+                        place = speed.spanned().map(Spanned::span);
+                        Path::ConstantSpeed { from: from?, speed: speed.value()?.clone() }
+                    }
+                    Tag::Via(smooth) => {
+                        let times = reader.required(&keys::TIMES, Reader::numbers);
+                        let points = |reader: &mut _, key: &_| points(reader, key, joints, &chosen);
+                        let points = reader.required(&keys::POINTS, points);
+                        let spanned = times.spanned()?;
+                        let through = smooth.through(spanned.get_ref().clone(), points.value()?.clone());
+                        Path::ViaPoints(accepted(&mut reader, spanned, through)?)
+                    }
+                    Tag::Table => {
+                        let smooth = reader.choice(&keys::THROUGH, &SMOOTH).value_or(SMOOTH[0].1);
+                        let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
+                        let read = subject.table(&mut reader, &keys::MOTION_FILE, |table| {
+                            let through = from_table(&table, &of, smooth.unwrap_or(SMOOTH[0].1))?;
+                            Ok((table, through))
+                        });
+                        let (read, through) = read.filter(|_| smooth.is_some())?;
+                        table = Some(read);
+                        Path::ViaPoints(through)
+                    }
+                };
+                let prescribed = Prescribed { joints: chosen, place: 0..0, table, motion };
+                let checked = match subject.dynamics {
+                    Dynamics::Inverse => prescribed.check_joints(subject),
+                    // What a law needs to follow, it says itself.
+                    Dynamics::Forward => Ok(()),
+                };
+                match checked {
+                    Ok(()) => Some(prescribed),
+                    Err((fault, help)) => {
+                        let title = format!("{}: {fault}", reader.item());
+                        reader.error_of_table(Message { title, label: "prescribes this".into(), help })
+                    }
                 }
-                Tag::ConstantSpeed => {
-                    let from = coordinates(&mut reader, "from");
-                    let speed = values(&mut reader, "speed", Quantity::Rate, joints, &chosen);
-                    let speed = reader.required("speed", speed);
-                    place = speed.spanned().map(Spanned::span);
-                    Kind::ConstantSpeed { from: from?, speed: speed.value()?.clone() }
-                }
-                Tag::Via(smooth) => {
-                    let times = numbers(&mut reader, "times");
-                    let times = reader.required("times", times);
-                    let points = points(&mut reader, "points", joints, &chosen);
-                    let points = reader.required("points", points);
-                    let spanned = times.spanned()?;
-                    let through = smooth.through(spanned.get_ref().clone(), points.value()?.clone());
-                    Kind::ViaPoints(accepted(&mut reader, spanned, through)?)
-                }
-                Tag::Table => {
-                    let smooth = reader.choice("through", &SMOOTH, &[]).value_or(SMOOTH[0].1);
-                    let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
-                    let read = subject.table(&mut reader, |table| {
-                        let through = from_table(&table, &of, smooth.unwrap_or(SMOOTH[0].1))?;
-                        Ok((table, through))
-                    });
-                    let (read, through) = read.filter(|_| smooth.is_some())?;
-                    table = Some(read);
-                    Kind::ViaPoints(through)
-                }
-            };
-            let prescribed = Prescribed { joints: chosen, place: 0..0, table, motion };
-            let checked = match subject.dynamics {
-                Dynamics::Inverse => prescribed.check_joints(subject),
-                // What a law needs to follow, it says itself.
-                Dynamics::Forward => Ok(()),
-            };
-            match checked {
-                Ok(()) => Some(prescribed),
-                Err((fault, help)) => {
-                    let title = format!("{}: {fault}", reader.item());
-                    reader.fault_of_table(Message { title, label: "prescribes this".into(), help })
-                }
-            }
-        });
+            });
         if field.is_missing() {
             return Some(None);
         }
@@ -178,9 +173,9 @@ impl Prescribed {
 impl Trajectory<f64, Vec<f64>, Vec<f64>> for Prescribed {
     fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
         match &self.motion {
-            Kind::Cycloid(cycloid) => cycloid.at(t),
-            Kind::ViaPoints(through) => through.at(t),
-            Kind::ConstantSpeed { from, speed } => Motion {
+            Path::Cycloid(cycloid) => cycloid.at(t),
+            Path::ViaPoints(through) => through.at(t),
+            Path::ConstantSpeed { from, speed } => Motion {
                 q: from.iter().zip(speed).map(|(from, speed)| from + speed * t).collect(),
                 v: speed.clone(),
                 a: vec![0.0; speed.len()],
@@ -205,7 +200,7 @@ pub struct Spread<'a> {
 impl Trajectory<f64, Vec<f64>, Vec<f64>> for Spread<'_> {
     fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
         let Motion { q, v, a } = self.prescribed.at(t);
-        let [q, v, a] = [q, v, a].map(|values| super::spread(&self.prescribed.joints, &values, self.count));
+        let [q, v, a] = [q, v, a].map(|values| spread(&self.prescribed.joints, &values, self.count));
         Motion { q, v, a }
     }
 }
@@ -223,23 +218,12 @@ impl Smooth {
     }
 }
 
-/// Numbers, as many as there are.
-fn numbers(reader: &mut Reader<'_, '_>, key: &str) -> redysim_model::document::Field<Vec<f64>> {
-    reader.field(key, |reader, path, value| {
-        let toml::de::DeValue::Array(array) = value.get_ref() else {
-            return reader.wrong_type(path, value, "an array of numbers");
-        };
-        let read = array.iter().enumerate().map(|(i, value)| reader.a_number(&format!("{path}[{i}]"), value));
-        read.collect::<Vec<_>>().into_iter().collect()
-    })
-}
-
 /// What was made of the value at a place, or a fault there.
 fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, TrajectoryError<f64>>) -> Option<T> {
     made.map_err(|error| {
         let title = format!("{}: {error}", reader.item());
         let help = "times are in s, and as many as there are points".to_owned();
-        reader.fault_at::<()>(at.span(), Message { title, label: "here".into(), help })
+        reader.error_at::<()>(at.span(), Message { title, label: "here".into(), help })
     })
     .ok()
 }

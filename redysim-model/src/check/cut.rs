@@ -2,10 +2,11 @@
 
 use super::placement::unit_axis;
 use super::tree;
-use crate::diagnostic::{Findings, messages};
+use crate::messages;
 use crate::model::{CutKind, CutSide, Loop};
 use crate::schema::{CutSideTable, Document, LoopTable};
 use crate::spatial::Vec3;
+use redysim_toml::Findings;
 
 /// The loops, if none has a fault. `parents` is there if the tree has none.
 pub(super) fn loops(

@@ -1,9 +1,10 @@
 //! Mass and inertia that a body can have.
 
-use crate::diagnostic::{Findings, messages};
 use crate::inertia::Sym3;
+use crate::messages;
 use crate::model::Inertia;
 use crate::schema::LinkTable;
+use redysim_toml::Findings;
 
 /// Roundoff allowed below zero, relative to the largest principal moment.
 const DEFINITE: f64 = 1e-12;

@@ -1,9 +1,10 @@
 //! Every joint moves something: the structural reason for a singular mass matrix. The numerical one is in
 //! [`super::singular`].
 
-use crate::diagnostic::{Message, messages};
+use crate::messages;
 use crate::model::Inertia;
 use crate::schema::{Document, LinkTable};
+use redysim_toml::Message;
 
 /// Each moving link that has neither mass nor inertia and carries none, with its message: its row of the mass matrix is
 /// zero.

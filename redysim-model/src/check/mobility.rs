@@ -1,11 +1,12 @@
 //! What is odd about the loops of a model: their constraints, and the mobility they leave, against what the file seems
 //! to expect.
 
-use crate::diagnostic::{Message, messages};
 use crate::generic::GenericMechanism;
+use crate::messages;
 use crate::mobility::{Mobility, STARTS, constraints_of_loops, structural_rank};
 use crate::model::Model;
 use redysim_runtime::LoopClosure;
+use redysim_toml::Message;
 
 /// What is odd about the loops of a model without errors: each with the index of the loop, or of none where it is the
 /// mechanism as a whole.

@@ -11,12 +11,12 @@ mod scene;
 mod singular;
 mod tree;
 
-use crate::diagnostic::{Findings, Message, messages};
+use crate::messages;
 use crate::model::{JointKind, Link, Model};
 use crate::scene::Scene;
 use crate::schema::{Document, LinkTable};
 use crate::spatial::Vec3;
-use toml::Spanned;
+use redysim_toml::{Findings, Message, Spanned};
 
 /// The model and what is asked of it, unless an error is found, or was found while reading.
 pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Model, Scene)> {
@@ -59,7 +59,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     }
     for (cut, message) in mobility::check(&model) {
         let table = cut.and_then(|cut| document.loops.get(cut)).and_then(|table| table.name.spanned());
-        let message = message.with_locks(&document.locks());
+        let message = messages::with_locks(message, &document.locks());
         findings.warning(table.map_or(document.place.clone(), Spanned::span), message);
     }
     Some((model, scene?))
@@ -68,7 +68,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
 /// Reports links whose joints meet no inertia.
 fn report(document: &Document, links: &[(usize, Message)], findings: &mut Findings) {
     for (link, message) in links {
-        let message = message.clone().with_locks(&document.locks());
+        let message = messages::with_locks(message.clone(), &document.locks());
         findings.error(document.links.get(*link).map_or(document.place.clone(), LinkTable::place), message);
     }
 }
@@ -106,7 +106,7 @@ fn something_moves(document: &Document, findings: &mut Findings) {
     };
     let fixed = |link: &LinkTable| link.joint.value() == Some(&JointKind::Fixed);
     let locks = &document.scene.locked;
-    if let Some(last) = locks.said.last()
+    if let Some(last) = locks.value.last()
         && document.links.iter().all(LinkTable::is_rigid)
     {
         let message = messages::nothing_moves_unlocked(&document.item);

@@ -1,10 +1,10 @@
 //! Names: there, usable, and used once.
 
-use crate::diagnostic::{Findings, messages};
-use crate::schema::{Document, Field};
+use crate::messages;
+use crate::schema::Document;
+use redysim_toml::{Field, Findings, Spanned};
 use std::collections::HashMap;
 use std::ops::Range;
-use toml::Spanned;
 
 /// The name of the ground.
 pub(super) const BASE: &str = "base";

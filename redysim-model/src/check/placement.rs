@@ -1,11 +1,11 @@
-//! Where a joint stands and about what it moves, said in one of two ways.
+//! Where a joint stands and about what it moves, given in one of two ways.
 
-use crate::diagnostic::{Findings, messages};
+use crate::messages;
 use crate::model::JointKind;
 use crate::rotation::{about_x, about_z, roll_pitch_yaw};
-use crate::schema::{Dh, Field, LinkTable, Origin};
+use crate::schema::{Dh, LinkTable, Origin};
 use crate::spatial::{Mat3, Pose, Vec3};
-use toml::Spanned;
+use redysim_toml::{Field, Findings, Spanned};
 
 /// The z axis: of every Denavit-Hartenberg joint, and of others unless the file says otherwise.
 const Z: Vec3<f64> = Vec3([0.0, 0.0, 1.0]);
@@ -62,7 +62,7 @@ pub(super) fn unit_axis(
 ) -> Option<Vec3<f64>> {
     let (given, span) = match axis {
         Field::Value(axis) if wanted => (Vec3(*axis.get_ref()), Spanned::span(axis)),
-        Field::Faulty => return None,
+        Field::Invalid => return None,
         _ => return Some(Z),
     };
     // Scaled first, so that the squares neither overflow nor vanish.

@@ -1,22 +1,23 @@
 //! What is asked of the model: things that it has.
 
-use crate::diagnostic::{Findings, messages};
+use crate::messages;
 use crate::model::Link;
 use crate::scene::{AccelerationMethod, Scene};
 use crate::schema::{Document, Entry};
 use redysim_runtime::{Function, Functions};
+use redysim_toml::Findings;
 
 /// The scene, if it has no fault.
 pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scene> {
-    let Entry { text, said } = &document.scene.functions;
-    let asked = said.value().into_iter().flat_map(|functions| &functions.0);
-    for function in asked.filter(|function| function.get_ref().needs_loops() && document.loops.is_empty()) {
+    let Entry { text, value: functions } = &document.scene.functions;
+    let requested = functions.value().into_iter().flat_map(|requested| &requested.0);
+    for function in requested.filter(|function| function.get_ref().needs_loops() && document.loops.is_empty()) {
         findings.within(*text, |findings| {
             findings.error(function.span(), messages::function_of_loops(&document.item, *function.get_ref()));
         });
     }
-    let functions = if said.is_missing() { Functions::ALL } else { said.value()?.set() };
-    let forward_dynamics = &document.scene.forward_dynamics.said;
+    let functions = if functions.is_missing() { Functions::ALL } else { functions.value()?.set() };
+    let forward_dynamics = &document.scene.forward_dynamics.value;
     let forward_dynamics =
         if forward_dynamics.is_missing() { AccelerationMethod::Auto } else { *forward_dynamics.value()? };
     Some(Scene { functions, tolerance: tolerance(document, findings)?, forward_dynamics })
@@ -30,10 +31,10 @@ pub(super) fn without_dynamics_of_tree(
     scene: Option<&mut Scene>,
     findings: &mut Findings,
 ) {
-    let Entry { text, said } = &document.scene.functions;
+    let Entry { text, value: functions } = &document.scene.functions;
     let solving = Function::ForwardDynamics;
-    let asked = said.value().into_iter().flat_map(|functions| &functions.0);
-    for function in asked.filter(|function| *function.get_ref() == solving) {
+    let requested = functions.value().into_iter().flat_map(|requested| &requested.0);
+    for function in requested.filter(|function| *function.get_ref() == solving) {
         findings.within(*text, |findings| {
             let message = messages::singular_tree(&document.item, solving, &link.name, &link.joint_name);
             findings.error(function.span(), message);
@@ -46,11 +47,11 @@ pub(super) fn without_dynamics_of_tree(
 
 /// The tolerance, which needs the range of every joint that moves; `Some(None)` without one.
 fn tolerance(document: &Document, findings: &mut Findings) -> Option<Option<f64>> {
-    let Entry { text, said } = &document.scene.tolerance;
-    if said.is_missing() {
+    let Entry { text, value: tolerance } = &document.scene.tolerance;
+    if tolerance.is_missing() {
         return Some(None);
     }
-    let given = said.spanned()?;
+    let given = tolerance.spanned()?;
     let without = document.links.iter().filter(|link| !link.is_rigid() && link.range.is_missing());
     let without: Vec<&str> = without.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect();
     if !without.is_empty() {

@@ -1,9 +1,10 @@
 //! The numerical test for a singular mass matrix: joints that move mass, yet are met by no inertia at any position.
 
 use crate::denoc::{Untraced, mass_matrix};
-use crate::diagnostic::{Message, messages};
+use crate::messages;
 use crate::model::Model;
 use crate::tree::{Body, Tree};
+use redysim_toml::Message;
 
 /// Positions that are looked at; a joint is reported if it is met by no inertia at all of them.
 const POSITIONS: usize = 3;

@@ -1,9 +1,9 @@
 //! Parents: known, and leading to the ground.
 
 use super::names::BASE;
-use crate::diagnostic::{Findings, messages};
+use crate::messages;
 use crate::schema::Document;
-use toml::Spanned;
+use redysim_toml::{Findings, Spanned};
 
 /// The link of this name: `Some(None)` is the ground, `None` no link.
 pub(super) fn find(document: &Document, name: &str) -> Option<Option<usize>> {

@@ -1,11 +1,11 @@
 //! A `[[loop]]` table.
 
-use super::reader::{Reader, Shape};
-use super::{Field, Table, item};
-use crate::diagnostic::Findings;
+use super::item::item;
+use super::keys;
 use crate::model::CutKind;
+use redysim_toml::{Field, Findings, Key, Reader, TableAt};
 
-/// What a `[[loop]]` table says.
+/// A `[[loop]]` table.
 #[derive(Debug)]
 pub(crate) struct LoopTable {
     /// What messages call the loop.
@@ -16,7 +16,7 @@ pub(crate) struct LoopTable {
     pub(crate) b: CutSideTable,
 }
 
-/// What a `[[loop]]` table says about one side of the cut.
+/// One side of the cut.
 #[derive(Debug)]
 pub(crate) struct CutSideTable {
     /// The key of the link, `link_a` or `link_b`.
@@ -28,38 +28,27 @@ pub(crate) struct CutSideTable {
     pub(crate) axis: Field<[f64; 3]>,
 }
 
-const LOOP: Shape =
-    Shape { owner: "A loop", keys: &["name", "joint", "link_a", "point_a", "axis_a", "link_b", "point_b", "axis_b"] };
-
 impl LoopTable {
     /// Reads the `number`-th loop of the file.
-    pub(super) fn read((table, header): Table<'_>, number: usize, findings: &mut Findings) -> LoopTable {
-        let item = item("loop", table, number);
-        let mut reader = Reader::new(table, header, &item, &LOOP, findings);
-        let name = reader.text("name");
-        let joint = reader.choice("joint", &CutKind::ALL, &[]);
+    pub(super) fn read(at: TableAt<'_>, number: usize, findings: &mut Findings) -> LoopTable {
+        let item = item("loop", &at, number);
+        let mut reader = Reader::new(at.table, at.header, &item, &keys::LOOP, findings);
         LoopTable {
-            name: reader.required("name", name),
-            joint: reader.required("joint", joint),
-            a: side(&mut reader, "link_a", "point_a", "axis_a"),
-            b: side(&mut reader, "link_b", "point_b", "axis_b"),
+            name: reader.required(&keys::NAME, Reader::text),
+            joint: reader.required(&keys::JOINT, |reader, key| reader.choice(key, &CutKind::ALL)),
+            a: side(&mut reader, [&keys::LINK_A, &keys::POINT_A, &keys::AXIS_A]),
+            b: side(&mut reader, [&keys::LINK_B, &keys::POINT_B, &keys::AXIS_B]),
             item,
         }
     }
 }
 
-fn side(
-    reader: &mut Reader<'_, '_>,
-    link_key: &'static str,
-    point_key: &'static str,
-    axis_key: &'static str,
-) -> CutSideTable {
-    let link = reader.text(link_key);
+fn side(reader: &mut Reader<'_, '_>, [link, point, axis]: [&Key; 3]) -> CutSideTable {
     CutSideTable {
-        link_key,
-        axis_key,
-        link: reader.required(link_key, link),
-        point: reader.vector(point_key),
-        axis: reader.vector(axis_key),
+        link_key: link.name,
+        axis_key: axis.name,
+        link: reader.required(link, Reader::text),
+        point: reader.vector(point),
+        axis: reader.vector(axis),
     }
 }

@@ -1,13 +1,13 @@
 //! A `[[link]]` table.
 
-use super::reader::{Reader, Shape};
-use super::{Field, Table, item};
-use crate::diagnostic::Findings;
+use super::item::item;
+use super::keys;
+use crate::messages;
 use crate::model::{Inertia, JointKind, JointRange};
+use redysim_toml::{Field, Findings, Key, Reader, Spanned, TableAt, name_of};
 use std::ops::Range;
-use toml::Spanned;
 
-/// What a `[[link]]` table says.
+/// A `[[link]]` table.
 #[derive(Debug)]
 pub(crate) struct LinkTable {
     /// What messages call the link.
@@ -47,61 +47,39 @@ pub(crate) struct Origin {
     pub(crate) rpy: [f64; 3],
 }
 
-const LINK: Shape = Shape {
-    owner: "A link",
-    keys: &[
-        "name",
-        "joint_name",
-        "parent",
-        "joint",
-        "dh",
-        "origin",
-        "axis",
-        "pitch",
-        "mass",
-        "com",
-        "inertia",
-        "actuated",
-        "range",
-    ],
-};
-const DH: Shape = Shape { owner: "`dh`", keys: &["a", "alpha", "b", "theta"] };
-const ORIGIN: Shape = Shape { owner: "`origin`", keys: &["xyz", "rpy"] };
-const RANGE: Shape = Shape { owner: "`range`", keys: &["position", "velocity", "acceleration", "force"] };
-const INERTIA: Shape = Shape { owner: "`inertia`", keys: &["xx", "yy", "zz", "xy", "yz", "xz"] };
-
 /// Kinds of joint that are planned.
-const UNSUPPORTED: &[&str] = &["universal", "spherical", "free"];
+const PLANNED: [&str; 3] = ["universal", "spherical", "free"];
 
 impl LinkTable {
     /// Reads the `number`-th link of the file.
-    pub(super) fn read((table, header): Table<'_>, number: usize, findings: &mut Findings) -> LinkTable {
-        let item = item("link", table, number);
-        let mut reader = Reader::new(table, header.clone(), &item, &LINK, findings);
-        let name = reader.text("name");
-        let parent = reader.text("parent");
-        let joint = reader.choice("joint", &JointKind::ALL, UNSUPPORTED);
-        let pitch = reader.number("pitch");
-        let helical = joint.value() == Some(&JointKind::Helical);
-        let mass = reader.number("mass");
+    pub(super) fn read(at: TableAt<'_>, number: usize, findings: &mut Findings) -> LinkTable {
+        let item = item("link", &at, number);
+        let mut reader = Reader::new(at.table, at.header.clone(), &item, &keys::LINK, findings);
+        let name = reader.required(&keys::NAME, Reader::text);
+        let parent = reader.required(&keys::PARENT, Reader::text);
+        let joint = reader.required(&keys::JOINT, joint);
+        let pitch = match joint.value() {
+            Some(JointKind::Helical) => reader.required(&keys::PITCH, Reader::number),
+            _ => reader.number(&keys::PITCH),
+        };
         let turns = joint.value() != Some(&JointKind::Prismatic);
         LinkTable {
-            name: reader.required("name", name),
-            joint_name: reader.text("joint_name"),
-            parent: reader.required("parent", parent),
-            joint: reader.required("joint", joint),
-            dh: reader.table("dh", &DH, dh),
-            origin: reader.table("origin", &ORIGIN, origin),
-            axis: reader.vector("axis"),
-            pitch: if helical { reader.required("pitch", pitch) } else { pitch },
-            mass: reader.required("mass", mass),
-            com: reader.vector("com"),
-            inertia: reader.table("inertia", &INERTIA, inertia),
-            actuated: reader.flag("actuated"),
-            range: reader.table("range", &RANGE, |reader| range(reader, turns)),
+            name,
+            joint_name: reader.text(&keys::JOINT_NAME),
+            parent,
+            joint,
+            dh: reader.table(&keys::DH, dh),
+            origin: reader.table(&keys::ORIGIN, origin),
+            axis: reader.vector(&keys::AXIS),
+            pitch,
+            mass: reader.required(&keys::MASS, Reader::number),
+            com: reader.vector(&keys::COM),
+            inertia: reader.table(&keys::INERTIA, inertia),
+            actuated: reader.flag(&keys::ACTUATED),
+            range: reader.table(&keys::RANGE, |reader| range(reader, turns)),
             locked: None,
             item,
-            header,
+            header: at.header,
         }
     }
 
@@ -121,44 +99,83 @@ impl LinkTable {
     }
 }
 
-// Faulty entries become zero here; the fault that was reported makes the whole table faulty.
+fn joint(reader: &mut Reader<'_, '_>, key: &Key) -> Field<JointKind> {
+    reader.field(key, |reader, path, value| {
+        let Some(found) = name_of(value) else { return reader.wrong_type(path, value, "a string") };
+        if PLANNED.contains(&found) {
+            let supported: Vec<_> = JointKind::ALL.iter().map(|(name, _)| *name).collect();
+            return reader.error(value, messages::unsupported_joint(reader.item(), found, &supported));
+        }
+        reader.choose(path, value, found, &JointKind::ALL)
+    })
+}
+
+// Invalid entries become zero here; the error that was reported makes the whole table invalid.
 
 fn dh(mut reader: Reader<'_, '_>) -> Dh {
     Dh {
-        a: reader.number("a").value_or(0.0).unwrap_or_default(),
-        alpha: reader.angle("alpha").value_or(0.0).unwrap_or_default(),
-        b: reader.number("b").value_or(0.0).unwrap_or_default(),
-        theta: reader.angle("theta").value_or(0.0).unwrap_or_default(),
+        a: reader.number(&keys::DH_A).value_or(0.0).unwrap_or_default(),
+        alpha: reader.angle(&keys::DH_ALPHA).value_or(0.0).unwrap_or_default(),
+        b: reader.number(&keys::DH_B).value_or(0.0).unwrap_or_default(),
+        theta: reader.angle(&keys::DH_THETA).value_or(0.0).unwrap_or_default(),
     }
 }
 
 fn origin(mut reader: Reader<'_, '_>) -> Origin {
     Origin {
-        xyz: reader.vector("xyz").value_or([0.0; 3]).unwrap_or_default(),
-        rpy: reader.angles("rpy").value_or([0.0; 3]).unwrap_or_default(),
+        xyz: reader.vector(&keys::XYZ).value_or([0.0; 3]).unwrap_or_default(),
+        rpy: reader.angles(&keys::RPY).value_or([0.0; 3]).unwrap_or_default(),
     }
 }
 
 /// Of a joint that turns, in radians.
 fn range(mut reader: Reader<'_, '_>, turns: bool) -> JointRange {
-    let position = reader.bounds("position", turns);
-    let [velocity, acceleration] = [("velocity", "/s"), ("acceleration", "/s^2")].map(|(key, per)| {
-        let largest = reader.largest(key, turns, per);
-        reader.required(key, largest).value_or(0.0).unwrap_or_default()
+    let [velocity, acceleration] = [(&keys::VELOCITY, "/s"), (&keys::ACCELERATION, "/s^2")].map(|(key, per)| {
+        let largest = reader.required(key, |reader, key| largest(reader, key, turns, per));
+        largest.value_or(0.0).unwrap_or_default()
     });
-    let position = reader.required("position", position).value_or([0.0; 2]).unwrap_or_default();
-    let force = reader.positive("force");
+    let position = reader.required(&keys::POSITION, |reader, key| bounds(reader, key, turns));
+    let position = position.value_or([0.0; 2]).unwrap_or_default();
+    let force = reader.positive(&keys::FORCE);
     JointRange { position, velocity, acceleration, force: force.value().copied() }
+}
+
+/// A least and a largest coordinate: of a joint that turns, in radians.
+fn bounds(reader: &mut Reader<'_, '_>, key: &Key, turns: bool) -> Field<[f64; 2]> {
+    reader.field(key, |reader, path, value| {
+        let array = reader.array(path, value, "an array of 2 numbers")?;
+        let elements =
+            reader.elements(path, array, |reader, path, value| reader.parse_displacement(path, value, turns, ""));
+        if array.len() != 2 {
+            return reader.wrong_length(path, value, "2 numbers", array.len());
+        }
+        let bounds: [f64; 2] = elements?.try_into().ok()?;
+        if bounds[0] > bounds[1] {
+            return reader.error(value, messages::empty_range(reader.item(), path, bounds));
+        }
+        Some(bounds)
+    })
+}
+
+/// The largest size of a rate `per` something: of a joint that turns, in radians.
+fn largest(reader: &mut Reader<'_, '_>, key: &Key, turns: bool, per: &str) -> Field<f64> {
+    reader.field(key, |reader, path, value| {
+        let largest = reader.parse_displacement(path, value, turns, per)?;
+        if largest < 0.0 {
+            return reader.error(value, messages::negative_range(reader.item(), path, largest));
+        }
+        Some(largest)
+    })
 }
 
 fn inertia(mut reader: Reader<'_, '_>) -> Inertia {
     let mut element = |key| reader.number(key).value_or(0.0).unwrap_or_default();
     Inertia {
-        xx: element("xx"),
-        yy: element("yy"),
-        zz: element("zz"),
-        xy: element("xy"),
-        yz: element("yz"),
-        xz: element("xz"),
+        xx: element(&keys::XX),
+        yy: element(&keys::YY),
+        zz: element(&keys::ZZ),
+        xy: element(&keys::XY),
+        yz: element(&keys::YZ),
+        xz: element(&keys::XZ),
     }
 }

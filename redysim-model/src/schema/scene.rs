@@ -1,21 +1,20 @@
 //! What is asked of a model, at the top of its file or beside it.
 
-use super::reader::{Reader, Shape};
-use super::{Field, LinkTable};
-use crate::diagnostic::{Findings, Text, messages};
+use super::keys;
+use super::link::LinkTable;
 use crate::lock::by_name;
+use crate::messages;
 use crate::model::JointKind;
 use crate::scene::AccelerationMethod;
 use redysim_runtime::{Function, Functions};
+use redysim_toml::{DeValue, Field, Findings, Reader, Spanned, Table, Text};
 use std::ops::Range;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
 
-/// What the scene beside the file says or, key by key, what the file says where that is silent.
+/// The scene: key by key what stands beside the file or, where nothing does, what the file has.
 #[derive(Debug)]
 pub(crate) struct SceneTable {
-    pub(crate) functions: Entry<Field<AskedFunctions>>,
-    /// The joints that are locked. One whose value is faulty is among them, at zero: what is around the model counts
+    pub(crate) functions: Entry<Field<RequestedFunctions>>,
+    /// The joints that are locked. One whose value is invalid is among them, at zero: what is around the model counts
     /// joints.
     pub(crate) locked: Entry<Vec<Lock>>,
     pub(crate) tolerance: Entry<Field<f64>>,
@@ -33,60 +32,59 @@ pub(crate) struct Lock {
     pub(crate) place: Range<usize>,
 }
 
-/// What one of the two texts says under a key.
+/// What one of the two texts has under a key.
 #[derive(Debug)]
 pub(crate) struct Entry<T> {
     pub(crate) text: Text,
-    pub(crate) said: T,
+    pub(crate) value: T,
 }
 
-/// Functions that are asked for, each with its place.
+/// Functions that are requested, each with its place.
 #[derive(Clone, Debug)]
-pub(crate) struct AskedFunctions(pub(crate) Vec<Spanned<Function>>);
+pub(crate) struct RequestedFunctions(pub(crate) Vec<Spanned<Function>>);
 
-impl AskedFunctions {
+impl RequestedFunctions {
     /// As a set.
     pub(crate) fn set(&self) -> Functions {
         Functions::of(self.0.iter().map(|function| *function.get_ref()))
     }
 }
 
-const SCENE: Shape = Shape { owner: "A scene", keys: &["functions", "locked", "tolerance", "forward_dynamics"] };
-
 impl SceneTable {
     /// Reads the keys of a scene from the file and from what is beside it. `links` are there if all can be read.
     pub(super) fn read(
-        [file, beside]: [&DeTable<'_>; 2],
+        [file, beside]: [&Table<'_>; 2],
         item: &str,
         links: Option<&Vec<LinkTable>>,
         findings: &mut Findings,
     ) -> SceneTable {
-        let in_file = Keys::read(Reader::known(file, item, findings), links);
-        let beside = findings
-            .within(Text::Scene, |findings| Keys::read(Reader::new(beside, 0..0, item, &SCENE, findings), links));
+        let in_file = SceneFields::read(Reader::known(file, item, findings), links);
+        let beside = findings.within(Text::Beside, |findings| {
+            SceneFields::read(Reader::new(beside, 0..0, item, &keys::SCENE, findings), links)
+        });
         SceneTable {
             functions: first(beside.functions, in_file.functions),
             tolerance: first(beside.tolerance, in_file.tolerance),
             forward_dynamics: first(beside.forward_dynamics, in_file.forward_dynamics),
             locked: match beside.locked {
-                None => Entry { text: Text::File, said: in_file.locked.unwrap_or_default() },
-                Some(said) => Entry { text: Text::Scene, said },
+                None => Entry { text: Text::File, value: in_file.locked.unwrap_or_default() },
+                Some(locks) => Entry { text: Text::Beside, value: locks },
             },
         }
     }
 }
 
-/// What one text says.
-struct Keys {
-    functions: Field<AskedFunctions>,
+/// The scene of one text.
+struct SceneFields {
+    functions: Field<RequestedFunctions>,
     locked: Option<Vec<Lock>>,
     tolerance: Field<f64>,
     forward_dynamics: Field<AccelerationMethod>,
 }
 
-impl Keys {
-    fn read(mut reader: Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Keys {
-        Keys {
+impl SceneFields {
+    fn read(mut reader: Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> SceneFields {
+        SceneFields {
             functions: functions(&mut reader),
             locked: locked(&mut reader, links),
             tolerance: tolerance(&mut reader),
@@ -97,64 +95,62 @@ impl Keys {
 
 fn first<T>(beside: Field<T>, in_file: Field<T>) -> Entry<Field<T>> {
     match beside {
-        Field::Missing => Entry { text: Text::File, said: in_file },
-        said => Entry { text: Text::Scene, said },
+        Field::Missing => Entry { text: Text::File, value: in_file },
+        given => Entry { text: Text::Beside, value: given },
     }
 }
 
 fn tolerance(reader: &mut Reader<'_, '_>) -> Field<f64> {
-    reader.field("tolerance", |reader, path, value| {
-        let tolerance = reader.a_number(path, value)?;
+    reader.field(&keys::TOLERANCE, |reader, path, value| {
+        let tolerance = reader.parse_number(path, value)?;
         if tolerance <= 0.0 || tolerance >= 1.0 {
-            return reader.fault(value, messages::bad_tolerance(reader.item(), tolerance));
+            return reader.error(value, messages::bad_tolerance(reader.item(), tolerance));
         }
         Some(tolerance)
     })
 }
 
 fn forward_dynamics(reader: &mut Reader<'_, '_>) -> Field<AccelerationMethod> {
-    reader.field("forward_dynamics", |reader, path, value| {
+    reader.field(&keys::FORWARD_DYNAMICS, |reader, path, value| {
         let DeValue::String(text) = value.get_ref() else {
             return reader.wrong_type(path, value, "the name of a way to compute accelerations");
         };
         match AccelerationMethod::NAMES.iter().find(|(name, _)| *name == text.as_ref()) {
             Some((_, method)) => Some(*method),
-            None => reader.fault(value, messages::unknown_acceleration_method(reader.item(), text)),
+            None => reader.error(value, messages::unknown_acceleration_method(reader.item(), text)),
         }
     })
 }
 
-fn functions(reader: &mut Reader<'_, '_>) -> Field<AskedFunctions> {
-    reader.field("functions", |reader, path, value| {
-        let DeValue::Array(array) = value.get_ref() else {
-            return reader.wrong_type(path, value, "an array of names of functions");
-        };
+fn functions(reader: &mut Reader<'_, '_>) -> Field<RequestedFunctions> {
+    reader.field(&keys::FUNCTIONS, |reader, path, value| {
+        let array = reader.array(path, value, "an array of names of functions")?;
         if array.is_empty() {
-            return reader.fault(value, messages::no_functions(reader.item()));
+            return reader.error(value, messages::no_functions(reader.item()));
         }
         let mut asked: Vec<Spanned<Function>> = Vec::new();
         for (index, value) in array.iter().enumerate() {
-            let path = format!("{path}[{index}]");
+            let path = path.element(index);
             let DeValue::String(text) = value.get_ref() else {
                 reader.wrong_type::<()>(&path, value, "the name of a function");
                 continue;
             };
             match text.parse() {
-                Err(_) => _ = reader.fault::<()>(value, messages::unknown_function(reader.item(), text)),
+                Err(_) => _ = reader.error::<()>(value, messages::unknown_function(reader.item(), text)),
                 Ok(function) if asked.iter().any(|other| *other.get_ref() == function) => {
-                    _ = reader.fault::<()>(value, messages::repeated_function(reader.item(), function));
+                    _ = reader.error::<()>(value, messages::repeated_function(reader.item(), function));
                 }
                 Ok(function) => asked.push(Spanned::new(value.span(), function)),
             }
         }
-        Some(AskedFunctions(asked))
+        Some(RequestedFunctions(asked))
     })
 }
 
-/// The locked joints. Where links cannot be read, one of them may be meant by any name, so nothing is said of names.
+/// The locked joints. Where links cannot be read, one of them may be meant by any name, so names are not checked.
 fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option<Vec<Lock>> {
     let mut locks: Vec<Lock> = Vec::new();
-    let field = reader.field("locked", |reader, path, value| {
+    let field = reader.field(&keys::LOCKED, |reader, path, value| {
         let DeValue::Table(table) = value.get_ref() else {
             return reader.wrong_type(path, value, "a table of joints and values");
         };
@@ -165,13 +161,13 @@ fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option
             let (name, place) = (name.get_ref().as_ref(), name.span());
             let Some(link) = joint(name, place.clone(), links, reader) else { continue };
             if locks.iter().any(|lock| lock.link == link) {
-                reader.fault_at::<()>(place.clone(), messages::locked_twice(reader.item(), name));
+                reader.error_at::<()>(place.clone(), messages::locked_twice(reader.item(), name));
                 continue;
             }
-            let path = format!("{path}.{name}");
+            let path = path.entry(name);
             let value = match links[link].joint.value() {
-                Some(JointKind::Prismatic) => reader.a_number(&path, value),
-                _ => reader.an_angle(&path, value),
+                Some(JointKind::Prismatic) => reader.parse_number(&path, value),
+                _ => reader.parse_angle(&path, value),
             };
             locks.push(Lock { link, value: value.unwrap_or_default(), place });
         }
@@ -189,12 +185,12 @@ fn joint(name: &str, place: Range<usize>, links: &[LinkTable], reader: &mut Read
     let readable = names.clone().all(|(joint, link)| joint.is_some() && link.is_some());
     match by_name(name, names.clone()) {
         Some(link) if links[link].joint.value() == Some(&JointKind::Fixed) => {
-            reader.fault_at(place, messages::locked_fixed(reader.item(), name))
+            reader.error_at(place, messages::locked_fixed(reader.item(), name))
         }
         None if readable => {
             let moving = links.iter().zip(names).filter(|(link, _)| !link.is_rigid());
             let moving: Vec<&str> = moving.filter_map(|(_, (joint, _))| joint).collect();
-            reader.fault_at(place, messages::locked_unknown(reader.item(), name, &moving))
+            reader.error_at(place, messages::locked_unknown(reader.item(), name, &moving))
         }
         found => found,
     }

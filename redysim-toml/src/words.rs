@@ -1,44 +1,15 @@
-//! Every text the reader of a faulty model file sees. One function is one message.
-//!
-//! Form: the title names the item, the rule and the value found; the label repeats the fault in a few words beside the
-//! caret; the help says what to do. `item` is "link `arm`", "loop `crank`" or "model `kr5`".
-
-mod mechanism;
-mod reading;
-mod scene;
-
-pub(crate) use mechanism::*;
-pub use reading::Manual;
-pub(crate) use reading::*;
-pub(crate) use scene::*;
-
-use super::Message;
-
-fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> Message {
-    Message { title, label: label.into(), help: help.into() }
-}
-
-impl Message {
-    /// With the joints that the scene locks, where that may be why.
-    pub(crate) fn with_locks(mut self, locks: &[&str]) -> Message {
-        if !locks.is_empty() {
-            let names: Vec<_> = locks.iter().map(|name| quoted(name)).collect();
-            self.help += &format!("; with {} locked", names.join(", "));
-        }
-        self
-    }
-}
+//! How messages show names, values and numbers.
 
 /// A name or value of the file between backticks; long ones are cut, odd characters escaped.
-pub(crate) fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     const MOST: usize = 60;
     let shown: String = text.chars().take(MOST).flat_map(char::escape_debug).collect();
     let more = if text.chars().nth(MOST).is_some() { "…" } else { "" };
     format!("`{}{more}`", shown.replace("\\\"", "\"").replace("\\'", "'"))
 }
 
-/// The name that `text` was probably meant to be.
-pub(crate) fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+/// The name that `text` was probably meant to be: the nearest by insertions, deletions, replacements and swaps.
+pub fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let near = |name: &&str| {
         let longer = text.chars().count().max(name.chars().count());
         Some(strsim::damerau_levenshtein(text, name)).filter(|distance| *distance <= (longer / 3).max(1))
@@ -48,19 +19,19 @@ pub(crate) fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) 
 }
 
 /// Names, as many as one reads.
-fn shortened(names: &[&str]) -> String {
+pub fn shortened(names: &[&str]) -> String {
     const MOST: usize = 20;
     let more = if names.len() > MOST { ", …" } else { "" };
     format!("{}{more}", names[..names.len().min(MOST)].join(", "))
 }
 
 /// "did you mean `x`? ", or nothing.
-pub(crate) fn did_you_mean(name: Option<&str>) -> String {
+pub fn did_you_mean(name: Option<&str>) -> String {
     name.map_or(String::new(), |name| format!("did you mean {}? ", quoted(name)))
 }
 
 /// A computed value with as many digits as one reads.
-fn rounded(value: f64) -> String {
+pub fn rounded(value: f64) -> String {
     let short: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     format!("{short:?}")
 }

@@ -1,9 +1,10 @@
 //! Messages about the mechanism that the file describes.
 
-use super::super::Message;
-use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
+use super::{message, with_locks};
 use crate::joint::Joint;
 use redysim_runtime::Function;
+use redysim_toml::Message;
+use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
 
 pub(crate) fn blank_name(item: &str, key: &str) -> Message {
     message(format!("{item}: `{key}` is blank"), "blank", "give it a name: messages and generated code use it")
@@ -82,6 +83,14 @@ pub(crate) fn pitch_on_another_joint(item: &str, kind: &str) -> Message {
         format!("{item}: a {kind} joint has no `pitch`"),
         "not helical",
         "delete `pitch`, or make the joint helical",
+    )
+}
+
+pub(crate) fn unsupported_joint(item: &str, found: &str, choices: &[&str]) -> Message {
+    message(
+        format!("{item}: joints of the kind `{found}` are not supported yet"),
+        "not supported yet",
+        format!("supported are: {}; chain several, with massless links in between", choices.join(", ")),
     )
 }
 
@@ -191,7 +200,7 @@ pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str, locks: Ve
             format!("{item}: it joins {} and {}, which fixed joints make one body", quoted(link_a), quoted(link_b))
         }
     };
-    message(title, "the same body", "a loop must join two bodies that move against each other").with_locks(&locks)
+    with_locks(message(title, "the same body", "a loop must join two bodies that move against each other"), &locks)
 }
 
 /// Newton's method did not close the loops from any start.

@@ -1,9 +1,10 @@
 //! Messages about what is asked of a mechanism.
 
-use super::super::Message;
-use super::{did_you_mean, message, nearest, quoted, rounded, shortened};
+use super::message;
 use crate::scene::AccelerationMethod;
 use redysim_runtime::Function;
+use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
+use redysim_toml::{KeyPath, Message};
 
 fn names_of_functions() -> Vec<&'static str> {
     Function::ALL.iter().map(|function| function.name()).collect()
@@ -89,7 +90,7 @@ pub(crate) fn unknown_acceleration_method(item: &str, name: &str) -> Message {
 
 pub(crate) fn bad_tolerance(item: &str, tolerance: f64) -> Message {
     message(
-        format!("{item}: `tolerance` is {tolerance:?}, which is no share"),
+        format!("{item}: `tolerance` is {tolerance:?}, which is not a share between 0 and 1"),
         "not between 0 and 1",
         "give the error allowed as a share of each joint's largest force, as in 1e-3; without `tolerance` nothing is pruned",
     )
@@ -107,7 +108,7 @@ pub(crate) fn no_range(item: &str, joints: &[&str]) -> Message {
     )
 }
 
-pub(crate) fn empty_range(item: &str, path: &str, least: f64, largest: f64) -> Message {
+pub(crate) fn empty_range(item: &str, path: &KeyPath, [least, largest]: [f64; 2]) -> Message {
     message(
         format!("{item}: `{path}` goes from {} down to {}", rounded(least), rounded(largest)),
         "no such range",
@@ -115,7 +116,7 @@ pub(crate) fn empty_range(item: &str, path: &str, least: f64, largest: f64) -> M
     )
 }
 
-pub(crate) fn negative_range(item: &str, path: &str, largest: f64) -> Message {
+pub(crate) fn negative_range(item: &str, path: &KeyPath, largest: f64) -> Message {
     message(
         format!("{item}: `{path}` is {}, which is negative", rounded(largest)),
         "negative",

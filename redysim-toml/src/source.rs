@@ -1,12 +1,14 @@
-//! The text of a model file, and positions in it.
+//! The text of a file, and positions in it.
 
 use std::ops::Range;
 
-/// A model file's name and text.
+/// A file's name, as messages show it, and its text.
 #[derive(Debug)]
-pub(crate) struct Source {
-    pub(crate) name: String,
-    pub(crate) text: String,
+pub struct Source {
+    /// The name.
+    pub name: String,
+    /// The text.
+    pub text: String,
 }
 
 /// Where a byte range starts: its line, and the part of the range that lies in that line.
@@ -22,6 +24,11 @@ pub(crate) struct Place<'a> {
 }
 
 impl Source {
+    /// A text, and the name of its file.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Source { name: name.into(), text: text.into() }
+    }
+
     /// Where `span` starts. Any range will do: one that is not inside the text, or not at character boundaries, is
     /// drawn to the nearest that is.
     pub(crate) fn place(&self, span: &Range<usize>) -> Place<'_> {

@@ -11,8 +11,8 @@ pub(crate) enum NotAnAngle<'a> {
     Unit(&'a str),
 }
 
-/// Reads an angle with a unit, in radians. Multiples of 90 deg become k · π/2, which [`crate::rotation`] knows. What
-/// the angle is `per`, as "/s", may follow the unit.
+/// Reads an angle with a unit, in radians. Multiples of 90 deg become k · π/2 to the last bit. What the angle is
+/// `per`, as "/s", may follow the unit.
 pub(crate) fn angle<'t>(text: &'t str, per: &str) -> Result<f64, NotAnAngle<'t>> {
     let text = text.trim();
     let digits = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c))).unwrap_or(text.len());

@@ -1,0 +1,110 @@
+//! The keys of a scenario. All that is known of a key stands here: the reader, the messages and the key documentation
+//! (`docs/scenario_keys.md`) take it from here.
+
+use redysim_toml::{Key, Keys};
+
+pub const SCENARIO: Keys = Keys::new("A scenario", &[NAME, MODEL, INITIAL, TRAJECTORY, INVERSE, FORWARD, RUN]);
+pub const NAME: Key = Key::new("name", "\"swing\"", "what the results are called");
+pub const MODEL: Key = Key::new("model", "\"../models/kr5.toml\"", "from the folder of the scenario");
+const RUN: Key = Key::new("run", "{ redysim = \"0.1.0\" }", "written by a run into the copy in its results; ignored");
+
+pub const INITIAL: Key = Key::of_table("initial", "{ q = [0, \"60 deg\"], v = [0, 0] }", "", &[&INITIAL_KEYS]);
+const INITIAL_KEYS: Keys = Keys::new("`initial`", &[Q, V, ASSEMBLE, HELD]);
+pub const Q: Key =
+    Key::new("q", "[0, \"60 deg\"]", "rad or m, or an angle with a unit; or by name: q = { joint2 = \"60 deg\" }");
+pub const V: Key = Key::new("v", "[0, \"60 deg/s\"]", "rad/s or m/s");
+pub const ASSEMBLE: Key = Key::new("assemble", "false", "start as given, though loops may not be closed");
+pub const HELD: Key = Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed");
+
+pub const TRAJECTORY: Key = Key::of_table(
+    "trajectory",
+    "{ from = [0, 0], to = [\"60 deg\", 1], duration = 2.0 }",
+    "",
+    &[&CYCLOID, &CONSTANT_SPEED, &VIA_POINTS, &MOTION_TABLE],
+);
+pub const CYCLOID: Keys = Keys::new("A cycloid", &[MOTION_KIND, PRESCRIBED, FROM, TO, DURATION]);
+pub const CONSTANT_SPEED: Keys = Keys::new("A motion of constant speed", &[MOTION_KIND, PRESCRIBED, FROM, SPEED]);
+pub const VIA_POINTS: Keys = Keys::new("A motion through points", &[MOTION_KIND, PRESCRIBED, TIMES, POINTS]);
+pub const MOTION_TABLE: Keys = Keys::new("A motion from a table", &[MOTION_KIND, PRESCRIBED, MOTION_FILE, THROUGH]);
+pub const MOTION_KIND: Key = Key::new("kind", "\"cycloid\"", "or constant-speed, minimum-jerk, cubic, csv");
+pub const PRESCRIBED: Key = Key::new("joints", "[\"crank\"]", "which are prescribed");
+pub const FROM: Key = Key::new("from", "[0, 0]", "rad or m");
+pub const TO: Key = Key::new("to", "[\"60 deg\", 1]", "rad or m");
+pub const DURATION: Key = Key::new("duration", "2.0", "s");
+pub const SPEED: Key = Key::new("speed", "[\"270 deg/s\"]", "rad/s or m/s");
+pub const TIMES: Key = Key::new("times", "[0.0, 1.0, 3.0]", "s");
+pub const POINTS: Key = Key::new("points", "[[0, 0], [\"30 deg\", 1], [0, 0]]", "the coordinates at each of the times");
+pub const MOTION_FILE: Key = Key::new("file", "\"motion.csv\"", "from the folder of the scenario");
+pub const THROUGH: Key =
+    Key::new("through", "\"minimum-jerk\"", "or cubic: how a table without velocities and accelerations is passed");
+
+pub const INVERSE: Key = Key::of_table("inverse", "{ end = 1.0, step = 0.01 }", "s", &[&INVERSE_KEYS]);
+const INVERSE_KEYS: Keys = Keys::new("`inverse`", &[START, END, STEP]);
+pub const START: Key = Key::new("start", "0.0", "s");
+pub const END: Key = Key::new("end", "1.0", "s");
+pub const STEP: Key = Key::new("step", "0.01", "s, from one row of the results to the next");
+
+pub const FORWARD: Key = Key::of_table("forward", "{ end = 1.0, step = 0.01 }", "s", &[&FORWARD_KEYS]);
+const FORWARD_KEYS: Keys = Keys::new("`forward`", &[START, END, STEP, INTEGRATOR, TORQUE, STABILISATION]);
+
+pub const INTEGRATOR: Key =
+    Key::of_table("integrator", "{ method = \"Ode45\", rtol = 1e-6, atol = 1e-8 }", "", &[&FIXED_STEP, &ADAPTIVE_STEP]);
+pub const FIXED_STEP: Keys = Keys::new("An integrator with steps of one size", &[METHOD, INTEGRATOR_STEP]);
+pub const ADAPTIVE_STEP: Keys = Keys::new("An integrator with steps from tolerances", &[METHOD, RTOL, ATOL, MAX_STEP]);
+pub const METHOD: Key = Key::new("method", "\"Ode45\"", "");
+pub const INTEGRATOR_STEP: Key = Key::new("step", "0.001", "s, of the integration");
+pub const RTOL: Key = Key::new("rtol", "1e-6", "");
+pub const ATOL: Key = Key::of_table(
+    "atol",
+    "1e-8",
+    "in the units of the state; or atol = { position = 1e-8, velocity = 1e-6, work = 1e-3 }",
+    &[&ATOL_KEYS],
+);
+const ATOL_KEYS: Keys = Keys::new("`atol`", &[POSITION, VELOCITY, WORK]);
+pub const POSITION: Key = Key::new("position", "1e-8", "rad or m");
+pub const VELOCITY: Key = Key::new("velocity", "1e-6", "rad/s or m/s");
+pub const WORK: Key = Key::new("work", "1e-3", "J");
+pub const MAX_STEP: Key = Key::new("max_step", "0.01", "s");
+
+pub const TORQUE: Key = Key::of_table(
+    "torque",
+    "{ law = \"pd\", target = [0, 0], kp = 49.0, kd = 14.0 }",
+    "",
+    &[&FREE, &P, &PD, &TRACKING_PD, &COMPUTED_TORQUE, &FORCE_TABLE],
+);
+pub const FREE: Keys = Keys::new("The law `free`", &[LAW]);
+pub const P: Keys = Keys::new("The law `p`", &[LAW, DRIVEN, TARGET, KP]);
+pub const PD: Keys = Keys::new("The law `pd`", &[LAW, DRIVEN, TARGET, KP, KD]);
+pub const TRACKING_PD: Keys = Keys::new("The law `tracking-pd`", &[LAW, DRIVEN, KP, KD]);
+pub const COMPUTED_TORQUE: Keys = Keys::new("The law `computed-torque`", &[LAW, KP, KD]);
+pub const FORCE_TABLE: Keys = Keys::new("The law `csv`", &[LAW, DRIVEN, FORCE_FILE]);
+pub const LAW: Key = Key::new("law", "\"free\"", "or p, pd, tracking-pd, computed-torque, csv");
+pub const DRIVEN: Key = Key::new("joints", "[\"crank\"]", "which are driven");
+pub const TARGET: Key = Key::new("target", "[0, \"90 deg\"]", "rad or m");
+pub const KP: Key = Key::new("kp", "49.0", "of all joints, or one of each: [49.0, 20.0]");
+pub const KD: Key = Key::new("kd", "14.0", "of all joints, or one of each: [14.0, 8.0]");
+pub const FORCE_FILE: Key = Key::new("file", "\"forces.csv\"", "from the folder of the scenario");
+
+pub const STABILISATION: Key = Key::of_table(
+    "stabilisation",
+    "{ kind = \"baumgarte\", alpha = 20.0 }",
+    "or projection, none",
+    &[&PLAIN_STABILISATION, &BAUMGARTE],
+);
+pub const PLAIN_STABILISATION: Keys = Keys::new("This stabilisation", &[STABILISATION_KIND]);
+pub const BAUMGARTE: Keys = Keys::new("Baumgarte's stabilisation", &[STABILISATION_KIND, ALPHA]);
+pub const STABILISATION_KIND: Key = Key::new("kind", "\"projection\"", "or baumgarte, none");
+pub const ALPHA: Key = Key::new("alpha", "20.0", "1/s");
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_documentation_lists_every_key_with_its_example_and_meaning() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenario_keys.md");
+        let documentation = format!("# Keys of a scenario\n\n{}", super::SCENARIO.documentation());
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(path, &documentation).unwrap();
+        }
+        assert!(std::fs::read_to_string(path).unwrap() == documentation, "BLESS=1 writes docs/scenario_keys.md anew");
+    }
+}

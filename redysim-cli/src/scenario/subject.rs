@@ -1,0 +1,113 @@
+//! What a scenario is about: a model and its joints, and what is to be computed of it.
+
+use std::cell::OnceCell;
+use std::fmt;
+use std::path::Path;
+
+use redysim_model::{Mobility, Model};
+use redysim_toml::{Field, Key, Message, Reader};
+
+use super::joints::Joint;
+use super::table::Table;
+use crate::failure::Failure;
+
+/// What may be computed of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dynamics {
+    /// The forces that a prescribed motion takes.
+    Inverse,
+    /// The motion that forces make.
+    Forward,
+}
+
+impl fmt::Display for Dynamics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Dynamics::Inverse => "inverse",
+            Dynamics::Forward => "forward",
+        })
+    }
+}
+
+/// What a scenario is about.
+pub struct Subject<'s> {
+    /// What is to be computed.
+    pub dynamics: Dynamics,
+    /// The moving joints.
+    pub joints: &'s [Joint],
+    /// The model.
+    pub model: &'s Model,
+    /// What its loops leave free, once somebody has asked: to find that closes them.
+    pub mobility: OnceCell<Mobility>,
+    /// Where the files are that it names.
+    pub folder: &'s Path,
+}
+
+impl Subject<'_> {
+    /// Whether there are closed loops.
+    pub fn loops(&self) -> bool {
+        !self.model.loops.is_empty()
+    }
+
+    /// What the loops leave free.
+    pub fn mobility(&self) -> &Mobility {
+        self.mobility.get_or_init(|| Mobility::of(self.model))
+    }
+
+    /// Warns of a setting of closed loops where there are none.
+    pub fn expect_loops<T>(&self, reader: &mut Reader<'_, '_>, key: &str, setting: &Field<T>) {
+        if let (false, Some(given)) = (self.loops(), setting.spanned()) {
+            let title = format!("{}: `{key}` is of closed loops, and the model has none", reader.item());
+            let message = Message { title, label: "without effect".into(), help: "leave it out".into() };
+            reader.warning_at(given.span(), message);
+        }
+    }
+
+    /// The joints that have an actuator.
+    pub fn actuated(&self) -> Vec<usize> {
+        indices(self.joints, |joint| joint.actuated)
+    }
+
+    /// What `read` makes of the table that the file under `key` holds; its errors are shown at the key.
+    pub fn table<T>(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        key: &Key,
+        read: impl FnOnce(Table) -> Result<T, Failure>,
+    ) -> Option<T> {
+        let file = reader.required(key, Reader::text);
+        let named = file.spanned()?;
+        match Table::read(&self.folder.join(named.get_ref())).and_then(read) {
+            Ok(read) => Some(read),
+            Err(fault) => {
+                let help = Some(fault.advice()).filter(|help| !help.is_empty());
+                let (title, help) =
+                    (fault.message().to_owned(), help.unwrap_or("correct the table, or name another").into());
+                reader.error_at(named.span(), Message { title, label: "named here".into(), help })
+            }
+        }
+    }
+}
+
+/// The value of a field that may be missing; `None` where it is invalid.
+pub fn given<T>(field: Field<Option<T>>) -> Option<Option<T>> {
+    match field {
+        Field::Missing => Some(None),
+        Field::Invalid => None,
+        Field::Value(value) => value.into_inner().map(Some),
+    }
+}
+
+/// The indices of the joints that are `wanted`.
+pub fn indices(joints: &[Joint], wanted: impl Fn(&Joint) -> bool) -> Vec<usize> {
+    joints.iter().enumerate().filter(|(_, joint)| wanted(joint)).map(|(index, _)| index).collect()
+}
+
+/// One entry for each of `count` coordinates: `values` for those `at`, zero for the others.
+pub fn spread(at: &[usize], values: &[f64], count: usize) -> Vec<f64> {
+    let mut all = vec![0.0; count];
+    for (&index, &value) in at.iter().zip(values) {
+        all[index] = value;
+    }
+    all
+}

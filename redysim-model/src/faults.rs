@@ -1,0 +1,31 @@
+//! Why a file is not a model.
+
+use crate::outline::Outline;
+use redysim_toml::{Diagnostic, Diagnostics};
+use std::fmt;
+
+/// Why a file is not a model: every error in it, and the warnings beside them, in the file's order.
+#[derive(Clone, Debug)]
+pub struct Faults {
+    /// Errors (at least one) and warnings.
+    pub diagnostics: Diagnostics,
+    /// What could be read nevertheless: enough for a stub that lets the code around the model compile.
+    pub outline: Box<Outline>,
+    /// Whether nothing was read: the file is not there, or may not be read.
+    pub unread: bool,
+}
+
+impl Faults {
+    /// The errors alone.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics.errors()
+    }
+}
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.diagnostics.fmt(f)
+    }
+}
+
+impl std::error::Error for Faults {}

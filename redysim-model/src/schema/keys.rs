@@ -1,0 +1,93 @@
+//! The keys of a model file. All that is known of a key stands here: the reader, the messages and the key documentation
+//! (`docs/model_keys.md`) take it from here.
+
+use redysim_toml::{Key, Keys};
+
+pub(crate) const MODEL: Keys =
+    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS]);
+pub(crate) const NAME: Key = Key::new("name", "\"arm\"", "");
+pub(crate) const GRAVITY: Key = Key::new("gravity", "[0.0, 0.0, -9.81]", "m/s², in the base frame");
+pub(crate) const LINKS: Key = Key::of_tables("link", "one such table for each link", &[&LINK]);
+pub(crate) const LOOPS: Key = Key::of_tables("loop", "one such table for each cut joint", &[&LOOP]);
+
+pub(crate) const SCENE: Keys = Keys::new("A scene", &[FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS]);
+pub(crate) const FUNCTIONS: Key =
+    Key::new("functions", "[\"inverse_dynamics\", \"mass_matrix\"]", "only these are generated; default: all");
+pub(crate) const LOCKED: Key =
+    Key::new("locked", "{ joint6 = \"90 deg\" }", "joints and the coordinates at which they are held");
+pub(crate) const TOLERANCE: Key =
+    Key::new("tolerance", "1e-3", "the error allowed, as a share of each joint's largest force");
+pub(crate) const FORWARD_DYNAMICS: Key =
+    Key::new("forward_dynamics", "\"recursion\"", "`auto`, `recursion` or `factorisation`; default: `auto`");
+
+pub(crate) const LINK: Keys = Keys::new(
+    "A link",
+    &[NAME, JOINT_NAME, PARENT, JOINT, DH, ORIGIN, AXIS, PITCH, MASS, COM, INERTIA, ACTUATED, RANGE],
+);
+pub(crate) const JOINT_NAME: Key = Key::new("joint_name", "\"elbow\"", "default: the name of the link");
+pub(crate) const PARENT: Key = Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground");
+pub(crate) const JOINT: Key = Key::new("joint", "\"revolute\"", "");
+pub(crate) const AXIS: Key = Key::new("axis", "[0.0, 0.0, 1.0]", "in the link's frame");
+pub(crate) const PITCH: Key = Key::new("pitch", "0.005", "m/rad: the translation for a unit of rotation");
+pub(crate) const MASS: Key = Key::new("mass", "1.5", "kg");
+pub(crate) const COM: Key = Key::new("com", "[0.0, 0.0, 0.1]", "m, in the link's frame");
+pub(crate) const ACTUATED: Key = Key::new("actuated", "false", "default: true");
+
+pub(crate) const DH: Key = Key::of_table(
+    "dh",
+    "{ a = 0.18, alpha = \"90 deg\", b = 0.4, theta = \"0 deg\" }",
+    "m and angles; missing = 0",
+    &[&DH_KEYS],
+);
+const DH_KEYS: Keys = Keys::new("`dh`", &[DH_A, DH_ALPHA, DH_B, DH_THETA]);
+pub(crate) const DH_A: Key = Key::new("a", "0.18", "m");
+pub(crate) const DH_ALPHA: Key = Key::new("alpha", "\"90 deg\"", "without a unit in rad");
+pub(crate) const DH_B: Key = Key::new("b", "0.4", "m");
+pub(crate) const DH_THETA: Key = Key::new("theta", "\"90 deg\"", "without a unit in rad");
+
+pub(crate) const ORIGIN: Key = Key::of_table(
+    "origin",
+    "{ xyz = [0.0, 0.0, 0.4], rpy = [\"90 deg\", 0, 0] }",
+    "m and angles; missing = 0",
+    &[&ORIGIN_KEYS],
+);
+const ORIGIN_KEYS: Keys = Keys::new("`origin`", &[XYZ, RPY]);
+pub(crate) const XYZ: Key = Key::new("xyz", "[0.0, 0.0, 0.4]", "m, in the parent's frame");
+pub(crate) const RPY: Key = Key::new("rpy", "[\"90 deg\", 0, 0]", "roll, pitch, yaw; without a unit in rad");
+
+pub(crate) const INERTIA: Key = Key::of_table(
+    "inertia",
+    "{ xx = 0.1, yy = 0.1, zz = 0.02 }",
+    "kg m², about the centre of mass; missing = 0",
+    &[&INERTIA_KEYS],
+);
+const INERTIA_KEYS: Keys = Keys::new("`inertia`", &[XX, YY, ZZ, XY, YZ, XZ]);
+pub(crate) const XX: Key = Key::new("xx", "0.1", "kg m²");
+pub(crate) const YY: Key = Key::new("yy", "0.1", "kg m²");
+pub(crate) const ZZ: Key = Key::new("zz", "0.1", "kg m²");
+pub(crate) const XY: Key = Key::new("xy", "0.001", "kg m²");
+pub(crate) const YZ: Key = Key::new("yz", "0.001", "kg m²");
+pub(crate) const XZ: Key = Key::new("xz", "0.001", "kg m²");
+
+pub(crate) const RANGE: Key = Key::of_table(
+    "range",
+    "{ position = [\"-170 deg\", \"170 deg\"], velocity = \"150 deg\", acceleration = 10.0 }",
+    "rad or m, rad/s or m/s, rad/s² or m/s²",
+    &[&RANGE_KEYS],
+);
+const RANGE_KEYS: Keys = Keys::new("`range`", &[POSITION, VELOCITY, ACCELERATION, FORCE]);
+pub(crate) const POSITION: Key = Key::new("position", "[\"-170 deg\", \"170 deg\"]", "rad or m");
+pub(crate) const VELOCITY: Key =
+    Key::new("velocity", "\"150 deg\"", "the largest in either direction; without a unit rad/s or m/s");
+pub(crate) const ACCELERATION: Key =
+    Key::new("acceleration", "10.0", "the largest in either direction; without a unit rad/s² or m/s²");
+pub(crate) const FORCE: Key =
+    Key::new("force", "40.0", "N m or N, of which the tolerance is a share; default: the largest that occurs");
+
+pub(crate) const LOOP: Keys = Keys::new("A loop", &[NAME, JOINT, LINK_A, POINT_A, AXIS_A, LINK_B, POINT_B, AXIS_B]);
+pub(crate) const LINK_A: Key = Key::new("link_a", "\"crank\"", "a link, or `base`");
+pub(crate) const POINT_A: Key = Key::new("point_a", "[0.1, 0.0, 0.0]", "m, in the frame of link a");
+pub(crate) const AXIS_A: Key = Key::new("axis_a", "[0.0, 0.0, 1.0]", "in the frame of link a");
+pub(crate) const LINK_B: Key = Key::new("link_b", "\"base\"", "a link, or `base`");
+pub(crate) const POINT_B: Key = Key::new("point_b", "[0.1, 0.0, 0.0]", "m, in the frame of link b");
+pub(crate) const AXIS_B: Key = Key::new("axis_b", "[0.0, 0.0, 1.0]", "in the frame of link b");

@@ -1,0 +1,100 @@
+//! A file from its text to a value.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, Error};
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::findings::Findings;
+use crate::key::Keys;
+use crate::messages;
+use crate::reader::Reader;
+use crate::source::Source;
+use crate::value::Table;
+
+/// Reads the text of a file whose table has the keys `keys`. Messages call the file `file_name` and what it describes
+/// `item`. `read` is handed a reader of the file's table; where it returns `None`, it has reported why. Beside what it
+/// returns stand the warnings.
+///
+/// # Errors
+/// Every error in the text, each shown where it stands: what is not TOML, or what `read` and the [`Reader`] reported.
+pub fn read<T>(
+    text: impl Into<String>,
+    file_name: impl Into<String>,
+    keys: &Keys,
+    item: &str,
+    read: impl FnOnce(Reader<'_, '_>) -> Option<T>,
+) -> Result<(T, Vec<Diagnostic>), Diagnostics> {
+    let source = Arc::new(Source::new(file_name, text));
+    let mut findings = Findings::new(Arc::clone(&source));
+    let parsed = parse(&source);
+    let read = match parsed.is_valid() {
+        true => read(Reader::new(parsed.root(), parsed.start(), item, keys, &mut findings)),
+        false => {
+            parsed.report(&mut findings);
+            None
+        }
+    };
+    match read.filter(|_| findings.errors() == 0) {
+        Some(read) => Ok((read, findings.into_sorted().0)),
+        None => Err(findings.into_sorted()),
+    }
+}
+
+/// A text as TOML: as much of it as can be parsed, and its syntax errors.
+#[derive(Debug)]
+pub struct Parsed<'s> {
+    source: &'s Source,
+    root: Spanned<DeTable<'s>>,
+    errors: Vec<Error>,
+}
+
+/// Parses a text.
+pub fn parse(source: &Source) -> Parsed<'_> {
+    let (root, errors) = DeTable::parse_recoverable(&source.text);
+    Parsed { source, root, errors }
+}
+
+/// More lines that are not TOML are not listed: the file is of another kind.
+const MOST_SYNTAX_ERRORS: usize = 10;
+
+impl<'s> Parsed<'s> {
+    /// The table of the whole text.
+    pub fn root(&self) -> &Table<'s> {
+        self.root.get_ref()
+    }
+
+    /// Whether there are no syntax errors.
+    pub fn is_valid(&self) -> bool {
+        self.errors.is_empty()
+    }
+
+    /// The place of the first key, where messages show what the whole text lacks.
+    pub fn start(&self) -> Range<usize> {
+        self.root().keys().map(Spanned::span).min_by_key(|span| span.start).unwrap_or_default()
+    }
+
+    /// Reports the first syntax error of each line; the parser stumbles on over the rest of a broken line.
+    pub fn report(&self, findings: &mut Findings) {
+        let text = &self.source.text;
+        let start = text.len() - text.trim_start_matches('\u{feff}').trim_start().len();
+        if !self.is_valid() && text[start..].starts_with('<') {
+            return findings.error(start..start + 1, messages::xml());
+        }
+        let mut lines = Vec::new();
+        for error in &self.errors {
+            let span = error.span().unwrap_or_default();
+            let line = self.source.place(&span).line;
+            if lines.contains(&line) {
+                continue;
+            }
+            if lines.len() == MOST_SYNTAX_ERRORS {
+                return findings.error(span, messages::more_is_not_toml());
+            }
+            lines.push(line);
+            findings.error(span, messages::syntax(error.message()));
+        }
+    }
+}

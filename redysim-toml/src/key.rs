@@ -1,0 +1,144 @@
+//! The keys of a file: what each is called, an example, and what it means.
+
+use std::fmt;
+
+/// A key of a table. All that is known of it stands here, once.
+///
+/// ```
+/// use redysim_toml::Key;
+///
+/// const MASS: Key = Key::new("mass", "1.5", "kg");
+/// assert_eq!(MASS.example(), "mass = 1.5");
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// A value that may be copied; `None` for an array of tables, each with a header of its own.
+    value: Option<&'static str>,
+    /// What the value means, with its unit; empty where the name says it.
+    pub meaning: &'static str,
+    /// The keys of the table that is its value: one set of keys, or one for each kind of table.
+    pub tables: &'static [&'static Keys],
+}
+
+impl Key {
+    /// A key with an example of its value, as TOML, and what it means.
+    pub const fn new(name: &'static str, value: &'static str, meaning: &'static str) -> Self {
+        Key { name, value: Some(value), meaning, tables: &[] }
+    }
+
+    /// A key whose value is a table, with the keys of that table, or of each kind of it.
+    pub const fn of_table(
+        name: &'static str,
+        value: &'static str,
+        meaning: &'static str,
+        tables: &'static [&'static Keys],
+    ) -> Self {
+        Key { name, value: Some(value), meaning, tables }
+    }
+
+    /// A key whose value is an array of tables, each headed `[[name]]`.
+    pub const fn of_tables(name: &'static str, meaning: &'static str, tables: &'static [&'static Keys]) -> Self {
+        Key { name, value: None, meaning, tables }
+    }
+
+    /// A line that may be copied.
+    pub fn example(&self) -> String {
+        match self.value {
+            Some(value) => format!("{} = {value}", self.name),
+            None => format!("[[{}]]", self.name),
+        }
+    }
+}
+
+/// The keys that a kind of table may have.
+#[derive(Debug)]
+pub struct Keys {
+    /// What has the keys, with its article.
+    pub owner: &'static str,
+    /// The keys.
+    pub keys: &'static [Key],
+}
+
+impl Keys {
+    /// The keys of `owner`, a noun with its article.
+    pub const fn new(owner: &'static str, keys: &'static [Key]) -> Self {
+        Keys { owner, keys }
+    }
+
+    /// Their names.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.keys.iter().map(|key| key.name)
+    }
+
+    /// The documentation of the keys, and of those of the tables within, in Markdown: a table for each.
+    ///
+    /// ```
+    /// use redysim_toml::{Key, Keys};
+    ///
+    /// const CLOCK: Keys = Keys::new("A clock", &[Key::new("hands", "2", "how many")]);
+    /// let expected = "A clock has the keys:\n\n| key | example | meaning |\n|---|---|---|\n| `hands` | `hands = 2` | how many |\n";
+    /// assert_eq!(CLOCK.documentation(), expected);
+    /// ```
+    pub fn documentation(&self) -> String {
+        let mut seen = Vec::new();
+        let mut text = String::new();
+        self.document(&mut text, &mut seen);
+        text
+    }
+
+    fn document(&self, text: &mut String, seen: &mut Vec<&'static str>) {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        seen.push(self.owner);
+        text.push_str(&format!("{} has the keys:\n\n| key | example | meaning |\n|---|---|---|\n", self.owner));
+        for key in self.keys {
+            text.push_str(&format!("| `{}` | `{}` | {} |\n", key.name, key.example(), key.meaning));
+        }
+        for table in self.keys.iter().flat_map(|key| key.tables) {
+            if !seen.contains(&table.owner) {
+                table.document(text, seen);
+            }
+        }
+    }
+}
+
+/// What messages call a value: the path to it, as in `dh.a` or `com[1]`, with the key that it belongs to.
+#[derive(Clone, Debug)]
+pub struct KeyPath {
+    key: Key,
+    path: String,
+}
+
+impl KeyPath {
+    /// A key of a table; `prefix` stands before it: empty, or `dh.` in the table `dh`.
+    pub(crate) fn new(prefix: &str, key: &Key) -> Self {
+        KeyPath { key: *key, path: format!("{prefix}{}", key.name) }
+    }
+
+    /// The element `index` of an array.
+    pub fn element(&self, index: usize) -> Self {
+        KeyPath { key: self.key, path: format!("{}[{index}]", self.path) }
+    }
+
+    /// The value under `name`, which is no known key but a name that the file gives.
+    pub fn entry(&self, name: &str) -> Self {
+        KeyPath { key: self.key, path: format!("{}.{name}", self.path) }
+    }
+
+    /// "write for example …".
+    pub(crate) fn example(&self) -> String {
+        match self.key.meaning {
+            "" => format!("write for example `{}`", self.key.example()),
+            meaning => format!("write for example `{}` ({meaning})", self.key.example()),
+        }
+    }
+}
+
+impl fmt::Display for KeyPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.path)
+    }
+}

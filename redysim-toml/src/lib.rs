@@ -1,0 +1,65 @@
+//! Reads TOML files that people write by hand, and reports every error in them at once, each where it stands.
+//!
+//! Model files and scenarios are read through this crate. It knows nothing of mechanisms.
+//!
+//! # Map
+//!
+//! | item | what it is |
+//! |---|---|
+//! | [`Key`], [`Keys`] | the keys of a table: name, example, meaning with unit. Stated once; the reader, the messages and the [documentation](Keys::documentation) of the keys take them from there |
+//! | [`Reader`] | reads the values under the keys of one table, and reports what is unknown, missing or of the wrong type |
+//! | [`Field`] | what a file has under a key: nothing, something invalid, or a value with its place |
+//! | [`Findings`] | collects errors and warnings while a file is read and checked |
+//! | [`Diagnostic`] | an error or a warning; its `Display` shows the line of the file with a caret, rendered by `annotate-snippets` |
+//! | [`Message`] | its words: the title names item, rule and value, the label repeats the rule, the help has the remedy |
+//! | [`read`] | a file from its text to a value, with all of these |
+//! | [`words`] | quoted values, nearest names, short numbers: for further messages |
+//!
+//! # Example
+//!
+//! ```
+//! use redysim_toml::{Key, Keys, Reader, read};
+//!
+//! const HANDS: Key = Key::new("hands", "2", "how many");
+//! const TILT: Key = Key::new("tilt", "\"90 deg\"", "without a unit in rad");
+//! const CLOCK: Keys = Keys::new("A clock", &[HANDS, TILT]);
+//!
+//! let clock = |text: &str| {
+//!     read(text, "clock.toml", &CLOCK, "the clock", |mut clock| {
+//!         let hands = clock.required(&HANDS, Reader::positive);
+//!         let tilt = clock.angle(&TILT).value_or(0.0);
+//!         Some((*hands.value()?, tilt?))
+//!     })
+//! };
+//! let (value, warnings) = clock("hands = 3\ntilt = '180 deg'").unwrap();
+//! assert_eq!(value, (3.0, std::f64::consts::PI));
+//! assert!(warnings.is_empty());
+//!
+//! let errors = clock("hand = 3\ntilt = '1 turn'").unwrap_err();
+//! assert_eq!(errors.iter().filter_map(|error| error.position()).collect::<Vec<_>>(), [(1, 1), (2, 8)]);
+//! println!("{errors}"); // shows both lines with a caret; of the first it asks: did you mean `hands`?
+//! ```
+
+mod diagnostic;
+mod field;
+mod file;
+mod findings;
+mod key;
+mod messages;
+mod reader;
+mod source;
+mod units;
+mod value;
+pub mod words;
+
+pub use diagnostic::{Diagnostic, Diagnostics, Message, Severity, Text};
+pub use field::Field;
+pub use file::{Parsed, parse, read};
+pub use findings::Findings;
+pub use key::{Key, KeyPath, Keys};
+pub use reader::{Kind, Reader, TableAt, name_of};
+pub use source::Source;
+pub use value::{Array, Table, Value};
+
+pub use toml::Spanned;
+pub use toml::de::DeValue;

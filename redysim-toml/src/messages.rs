@@ -1,0 +1,145 @@
+//! The messages about a file as text: syntax, keys, types, numbers. One function is one message.
+//!
+//! The title names the item, the rule and the value found; the label repeats the rule in a few words beside the caret;
+//! the help has the remedy. `item` is "link `arm`" or "the scenario".
+
+use std::ops::RangeInclusive;
+
+use crate::diagnostic::Message;
+use crate::key::{Key, KeyPath, Keys};
+use crate::words::{did_you_mean, nearest, quoted};
+
+fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> Message {
+    Message::new(title, label, help)
+}
+
+pub(crate) fn syntax(reason: &str) -> Message {
+    let help = match reason {
+        "duplicate key" => "a key may stand only once in its table: delete one of the two, or rename it",
+        _ => "correct the TOML first; what the file says is checked after that",
+    };
+    message(format!("TOML: {reason}"), reason, help)
+}
+
+pub(crate) fn more_is_not_toml() -> Message {
+    message("TOML: more lines are invalid".into(), "and below", "is this the right file?")
+}
+
+pub(crate) fn xml() -> Message {
+    message(
+        "this is XML, not TOML".into(),
+        "TOML does not begin like this",
+        "of a URDF, `redysim import` makes a model file",
+    )
+}
+
+/// A table with the keys `keys` has another one; `meant` is the one that was probably meant.
+pub(crate) fn unknown_key(item: &str, path: &str, meant: Option<&Key>, keys: &Keys) -> Message {
+    let names: Vec<_> = keys.names().collect();
+    let help = format!("{}{} has: {}", did_you_mean(meant.map(|key| key.name)), keys.owner, names.join(", "));
+    message(format!("{item}: unknown key {}", quoted(path)), "unknown key", help)
+}
+
+pub(crate) fn missing_key(item: &str, path: &KeyPath) -> Message {
+    message(format!("{item}: `{path}` is missing"), format!("`{path}` is missing"), path.example())
+}
+
+/// `wanted` and `found` are nouns with their article.
+pub(crate) fn wrong_type(item: &str, path: &KeyPath, wanted: &str, found: &str) -> Message {
+    let help = match (wanted, found.starts_with("the string")) {
+        ("a number", true) => format!("{}, without quotes: only angles may have a unit", path.example()),
+        _ => path.example(),
+    };
+    message(format!("{item}: `{path}` must be {wanted}, found {found}"), format!("not {wanted}"), help)
+}
+
+pub(crate) fn wrong_length(item: &str, path: &KeyPath, wanted: &str, found: usize) -> Message {
+    message(
+        format!("{item}: `{path}` must have {wanted}, found {found}"),
+        format!("{found} instead of {wanted}"),
+        path.example(),
+    )
+}
+
+pub(crate) fn not_finite(item: &str, path: &KeyPath, found: &str) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, which is not a finite number", quoted(found)),
+        "not a finite number",
+        path.example(),
+    )
+}
+
+/// `nearest` is the float next to the integer.
+pub(crate) fn integer_out_of_range(item: &str, path: &KeyPath, found: &str, nearest: Option<f64>) -> Message {
+    message(
+        format!("{item}: `{path}` is the integer {}, and integers in TOML have 64 bits", quoted(found)),
+        "not from -2^63 to 2^63 - 1",
+        match nearest {
+            Some(nearest) => format!("write a larger number with an exponent, as in {nearest:e}"),
+            None => "write a larger number with an exponent, as in 1e20".into(),
+        },
+    )
+}
+
+pub(crate) fn not_positive(item: &str, path: &KeyPath, found: f64) -> Message {
+    let title = format!("{item}: `{path}` is {found:?}, which is not above zero");
+    message(title, "not above zero", path.example())
+}
+
+pub(crate) fn out_of_range(item: &str, path: &KeyPath, found: &str, allowed: &RangeInclusive<f64>) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, with which nothing can be computed", quoted(found)),
+        "too large or too small",
+        format!("a number is 0 or from {:e} to {:e} in size", allowed.start(), allowed.end()),
+    )
+}
+
+pub(crate) fn not_an_angle(item: &str, path: &KeyPath, found: &str) -> Message {
+    message(
+        format!("{item}: `{path}` is {}, which is not a number with a unit", quoted(found)),
+        "not an angle",
+        "write a number and a unit, as in \"90 deg\" or \"1.5 rad\", or a plain number of radians",
+    )
+}
+
+pub(crate) fn bad_unit(item: &str, path: &KeyPath, found: &str, unit: &str, per: &str) -> Message {
+    let (title, label) = match unit {
+        "" => (format!("{item}: `{path}` is \"{found}\", which has no unit"), "no unit".into()),
+        _ => (
+            format!("{item}: `{path}` has the unit {}, which is not an angle's", quoted(unit)),
+            format!("{} is not a unit of angle", quoted(unit)),
+        ),
+    };
+    let help =
+        format!("the units of angle are deg{per} and rad{per}, as in \"90 deg{per}\"; a plain number is in rad{per}");
+    message(title, label, help)
+}
+
+pub(crate) fn unknown_choice(item: &str, path: &KeyPath, found: &str, choices: &[&str]) -> Message {
+    let meant = did_you_mean(nearest(found, choices.iter().copied()));
+    let help = format!("{meant}It must be one of: {}", choices.join(", "));
+    message(format!("{item}: `{path}` cannot be {}", quoted(found)), "not one of the kinds", help)
+}
+
+pub(crate) fn unknown_name(item: &str, what: &str, found: &str, names: &[&str]) -> Message {
+    let help = format!("{}there are: {}", did_you_mean(nearest(found, names.iter().copied())), names.join(", "));
+    message(format!("{item}: there is no {what} {}", quoted(found)), format!("no such {what}"), help)
+}
+
+pub(crate) fn large_angle(item: &str, path: &KeyPath, radians: f64) -> Message {
+    message(
+        format!("{item}: `{path}` is {radians:?} rad, more than a whole turn"),
+        "more than a whole turn",
+        format!("if degrees are meant, write \"{radians:?} deg\"; otherwise \"{radians:?} rad\" ends this warning"),
+    )
+}
+
+pub(crate) fn nearly_quarter_turn(item: &str, path: &KeyPath, radians: f64, degrees: f64) -> Message {
+    message(
+        format!("{item}: `{path}` is {radians:?} rad, nearly but not exactly {degrees} deg"),
+        format!("nearly {degrees} deg"),
+        format!(
+            "write \"{degrees} deg\": it is exact, and its zeros leave the generated code; \"{radians:?} rad\" ends this warning"
+        ),
+    )
+}

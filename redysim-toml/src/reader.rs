@@ -1,0 +1,390 @@
+//! Reads the keys of one table, and reports what is not as it should be.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::diagnostic::Message;
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::key::{Key, KeyPath, Keys};
+use crate::messages;
+use crate::value::{Array, Named, Table, Value};
+use crate::words::nearest;
+
+/// A table with the place of its header.
+#[derive(Clone, Debug)]
+pub struct TableAt<'a> {
+    /// The table.
+    pub table: &'a Table<'a>,
+    /// The bytes of its header.
+    pub header: Range<usize>,
+}
+
+/// A kind of table: its name, what it stands for, and which keys it has.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind<K> {
+    /// The name, as the file has it.
+    pub name: &'static str,
+    /// What it stands for.
+    pub kind: K,
+    /// The keys.
+    pub keys: &'static Keys,
+}
+
+/// One table, and whose it is.
+///
+/// What it reads is a [`Field`]; what is not as it should be is reported with its place.
+pub struct Reader<'a, 'f> {
+    table: &'a DeTable<'a>,
+    /// A place for what the table lacks.
+    place: Range<usize>,
+    /// What messages call the item that the table describes.
+    item: &'f str,
+    /// Valid keys that unknown ones were probably meant to be: their absence is no second error.
+    misspelt: Vec<&'static str>,
+    /// Stands before a key in messages: empty, or `dh.` in the table `dh`.
+    prefix: String,
+    findings: &'f mut Findings,
+}
+
+impl<'a, 'f> Reader<'a, 'f> {
+    /// Opens a table and reports its unknown keys. Messages call what it describes `item`, as in "link `arm`"; `place`
+    /// is where they show what the table lacks.
+    pub fn new(
+        table: &'a Table<'a>,
+        place: Range<usize>,
+        item: &'f str,
+        keys: &Keys,
+        findings: &'f mut Findings,
+    ) -> Self {
+        Self::open(table, place, item, findings).without_unknown_keys(keys)
+    }
+
+    /// Opens a table again whose unknown keys have been reported.
+    pub fn known(table: &'a Table<'a>, item: &'f str, findings: &'f mut Findings) -> Self {
+        Self::open(table, 0..0, item, findings)
+    }
+
+    fn open(table: &'a DeTable<'a>, place: Range<usize>, item: &'f str, findings: &'f mut Findings) -> Self {
+        Self { table, place, item, misspelt: Vec::new(), prefix: String::new(), findings }
+    }
+
+    /// What messages call the item that the table describes.
+    pub fn item(&self) -> &'f str {
+        self.item
+    }
+
+    /// Reports the keys that tables of this kind do not have.
+    fn without_unknown_keys(mut self, keys: &Keys) -> Self {
+        for found in self.table.keys().filter(|found| keys.names().all(|name| name != found.get_ref())) {
+            let absent = keys.keys.iter().filter(|key| !self.table.contains_key(key.name));
+            let meant = nearest(found.get_ref(), absent.map(|key| key.name));
+            let meant = keys.keys.iter().find(|key| Some(key.name) == meant);
+            let path = format!("{}{}", self.prefix, found.get_ref());
+            self.findings.error(found.span(), messages::unknown_key(self.item, &path, meant, keys));
+            self.misspelt.extend(meant.map(|key| key.name));
+        }
+        self
+    }
+
+    /// What `read` makes of a key that must be there: that it is missing is reported.
+    pub fn required<T>(&mut self, key: &Key, read: impl FnOnce(&mut Self, &Key) -> Field<T>) -> Field<T> {
+        let field = read(self, key);
+        if field.is_missing() {
+            self.findings.error(self.place.clone(), messages::missing_key(self.item, &self.path(key)));
+        }
+        field
+    }
+
+    /// What `read` makes of the value under a key; invalid if it reports any error.
+    pub fn field<T>(
+        &mut self,
+        key: &Key,
+        read: impl FnOnce(&mut Self, &KeyPath, &'a Value<'a>) -> Option<T>,
+    ) -> Field<T> {
+        let table = self.table;
+        let Some(value) = table.get(key.name) else {
+            return if self.misspelt.contains(&key.name) { Field::Invalid } else { Field::Missing };
+        };
+        let (path, errors_before) = (self.path(key), self.findings.errors());
+        match read(self, &path, value) {
+            Some(read) if self.findings.errors() == errors_before => Field::Value(Spanned::new(value.span(), read)),
+            _ => Field::Invalid,
+        }
+    }
+
+    /// A string.
+    pub fn text(&mut self, key: &Key) -> Field<String> {
+        self.field(key, |reader, path, value| match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            _ => reader.wrong_type(path, value, "a string"),
+        })
+    }
+
+    /// True or false.
+    pub fn flag(&mut self, key: &Key) -> Field<bool> {
+        self.field(key, |reader, path, value| match value.get_ref() {
+            DeValue::Boolean(flag) => Some(*flag),
+            _ => reader.wrong_type(path, value, "true or false"),
+        })
+    }
+
+    /// A finite number.
+    pub fn number(&mut self, key: &Key) -> Field<f64> {
+        self.field(key, Self::parse_number)
+    }
+
+    /// A number above zero.
+    pub fn positive(&mut self, key: &Key) -> Field<f64> {
+        self.field(key, |reader, path, value| {
+            let number = reader.parse_number(path, value)?;
+            if number <= 0.0 {
+                return reader.error(value, messages::not_positive(reader.item, path, number));
+            }
+            Some(number)
+        })
+    }
+
+    /// An angle, in radians.
+    pub fn angle(&mut self, key: &Key) -> Field<f64> {
+        self.field(key, Self::parse_angle)
+    }
+
+    /// Three numbers.
+    pub fn vector(&mut self, key: &Key) -> Field<[f64; 3]> {
+        self.field(key, |reader, path, value| reader.three(path, value, "3 numbers", Self::parse_number))
+    }
+
+    /// Three angles, in radians.
+    pub fn angles(&mut self, key: &Key) -> Field<[f64; 3]> {
+        self.field(key, |reader, path, value| reader.three(path, value, "3 angles", Self::parse_angle))
+    }
+
+    /// Numbers, as many as there are.
+    pub fn numbers(&mut self, key: &Key) -> Field<Vec<f64>> {
+        self.field(key, |reader, path, value| {
+            let array = reader.array(path, value, "an array of numbers")?;
+            reader.elements(path, array, Self::parse_number)
+        })
+    }
+
+    /// One of the names in `choices`.
+    pub fn choice<T: Copy>(&mut self, key: &Key, choices: &[(&str, T)]) -> Field<T> {
+        self.field(key, |reader, path, value| {
+            let Some(found) = name_of(value) else { return reader.wrong_type(path, value, "a string") };
+            reader.choose(path, value, found, choices)
+        })
+    }
+
+    /// The `found` one of the names in `choices`.
+    pub fn choose<T: Copy>(
+        &mut self,
+        path: &KeyPath,
+        value: &Value<'_>,
+        found: &str,
+        choices: &[(&str, T)],
+    ) -> Option<T> {
+        let chosen = choices.iter().find(|(name, _)| *name == found).map(|(_, choice)| *choice);
+        chosen.or_else(|| {
+            let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+            self.error(value, messages::unknown_choice(self.item, path, found, &names))
+        })
+    }
+
+    /// The one of `named` with the name `found`, which stands at `place`; each of them is a `what`.
+    pub fn lookup<T: Copy>(&mut self, place: Range<usize>, what: &str, found: &str, named: &[(&str, T)]) -> Option<T> {
+        let there = named.iter().find(|(name, _)| *name == found).map(|(_, thing)| *thing);
+        there.or_else(|| {
+            let names: Vec<_> = named.iter().map(|(name, _)| *name).collect();
+            self.error_at(place, messages::unknown_name(self.item, what, found, &names))
+        })
+    }
+
+    /// Whether there is a table under a key.
+    pub fn has_table(&self, key: &Key) -> bool {
+        self.table.get(key.name).is_some_and(|value| matches!(value.get_ref(), DeValue::Table(_)))
+    }
+
+    /// A table within this one, with the first of the sets of keys that `key` has.
+    pub fn table<T>(&mut self, key: &Key, read: impl FnOnce(Reader<'_, '_>) -> T) -> Field<T> {
+        self.field(key, |reader, path, value| {
+            let inner = reader.within(path, value)?;
+            Some(read(match key.tables.first() {
+                Some(keys) => inner.without_unknown_keys(keys),
+                None => inner,
+            }))
+        })
+    }
+
+    /// A table within this one whose kind, named under the key `tag`, says which keys it has. The name of a kind alone
+    /// stands for a table without other keys.
+    pub fn table_of_kind<T, K: Copy>(
+        &mut self,
+        key: &Key,
+        tag: &Key,
+        kinds: &[Kind<K>],
+        default: &Kind<K>,
+        read: impl FnOnce(Reader<'_, '_>, K) -> T,
+    ) -> Field<T> {
+        let nothing_else = DeTable::new();
+        let choices: Vec<(&str, &Kind<K>)> = kinds.iter().map(|kind| (kind.name, kind)).collect();
+        self.field(key, |reader, path, value| {
+            if let Some(found) = name_of(value) {
+                let kind = reader.choose(path, value, found, &choices)?;
+                return Some(read(reader.inside(path, value, &nothing_else), kind.kind));
+            }
+            let mut inner = reader.within(path, value)?;
+            let kind = inner.choice(tag, &choices).value_or(default)?;
+            Some(read(inner.without_unknown_keys(kind.keys), kind.kind))
+        })
+    }
+
+    /// A reader of the table that `value` must be.
+    fn within<'b>(&'b mut self, path: &KeyPath, value: &'b Value<'a>) -> Option<Reader<'b, 'b>> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return self.wrong_type(path, value, "a table");
+        };
+        Some(self.inside(path, value, table))
+    }
+
+    /// A reader of `table`, for which `value` stands.
+    fn inside<'b>(&'b mut self, path: &KeyPath, value: &Value<'_>, table: &'b DeTable<'b>) -> Reader<'b, 'b> {
+        let (item, prefix) = (self.item, format!("{path}."));
+        let inner = Reader::open(table, value.span(), item, self.findings);
+        Reader { prefix, ..inner }
+    }
+
+    /// The tables of an array of tables. `None` stands for what is not a table, or not an array.
+    pub fn tables(&mut self, key: &Key) -> Option<Vec<Option<TableAt<'a>>>> {
+        let (table, path) = (self.table, self.path(key));
+        let Some(value) = table.get(key.name) else {
+            return (!self.misspelt.contains(&key.name)).then(Vec::new);
+        };
+        let wanted = format!("an array of tables, each headed `[[{}]]`", key.name);
+        let entry = |reader: &mut Self, entry: &'a Value<'a>| match entry.get_ref() {
+            DeValue::Table(table) => Some(TableAt { table, header: entry.span() }),
+            _ => reader.wrong_type(&path, entry, &wanted),
+        };
+        let array = self.array(&path, value, &wanted)?;
+        Some(array.iter().map(|value| entry(self, value)).collect())
+    }
+
+    /// The value as a finite number.
+    pub fn parse_number(&mut self, path: &KeyPath, value: &Value<'_>) -> Option<f64> {
+        let number = Named { item: self.item, path, value }.number();
+        self.accept(value, number)
+    }
+
+    /// The value as an angle, in radians: a number, or one with a unit.
+    pub fn parse_angle(&mut self, path: &KeyPath, value: &Value<'_>) -> Option<f64> {
+        self.parse_turn(path, value, "")
+    }
+
+    /// The value as a displacement of a joint, or that `per` something, as "/s": a number, or of a joint that turns also
+    /// an angle with a unit, in radians. Unlike of an angle, more than a turn of it is nothing odd.
+    pub fn parse_displacement(&mut self, path: &KeyPath, value: &Value<'_>, turns: bool, per: &str) -> Option<f64> {
+        match value.get_ref() {
+            DeValue::String(_) if turns => self.parse_turn(path, value, per),
+            _ => self.parse_number(path, value),
+        }
+    }
+
+    fn parse_turn(&mut self, path: &KeyPath, value: &Value<'_>, per: &str) -> Option<f64> {
+        let angle = Named { item: self.item, path, value }.angle(per);
+        let angle = self.accept(value, angle)?;
+        if let Some(message) = angle.warning {
+            self.warning_at(value.span(), message);
+        }
+        Some(angle.radians)
+    }
+
+    /// The value as an array; `wanted` is a noun with its article.
+    pub fn array(&mut self, path: &KeyPath, value: &'a Value<'a>, wanted: &str) -> Option<&'a Array<'a>> {
+        match value.get_ref() {
+            DeValue::Array(array) => Some(array),
+            _ => self.wrong_type(path, value, wanted),
+        }
+    }
+
+    /// What `read` makes of each element of an array. Every element is read, so that each error among them is reported.
+    pub fn elements<T>(
+        &mut self,
+        path: &KeyPath,
+        array: &'a Array<'a>,
+        read: impl Fn(&mut Self, &KeyPath, &'a Value<'a>) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let each = array.iter().enumerate().map(|(i, value)| read(self, &path.element(i), value));
+        each.collect::<Vec<_>>().into_iter().collect()
+    }
+
+    fn three(
+        &mut self,
+        path: &KeyPath,
+        value: &'a Value<'a>,
+        wanted: &str,
+        read: impl Fn(&mut Self, &KeyPath, &'a Value<'a>) -> Option<f64>,
+    ) -> Option<[f64; 3]> {
+        let array = self.array(path, value, &format!("an array of {wanted}"))?;
+        let elements = self.elements(path, array, read);
+        if array.len() != 3 {
+            return self.wrong_length(path, value, wanted, array.len());
+        }
+        elements?.try_into().ok()
+    }
+
+    fn accept<T>(&mut self, value: &Value<'_>, read: Result<T, Message>) -> Option<T> {
+        read.map_or_else(|message| self.error(value, message), Some)
+    }
+
+    /// Reports that a value is not of the type `wanted`, a noun with its article. Always `None`.
+    pub fn wrong_type<T>(&mut self, path: &KeyPath, value: &Value<'_>, wanted: &str) -> Option<T> {
+        let message = Named { item: self.item, path, value }.wrong_type(wanted);
+        self.error(value, message)
+    }
+
+    /// Reports that an array has `found` elements instead of `wanted`, as "3 numbers". Always `None`.
+    pub fn wrong_length<T>(&mut self, path: &KeyPath, value: &Value<'_>, wanted: &str, found: usize) -> Option<T> {
+        self.error(value, messages::wrong_length(self.item, path, wanted, found))
+    }
+
+    /// Reports an error of a value. Always `None`.
+    pub fn error<T>(&mut self, value: &Value<'_>, message: Message) -> Option<T> {
+        self.error_at(value.span(), message)
+    }
+
+    /// Reports an error at a place. Always `None`.
+    pub fn error_at<T>(&mut self, place: Range<usize>, message: Message) -> Option<T> {
+        self.findings.error(place, message);
+        None
+    }
+
+    /// Reports an error of the table as a whole. Always `None`.
+    pub fn error_of_table<T>(&mut self, message: Message) -> Option<T> {
+        self.error_at(self.place.clone(), message)
+    }
+
+    /// Warns of what is at a place.
+    pub fn warning_at(&mut self, place: Range<usize>, message: Message) {
+        self.findings.warning(place, message);
+    }
+
+    /// Warns of the table as a whole.
+    pub fn warning_of_table(&mut self, message: Message) {
+        self.warning_at(self.place.clone(), message);
+    }
+
+    fn path(&self, key: &Key) -> KeyPath {
+        KeyPath::new(&self.prefix, key)
+    }
+}
+
+/// The name that a value is: a string, or a number that serves as one.
+pub fn name_of<'v>(value: &'v Value<'_>) -> Option<&'v str> {
+    match value.get_ref() {
+        DeValue::String(text) => Some(text.as_ref()),
+        DeValue::Integer(number) => Some(number.as_str()),
+        _ => None,
+    }
+}

@@ -1,0 +1,125 @@
+//! What single values are: numbers and angles, finite and plausible.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::RangeInclusive;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeInteger, DeTable, DeValue};
+
+use crate::diagnostic::Message;
+use crate::key::KeyPath;
+use crate::messages;
+use crate::units::{self, NotAnAngle};
+
+/// A value and its place.
+pub type Value<'a> = Spanned<DeValue<'a>>;
+
+/// A table.
+pub type Table<'a> = DeTable<'a>;
+
+/// An array.
+pub type Array<'a> = DeArray<'a>;
+
+/// What a number other than zero may be, so that products of a mass and two lengths, and their reciprocals, are finite.
+const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
+
+/// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1416.
+const NEARLY: f64 = 1e-5;
+
+/// A value, and what messages call it: its item and its path.
+#[derive(Clone, Copy)]
+pub(crate) struct Named<'v, 'a> {
+    pub(crate) item: &'v str,
+    pub(crate) path: &'v KeyPath,
+    pub(crate) value: &'v Value<'a>,
+}
+
+/// An angle, in radians, with a warning if it is doubtful.
+pub(crate) struct Angle {
+    pub(crate) radians: f64,
+    pub(crate) warning: Option<Message>,
+}
+
+impl Named<'_, '_> {
+    /// A finite number.
+    pub(crate) fn number(self) -> Result<f64, Message> {
+        let Named { item, path, value } = self;
+        match value.get_ref() {
+            DeValue::Float(float) => self.finite(float.as_str().parse().unwrap_or(f64::NAN), float.as_str()),
+            DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
+                Ok(number) => self.finite(number as f64, integer.as_str()),
+                Err(_) => Err(messages::integer_out_of_range(item, path, integer.as_str(), nearest(integer))),
+            },
+            _ => Err(self.wrong_type("a number")),
+        }
+    }
+
+    /// An angle `per` something, as "/s": a number, or one with a unit.
+    pub(crate) fn angle(self, per: &str) -> Result<Angle, Message> {
+        let Named { item, path, value } = self;
+        match value.get_ref() {
+            DeValue::String(text) => match units::angle(text, per) {
+                Ok(radians) => Ok(Angle { radians: self.finite(radians, text)?, warning: None }),
+                Err(NotAnAngle::Number) => Err(messages::not_an_angle(item, path, text)),
+                Err(NotAnAngle::Unit(unit)) => Err(messages::bad_unit(item, path, text, unit, per)),
+            },
+            DeValue::Float(_) | DeValue::Integer(_) => {
+                let radians = self.number()?;
+                Ok(Angle { radians, warning: self.doubt(radians) })
+            }
+            _ => Err(self.wrong_type("an angle")),
+        }
+    }
+
+    /// A warning of plain numbers that look like degrees, or like quarter turns rounded by hand.
+    fn doubt(self, radians: f64) -> Option<Message> {
+        let Named { item, path, .. } = self;
+        let quarters = (radians / FRAC_PI_2).round();
+        let off = (radians - quarters * FRAC_PI_2).abs();
+        if radians.abs() > TAU * (1.0 + NEARLY) {
+            Some(messages::large_angle(item, path, radians))
+        } else if quarters != 0.0 && off < NEARLY && off > f64::EPSILON * radians.abs() {
+            Some(messages::nearly_quarter_turn(item, path, radians, 90.0 * quarters))
+        } else {
+            None
+        }
+    }
+
+    fn finite(self, number: f64, text: &str) -> Result<f64, Message> {
+        if !number.is_finite() {
+            Err(messages::not_finite(self.item, self.path, text))
+        } else if number != 0.0 && !MAGNITUDES.contains(&number.abs()) {
+            Err(messages::out_of_range(self.item, self.path, text, &MAGNITUDES))
+        } else {
+            Ok(number)
+        }
+    }
+
+    /// That the value is not of the type `wanted`, a noun with its article.
+    pub(crate) fn wrong_type(self, wanted: &str) -> Message {
+        messages::wrong_type(self.item, self.path, wanted, &described(self.value.get_ref()))
+    }
+}
+
+/// The float nearest to an integer of any size, if there is one.
+fn nearest(integer: &DeInteger<'_>) -> Option<f64> {
+    let nearest = match integer.radix() {
+        10 => integer.as_str().parse().ok(),
+        radix => i128::from_str_radix(integer.as_str(), radix).ok().map(|integer| integer as f64),
+    };
+    nearest.filter(|nearest| nearest.is_finite())
+}
+
+/// A value in a few words, with its article.
+fn described(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) if text.chars().count() > 40 => "a long string".into(),
+        DeValue::String(text) => format!("the string \"{}\"", text.escape_debug()),
+        DeValue::Integer(integer) => format!("the number {integer}"),
+        DeValue::Float(float) => format!("the number {float}"),
+        DeValue::Boolean(flag) => flag.to_string(),
+        DeValue::Datetime(_) => "a date or time".into(),
+        DeValue::Array(_) => "an array".into(),
+        DeValue::Table(_) => "a table".into(),
+    }
+}
