@@ -2,6 +2,7 @@
 
 use crate::graph::{Edge, Graph, Name, Step};
 use redysim_model::denoc::Trace;
+use redysim_model::parameter::{Parameter, ParameterIn};
 use redysim_runtime::Scalar;
 use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -104,6 +105,21 @@ impl Scalar for Symbol<'_> {
 
     fn sqrt(self) -> Self {
         self.unary(f64::sqrt, Graph::sqrt)
+    }
+}
+
+impl Parameter for Symbol<'_> {
+    fn number(self) -> Option<f64> {
+        match self {
+            Symbol::Constant(value) => Some(value),
+            Symbol::Value(..) => None,
+        }
+    }
+}
+
+impl<'g> ParameterIn<Symbol<'g>> for Symbol<'g> {
+    fn value(self) -> Symbol<'g> {
+        self
     }
 }
 

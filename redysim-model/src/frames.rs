@@ -7,6 +7,7 @@
 //! Automation, 1986).
 
 use crate::inertia::Sym3;
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::rotation;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -23,7 +24,7 @@ const FARTHEST_FOOT: f64 = 4.0;
 /// The tree with every frame in its canonical place, whatever the frames of the model: by the common normal with the
 /// first child's axis, and for a body without children by its inertia. A change after which `keeps` is false is not
 /// made.
-pub fn canonical(tree: &Tree, keeps: impl Fn(&Tree) -> bool) -> Tree {
+pub fn canonical<P: Parameter>(tree: &Tree<P>, keeps: impl Fn(&Tree<P>) -> bool) -> Tree<P> {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
         let first = tree.children(body).next();
@@ -41,7 +42,7 @@ pub fn canonical(tree: &Tree, keeps: impl Fn(&Tree) -> bool) -> Tree {
 }
 
 /// Makes lengths that differ by roundoff only the same number, as they were before frames were turned and slid.
-fn unify_lengths(tree: &mut Tree) {
+fn unify_lengths<P: Parameter>(tree: &mut Tree<P>) {
     let size = (0..tree.bodies.len()).map(|body| reach(tree, body)).fold(0.0, f64::max);
     let roundoff = LENGTH_ROUNDOFF * size;
     let mut known: Vec<f64> = Vec::new();
@@ -54,13 +55,13 @@ fn unify_lengths(tree: &mut Tree) {
 }
 
 /// Turns the frame of `body` about its z axis by `angle` and slides it along by `distance`.
-pub fn reframe(tree: &mut Tree, body: usize, angle: f64, distance: f64) {
+pub fn reframe<P: Parameter>(tree: &mut Tree<P>, body: usize, angle: f64, distance: f64) {
     let size = reach(tree, body).max(distance.abs());
     let change = Pose { rotation: snapped(rotation::about_z(angle)), position: Vec3([0.0, 0.0, distance]) };
     let back = inverse(change);
     let moved = &mut tree.bodies[body];
     moved.placement = moved.placement * change;
-    moved.inertia = clean_inertia(moved.inertia.transformed(back), size);
+    moved.inertia = clean_inertia(moved.inertia.transformed(Pose::constant(back)), size);
     settle_rotation(tree, body, size);
     for child in tree.children(body).collect::<Vec<_>>() {
         tree.bodies[child].placement = back * tree.bodies[child].placement;
@@ -77,7 +78,7 @@ pub fn reframe(tree: &mut Tree, body: usize, angle: f64, distance: f64) {
 
 /// By which angle to turn the frame of the parent of `child` so that x is along the common normal of their axes; for
 /// parallel axes, so that x points from one to the other. `None` where the axes coincide.
-pub fn turn_to_child(tree: &Tree, child: usize) -> Option<f64> {
+pub fn turn_to_child<P: Parameter>(tree: &Tree<P>, child: usize) -> Option<f64> {
     let Pose { rotation, position: p } = tree.bodies[child].placement;
     let u = rotation.column(2);
     let around = tree.bodies[child].parent.map_or(0.0, |parent| reach(tree, parent));
@@ -87,14 +88,14 @@ pub fn turn_to_child(tree: &Tree, child: usize) -> Option<f64> {
 
 /// How far to slide the frame of the parent of `child` so that its origin is the foot of the common normal of their
 /// axes; for axes that are parallel, or nearly so, that the two origins are at one height.
-pub fn slide_to_child(tree: &Tree, child: usize) -> Option<f64> {
+pub fn slide_to_child<P: Parameter>(tree: &Tree<P>, child: usize) -> Option<f64> {
     let Pose { rotation, position: p } = tree.bodies[child].placement;
     Some(foot_on_child(tree, child).map_or(p[2], |along| p[2] + along * rotation.column(2)[2]))
 }
 
 /// How far to slide the frame of `body` so that its origin is the foot of the common normal with its parent's axis; for
 /// axes that are parallel, or nearly so, that the two origins are at one height. `None` for a body on the ground.
-pub fn slide_to_parent(tree: &Tree, body: usize) -> Option<f64> {
+pub fn slide_to_parent<P: Parameter>(tree: &Tree<P>, body: usize) -> Option<f64> {
     tree.bodies[body].parent?;
     let Pose { rotation, position: p } = tree.bodies[body].placement;
     Some(foot_on_child(tree, body).unwrap_or(-p[2] * rotation.column(2)[2]))
@@ -102,7 +103,7 @@ pub fn slide_to_parent(tree: &Tree, body: usize) -> Option<f64> {
 
 /// How far along the axis of `child`, from its origin, the foot of the common normal with its parent's axis is. `None`
 /// where that is nowhere near.
-fn foot_on_child(tree: &Tree, child: usize) -> Option<f64> {
+fn foot_on_child<P: Parameter>(tree: &Tree<P>, child: usize) -> Option<f64> {
     let Pose { rotation, position: p } = tree.bodies[child].placement;
     let u = rotation.column(2);
     let along = -(p[0] * u[0] + p[1] * u[1]) / (u[0] * u[0] + u[1] * u[1]);
@@ -112,8 +113,8 @@ fn foot_on_child(tree: &Tree, child: usize) -> Option<f64> {
 
 /// By which angle to turn the frame of `body` so that the first moment of its mass is along x, or if that is on the
 /// axis, so that the second moment Σ_xy vanishes. `None` where both do already.
-pub fn turn_to_inertia(tree: &Tree, body: usize) -> Option<f64> {
-    let PseudoInertia { mass, moment: h, .. } = tree.bodies[body].inertia;
+pub fn turn_to_inertia<P: Parameter>(tree: &Tree<P>, body: usize) -> Option<f64> {
+    let PseudoInertia { mass, moment: h, .. } = tree.bodies[body].inertia.number()?;
     if h[0].hypot(h[1]) > LENGTH_ROUNDOFF * reach(tree, body) * mass {
         return Some(h[1].atan2(h[0]));
     }
@@ -122,8 +123,8 @@ pub fn turn_to_inertia(tree: &Tree, body: usize) -> Option<f64> {
 
 /// By which angle to turn the frame of `body` so that the second moment Σ_xy vanishes. `None` where all directions are
 /// the same.
-pub fn turn_to_principal_axis(tree: &Tree, body: usize) -> Option<f64> {
-    let Sym3 { xx, yy, xy, .. } = tree.bodies[body].inertia.second;
+pub fn turn_to_principal_axis<P: Parameter>(tree: &Tree<P>, body: usize) -> Option<f64> {
+    let Sym3 { xx, yy, xy, .. } = tree.bodies[body].inertia.number()?.second;
     let difference = xx - yy;
     let roundoff = 64.0 * f64::EPSILON * (xx.abs() + yy.abs());
     (difference.abs().max(xy.abs()) > roundoff).then(|| 0.5 * (2.0 * xy).atan2(difference))
@@ -131,7 +132,7 @@ pub fn turn_to_principal_axis(tree: &Tree, body: usize) -> Option<f64> {
 
 /// Writes the rotation of `body` as a fixed one with as many zeros as can be, after which comes one about z: this is
 /// part of the fixed one if it is of quarter turns, else it is the joint's offset.
-fn settle_rotation(tree: &mut Tree, body: usize, size: f64) {
+fn settle_rotation<P: Parameter>(tree: &mut Tree<P>, body: usize, size: f64) {
     let Pose { rotation, position } = tree.bodies[body].placement;
     let position = clean_vector(position, size);
     let offset = tree.bodies[body].offset;
@@ -176,10 +177,13 @@ fn inverse(pose: Pose<f64>) -> Pose<f64> {
 /// The largest length around a body: to its parent, its children, its links and its centre of mass.
 ///
 /// Where the robot stands in the base frame is none of them: its inertias know nothing of it.
-fn reach(tree: &Tree, body: usize) -> f64 {
+fn reach<P: Parameter>(tree: &Tree<P>, body: usize) -> f64 {
     let Body { parent, placement, inertia, .. } = &tree.bodies[body];
     let own = parent.map_or(Vec3::zero(), |_| placement.position);
-    let com = if inertia.mass > 0.0 { inertia.moment.scale(1.0 / inertia.mass) } else { Vec3::zero() };
+    let com = match inertia.number() {
+        Some(PseudoInertia { mass, moment, .. }) if mass > 0.0 => moment.scale(1.0 / mass),
+        _ => Vec3::zero(),
+    };
     let children = tree.children(body).map(|child| tree.bodies[child].placement.position);
     let links = tree.links.iter().filter(|link| link.body == Some(body)).map(|link| link.pose.position);
     let lengths = [own, com].into_iter().chain(children).chain(links).flat_map(|vector| vector.0);
@@ -208,8 +212,13 @@ fn clean_pose(pose: Pose<f64>, size: f64) -> Pose<f64> {
     Pose { rotation: snapped(pose.rotation), position: clean_vector(pose.position, size) }
 }
 
-fn clean_inertia(inertia: PseudoInertia<f64>, size: f64) -> PseudoInertia<f64> {
+fn clean_inertia<P: Parameter>(inertia: PseudoInertia<P>, size: f64) -> PseudoInertia<P> {
     let PseudoInertia { mass, moment, second } = inertia.without_roundoff();
-    let length = clean_vector(moment, mass.abs() * size);
-    PseudoInertia { mass, moment: length, second: second.map(|x| clean(x, mass.abs() * size * size)) }
+    let Some(weight) = mass.number().map(f64::abs) else { return PseudoInertia { mass, moment, second } };
+    let clean = |value: P, size: f64| value.number().map_or(value, |number| P::from_f64(clean(number, size)));
+    PseudoInertia {
+        mass,
+        moment: moment.map(|x| clean(x, weight * size)),
+        second: second.map(|x| clean(x, weight * size * size)),
+    }
 }

@@ -14,6 +14,7 @@ mod messages;
 mod mobility;
 pub mod model;
 mod outline;
+pub mod parameter;
 pub mod pseudo;
 pub mod regroup;
 pub mod rotation;

@@ -7,6 +7,7 @@
 //! consistent inertial parameter identification", IEEE Robotics and Automation Letters 3(1), 2018).
 
 use crate::inertia::{RigidInertia, Sym3};
+use crate::parameter::Parameter;
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_runtime::Scalar;
 use std::ops::Add;
@@ -55,13 +56,21 @@ impl<S: Scalar> PseudoInertia<S> {
         RigidInertia { mass: self.mass, moment: self.moment, tensor }
     }
 
-    /// Constants of the model as scalars.
-    pub fn constant(value: PseudoInertia<f64>) -> Self {
-        PseudoInertia {
-            mass: S::from_f64(value.mass),
-            moment: Vec3::constant(value.moment),
-            second: value.second.map(S::from_f64),
-        }
+    /// Applies `f` to each number.
+    #[inline]
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> PseudoInertia<T> {
+        PseudoInertia { mass: f(self.mass), moment: self.moment.map(&f), second: self.second.map(f) }
+    }
+
+    /// The ten numbers, where all are known before run time.
+    pub fn number(self) -> Option<PseudoInertia<f64>>
+    where
+        S: Parameter,
+    {
+        let PseudoInertia { mass, moment: Vec3([x, y, z]), second } = self;
+        let Sym3 { xx, yy, zz, xy, yz, xz } = second;
+        let known = [mass, x, y, z, xx, yy, zz, xy, yz, xz].iter().all(|value| value.number().is_some());
+        known.then(|| self.map(|value| value.number().unwrap_or(f64::NAN)))
     }
 
     /// The same body about the origin of the reference, where `p` is the origin of its frame (of equal axes):

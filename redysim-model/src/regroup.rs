@@ -10,12 +10,13 @@
 
 use crate::inertia::Sym3;
 use crate::joint::{AxisMass, Vanishing};
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
-use crate::spatial::Vec3;
+use crate::spatial::{Pose, Vec3};
 use crate::tree::{Body, Tree};
 
 /// The tree with as much inertia as possible moved towards the ground.
-pub fn base_parameters(tree: &Tree, vanishing: Vanishing) -> Tree {
+pub fn base_parameters<P: Parameter>(tree: &Tree<P>, vanishing: Vanishing) -> Tree<P> {
     let mut tree = tree.clone();
     for index in (0..tree.bodies.len()).rev() {
         move_to_parent(&mut tree, index, vanishing);
@@ -24,10 +25,10 @@ pub fn base_parameters(tree: &Tree, vanishing: Vanishing) -> Tree {
 }
 
 /// The sum, with nothing where only the roundoff of two terms is left.
-fn sum(a: PseudoInertia<f64>, b: PseudoInertia<f64>) -> PseudoInertia<f64> {
-    let add = |a: f64, b: f64| {
-        let sum = a + b;
-        if sum.abs() < 8.0 * f64::EPSILON * a.abs().max(b.abs()) { 0.0 } else { sum }
+fn sum<P: Parameter>(a: PseudoInertia<P>, b: PseudoInertia<P>) -> PseudoInertia<P> {
+    let add = |a: P, b: P| match (a.number(), b.number(), (a + b).number()) {
+        (Some(a), Some(b), Some(sum)) if sum.abs() < 8.0 * f64::EPSILON * a.abs().max(b.abs()) => P::zero(),
+        _ => a + b,
     };
     let (s, t) = (a.second.full().0, b.second.full().0);
     let sum = PseudoInertia {
@@ -39,11 +40,11 @@ fn sum(a: PseudoInertia<f64>, b: PseudoInertia<f64>) -> PseudoInertia<f64> {
 }
 
 /// Moves as much inertia of one body as possible to its parent.
-pub fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
+pub fn move_to_parent<P: Parameter>(tree: &mut Tree<P>, index: usize, vanishing: Vanishing) {
     let body = &mut tree.bodies[index];
     let (own, shared) = body.joint.split(body.inertia, vanishing);
     body.inertia = own;
-    let (parent, moved) = (body.parent, shared.transformed(body.placement));
+    let (parent, moved) = (body.parent, shared.transformed(Pose::constant(body.placement)));
     let carrier = match parent {
         Some(parent) => &mut tree.bodies[parent].inertia,
         None => &mut tree.ground,
@@ -54,11 +55,12 @@ pub fn move_to_parent(tree: &mut Tree, index: usize, vanishing: Vanishing) {
 /// Takes mass on the axis of the joint of `body` from its parent and gives it to the body: the other way round from
 /// [`base_parameters`], where that leaves fewer numbers to compute with. What the parent can no longer tell from its
 /// own parent's moves on towards the ground.
-pub fn take_from_parent(tree: &mut Tree, body: usize, mass: AxisMass) {
+pub fn take_from_parent<P: Parameter>(tree: &mut Tree<P>, body: usize, mass: AxisMass<P>) {
     let Body { parent, placement, .. } = tree.bodies[body];
     let Some(parent) = parent else { return };
     let minus = AxisMass { mass: -mass.mass, first: -mass.first, second: -mass.second };
-    tree.bodies[parent].inertia = sum(tree.bodies[parent].inertia, minus.inertia().transformed(placement));
+    tree.bodies[parent].inertia =
+        sum(tree.bodies[parent].inertia, minus.inertia().transformed(Pose::constant(placement)));
     tree.bodies[body].inertia = tree.bodies[body].inertia + mass.inertia();
     let mut at = Some(parent);
     while let Some(ancestor) = at {

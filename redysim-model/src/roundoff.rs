@@ -1,16 +1,17 @@
 //! Geometry and inertias without what is nothing but roundoff.
 
 use crate::inertia::Sym3;
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Sets to zero what is smaller than the roundoff of the largest element, so that the noise of a fixed rotation never
-/// becomes a term of a recursion.
-fn without_noise(values: &mut [&mut f64]) {
-    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+/// becomes a term of a recursion. What is not known before run time stays.
+fn without_noise<P: Parameter>(values: &mut [&mut P]) {
+    let largest = values.iter().filter_map(|value| value.number()).fold(0.0_f64, |largest, x| largest.max(x.abs()));
     for value in values {
-        if value.abs() < 4.0 * f64::EPSILON * largest {
-            **value = 0.0;
+        if value.number().is_some_and(|x| x.abs() < 4.0 * f64::EPSILON * largest) {
+            **value = P::zero();
         }
     }
 }
@@ -38,7 +39,7 @@ impl Pose<f64> {
     }
 }
 
-impl PseudoInertia<f64> {
+impl<P: Parameter> PseudoInertia<P> {
     pub(crate) fn without_roundoff(mut self) -> Self {
         let [x, y, z] = &mut self.moment.0;
         without_noise(&mut [x, y, z]);

@@ -4,13 +4,14 @@
 //! are the same numbers as in m and kg, so nothing has to be converted on the way in or out; but a length L, a mass
 //! 1/L² or a first moment 1/L is 1, and multiplies nothing.
 
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::tree::Tree;
 
 /// The tree in the unit of length `unit`, m; `None` if a joint moves along its axis, whose coordinate is a length.
-pub fn in_unit(tree: &Tree, unit: f64) -> Option<Tree> {
+pub fn in_unit<P: Parameter>(tree: &Tree<P>, unit: f64) -> Option<Tree<P>> {
     let mut tree = tree.clone();
-    tree.gravity = tree.gravity.scale(1.0 / unit);
+    tree.gravity = tree.gravity.scale(P::from_f64(1.0 / unit));
     tree.ground = scaled(tree.ground, unit);
     for body in &mut tree.bodies {
         body.joint = body.joint.in_unit(unit)?;
@@ -20,10 +21,13 @@ pub fn in_unit(tree: &Tree, unit: f64) -> Option<Tree> {
     Some(tree)
 }
 
-fn scaled(inertia: PseudoInertia<f64>, unit: f64) -> PseudoInertia<f64> {
-    let PseudoInertia { mass, mut moment, second } = inertia;
-    moment.0 = moment.0.map(|moment| exact_one(moment * unit));
-    PseudoInertia { mass: exact_one(mass * (unit * unit)), moment, second }
+fn scaled<P: Parameter>(inertia: PseudoInertia<P>, unit: f64) -> PseudoInertia<P> {
+    let PseudoInertia { mass, moment, second } = inertia;
+    let times = |value: P, factor: f64| {
+        let product = value * P::from_f64(factor);
+        product.number().map_or(product, |number| P::from_f64(exact_one(number)))
+    };
+    PseudoInertia { mass: times(mass, unit * unit), moment: moment.map(|moment| times(moment, unit)), second }
 }
 
 /// ±1 for what differs from it by roundoff.

@@ -36,6 +36,12 @@ impl<S: Scalar> Vec3<S> {
         Self::from_fn(|i| S::from_f64(value[i]))
     }
 
+    /// Applies `f` to each component.
+    #[inline]
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Vec3<T> {
+        Vec3(self.0.map(f))
+    }
+
     /// aᵀ b.
     pub fn dot(self, b: Self) -> S {
         self[0] * b[0] + self[1] * b[1] + self[2] * b[2]

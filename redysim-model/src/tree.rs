@@ -7,26 +7,27 @@ use crate::joint::Joint;
 use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
+use redysim_runtime::Scalar;
 use std::ops::Range;
 
 /// Moving bodies, parents first, and where the model's links stand on them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tree {
+pub struct Tree<P = f64> {
     /// Acceleration of gravity in the base frame, m/s².
-    pub gravity: Vec3<f64>,
+    pub gravity: Vec3<P>,
     /// Everything that does not move, about the base frame.
-    pub ground: PseudoInertia<f64>,
+    pub ground: PseudoInertia<P>,
     /// The moving bodies; each parent has a smaller index.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<Body<P>>,
     /// Where each of [`Model::links`](crate::model::Model::links) stands, in the model's order.
-    pub links: Vec<Attachment>,
+    pub links: Vec<Attachment<P>>,
     /// The cut joints, in the model's order.
     pub cuts: Vec<Cut>,
 }
 
 /// A moving body with one joint about or along its z axis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
+pub struct Body<P = f64> {
     /// The parent's index in [`Tree::bodies`]; `None` is the ground.
     pub parent: Option<usize>,
     /// The body's frame in its parent's where `q + offset` is zero.
@@ -44,10 +45,10 @@ pub struct Body {
     /// The joint's velocities and forces in the model's order.
     pub v: Range<usize>,
     /// Moments of its mass about the origin of its frame.
-    pub inertia: PseudoInertia<f64>,
+    pub inertia: PseudoInertia<P>,
 }
 
-impl Body {
+impl<P> Body<P> {
     /// Whether the joint's axis is parallel to the z axis of the parent's frame.
     #[inline]
     pub fn is_parallel(&self) -> bool {
@@ -59,13 +60,13 @@ impl Body {
 
 /// Where a link stands on a body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Attachment {
+pub struct Attachment<P = f64> {
     /// The body in [`Tree::bodies`]; `None` is the ground.
     pub body: Option<usize>,
     /// The link's frame in the body's.
     pub pose: Pose<f64>,
     /// Centre of mass in the link's frame, m.
-    pub com: Vec3<f64>,
+    pub com: Vec3<P>,
 }
 
 /// A cut joint between two bodies.
@@ -94,7 +95,7 @@ pub struct CutEnd {
     pub axes: Mat3<f64>,
 }
 
-impl Tree {
+impl<P> Tree<P> {
     /// Number of joint coordinates, NQ.
     #[inline]
     pub fn nq(&self) -> usize {
@@ -110,6 +111,31 @@ impl Tree {
     /// For each row of the loops, the index of its cut; NC of them.
     pub fn loops_of_rows(&self) -> impl Iterator<Item = usize> {
         self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
+    }
+
+    /// The same tree with `f` of each inertial parameter and of gravity.
+    pub fn map<Q>(&self, f: impl Fn(P) -> Q) -> Tree<Q>
+    where
+        P: Scalar,
+    {
+        let body = |body: &Body<P>| Body {
+            parent: body.parent,
+            placement: body.placement,
+            joint: body.joint,
+            offset: body.offset,
+            still: body.still,
+            q: body.q.clone(),
+            v: body.v.clone(),
+            inertia: body.inertia.map(&f),
+        };
+        let link = |link: &Attachment<P>| Attachment { body: link.body, pose: link.pose, com: link.com.map(&f) };
+        Tree {
+            gravity: self.gravity.map(&f),
+            ground: self.ground.map(&f),
+            bodies: self.bodies.iter().map(body).collect(),
+            links: self.links.iter().map(link).collect(),
+            cuts: self.cuts.clone(),
+        }
     }
 
     /// The bodies from the ground outwards: parents before their children.

@@ -2,6 +2,7 @@
 
 use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
+use crate::parameter::ParameterIn;
 use crate::spatial::{Mat3, Pose, Vec3};
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
@@ -61,7 +62,7 @@ impl<S: Scalar> Placed<S> {
 
 /// All bodies at the coordinates `q` and velocities `v`, and their joints' frames.
 pub(super) fn bodies<S: Scalar>(
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],

@@ -2,6 +2,7 @@
 
 use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
+use crate::parameter::ParameterIn;
 use crate::spatial::Vec3;
 use crate::tree::{Body, Tree};
 use redysim_runtime::{CenterOfMass, Scalar};
@@ -10,13 +11,20 @@ use redysim_runtime::{CenterOfMass, Scalar};
 ///
 /// Momentum is linear in the joint velocities: a joint that turns about z adds v (z × h) to that of what it carries,
 /// whose first moment about the joint is h, and one that slides along z adds v m z. So one recursion inwards has both.
-pub fn center_of_mass<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> CenterOfMass<S> {
+pub fn center_of_mass<S: Scalar, P: ParameterIn<S>>(
+    tree: &Tree<P>,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+) -> CenterOfMass<S> {
     let frames = joint_frames(tree, trace, q);
-    let of_body = |(body, frame): (&Body, &JointFrame<S>)| frame.fixed_vector(Vec3::constant(body.inertia.moment));
+    let of_body =
+        |(body, frame): (&Body<P>, &JointFrame<S>)| frame.fixed_vector(body.inertia.moment.map(ParameterIn::value));
     let mut moments: Vec<Vec3<S>> = tree.bodies.iter().zip(&frames).map(of_body).collect();
-    let mut masses: Vec<f64> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
+    let mut masses: Vec<_> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
     let mut momenta = vec![Vec3::zero(); tree.bodies.len()];
-    let (mut moment, mut mass, mut momentum) = (Vec3::constant(tree.ground.moment), tree.ground.mass, Vec3::zero());
+    let (mut moment, mut mass, mut momentum) =
+        (tree.ground.moment.map(ParameterIn::value), tree.ground.mass, Vec3::zero());
     trace.sweep("inward", tree.inward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let own = moments[index];
@@ -27,14 +35,14 @@ pub fn center_of_mass<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v:
             own_momentum = own_momentum + Vec3([-own[1], own[0], S::zero()]).scale(turn);
         }
         if let Some(slide) = screw.slide(rate) {
-            own_momentum[2] += S::from_f64(masses[index]) * slide;
+            own_momentum[2] += masses[index].value() * slide;
         }
         trace.name_vector(own_momentum, "p", index);
-        let carried = frame.position.scale(S::from_f64(masses[index])) + frame.to_parent(own);
+        let carried = frame.position.scale(masses[index].value()) + frame.to_parent(own);
         let carried_momentum = frame.to_parent(own_momentum);
         match body.parent {
             Some(parent) => {
-                masses[parent] += masses[index];
+                masses[parent] = masses[parent] + masses[index];
                 moments[parent] = moments[parent] + carried;
                 momenta[parent] = momenta[parent] + carried_momentum;
             }
@@ -45,6 +53,6 @@ pub fn center_of_mass<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v:
             }
         }
     });
-    let share = S::from_f64(1.0 / mass);
+    let share = (P::one() / mass).value();
     CenterOfMass { position: moment.scale(share).0, velocity: momentum.scale(share).0 }
 }

@@ -3,12 +3,13 @@
 use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
 use crate::inertia::RigidInertia;
+use crate::parameter::ParameterIn;
 use crate::spatial::{Twist, Vec3};
 use crate::tree::{Body, Tree};
 use redysim_runtime::{Energy, Scalar};
 
 /// Kinetic energy ½ Σ (m v² + 2 v·(ω × h) + ωᵀ J ω) and potential energy −Σ m g·c, zero at the base frame's origin, J.
-pub fn energy<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Energy<S> {
+pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Energy<S> {
     let frames = joint_frames(tree, trace, q);
     let mut velocities: Vec<Twist<S>> = Vec::with_capacity(tree.bodies.len());
     let mut twice_kinetic = S::zero();
@@ -22,22 +23,23 @@ pub fn energy<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -
         twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), velocity);
         velocities.push(velocity);
     });
-    let of_body = |(body, frame): (&Body, &JointFrame<S>)| frame.fixed_vector(Vec3::constant(body.inertia.moment));
+    let of_body =
+        |(body, frame): (&Body<P>, &JointFrame<S>)| frame.fixed_vector(body.inertia.moment.map(ParameterIn::value));
     let mut moments: Vec<Vec3<S>> = tree.bodies.iter().zip(&frames).map(of_body).collect();
-    let mut masses: Vec<f64> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
-    let mut total = Vec3::constant(tree.ground.moment);
+    let mut masses: Vec<_> = tree.bodies.iter().map(|body| body.inertia.mass).collect();
+    let mut total = tree.ground.moment.map(ParameterIn::value);
     trace.sweep("inward", tree.inward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let moment = frame.position.scale(S::from_f64(masses[index])) + frame.to_parent(moments[index]);
+        let moment = frame.position.scale(masses[index].value()) + frame.to_parent(moments[index]);
         match body.parent {
             Some(parent) => {
-                masses[parent] += masses[index];
+                masses[parent] = masses[parent] + masses[index];
                 moments[parent] = moments[parent] + moment;
             }
             None => total = total + moment,
         }
     });
-    Energy { kinetic: S::from_f64(0.5) * twice_kinetic, potential: -Vec3::constant(tree.gravity).dot(total) }
+    Energy { kinetic: S::from_f64(0.5) * twice_kinetic, potential: -tree.gravity.map(ParameterIn::value).dot(total) }
 }
 
 fn twice_kinetic_energy<S: Scalar>(inertia: &RigidInertia<S>, Twist { angular, linear }: Twist<S>) -> S {

@@ -5,12 +5,18 @@ use super::{
     Method, bias_forces, center_of_mass, energy, forward_dynamics, gravity_forces, inverse_dynamics, link_kinematics,
     loop_bias, loop_jacobian, loop_residual, mass_matrix,
 };
+use crate::parameter::ParameterIn;
 use crate::tree::Tree;
 use redysim_runtime::{CenterOfMass, Energy, Function, LinkState, Scalar};
 
 /// The values of `function` in the order of its [`Shape`](redysim_runtime::function::Shape); forward dynamics by the
 /// recursion. `x` are the arguments that its [signature](Function::signature) lists.
-pub fn evaluate<S: Scalar>(function: Function, tree: &Tree, trace: &impl Trace<S>, x: &[&[S]]) -> Vec<S> {
+pub fn evaluate<S: Scalar>(
+    function: Function,
+    tree: &Tree<impl ParameterIn<S>>,
+    trace: &impl Trace<S>,
+    x: &[&[S]],
+) -> Vec<S> {
     match function {
         Function::InverseDynamics => inverse_dynamics(tree, trace, x[0], x[1], x[2]),
         Function::ForwardDynamics => forward_dynamics(Method::Recursion, tree, trace, x[0], x[1], x[2]),

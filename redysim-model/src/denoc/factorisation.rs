@@ -20,7 +20,7 @@ pub struct Factorisation<S> {
 
 impl<S: Scalar> Factorisation<S> {
     /// Factorises the mass matrix of `tree`, given by rows in the model's order.
-    pub fn new(tree: &Tree, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
+    pub fn new(tree: &Tree<impl Copy>, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
         let coordinates: Vec<usize> = tree.bodies.iter().map(|body| body.v.start).collect();
         let parents: Vec<Option<usize>> = tree.bodies.iter().map(|body| body.parent).collect();
         let mut upper: Vec<Vec<S>> =

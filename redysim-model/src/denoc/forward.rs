@@ -9,6 +9,7 @@ use super::trace::Trace;
 use super::workspace::Workspace;
 use crate::inertia::RigidInertia;
 use crate::joint::Screw;
+use crate::parameter::ParameterIn;
 use crate::spatial::{Twist, Vec3, Wrench};
 use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
@@ -26,7 +27,7 @@ pub enum Method {
 /// M(q)⁻¹ (τ − C(q, v) v − g(q)) by the given method.
 pub fn forward_dynamics<S: Scalar>(
     method: Method,
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
@@ -40,7 +41,7 @@ pub fn forward_dynamics<S: Scalar>(
 
 /// Accelerations from the explicit mass matrix: M = U D Uᵀ, then three substitutions.
 pub fn forward_dynamics_by_factorisation<S: Scalar>(
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
@@ -57,7 +58,7 @@ pub fn forward_dynamics_by_factorisation<S: Scalar>(
 /// on free joints, set against it. The bias is carried along as a wrench instead of being summed up as joint forces
 /// first, since their roundoff would be multiplied by the condition of M.
 pub fn forward_dynamics_by_recursion<S: Scalar>(
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
@@ -69,9 +70,9 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(
 }
 
 /// [`forward_dynamics_by_recursion`] in the given room, written to `result`.
-pub fn forward_dynamics_in<S: Scalar>(
+pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
-    tree: &Tree,
+    tree: &Tree<P>,
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
@@ -81,8 +82,9 @@ pub fn forward_dynamics_in<S: Scalar>(
     let Workspace { angles, frames, biases: drifts, inertias, wrenches, pivots, accelerations, .. } = work;
     joint_frames_in(angles, frames, tree, trace, q);
     bias_accelerations(drifts, tree, trace, frames, v);
-    let rigid =
-        |(body, frame): (&Body, &JointFrame<S>)| ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid());
+    let rigid = |(body, frame): (&Body<P>, &JointFrame<S>)| {
+        ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid())
+    };
     inertias.clear();
     inertias.extend(tree.bodies.iter().zip(frames.iter()).map(rigid));
     wrenches.clear();
@@ -114,7 +116,7 @@ pub fn forward_dynamics_in<S: Scalar>(
     });
     pivots.reverse();
 
-    let ground = Twist { angular: Vec3::zero(), linear: Vec3::constant(-tree.gravity) };
+    let ground = Twist { angular: Vec3::zero(), linear: (-tree.gravity).map(ParameterIn::value) };
     accelerations.clear();
     trace.sweep("accelerations", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
@@ -164,7 +166,7 @@ pub(super) struct BiasAcceleration<S> {
 
 fn bias_accelerations<S: Scalar>(
     biases: &mut Vec<BiasAcceleration<S>>,
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     frames: &[JointFrame<S>],
     v: &[S],

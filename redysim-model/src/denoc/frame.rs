@@ -2,6 +2,7 @@
 
 use super::trace::Trace;
 use crate::inertia::Sym3;
+use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 use crate::tree::Tree;
@@ -33,7 +34,11 @@ pub(super) struct JointFrame<S> {
 }
 
 /// The frames of all bodies at the coordinates `q`.
-pub(super) fn joint_frames<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<JointFrame<S>> {
+pub(super) fn joint_frames<S: Scalar>(
+    tree: &Tree<impl ParameterIn<S>>,
+    trace: &impl Trace<S>,
+    q: &[S],
+) -> Vec<JointFrame<S>> {
     let mut frames = Vec::with_capacity(tree.bodies.len());
     joint_frames_in(&mut Vec::with_capacity(tree.bodies.len()), &mut frames, tree, trace, q);
     frames
@@ -43,7 +48,7 @@ pub(super) fn joint_frames<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S
 pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     angles: &mut Vec<Option<Angle<S>>>,
     frames: &mut Vec<JointFrame<S>>,
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &T,
     q: &[S],
 ) {
@@ -87,7 +92,7 @@ pub(super) struct Angle<S> {
 
 /// By how much each body has turned about its z axis: against its parent, or if that is still and the axes are
 /// parallel, against the parent's axes.
-fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree, q: &[S]) {
+fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree<impl Copy>, q: &[S]) {
     angles.clear();
     for body in &tree.bodies {
         let q = q[body.q.start];
@@ -154,8 +159,8 @@ impl<S: Scalar> JointFrame<S> {
 
     /// The moments of the body's own mass, in its axes.
     #[inline(always)]
-    pub fn own_inertia(&self, inertia: PseudoInertia<f64>) -> PseudoInertia<S> {
-        let PseudoInertia { mass, moment, second } = PseudoInertia::constant(inertia);
+    pub fn own_inertia(&self, inertia: PseudoInertia<impl ParameterIn<S>>) -> PseudoInertia<S> {
+        let PseudoInertia { mass, moment, second } = inertia.map(ParameterIn::value);
         PseudoInertia { mass, moment: self.fixed_vector(moment), second: turned_tensor(self.attitude, second) }
     }
 

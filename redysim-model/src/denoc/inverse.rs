@@ -5,6 +5,7 @@ use super::trace::Trace;
 use super::workspace::Workspace;
 use crate::inertia::Sym3;
 use crate::joint::Screw;
+use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Vec3, Wrench};
 use crate::tree::Tree;
@@ -37,8 +38,8 @@ impl<S: Scalar> BodyMotion<S> {
         }
     }
 
-    fn ground(gravity: Vec3<f64>) -> Self {
-        Self::new(Vec3::zero(), Vec3::zero(), Vec3::constant(-gravity))
+    fn ground(gravity: Vec3<impl ParameterIn<S>>) -> Self {
+        Self::new(Vec3::zero(), Vec3::zero(), (-gravity).map(ParameterIn::value))
     }
 
     /// The motion across a joint of velocity `rate` and acceleration `joint`.
@@ -103,7 +104,7 @@ impl<S: Scalar> BodyMotion<S> {
     }
 }
 
-/// What is known of a body's moments of mass in numbers.
+/// What is known of a body's moments of mass before run time.
 #[derive(Clone, Copy)]
 struct Shape<S> {
     /// Σ_xx + Σ_yy.
@@ -115,20 +116,27 @@ struct Shape<S> {
 }
 
 impl<S: Scalar> Shape<S> {
-    fn new(inertia: &PseudoInertia<f64>, frame: &JointFrame<S>) -> Self {
+    fn new<P: ParameterIn<S>>(inertia: &PseudoInertia<P>, frame: &JointFrame<S>) -> Self {
         let Sym3 { xx, yy, zz, xy, .. } = inertia.second;
         let still = frame.is_still();
-        let round = xx == yy && (xy == 0.0 || !still);
+        let equal = |a: P, b: P| a.number().is_some() && a.number() == b.number();
+        let round = equal(xx, yy) && (xy.number() == Some(0.0) || !still);
         Shape {
-            equal: [yy == zz && !still, zz == xx && !still, round],
+            equal: [equal(yy, zz) && !still, equal(zz, xx) && !still, round],
             still,
-            polar: S::from_f64(xx) + S::from_f64(yy),
+            polar: xx.value() + yy.value(),
         }
     }
 }
 
 /// τ = M(q) a + C(q, v) v + g(q): the joint forces for accelerations `a` at coordinates `q` and velocities `v`.
-pub fn inverse_dynamics<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
+pub fn inverse_dynamics<S: Scalar>(
+    tree: &Tree<impl ParameterIn<S>>,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    a: &[S],
+) -> Vec<S> {
     let mut tau = vec![S::zero(); tree.nv()];
     inverse_dynamics_in(&mut Workspace::default(), tree, trace, q, v, a, &mut tau);
     tau
@@ -137,7 +145,7 @@ pub fn inverse_dynamics<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], 
 /// The same in the given room, written to `tau`.
 pub fn inverse_dynamics_in<S: Scalar>(
     work: &mut Workspace<S>,
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
@@ -171,11 +179,11 @@ pub fn inverse_dynamics_in<S: Scalar>(
 }
 
 /// C(q, v) v + g(q): the joint forces at zero acceleration.
-pub fn bias_forces<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
+pub fn bias_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
     inverse_dynamics(tree, trace, q, v, &vec![S::zero(); tree.nv()])
 }
 
 /// g(q): the joint forces at rest.
-pub fn gravity_forces<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
+pub fn gravity_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
     bias_forces(tree, trace, q, &vec![S::zero(); tree.nv()])
 }

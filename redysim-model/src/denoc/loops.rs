@@ -8,6 +8,7 @@ use super::base_frame::{Order, Placed, bodies};
 use super::frame::JointFrame;
 use super::trace::{Trace, Untraced};
 use crate::model::CutKind;
+use crate::parameter::ParameterIn;
 use crate::spatial::{Mat3, Vec3};
 use crate::tree::{Cut, CutEnd, Tree};
 use redysim_runtime::Scalar;
@@ -41,7 +42,7 @@ struct Side<S> {
 }
 
 impl<S: Scalar> Side<S> {
-    fn new(tree: &Tree, (bodies, joints): Bodies<S>, end: &CutEnd) -> Self {
+    fn new(tree: &Tree<impl Copy>, (bodies, joints): Bodies<S>, end: &CutEnd) -> Self {
         let body = end.body.map_or(Placed::ground(), |body| bodies[body]);
         // The axes fixed to the body, which those of its pose need not be.
         let rotation = end.body.map_or(Mat3::identity(), |body| joints[body].fixed_axes(bodies[body].pose.rotation));
@@ -68,7 +69,7 @@ type Bodies<'a, S> = (&'a [Placed<S>], &'a [JointFrame<S>]);
 
 /// The rows of all loops: of each cut, what `point` and `alignment` make of its sides a and b.
 fn rows<S: Scalar, R>(
-    tree: &Tree,
+    tree: &Tree<impl ParameterIn<S>>,
     bodies: Bodies<S>,
     point: impl Fn(&Side<S>, &Side<S>) -> [R; 3],
     alignment: impl Fn(&Side<S>, &Side<S>, &[Alignment]) -> R,
@@ -88,7 +89,7 @@ fn weighted<S: Scalar>(terms: &[Alignment], term: impl Fn(usize, usize) -> S) ->
 }
 
 /// How far each loop is from closed: m for points, sines for directions.
-pub fn loop_residual<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
+pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
     let (bodies, joints) = bodies(tree, trace, q, &[], Order::Positions);
     rows(
         tree,
@@ -99,7 +100,7 @@ pub fn loop_residual<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> 
 }
 
 /// The Jacobian J of the residual, by rows of length NV: the residual changes by J v.
-pub fn loop_jacobian<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
+pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
     let (bodies, joints) = bodies(tree, trace, q, &[], Order::Positions);
     // A joint that carries both sides turns their difference; one that carries one side moves that side alone.
     let over_joints = |a: &Side<S>, b: &Side<S>, effect: &dyn Fn(usize, bool, bool) -> S| {
@@ -153,7 +154,7 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> 
 }
 
 /// J̇ v: how the rates J v of the residual change at zero joint accelerations.
-pub fn loop_bias<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
+pub fn loop_bias<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
     let (bodies, joints) = bodies(tree, trace, q, v, Order::Accelerations);
     let acceleration = |side: &Side<S>| side.body.acceleration + side.body.second_derivative(side.arm);
     rows(

@@ -5,6 +5,7 @@ use super::trace::Trace;
 use super::workspace::Workspace;
 use crate::inertia::Sym3;
 use crate::joint::Screw;
+use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Vec3, Wrench};
 use crate::tree::{Body, Tree};
@@ -14,7 +15,7 @@ use redysim_runtime::Scalar;
 ///
 /// Body j and all it carries, taken as one rigid body, meet the acceleration with a wrench; what joint i on the way to
 /// the ground feels of it is the element. Joints that are not on one way to the ground do not feel each other.
-pub fn mass_matrix<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
+pub fn mass_matrix<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
     let nv = tree.nv();
     let mut matrix = vec![S::zero(); nv * nv];
     mass_matrix_in(&mut Workspace::default(), tree, trace, q, &mut matrix);
@@ -22,9 +23,9 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree, trace: &impl Trace<S>, q: &[S]) -> Ve
 }
 
 /// The same in the given room, written to `matrix` by rows, of length NV².
-pub fn mass_matrix_in<S: Scalar>(
+pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
-    tree: &Tree,
+    tree: &Tree<P>,
     trace: &impl Trace<S>,
     q: &[S],
     matrix: &mut [S],
@@ -33,7 +34,7 @@ pub fn mass_matrix_in<S: Scalar>(
     let Workspace { angles, frames, planar, composites, .. } = work;
     joint_frames_in(angles, frames, tree, trace, q);
     find_planar(planar, tree);
-    let own_inertia = |(body, frame): (&Body, &JointFrame<S>)| Composite::new(body.inertia, frame);
+    let own_inertia = |(body, frame): (&Body<P>, &JointFrame<S>)| Composite::new(body.inertia, frame);
     composites.clear();
     composites.extend(tree.bodies.iter().zip(frames.iter()).map(own_inertia));
     matrix.fill(S::zero());
@@ -59,7 +60,7 @@ pub fn mass_matrix_in<S: Scalar>(
 }
 
 /// Which bodies can turn about directions parallel to their own joint's axis only, as all bodies of a planar mechanism.
-fn find_planar(planar: &mut Vec<bool>, tree: &Tree) {
+fn find_planar(planar: &mut Vec<bool>, tree: &Tree<impl Copy>) {
     planar.clear();
     for body in &tree.bodies {
         planar.push(body.parent.is_none_or(|parent| body.is_parallel() && planar[parent]));
@@ -75,8 +76,8 @@ pub(super) struct Composite<S> {
 }
 
 impl<S: Scalar> Composite<S> {
-    fn new(inertia: PseudoInertia<f64>, frame: &JointFrame<S>) -> Self {
-        let Sym3 { xx, yy, .. } = inertia.second.map(S::from_f64);
+    fn new(inertia: PseudoInertia<impl ParameterIn<S>>, frame: &JointFrame<S>) -> Self {
+        let Sym3 { xx, yy, .. } = inertia.second.map(ParameterIn::value);
         Composite { inertia: frame.own_inertia(inertia), polar: xx + yy }
     }
 

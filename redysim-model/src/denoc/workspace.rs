@@ -52,7 +52,7 @@ pub(super) struct Children(Vec<[Option<usize>; 2]>);
 
 impl Children {
     #[inline]
-    pub fn find(&mut self, tree: &Tree) {
+    pub fn find(&mut self, tree: &Tree<impl Copy>) {
         self.0.clear();
         self.0.resize(tree.bodies.len(), [None; 2]);
         for index in tree.inward() {

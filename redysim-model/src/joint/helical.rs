@@ -2,6 +2,7 @@
 
 use super::{AxisMass, Screw, Vanishing};
 use crate::inertia::Sym3;
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 
 #[inline]
@@ -10,14 +11,14 @@ pub fn screw(pitch: f64) -> Screw {
 }
 
 /// Mass on the axis moves along it, so of what a revolute joint shares the second moment alone is left.
-pub fn split(inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+pub fn split<P: Parameter>(inertia: PseudoInertia<P>, vanishing: Vanishing) -> (PseudoInertia<P>, PseudoInertia<P>) {
     let PseudoInertia { second, .. } = inertia;
     let left = match vanishing {
         Vanishing::TensorYy => -second.xx,
-        Vanishing::SecondMomentZz => 0.0,
+        Vanishing::SecondMomentZz => P::zero(),
     };
     let own = PseudoInertia { second: Sym3 { zz: left, ..second }, ..inertia };
-    (own, AxisMass { mass: 0.0, first: 0.0, second: second.zz - left }.inertia())
+    (own, AxisMass { mass: P::zero(), first: P::zero(), second: second.zz - left }.inertia())
 }
 
 /// The moment of inertia about the axis, and the mass along it.

@@ -19,6 +19,7 @@ mod screw;
 mod shared;
 
 use crate::model::{JointKind, Link};
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 pub use screw::Screw;
 pub use shared::{AxisMass, Vanishing};
@@ -72,7 +73,11 @@ impl Joint {
 
     /// The inertia of the body as what stays with it, in which `vanishing` vanishes, and what its parent may carry:
     /// joint forces, the mass matrix and energies are then the same.
-    pub fn split(self, inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+    pub fn split<P: Parameter>(
+        self,
+        inertia: PseudoInertia<P>,
+        vanishing: Vanishing,
+    ) -> (PseudoInertia<P>, PseudoInertia<P>) {
         match self {
             Joint::Revolute => revolute::split(inertia, vanishing),
             Joint::Prismatic => prismatic::split(inertia),

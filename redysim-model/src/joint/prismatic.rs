@@ -2,16 +2,17 @@
 
 use super::Screw;
 use crate::inertia::Sym3;
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
 
 pub const SCREW: Screw = Screw { turn: 0.0, slide: 1.0 };
 
 /// The body turns with its parent, so its second moments do not depend on the joint.
-pub fn split(inertia: PseudoInertia<f64>) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+pub fn split<P: Parameter>(inertia: PseudoInertia<P>) -> (PseudoInertia<P>, PseudoInertia<P>) {
     let PseudoInertia { mass, moment, second } = inertia;
     let own = PseudoInertia { mass, moment, second: Sym3::zero() };
-    (own, PseudoInertia { mass: 0.0, moment: Vec3::zero(), second })
+    (own, PseudoInertia { mass: P::zero(), moment: Vec3::zero(), second })
 }
 
 /// The mass.

@@ -2,21 +2,25 @@
 
 use super::{AxisMass, Screw, Vanishing};
 use crate::inertia::Sym3;
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
 
 pub const SCREW: Screw = Screw { turn: 1.0, slide: 0.0 };
 
 /// Mass on the axis belongs to both bodies.
-pub fn split(inertia: PseudoInertia<f64>, vanishing: Vanishing) -> (PseudoInertia<f64>, PseudoInertia<f64>) {
+pub fn split<P: Parameter>(inertia: PseudoInertia<P>, vanishing: Vanishing) -> (PseudoInertia<P>, PseudoInertia<P>) {
     let PseudoInertia { mass, moment, second } = inertia;
     // J_yy is Σ_zz + Σ_xx.
     let left = match vanishing {
         Vanishing::TensorYy => -second.xx,
-        Vanishing::SecondMomentZz => 0.0,
+        Vanishing::SecondMomentZz => P::zero(),
     };
-    let own =
-        PseudoInertia { mass: 0.0, moment: Vec3([moment[0], moment[1], 0.0]), second: Sym3 { zz: left, ..second } };
+    let own = PseudoInertia {
+        mass: P::zero(),
+        moment: Vec3([moment[0], moment[1], P::zero()]),
+        second: Sym3 { zz: left, ..second },
+    };
     (own, AxisMass { mass, first: moment[2], second: second.zz - left }.inertia())
 }
 

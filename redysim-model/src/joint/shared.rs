@@ -1,6 +1,7 @@
 //! Inertia that a body and its parent can both carry.
 
 use crate::inertia::Sym3;
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
 
@@ -15,19 +16,19 @@ pub enum Vanishing {
 
 /// Moments of mass on a joint's axis, about the body's origin: ∫1, ∫z and ∫z².
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AxisMass {
+pub struct AxisMass<P = f64> {
     /// ∫1 dm, kg.
-    pub mass: f64,
+    pub mass: P,
     /// ∫z dm, kg m.
-    pub first: f64,
+    pub first: P,
     /// ∫z² dm, kg m².
-    pub second: f64,
+    pub second: P,
 }
 
-impl AxisMass {
+impl<P: Parameter> AxisMass<P> {
     /// As the inertia of a body.
-    pub fn inertia(self) -> PseudoInertia<f64> {
+    pub fn inertia(self) -> PseudoInertia<P> {
         let AxisMass { mass, first, second } = self;
-        PseudoInertia { mass, moment: Vec3([0.0, 0.0, first]), second: Sym3 { zz: second, ..Sym3::zero() } }
+        PseudoInertia { mass, moment: Vec3([P::zero(), P::zero(), first]), second: Sym3 { zz: second, ..Sym3::zero() } }
     }
 }
