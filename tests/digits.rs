@@ -29,7 +29,7 @@ fn computed(functions: &[TracedFunction], function: Function) -> &TracedFunction
 /// The largest loss at states that the generator has not seen.
 fn lost(references: &[Reference], functions: &[TracedFunction], function: Function) -> f64 {
     let traced = computed(functions, function);
-    let losses = references.iter().map(|reference| reference.lost_by(function, |x| traced.expressions.evaluate(x)));
+    let losses = references.iter().map(|reference| reference.loss_by(function, |x| traced.expressions.evaluate(x)));
     losses.fold(0.0, f64::max)
 }
 

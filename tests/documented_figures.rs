@@ -18,7 +18,7 @@ use redysim::{
     Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Cycloid, ForwardSimulation, Free, Integrator,
     Motion, Ode4, Ode45, OperationCount, Trajectory, redysim,
 };
-use redysim_codegen::functions::trace_scene;
+use redysim_codegen::functions::trace_model;
 use redysim_codegen::passes::Passes;
 use redysim_model::{Functions, Inertia, Scene};
 
@@ -105,7 +105,7 @@ fn the_operations_of_the_puma_within_tolerances_are_those_that_the_readme_states
     let exponents = if cfg!(debug_assertions) { 4..=4 } else { 1..=4 };
     for exponent in exponents {
         let scene = Scene { functions, tolerance: Some(10_f64.powi(-exponent)), ..Scene::default() };
-        let traced = trace_scene(&model, &scene, &Passes::all()).expect("functions");
+        let traced = trace_model(&model, &scene, &Passes::all()).expect("functions");
         for (name, title) in [("inverse_dynamics", "inverse dynamics"), ("bias_forces", "bias forces")] {
             let function = traced.iter().find(|function| function.function.name() == name).expect("asked for");
             let counts = [function.pruning.expect("pruned").before.flops(), function.expressions.count().flops()];

@@ -1,7 +1,7 @@
 //! What tolerances save on a model whose joints have ranges:
 //! `cargo run --release -p redysim-codegen --example prune_gains -- models/test/kr5_ranges.toml`.
 
-use redysim_codegen::functions::trace_scene;
+use redysim_codegen::functions::trace_model;
 use redysim_codegen::passes::Passes;
 use redysim_model::{Functions, Model, Scene};
 use std::time::Instant;
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let scene =
                 Scene { functions: Functions::named(functions)?, tolerance: Some(tolerance), ..Scene::default() };
             let start = Instant::now();
-            let traced = trace_scene(&model, &scene, &Passes::all())?;
+            let traced = trace_model(&model, &scene, &Passes::all())?;
             println!("  to {tolerance:e}, in {:.1?}", start.elapsed());
             for function in traced {
                 let (Some(pruning), count) = (function.pruning, function.expressions.count()) else { continue };

@@ -1,4 +1,4 @@
-//! The angles of a mechanism: every one whose sine or cosine some function needs, once for all functions.
+//! The angles of a mechanism: those whose sine or cosine a function needs, each once for all functions.
 
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};

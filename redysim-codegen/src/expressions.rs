@@ -15,7 +15,7 @@ pub struct Expressions {
 }
 
 impl Expressions {
-    /// How often each node is used: by nodes that an output needs, and by outputs. Zero means dead.
+    /// How often each node is used, by outputs and by live nodes. A node without a use is dead.
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.graph.len()];
         for output in &self.outputs {
@@ -31,7 +31,7 @@ impl Expressions {
         uses
     }
 
-    /// How often each value is read in the code of the function. Angles are not: their sines and cosines are given.
+    /// How often each value is read in the code of the function, to which sines and cosines are given.
     pub fn uses_in_code(&self) -> Vec<usize> {
         let graph = &self.graph;
         let mut uses = vec![0; graph.len()];
@@ -46,12 +46,12 @@ impl Expressions {
         uses
     }
 
-    /// Whether unrolled code of this would be too long for an instruction cache.
+    /// Whether unrolled code is too long for an instruction cache.
     pub fn is_long(&self) -> bool {
         self.count().flops() > LONGEST_UNROLLED
     }
 
-    /// Operations of what the outputs need. A sine and a cosine of one angle are a pair; unary minus is free.
+    /// Operations of the live nodes. A sine and a cosine of one angle are a pair; unary minus is free.
     pub fn count(&self) -> OperationCount {
         let mut count = OperationCount::default();
         let mut angles = HashSet::new();
@@ -75,8 +75,7 @@ impl Expressions {
         count
     }
 
-    /// Operations, with what the sines and cosines are worth beside them: the measure by which one way to compute
-    /// something is preferred to another.
+    /// Operations, with each sine-cosine pair at its price in operations: the measure by which alternatives are compared.
     pub fn price(&self) -> u32 {
         let count = self.count();
         count.flops() + PRICE_PER_PAIR * count.trig

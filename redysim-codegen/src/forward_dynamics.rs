@@ -1,4 +1,4 @@
-//! The two ways to accelerations, and which of them a robot takes.
+//! The choice of the algorithm for forward dynamics.
 
 use crate::accuracy::Reference;
 use crate::expressions::Expressions;
@@ -10,89 +10,89 @@ use crate::trees::Trees;
 use redysim_model::denoc::{self, Factorisation, Method};
 use redysim_model::{AccelerationMethod, Function};
 
-/// One way to accelerations.
-struct Way {
+/// One algorithm for forward dynamics.
+struct Candidate {
     method: Method,
     expressions: Expressions,
-    /// The errors of the accelerations for each kind of motion; see [`Reference::losses_by`].
+    /// The errors of the accelerations for each motion; see [`Reference::losses_by`].
     losses: [f64; 3],
 }
 
-/// The way that is taken.
-pub struct Chosen {
-    /// How accelerations are computed.
+/// The algorithm that is used, and its alternative.
+pub struct Choice {
+    /// The accelerations.
     pub expressions: Expressions,
-    taken: Described,
-    other: Option<Described>,
+    used: Summary,
+    other: Option<Summary>,
 }
 
-/// What the documentation states of a way.
-struct Described {
+/// The figures of an algorithm in the documentation.
+struct Summary {
     method: Method,
     flops: u32,
-    lost: f64,
+    loss: f64,
 }
 
-/// The way that `asked` names, or the one that takes fewer operations, as long as it is not the factorisation and loses
-/// digits that the recursion keeps.
-pub fn chosen(trees: &Trees, asked: AccelerationMethod, passes: &Passes) -> Result<Chosen, PassError> {
+/// Forward dynamics by `method`. `Auto` is the factorisation if it takes fewer operations and keeps the digits that the
+/// recursion keeps, else the recursion.
+pub fn choose(trees: &Trees, method: AccelerationMethod, passes: &Passes) -> Result<Choice, PassError> {
     let recursion = recursion(trees)?;
     let is_long_chain = trees.plain().depth() > LONGEST_CHAIN_BY_FACTORISATION;
-    if is_long_chain && asked != AccelerationMethod::Factorisation {
-        let taken = recursion.described(0);
-        return Ok(Chosen { expressions: recursion.expressions, taken, other: None });
+    if is_long_chain && method != AccelerationMethod::Factorisation {
+        let used = recursion.summary(0);
+        return Ok(Choice { expressions: recursion.expressions, used, other: None });
     }
     let factorisation = factorisation(trees, passes)?;
-    let factorise = match asked {
+    let factorise = match method {
         AccelerationMethod::Recursion => false,
         AccelerationMethod::Factorisation => true,
         AccelerationMethod::Auto => {
-            let kept = |(lost, least): (f64, f64)| lost <= (MOST_LOST_AGAINST_RECURSION * least).max(NEGLIGIBLE_LOSS);
+            let kept = |(loss, least): (f64, f64)| loss <= (MOST_LOST_AGAINST_RECURSION * least).max(NEGLIGIBLE_LOSS);
             factorisation.flops() <= recursion.flops()
                 && factorisation.losses.into_iter().zip(recursion.losses).all(kept)
         }
     };
-    // The kind of motion in which the two differ most.
-    let factor = |kind: &usize| factorisation.losses[*kind] / recursion.losses[*kind].max(f64::EPSILON);
-    let telling = (0..3).max_by(|a, b| factor(a).total_cmp(&factor(b))).unwrap_or_default();
-    let (taken, other) = if factorise { (factorisation, recursion) } else { (recursion, factorisation) };
-    let [described, other] = [&taken, &other].map(|way| way.described(telling));
-    Ok(Chosen { expressions: taken.expressions, taken: described, other: Some(other) })
+    // The documentation states the errors of the motion in which the two differ most.
+    let factor = |motion: &usize| factorisation.losses[*motion] / recursion.losses[*motion].max(f64::EPSILON);
+    let most_different = (0..3).max_by(|a, b| factor(a).total_cmp(&factor(b))).unwrap_or_default();
+    let (used, other) = if factorise { (factorisation, recursion) } else { (recursion, factorisation) };
+    let [summary, other] = [&used, &other].map(|candidate| candidate.summary(most_different));
+    Ok(Choice { expressions: used.expressions, used: summary, other: Some(other) })
 }
 
-fn recursion(trees: &Trees) -> Result<Way, PassError> {
-    // The recursion takes the inertias as they are: moved towards the ground they would pile up there, and what is
-    // subtracted from them on the way would cost the digits for which the recursion is chosen.
+fn recursion(trees: &Trees) -> Result<Candidate, PassError> {
+    // The recursion takes the inertias of the model: regrouped towards the ground they would add up there, and the
+    // subtractions on the way would cost the digits for which the recursion is chosen.
     let expressions = trees.keeping_digits(Function::ForwardDynamics)?;
-    Ok(Way::measured(Method::Recursion, expressions, trees.reference()))
+    Ok(Candidate::measured(Method::Recursion, expressions, trees.reference()))
 }
 
-fn factorisation(trees: &Trees, passes: &Passes) -> Result<Way, PassError> {
+fn factorisation(trees: &Trees, passes: &Passes) -> Result<Candidate, PassError> {
     let (matrix, bias) = (trees.matrix(), trees.bias());
     let expressions = traced(matrix, Function::ForwardDynamics, |t, x| {
         let forces = denoc::bias_forces(bias, t, x[0], x[1]);
         let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();
         Factorisation::new(matrix, t, &denoc::mass_matrix(matrix, t, x[0])).solve(&drive)
     });
-    Ok(Way::measured(Method::Factorisation, simplified(expressions, passes)?, trees.reference()))
+    Ok(Candidate::measured(Method::Factorisation, simplified(expressions, passes)?, trees.reference()))
 }
 
-impl Way {
+impl Candidate {
     fn measured(method: Method, expressions: Expressions, reference: &Reference) -> Self {
         let losses = reference.losses_by(Function::ForwardDynamics, |x| expressions.evaluate(x));
-        Way { method, expressions, losses }
+        Candidate { method, expressions, losses }
     }
 
     fn flops(&self) -> u32 {
         self.expressions.count().flops()
     }
 
-    fn described(&self, kind: usize) -> Described {
-        Described { method: self.method, flops: self.flops(), lost: self.losses[kind] }
+    fn summary(&self, motion: usize) -> Summary {
+        Summary { method: self.method, flops: self.flops(), loss: self.losses[motion] }
     }
 }
 
-impl Described {
+impl Summary {
     fn name(&self) -> &'static str {
         match self.method {
             Method::Factorisation => "factorisation M = U D Uᵀ of the generalised inertia matrix (CRBA)",
@@ -101,12 +101,12 @@ impl Described {
     }
 }
 
-impl std::fmt::Display for Chosen {
+impl std::fmt::Display for Choice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Chosen { taken, other, .. } = self;
-        write!(f, "By the {}: {} flops, errors of {:.0e}", taken.name(), taken.flops, taken.lost)?;
+        let Choice { used, other, .. } = self;
+        write!(f, "By the {}: {} flops, errors of {:.0e}", used.name(), used.flops, used.loss)?;
         match other {
-            Some(other) => write!(f, "; the {} takes {}, errors of {:.0e}.", other.name(), other.flops, other.lost)?,
+            Some(other) => write!(f, "; the {} takes {}, errors of {:.0e}.", other.name(), other.flops, other.loss)?,
             None => write!(
                 f,
                 "; the explicit mass matrix is not considered for chains of more than {LONGEST_CHAIN_BY_FACTORISATION}."

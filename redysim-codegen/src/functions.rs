@@ -17,11 +17,11 @@ use std::cell::{LazyCell, OnceCell};
 pub struct TracedFunction {
     /// Which function of a mechanism it is.
     pub function: Function,
-    /// How it is computed, where there is a choice.
+    /// By which algorithm it is computed, if there are several.
     pub remark: Option<String>,
     /// Its expressions.
     pub expressions: Expressions,
-    /// What pruning has done to them, if there was any.
+    /// The result of pruning, if it was pruned.
     pub pruning: Option<Pruning>,
 }
 
@@ -43,8 +43,7 @@ pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<TracedFunction>, P
     trace_of(tree, &Scene::default(), passes)
 }
 
-/// Traces and simplifies the functions that `scene` asks for and no others, in the order of [`Function::ALL`]. Nothing
-/// is pruned.
+/// Traces and simplifies the functions that `scene` selects, in the order of [`Function::ALL`]. Nothing is pruned.
 ///
 /// # Errors
 ///
@@ -54,15 +53,15 @@ pub fn trace_of(tree: &Tree, scene: &Scene, passes: &Passes) -> Result<Vec<Trace
     pipeline.run()
 }
 
-/// Traces and simplifies the functions that a scene asks for, and prunes those that compute joint forces, accelerations
-/// and the mass matrix if it has a tolerance.
+/// Traces and simplifies the functions that `scene` selects. If it has a tolerance, joint forces, accelerations and the
+/// mass matrix are pruned.
 ///
-/// Energies, link kinematics and loops are exact in any case, and so are functions that are too long to be unrolled.
+/// Energies, link kinematics and loops are always exact, and so are functions that are too long to be unrolled.
 ///
 /// # Errors
 ///
 /// If the scene has a tolerance and a joint no range; as [`trace_of`].
-pub fn trace_scene(model: &Model, scene: &Scene, passes: &Passes) -> Result<Vec<TracedFunction>, TraceError> {
+pub fn trace_model(model: &Model, scene: &Scene, passes: &Passes) -> Result<Vec<TracedFunction>, TraceError> {
     let tree = Tree::new(model);
     let range = |link: &Link| link.range.ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() });
     let pruning = match scene.tolerance {
@@ -73,7 +72,7 @@ pub fn trace_scene(model: &Model, scene: &Scene, passes: &Passes) -> Result<Vec<
     Ok(pipeline.run()?)
 }
 
-/// What all functions of one mechanism are made from.
+/// The inputs from which all functions of a mechanism are made.
 struct Pipeline<'a> {
     tree: &'a Tree,
     scene: &'a Scene,
@@ -85,28 +84,29 @@ struct Pipeline<'a> {
 }
 
 impl Pipeline<'_> {
-    /// Makes every function that is asked for, by the same steps:
+    /// Makes every selected function by the same steps:
     ///
     /// 1. It is traced on the cheapest description of the robot that keeps its digits; forward dynamics by the method
     ///    that [`forward_dynamics`] chooses.
-    /// 2. Where it is too long to be unrolled, it is traced on alike bodies too, and the shorter code is taken.
-    /// 3. Where it has a tolerance and can be unrolled, what does not matter within the ranges of the joints is left
+    /// 2. Where it is too long to be unrolled, it is also traced without the passes that make uniform bodies differ, and
+    ///    the shorter code is taken.
+    /// 3. Where it has a tolerance and can be unrolled, terms that do not matter within the ranges of the joints are left
     ///    out.
     fn run(&self) -> Result<Vec<TracedFunction>, PassError> {
         let trees = Trees::new(self.tree, self.passes, self.reference);
-        let even = self.passes.even();
-        let even_trees = LazyCell::new(|| Trees::new(self.tree, &even, self.reference));
+        let uniform_passes = self.passes.uniform();
+        let uniform_trees = LazyCell::new(|| Trees::new(self.tree, &uniform_passes, self.reference));
         let unpruned = |function: Function| {
             let unrolled = self.simplified(function, &trees, self.passes)?;
             if !(self.passes.loops && unrolled.expressions.is_long()) {
                 return Ok(unrolled);
             }
-            let alike = self.simplified(function, &even_trees, &even)?;
-            let shorter = reroll::code_size(&alike.expressions) < reroll::code_size(&unrolled.expressions);
-            Ok(if shorter { alike } else { unrolled })
+            let uniform = self.simplified(function, &uniform_trees, &uniform_passes)?;
+            let shorter = reroll::code_size(&uniform.expressions) < reroll::code_size(&unrolled.expressions);
+            Ok(if shorter { uniform } else { unrolled })
         };
         let forces: OnceCell<Expressions> = OnceCell::new();
-        let made = |function: Function| {
+        let make = |function: Function| {
             let whole: TracedFunction = unpruned(function)?;
             if function == Function::InverseDynamics {
                 let _ = forces.set(whole.expressions.clone());
@@ -115,7 +115,7 @@ impl Pipeline<'_> {
                 return Ok(whole);
             }
             let Some((tolerance, ranges)) = &self.pruning else { return Ok(whole) };
-            // Accelerations are judged at the forces of motions within the ranges.
+            // Accelerations are sampled at the forces of motions within the ranges.
             let forces = match function.signature().result {
                 Shape::Accelerations => Some(match forces.get() {
                     Some(forces) => forces,
@@ -131,16 +131,16 @@ impl Pipeline<'_> {
             let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, self.passes)?;
             Ok(TracedFunction { expressions, pruning: Some(pruning), ..whole })
         };
-        self.scene.functions.iter().map(made).collect()
+        self.scene.functions.iter().map(make).collect()
     }
 
     /// The function on the description of the robot on which it is best computed.
     fn simplified(&self, function: Function, trees: &Trees, passes: &Passes) -> Result<TracedFunction, PassError> {
         let (expressions, remark) = match function {
             Function::ForwardDynamics => {
-                let chosen = forward_dynamics::chosen(trees, self.scene.forward_dynamics, passes)?;
-                let remark = chosen.to_string();
-                (chosen.expressions, Some(remark))
+                let choice = forward_dynamics::choose(trees, self.scene.forward_dynamics, passes)?;
+                let remark = choice.to_string();
+                (choice.expressions, Some(remark))
             }
             Function::InverseDynamics | Function::BiasForces | Function::GravityForces | Function::MassMatrix => {
                 (trees.keeping_digits(function)?, None)
@@ -166,7 +166,7 @@ fn has_tolerance(function: Function) -> bool {
     matches!(function.signature().result, Shape::Forces | Shape::Accelerations | Shape::MassMatrix)
 }
 
-/// Why the functions of a model cannot be traced as a scene asks.
+/// Why the functions of a model cannot be traced with the given options.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TraceError {

@@ -1,29 +1,29 @@
 //! From a model to the code of a mechanism.
 
 use crate::backend::rust::{self, documentation};
-use crate::functions::{TraceError, TracedFunction, trace_of, trace_scene};
+use crate::functions::{TraceError, TracedFunction, trace_model, trace_of};
 use crate::passes::{PassError, Passes};
 use proc_macro2::{Ident, TokenStream};
 use redysim_model::{Function, Model, Outline, Scene, Tree};
 use redysim_runtime::OperationCount;
 
-/// The code of a mechanism, and what it costs.
+/// The code of a mechanism, and its operations.
 #[derive(Clone, Debug)]
 pub struct Generated {
     /// `impl` blocks for a type that is declared elsewhere.
     pub tokens: TokenStream,
     /// Operations of each function.
     pub operations: Vec<(Function, OperationCount)>,
-    /// What was asked for and cannot be.
+    /// Options that have no effect, and why.
     pub warnings: Vec<String>,
 }
 
-/// What the functions of a mechanism cost.
+/// The operations of a mechanism's functions.
 #[derive(Clone, Debug)]
 pub struct Counted {
     /// Operations of each function.
     pub operations: Vec<(Function, OperationCount)>,
-    /// What was asked for and cannot be.
+    /// Options that have no effect, and why.
     pub warnings: Vec<String>,
 }
 
@@ -36,8 +36,7 @@ pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Res
     implementation_with(model, name, runtime, &Scene::default(), &Passes::default())
 }
 
-/// The same with no more than what is asked of the mechanism, and with the given passes only, to see what the others
-/// gain.
+/// The same with options, and with the given passes only.
 ///
 /// # Errors
 ///
@@ -54,7 +53,7 @@ pub fn implementation_with(
     Ok(Generated { tokens, operations: operations_of(&functions), warnings })
 }
 
-/// What the functions of a compiled mechanism cost, and what was asked for and cannot be, without the code.
+/// The operations and warnings of [`implementation_with`], with all passes, without the code.
 ///
 /// # Errors
 ///
@@ -64,9 +63,9 @@ pub fn operations(model: &Model, scene: &Scene) -> Result<Counted, PassError> {
     Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
-/// The functions that a scene asks for, and what of it cannot be.
+/// The functions that `scene` selects, and warnings.
 fn functions(model: &Model, scene: &Scene, passes: &Passes) -> Result<(Vec<TracedFunction>, Vec<String>), PassError> {
-    let (functions, unpruned) = match trace_scene(model, scene, passes) {
+    let (functions, unpruned) = match trace_model(model, scene, passes) {
         Ok(functions) => (functions, None),
         Err(TraceError::Pass(error)) => return Err(error),
         Err(no_range @ TraceError::NoRange { .. }) => {

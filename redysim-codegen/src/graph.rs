@@ -101,10 +101,10 @@ impl Node {
     }
 }
 
-/// What a value holds, for the reader of the generated code: a component of a quantity of a body.
+/// The name of a value in the generated code: a component of a quantity of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
-    /// The quantity, as the recursions call it.
+    /// The quantity, as named in the recursions.
     pub quantity: &'static str,
     /// Index of the body in the tree.
     pub body: usize,
@@ -117,7 +117,7 @@ pub struct Name {
 /// Where in a recursion a value arises: at body `body` of the sweep `sweep` over all bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Step {
-    /// What the recursion calls the sweep.
+    /// The name of the sweep in the recursion.
     pub sweep: &'static str,
     /// Index of the body in the tree.
     pub body: usize,
@@ -187,7 +187,7 @@ impl Graph {
         self.current_step
     }
 
-    /// From here on, nodes arise in `step`.
+    /// Nodes that are made after this arise in `step`.
     pub fn enter_step(&mut self, step: Option<Step>) {
         self.current_step = step;
     }
@@ -343,7 +343,7 @@ impl Graph {
 }
 
 /// x + y, or zero where nothing but the roundoff of the two is left.
-pub fn sum_without_noise(x: f64, y: f64) -> f64 {
+pub(crate) fn sum_without_noise(x: f64, y: f64) -> f64 {
     let sum = x + y;
     if sum.abs() <= 4.0 * f64::EPSILON * x.abs().max(y.abs()) { 0.0 } else { sum }
 }

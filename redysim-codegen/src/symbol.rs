@@ -1,4 +1,4 @@
-//! The symbolic scalar: run through the recursions, it leaves their expressions behind.
+//! The symbolic scalar: run through the recursions, it builds their expression graph.
 
 use crate::graph::{Edge, Graph, Name, Step};
 use redysim_model::denoc::Trace;
@@ -26,7 +26,7 @@ impl Tracer {
         (0..len).map(|index| Symbol::Value(self, self.0.borrow_mut().input(argument, index as u32))).collect()
     }
 
-    /// The graph, and the edges of `outputs` in it.
+    /// The edges of `outputs` in the graph.
     pub fn edges(&self, outputs: &[Symbol<'_>]) -> Vec<Edge> {
         outputs.iter().map(|output| output.edge(self)).collect()
     }

@@ -1,6 +1,6 @@
 //! Terms that do not matter are left out, and nothing else is.
 
-use redysim_codegen::functions::{TracedFunction, trace_scene, trace_with};
+use redysim_codegen::functions::{TracedFunction, trace_model, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, source_file_with};
 use redysim_model::{Functions, JointRange, Model, Scene, Tree};
@@ -18,7 +18,7 @@ fn with_range(mut model: Model, range: JointRange) -> Model {
 
 fn traced(model: &Model, functions: &[&str], tolerance: f64) -> Vec<TracedFunction> {
     let functions = Functions::named(functions.iter().copied()).unwrap();
-    trace_scene(model, &Scene { functions, tolerance: Some(tolerance), ..Scene::default() }, &Passes::all()).unwrap()
+    trace_model(model, &Scene { functions, tolerance: Some(tolerance), ..Scene::default() }, &Passes::all()).unwrap()
 }
 
 /// Evenly spread numbers within ±1, by the golden ratio.

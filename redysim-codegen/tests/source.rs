@@ -56,9 +56,9 @@ fn functions_say_what_they_cost() {
 }
 
 #[test]
-fn a_name_that_is_no_type_is_refused() {
+fn an_invalid_type_name_is_an_error() {
     let error = source_file(&model("gripper.toml"), "6-axis robot").unwrap_err();
-    assert_eq!(error.to_string(), "`6-axis robot` is not a name for a Rust type; write for example `Robot`");
+    assert_eq!(error.to_string(), "`6-axis robot` is not a valid name for a Rust type; write for example `Robot`");
 }
 
 #[test]

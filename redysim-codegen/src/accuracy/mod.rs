@@ -1,7 +1,6 @@
-//! How many digits a way to compute a function loses, measured at states of the robot at hand.
+//! The rounding errors of a function, measured at sampled states of the robot.
 //!
-//! The numbers to compare with come from the recursions on the model as it is, in [double-double](double_double)
-//! arithmetic. Errors are taken in the metric of the mass matrix, in which a heavy joint and a light one count alike:
+//! The reference values come from the recursions on the model's own tree, in [double-double](double_double) arithmetic. Errors are taken in the metric of the mass matrix, in which a heavy joint and a light one count alike:
 //! of accelerations √M_ii |Δa_i| as a share of the largest √M_jj |a_j|, of forces |Δτ_i| / √M_ii as a share of the
 //! largest |τ_j| / √M_jj, of the mass matrix |ΔM_ij| as a share of √(M_ii M_jj).
 
@@ -19,18 +18,18 @@ use redysim_runtime::function::{Argument, Shape};
 use std::cell::OnceCell;
 use std::f64::consts::PI;
 
-/// Joints times states: how much is measured.
+/// Joints times states of each motion: how much is measured.
 const JOINT_STATES: usize = 240;
-/// The most states of each kind at which a robot is measured.
+/// The most states of each motion.
 const MOST_STATES: usize = 16;
-/// The fewest.
+/// The fewest states of each motion.
 const FEWEST_STATES: usize = 2;
-/// By how much numbers are rounded otherwise.
-const OTHERWISE: f64 = f64::EPSILON;
+/// The relative size of perturbations: a few roundings.
+const PERTURBATION: f64 = f64::EPSILON;
 /// With more joints the mass matrix is left out: its n² elements in double-double take seconds.
 const LARGEST_MATRIX: usize = 100;
 
-/// The functions of which losses are measured.
+/// The functions whose losses are measured.
 pub const MEASURED: [Function; 5] = [
     Function::InverseDynamics,
     Function::BiasForces,
@@ -39,41 +38,41 @@ pub const MEASURED: [Function; 5] = [
     Function::ForwardDynamics,
 ];
 
-/// What the functions of a robot are, to all digits of `f64`, at states spread over its workspace.
+/// The exact values of a robot's functions at states spread over its workspace.
 ///
-/// They are computed when they are first asked for.
+/// They are computed when they are first needed.
 pub struct Reference<'a> {
     tree: &'a Tree,
     seed: u64,
     states: OnceCell<Vec<State>>,
 }
 
-/// A motion for which a robot is measured. A loss is the largest error in the states of one kind as a share of the
-/// largest number in them, so that a sum which happens to vanish in one state counts for no more than its terms do.
+/// A motion in which a robot is measured. A loss is the largest error in the states of one motion as a share of the
+/// largest value in them, so that a sum which happens to vanish in one state does not count as large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum Motion {
     /// All joints move at like speeds.
     LikeSpeeds,
-    /// All joints move with like energies: of light links between heavy ones this shows what like speeds do not.
+    /// All joints move with like energies. This shows errors of light links between heavy ones that like speeds hide.
     LikeEnergies,
-    /// At rest, and let go.
+    /// At rest, without joint forces.
     Rest,
 }
 
-impl Kind {
-    const ALL: [Kind; 3] = [Kind::LikeSpeeds, Kind::LikeEnergies, Kind::Rest];
+impl Motion {
+    const ALL: [Motion; 3] = [Motion::LikeSpeeds, Motion::LikeEnergies, Motion::Rest];
 }
 
 struct State {
-    kind: Kind,
+    motion: Motion,
     q: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
-    /// Forces for which accelerations are asked.
+    /// The joint forces of forward dynamics.
     tau: Vec<f64>,
     /// √M_ii.
     weights: Vec<f64>,
-    /// The exact values of measured functions; of the mass matrix of a large robot there are none.
+    /// The exact values of measured functions, without the mass matrix of a large robot.
     exact: Vec<(Function, Vec<f64>)>,
 }
 
@@ -83,7 +82,7 @@ impl<'a> Reference<'a> {
         Reference::at(tree, 0)
     }
 
-    /// The same at other states, which another `seed` gives.
+    /// The same at other states, one set for each `seed`.
     pub fn at(tree: &'a Tree, seed: u64) -> Self {
         Reference { tree, seed, states: OnceCell::new() }
     }
@@ -92,34 +91,34 @@ impl<'a> Reference<'a> {
     fn states(&self) -> &[State] {
         self.states.get_or_init(|| {
             let count = (JOINT_STATES / self.tree.nv().max(1)).clamp(FEWEST_STATES, MOST_STATES);
-            let kinds = (0..count).flat_map(|index| Kind::ALL.map(|kind| (index, kind)));
-            kinds.filter_map(|(index, kind)| State::new(self.tree, self.seed, index, kind)).collect()
+            let motions = (0..count).flat_map(|index| Motion::ALL.map(|motion| (index, motion)));
+            motions.filter_map(|(index, motion)| State::new(self.tree, self.seed, index, motion)).collect()
         })
     }
 
-    /// What the recursion for `function` loses in `f64` on `tree`, another description of the robot.
-    pub fn lost_on(&self, tree: &Tree, function: Function) -> f64 {
-        self.lost_by(function, |x| denoc::evaluate(function, tree, &Untraced, x))
+    /// The loss of the recursion for `function` in `f64` on `tree`, another description of the robot.
+    pub fn loss_on(&self, tree: &Tree, function: Function) -> f64 {
+        self.loss_by(function, |x| denoc::evaluate(function, tree, &Untraced, x))
     }
 
-    /// What is lost of `function` in any description: what the recursion loses on the model's own, with its numbers as
-    /// they are and with each rounded otherwise.
+    /// The loss of `function` in any description: that of the recursion on the model's own, with its numbers as they are
+    /// and with each perturbed by a few roundings.
     ///
-    /// A mechanism that lies in a plane of space, or a link whose centre of mass nearly balances another's, depends on
-    /// the last digits of its numbers so much that no description has the digits of the model's own.
+    /// A mechanism that lies in a plane of space, or a link whose centre of mass nearly balances another's, depends so
+    /// much on the last digits of its numbers that no other description has the digits of the model's own.
     pub fn least_loss(&self, function: Function) -> f64 {
-        let others = [1, 2].map(|seed| rounded_otherwise(self.tree, seed));
-        let losses = others.iter().chain([self.tree]).map(|tree| self.lost_on(tree, function));
+        let others = [1, 2].map(|seed| perturbed(self.tree, seed));
+        let losses = others.iter().chain([self.tree]).map(|tree| self.loss_on(tree, function));
         losses.fold(0.0, |largest, loss| if loss.is_finite() { largest.max(loss) } else { largest })
     }
 
-    /// What `computed` loses, which computes `function` from its arguments. Nothing is known of functions that are not
+    /// The loss of `computed`, which computes `function` from its arguments; zero for a function that is not
     /// [`MEASURED`].
-    pub fn lost_by(&self, function: Function, computed: impl Fn(&[&[f64]]) -> Vec<f64>) -> f64 {
+    pub fn loss_by(&self, function: Function, computed: impl Fn(&[&[f64]]) -> Vec<f64>) -> f64 {
         self.losses_by(function, computed).into_iter().fold(0.0, worse)
     }
 
-    /// The same for each kind of motion: at like speeds of the joints, with like energies, and at rest. What loses
+    /// The loss for each motion: at like speeds of the joints, with like energies, and at rest. An algorithm that loses
     /// nothing in one of them may lose all digits in another.
     pub fn losses_by(&self, function: Function, computed: impl Fn(&[&[f64]]) -> Vec<f64>) -> [f64; 3] {
         self.losses(|state| {
@@ -136,23 +135,23 @@ impl<'a> Reference<'a> {
     }
 
     fn losses(&self, extremes: impl Fn(&State) -> Extremes) -> [f64; 3] {
-        let of_kind = |kind: Kind| {
-            let states = self.states().iter().filter(|state| state.kind == kind);
+        let of_motion = |motion: Motion| {
+            let states = self.states().iter().filter(|state| state.motion == motion);
             let worst = states.map(&extremes).fold(Extremes::default(), |a, b| Extremes {
                 error: worse(a.error, b.error),
                 size: a.size.max(b.size),
             });
             if worst.error == 0.0 { 0.0 } else { worst.error / worst.size }
         };
-        Kind::ALL.map(of_kind)
+        Motion::ALL.map(of_motion)
     }
 }
 
 impl State {
-    /// State number `index` of a kind; `None` if something is not finite there.
-    fn new(tree: &Tree, seed: u64, index: usize, kind: Kind) -> Option<Self> {
+    /// State number `index` of a motion; `None` if a value is not finite there.
+    fn new(tree: &Tree, seed: u64, index: usize, motion: Motion) -> Option<Self> {
         let joints = tree.nv();
-        let mut random = Random::new(1000 * seed + 10 * index as u64 + kind as u64 + 1);
+        let mut random = Random::new(1000 * seed + 10 * index as u64 + motion as u64 + 1);
         let mut shares = || (0..joints).map(|_| random.share(false)).collect::<Vec<f64>>();
         let [mut q, mut v, mut a] = [shares(), shares(), shares()];
         for body in &tree.bodies {
@@ -162,10 +161,10 @@ impl State {
         let diagonal = denoc::mass_matrix(tree, &Untraced, &q).into_iter().enumerate().map(|(joint, row)| row[joint]);
         let weights: Vec<f64> = diagonal.map(f64::sqrt).collect();
         for joint in 0..joints {
-            let speed = match kind {
-                Kind::LikeSpeeds => 1.0,
-                Kind::LikeEnergies => 1.0 / weights[joint],
-                Kind::Rest => 0.0,
+            let speed = match motion {
+                Motion::LikeSpeeds => 1.0,
+                Motion::LikeEnergies => 1.0 / weights[joint],
+                Motion::Rest => 0.0,
             };
             v[joint] *= 3.0 * speed;
             a[joint] *= 10.0 * speed;
@@ -175,8 +174,8 @@ impl State {
             let arguments: Vec<&[DoubleDouble]> = arguments.iter().map(Vec::as_slice).collect();
             rounded(denoc::evaluate(function, tree, &Untraced, &arguments))
         };
-        let mut state = State { kind, q, v, a, tau: vec![0.0; joints], weights, exact: Vec::new() };
-        if kind != Kind::Rest {
+        let mut state = State { motion, q, v, a, tau: vec![0.0; joints], weights, exact: Vec::new() };
+        if motion != Motion::Rest {
             state.tau = exactly(Function::InverseDynamics, &state);
         }
         for function in MEASURED {
@@ -206,7 +205,7 @@ impl State {
     }
 }
 
-/// The largest weighed difference, and the largest weighed number.
+/// The largest weighted difference, and the largest weighted value.
 #[derive(Default)]
 struct Extremes {
     error: f64,
@@ -220,28 +219,28 @@ fn extremes(found: &[f64], expected: &[f64], weight: impl Fn(usize) -> f64) -> E
     Extremes { error, size: of(&mut expected.iter().copied()) }
 }
 
-/// The robot with numbers that differ from those of `tree` by a few roundings: of lengths and moments as shares of the
-/// largest component of their vector or tensor, as they have after a change of axes.
-fn rounded_otherwise(tree: &Tree, seed: u64) -> Tree {
+/// The robot with numbers that differ from those of `tree` by a few roundings: in lengths and moments relative to the
+/// largest component of their vector or tensor, as after a change of axes.
+fn perturbed(tree: &Tree, seed: u64) -> Tree {
     let mut random = Random::new(seed);
     let mut tree = tree.clone();
     for body in &mut tree.bodies {
         let PseudoInertia { mass, moment, second } = &mut body.inertia;
-        round_otherwise(&mut random, &mut body.placement.position.0);
-        round_otherwise(&mut random, body.placement.rotation.0.as_flattened_mut());
-        round_otherwise(&mut random, std::slice::from_mut(mass));
-        round_otherwise(&mut random, &mut moment.0);
+        perturb(&mut random, &mut body.placement.position.0);
+        perturb(&mut random, body.placement.rotation.0.as_flattened_mut());
+        perturb(&mut random, std::slice::from_mut(mass));
+        perturb(&mut random, &mut moment.0);
         let mut elements = [second.xx, second.yy, second.zz, second.xy, second.yz, second.xz];
-        round_otherwise(&mut random, &mut elements);
+        perturb(&mut random, &mut elements);
         let [xx, yy, zz, xy, yz, xz] = elements;
         *second = Sym3 { xx, yy, zz, xy, yz, xz };
     }
     tree
 }
 
-fn round_otherwise(random: &mut Random, numbers: &mut [f64]) {
+fn perturb(random: &mut Random, numbers: &mut [f64]) {
     let largest = numbers.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
-    numbers.iter_mut().for_each(|number| *number += OTHERWISE * largest * random.share(false));
+    numbers.iter_mut().for_each(|number| *number += PERTURBATION * largest * random.share(false));
 }
 
 /// The larger of two errors; NaN counts as infinite.

@@ -1,8 +1,8 @@
 //! Numbers that carry a bound of the rounding errors they have collected.
 //!
 //! Running error analysis (Wilkinson; Higham, "Accuracy and Stability of Numerical Algorithms", section 3.3): each
-//! operation adds half a unit in the last place of its result to what the errors of its operands become. Constants of
-//! a model have been computed with a few roundings each, which a pass over expressions may do otherwise.
+//! operation adds half a unit in the last place of its result to the propagated errors of its operands. Constants of a
+//! model have been computed with a few roundings each, which a pass over expressions may do in another order.
 
 use super::with_error::WithError;
 use redysim_runtime::Scalar;
@@ -19,8 +19,8 @@ const OF_SINE: f64 = 2.0;
 #[derive(Clone, Copy, Debug)]
 pub enum Bound {}
 
-/// What `f64` computes, and how far it may be from what exact arithmetic gives: |`value` − exact| ≤ `error`, which is
-/// infinite or NaN where nothing is known.
+/// A value computed in `f64`, with a bound of its distance from the exact value: |`value` − exact| ≤ `error`. The bound is
+/// infinite or NaN where none is known.
 pub type Rounded = WithError<Bound>;
 
 impl Rounded {
@@ -39,8 +39,8 @@ impl Rounded {
 
     /// Whether two numbers may be the same in exact arithmetic.
     ///
-    /// Where nothing is known of a bound, which happens where numbers overflow or are divided by what may be zero, the
-    /// two may be the same; a number and NaN may not where the number's bound is known.
+    /// Where no bound is known, after an overflow or a division by what may be zero, the two may be the same. A number
+    /// whose bound is known and NaN may not.
     pub fn may_equal(self, other: Self) -> bool {
         let bound = self.error + other.error;
         let same = self.value == other.value || (self.value - other.value).abs() <= bound;

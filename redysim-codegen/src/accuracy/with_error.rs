@@ -3,22 +3,22 @@
 use std::marker::PhantomData;
 use std::ops::{Add, AddAssign, Neg, Sub, SubAssign};
 
-/// A number and its rounding error; `Kind` names what the error is: the [rest](super::double_double) of the number or a
+/// A number and its rounding error; `Meaning` names what the error is: the [rest](super::double_double) of the number or a
 /// [bound](super::rounding).
 #[derive(Clone, Copy, Debug)]
-pub struct WithError<Kind> {
+pub struct WithError<Meaning> {
     pub(crate) value: f64,
     pub(crate) error: f64,
-    kind: PhantomData<Kind>,
+    meaning: PhantomData<Meaning>,
 }
 
-impl<Kind> WithError<Kind> {
+impl<Meaning> WithError<Meaning> {
     pub(super) const fn new(value: f64, error: f64) -> Self {
-        WithError { value, error, kind: PhantomData }
+        WithError { value, error, meaning: PhantomData }
     }
 }
 
-impl<Kind> Sub for WithError<Kind>
+impl<Meaning> Sub for WithError<Meaning>
 where
     Self: Add<Output = Self> + Neg<Output = Self>,
 {
@@ -28,7 +28,7 @@ where
     }
 }
 
-impl<Kind: Copy> AddAssign for WithError<Kind>
+impl<Meaning: Copy> AddAssign for WithError<Meaning>
 where
     Self: Add<Output = Self>,
 {
@@ -37,7 +37,7 @@ where
     }
 }
 
-impl<Kind: Copy> SubAssign for WithError<Kind>
+impl<Meaning: Copy> SubAssign for WithError<Meaning>
 where
     Self: Sub<Output = Self>,
 {

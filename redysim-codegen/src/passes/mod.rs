@@ -11,27 +11,26 @@ use crate::expressions::Expressions;
 pub(crate) use verification::well_formed;
 pub use verification::{PassError, PassFault};
 
-/// Which passes are on. Each gives the same values with fewer operations; switched off, it shows what it gains.
+/// Which passes are on. A pass keeps the values and saves operations; without it, the count shows what it saves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Passes {
     /// Frames of bodies are chosen anew ([`frames`](redysim_model::frames)).
     pub frames: bool,
-    /// Inertia that a joint cannot tell from its parent's moves to the parent
-    /// ([`regroup`](redysim_model::regroup)).
+    /// Inertia that has the same effect on the parent moves to the parent ([`regroup`](redysim_model::regroup)).
     pub base_parameters: bool,
     /// Masses on joint axes go where they cost least; on top of `base_parameters`.
     pub axis_masses: bool,
-    /// One angle for consecutive parallel axes.
+    /// Angles about consecutive parallel axes are added.
     pub parallel_axes: bool,
-    /// Lengths in a unit that makes a constant 1.
+    /// The unit of length makes a constant 1.
     pub units: bool,
     /// Like terms of sums are collected.
     pub sums: bool,
-    /// s² + c² = 1.
+    /// sin² + cos² = 1.
     pub squares: bool,
-    /// Common factors of sums.
+    /// Common factors are taken out of sums.
     pub factors: bool,
-    /// Loops over bodies on which the same is done, where the code is long.
+    /// Loops over uniform bodies, where the code is long.
     pub loops: bool,
 }
 
@@ -65,11 +64,9 @@ impl Passes {
             loops: true,
         }
     }
-}
 
-impl Passes {
-    /// Without the passes that treat alike bodies differently.
-    pub const fn even(self) -> Self {
+    /// Without the passes that make uniform bodies differ, so that their code can be a loop.
+    pub const fn uniform(self) -> Self {
         Passes { frames: false, axis_masses: false, parallel_axes: false, units: false, ..self }
     }
 }
@@ -99,11 +96,11 @@ pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expre
     let price = collected.price();
     let merged = applied("squares", passes.squares, squares::merged, collected)?;
     let shared = applied("factors", passes.factors, factors::shared, merged)?;
-    // What has moved has new neighbours.
+    // Factors that were taken out leave new like terms.
     if shared.price() < price { sums(shared) } else { Ok(shared) }
 }
 
-/// The expressions after a pass, if it is on and does not make them dearer.
+/// The expressions after a pass, if it is on and does not raise the price.
 fn applied(name: &'static str, on: bool, pass: Pass, expressions: Expressions) -> Result<Expressions, PassError> {
     if !on {
         return Ok(expressions);

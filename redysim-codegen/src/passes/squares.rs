@@ -1,13 +1,13 @@
-//! s² + c² = 1: in a sum, a s² x + b c² x is b x + (a − b) s² x, for the sine and the cosine of one angle.
+//! sin² + cos² = 1: in a sum, a s² x + b c² x is b x + (a − b) s² x, for the sine s and the cosine c of one angle.
 //!
-//! Terms are looked at as products of powers, so that (s x)² + (c x)² is found as well. Only a product that nothing
-//! else uses is given up.
+//! Terms are compared as monomials, so that (s x)² + (c x)² is found as well. Only a product that nothing else uses is
+//! replaced.
 
 use super::terms::with_sums;
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node, sum_without_noise};
 
-/// A constant and the factors that are no products themselves, in order.
+/// A constant and the factors that are not products, in order.
 #[derive(Clone, Debug, PartialEq)]
 struct Monomial {
     coefficient: f64,

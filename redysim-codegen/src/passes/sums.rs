@@ -1,11 +1,11 @@
 //! Like terms of a sum become one: x·c + y + x·d is x·(c + d) + y.
 //!
-//! A constructor of the graph sees two terms at a time; here a whole sum is looked at, through all additions whose
-//! only use is the sum. Constants are collected in numbers, and a coefficient that is only roundoff vanishes.
+//! A constructor of the graph sees two terms at a time; this pass sees a whole sum, through all additions whose only use
+//! is the sum. Constants are added, and a coefficient that is only roundoff vanishes.
 //!
-//! In a long function each body is looked at by itself, so that the same is done on bodies that are alike and their
-//! code can be a loop: a sum does not reach into the steps of other bodies, and what comes from there counts as ready,
-//! but for what the same sweep has just computed, which counts as late.
+//! In a long function each body is treated by itself, so that uniform bodies stay uniform and their code can be a loop: a
+//! sum does not extend into the steps of other bodies. What other sweeps have computed counts as ready, what the same
+//! sweep has computed at another body as late.
 
 use super::terms::inner_sums;
 use crate::expressions::Expressions;
@@ -78,7 +78,7 @@ fn collect(old: &Graph, root: usize, inner: &[bool], graph: &Graph, made: &[Opti
     (constant, terms)
 }
 
-/// How many operations, one after the other, it takes until each node of a graph is ready.
+/// The length of the longest chain of operations that each node of a graph waits for.
 struct Depths {
     /// Whether to count from the start of each body's step.
     by_body: bool,
@@ -87,7 +87,7 @@ struct Depths {
     in_step: Vec<u32>,
 }
 
-/// The depth of what the body before has just computed.
+/// The depth of what the same sweep has computed at another body.
 const LATE: u32 = 1000;
 
 impl Depths {

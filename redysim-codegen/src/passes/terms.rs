@@ -40,7 +40,7 @@ pub fn terms(graph: &Graph, root: usize, inner: &[bool]) -> Vec<Edge> {
     terms
 }
 
-/// Makes every node that an output needs again in a new graph, sums by `sum` from their terms in the old graph.
+/// The live nodes in a new graph, with sums made by `sum` from their terms in the old graph.
 pub fn with_sums(
     expressions: &Expressions,
     mut sum: impl FnMut(&mut Graph, &[Edge], &dyn Fn(Edge) -> Edge) -> Edge,

@@ -1,7 +1,7 @@
 //! Long functions, cut into blocks.
 //!
-//! Each `let` of a scope opens a debug scope inside the one before it, and a few thousand of them, nested, are more
-//! than the compiler bears in a dev build. So statements stand in blocks that hand on only what is read later.
+//! Each `let` opens a debug scope inside that of the `let` before it, and a few thousand nested scopes crash the compiler
+//! in a dev build. So statements stand in blocks, each of which returns only what is read later.
 
 use super::Statement;
 use std::collections::{HashMap, HashSet};
@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 /// The most statements in one scope.
 const STATEMENTS_PER_BLOCK: usize = 250;
 
-/// The statements in order, in blocks where they are many; `read_later` are the variables read after the last one.
+/// The statements in order, in blocks if there are many; `read_later` are the variables read after the last one.
 pub fn in_blocks(statements: Vec<Statement>, read_later: &HashSet<String>) -> Vec<Statement> {
     if statements.len() <= STATEMENTS_PER_BLOCK {
         return statements;
@@ -28,7 +28,7 @@ pub fn in_blocks(statements: Vec<Statement>, read_later: &HashSet<String>) -> Ve
         let end = blocks.len() * STATEMENTS_PER_BLOCK + statements.len();
         let defined = statements.iter().filter_map(|statement| match statement {
             Statement::Let { name, .. } => Some(name),
-            Statement::Take { .. } | Statement::Block { .. } | Statement::Loop(_) => None,
+            Statement::Destructure { .. } | Statement::Block { .. } | Statement::Loop(_) => None,
         });
         let live_out = defined.filter(|name| is_read_from(name, end)).cloned().collect();
         blocks.push(Statement::Block { statements, live_out });

@@ -1,5 +1,5 @@
-//! From expressions to a program: one `let` for each value that has a name or more than one use, and loops where bodies
-//! are alike.
+//! From expressions to a program: one `let` for each value that has a name or more than one use, and loops over uniform
+//! bodies.
 
 use super::blocks::in_blocks;
 use super::names::Identifiers;
@@ -10,12 +10,12 @@ use crate::graph::{Graph, Node};
 use crate::reroll::{Rerolled, is_operation};
 use std::collections::{HashMap, HashSet};
 
-/// Operations that one `let` may hold before it is cut in two, for the reader's sake.
+/// The most operations of one `let`, so that it can be read.
 const OPERATIONS_PER_LINE: usize = 6;
 
-/// What the values of a function are called.
-pub struct Names<'a> {
-    /// The names that the backend uses itself: of arguments, and of what it defines.
+/// What the names of variables are made from.
+pub struct NamingContext<'a> {
+    /// Names that variables must not have: arguments, and what the backend defines.
     pub reserved: &'a [&'a str],
     /// The name of each body of the tree.
     pub bodies: &'a [String],
@@ -24,8 +24,8 @@ pub struct Names<'a> {
 }
 
 /// The program of a function.
-pub fn program(expressions: &Expressions, names: &Names) -> Program {
-    let builder = Builder::new(expressions, names);
+pub fn program(expressions: &Expressions, naming: &NamingContext) -> Program {
+    let builder = Builder::new(expressions, naming);
     let outputs: Vec<_> = expressions.outputs.iter().map(|&output| builder.value(output, Scope::Outside)).collect();
     let mut statements = builder.sines_and_cosines();
     statements.extend(builder.code(&outputs));
@@ -34,10 +34,10 @@ pub fn program(expressions: &Expressions, names: &Names) -> Program {
 
 pub(super) struct Builder<'a> {
     pub graph: &'a Graph,
-    names: &'a Names<'a>,
-    /// What of the function is loops.
+    naming: &'a NamingContext<'a>,
+    /// The loops of the function, if it has any.
     pub rerolled: Option<Rerolled>,
-    /// Subtractions that are written the other way round, since their negative is what is wanted.
+    /// Subtractions of which the program computes the negative, since that is what is used.
     pub flipped: Vec<bool>,
     /// Products that are part of a fused multiply-add.
     pub fused: Vec<bool>,
@@ -45,19 +45,19 @@ pub(super) struct Builder<'a> {
     pub variables: Vec<Option<String>>,
     /// For each sine and cosine, where its angle is among those of the mechanism.
     pub positions: HashMap<usize, usize>,
-    /// The array in which each loop keeps what is read outside it.
+    /// The name of the live-out array of each loop.
     pub arrays: Vec<String>,
 }
 
 impl<'a> Builder<'a> {
-    fn new(expressions: &'a Expressions, names: &'a Names<'a>) -> Self {
+    fn new(expressions: &'a Expressions, naming: &'a NamingContext<'a>) -> Self {
         let graph = &expressions.graph;
         let uses = expressions.uses_in_code();
-        let positions = names.angles.positions(expressions);
+        let positions = naming.angles.positions(expressions);
         let rerolled = Rerolled::of(expressions, &positions);
         let mut builder = Builder {
             graph,
-            names,
+            naming,
             flipped: flipped(expressions, &uses),
             fused: fused_products(graph, &uses),
             variables: vec![None; graph.len()],
@@ -69,10 +69,10 @@ impl<'a> Builder<'a> {
         builder
     }
 
-    /// Gives a name to every value that is to have a `let`.
+    /// Names every value that becomes a `let`.
     fn name_values(&mut self, uses: &[usize]) {
         let graph = self.graph;
-        let mut identifiers = Identifiers::new(self.names.bodies, self.names.reserved);
+        let mut identifiers = Identifiers::new(self.naming.bodies, self.naming.reserved);
         let mut lasting = vec![false; graph.len()];
         if let Some(rerolled) = &self.rerolled {
             self.arrays = rerolled.sweeps.iter().map(|sweep| identifiers.unique(sweep.name)).collect();
@@ -152,9 +152,9 @@ impl<'a> Builder<'a> {
         Statement::Let { name: name.to_string(), value: self.operation(index, self.flipped[index], scope) }
     }
 
-    /// Takes the sines and cosines that the function needs from those of all angles.
+    /// Names the sines and cosines that the function reads among those of all angles.
     fn sines_and_cosines(&self) -> Vec<Statement> {
-        let count = self.names.angles.len();
+        let count = self.naming.angles.len();
         let [mut sines, mut cosines] = [vec![None; count], vec![None; count]];
         for (&index, &position) in &self.positions {
             match self.graph.node(index) {
@@ -162,14 +162,13 @@ impl<'a> Builder<'a> {
                 _ => cosines[position] = self.variables[index].clone(),
             }
         }
-        let both = [(Trig::Sines, sines), (Trig::Cosines, cosines)].into_iter();
-        let taken = both.filter(|(_, names)| names.iter().any(Option::is_some));
-        taken.map(|(array, names)| Statement::Take { array, names }).collect()
+        let arrays = [(Trig::Sines, sines), (Trig::Cosines, cosines)].into_iter();
+        let read = arrays.filter(|(_, names)| names.iter().any(Option::is_some));
+        read.map(|(array, names)| Statement::Destructure { array, names }).collect()
     }
 }
 
-/// Products whose only use is a sum with something that is not such a product itself, or is the earlier of two: with
-/// the sum they are one operation.
+/// Products whose only use is a sum, with which they are one operation. Of two such products in one sum, the later.
 fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
     let mut fused = vec![false; graph.len()];
     for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
@@ -185,7 +184,8 @@ fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
     fused
 }
 
-/// Which subtractions are wanted the other way round: those named so, and those mostly used with a minus.
+/// The subtractions a − b of which b − a is used: those whose name is that of the negative, and those mostly used with a
+/// minus sign.
 fn flipped(expressions: &Expressions, uses: &[usize]) -> Vec<bool> {
     let graph = &expressions.graph;
     let mut minus = vec![0; graph.len()];

@@ -1,8 +1,8 @@
-//! One sweep over alike bodies as a loop.
+//! One sweep over uniform bodies as a loop.
 
 use super::build::Builder;
 use super::names::carried;
-use super::{Carried, Kept, Loop, Scope, Statement, Value};
+use super::{Carried, LiveOutArray, Loop, LoopRead, Scope, Statement, Value};
 use crate::reroll::{Rerolled, Sweep};
 
 impl Builder<'_> {
@@ -18,33 +18,33 @@ impl Builder<'_> {
         });
         let definition = |&node: &usize| Some(self.definition(node, name(node)?, Scope::Sweep(number)));
         let body: Vec<Statement> = sweep.template.iter().filter_map(definition).collect();
-        let values: Vec<String> = sweep.live_out.iter().filter_map(|&node| Some(name(node)?.to_string())).collect();
+        let columns: Vec<String> = sweep.live_out.iter().filter_map(|&node| Some(name(node)?.to_string())).collect();
         Loop {
             groups: rerolled.groups,
             ascending: sweep.ascending,
             carried: carried_on.collect(),
-            kept: (!values.is_empty()).then(|| Kept { array: self.arrays[number].clone(), values }),
+            live_out: (!columns.is_empty()).then(|| LiveOutArray { name: self.arrays[number].clone(), columns }),
             constants: rows(sweep, rerolled.groups),
             reads: self.reads_of_other_loops(rerolled, number),
             body,
         }
     }
 
-    /// Takes what other loops have kept for the same group.
-    fn reads_of_other_loops(&self, rerolled: &Rerolled, number: usize) -> Vec<(String, Vec<Option<String>>)> {
+    /// The live-out values of the loops before that this one reads for the same group.
+    fn reads_of_other_loops(&self, rerolled: &Rerolled, number: usize) -> Vec<LoopRead> {
         let template = &rerolled.sweeps[number].template;
         let is_read = |node: usize| {
             template.iter().any(|&user| self.graph.node(user).operands().any(|operand| operand.node() == node))
         };
         let reads = rerolled.sweeps[..number].iter().zip(&self.arrays).map(|(other, array)| {
             let names = other.live_out.iter().map(|&node| self.variables[node].clone().filter(|_| is_read(node)));
-            (array.clone(), names.collect::<Vec<_>>())
+            LoopRead { array: array.clone(), names: names.collect() }
         });
-        reads.filter(|(_, names)| names.iter().any(Option::is_some)).collect()
+        reads.filter(|read| read.names.iter().any(Option::is_some)).collect()
     }
 }
 
-/// The constants of all groups, by rows.
+/// The constants of each group, a row for each.
 fn rows(sweep: &Sweep, groups: usize) -> Vec<Vec<f64>> {
     if sweep.columns.is_empty() {
         return Vec::new();

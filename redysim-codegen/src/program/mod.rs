@@ -1,8 +1,8 @@
 //! A function as statements over plain expressions: what a backend prints, in whatever language.
 //!
-//! A program is made once from a graph: values with a name or more than one use have a `let`, products and sums that
-//! are one fused operation are found, alike bodies become loops, and long functions blocks. A backend decides nothing;
-//! it writes what stands here.
+//! A program is made once from a graph: a value with a name or more than one use becomes a `let`, a product and a sum
+//! become one fused operation, uniform bodies become a loop, and a long function becomes blocks. A backend decides
+//! nothing; it prints the program.
 
 mod blocks;
 mod build;
@@ -10,12 +10,12 @@ mod loops;
 mod names;
 mod values;
 
-pub use build::{Names, program};
+pub use build::{NamingContext, program};
 
-/// The body of a function that finds the sines and cosines of all angles in two arrays.
+/// The body of a function that is given the sines and the cosines of all angles in two arrays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// In order.
+    /// The statements, in order.
     pub statements: Vec<Statement>,
     /// What is returned, in the order of the function's [`Shape`](redysim_runtime::function::Shape).
     pub outputs: Vec<Value>,
@@ -24,8 +24,8 @@ pub struct Program {
 /// One statement. Every variable is defined once, before it is read.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
-    /// Takes elements of an array by name; `None` is not taken.
-    Take {
+    /// Defines variables for the elements of an array; `None` is not read.
+    Destructure {
         /// The array.
         array: Trig,
         /// A variable for each of its elements.
@@ -45,11 +45,11 @@ pub enum Statement {
         /// The variables read later.
         live_out: Vec<String>,
     },
-    /// A loop over groups of alike bodies.
+    /// A loop over groups of uniform bodies.
     Loop(Loop),
 }
 
-/// The arrays of what is known of the angles.
+/// The arrays of the sines and cosines of all angles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trig {
     /// Their sines.
@@ -58,26 +58,26 @@ pub enum Trig {
     Cosines,
 }
 
-/// A sweep of a recursion over groups of alike bodies.
+/// A sweep of a recursion over groups of uniform bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loop {
     /// Number of groups.
     pub groups: usize,
     /// Whether it starts at the first group; else at the last.
     pub ascending: bool,
-    /// What goes from group to group, and is read after the loop.
+    /// The variables that the loop carries from group to group, and that are read after it.
     pub carried: Vec<Carried>,
-    /// The array in which values of every group are kept for later, and these values.
-    pub kept: Option<Kept>,
+    /// The values of every group that are read after the loop.
+    pub live_out: Option<LiveOutArray>,
     /// The constants of each group, by rows; empty if there are none.
     pub constants: Vec<Vec<f64>>,
-    /// What other loops have kept for the same group: their arrays, and a variable for each value that is read.
-    pub reads: Vec<(String, Vec<Option<String>>)>,
+    /// The live-out values of other loops that are read for the same group.
+    pub reads: Vec<LoopRead>,
     /// The statements for one group.
     pub body: Vec<Statement>,
 }
 
-/// A variable that goes from group to group.
+/// A variable that a loop carries from group to group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Carried {
     /// The variable.
@@ -88,21 +88,30 @@ pub struct Carried {
     pub next: String,
 }
 
-/// Values of every group that are read after a loop.
+/// What a loop reads of the live-out values of another loop.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
-    /// The array, by groups.
+pub struct LoopRead {
+    /// The array.
     pub array: String,
-    /// The variables of the loop's body that are its columns.
-    pub values: Vec<String>,
+    /// A variable for each of its columns; `None` is not read.
+    pub names: Vec<Option<String>>,
+}
+
+/// The array of the values that are read after a loop, a row for each group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveOutArray {
+    /// Its name.
+    pub name: String,
+    /// The variables of the loop's body whose values are its columns.
+    pub columns: Vec<String>,
 }
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A number known now.
+    /// A number.
     Constant(f64),
-    /// A constant of the group that a loop is at: its column.
+    /// A constant of the group that a loop is at, by its column in the table.
     GroupConstant(usize),
     /// A variable.
     Variable(String),
@@ -110,8 +119,8 @@ pub enum Value {
     Argument(usize, Index),
     /// An element of an array of sines or cosines.
     Trig(Trig, Index),
-    /// A value that a loop has kept: array, group, column.
-    Kept(String, usize, usize),
+    /// An element of the array of values that are read after a loop: array, group, column.
+    LiveOut(String, usize, usize),
     /// −a.
     Negative(Box<Value>),
     /// a + b.
@@ -180,7 +189,11 @@ impl Value {
                 b.variables(visit);
                 c.variables(visit);
             }
-            Value::Constant(_) | Value::GroupConstant(_) | Value::Argument(..) | Value::Trig(..) | Value::Kept(..) => {}
+            Value::Constant(_)
+            | Value::GroupConstant(_)
+            | Value::Argument(..)
+            | Value::Trig(..)
+            | Value::LiveOut(..) => {}
         }
     }
 }
@@ -189,7 +202,7 @@ impl Statement {
     /// Calls `visit` with every variable that the statement reads, its own among them.
     fn reads<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
         match self {
-            Statement::Take { .. } => {}
+            Statement::Destructure { .. } => {}
             Statement::Let { value, .. } => value.variables(visit),
             Statement::Block { statements, .. } => statements.iter().for_each(|statement| statement.reads(visit)),
             Statement::Loop(each) => {

@@ -3,7 +3,7 @@
 use crate::graph::Name;
 use std::collections::HashSet;
 
-/// Hands out names, each once.
+/// Makes identifiers that differ from each other.
 pub struct Identifiers<'a> {
     /// The name of each body of the tree, for the values that belong to it.
     bodies: &'a [String],
@@ -12,12 +12,12 @@ pub struct Identifiers<'a> {
 }
 
 impl<'a> Identifiers<'a> {
-    /// Names beside those that are `reserved`.
+    /// Identifiers other than those that are `reserved`.
     pub fn new(bodies: &'a [String], reserved: &[&str]) -> Self {
         Identifiers { bodies, taken: reserved.iter().map(|name| name.to_string()).collect(), unnamed: 0 }
     }
 
-    /// A name like `name`.
+    /// `name`, with a number if it is taken.
     pub fn unique(&mut self, name: &str) -> String {
         let mut unique = name.to_string();
         let mut copies = 1;
@@ -59,12 +59,12 @@ fn spelled(name: Name, body: &str, flipped: bool) -> String {
     format!("{sign}{}_{body}{component}", name.quantity)
 }
 
-/// The part of a name that stands for a name of the model.
+/// A name of the model as part of an identifier.
 fn word(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }
 
-/// What a loop carries from one group to the next.
+/// The name of the variable by which a loop carries `name` to the next group.
 pub fn carried(name: &str) -> String {
     format!("last_{name}")
 }

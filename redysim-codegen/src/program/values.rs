@@ -112,8 +112,8 @@ impl Builder<'_> {
         }
     }
 
-    /// A value that a loop computes, as it is read from outside its own step, and whether it is the negative of what is
-    /// read.
+    /// A value that a loop computes, as it is read in `scope`, and whether the value wanted is its negative; `None` for a
+    /// value of the template in its own loop, and for one that no loop computes.
     fn loop_value(&self, index: usize, scope: Scope) -> Option<(bool, Value)> {
         let rerolled = self.rerolled.as_ref()?;
         let place = rerolled.place(index)?;
@@ -126,7 +126,7 @@ impl Builder<'_> {
             Scope::Outside => {
                 let live_out = &rerolled.sweeps[place.sweep].live_out;
                 let column = live_out.iter().position(|&node| node == place.template)?;
-                Value::Kept(self.arrays[place.sweep].clone(), place.group, column)
+                Value::LiveOut(self.arrays[place.sweep].clone(), place.group, column)
             }
         };
         Some((place.negative, value))

@@ -96,42 +96,42 @@ pub fn derivatives(expressions: &Expressions, output: Edge, values: &Columns) ->
     for node in (0..=output.node()).rev() {
         let Some(own) = derivatives[node].take() else { continue };
         let at = |edge: Edge| values.column(edge.node());
-        let mut hand_on = |edge: Edge, part: &dyn Fn(&mut [f64])| {
+        let mut accumulate = |edge: Edge, part: &dyn Fn(&mut [f64])| {
             part(derivatives[edge.node()].get_or_insert_with(|| vec![0.0; own.len()]));
         };
         match expressions.graph.node(node) {
             Node::Input { .. } | Node::Constant(_) => {}
             Node::Sin(a) => {
                 let cosines: Vec<f64> = at(a).iter().map(|&x| sign(a) * Scalar::sin_cos(x).1).collect();
-                hand_on(a, &|out| add_product(out, &own, &cosines));
+                accumulate(a, &|out| add_product(out, &own, &cosines));
             }
             Node::Cos(a) => {
                 let sines: Vec<f64> = at(a).iter().map(|&x| Scalar::sin_cos(x).0).collect();
-                hand_on(a, &|out| subtract_product(out, &own, &sines));
+                accumulate(a, &|out| subtract_product(out, &own, &sines));
             }
             Node::Add(a, b) => {
-                hand_on(a, &|out| add(out, &own, 1.0));
-                hand_on(b, &|out| add(out, &own, 1.0));
+                accumulate(a, &|out| add(out, &own, 1.0));
+                accumulate(b, &|out| add(out, &own, 1.0));
             }
             Node::Subtract(a, b) => {
-                hand_on(a, &|out| add(out, &own, 1.0));
-                hand_on(b, &|out| add(out, &own, -1.0));
+                accumulate(a, &|out| add(out, &own, 1.0));
+                accumulate(b, &|out| add(out, &own, -1.0));
             }
             Node::Multiply(a, b) => {
-                hand_on(a, &|out| add_product(out, &own, at(b)));
-                hand_on(b, &|out| add_product(out, &own, at(a)));
+                accumulate(a, &|out| add_product(out, &own, at(b)));
+                accumulate(b, &|out| add_product(out, &own, at(a)));
             }
             Node::Divide(a, b) => {
                 let mut by_divisor = own.clone();
                 quotient(&mut by_divisor, &own, at(b));
-                hand_on(a, &|out| add(out, &by_divisor, 1.0));
+                accumulate(a, &|out| add(out, &by_divisor, 1.0));
                 let ratio = values.column(node);
-                hand_on(b, &|out| subtract_product(out, &by_divisor, ratio));
+                accumulate(b, &|out| subtract_product(out, &by_divisor, ratio));
             }
             Node::Sqrt(a) => {
                 let mut halved = own.clone();
                 quotient(&mut halved, &own, values.column(node));
-                hand_on(a, &|out| add(out, &halved, 0.5 * sign(a)));
+                accumulate(a, &|out| add(out, &halved, 0.5 * sign(a)));
             }
         }
         derivatives[node] = Some(own);

@@ -7,7 +7,7 @@ use crate::graph::{Edge, Graph};
 use redysim_runtime::function::Shape;
 use std::ops::Range;
 
-/// States that are evaluated at a time: their values stay in the cache.
+/// States that are evaluated together: their values stay in the cache.
 const BLOCK: usize = 250;
 
 /// For each output, the largest size it has and the largest error.
@@ -27,7 +27,7 @@ pub fn worst_error(
     count: usize,
     seed: u64,
 ) -> f64 {
-    let both = together([whole, pruned]);
+    let both = merged([whole, pruned]);
     let blocks = count.div_ceil(BLOCK);
     let threads = std::thread::available_parallelism().map_or(1, |threads| threads.get()).min(blocks);
     let share = blocks.div_ceil(threads);
@@ -56,8 +56,8 @@ fn share_of(error: f64, scale: f64) -> f64 {
     if share.is_nan() { f64::INFINITY } else { share }
 }
 
-/// What the error of each output is a share of: for joint forces, the force that the joint's range states; for an
-/// element of the mass matrix, √(M_ii M_jj) at its largest; else its largest size.
+/// The scale of each output, of which its error is a share: of a joint force, the force that the joint's range states,
+/// if any; of an element of the mass matrix, √(M_ii M_jj) at its largest; else the largest size of the output.
 pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
     match shape {
         Shape::Forces => {
@@ -73,8 +73,7 @@ pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Of the blocks of states with these numbers; `both` has the outputs of the whole function, then those of the pruned
-/// one.
+/// The extremes in the given blocks of states; `both` has the outputs of the whole function, then those of the pruned one.
 fn extremes(both: &Expressions, states: &States, blocks: Range<usize>, seed: u64) -> Extremes {
     let live = live(both);
     let mut values = Columns::new(both.graph.len(), BLOCK);
@@ -90,7 +89,7 @@ fn extremes(both: &Expressions, states: &States, blocks: Range<usize>, seed: u64
                 Some([_, _, accelerations]) => (1.0, accelerations.column(output)),
                 None => (sign(old), values.column(old.node())),
             };
-            let (size, error) = compared(old, (sign(new), values.column(new.node())));
+            let (size, error) = size_and_difference(old, (sign(new), values.column(new.node())));
             extremes.sizes[output] = extremes.sizes[output].max(size);
             extremes.errors[output] = extremes.errors[output].max(error);
         }
@@ -99,7 +98,7 @@ fn extremes(both: &Expressions, states: &States, blocks: Range<usize>, seed: u64
 }
 
 /// Two functions as one, so that what they have in common is computed once.
-fn together(functions: [&Expressions; 2]) -> Expressions {
+fn merged(functions: [&Expressions; 2]) -> Expressions {
     let mut graph = Graph::default();
     let mut outputs = Vec::new();
     for function in functions {
@@ -113,8 +112,9 @@ fn together(functions: [&Expressions; 2]) -> Expressions {
     Expressions { graph, outputs }
 }
 
-/// The largest size of the first, and the largest difference; NaN counts as infinite.
-fn compared((old, before): (f64, &[f64]), (new, after): (f64, &[f64])) -> (f64, f64) {
+/// The largest size of the first column and the largest difference of the two, each column times a sign; NaN counts as
+/// infinite.
+fn size_and_difference((old, before): (f64, &[f64]), (new, after): (f64, &[f64])) -> (f64, f64) {
     let (mut size, mut error) = (0.0_f64, 0.0_f64);
     let mut i = 0;
     while i < before.len() {

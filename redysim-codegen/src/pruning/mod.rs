@@ -1,10 +1,10 @@
-//! Terms that do not matter within the ranges of the joints, left out.
+//! Pruning: terms that do not matter within the ranges of the joints are left out.
 //!
 //! What a value does to an output is, to first order, its change times the derivative of the output by it. Both are
 //! known in a sample of states, corners of the ranges among them, so that the effect of leaving something out is a
-//! column of numbers, and effects add up with their signs. Rounds of this go on until nothing more can be left out;
-//! then the error is measured in a hundred thousand other states, without any approximation. Where it exceeds the
-//! tolerance, all is done again for less.
+//! column of numbers, and effects add up with their signs. Rounds follow each other until nothing more can be left out;
+//! then the error is measured, without approximation, in a hundred thousand other states. Where it exceeds the
+//! tolerance, the rounds are repeated with a smaller aim.
 //!
 //! Published precedent: "customized" dynamics of the PUMA 560, in which terms below 1 % of the largest torque were left
 //! out (Armstrong, Khatib & Burdick, "The explicit dynamic model and inertial parameters of the PUMA 560 arm", Proc.
@@ -35,30 +35,29 @@ pub struct Pruning {
     pub before: OperationCount,
     /// The largest error found, as such a share.
     pub worst: f64,
-    /// In how many states that was looked for.
+    /// The number of states in which it was measured.
     pub states: usize,
-    /// Whether the tolerance holds, with a tenth of it to spare for other states. If not, the function is left whole,
+    /// Whether the tolerance holds, with a tenth of it to spare for other states. If not, the function is not pruned,
     /// and `worst` is that of the last attempt.
     pub holds: bool,
 }
 
-/// States in which the error of a pruned function is measured.
-const MEASURED: usize = 100_000;
-/// The part of the tolerance that a pruned function may use up in these; the rest is for states in which it was not
-/// measured.
-const USED: f64 = 0.9;
-/// Rounds at most; each sees what the one before has made possible.
+/// Sampled states in which the error of a pruned function is measured.
+const VALIDATION_SAMPLES: usize = 100_000;
+/// The share of the tolerance that the error in these may reach; the rest is for states that were not sampled.
+const BUDGET_SHARE: f64 = 0.9;
+/// The most rounds; each starts from what the one before has left.
 const ROUNDS: usize = 6;
-/// How many aims are tried at most.
+/// The most aims that are tried.
 const ATTEMPTS: usize = 8;
-/// Two aims are the same if their quotient is less.
-const NARROW: f64 = 1.15;
-/// Of a sample from which terms are judged, the largest number of states, and of numbers that are kept for it.
+/// Bisection ends where the ratio of the smallest aim that fails to the largest that holds is less.
+const BISECTION_RATIO: f64 = 1.15;
+/// The most and the fewest states of the sample from which terms are judged, and the most numbers that are stored for it.
 const LARGEST_SAMPLE: usize = 1000;
 const SMALLEST_SAMPLE: usize = 60;
-const KEPT_NUMBERS: usize = 8_000_000;
+const LARGEST_STORE: usize = 8_000_000;
 
-/// A function without what does not matter to `tolerance`.
+/// `whole` without the terms that do not matter to `tolerance`.
 pub fn pruned(
     whole: &Expressions,
     shape: Shape,
@@ -69,44 +68,44 @@ pub fn pruned(
     let before = whole.count();
     let mut sample = sample(whole, shape, states);
     let scales = sample.allowed.clone();
-    let bound = USED * tolerance;
+    let bound = BUDGET_SHARE * tolerance;
     let measured = |candidate: &Expressions, seed: u64| {
-        let in_states = |states_asked: usize| {
-            let worst = worst_error(whole, candidate, shape, states, states_asked, seed);
-            Pruning { tolerance, before, worst, states: states_asked, holds: worst <= bound }
+        let in_states = |count: usize| {
+            let worst = worst_error(whole, candidate, shape, states, count, seed);
+            Pruning { tolerance, before, worst, states: count, holds: worst <= bound }
         };
-        // Where a part of the states is enough to refute it, the others need not be asked.
-        let few = in_states(MEASURED / 20);
-        if few.holds { in_states(MEASURED) } else { few }
+        // A part of the states is often enough to refute a candidate.
+        let few = in_states(VALIDATION_SAMPLES / 20);
+        if few.holds { in_states(VALIDATION_SAMPLES) } else { few }
     };
-    // The sample may miss the worst states. So what is aimed at there is found by bisection, between the largest aim
-    // with which the bound holds elsewhere and the smallest with which it does not.
-    let (mut aim, mut held, mut broken) = (bound, 0.0, f64::INFINITY);
-    let mut least: Option<(Expressions, Pruning)> = None;
+    // The sample may miss the worst states. So the error aimed at in the sample is found by bisection, between the
+    // largest aim with which the bound holds in the validation samples and the smallest with which it does not.
+    let (mut aim, mut holding, mut failing) = (bound, 0.0, f64::INFINITY);
+    let mut cheapest: Option<(Expressions, Pruning)> = None;
     let mut last = Pruning { tolerance, before, worst: f64::INFINITY, states: 0, holds: false };
     for attempt in 0..ATTEMPTS {
         sample.allowed = scales.iter().map(|scale| aim * scale).collect();
         let candidate = rounds(whole, &sample, passes)?;
-        if least.as_ref().is_some_and(|(least, _)| candidate.price() >= least.price()) {
-            held = aim;
+        if cheapest.as_ref().is_some_and(|(cheapest, _)| candidate.price() >= cheapest.price()) {
+            holding = aim;
         } else {
             last = measured(&candidate, 1 << (40 + attempt));
             if last.holds {
-                held = aim;
-                least = Some((candidate, last));
+                holding = aim;
+                cheapest = Some((candidate, last));
             } else {
-                broken = aim;
+                failing = aim;
             }
         }
-        if broken < NARROW * held || broken.is_infinite() {
+        if failing < BISECTION_RATIO * holding || failing.is_infinite() {
             break;
         }
-        aim = if held > 0.0 { 0.5 * (held + broken) } else { aim * (0.95 * bound / last.worst).max(0.1) };
+        aim = if holding > 0.0 { 0.5 * (holding + failing) } else { aim * (0.95 * bound / last.worst).max(0.1) };
     }
-    Ok(least.unwrap_or((whole.clone(), last)))
+    Ok(cheapest.unwrap_or((whole.clone(), last)))
 }
 
-/// The sample on which a function is judged; of its outputs the scale stands for what is allowed.
+/// The sample on which replacements are judged. What is allowed of each output is its scale, for a tolerance of 1.
 fn sample(whole: &Expressions, shape: Shape, states: &States) -> Sample {
     let mut outputs: Vec<usize> = Vec::new();
     for (index, output) in whole.outputs.iter().enumerate() {
@@ -115,7 +114,7 @@ fn sample(whole: &Expressions, shape: Shape, states: &States) -> Sample {
         }
     }
     let live = live(whole);
-    let fitting = KEPT_NUMBERS / (outputs.len() * live.len()).max(1);
+    let fitting = LARGEST_STORE / (outputs.len() * live.len()).max(1);
     let arguments = states.arguments(fitting.clamp(SMALLEST_SAMPLE, LARGEST_SAMPLE), 1);
     let mut values = Columns::new(whole.graph.len(), arguments[0].states());
     evaluate(whole, &live, &arguments, &mut values);
@@ -130,18 +129,19 @@ fn sample(whole: &Expressions, shape: Shape, states: &States) -> Sample {
     }
 }
 
+/// Rounds of pruning, until one saves nothing.
 fn rounds(whole: &Expressions, sample: &Sample, passes: &Passes) -> Result<Expressions, PassError> {
-    let mut least = whole.clone();
+    let mut cheapest = whole.clone();
     for _ in 0..ROUNDS {
-        let pruned = round(&least, sample);
+        let pruned = round(&cheapest, sample);
         if cfg!(debug_assertions) {
-            well_formed("pruning", &least, &pruned)?;
+            well_formed("pruning", &cheapest, &pruned)?;
         }
         let next = simplified(pruned, passes)?;
-        if next.price() >= least.price() {
+        if next.price() >= cheapest.price() {
             break;
         }
-        least = next;
+        cheapest = next;
     }
-    Ok(least)
+    Ok(cheapest)
 }

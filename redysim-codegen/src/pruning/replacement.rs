@@ -1,5 +1,5 @@
-//! What may stand in the place of a value: one of its operands, or a number. So a term of a sum, a factor near 1, or
-//! the small change of a cosine is left out.
+//! What may replace a value: one of its operands, or a number. So a term of a sum, a factor near 1, or the small change
+//! of a cosine is left out.
 
 use super::columns::{Columns, sign};
 use crate::expressions::Expressions;
@@ -7,14 +7,14 @@ use crate::graph::{Edge, Graph, Node};
 use crate::policies::PRICE_PER_PAIR;
 use std::collections::HashMap;
 
-/// Something simpler in the place of a node.
+/// A node and what replaces it.
 #[derive(Clone, Copy, Debug)]
 pub struct Replacement {
     pub node: usize,
     pub by: Simpler,
 }
 
-/// What is simpler than a node.
+/// What replaces a node.
 #[derive(Clone, Copy, Debug)]
 pub enum Simpler {
     /// One of its operands, or the negative of it.
@@ -23,7 +23,7 @@ pub enum Simpler {
     Number(f64),
 }
 
-/// Everything that may be tried for the nodes in `live`.
+/// Every replacement that may be tried for the nodes in `live`.
 pub fn candidates(graph: &Graph, live: &[usize], values: &Columns) -> Vec<Replacement> {
     let mut found = Vec::new();
     for &node in live {
@@ -75,7 +75,7 @@ impl Replacement {
     }
 }
 
-/// A graph with the replacements made so far: which nodes are still used, and what stands for them.
+/// A graph with the replacements made so far: how often each node is used, and what replaces it.
 pub struct Simplification<'a> {
     expressions: &'a Expressions,
     uses: Vec<usize>,
@@ -83,8 +83,8 @@ pub struct Simplification<'a> {
 }
 
 impl<'a> Simplification<'a> {
-    /// Without a replacement.
-    pub fn of(expressions: &'a Expressions) -> Self {
+    /// The expressions without a replacement.
+    pub fn new(expressions: &'a Expressions) -> Self {
         Simplification { expressions, uses: expressions.uses(), replaced: vec![None; expressions.graph.len()] }
     }
 
@@ -96,15 +96,15 @@ impl<'a> Simplification<'a> {
         }
         let mut saving = 0;
         let mut released: HashMap<usize, usize> = HashMap::new();
-        let mut dying = vec![replacement.node];
-        while let Some(node) = dying.pop() {
+        let mut freed = vec![replacement.node];
+        while let Some(node) = freed.pop() {
             saving += price(graph.node(node));
             for operand in graph.node(node).operands().map(Edge::node) {
                 let stays = matches!(replacement.by, Simpler::Operand(edge) if edge.node() == operand);
                 let count = released.entry(operand).or_insert(0);
                 *count += 1;
                 if *count == self.uses[operand] && !stays && self.replaced[operand].is_none() {
-                    dying.push(operand);
+                    freed.push(operand);
                 }
             }
         }
@@ -120,7 +120,7 @@ impl<'a> Simplification<'a> {
         self.release_operands(node);
     }
 
-    /// What a node used is used once less, and so on where that was the last use.
+    /// Takes one use from each operand of a node and, where that was the last, from its operands in turn.
     fn release_operands(&mut self, node: usize) {
         let graph = &self.expressions.graph;
         let mut released: Vec<usize> = graph.node(node).operands().map(Edge::node).collect();

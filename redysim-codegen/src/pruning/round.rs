@@ -9,7 +9,7 @@ use crate::expressions::Expressions;
 pub struct Sample {
     /// The arguments in each state.
     pub arguments: Vec<Columns>,
-    /// The outputs that are looked at: each once.
+    /// The outputs that are compared: equal ones once.
     pub outputs: Vec<usize>,
     /// What these are without pruning.
     pub exact: Vec<Vec<f64>>,
@@ -17,7 +17,7 @@ pub struct Sample {
     pub allowed: Vec<f64>,
 }
 
-/// Changes smaller than this part of what is allowed are all the same.
+/// Replacements whose error is a smaller share of what is allowed are ranked by what they save alone.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// Expressions with fewer operations, whose errors on the sample stay, to first order, within what is allowed.
@@ -32,7 +32,7 @@ pub fn round(expressions: &Expressions, sample: &Sample) -> Expressions {
         let error = values.column(edge.node()).iter().zip(exact).map(|(now, exact)| sign(edge) * now - exact).collect();
         outputs.push(Output { error, allowed, derivatives: derivatives(expressions, edge, &values) });
     }
-    let mut simplification = Simplification::of(expressions);
+    let mut simplification = Simplification::new(expressions);
     let mut change = vec![0.0; states];
     let mut ranked: Vec<(f64, Replacement)> = Vec::new();
     for replacement in candidates(&expressions.graph, &live, &values) {
@@ -48,15 +48,15 @@ pub fn round(expressions: &Expressions, sample: &Sample) -> Expressions {
             continue;
         }
         replacement.change(&values, &mut change);
-        if outputs.iter().all(|output| output.bears(&replacement, &change)) {
-            outputs.iter_mut().for_each(|output| output.take(&replacement, &change));
+        if outputs.iter().all(|output| output.fits_budget(&replacement, &change)) {
+            outputs.iter_mut().for_each(|output| output.commit(&replacement, &change));
             simplification.replace(replacement);
         }
     }
     simplification.rebuilt()
 }
 
-/// One output, with what it has taken so far.
+/// One output, with the error of the replacements made so far.
 struct Output {
     /// Its error in each state.
     error: Vec<f64>,
@@ -88,8 +88,8 @@ impl Output {
         if largest == 0.0 { 0.0 } else { largest / self.allowed }
     }
 
-    /// Whether the error stays within what is allowed.
-    fn bears(&self, replacement: &Replacement, change: &[f64]) -> bool {
+    /// Whether the error stays within what is allowed after the replacement.
+    fn fits_budget(&self, replacement: &Replacement, change: &[f64]) -> bool {
         let Some(derivative) = self.derivative(replacement) else { return true };
         let mut i = 0;
         while i < change.len() {
@@ -101,7 +101,8 @@ impl Output {
         true
     }
 
-    fn take(&mut self, replacement: &Replacement, change: &[f64]) {
+    /// Adds the effect of the replacement to the error.
+    fn commit(&mut self, replacement: &Replacement, change: &[f64]) {
         let Some(Some(derivative)) = self.derivatives.get(replacement.node) else { return };
         let mut i = 0;
         while i < change.len() {

@@ -1,20 +1,20 @@
-//! States spread over the ranges of the joints, the same in every run.
+//! Sampled states within the ranges of the joints, the same in every run.
 
 use super::columns::{Columns, evaluate, live, sign};
 use crate::expressions::Expressions;
 use crate::random::Random;
 use redysim_model::JointRange;
 
-/// Where the arguments of a function come from.
+/// The states in which a function is sampled.
 pub struct States<'a> {
-    /// Of the joints, in the model's order.
+    /// The ranges of the joints, in the model's order.
     pub ranges: &'a [JointRange],
-    /// The function that makes joint forces of accelerations, where the third argument are forces.
+    /// Inverse dynamics, where the third argument of the function is joint forces.
     pub forces: Option<&'a Expressions>,
 }
 
 impl States<'_> {
-    /// The arguments in `states` states: coordinates, velocities, and accelerations or the forces that they need.
+    /// The arguments in `states` states: coordinates, velocities, and accelerations or the forces that cause them.
     ///
     /// In half of the states velocities, in half accelerations are at their limits, in every eighth so are coordinates:
     /// joint forces are linear in accelerations and quadratic in velocities, so that this is where terms are largest.

@@ -1,31 +1,31 @@
-//! Bodies on which the same is done: what of a long function can be a loop.
+//! Loop rerolling: code that an unrolled recursion repeats for each of many bodies becomes a loop again.
 //!
-//! Every sweep of a recursion does one step at each body. On a chain of alike bodies the steps have the same operations
-//! on the values of the body before, on those of other sweeps at the same body, on the body's own inputs, and on
-//! constants; only the constants differ. Such a run of bodies, taken `period` at a time (neighbours may be mirrored),
-//! is found here by comparing steps. One group of bodies is the template; its operations become the body of a loop for
-//! each sweep, with the constants in a table.
+//! Every sweep of a recursion does one step at each body. Bodies are uniform if their steps have the same operations on
+//! the values of the body before, on those of other sweeps at the same body, on the body's own inputs, and on constants;
+//! only the constants differ. A run of such bodies, taken `period` at a time (neighbours may be mirrored), is found here
+//! by comparing steps. One group of bodies is the template; its nodes become the body of a loop for each sweep, with the
+//! constants in a table.
 //!
 //! Since constants of a graph are positive and signs stand on edges, a value of one group may be the negative of the
-//! same value in the template: `signs` finds for each which it is.
+//! same value in the template: `signs` finds which values are.
 
-mod alike;
 mod signs;
+mod steps;
 mod table;
 
 use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
-use alike::Steps;
 use signs::Signs;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use steps::Steps;
 pub use table::Constant;
 
 /// The group of bodies that the others are compared with. It has a neighbour on either side.
 pub const TEMPLATE: usize = 1;
-/// Fewer groups than this are not worth a loop.
+/// The fewest groups that are worth a loop.
 const FEWEST_GROUPS: usize = 4;
-/// The most bodies that are taken as one.
+/// The most bodies in a group.
 const LONGEST_PERIOD: usize = 3;
 
 /// Part of a function as loops, one for each sweep, over the same bodies.
@@ -47,31 +47,31 @@ pub struct Rerolled {
 /// One loop.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// What the recursion calls it.
+    /// The name that the recursion gives it.
     pub name: &'static str,
     /// Whether it starts at the first group; else at the last.
     pub ascending: bool,
-    /// The least index of its nodes: before this one it has to run.
+    /// The least index of its nodes: it runs before this one.
     pub start: usize,
     /// The nodes of the template, in order.
     pub template: Vec<usize>,
-    /// Nodes of the template whose value in the group before is read, or that of the last group after the loop. Each
-    /// with its value before the loop, if any.
+    /// Loop-carried nodes of the template: the value in the group before is read, or that in the last group after the
+    /// loop. Each with its value before the loop, if any.
     pub carried: Vec<(usize, Option<Edge>)>,
-    /// Nodes of the template of which other code reads the values of several groups.
+    /// Live-out nodes of the template: other code reads their values in several groups.
     pub live_out: Vec<usize>,
     /// Columns of the table of constants: for each, its value for every group.
     pub columns: Vec<Vec<f64>>,
 }
 
-/// What a node inside the loops is.
+/// The place of a node in the loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Index in [`Rerolled::sweeps`].
     pub sweep: usize,
     /// The group it belongs to.
     pub group: usize,
-    /// The node of the template that stands for it.
+    /// Its template node.
     pub template: usize,
     /// Whether its value is the negative of what the loop computes.
     pub negative: bool,
@@ -96,8 +96,8 @@ impl Sweep {
 }
 
 impl Rerolled {
-    /// The longest run of alike bodies, if the function is long enough for loops. `positions` says of each sine and
-    /// cosine where it stands among all.
+    /// The longest run of uniform bodies, if the function is long enough for loops. `positions` has the position of the
+    /// angle of each sine and cosine.
     pub fn of(expressions: &Expressions, positions: &HashMap<usize, usize>) -> Option<Rerolled> {
         if !expressions.is_long() {
             return None;
@@ -178,7 +178,7 @@ impl Rerolled {
         Some(rerolled)
     }
 
-    /// Finds what each loop carries on and keeps; `None` where the loops cannot run one after the other.
+    /// Finds the carried and the live-out values of each loop; `None` where the loops cannot run one after the other.
     fn connect(&mut self, expressions: &Expressions, live: &[bool], signs: &Signs) -> Option<()> {
         let graph = &expressions.graph;
         let mut live_out: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.sweeps.len()];
@@ -217,7 +217,7 @@ impl Rerolled {
                         if edge.node() > sweep.start {
                             return None;
                         }
-                        // At the start of a sweep, what the loop carries on comes from outside.
+                        // In the first group, what the loop carries comes from before it.
                         let same = graph.node(user.template).operands().nth(operand)?;
                         if let Some(template) = self.place(same.node()) {
                             if user.group != self.first_group(user.sweep) || template.sweep != user.sweep {
@@ -252,7 +252,7 @@ impl Rerolled {
             for &node in &sweep.template {
                 for operand in 0..2 {
                     if let Some(column) = values.remove(&(node, operand)) {
-                        self.constants.insert((node, operand), table::entered(&mut sweep.columns, column));
+                        self.constants.insert((node, operand), table::tabulated(&mut sweep.columns, column));
                     }
                 }
             }
@@ -260,7 +260,7 @@ impl Rerolled {
     }
 }
 
-/// About how many operations the code of a function has, loops counted once.
+/// About how many operations the code of a function has. A loop counts as one group.
 pub fn code_size(expressions: &Expressions) -> usize {
     let angles = Angles::of([expressions]);
     let all = operations(expressions).into_iter().filter(|live| *live).count();

@@ -1,16 +1,15 @@
-//! Which values of a group of bodies are the negatives of those of the template.
+//! Which values of a group of bodies are the negatives of their template nodes.
 //!
-//! With a sign for each value, a sum asks that both of its terms carry the sign of the sum, a product has the product
-//! of the signs of its factors, and a product with a constant may have either, since the constant takes it. Values
-//! whose signs hang together are joined into classes, in the order of the operations. Where a sign is wanted before
-//! anything is known of it, it becomes an unknown, and a class that closes on itself gives an equation for the
-//! unknowns.
+//! Each value has a sign relative to its template node. Both terms of a sum have the sign of the sum, a product has the
+//! product of the signs of its factors, and a product with a constant may have either sign, since the constant takes it.
+//! Values whose signs depend on each other are joined into classes (union-find), in the order of the operations. A sign
+//! that is needed before it is determined becomes an unknown, and a cycle in a class gives an equation for the unknowns.
 
 use super::{Place, TEMPLATE};
 use crate::graph::{Edge, Graph, Node};
 use std::collections::HashMap;
 
-/// Signs of nodes relative to their templates in the template.
+/// Signs of nodes relative to their template nodes.
 pub struct Signs {
     /// A parent in the forest of classes, and the sign relative to the parent's.
     parents: Vec<(usize, Sign)>,
@@ -74,7 +73,7 @@ impl Signs {
         Some(signs)
     }
 
-    /// Whether the value of `node` is the negative of its template's. Values that nothing ties have the sign plus.
+    /// Whether the value of `node` is the negative of its template node's. An undetermined sign is plus.
     pub fn is_negative(&self, node: usize) -> bool {
         self.solved(self.find(node).1).has(127)
     }
@@ -93,7 +92,7 @@ impl Signs {
             }
             (Node::Multiply(a, b), Node::Multiply(x, y)) | (Node::Divide(a, b), Node::Divide(x, y)) => {
                 if graph.constant_value(a).is_some() {
-                    // A numerator is the same in all groups: pivots are turned round by nothing.
+                    // A constant numerator is the same in all groups, so it takes no sign.
                     let quotient = matches!(graph.node(node), Node::Divide(..));
                     let known = if quotient { self.known(self.element(graph, y))? } else { return Ok(()) };
                     return self.join(node, self.element(graph, b), known);

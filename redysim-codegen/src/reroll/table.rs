@@ -1,4 +1,4 @@
-//! The constants of a loop: one literal where all groups have the same, a column of a table where not.
+//! The constants of a loop: a literal if it is the same in all groups, else a column of a table.
 
 use super::is_operation;
 use super::signs::Signs;
@@ -13,8 +13,8 @@ pub enum Constant {
     Column(usize),
 }
 
-/// The constants among the operands of `node`, with the operands' numbers, as they stand in the formula of its
-/// template: with the signs of all other values as there.
+/// The constants among the operands of `node`, with the operands' numbers, in the operation of its template node: with
+/// the signs that all other values have there.
 pub fn constants(graph: &Graph, node: usize, template: usize, signs: &Signs) -> Vec<(usize, f64)> {
     let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
     let own = sign(signs.is_negative(node));
@@ -36,8 +36,8 @@ pub fn constants(graph: &Graph, node: usize, template: usize, signs: &Signs) -> 
     }
 }
 
-/// The constant with the given value for each group; a new column if there is none like it.
-pub fn entered(columns: &mut Vec<Vec<f64>>, values: Vec<f64>) -> Constant {
+/// The constant with the given value for each group. Equal columns are one.
+pub fn tabulated(columns: &mut Vec<Vec<f64>>, values: Vec<f64>) -> Constant {
     if values.iter().all(|value| *value == values[0]) {
         return Constant::Same(values[0]);
     }

@@ -1,10 +1,10 @@
-//! Frames where they cost least.
+//! The choice of frames.
 //!
-//! The search starts from [canonical](redysim_model::frames::canonical) frames, so that it ends the same wherever the
-//! model put its own, and tries for each body the few places that can make a constant vanish.
+//! The search starts from [canonical](redysim_model::frames::canonical) frames, so that the result does not depend on the
+//! model's own, and tries for each body the few placements that can make a constant vanish.
 
 use super::neighbourhood::neighbourhood;
-use super::{Cost, Keeps};
+use super::{Cost, KeepsDigits};
 use redysim_model::Tree;
 use redysim_model::frames::{
     canonical, reframe, slide_to_child, slide_to_parent, turn_to_child, turn_to_inertia, turn_to_principal_axis,
@@ -12,20 +12,20 @@ use redysim_model::frames::{
 use redysim_model::joint::Vanishing;
 use redysim_model::regroup::base_parameters;
 
-/// The tree with frames chosen anew, as far as they are kept.
-pub fn chosen(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
-    let mut best = canonical(tree, keeps);
+/// The tree with frames that lower the cost, as far as they cost no digits.
+pub fn chosen(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
+    let mut best = canonical(tree, keeps_digits);
     for body in (0..best.bodies.len()).rev() {
         for candidates in [turns, slides] {
             let changes = candidates(&best, body);
-            improve(&mut best, body, &changes, cost, keeps);
+            improve(&mut best, body, &changes, cost, keeps_digits);
         }
     }
     best
 }
 
 /// Applies the cheapest of the changes (angle, distance) to the frame of `body`, if it is cheaper than none.
-fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost, keeps: Keeps) {
+fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost, keeps_digits: KeepsDigits) {
     let part = neighbourhood(tree, body);
     let local = part.index_of(body).expect("the body itself");
     let cost = |tree: &Tree| {
@@ -46,7 +46,7 @@ fn improve(tree: &mut Tree, body: usize, candidates: &[(f64, f64)], cost: Cost, 
     if let Some((angle, distance)) = best {
         let mut other = tree.clone();
         reframe(&mut other, body, angle, distance);
-        if keeps(&other) {
+        if keeps_digits(&other) {
             *tree = other;
         }
     }

@@ -1,7 +1,7 @@
-//! Passes over trees whose gain is counted: each tries a few ways to describe the same robot and keeps the cheapest.
+//! Passes over trees: each tries a few descriptions of the same robot and takes the cheapest.
 //!
-//! What a choice at one body costs shows in its [neighbourhood](neighbourhood::neighbourhood), so the time taken grows
-//! with the number of bodies and no faster.
+//! The cost of a choice at one body is counted on its [neighbourhood](neighbourhood::neighbourhood), so that the time
+//! grows linearly with the number of bodies.
 
 pub mod axis_masses;
 pub mod frames;
@@ -19,26 +19,26 @@ use redysim_model::regroup::move_to_parent;
 use redysim_model::{Function, Tree};
 use std::cell::OnceCell;
 
-/// What a function costs on a tree, in operations.
+/// The cost of a function on a tree, in operations.
 pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
 /// Whether a tree keeps the digits that the model's own description has.
-pub type Keeps<'a> = &'a dyn Fn(&Tree) -> bool;
+pub type KeepsDigits<'a> = &'a dyn Fn(&Tree) -> bool;
 
-/// What is computed on the tree for inverse dynamics and bias forces.
+/// The functions on the tree for inverse dynamics.
 const FORCES: &[Function] = &[Function::InverseDynamics, Function::BiasForces];
-/// What is computed on the tree for the mass matrix and gravity.
+/// The functions on the tree for the mass matrix.
 const MATRIX: &[Function] = &[Function::MassMatrix, Function::GravityForces];
 
-/// The same robot as different functions want it. What no function asks for is never made.
+/// The descriptions of a robot for its functions, each made when it is first needed.
 ///
-/// A pass that would cost digits is taken as far as it does not: for the whole robot if that keeps them, else body by
-/// body.
+/// A pass that costs no digits is made for the whole robot. Where it does, it is made body by body, as far as it costs
+/// none.
 pub struct Trees<'a> {
     tree: &'a Tree,
     passes: &'a Passes,
     reference: &'a Reference<'a>,
-    /// What is lost in any case, of each function.
-    lost: [OnceCell<f64>; Function::ALL.len()],
+    /// The loss of each function in any description.
+    least_losses: [OnceCell<f64>; Function::ALL.len()],
     plain: OnceCell<Tree>,
     base: OnceCell<Tree>,
     matrix: OnceCell<Tree>,
@@ -46,14 +46,14 @@ pub struct Trees<'a> {
 }
 
 impl<'a> Trees<'a> {
-    /// What the given passes make of one tree, of which `reference` has the exact numbers.
+    /// The descriptions that the given passes make of `tree`, of which `reference` has the exact values.
     pub fn new(tree: &'a Tree, passes: &'a Passes, reference: &'a Reference<'a>) -> Self {
         let [plain, base, matrix, bias] = [const { OnceCell::new() }; 4];
         Trees {
             tree,
             passes,
             reference,
-            lost: [const { OnceCell::new() }; Function::ALL.len()],
+            least_losses: [const { OnceCell::new() }; Function::ALL.len()],
             plain,
             base,
             matrix,
@@ -61,20 +61,20 @@ impl<'a> Trees<'a> {
         }
     }
 
-    /// The exact numbers of the robot.
+    /// The exact values of the robot's functions.
     pub fn reference(&self) -> &Reference<'a> {
         self.reference
     }
 
-    /// Whether a description of the robot keeps the digits of what is computed on it.
-    fn keeps(&self, tree: &Tree, functions: &[Function]) -> bool {
-        functions.iter().all(|&function| self.reference.lost_on(tree, function) <= self.bearable(function))
+    /// Whether a description of the robot keeps the digits of the functions.
+    fn keeps_digits(&self, tree: &Tree, functions: &[Function]) -> bool {
+        functions.iter().all(|&function| self.reference.loss_on(tree, function) <= self.allowed_loss(function))
     }
 
-    /// How much of a function may be lost.
-    fn bearable(&self, function: Function) -> f64 {
-        let least = *self.lost[function as usize].get_or_init(|| self.reference.least_loss(function));
-        // Accelerations are quotients: even a small robot's have some more roundings.
+    /// The loss that a function may have.
+    fn allowed_loss(&self, function: Function) -> f64 {
+        let least = *self.least_losses[function as usize].get_or_init(|| self.reference.least_loss(function));
+        // Accelerations are quotients, which have more roundings even for a small robot.
         let few = if function == Function::ForwardDynamics { 4.0 * ROUNDINGS } else { ROUNDINGS };
         MOST_LOST_BY_DESCRIPTION * least.max(few)
     }
@@ -91,39 +91,38 @@ impl<'a> Trees<'a> {
         [cheapest, self.plain(), self.tree]
     }
 
-    /// A function on the cheapest description of the robot on which it keeps its digits; in the end on the model's own,
-    /// without passes over expressions. Forward dynamics is by the recursion.
+    /// A function on the cheapest description on which it keeps its digits. If there is none, on the model's own, without
+    /// passes over expressions. Forward dynamics is by the recursion.
     pub fn keeping_digits(&self, function: Function) -> Result<Expressions, PassError> {
-        let bearable = self.bearable(function);
+        let allowed_loss = self.allowed_loss(function);
         for tree in self.descriptions(function) {
             let expressions = simplified_on(tree, function, self.passes)?;
-            if self.reference.lost_by(function, |x| expressions.evaluate(x)) <= bearable {
+            if self.reference.loss_by(function, |x| expressions.evaluate(x)) <= allowed_loss {
                 return Ok(expressions);
             }
         }
         simplified_on(self.tree, function, &Passes { loops: self.passes.loops, ..Passes::none() })
     }
 
-    /// With the inertias as they are.
+    /// With the inertias of the model.
     pub fn plain(&self) -> &Tree {
         self.plain.get_or_init(|| {
             if self.passes.frames {
                 let cost = |tree: &Tree| inverse_price(tree) + matrix_price(tree);
-                self.as_far_as_kept(&MEASURED, |keeps| frames::chosen(self.tree, &cost, keeps))
+                self.without_loss(&MEASURED, |keeps_digits| frames::chosen(self.tree, &cost, keeps_digits))
             } else {
                 self.tree.clone()
             }
         })
     }
 
-    /// What `pass` makes of the robot if nothing stops it; where that costs digits, what it makes if each of its steps
-    /// must keep them.
-    fn as_far_as_kept(&self, functions: &[Function], pass: impl Fn(Keeps) -> Tree) -> Tree {
+    /// The tree that `pass` makes. If that costs digits, the one that it makes if each of its steps must keep them.
+    fn without_loss(&self, functions: &[Function], pass: impl Fn(KeepsDigits) -> Tree) -> Tree {
         let all = pass(&|_| true);
-        if self.keeps(&all, functions) { all } else { pass(&|tree| self.keeps(tree, functions)) }
+        if self.keeps_digits(&all, functions) { all } else { pass(&|tree| self.keeps_digits(tree, functions)) }
     }
 
-    /// Of base parameters: joint forces, the mass matrix and the energies of the whole mechanism are the same for them.
+    /// With base parameters, for which joint forces, the mass matrix and the total energies are the same.
     fn base(&self) -> &Tree {
         self.base.get_or_init(|| self.regrouped(Vanishing::SecondMomentZz))
     }
@@ -133,12 +132,12 @@ impl<'a> Trees<'a> {
         if !self.passes.base_parameters {
             return plain.clone();
         }
-        self.as_far_as_kept(&[FORCES, MATRIX].concat(), |keeps| {
+        self.without_loss(&[FORCES, MATRIX].concat(), |keeps_digits| {
             let mut tree = plain.clone();
             for body in (0..tree.bodies.len()).rev() {
                 let mut other = tree.clone();
                 move_to_parent(&mut other, body, vanishing);
-                if keeps(&other) {
+                if keeps_digits(&other) {
                     tree = other;
                 }
             }
@@ -146,23 +145,23 @@ impl<'a> Trees<'a> {
         })
     }
 
-    /// For the energies, one to be chosen.
+    /// The candidates for the energies.
     pub fn energy(&self) -> Vec<Tree> {
         vec![self.regrouped(Vanishing::TensorYy), self.matrix().clone()]
     }
 
-    /// For the centre of mass, one to be chosen: with the inertias as they are, or with mass moved towards the ground.
+    /// The candidates for the centre of mass: with the inertias of the model, or with mass moved towards the ground.
     pub fn moments(&self) -> Vec<Tree> {
         self.kinematics().into_iter().chain([self.regrouped(Vanishing::TensorYy)]).collect()
     }
 
-    /// For positions and velocities, one to be chosen.
+    /// The candidates for positions and velocities.
     pub fn kinematics(&self) -> Vec<Tree> {
         let still = if self.passes.parallel_axes { still::everywhere(self.tree) } else { None };
         std::iter::once(self.tree.clone()).chain(still).collect()
     }
 
-    /// For the mass matrix and for gravity.
+    /// For the mass matrix and gravity forces.
     pub fn matrix(&self) -> &Tree {
         self.matrix.get_or_init(|| {
             let stilled = self.stilled(MATRIX, &matrix_price);
@@ -175,7 +174,8 @@ impl<'a> Trees<'a> {
         self.bias.get_or_init(|| {
             let mut bias = self.stilled(FORCES, &inverse_price);
             if self.passes.base_parameters && self.passes.axis_masses {
-                bias = self.as_far_as_kept(FORCES, |keeps| axis_masses::placed(&bias, &inverse_price, keeps));
+                bias =
+                    self.without_loss(FORCES, |keeps_digits| axis_masses::placed(&bias, &inverse_price, keeps_digits));
             }
             self.in_unit(FORCES, bias, inverse_dynamics)
         })
@@ -183,7 +183,7 @@ impl<'a> Trees<'a> {
 
     fn stilled(&self, functions: &[Function], cost: Cost) -> Tree {
         if self.passes.parallel_axes {
-            self.as_far_as_kept(functions, |keeps| still::stilled(self.base(), cost, keeps))
+            self.without_loss(functions, |keeps_digits| still::stilled(self.base(), cost, keeps_digits))
         } else {
             self.base().clone()
         }
@@ -194,7 +194,7 @@ impl<'a> Trees<'a> {
             return tree;
         }
         let other = units::chosen(&tree, &expressions(&tree));
-        if self.keeps(&other, functions) { other } else { tree }
+        if self.keeps_digits(&other, functions) { other } else { tree }
     }
 }
 
@@ -206,8 +206,8 @@ fn matrix_price(tree: &Tree) -> u32 {
     mass_matrix(tree).price()
 }
 
-/// What inverse dynamics and the mass matrix cost, without the passes over expressions: these take most of the time,
-/// and what they gain differs little from choice to choice.
+/// Costs are counted without the passes over expressions, which would take most of the time and whose gain differs little
+/// between descriptions.
 fn inverse_dynamics(tree: &Tree) -> Expressions {
     traced_on(tree, Function::InverseDynamics)
 }

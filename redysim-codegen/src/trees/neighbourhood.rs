@@ -1,4 +1,4 @@
-//! A body with those around it, as a small tree of its own.
+//! A body with its neighbours, as a small tree of its own.
 
 use redysim_model::Tree;
 use redysim_model::inertia::Sym3;
@@ -13,11 +13,11 @@ const ABOVE: usize = 2;
 /// Generations of children that are kept.
 const BELOW: usize = 1;
 
-/// A part of a tree, and the places of its bodies in the whole.
+/// A part of a tree, and the indices of its bodies in the whole.
 pub struct Neighbourhood {
     /// The part.
     pub tree: Tree,
-    /// The index in the whole of each body; `None` for what stands for the rest.
+    /// The index in the whole of each body; `None` for a stand-in for the rest of the tree.
     origins: Vec<Option<usize>>,
 }
 
@@ -27,7 +27,7 @@ impl Neighbourhood {
         self.origins.iter().position(|origin| *origin == Some(body))
     }
 
-    /// Makes massless again what stands for the rest.
+    /// Makes the stand-ins massless again.
     pub fn relieve_stand_ins(&self, tree: &mut Tree) {
         for (body, origin) in tree.bodies.iter_mut().zip(&self.origins) {
             if origin.is_none() {
@@ -39,8 +39,8 @@ impl Neighbourhood {
 
 /// The body `body` with its parent, its parent's parent, its children and theirs.
 ///
-/// Where the tree goes on towards the ground, two oblique joints give the part a motion with no zeros in it; where it
-/// goes on outwards, the last body kept gets an inertia with no zeros in it.
+/// Where the tree continues towards the ground, two oblique joints give the part a motion without zeros; where it
+/// continues outwards, the last body gets an inertia without zeros.
 pub fn neighbourhood(tree: &Tree, body: usize) -> Neighbourhood {
     let above: Vec<usize> = std::iter::successors(Some(body), |&at| tree.bodies[at].parent).take(ABOVE + 1).collect();
     let top = *above.last().expect("the body itself");

@@ -5,15 +5,15 @@
 //! child and the rest of the tree is turned once, by the sum of the two angles, instead of twice.
 
 use super::neighbourhood::neighbourhood;
-use super::{Cost, Keeps};
+use super::{Cost, KeepsDigits};
 use redysim_model::Tree;
 
 /// The tree, with those bodies in still axes for which that lowers the cost and that are kept: one after the other, or
 /// all at once.
-pub fn stilled(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
-    let one_by_one = one_by_one(tree, cost, keeps);
+pub fn stilled(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
+    let one_by_one = one_by_one(tree, cost, keeps_digits);
     match everywhere(tree) {
-        Some(all) if cost(&all) < cost(&one_by_one) && keeps(&all) => all,
+        Some(all) if cost(&all) < cost(&one_by_one) && keeps_digits(&all) => all,
         _ => one_by_one,
     }
 }
@@ -28,7 +28,7 @@ pub fn everywhere(tree: &Tree) -> Option<Tree> {
     all.bodies.iter().any(|body| body.still).then_some(all)
 }
 
-fn one_by_one(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
+fn one_by_one(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
     let mut tree = tree.clone();
     for body in 0..tree.bodies.len() {
         let beside = |child: usize| tree.bodies[child].is_parallel();
@@ -44,7 +44,7 @@ fn one_by_one(tree: &Tree, cost: Cost, keeps: Keeps) -> Tree {
         other.bodies[local].still = true;
         if cost(&other) < cost(&part.tree) {
             tree.bodies[body].still = true;
-            if !keeps(&tree) {
+            if !keeps_digits(&tree) {
                 tree.bodies[body].still = false;
             }
         }

@@ -1,4 +1,4 @@
-//! The unit of length that makes the constant 1 which multiplies most.
+//! The choice of the unit of length: the constant with the most products becomes 1.
 
 use crate::expressions::Expressions;
 use crate::graph::Node;
@@ -6,8 +6,8 @@ use redysim_model::Tree;
 use redysim_model::scaling::in_unit;
 use std::collections::HashMap;
 
-/// The tree in the unit of length that saves most products of `expressions`, which were traced on it; as it is where
-/// none saves any.
+/// The tree in the unit of length that saves most products of `expressions`, which were traced on it; unchanged if none
+/// saves any.
 pub fn chosen(tree: &Tree, expressions: &Expressions) -> Tree {
     let products = products(expressions);
     let saved = |constant: f64| products.get(&key(constant)).copied().unwrap_or(0);
@@ -26,7 +26,7 @@ pub fn chosen(tree: &Tree, expressions: &Expressions) -> Tree {
     if unit == 1.0 { tree.clone() } else { in_unit(tree, unit).unwrap_or_else(|| tree.clone()) }
 }
 
-/// The same for constants that differ by roundoff only.
+/// A key that is equal for constants that differ by roundoff only.
 fn key(constant: f64) -> u64 {
     (constant.abs().to_bits() + 16) >> 5
 }

@@ -10,7 +10,7 @@ pub fn without_turns(coordinate: u32) -> Ident {
     local(&format!("near_{coordinate}"))
 }
 
-/// An angle as an expression of the coordinates. In sums coordinates stand [by name](without_turns).
+/// An angle as an expression of the coordinates. In sums, coordinates are read [without whole turns](without_turns).
 pub fn angle(angle: &Angle) -> TokenStream {
     let Angle { terms, constant: offset } = angle;
     let mut sum = TokenStream::new();

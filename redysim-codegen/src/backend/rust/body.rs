@@ -1,6 +1,6 @@
 //! A program as Rust: statements and expressions over `S: Scalar`.
 
-use crate::program::{Carried, Index, Kept, Loop, Program, Statement, Trig, Value};
+use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, Program, Statement, Trig, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -14,7 +14,7 @@ const GROUP: &str = "group";
 /// The constants of the group.
 const ROW: &str = "constants";
 
-/// The names that are not free for variables, beside those of arguments.
+/// Names that variables must not have, beside those of arguments.
 pub const RESERVED: [&str; 5] = [FROM_F64, SIN, COS, GROUP, ROW];
 
 /// The name of an argument or a local value.
@@ -25,7 +25,7 @@ pub fn local(name: &str) -> Ident {
 /// A number in full precision: the shortest digits that give the same `f64`.
 pub fn constant(value: f64) -> TokenStream {
     if !value.is_finite() {
-        // No checked model has one; should it come to that, the result is to show it.
+        // No checked model has such a number. If one arises all the same, the result shows it.
         return quote!(f64::NAN);
     }
     let digits: Literal = format!("{:?}", value.abs()).parse().expect("a finite number is a literal");
@@ -64,7 +64,7 @@ impl Printer<'_> {
 
     fn statement(&self, statement: &Statement) -> TokenStream {
         match statement {
-            Statement::Take { array, names } => {
+            Statement::Destructure { array, names } => {
                 let (array, names) = (trig(*array), patterns(names));
                 quote!(let [#(#names),*] = *#array;)
             }
@@ -87,8 +87,8 @@ impl Printer<'_> {
     }
 
     /// ```text
-    /// let mut last_w_a_x = w_link2_x;                       // what goes from body to body
-    /// let mut outward = [[S::zero(); 2]; 38];               // what is read elsewhere
+    /// let mut last_w_a_x = w_link2_x;                       // carried from body to body
+    /// let mut outward = [[S::zero(); 2]; 38];               // live-out: read after the loop
     /// for group in 0..38 {
     ///     let constants = &CONSTANTS[group];
     ///     let w_a_x = …;
@@ -97,9 +97,9 @@ impl Printer<'_> {
     /// }
     /// ```
     ///
-    /// An array from a closure would not have to be set to zero first, but where the compiler does not inline the
-    /// closure, what goes from body to body goes through memory.
-    fn sweep(&self, Loop { groups, ascending, carried, kept, constants, reads, body }: &Loop) -> TokenStream {
+    /// `array::from_fn` would not have to set the array to zero first, but where the compiler does not inline its closure,
+    /// carried variables go through memory.
+    fn sweep(&self, Loop { groups, ascending, carried, live_out, constants, reads, body }: &Loop) -> TokenStream {
         let (group, row) = (local(GROUP), local(ROW));
         let length = Literal::usize_unsuffixed(*groups);
         let range = if *ascending { quote!(0..#length) } else { quote!((0..#length).rev()) };
@@ -111,15 +111,15 @@ impl Printer<'_> {
             let (name, next) = (local(name), local(next));
             quote!(#name = #next;)
         });
-        let room = kept.iter().map(|Kept { array, values }| {
-            let (array, width) = (local(array), Literal::usize_unsuffixed(values.len()));
+        let array = live_out.iter().map(|LiveOutArray { name, columns }| {
+            let (array, width) = (local(name), Literal::usize_unsuffixed(columns.len()));
             quote!(let mut #array = [[S::zero(); #width]; #length];)
         });
-        let keep = kept.iter().map(|Kept { array, values }| {
-            let (array, values) = (local(array), values.iter().map(|name| local(name)));
+        let store = live_out.iter().map(|LiveOutArray { name, columns }| {
+            let (array, values) = (local(name), columns.iter().map(|name| local(name)));
             quote!(#array[#group] = [#(#values),*];)
         });
-        let reads = reads.iter().map(|(array, names)| {
+        let reads = reads.iter().map(|LoopRead { array, names }| {
             let (array, names) = (local(array), patterns(names));
             quote!(let [#(#names),*] = #array[#group];)
         });
@@ -128,7 +128,7 @@ impl Printer<'_> {
         let code = body.iter().map(|statement| self.statement(statement));
         quote! {
             #(#starts)*
-            #(#room)*
+            #(#array)*
             {
                 #table
                 for #group in #range {
@@ -136,13 +136,13 @@ impl Printer<'_> {
                     #(#reads)*
                     #(#code)*
                     #(#steps)*
-                    #(#keep)*
+                    #(#store)*
                 }
             }
         }
     }
 
-    /// What a loop carries on before its first group.
+    /// The value of a carried variable before the first group.
     fn start(&self, value: &Value) -> TokenStream {
         if *value == Value::Constant(0.0) { quote!(S::zero()) } else { self.value(value, Binding::Lowest) }
     }
@@ -169,7 +169,7 @@ impl Printer<'_> {
                 let (array, place) = (trig(*array), index(*place));
                 return quote!(#array[#place]);
             }
-            Value::Kept(array, group, column) => {
+            Value::LiveOut(array, group, column) => {
                 let (array, [group, column]) = (local(array), [*group, *column].map(Literal::usize_unsuffixed));
                 return quote!(#array[#group][#column]);
             }

@@ -1,4 +1,4 @@
-//! What the documentation of a generated function says.
+//! The documentation of a generated function.
 
 use crate::functions::TracedFunction;
 use crate::pruning::Pruning;
@@ -19,7 +19,7 @@ pub fn paragraphs(traced: &TracedFunction, model: &Model) -> Vec<String> {
     paragraphs
 }
 
-/// What a person who compiles is told of pruning that came to nothing.
+/// The compiler warning for a function whose tolerance did not hold.
 pub fn warning(traced: &TracedFunction) -> Option<String> {
     let Pruning { tolerance, worst, states, .. } = traced.pruning.filter(|pruning| !pruning.holds)?;
     Some(format!(
@@ -51,7 +51,7 @@ fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, functio
     )
 }
 
-/// What the error is a share of.
+/// The scale of which an error is a share.
 fn scale(function: Function) -> &'static str {
     match function.signature().result {
         Shape::MassMatrix => "√(M_ii M_jj) at its largest",
@@ -77,7 +77,7 @@ fn ranges(model: &Model) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::functions::trace_scene;
+    use crate::functions::trace_model;
     use crate::passes::Passes;
     use redysim_model::Scene;
 
@@ -88,7 +88,7 @@ mod tests {
                     range = { position = [0, 1], velocity = 1, acceleration = 1 }";
         let model = Model::from_toml(text, "rod.toml").expect("a good model").model;
         let scene = Scene { tolerance: Some(0.01), ..Scene::default() };
-        let mut function = trace_scene(&model, &scene, &Passes::all()).expect("a range").swap_remove(0);
+        let mut function = trace_model(&model, &scene, &Passes::all()).expect("a range").swap_remove(0);
         assert_eq!(warning(&function), None);
         function.pruning = function.pruning.map(|pruning| Pruning { worst: 0.02, holds: false, ..pruning });
         assert_eq!(

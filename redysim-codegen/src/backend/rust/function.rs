@@ -6,7 +6,7 @@ use super::{documentation, length, results};
 use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::functions::TracedFunction;
-use crate::program::{Names, program};
+use crate::program::{NamingContext, program};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, Model, Outline};
@@ -54,8 +54,8 @@ impl Writer<'_> {
         (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
     }
 
-    /// One function with its documentation: of coordinates, and of a posture. What both compute after the sines and
-    /// cosines is a function of its own, which becomes part of either, so that no posture goes through memory.
+    /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and cosines
+    /// is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, traced: &TracedFunction) -> TokenStream {
         let TracedFunction { function, ref expressions, .. } = *traced;
         let signature = function.signature();
@@ -64,7 +64,7 @@ impl Writer<'_> {
         let head_inlined = head_inlined(function, outline, angles.len(), runtime);
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let reserved = [arguments.as_slice(), &RESERVED].concat();
-        let program = program(expressions, &Names { reserved: &reserved, bodies, angles });
+        let program = program(expressions, &NamingContext { reserved: &reserved, bodies, angles });
         let result = |outputs: &[TokenStream]| results::value(signature.result, outline, outputs, runtime);
         let body = Printer { arguments: &arguments }.body(&program, result);
         let paragraphs = documentation::paragraphs(traced, model);
@@ -95,8 +95,8 @@ impl Writer<'_> {
         }
     }
 
-    /// The statement that computes the sines and cosines that one function needs, and those of all angles, of which
-    /// what it never reads is zero.
+    /// The statement that computes the sines and cosines that one function needs, and the arrays of those of all angles,
+    /// with zeros for the others.
     fn needed_angles(&self, expressions: &Expressions) -> (Option<TokenStream>, TokenStream, TokenStream) {
         let needed = self.angles.needed_by(expressions);
         let values: Vec<TokenStream> = self.angles.at(needed.iter().copied()).map(angle).collect();
@@ -120,7 +120,7 @@ impl Writer<'_> {
     }
 }
 
-/// `body` in code for the instructions that the scalar stands on.
+/// `body`, compiled for the target features that the scalar needs.
 fn with_target_features(body: &TokenStream) -> TokenStream {
     quote!(S::with_target_features(#[inline(always)] || { #body }))
 }
@@ -130,7 +130,7 @@ pub fn arguments(function: Function) -> impl Iterator<Item = Ident> {
     function.signature().arguments.iter().map(|argument| local(argument.name()))
 }
 
-/// The names of those after the coordinates.
+/// The names of the arguments after the coordinates.
 fn others(function: Function) -> impl Iterator<Item = Ident> {
     arguments(function).skip(1)
 }
@@ -143,12 +143,12 @@ pub fn parameters(function: Function, outline: &Outline) -> impl Iterator<Item =
     })
 }
 
-/// The name of what a function computes after the sines and cosines.
+/// The name of the function that is given the sines and cosines.
 fn inlined(function: Function) -> Ident {
     format_ident!("{}_inlined", function.name())
 }
 
-/// Name, arguments and result of what a function computes after the sines and cosines of `angles` angles.
+/// Name, arguments and result of the function that is given the sines and cosines of `angles` angles.
 fn head_inlined(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
     let name = inlined(function);
     let angles = Literal::usize_unsuffixed(angles);

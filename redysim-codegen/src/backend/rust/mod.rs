@@ -36,8 +36,8 @@ pub fn mechanism(
     type_impls(outline, name, runtime, &operations, definitions.collect())
 }
 
-/// The `impl`s of a type whose model has faults: everything has its type and nothing has a meaning, so that the faults
-/// of the model are the only errors.
+/// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
+/// the model are the only errors.
 pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let angles = outline.size(Dimension::Coordinates);
     let posture = posture_head(outline, angles, runtime);

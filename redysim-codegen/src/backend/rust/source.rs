@@ -1,4 +1,4 @@
-//! The generated code as a formatted source file, for those who must review it or ship it.
+//! The generated code as a formatted source file, to be reviewed or shipped.
 
 use crate::generate::{Generated, implementation_with};
 use crate::passes::{PassError, Passes};
@@ -16,7 +16,7 @@ pub fn source_file(model: &Model, name: &str) -> Result<String, SourceError> {
     source_file_with(model, name, &Scene::default())
 }
 
-/// The same with no more than what is asked of the mechanism.
+/// The same with options.
 ///
 /// # Errors
 ///
@@ -69,7 +69,7 @@ impl std::fmt::Display for SourceError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             SourceError::InvalidName(name) => {
-                write!(f, "`{name}` is not a name for a Rust type; write for example `Robot`")
+                write!(f, "`{name}` is not a valid name for a Rust type; write for example `Robot`")
             }
             SourceError::Pass(error) => error.fmt(f),
         }

@@ -1,4 +1,4 @@
-//! The steps of a recursion, and which of them are alike.
+//! The steps of a recursion, and which of them are uniform.
 
 use super::is_operation;
 use crate::graph::{Edge, Graph, Node};
@@ -10,7 +10,7 @@ pub struct Steps {
     sweeps: Vec<&'static str>,
     /// The operations of each step, in order.
     nodes: HashMap<(&'static str, usize), Vec<usize>>,
-    /// The same, described by what they do and read.
+    /// The same, without constants and relative to the body.
     forms: HashMap<(&'static str, usize), Vec<Form>>,
     bodies: usize,
 }
@@ -18,13 +18,13 @@ pub struct Steps {
 /// An operation without its constants, described relative to its body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Form {
-    kind: Kind,
+    operation: Operation,
     operands: [Option<Operand>; 2],
 }
 
 /// The kind of an operation; whether a sum has a minus sign is a matter of signs, not of form.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum Operation {
     Sum,
     Product,
     Quotient,
@@ -52,7 +52,7 @@ enum Operand {
 }
 
 impl Steps {
-    /// The steps of a graph of which the nodes `live` are operations of the function.
+    /// The steps of a graph. `live` marks the operations of the function's code.
     pub fn of(graph: &Graph, live: &[bool], positions: &HashMap<usize, usize>) -> Steps {
         let mut steps = Steps { sweeps: Vec::new(), nodes: HashMap::new(), forms: HashMap::new(), bodies: 0 };
         let mut places = vec![0; graph.len()];
@@ -83,7 +83,7 @@ impl Steps {
             };
             let forms = nodes.iter().map(|&node| {
                 let mut operands = graph.node(node).operands().map(operand);
-                Form { kind: kind(graph.node(node)), operands: [operands.next(), operands.next()] }
+                Form { operation: operation(graph.node(node)), operands: [operands.next(), operands.next()] }
             });
             steps.forms.insert((sweep, body), forms.collect());
         }
@@ -100,16 +100,16 @@ impl Steps {
         self.nodes.get(&(sweep, body)).map_or(&[], Vec::as_slice)
     }
 
-    /// The longest run of bodies on which every sweep does the same as on the body `period` further on, cut to whole
-    /// groups of `period` bodies.
+    /// The longest run of uniform bodies: every sweep does the same on each as on the body `period` further on. Cut to
+    /// whole groups of `period` bodies.
     pub fn longest_run(&self, period: usize) -> Option<Range<usize>> {
-        let alike = |body: usize| {
+        let uniform = |body: usize| {
             self.sweeps().all(|sweep| self.forms.get(&(sweep, body)) == self.forms.get(&(sweep, body + period)))
         };
         let mut longest = 0..0;
         let mut start = 0;
         for body in 0..self.bodies {
-            if body + period < self.bodies && alike(body) {
+            if body + period < self.bodies && uniform(body) {
                 continue;
             }
             let end = (body + period).min(self.bodies);
@@ -123,12 +123,12 @@ impl Steps {
     }
 }
 
-fn kind(node: Node) -> Kind {
+fn operation(node: Node) -> Operation {
     debug_assert!(is_operation(node));
     match node {
-        Node::Add(..) | Node::Subtract(..) => Kind::Sum,
-        Node::Multiply(..) => Kind::Product,
-        Node::Divide(..) => Kind::Quotient,
-        _ => Kind::Root,
+        Node::Add(..) | Node::Subtract(..) => Operation::Sum,
+        Node::Multiply(..) => Operation::Product,
+        Node::Divide(..) => Operation::Quotient,
+        _ => Operation::Root,
     }
 }
