@@ -224,7 +224,7 @@ fn compiled_functions_keep_their_digits_on_trees_of_every_style() {
             let reference = Reference::at(&tree, 1);
             let computed = [Function::InverseDynamics, Function::MassMatrix, Function::ForwardDynamics];
             for (worst, function) in worst.iter_mut().zip(computed) {
-                *worst = worst.max(reference.lost_by(function, |x| evaluated(&functions, function.name(), x)));
+                *worst = worst.max(reference.loss_by(function, |x| evaluated(&functions, function.name(), x)));
             }
         }
         println!("{style:?}: forces {:.1e}, matrix {:.1e}, accelerations {:.1e}", worst[0], worst[1], worst[2]);

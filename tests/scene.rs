@@ -45,8 +45,8 @@ redysim! {
     struct FromDeclaration("models/test/scene.toml", functions = [energy]);
 }
 
-/// A number's array of fixed length, as many elements as a posture has angles.
-fn angles<const Q: usize, const A: usize>(_: redysim::Posture<f64, Q, A>) -> usize {
+/// The number of angles of joint trigonometry.
+fn angles<const Q: usize, const A: usize>(_: redysim::JointTrig<f64, Q, A>) -> usize {
     A
 }
 
@@ -59,7 +59,7 @@ fn a_scene_of_few_functions_computes_the_same_bits() {
         assert_eq!(Few::inverse_dynamics(&q, &v, &a), Kr5::inverse_dynamics(&q, &v, &a));
         assert_eq!(Few::mass_matrix(&q), Kr5::mass_matrix(&q));
         assert_eq!(InverseDynamics::inverse_dynamics(&FewByDerive, &q, &v, &a), Kr5::inverse_dynamics(&q, &v, &a));
-        assert_eq!(Few::mass_matrix_at(&Few::posture(&q)), Kr5::mass_matrix(&q));
+        assert_eq!(Few::mass_matrix_with_trig(&Few::joint_trig(&q)), Kr5::mass_matrix(&q));
         assert_eq!(Weight::gravity_forces(&q), Kr5::gravity_forces(&q));
     }
 }
@@ -95,7 +95,7 @@ fn the_declaration_wins_over_the_file() {
 
 /// The sixth link turns about its own axis, and the first about the vertical: neither changes how gravity pulls.
 #[test]
-fn a_posture_has_the_angles_that_the_scene_needs() {
-    assert_eq!(angles(Weight::posture(&[0.0; 6])), Weight::OPS.gravity_forces.trig as usize);
-    assert!(angles(Weight::posture(&[0.0; 6])) < angles(Kr5::posture(&[0.0; 6])));
+fn joint_trigonometry_has_the_angles_of_the_selected_functions_only() {
+    assert_eq!(angles(Weight::joint_trig(&[0.0; 6])), Weight::OPS.gravity_forces.trig as usize);
+    assert!(angles(Weight::joint_trig(&[0.0; 6])) < angles(Kr5::joint_trig(&[0.0; 6])));
 }

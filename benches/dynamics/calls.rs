@@ -3,7 +3,7 @@
 use crate::numbers::Numbers;
 use crate::random::Random;
 use criterion::{Criterion, Throughput};
-use redysim::{ForwardDynamics, InverseDynamics, MassMatrix, Mechanism, Posture, TreeDynamics, Vector};
+use redysim::{ForwardDynamics, InverseDynamics, JointTrig, MassMatrix, Mechanism, TreeDynamics, Vector};
 use std::f64::consts::PI;
 use std::hint::black_box;
 
@@ -84,20 +84,24 @@ pub fn other_functions<S: Numbers, M: TreeDynamics<S>>(
 }
 
 /// The sines and cosines, and inverse dynamics, forward dynamics and the mass matrix where they are there already.
-pub fn with_posture<S: Numbers, const N: usize, const A: usize>(
+pub fn with_joint_trig<S: Numbers, const N: usize, const A: usize>(
     criterion: &mut Criterion,
     robot: &str,
-    posture: impl Fn(&[S; N]) -> Posture<S, N, A>,
+    joint_trig: impl Fn(&[S; N]) -> JointTrig<S, N, A>,
     (inverse, forward, matrix): (
-        impl Fn(&Posture<S, N, A>, &[S; N], &[S; N]) -> [S; N],
-        impl Fn(&Posture<S, N, A>, &[S; N], &[S; N]) -> [S; N],
-        impl Fn(&Posture<S, N, A>) -> [[S; N]; N],
+        impl Fn(&JointTrig<S, N, A>, &[S; N], &[S; N]) -> [S; N],
+        impl Fn(&JointTrig<S, N, A>, &[S; N], &[S; N]) -> [S; N],
+        impl Fn(&JointTrig<S, N, A>) -> [[S; N]; N],
     ),
 ) {
     let states = states::<S, [S; N], [S; N]>(N, N);
-    timed::<S, _, _>(criterion, [robot, "posture", S::NAME], &states, |state| posture(&state.q));
-    let states: Vec<_> = states.into_iter().map(|state| (posture(&state.q), state.v, state.input)).collect();
-    timed::<S, _, _>(criterion, [robot, "inverse_dynamics_at", S::NAME], &states, |(at, v, a)| inverse(at, v, a));
-    timed::<S, _, _>(criterion, [robot, "forward_dynamics_at", S::NAME], &states, |(at, v, tau)| forward(at, v, tau));
-    timed::<S, _, _>(criterion, [robot, "mass_matrix_at", S::NAME], &states, |(at, _, _)| matrix(at));
+    timed::<S, _, _>(criterion, [robot, "joint_trig", S::NAME], &states, |state| joint_trig(&state.q));
+    let states: Vec<_> = states.into_iter().map(|state| (joint_trig(&state.q), state.v, state.input)).collect();
+    timed::<S, _, _>(criterion, [robot, "inverse_dynamics_with_trig", S::NAME], &states, |(at, v, a)| {
+        inverse(at, v, a)
+    });
+    timed::<S, _, _>(criterion, [robot, "forward_dynamics_with_trig", S::NAME], &states, |(at, v, tau)| {
+        forward(at, v, tau)
+    });
+    timed::<S, _, _>(criterion, [robot, "mass_matrix_with_trig", S::NAME], &states, |(at, _, _)| matrix(at));
 }

@@ -13,7 +13,7 @@ mod processor;
 #[path = "../../tests/common/random.rs"]
 mod random;
 
-use calls::{main_functions, other_functions, with_posture};
+use calls::{main_functions, other_functions, with_joint_trig};
 use criterion::{Criterion, criterion_group};
 use numbers::Numbers;
 use redysim::generic::{GenericMechanism, Model};
@@ -39,15 +39,16 @@ redysim! {
 fn kr5<S: Numbers>(criterion: &mut Criterion) {
     main_functions::<S, _>(criterion, "kr5", S::NAME, &Kr5);
     other_functions::<S, _>(criterion, "kr5", S::NAME, &Kr5);
-    let functions = (Kr5::inverse_dynamics_at::<S>, Kr5::forward_dynamics_at, Kr5::mass_matrix_at);
-    with_posture(criterion, "kr5", Kr5::posture, functions);
+    let functions = (Kr5::inverse_dynamics_with_trig::<S>, Kr5::forward_dynamics_with_trig, Kr5::mass_matrix_with_trig);
+    with_joint_trig(criterion, "kr5", Kr5::joint_trig, functions);
 }
 
 fn gripper<S: Numbers>(criterion: &mut Criterion) {
     main_functions::<S, _>(criterion, "gripper", S::NAME, &Gripper);
     other_functions::<S, _>(criterion, "gripper", S::NAME, &Gripper);
-    let functions = (Gripper::inverse_dynamics_at::<S>, Gripper::forward_dynamics_at, Gripper::mass_matrix_at);
-    with_posture(criterion, "gripper", Gripper::posture, functions);
+    let functions =
+        (Gripper::inverse_dynamics_with_trig::<S>, Gripper::forward_dynamics_with_trig, Gripper::mass_matrix_with_trig);
+    with_joint_trig(criterion, "gripper", Gripper::joint_trig, functions);
 }
 
 /// Its functions are long, and the others would double the time to compile.

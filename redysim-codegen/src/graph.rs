@@ -4,8 +4,7 @@
 //! one node, and a − b is b − a seen from the other side. Operands always have smaller indices than the node that
 //! uses them, so every walk over the graph is a loop over indices.
 
-use crate::hash::FastMap;
-use std::hash::{Hash, Hasher};
+use rustc_hash::FxHashMap;
 
 /// A value: a node, or its negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -44,7 +43,7 @@ impl std::ops::Neg for Edge {
 }
 
 /// One operation. Operands of products and sums are ordered and carry no sign that could stand outside.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
     /// Element `index` of argument `argument` of the function.
     Input {
@@ -69,24 +68,6 @@ pub enum Node {
     Cos(Edge),
     /// The square root of a.
     Sqrt(Edge),
-}
-
-impl Hash for Node {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        let word = |edge: Edge| u64::from(edge.node) << 1 | u64::from(edge.negative);
-        let (kind, word) = match *self {
-            Node::Input { argument, index } => (0, u64::from(argument) << 32 | u64::from(index)),
-            Node::Constant(bits) => (1, bits),
-            Node::Add(a, b) => (2, word(a) << 31 ^ word(b)),
-            Node::Subtract(a, b) => (3, word(a) << 31 ^ word(b)),
-            Node::Multiply(a, b) => (4, word(a) << 31 ^ word(b)),
-            Node::Divide(a, b) => (5, word(a) << 31 ^ word(b)),
-            Node::Sin(a) => (6, word(a)),
-            Node::Cos(a) => (7, word(a)),
-            Node::Sqrt(a) => (8, word(a)),
-        };
-        state.write_u64(word ^ (kind << 60));
-    }
 }
 
 impl Node {
@@ -131,7 +112,7 @@ pub struct Graph {
     names: Vec<Option<Name>>,
     steps: Vec<Option<Step>>,
     current_step: Option<Step>,
-    indices: FastMap<Node, u32>,
+    indices: FxHashMap<Node, u32>,
 }
 
 impl Graph {

@@ -44,7 +44,6 @@ pub mod symbol;
 mod backend;
 mod forward_dynamics;
 mod generate;
-mod hash;
 mod policies;
 mod program;
 mod pruning;

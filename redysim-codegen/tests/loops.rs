@@ -12,7 +12,9 @@ fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
         implementation_with(model, &format_ident!("Robot"), &quote!(redysim_runtime), &Scene::default(), passes)
             .expect("no pass changes a value");
     let text = without_spaces(tokens);
-    let start = |name: &str| text.find(&format!("pubfn{name}_at<")).expect("every function has a form of a posture");
+    let start = |name: &str| {
+        text.find(&format!("pubfn{name}_with_trig<")).expect("every function takes joint trigonometry, too")
+    };
     let body = |name: &str| text[start(name)..].split("pubfn").nth(1).unwrap_or_default().to_string();
     operations.into_iter().map(|(function, _)| (function.to_string(), body(function.name()))).collect()
 }

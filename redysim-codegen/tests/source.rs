@@ -68,7 +68,7 @@ fn a_scene_has_its_functions_and_their_traits_only() {
     let source = source_file_with(&model("fourbar.toml"), "Fourbar", &scene).unwrap();
     for &function in Function::ALL {
         let name = function.name();
-        for form in [format!("pub fn {name}<"), format!("pub fn {name}_at<"), format!("// {name} ")] {
+        for form in [format!("pub fn {name}<"), format!("pub fn {name}_with_trig<"), format!("// {name} ")] {
             assert_eq!(source.contains(&form), functions.contains(function), "{form}");
         }
     }
@@ -86,7 +86,9 @@ fn a_stub_has_what_the_scene_asks_for() {
     let outline = Outline { functions, ..Outline::default() };
     let stub = stub(&outline, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
     assert!(
-        stub.contains("pub fn energy") && stub.contains("pub fn energy_at") && stub.contains("MechanicalEnergy < S >")
+        stub.contains("pub fn energy")
+            && stub.contains("pub fn energy_with_trig")
+            && stub.contains("MechanicalEnergy < S >")
     );
     assert!(!stub.contains("mass_matrix") && !stub.contains("MassMatrix") && !stub.contains("LoopClosure"));
 }

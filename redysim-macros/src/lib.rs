@@ -33,7 +33,7 @@ use proc_macro::TokenStream;
 /// }
 /// ```
 ///
-/// - `functions = [..]`: only these, with their forms `…_at` and the angles they need in `posture`, and only the traits
+/// - `functions = [..]`: only these, with their forms `…_with_trig` and the angles they need in `joint_trig`, and only the traits
 ///   that they make up; `OPS` has no operations for the others.
 /// - `locked = { joint6 = "0 deg", slide = 0.3 }`: joints, by their names or those of their links, are held at these
 ///   coordinates, as if they were fixed there.

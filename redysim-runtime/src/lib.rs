@@ -21,11 +21,11 @@ pub mod dual;
 mod floats;
 pub mod function;
 pub mod integrate;
+mod joint_trig;
 #[cfg(feature = "lanes")]
 pub mod lanes;
 pub mod mechanism;
 pub mod operations;
-pub mod posture;
 #[cfg(feature = "lanes")]
 mod registers;
 pub mod scalar;
@@ -47,12 +47,12 @@ pub use integrate::{
     Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,
     Radau5, SemiImplicitEuler, Solution, Statistics, Step,
 };
+pub use joint_trig::JointTrig;
 pub use mechanism::{
     BiasForces, CenterOfMass, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
     LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
 };
 pub use operations::OperationCount;
-pub use posture::Posture;
 pub use scalar::{Real, Scalar};
 pub use simulate::{ForwardSimulation, SimulationState};
 pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};

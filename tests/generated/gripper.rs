@@ -107,12 +107,12 @@ impl Gripper {
         },
         ..::redysim_runtime::Operations::NONE
     };
-    /// Coordinates with the sines and cosines of all angles: computed once, they serve every function whose
-    /// name ends in `_at`.
+    /// The coordinates with the sines and cosines of all angles, computed once for every function whose
+    /// name ends in `_with_trig`.
     #[inline]
-    pub fn posture<S: ::redysim_runtime::Scalar>(
+    pub fn joint_trig<S: ::redysim_runtime::Scalar>(
         q: &[S; 4],
-    ) -> ::redysim_runtime::Posture<S, 4, 7> {
+    ) -> ::redysim_runtime::JointTrig<S, 4, 7> {
         S::with_target_features(
             #[inline(always)]
             || {
@@ -131,7 +131,7 @@ impl Gripper {
                     near_0 + near_3,
                     near_0 + near_1 + near_2,
                 ]);
-                ::redysim_runtime::Posture::new(q, &sin, &cos)
+                ::redysim_runtime::JointTrig::new(q, &sin, &cos)
             },
         )
     }
@@ -157,15 +157,15 @@ impl Gripper {
             },
         )
     }
-    /// [`inverse_dynamics`](Self::inverse_dynamics) where the sines and cosines are there already.
-    pub fn inverse_dynamics_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`inverse_dynamics`](Self::inverse_dynamics) with sines and cosines that are already computed.
+    pub fn inverse_dynamics_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
         v: &[S; 4],
         a: &[S; 4],
     ) -> [S; 4] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::inverse_dynamics_inlined(&at.q, &at.sin, &at.cos, v, a) },
+            || { Self::inverse_dynamics_inlined(&trig.q, &trig.sin, &trig.cos, v, a) },
         )
     }
     #[inline(always)]
@@ -272,15 +272,15 @@ impl Gripper {
             },
         )
     }
-    /// [`forward_dynamics`](Self::forward_dynamics) where the sines and cosines are there already.
-    pub fn forward_dynamics_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`forward_dynamics`](Self::forward_dynamics) with sines and cosines that are already computed.
+    pub fn forward_dynamics_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
         v: &[S; 4],
         tau: &[S; 4],
     ) -> [S; 4] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::forward_dynamics_inlined(&at.q, &at.sin, &at.cos, v, tau) },
+            || { Self::forward_dynamics_inlined(&trig.q, &trig.sin, &trig.cos, v, tau) },
         )
     }
     #[inline(always)]
@@ -405,13 +405,13 @@ impl Gripper {
             },
         )
     }
-    /// [`mass_matrix`](Self::mass_matrix) where the sines and cosines are there already.
-    pub fn mass_matrix_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`mass_matrix`](Self::mass_matrix) with sines and cosines that are already computed.
+    pub fn mass_matrix_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
     ) -> [[S; 4]; 4] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::mass_matrix_inlined(&at.q, &at.sin, &at.cos) },
+            || { Self::mass_matrix_inlined(&trig.q, &trig.sin, &trig.cos) },
         )
     }
     #[inline(always)]
@@ -475,14 +475,14 @@ impl Gripper {
             },
         )
     }
-    /// [`bias_forces`](Self::bias_forces) where the sines and cosines are there already.
-    pub fn bias_forces_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`bias_forces`](Self::bias_forces) with sines and cosines that are already computed.
+    pub fn bias_forces_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
         v: &[S; 4],
     ) -> [S; 4] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::bias_forces_inlined(&at.q, &at.sin, &at.cos, v) },
+            || { Self::bias_forces_inlined(&trig.q, &trig.sin, &trig.cos, v) },
         )
     }
     #[inline(always)]
@@ -551,13 +551,13 @@ impl Gripper {
             },
         )
     }
-    /// [`gravity_forces`](Self::gravity_forces) where the sines and cosines are there already.
-    pub fn gravity_forces_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`gravity_forces`](Self::gravity_forces) with sines and cosines that are already computed.
+    pub fn gravity_forces_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
     ) -> [S; 4] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::gravity_forces_inlined(&at.q, &at.sin, &at.cos) },
+            || { Self::gravity_forces_inlined(&trig.q, &trig.sin, &trig.cos) },
         )
     }
     #[inline(always)]
@@ -618,14 +618,14 @@ impl Gripper {
             },
         )
     }
-    /// [`energy`](Self::energy) where the sines and cosines are there already.
-    pub fn energy_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`energy`](Self::energy) with sines and cosines that are already computed.
+    pub fn energy_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
         v: &[S; 4],
     ) -> ::redysim_runtime::Energy<S> {
         S::with_target_features(
             #[inline(always)]
-            || { Self::energy_inlined(&at.q, &at.sin, &at.cos, v) },
+            || { Self::energy_inlined(&trig.q, &trig.sin, &trig.cos, v) },
         )
     }
     #[inline(always)]
@@ -733,14 +733,14 @@ impl Gripper {
             },
         )
     }
-    /// [`center_of_mass`](Self::center_of_mass) where the sines and cosines are there already.
-    pub fn center_of_mass_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`center_of_mass`](Self::center_of_mass) with sines and cosines that are already computed.
+    pub fn center_of_mass_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
         v: &[S; 4],
     ) -> ::redysim_runtime::CenterOfMass<S> {
         S::with_target_features(
             #[inline(always)]
-            || { Self::center_of_mass_inlined(&at.q, &at.sin, &at.cos, v) },
+            || { Self::center_of_mass_inlined(&trig.q, &trig.sin, &trig.cos, v) },
         )
     }
     #[inline(always)]
@@ -809,14 +809,14 @@ impl Gripper {
             },
         )
     }
-    /// [`link_kinematics`](Self::link_kinematics) where the sines and cosines are there already.
-    pub fn link_kinematics_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`link_kinematics`](Self::link_kinematics) with sines and cosines that are already computed.
+    pub fn link_kinematics_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
         v: &[S; 4],
     ) -> [::redysim_runtime::LinkState<S>; 4] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::link_kinematics_inlined(&at.q, &at.sin, &at.cos, v) },
+            || { Self::link_kinematics_inlined(&trig.q, &trig.sin, &trig.cos, v) },
         )
     }
     #[inline(always)]
@@ -930,13 +930,13 @@ impl Gripper {
             },
         )
     }
-    /// [`loop_residual`](Self::loop_residual) where the sines and cosines are there already.
-    pub fn loop_residual_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`loop_residual`](Self::loop_residual) with sines and cosines that are already computed.
+    pub fn loop_residual_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
     ) -> [S; 0] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::loop_residual_inlined(&at.q, &at.sin, &at.cos) },
+            || { Self::loop_residual_inlined(&trig.q, &trig.sin, &trig.cos) },
         )
     }
     #[inline(always)]
@@ -979,13 +979,13 @@ impl Gripper {
             },
         )
     }
-    /// [`loop_jacobian`](Self::loop_jacobian) where the sines and cosines are there already.
-    pub fn loop_jacobian_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`loop_jacobian`](Self::loop_jacobian) with sines and cosines that are already computed.
+    pub fn loop_jacobian_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
     ) -> [[S; 4]; 0] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::loop_jacobian_inlined(&at.q, &at.sin, &at.cos) },
+            || { Self::loop_jacobian_inlined(&trig.q, &trig.sin, &trig.cos) },
         )
     }
     #[inline(always)]
@@ -1029,14 +1029,14 @@ impl Gripper {
             },
         )
     }
-    /// [`loop_bias`](Self::loop_bias) where the sines and cosines are there already.
-    pub fn loop_bias_at<S: ::redysim_runtime::Scalar>(
-        at: &::redysim_runtime::Posture<S, 4, 7>,
+    /// [`loop_bias`](Self::loop_bias) with sines and cosines that are already computed.
+    pub fn loop_bias_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
         v: &[S; 4],
     ) -> [S; 0] {
         S::with_target_features(
             #[inline(always)]
-            || { Self::loop_bias_inlined(&at.q, &at.sin, &at.cos, v) },
+            || { Self::loop_bias_inlined(&trig.q, &trig.sin, &trig.cos, v) },
         )
     }
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! What is counted, and with which numbers.
 
-use redysim::{Posture, redysim};
+use redysim::{JointTrig, redysim};
 
 redysim! {
     /// Six joints in a row; the last link's rounded inertia belongs to no body.
@@ -26,18 +26,18 @@ type State<const N: usize> = [[f32; N]; 3];
 
 /// The same with sines and cosines instead of coordinates.
 struct At<const N: usize, const A: usize> {
-    posture: Posture<f32, N, A>,
+    trig: JointTrig<f32, N, A>,
     v: [f32; N],
     u: [f32; N],
 }
 
 fn at<const N: usize, const A: usize>(
     states: &[State<N>; CALLS],
-    posture: fn(&[f32; N]) -> Posture<f32, N, A>,
+    joint_trig: fn(&[f32; N]) -> JointTrig<f32, N, A>,
 ) -> [At<N, A>; CALLS] {
     core::array::from_fn(|index| {
         let [q, v, u] = states[index];
-        At { posture: posture(&q), v, u }
+        At { trig: joint_trig(&q), v, u }
     })
 }
 
@@ -51,20 +51,20 @@ fn kr5(visitor: &mut impl Visitor, states: &[State<6>; CALLS]) {
     visitor.visit("kr5_inverse_dynamics", states, |[q, v, a]| Kr5::inverse_dynamics(q, v, a));
     visitor.visit("kr5_forward_dynamics", states, |[q, v, tau]| Kr5::forward_dynamics(q, v, tau));
     visitor.visit("kr5_mass_matrix", states, |[q, _, _]| Kr5::mass_matrix(q));
-    let states = at(states, Kr5::posture);
-    visitor.visit("kr5_inverse_dynamics_at", &states, |s| Kr5::inverse_dynamics_at(&s.posture, &s.v, &s.u));
-    visitor.visit("kr5_forward_dynamics_at", &states, |s| Kr5::forward_dynamics_at(&s.posture, &s.v, &s.u));
-    visitor.visit("kr5_mass_matrix_at", &states, |s| Kr5::mass_matrix_at(&s.posture));
+    let states = at(states, Kr5::joint_trig);
+    visitor.visit("kr5_inverse_dynamics_with_trig", &states, |s| Kr5::inverse_dynamics_with_trig(&s.trig, &s.v, &s.u));
+    visitor.visit("kr5_forward_dynamics_with_trig", &states, |s| Kr5::forward_dynamics_with_trig(&s.trig, &s.v, &s.u));
+    visitor.visit("kr5_mass_matrix_with_trig", &states, |s| Kr5::mass_matrix_with_trig(&s.trig));
 }
 
 fn gripper(visitor: &mut impl Visitor, states: &[State<4>; CALLS]) {
     visitor.visit("gripper_inverse_dynamics", states, |[q, v, a]| Gripper::inverse_dynamics(q, v, a));
     visitor.visit("gripper_forward_dynamics", states, |[q, v, tau]| Gripper::forward_dynamics(q, v, tau));
     visitor.visit("gripper_mass_matrix", states, |[q, _, _]| Gripper::mass_matrix(q));
-    let states = at(states, Gripper::posture);
-    visitor.visit("gripper_inverse_dynamics_at", &states, |s| Gripper::inverse_dynamics_at(&s.posture, &s.v, &s.u));
-    visitor.visit("gripper_forward_dynamics_at", &states, |s| Gripper::forward_dynamics_at(&s.posture, &s.v, &s.u));
-    visitor.visit("gripper_mass_matrix_at", &states, |s| Gripper::mass_matrix_at(&s.posture));
+    let states = at(states, Gripper::joint_trig);
+    visitor.visit("gripper_inverse_dynamics_with_trig", &states, |s| Gripper::inverse_dynamics_with_trig(&s.trig, &s.v, &s.u));
+    visitor.visit("gripper_forward_dynamics_with_trig", &states, |s| Gripper::forward_dynamics_with_trig(&s.trig, &s.v, &s.u));
+    visitor.visit("gripper_mass_matrix_with_trig", &states, |s| Gripper::mass_matrix_with_trig(&s.trig));
 }
 
 /// Numbers that fill intervals evenly: multiples of the golden ratio, without whole parts. Coordinates are up to π.

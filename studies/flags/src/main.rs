@@ -101,8 +101,8 @@ macro_rules! robots {
         let name = concat!($name, " ", stringify!($float));
         let states: States<$float, $size> = [std::f64::consts::PI, 3.0, 10.0].map(states);
         single(name, "plain", &$robot, &states);
-        let ns = calls(&states[0], |q| $robot::posture(q));
-        println!("{name} posture plain {ns:.2}");
+        let ns = calls(&states[0], |q| $robot::joint_trig(q));
+        println!("{name} joint_trig plain {ns:.2}");
         let dispatched: Dispatched<$robot> = $robot.dispatched();
         single(name, "dispatched", &dispatched, &states);
         batches!(name, $robot, &states, $float, $size);

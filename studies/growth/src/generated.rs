@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{Generated, implementation_with};
-use redysim_model::Model;
+use redysim_model::{Function, Model};
 use std::time::Instant;
 
 /// The code of one mechanism.
@@ -23,9 +23,10 @@ pub fn code(text: &str, passes: &Passes) -> Code {
     let loaded = Model::from_toml(text.to_owned(), "model.toml").unwrap_or_else(|faults| panic!("{faults}"));
     let name = format_ident!("Robot");
     let Generated { tokens, operations, .. } =
-        implementation_with(&loaded.model, &name, &quote!(::redysim::runtime), &loaded.scene, passes);
+        implementation_with(&loaded.model, &name, &quote!(::redysim::runtime), &loaded.scene, passes)
+            .unwrap_or_else(|error| panic!("{error}"));
     let seconds = begun.elapsed().as_secs_f64();
-    let flops = ["inverse_dynamics", "forward_dynamics", "mass_matrix"]
+    let flops = [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix]
         .map(|function| operations.iter().find(|(name, _)| *name == function).map_or(0, |(_, count)| count.flops()));
     Code { seconds, source: module(&tokens), flops }
 }

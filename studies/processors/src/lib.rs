@@ -50,7 +50,7 @@ macro_rules! main_functions {
 macro_rules! all_functions {
     ($name:literal $robot:ident $scalar:ident $angles:literal) => {
         main_functions!("single" $name $robot $scalar);
-        type At = redysim::Posture<$scalar, { $robot::NQ }, $angles>;
+        type At = redysim::JointTrig<$scalar, { $robot::NQ }, $angles>;
         type Energy = redysim::Energy<$scalar>;
         type Links = [redysim::LinkState<$scalar>; $robot::NL];
 
@@ -58,14 +58,14 @@ macro_rules! all_functions {
         exported!("single" $name $robot $scalar gravity_forces(q: &Row) -> Row);
         exported!("single" $name $robot $scalar energy(q: &Row, v: &Row) -> Energy);
         exported!("single" $name $robot $scalar link_kinematics(q: &Row, v: &Row) -> Links);
-        exported!("single" $name $robot $scalar posture(q: &Row) -> At);
-        exported!("single" $name $robot $scalar inverse_dynamics_at(at: &At, v: &Row, a: &Row) -> Row);
-        exported!("single" $name $robot $scalar forward_dynamics_at(at: &At, v: &Row, tau: &Row) -> Row);
-        exported!("single" $name $robot $scalar mass_matrix_at(at: &At) -> Matrix);
-        exported!("single" $name $robot $scalar bias_forces_at(at: &At, v: &Row) -> Row);
-        exported!("single" $name $robot $scalar gravity_forces_at(at: &At) -> Row);
-        exported!("single" $name $robot $scalar energy_at(at: &At, v: &Row) -> Energy);
-        exported!("single" $name $robot $scalar link_kinematics_at(at: &At, v: &Row) -> Links);
+        exported!("single" $name $robot $scalar joint_trig(q: &Row) -> At);
+        exported!("single" $name $robot $scalar inverse_dynamics_with_trig(at: &At, v: &Row, a: &Row) -> Row);
+        exported!("single" $name $robot $scalar forward_dynamics_with_trig(at: &At, v: &Row, tau: &Row) -> Row);
+        exported!("single" $name $robot $scalar mass_matrix_with_trig(at: &At) -> Matrix);
+        exported!("single" $name $robot $scalar bias_forces_with_trig(at: &At, v: &Row) -> Row);
+        exported!("single" $name $robot $scalar gravity_forces_with_trig(at: &At) -> Row);
+        exported!("single" $name $robot $scalar energy_with_trig(at: &At, v: &Row) -> Energy);
+        exported!("single" $name $robot $scalar link_kinematics_with_trig(at: &At, v: &Row) -> Links);
     };
 }
 

@@ -1,4 +1,4 @@
-//! One function of a mechanism: of coordinates, and of a posture.
+//! One function of a mechanism: of coordinates, and of precomputed joint trigonometry.
 
 use super::angles::{angle, without_turns};
 use super::body::{COS, Printer, RESERVED, SIN, local};
@@ -13,7 +13,7 @@ use redysim_model::{Function, Model, Outline};
 use redysim_runtime::function::{Argument, Dimension};
 
 /// The name of the argument that has the coordinates with the sines and cosines.
-const POSTURE: &str = "at";
+const TRIG: &str = "trig";
 
 /// Writes the inherent functions of one type.
 pub struct Writer<'a> {
@@ -26,19 +26,19 @@ pub struct Writer<'a> {
 
 impl Writer<'_> {
     /// The function that computes the sines and cosines of all angles.
-    pub fn posture(&self) -> TokenStream {
-        let head = posture_head(self.outline, self.angles.len(), self.runtime);
+    pub fn joint_trig(&self) -> TokenStream {
+        let head = joint_trig_head(self.outline, self.angles.len(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
         let (terms, angles) =
             (self.terms_of_sums(0..self.angles.len()), self.angles.at(0..self.angles.len()).map(angle));
         let body = with_target_features(&quote! {
             #terms
             let (sin, cos) = S::sin_cos_all([#(#angles),*]);
-            #runtime::Posture::new(#q, &sin, &cos)
+            #runtime::JointTrig::new(#q, &sin, &cos)
         });
         quote! {
-            /// Coordinates with the sines and cosines of all angles: computed once, they serve every function whose
-            /// name ends in `_at`.
+            /// The coordinates with the sines and cosines of all angles, computed once for every function whose
+            /// name ends in `_with_trig`.
             #[inline]
             pub #head {
                 #body
@@ -60,7 +60,8 @@ impl Writer<'_> {
         let TracedFunction { function, ref expressions, .. } = *traced;
         let signature = function.signature();
         let Writer { model, bodies, angles, outline, runtime } = *self;
-        let (head, head_at) = (head(function, outline, runtime), head_at(function, outline, angles.len(), runtime));
+        let (head, head_with_trig) =
+            (head(function, outline, runtime), head_with_trig(function, outline, angles.len(), runtime));
         let head_inlined = head_inlined(function, outline, angles.len(), runtime);
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let reserved = [arguments.as_slice(), &RESERVED].concat();
@@ -70,23 +71,25 @@ impl Writer<'_> {
         let paragraphs = documentation::paragraphs(traced, model);
         let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
-        let docs_at = format!(" [`{0}`](Self::{0}) where the sines and cosines are there already.", function.name());
-        let (inlined, q, at) = (inlined(function), local("q"), local(POSTURE));
+        let docs_with_trig =
+            format!(" [`{0}`](Self::{0}) with sines and cosines that are already computed.", function.name());
+        let (inlined, q, trig) = (inlined(function), local("q"), local(TRIG));
         let others: Vec<Ident> = others(function).collect();
         let (computed, sin, cos) = self.needed_angles(expressions);
         let of_coordinates = with_target_features(&quote! {
             #computed
             Self::#inlined(#q, #sin, #cos #(, #others)*)
         });
-        let of_posture = with_target_features(&quote!(Self::#inlined(&#at.#q, &#at.sin, &#at.cos #(, #others)*)));
+        let of_joint_trig =
+            with_target_features(&quote!(Self::#inlined(&#trig.#q, &#trig.sin, &#trig.cos #(, #others)*)));
         quote! {
             #(#[doc = #docs])*
             pub #head {
                 #of_coordinates
             }
-            #[doc = #docs_at]
-            pub #head_at {
-                #of_posture
+            #[doc = #docs_with_trig]
+            pub #head_with_trig {
+                #of_joint_trig
             }
             #[inline(always)]
             #head_inlined {
@@ -161,20 +164,20 @@ fn head_inlined(function: Function, outline: &Outline, angles: usize, runtime: &
 }
 
 /// Name, argument and result of the function that computes sines and cosines.
-pub fn posture_head(outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+pub fn joint_trig_head(outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
     let (nq, angles) = (length(outline, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
     let q = local("q");
-    quote!(fn posture<S: #runtime::Scalar>(#q: &[S; #nq]) -> #runtime::Posture<S, #nq, #angles>)
+    quote!(fn joint_trig<S: #runtime::Scalar>(#q: &[S; #nq]) -> #runtime::JointTrig<S, #nq, #angles>)
 }
 
-/// Name, arguments and result of a function of a posture with `angles` angles.
-pub fn head_at(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
-    let name = format_ident!("{}_at", function.name());
+/// Name, arguments and result of a function of the joint trigonometry of `angles` angles.
+pub fn head_with_trig(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let name = format_ident!("{}_with_trig", function.name());
     let (nq, angles) = (length(outline, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
-    let (at, others) = (local(POSTURE), parameters(function, outline).skip(1));
+    let (trig, others) = (local(TRIG), parameters(function, outline).skip(1));
     let output = results::output_type(function.signature().result, outline, runtime);
     quote!(fn #name<S: #runtime::Scalar>(
-        #at: &#runtime::Posture<S, #nq, #angles> #(, #others)*
+        #trig: &#runtime::JointTrig<S, #nq, #angles> #(, #others)*
     ) -> #output)
 }
 

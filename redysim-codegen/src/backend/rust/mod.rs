@@ -11,7 +11,7 @@ mod traits;
 
 use crate::angles::Angles;
 use crate::functions::TracedFunction;
-use function::{Writer, head, head_at, posture_head};
+use function::{Writer, head, head_with_trig, joint_trig_head};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, Model, Outline, Tree};
@@ -31,7 +31,7 @@ pub fn mechanism(
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
     let writer = Writer { model, bodies: &bodies, angles: &angles, outline, runtime };
     let definitions =
-        std::iter::once(writer.posture()).chain(functions.iter().map(|function| writer.function(function)));
+        std::iter::once(writer.joint_trig()).chain(functions.iter().map(|function| writer.function(function)));
     let operations: Vec<_> = functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect();
     type_impls(outline, name, runtime, &operations, definitions.collect())
 }
@@ -40,11 +40,11 @@ pub fn mechanism(
 /// the model are the only errors.
 pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let angles = outline.size(Dimension::Coordinates);
-    let posture = posture_head(outline, angles, runtime);
+    let joint_trig = joint_trig_head(outline, angles, runtime);
     let functions = outline.functions.iter();
-    let heads =
-        functions.flat_map(|function| [head(function, outline, runtime), head_at(function, outline, angles, runtime)]);
-    let definitions = std::iter::once(posture).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
+    let heads = functions
+        .flat_map(|function| [head(function, outline, runtime), head_with_trig(function, outline, angles, runtime)]);
+    let definitions = std::iter::once(joint_trig).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
     type_impls(outline, name, runtime, &[], definitions.collect())
 }
 
