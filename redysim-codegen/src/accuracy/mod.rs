@@ -10,7 +10,7 @@ pub mod with_error;
 
 use crate::random::Random;
 use double_double::{DoubleDouble, exact, rounded};
-use redysim_model::denoc::{self, Untraced};
+use redysim_model::denoc::{self, Trace, Untraced};
 use redysim_model::inertia::Sym3;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::{Function, Tree};
@@ -76,6 +76,12 @@ struct State {
     exact: Vec<(Function, Vec<f64>)>,
 }
 
+/// Rotates by the angles of a joint one after the other, as generated code does: the rounding errors are then those of
+/// generated code.
+struct AsGenerated;
+
+impl Trace<f64> for AsGenerated {}
+
 impl<'a> Reference<'a> {
     /// The robot `tree`, at coordinates within ±π rad or ±1 m.
     pub fn new(tree: &'a Tree) -> Self {
@@ -98,7 +104,7 @@ impl<'a> Reference<'a> {
 
     /// The loss of the recursion for `function` in `f64` on `tree`, another description of the robot.
     pub fn loss_on(&self, tree: &Tree, function: Function) -> f64 {
-        self.loss_by(function, |x| denoc::evaluate(function, tree, &Untraced, x))
+        self.loss_by(function, |x| denoc::evaluate(function, tree, &AsGenerated, x))
     }
 
     /// The loss of `function` in any description: that of the recursion on the model's own, with its numbers as they are
