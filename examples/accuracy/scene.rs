@@ -219,7 +219,7 @@ impl Energies {
 }
 
 impl Observer<f64, [f64; 5]> for Energies {
-    fn looks_within(&self, _from: f64, _to: f64) -> bool {
+    fn needs_dense_output(&self, _from: f64, _to: f64) -> bool {
         false
     }
 

@@ -3,9 +3,10 @@
 
 use core::marker::PhantomData;
 
+use super::algorithm::{EstimatesErrors, Formula};
+use super::driver::Driver;
 use super::interval::Interval;
-use super::method::{EstimatesErrors, Stepper};
-use super::progress::Progress;
+use super::step_control::{StepControl, Trial};
 use super::stiffness::StiffnessTest;
 use super::tolerance::{Absolute, Tolerances};
 use super::{IntegrationError, Integrator, Observer, Ode, Solution};
@@ -33,16 +34,16 @@ const STRETCH: f64 = 1.1;
 /// let end = Adaptive::<f64, RungeKutta4>::new().integrate(&mut decay, (0.0, 1.0), [1.0]);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Adaptive<'a, S, M> {
+pub struct Adaptive<'a, S, A> {
     tolerances: Tolerances<'a, S>,
     initial_step: Option<S>,
     max_step: Option<S>,
     max_steps: u64,
     stiffness_limit: Option<u64>,
-    method: PhantomData<M>,
+    method: PhantomData<A>,
 }
 
-impl<'a, S: Real, M> Adaptive<'a, S, M> {
+impl<'a, S: Real, A> Adaptive<'a, S, A> {
     /// The method with MATLAB's defaults: rtol 10⁻³, atol 10⁻⁶, steps of at most a tenth of the interval.
     pub fn new() -> Self {
         Self {
@@ -110,7 +111,7 @@ impl<'a, S: Real, M> Adaptive<'a, S, M> {
     }
 }
 
-impl<S: Real, M> Default for Adaptive<'_, S, M> {
+impl<S: Real, A> Default for Adaptive<'_, S, A> {
     fn default() -> Self {
         Self::new()
     }
@@ -124,7 +125,7 @@ pub(super) fn check_step<S: Real>(option: &'static str, size: Option<S>) -> Resu
     }
 }
 
-impl<S: Real, M: EstimatesErrors> Integrator<S> for Adaptive<'_, S, M> {
+impl<S: Real, A: EstimatesErrors> Integrator<S> for Adaptive<'_, S, A> {
     fn run<Y: Vector<S>>(
         &self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
@@ -137,22 +138,22 @@ impl<S: Real, M: EstimatesErrors> Integrator<S> for Adaptive<'_, S, M> {
         let rtol = self.tolerances.relative;
         let largest = self.max_step.unwrap_or(S::from_f64(0.1) * interval.length());
 
-        let mut stepper = M::start(ode, interval.from, start)?;
+        let mut driver = Driver::start::<A>(ode, interval, start, self.tolerances, observer)?;
+        let mut control = A::control();
         let mut size = match self.initial_step {
             Some(size) => size,
             None => {
                 let reach = interval.advance(S::zero(), largest.minimum(interval.length()));
-                stepper.first_size(ode, reach, &self.tolerances)?
+                control.first_size(&mut driver.formula, &mut driver.integration, reach)?
             }
         };
         let mut stiffness = StiffnessTest::new(self.stiffness_limit);
         loop {
-            let from = stepper.progress().t;
+            let from = driver.progress().t;
             let smallest = interval.smallest_step(from);
             size = size.minimum(largest).maximum(smallest);
-            let mut failures = 0;
-            let error = loop {
-                let statistics = &mut stepper.progress_mut().statistics;
+            let trial = loop {
+                let statistics = driver.progress().statistics;
                 if statistics.steps + statistics.rejected >= self.max_steps {
                     return Err(IntegrationError::TooManySteps { t: from, limit: self.max_steps });
                 }
@@ -165,35 +166,34 @@ impl<S: Real, M: EstimatesErrors> Integrator<S> for Adaptive<'_, S, M> {
                 if t == from {
                     return Err(IntegrationError::StepTooSmall { t, step: size });
                 }
-                let (error, fault) = match stepper.attempt(ode, t, &self.tolerances) {
-                    Ok(()) => (stepper.error(&self.tolerances), IntegrationError::StepTooSmall { t: from, step: size }),
+                let (error, fault) = match driver.attempt(t) {
+                    Ok(()) => {
+                        let error = driver.formula.error(&driver.integration.progress, &self.tolerances);
+                        (error, IntegrationError::StepTooSmall { t: from, step: size })
+                    }
                     Err(fault) => (S::from_f64(f64::INFINITY), fault),
                 };
+                let progress = driver.progress();
+                let trial = Trial { size: progress.step_size(), ratio: rtol / error, rejections: progress.rejections };
                 if error <= rtol {
-                    break error;
+                    break trial;
                 }
                 if size <= smallest {
                     return Err(fault);
                 }
-                stepper.progress_mut().statistics.rejected += 1;
-                size = smallest.maximum(stepper.shrinkage(rtol / error, failures) * size);
-                failures += 1;
+                driver.integration.progress.reject();
+                size = smallest.maximum(control.shrink(&mut driver.formula, trial) * size);
             };
-            let rest = (interval.to - stepper.progress().t_new).abs();
-            let suspects = stiffness.suspects(&mut stepper, rest, &self.tolerances);
-            let flow = super::show(&mut stepper, ode, observer, &self.tolerances)?;
-            stepper.accept();
-            let Progress { t, y, statistics, .. } = stepper.progress();
-            if flow.is_break() || *t == interval.to {
-                return Ok(Solution { t: *t, y: y.clone(), statistics: *statistics });
+            let rest = (interval.to - driver.progress().t_new).abs();
+            let suspects =
+                stiffness.suspects(&mut driver.formula, &driver.integration.progress, rest, &self.tolerances);
+            if driver.accept()?.is_break() {
+                return Ok(driver.solution());
             }
-            stepper.renew(ode)?;
             if suspects {
-                stiffness.confirm(&mut stepper, ode, rest, &self.tolerances)?;
+                stiffness.confirm(&mut driver.formula, &mut driver.integration, rest)?;
             }
-            if failures == 0 {
-                size = stepper.growth(rtol / error) * size;
-            }
+            size = control.grow(&mut driver.formula, trial) * size;
         }
     }
 }

@@ -1,9 +1,11 @@
 //! The pair of Dormand and Prince of orders 5 and 4, with steps of one size and with steps from tolerances.
 
 use super::adaptive::Adaptive;
+use super::algorithm::{Algorithm, EstimatesErrors};
 use super::explicit::Explicit;
 use super::fixed::FixedStep;
-use super::method::{EstimatesErrors, Method};
+use super::integration::Integration;
+use super::step_control::Elementary;
 use super::tableau::DORMAND_PRINCE;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
@@ -45,16 +47,20 @@ pub type Ode45<'a, S> = Adaptive<'a, S, DormandPrince>;
 #[derive(Clone, Copy, Debug)]
 pub enum DormandPrince {}
 
-impl EstimatesErrors for DormandPrince {}
+impl EstimatesErrors for DormandPrince {
+    type Control<S: Real, Y: Vector<S>> = Elementary;
 
-impl Method for DormandPrince {
-    type Stepper<S: Real, Y: Vector<S>> = Explicit<S, Y, 7>;
+    fn control<S: Real, Y: Vector<S>>() -> Elementary {
+        Elementary { error_exponent: DORMAND_PRINCE.error_exponent }
+    }
+}
 
-    fn start<S: Real, Y: Vector<S>>(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-        Explicit::new(&DORMAND_PRINCE, ode, t, y)
+impl Algorithm for DormandPrince {
+    type Formula<S: Real, Y: Vector<S>> = Explicit<Y, 7>;
+
+    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+        Explicit::new(&DORMAND_PRINCE, integration)
     }
 }

@@ -1,9 +1,11 @@
 //! The pair of Dormand and Prince of order 8, with steps of one size and with steps from tolerances.
 
 use super::adaptive::Adaptive;
+use super::algorithm::{Algorithm, EstimatesErrors};
 use super::explicit::Explicit;
 use super::fixed::FixedStep;
-use super::method::{EstimatesErrors, Method};
+use super::integration::Integration;
+use super::step_control::Elementary;
 use super::tableau::DORMAND_PRINCE_853;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
@@ -48,16 +50,20 @@ pub type Dop853<'a, S> = Adaptive<'a, S, DormandPrince853>;
 #[derive(Clone, Copy, Debug)]
 pub enum DormandPrince853 {}
 
-impl EstimatesErrors for DormandPrince853 {}
+impl EstimatesErrors for DormandPrince853 {
+    type Control<S: Real, Y: Vector<S>> = Elementary;
 
-impl Method for DormandPrince853 {
-    type Stepper<S: Real, Y: Vector<S>> = Explicit<S, Y, 16>;
+    fn control<S: Real, Y: Vector<S>>() -> Elementary {
+        Elementary { error_exponent: DORMAND_PRINCE_853.error_exponent }
+    }
+}
 
-    fn start<S: Real, Y: Vector<S>>(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-        Explicit::new(&DORMAND_PRINCE_853, ode, t, y)
+impl Algorithm for DormandPrince853 {
+    type Formula<S: Real, Y: Vector<S>> = Explicit<Y, 16>;
+
+    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+        Explicit::new(&DORMAND_PRINCE_853, integration)
     }
 }

@@ -2,8 +2,8 @@
 
 use core::mem::swap;
 
-use super::method::{Stepper, step_aside};
-use super::progress::{Progress, zeros};
+use super::algorithm::{Formula, StabilityEstimate};
+use super::integration::{Integration, Progress, zeros};
 use super::step::{Step, weighted_sum};
 use super::tableau::{ErrorEstimate, Tableau};
 use super::tolerance::Tolerances;
@@ -12,133 +12,112 @@ use crate::{Real, Vector};
 
 /// Takes the steps of an explicit Runge-Kutta method.
 #[derive(Clone, Debug)]
-pub struct Explicit<S, Y, const STAGES: usize> {
+pub struct Explicit<Y, const STAGES: usize> {
     tableau: &'static Tableau<STAGES>,
-    progress: Progress<S, Y>,
     /// The first is the derivative at the start of the step, number `tableau.main − 1` that at its end.
     stages: [Y; STAGES],
     scratch: Y,
 }
 
-impl<S: Real, Y: Vector<S>, const STAGES: usize> Explicit<S, Y, STAGES> {
-    /// Takes the start, evaluates the derivative there, and makes all room that the steps will need.
+impl<Y, const STAGES: usize> Explicit<Y, STAGES> {
+    /// Evaluates the derivative at the start, and makes all room that the steps will need.
     ///
     /// # Errors
-    /// If the state or its derivative is infinite or not a number.
-    pub fn new(
+    /// If the derivative is infinite or not a number.
+    pub fn new<S: Real, O: Ode<S, Y> + ?Sized>(
         tableau: &'static Tableau<STAGES>,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self, IntegrationError<S>> {
-        let zero = zeros(&y);
-        let mut this = Self {
-            tableau,
-            progress: Progress::new(t, y)?,
-            stages: core::array::from_fn(|_| zero.clone()),
-            scratch: zero,
-        };
-        this.progress.evaluate(ode, t, &mut this.stages[0])?;
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self, IntegrationError<S>>
+    where
+        Y: Vector<S>,
+    {
+        let zero = zeros(&integration.progress.y);
+        let mut this = Self { tableau, stages: core::array::from_fn(|_| zero.clone()), scratch: zero };
+        integration.evaluate(integration.progress.t, &mut this.stages[0])?;
         Ok(this)
     }
 
-    /// Moves `y_new` to where stage `stage` is evaluated.
-    fn move_to(&mut self, stage: usize) {
-        let Some(row) = self.tableau.rows.get(stage) else { return };
-        let row = row.iter().map(|&a| S::from_f64(a));
-        weighted_sum(row, &self.stages, &mut self.progress.increment);
-        self.progress.advance_by_increment();
-    }
-
-    fn evaluate(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized), stage: usize) -> Result<(), IntegrationError<S>> {
+    /// Evaluates stage `stage`, for which it moves `y_new` to where that is.
+    fn evaluate<S: Real, O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+        stage: usize,
+    ) -> Result<(), IntegrationError<S>>
+    where
+        Y: Vector<S>,
+    {
+        if let Some(row) = self.tableau.rows.get(stage) {
+            let row = row.iter().map(|&a| S::from_f64(a));
+            weighted_sum(row, &self.stages, &mut integration.progress.increment);
+            integration.progress.advance_by_increment();
+        }
         let (Some(&node), Some(rate)) = (self.tableau.nodes.get(stage), self.stages.get_mut(stage)) else {
             return Ok(());
         };
-        let t = self.progress.time_at(node);
-        self.progress.evaluate(ode, t, rate)
+        integration.evaluate(integration.progress.time_at(node), rate)
     }
 
     /// h Σ d_k f_k as the tolerances measure it.
-    fn norm(&mut self, d: &[f64; STAGES], tolerances: &Tolerances<'_, S>) -> S {
-        let h = self.progress.step_size();
+    fn norm<S: Real>(&mut self, d: &[f64; STAGES], progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S
+    where
+        Y: Vector<S>,
+    {
+        let h = progress.step_size();
         weighted_sum(d.iter().map(|&d| h * S::from_f64(d)), &self.stages, &mut self.scratch);
-        tolerances.norm(&self.scratch, &self.progress.y, &self.progress.y_new)
+        tolerances.norm(&self.scratch, &progress.y, &progress.y_new)
     }
 }
 
-impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y, STAGES> {
-    fn progress(&self) -> &Progress<S, Y> {
-        &self.progress
-    }
-
-    fn progress_mut(&mut self) -> &mut Progress<S, Y> {
-        &mut self.progress
+impl<S: Real, Y: Vector<S>, const STAGES: usize> Formula<S, Y> for Explicit<Y, STAGES> {
+    fn attempt<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<(), IntegrationError<S>> {
+        for stage in 1..self.tableau.main {
+            self.evaluate(integration, stage)?;
+        }
+        Ok(())
     }
 
     fn rate(&self) -> &Y {
         &self.stages[0]
     }
 
-    fn attempt(
-        &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t_new: S,
-        _tolerances: &Tolerances<'_, S>,
-    ) -> Result<(), IntegrationError<S>> {
-        self.progress.t_new = t_new;
-        for stage in 1..self.tableau.main {
-            self.move_to(stage);
-            self.evaluate(ode, stage)?;
-        }
-        Ok(())
-    }
-
-    fn error(&mut self, tolerances: &Tolerances<'_, S>) -> S {
+    fn error(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
         let tableau = self.tableau;
         match &tableau.error {
-            ErrorEstimate::Embedded(d) => self.norm(d, tolerances),
+            ErrorEstimate::Embedded(d) => self.norm(d, progress, tolerances),
             ErrorEstimate::Stretched { higher, lower } => {
-                let (higher, lower) = (self.norm(higher, tolerances), self.norm(lower, tolerances));
+                let [higher, lower] = [higher, lower].map(|d| self.norm(d, progress, tolerances));
                 let size = (higher * higher + S::from_f64(0.01) * lower * lower).sqrt();
                 if size > S::zero() { higher * (higher / size) } else { size }
             }
         }
     }
 
-    fn error_exponent(&self) -> u32 {
-        self.tableau.error_exponent
-    }
-
-    fn look_within(
+    fn prepare_dense_output<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        _tolerances: &Tolerances<'_, S>,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<(), IntegrationError<S>> {
         if self.tableau.main == STAGES {
             return Ok(());
         }
         // The end of the step waits aside while the stages within are evaluated.
-        self.scratch.clone_from(&self.progress.y_new);
-        let increment = self.progress.increment.clone();
+        self.scratch.clone_from(&integration.progress.y_new);
+        let increment = integration.progress.increment.clone();
         for stage in self.tableau.main..STAGES {
-            self.move_to(stage);
-            self.evaluate(ode, stage)?;
+            self.evaluate(integration, stage)?;
         }
-        self.progress.increment = increment;
-        self.progress.y_new.clone_from(&self.scratch);
+        integration.progress.increment = increment;
+        integration.progress.y_new.clone_from(&self.scratch);
         Ok(())
     }
 
-    fn state_at(
-        &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        tolerances: &Tolerances<'_, S>,
-    ) -> Result<Option<Y>, IntegrationError<S>> {
-        step_aside(self, ode, t, tolerances)
+    fn aside(&self) -> Option<Self> {
+        Some(self.clone())
     }
 
-    fn stability(&mut self, tolerances: &Tolerances<'_, S>) -> Option<(S, S)> {
+    fn stability(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> Option<StabilityEstimate<S>> {
         let tableau = self.tableau;
         let last = tableau.main.checked_sub(1)?;
         let before = last.checked_sub(1)?;
@@ -146,10 +125,10 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
         if *tableau.nodes.get(before)? != 1.0 {
             return None;
         }
-        let h = self.progress.step_size();
+        let h = progress.step_size();
         let weights = row.iter().enumerate().map(|(k, a)| a - row_before.get(k).copied().unwrap_or(0.0));
         weighted_sum(weights.map(|a| h * S::from_f64(a)), &self.stages, &mut self.scratch);
-        let Progress { y, y_new, .. } = &self.progress;
+        let Progress { y, y_new, .. } = progress;
         let apart = tolerances.norm(&self.scratch, y, y_new);
         let rates = self.stages.get(last)?.as_ref().iter().zip(self.stages.get(before)?.as_ref());
         for (difference, (&after, &before)) in self.scratch.as_mut().iter_mut().zip(rates) {
@@ -158,26 +137,25 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Explicit<S, Y
         // States that differ by rounding alone say nothing.
         let says = apart > S::from_f64(100.0) * S::EPSILON;
         let estimate = if says { tolerances.norm(&self.scratch, y, y_new) / apart } else { S::zero() };
-        Some((estimate, S::from_f64(tableau.stable_to)))
+        Some(StabilityEstimate { size: estimate, limit: S::from_f64(tableau.stable_to) })
     }
 
-    fn step(&self) -> Step<'_, S, Y> {
-        let Progress { t, y, t_new, y_new, .. } = &self.progress;
-        Step::new((*t, y), (*t_new, y_new), *t_new - *t, &self.stages, &self.tableau.dense)
+    fn step<'a>(&'a self, progress: &'a Progress<S, Y>) -> Step<'a, S, Y> {
+        progress.step(progress.step_size(), &self.stages, &self.tableau.dense)
     }
 
-    fn accept(&mut self) {
-        self.progress.accept();
+    fn advance<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+        corrected: bool,
+    ) -> Result<(), IntegrationError<S>> {
+        if corrected {
+            return integration.evaluate_at_state(&mut self.stages[0]);
+        }
         if let [first, others @ ..] = self.stages.as_mut_slice()
             && let Some(last) = others.get_mut(self.tableau.main.wrapping_sub(2))
         {
             swap(first, last);
-        }
-    }
-
-    fn renew(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
-        if self.progress.take_correction() {
-            self.progress.evaluate(ode, self.progress.t, &mut self.stages[0])?;
         }
         Ok(())
     }

@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use super::adaptive::check_step;
+use super::algorithm::Algorithm;
+use super::driver::Driver;
 use super::interval::Interval;
-use super::method::{Method, Stepper};
-use super::progress::Progress;
 use super::tolerance::Tolerances;
 use super::{IntegrationError, Integrator, Observer, Ode, Solution};
 use crate::{Real, Vector};
@@ -16,13 +16,13 @@ use crate::{Real, Vector};
 /// h, the last step is shorter, so that the end is hit exactly; a rest of rounding size lengthens the last step
 /// instead. Nothing estimates the error: halve the step and compare.
 #[derive(Clone, Copy, Debug)]
-pub struct FixedStep<S, M> {
+pub struct FixedStep<S, A> {
     step: S,
     max_steps: u64,
-    method: PhantomData<M>,
+    method: PhantomData<A>,
 }
 
-impl<S: Real, M> FixedStep<S, M> {
+impl<S: Real, A> FixedStep<S, A> {
     /// The method with steps of size `step` > 0, in units of time, whichever the direction of integration.
     pub fn new(step: S) -> Self {
         Self { step, max_steps: 1_000_000_000, method: PhantomData }
@@ -39,7 +39,7 @@ impl<S: Real, M> FixedStep<S, M> {
     }
 }
 
-impl<S: Real, M: Method> Integrator<S> for FixedStep<S, M> {
+impl<S: Real, A: Algorithm> Integrator<S> for FixedStep<S, A> {
     fn run<Y: Vector<S>>(
         &self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
@@ -53,25 +53,18 @@ impl<S: Real, M: Method> Integrator<S> for FixedStep<S, M> {
         if count > self.max_steps {
             return Err(IntegrationError::TooManySteps { t: interval.from, limit: self.max_steps });
         }
-        let tolerances = Tolerances::roundoff();
-        let mut stepper = M::start(ode, interval.from, start)?;
+        let mut driver = Driver::start::<A>(ode, interval, start, Tolerances::roundoff(), observer)?;
         for step in 1..=count {
             let t = if step == count { interval.to } else { time_after(step, interval, self.step) };
-            if t == stepper.progress().t {
+            if t == driver.progress().t {
                 return Err(IntegrationError::StepTooSmall { t, step: self.step });
             }
-            stepper.attempt(ode, t, &tolerances)?;
-            let flow = super::show(&mut stepper, ode, observer, &tolerances)?;
-            stepper.accept();
-            if flow.is_break() {
+            driver.attempt(t)?;
+            if driver.accept()?.is_break() {
                 break;
             }
-            if step < count {
-                stepper.renew(ode)?;
-            }
         }
-        let Progress { t, y, statistics, .. } = stepper.progress();
-        Ok(Solution { t: *t, y: y.clone(), statistics: *statistics })
+        Ok(driver.solution())
     }
 }
 

@@ -9,31 +9,35 @@
 //! [`watch`](Integrator::watch) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be,
 //! and where an equation is stiff, explicit methods say so.
 //!
-//! A reader finds the way in five steps: the coefficients in [`tableau`], one step in [`explicit`] and [`collocation`],
-//! the solution within a step in `step`, steps of one size in `fixed`, and the choice of steps in `adaptive` and
-//! `tolerance`. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another method of any kind
-//! another [`Method`](method::Method).
+//! What an integration is made of stands apart, as in OrdinaryDiffEq.jl: a [`Formula`](algorithm::Formula) takes one
+//! trial step and keeps its own cache ([`explicit`], [`collocation`]; coefficients in [`tableau`]), a
+//! [`StepControl`](step_control::StepControl) chooses sizes from errors, and an
+//! [`Integration`](integration::Integration), owned by the drivers `fixed` and `adaptive`, has equation, tolerances,
+//! time, state and statistics. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another
+//! method of any kind another [`Algorithm`](algorithm::Algorithm).
 
 mod adaptive;
-mod asked;
+pub mod algorithm;
 pub mod collocation;
 mod complex;
 mod dormand_prince;
 mod dormand_prince_853;
+mod driver;
 mod error;
 mod events;
 pub mod explicit;
 mod fixed;
 mod implicit;
+pub mod integration;
 mod interval;
-pub mod method;
 mod ndf;
 mod observer;
 mod ode4;
-pub mod progress;
+mod save_at;
 mod semi_implicit_euler;
 pub mod stability;
 mod step;
+pub mod step_control;
 mod stiffness;
 pub mod tableau;
 mod tolerance;
@@ -49,18 +53,17 @@ pub use error::IntegrationError;
 pub use events::{Direction, Event, Occurrence};
 pub use fixed::FixedStep;
 pub use ndf::{Bdf, Ndf, Ode15s};
-pub use observer::Observer;
+pub use observer::{ObservedStep, Observer};
 pub use ode4::{Ode4, RungeKutta4};
 pub use semi_implicit_euler::{SemiImplicitEuler, SymplecticEuler};
 pub use step::Step;
 pub use tolerance::Tolerances;
 
 use crate::{Real, Vector};
-use asked::AskedTimes;
 use events::Watch;
 use interval::Interval;
-use method::Stepper;
 use observer::{Ends, EveryStep};
+use save_at::SaveAt;
 
 /// The right-hand side of an ordinary differential equation, ẏ = f(t, y).
 ///
@@ -193,7 +196,7 @@ pub trait Integrator<S: Real> {
         times: impl IntoIterator<Item = S>,
         output: impl FnMut(S, &Y),
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
-        let mut asked = AskedTimes::new(times.into_iter(), Interval::new(interval)?, start.clone(), output)?;
+        let mut asked = SaveAt::new(times.into_iter(), Interval::new(interval)?, start.clone(), output)?;
         let solution = self.run(ode, interval, start, &mut asked)?;
         asked.fault().map_or(Ok(solution), Err)
     }
@@ -285,19 +288,4 @@ pub struct Statistics {
     pub jacobians: u64,
     /// Decompositions of a matrix.
     pub decompositions: u64,
-}
-
-/// Takes an attempted step as good, lets the equation correct its end, and shows it.
-fn show<S: Real, Y: Vector<S>>(
-    stepper: &mut impl Stepper<S, Y>,
-    ode: &mut (impl Ode<S, Y> + ?Sized),
-    observer: &mut impl Observer<S, Y>,
-    tolerances: &Tolerances<'_, S>,
-) -> Result<ControlFlow<()>, IntegrationError<S>> {
-    let progress = stepper.progress();
-    if observer.looks_within(progress.t, progress.t_new) {
-        stepper.look_within(ode, tolerances)?;
-    }
-    stepper.progress_mut().finish(ode)?;
-    observer.look(stepper, ode, tolerances)
 }

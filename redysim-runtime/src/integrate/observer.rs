@@ -2,15 +2,16 @@
 
 use core::ops::ControlFlow;
 
-use super::method::Stepper;
-use super::{IntegrationError, Ode, Step, Tolerances};
+use super::algorithm::Formula;
+use super::integration::Integration;
+use super::{IntegrationError, Ode, Step};
 use crate::{Real, Vector};
 
 /// Is shown every accepted step of an integration.
 pub trait Observer<S, Y> {
     /// Whether the solution will be asked for strictly between `from` and `to`, the ends of a step that will be shown.
     /// Some methods must evaluate more for that; an observer who needs the ends only saves it.
-    fn looks_within(&self, from: S, to: S) -> bool {
+    fn needs_dense_output(&self, from: S, to: S) -> bool {
         let _ = (from, to);
         true
     }
@@ -19,22 +20,67 @@ pub trait Observer<S, Y> {
     fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()>;
 
     /// Is called for every accepted step; the default calls [`step`](Self::step). An observer that needs states within
-    /// the step more accurately than the continuous extension has them [takes steps](Stepper::state_at) to them here.
+    /// the step more accurately than the dense output has them takes steps to them here, by
+    /// [`ObservedStep::write_state_at`].
     ///
     /// # Errors
     /// If a state within cannot be computed.
-    fn look(
+    fn observe<F: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
         &mut self,
-        stepper: &mut impl Stepper<S, Y>,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        tolerances: &Tolerances<'_, S>,
+        observed: &mut ObservedStep<'_, '_, S, Y, F, O>,
     ) -> Result<ControlFlow<()>, IntegrationError<S>>
     where
         S: Real,
         Y: Vector<S>,
     {
-        let _ = (ode, tolerances);
-        Ok(self.step(&stepper.step()))
+        Ok(self.step(&observed.step()))
+    }
+}
+
+/// An accepted step with the formula that took it, so that states within can be steps of their own.
+pub struct ObservedStep<'a, 'i, S, Y, F, O: ?Sized> {
+    pub(super) integration: &'a mut Integration<'i, S, Y, O>,
+    pub(super) formula: &'a mut F,
+}
+
+impl<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedStep<'_, '_, S, Y, F, O> {
+    /// The step.
+    pub fn step(&self) -> Step<'_, S, Y> {
+        self.formula.step(&self.integration.progress)
+    }
+
+    /// Writes to `y` the solution at `t`, within the step or at its end: that of the dense output or, where it is less
+    /// accurate than the method provides within steps, that of [`state_by_step`](Self::state_by_step).
+    ///
+    /// # Errors
+    /// If a derivative is infinite or not a number.
+    pub fn write_state_at(&mut self, t: S, y: &mut Y) -> Result<(), IntegrationError<S>> {
+        if t != self.integration.progress.t_new
+            && !self.formula.dense_output_suffices()
+            && let Some(state) = self.state_by_step(t)?
+        {
+            y.clone_from(&state);
+        } else {
+            self.step().write_at(t, y);
+        }
+        Ok(())
+    }
+
+    /// The state at which a step of the method from the start of this one to `t`, within it, arrives; `None` if it
+    /// cannot be computed or if the dense output is as good.
+    ///
+    /// # Errors
+    /// If a derivative is infinite or not a number.
+    pub fn state_by_step(&mut self, t: S) -> Result<Option<Y>, IntegrationError<S>> {
+        let Some(mut formula) = self.formula.aside() else { return Ok(None) };
+        self.integration.aside(|aside| {
+            aside.progress.t_new = t;
+            match formula.attempt(aside) {
+                Ok(()) => Ok(Some(aside.progress.y_new.clone())),
+                Err(IntegrationError::NotConverged { .. }) => Ok(None),
+                Err(fault) => Err(fault),
+            }
+        })
     }
 }
 
@@ -42,7 +88,7 @@ pub trait Observer<S, Y> {
 pub(super) struct Ends;
 
 impl<S, Y> Observer<S, Y> for Ends {
-    fn looks_within(&self, _from: S, _to: S) -> bool {
+    fn needs_dense_output(&self, _from: S, _to: S) -> bool {
         false
     }
 

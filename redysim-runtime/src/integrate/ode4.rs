@@ -1,8 +1,9 @@
 //! The classical Runge-Kutta method.
 
+use super::algorithm::Algorithm;
 use super::explicit::Explicit;
 use super::fixed::FixedStep;
-use super::method::Method;
+use super::integration::Integration;
 use super::tableau::RUNGE_KUTTA_4;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
@@ -27,14 +28,12 @@ pub type Ode4<S> = FixedStep<S, RungeKutta4>;
 #[derive(Clone, Copy, Debug)]
 pub enum RungeKutta4 {}
 
-impl Method for RungeKutta4 {
-    type Stepper<S: Real, Y: Vector<S>> = Explicit<S, Y, 5>;
+impl Algorithm for RungeKutta4 {
+    type Formula<S: Real, Y: Vector<S>> = Explicit<Y, 5>;
 
-    fn start<S: Real, Y: Vector<S>>(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-        Explicit::new(&RUNGE_KUTTA_4, ode, t, y)
+    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+        Explicit::new(&RUNGE_KUTTA_4, integration)
     }
 }

@@ -2,11 +2,10 @@
 
 use core::slice::from_ref;
 
+use super::algorithm::{Algorithm, Formula};
 use super::fixed::FixedStep;
-use super::method::{Method, Stepper};
-use super::progress::{Progress, zeros};
+use super::integration::{Integration, Progress, zeros};
 use super::step::Step;
-use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
@@ -41,29 +40,26 @@ pub type SemiImplicitEuler<S> = FixedStep<S, SymplecticEuler>;
 #[derive(Clone, Copy, Debug)]
 pub enum SymplecticEuler {}
 
-impl Method for SymplecticEuler {
-    type Stepper<S: Real, Y: Vector<S>> = SemiImplicit<S, Y>;
+impl Algorithm for SymplecticEuler {
+    type Formula<S: Real, Y: Vector<S>> = SemiImplicit<Y>;
 
-    fn start<S: Real, Y: Vector<S>>(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-        let mut progress = Progress::new(t, y)?;
+    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+        let progress = &integration.progress;
         let mut rate = zeros(&progress.y);
-        let coordinates = ode.coordinate_rates(t, &progress.y, &mut rate);
+        let coordinates = integration.ode.coordinate_rates(progress.t, &progress.y, &mut rate);
         if coordinates == 0 {
             return Err(IntegrationError::NoCoordinates);
         }
-        progress.evaluate(ode, t, &mut rate)?;
-        Ok(SemiImplicit { scratch: zeros(&rate), progress, rate, coordinates })
+        integration.evaluate(integration.progress.t, &mut rate)?;
+        Ok(SemiImplicit { scratch: zeros(&rate), rate, coordinates })
     }
 }
 
 /// Takes the steps of [`SemiImplicitEuler`].
 #[derive(Clone, Debug)]
-pub struct SemiImplicit<S, Y> {
-    progress: Progress<S, Y>,
+pub struct SemiImplicit<Y> {
     /// The derivative at the start of the step.
     rate: Y,
     scratch: Y,
@@ -71,27 +67,17 @@ pub struct SemiImplicit<S, Y> {
     coordinates: usize,
 }
 
-impl<S: Real, Y: Vector<S>> Stepper<S, Y> for SemiImplicit<S, Y> {
-    fn progress(&self) -> &Progress<S, Y> {
-        &self.progress
-    }
-
-    fn progress_mut(&mut self) -> &mut Progress<S, Y> {
-        &mut self.progress
-    }
-
+impl<S: Real, Y: Vector<S>> Formula<S, Y> for SemiImplicit<Y> {
     fn rate(&self) -> &Y {
         &self.rate
     }
 
-    fn attempt(
+    fn attempt<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t_new: S,
-        _tolerances: &Tolerances<'_, S>,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<(), IntegrationError<S>> {
-        let Self { progress, rate, scratch, coordinates } = self;
-        progress.t_new = t_new;
+        let Self { rate, scratch, coordinates } = self;
+        let Integration { ode, progress, .. } = integration;
         progress.increment.clone_from(rate);
         progress.advance_by_increment();
         // N is that of the coordinates at the start, since they are not known at the end.
@@ -107,27 +93,15 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for SemiImplicit<S, Y> {
         Ok(())
     }
 
-    /// Nothing estimates it.
-    fn error(&mut self, _tolerances: &Tolerances<'_, S>) -> S {
-        S::zero()
+    fn step<'a>(&'a self, progress: &'a Progress<S, Y>) -> Step<'a, S, Y> {
+        progress.step(S::one(), from_ref(&progress.increment), &[&[1.0]])
     }
 
-    fn error_exponent(&self) -> u32 {
-        2
-    }
-
-    fn step(&self) -> Step<'_, S, Y> {
-        let Progress { t, y, t_new, y_new, increment, .. } = &self.progress;
-        Step::new((*t, y), (*t_new, y_new), S::one(), from_ref(increment), &[&[1.0]])
-    }
-
-    fn accept(&mut self) {
-        self.progress.accept();
-    }
-
-    fn renew(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
-        self.progress.take_correction();
-        self.progress.y_new.clone_from(&self.progress.y);
-        self.progress.evaluate(ode, self.progress.t, &mut self.rate)
+    fn advance<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+        _corrected: bool,
+    ) -> Result<(), IntegrationError<S>> {
+        integration.evaluate_at_state(&mut self.rate)
     }
 }

@@ -1,6 +1,7 @@
 //! Whether steps are small for stability rather than for accuracy: then an explicit method crawls, and should say so.
 
-use super::method::Stepper;
+use super::algorithm::{Formula, StabilityEstimate};
+use super::integration::{Integration, Progress};
 use super::stability::Linearised;
 use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode};
@@ -46,11 +47,12 @@ impl<S: Real> StiffnessTest<S> {
     /// Whether it is time for [`confirm`](Self::confirm).
     pub fn suspects<Y: Vector<S>>(
         &mut self,
-        stepper: &mut impl Stepper<S, Y>,
+        formula: &mut impl Formula<S, Y>,
+        progress: &Progress<S, Y>,
         rest: S,
         tolerances: &Tolerances<'_, S>,
     ) -> bool {
-        let size = stepper.progress().step_size().abs();
+        let size = progress.step_size().abs();
         let Some(limit) = self.limit else { return false };
         if rest.to_f64() <= limit as f64 * size.to_f64() {
             return false;
@@ -59,11 +61,11 @@ impl<S: Real> StiffnessTest<S> {
         if self.wait > 0 {
             return false;
         }
-        let Some((estimate, stable)) = stepper.stability(tolerances) else {
+        let Some(estimate) = formula.stability(progress, tolerances) else {
             self.limit = None;
             return false;
         };
-        if estimate > S::from_f64(NEAR) * stable {
+        if estimate.size > S::from_f64(NEAR) * estimate.limit {
             (self.misses, self.hits) = (0, self.hits + 1);
             self.sizes += size;
         } else {
@@ -80,32 +82,29 @@ impl<S: Real> StiffnessTest<S> {
     ///
     /// # Errors
     /// [`IntegrationError::Stiff`] if the equation is stiff. Where there are no eigenvalues, nothing is known.
-    pub fn confirm<Y: Vector<S>>(
+    pub fn confirm<Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
         &mut self,
-        stepper: &mut impl Stepper<S, Y>,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
+        formula: &mut impl Formula<S, Y>,
+        integration: &mut Integration<'_, S, Y, O>,
         rest: S,
-        tolerances: &Tolerances<'_, S>,
     ) -> Result<(), IntegrationError<S>> {
         let step = self.sizes / S::from_f64(f64::from(HITS));
         // Where this was not it, the price is not to be paid again soon.
         self.start_over(10 * INTERVAL);
-        let Some((_, stable)) = stepper.stability(tolerances) else { return Ok(()) };
-        let rate = stepper.rate().clone();
-        let mut progress = stepper.progress().clone();
-        let linearised = Linearised::<S, Y>::new(ode, &mut progress, &rate, tolerances);
-        stepper.progress_mut().statistics = progress.statistics;
+        let estimate = formula.stability(&integration.progress, &integration.tolerances);
+        let Some(StabilityEstimate { limit, .. }) = estimate else { return Ok(()) };
+        let linearised = integration.aside(|aside| Linearised::<S, Y>::new(aside, formula.rate()));
         let Ok(linearised) = linearised else { return Ok(()) };
         let fastest = linearised.damped().fold(S::zero(), |fastest, (re, im)| {
             let size = (re * re + im * im).sqrt();
             // What swings more than it is damped is to be followed, not stepped over.
             if -re >= im { fastest.maximum(size) } else { fastest }
         });
-        if step * fastest < S::from_f64(CONFIRMED) * stable {
+        if step * fastest < S::from_f64(CONFIRMED) * limit {
             return Ok(());
         }
         let remaining = libm::ceil(rest.to_f64() / step.to_f64()) as u64;
-        Err(IntegrationError::Stiff { t: progress.t, step, remaining })
+        Err(IntegrationError::Stiff { t: integration.progress.t, step, remaining })
     }
 
     fn start_over(&mut self, wait: u64) {

@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use redysim_runtime::integrate::method::Stepper;
-use redysim_runtime::integrate::{Observer, Tolerances};
+use redysim_runtime::integrate::algorithm::Formula;
+use redysim_runtime::integrate::{ObservedStep, Observer};
 use redysim_runtime::{IntegrationError, Ode, SimulationState, Step};
 
 use super::system::System;
@@ -57,7 +57,7 @@ impl<'a, 'r> Watch<'a, 'r> {
 }
 
 impl Observer<f64, Vec<f64>> for Watch<'_, '_> {
-    fn looks_within(&self, _from: f64, to: f64) -> bool {
+    fn needs_dense_output(&self, _from: f64, to: f64) -> bool {
         self.record.next().is_some_and(|t| t < to)
     }
 
@@ -69,21 +69,19 @@ impl Observer<f64, Vec<f64>> for Watch<'_, '_> {
         if self.failed.is_some() || interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn look(
+    fn observe<F: Formula<f64, Vec<f64>>, O: Ode<f64, Vec<f64>> + ?Sized>(
         &mut self,
-        stepper: &mut impl Stepper<f64, Vec<f64>>,
-        ode: &mut (impl Ode<f64, Vec<f64>> + ?Sized),
-        tolerances: &Tolerances<'_, f64>,
+        observed: &mut ObservedStep<'_, '_, f64, Vec<f64>, F, O>,
     ) -> Result<ControlFlow<()>, IntegrationError<f64>> {
-        let end = stepper.progress().t_new;
-        let mut state = stepper.progress().y_new.clone();
+        let step = observed.step();
+        let (end, mut state) = (step.end().0, step.end().1.clone());
         while let Some(t) = self.record.next().filter(|&t| t <= end && !interrupt::asked()) {
-            stepper.write_state_at(ode, t, tolerances, &mut state)?;
+            observed.write_state_at(t, &mut state)?;
             if let Err(reason) = self.write(t, &state) {
                 self.failed = Some(reason);
                 break;
             }
         }
-        Ok(self.step(&stepper.step()))
+        Ok(self.step(&observed.step()))
     }
 }

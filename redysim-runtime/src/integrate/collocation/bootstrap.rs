@@ -9,7 +9,7 @@
 
 use core::array::from_fn;
 
-use crate::integrate::progress::{Progress, zeros};
+use crate::integrate::integration::{Integration, zeros};
 use crate::integrate::step::{weighted_sum, without_constant};
 use crate::integrate::{IntegrationError, Ode};
 use crate::{Real, Vector};
@@ -64,34 +64,33 @@ impl<Y> Bootstrap<Y> {
     ///
     /// # Errors
     /// If a state or a derivative is infinite or not a number.
-    pub fn build<S: Real>(
+    pub fn build<S: Real, O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        progress: &mut Progress<S, Y>,
+        integration: &mut Integration<'_, S, Y, O>,
         (polynomials, rates): (&[&[f64]], &[Y]),
     ) -> Result<(), IntegrationError<S>>
     where
         Y: Vector<S>,
     {
+        let progress = &mut integration.progress;
         let end = (progress.y_new.clone(), progress.increment.clone());
         let [start, within @ .., last, mean] = &mut self.slopes;
         let h = progress.step_size();
         for (mean, &increment) in mean.as_mut().iter_mut().zip(progress.increment.as_ref()) {
             *mean = increment / h;
         }
-        progress.evaluate(ode, progress.t_new, last)?;
+        integration.evaluate(integration.progress.t_new, last)?;
         subtract(last, mean);
-        progress.y_new.clone_from(&progress.y);
-        progress.evaluate(ode, progress.t, start)?;
+        integration.evaluate_at_state(start)?;
         subtract(start, mean);
         for (slope, node) in within.iter_mut().zip(NODES) {
-            evaluate_on(ode, progress, (polynomials, rates), node, slope)?;
+            evaluate_on(integration, (polynomials, rates), node, slope)?;
             subtract(slope, mean);
         }
         for _ in 1..PASSES {
             for (index, node) in (1..).zip(NODES) {
-                let mut slope = zeros(&progress.y);
-                evaluate_on(ode, progress, (&DENSE, &self.slopes), node, &mut slope)?;
+                let mut slope = zeros(&integration.progress.y);
+                evaluate_on(integration, (&DENSE, &self.slopes), node, &mut slope)?;
                 let [.., mean] = &self.slopes;
                 subtract(&mut slope, mean);
                 if let Some(old) = self.slopes.get_mut(index) {
@@ -99,24 +98,23 @@ impl<Y> Bootstrap<Y> {
                 }
             }
         }
-        (progress.y_new, progress.increment) = end;
+        (integration.progress.y_new, integration.progress.increment) = end;
         self.ready = true;
         Ok(())
     }
 }
 
 /// Writes the derivative at y + h Σ p_k(`node`) `slopes`_k to `slope`.
-fn evaluate_on<S: Real, Y: Vector<S>>(
-    ode: &mut (impl Ode<S, Y> + ?Sized),
-    progress: &mut Progress<S, Y>,
+fn evaluate_on<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+    integration: &mut Integration<'_, S, Y, O>,
     (polynomials, slopes): (&[&[f64]], &[Y]),
     node: f64,
     slope: &mut Y,
 ) -> Result<(), IntegrationError<S>> {
     let weights = polynomials.iter().map(|polynomial| without_constant(polynomial, S::from_f64(node)));
-    weighted_sum(weights, slopes, &mut progress.increment);
-    progress.advance_by_increment();
-    progress.evaluate(ode, progress.time_at(node), slope)
+    weighted_sum(weights, slopes, &mut integration.progress.increment);
+    integration.progress.advance_by_increment();
+    integration.evaluate(integration.progress.time_at(node), slope)
 }
 
 fn subtract<S: Real, Y: Vector<S>>(from: &mut Y, what: &Y) {

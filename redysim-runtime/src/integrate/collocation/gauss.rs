@@ -4,9 +4,9 @@ use core::array::from_fn;
 
 use super::bootstrap::{self, Bootstrap};
 use super::extrapolate;
+use crate::integrate::algorithm::{Algorithm, Formula};
 use crate::integrate::fixed::FixedStep;
-use crate::integrate::method::{Method, Stepper, step_aside};
-use crate::integrate::progress::{Progress, zeros};
+use crate::integrate::integration::{Integration, Progress, zeros};
 use crate::integrate::step::{Step, weighted_sum};
 use crate::integrate::tolerance::Tolerances;
 use crate::integrate::{IntegrationError, Ode};
@@ -117,15 +117,13 @@ pub const GAUSS_LEGENDRE_3: GaussTableau<3> = GaussTableau {
 
 macro_rules! method {
     ($name:ident, $stages:literal, $tableau:ident) => {
-        impl Method for $name {
-            type Stepper<S: Real, Y: Vector<S>> = Gauss<S, Y, $stages>;
+        impl Algorithm for $name {
+            type Formula<S: Real, Y: Vector<S>> = Gauss<S, Y, $stages>;
 
-            fn start<S: Real, Y: Vector<S>>(
-                ode: &mut (impl Ode<S, Y> + ?Sized),
-                t: S,
-                y: Y,
-            ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-                Gauss::new(&$tableau, ode, t, y)
+            fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+                integration: &mut Integration<'_, S, Y, O>,
+            ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+                Gauss::new(&$tableau, integration)
             }
         }
     };
@@ -138,13 +136,14 @@ method!(GaussLegendre3, 3, GAUSS_LEGENDRE_3);
 #[derive(Clone, Debug)]
 pub struct Gauss<S, Y, const STAGES: usize> {
     tableau: &'static GaussTableau<STAGES>,
-    progress: Progress<S, Y>,
     /// The derivative at the start.
     rate: Y,
     /// f_i.
     rates: [Y; STAGES],
     /// z_i: stage i is evaluated at y + z_i.
     increments: [Y; STAGES],
+    /// The size of the attempted step.
+    size: S,
     /// The size of the step that the rates belong to, if they belong to one that was accepted.
     last_size: Option<S>,
     bootstrap: Bootstrap<Y>,
@@ -152,55 +151,55 @@ pub struct Gauss<S, Y, const STAGES: usize> {
 }
 
 impl<S: Real, Y: Vector<S>, const STAGES: usize> Gauss<S, Y, STAGES> {
-    /// Takes the start, evaluates the derivative there, and makes all room that the steps will need.
+    /// Evaluates the derivative at the start, and makes all room that the steps will need.
     ///
     /// # Errors
-    /// If the state or its derivative is infinite or not a number.
-    pub fn new(
+    /// If the derivative is infinite or not a number.
+    pub fn new<O: Ode<S, Y> + ?Sized>(
         tableau: &'static GaussTableau<STAGES>,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<Self, IntegrationError<S>> {
-        let zero = zeros(&y);
+        let zero = zeros(&integration.progress.y);
         let mut this = Self {
             tableau,
-            progress: Progress::new(t, y)?,
             rate: zero.clone(),
             rates: from_fn(|_| zero.clone()),
             increments: from_fn(|_| zero.clone()),
+            size: S::zero(),
             last_size: None,
             bootstrap: Bootstrap::new(&zero),
             scratch: zero,
         };
-        this.progress.evaluate(ode, t, &mut this.rate)?;
+        integration.evaluate(integration.progress.t, &mut this.rate)?;
         Ok(this)
     }
 
     /// Writes to the increments what is known before the first iteration.
     fn predict(&mut self) {
         let Self { tableau, increments, .. } = self;
-        let h = self.progress.step_size();
         match self.last_size.take() {
             Some(last) => {
-                extrapolate((&tableau.dense, &tableau.nodes), h / last, last, &self.rates, increments);
+                extrapolate((&tableau.dense, &tableau.nodes), self.size / last, last, &self.rates, increments);
             }
             None => increments.iter_mut().for_each(|z| z.as_mut().fill(S::zero())),
         }
     }
 
-    fn evaluate(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
+    fn evaluate<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<(), IntegrationError<S>> {
         for ((rate, z), &node) in self.rates.iter_mut().zip(&self.increments).zip(&self.tableau.nodes) {
-            self.progress.advance_by(z);
-            self.progress.evaluate(ode, self.progress.time_at(node), rate)?;
+            integration.progress.advance_by(z);
+            integration.evaluate(integration.progress.time_at(node), rate)?;
         }
         Ok(())
     }
 
     /// Moves the increments to h Σ a_ij f_j = Σ g_j / 2 + Σ s_ij g_j with g_j = h b_j f_j, and returns how far: as the
     /// tolerances measure it, and as a plain number.
-    fn correct(&mut self, tolerances: &Tolerances<'_, S>) -> (S, S) {
-        let Self { tableau, progress, rates, increments, scratch, .. } = self;
+    fn correct(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> (S, S) {
+        let Self { tableau, rates, increments, scratch, .. } = self;
         let h = progress.step_size();
         let half = S::from_f64(0.5);
         let (mut change, mut largest) = (S::zero(), S::zero());
@@ -225,16 +224,16 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Gauss<S, Y, STAGES> {
 
     /// Iterates until the increments do not change any more but by roundoff. To stop at a tolerance, however small,
     /// would leave an error with a bias, which adds up.
-    fn solve(
+    fn solve<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        tolerances: &Tolerances<'_, S>,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<(), IntegrationError<S>> {
         let mut smallest = S::from_f64(f64::INFINITY);
         let mut idle = 0;
         for _ in 0..LARGEST_ITERATION {
-            self.evaluate(ode)?;
-            let (change, largest) = self.correct(tolerances);
+            self.evaluate(integration)?;
+            let Integration { progress, tolerances, .. } = &*integration;
+            let (change, largest) = self.correct(progress, tolerances);
             if change == S::zero() {
                 return Ok(());
             }
@@ -243,7 +242,7 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Gauss<S, Y, STAGES> {
                 continue;
             }
             idle += 1;
-            let state = self.progress.y.as_ref().iter().chain(self.progress.y_new.as_ref());
+            let state = progress.y.as_ref().iter().chain(progress.y_new.as_ref());
             let size = state.fold(S::zero(), |size, y| size.maximum(y.abs()));
             if idle >= IDLE_TURNS && largest <= S::from_f64(ROUNDOFF_UNITS) * S::EPSILON * size {
                 return Ok(());
@@ -252,84 +251,56 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Gauss<S, Y, STAGES> {
                 break;
             }
         }
-        Err(IntegrationError::NotConverged { t: self.progress.t, step: self.progress.step_size() })
+        Err(IntegrationError::NotConverged { t: integration.progress.t, step: integration.progress.step_size() })
     }
 }
 
-impl<S: Real, Y: Vector<S>, const STAGES: usize> Stepper<S, Y> for Gauss<S, Y, STAGES> {
-    fn progress(&self) -> &Progress<S, Y> {
-        &self.progress
-    }
-
-    fn progress_mut(&mut self) -> &mut Progress<S, Y> {
-        &mut self.progress
-    }
-
+impl<S: Real, Y: Vector<S>, const STAGES: usize> Formula<S, Y> for Gauss<S, Y, STAGES> {
     fn rate(&self) -> &Y {
         &self.rate
     }
 
-    fn attempt(
+    fn attempt<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t_new: S,
-        tolerances: &Tolerances<'_, S>,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<(), IntegrationError<S>> {
-        self.progress.t_new = t_new;
+        self.size = integration.progress.step_size();
         self.bootstrap.clear();
         self.predict();
-        self.solve(ode, tolerances)?;
-        let h = self.progress.step_size();
+        self.solve(integration)?;
         weighted_sum(self.tableau.weights.iter().map(|&b| S::from_f64(b)), &self.rates, &mut self.scratch);
         for value in self.scratch.as_mut() {
-            *value = h * *value;
+            *value = self.size * *value;
         }
-        self.progress.advance_by(&self.scratch);
+        integration.progress.advance_by(&self.scratch);
         Ok(())
     }
 
-    fn error(&mut self, _tolerances: &Tolerances<'_, S>) -> S {
-        S::zero()
-    }
-
-    fn error_exponent(&self) -> u32 {
-        2 * STAGES as u32
-    }
-
-    fn look_within(
+    fn prepare_dense_output<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        _tolerances: &Tolerances<'_, S>,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<(), IntegrationError<S>> {
-        self.bootstrap.build(ode, &mut self.progress, (&self.tableau.dense, &self.rates))
+        self.bootstrap.build(integration, (&self.tableau.dense, &self.rates))
     }
 
-    fn state_at(
-        &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        tolerances: &Tolerances<'_, S>,
-    ) -> Result<Option<Y>, IntegrationError<S>> {
-        step_aside(self, ode, t, tolerances)
+    fn aside(&self) -> Option<Self> {
+        Some(self.clone())
     }
 
-    fn step(&self) -> Step<'_, S, Y> {
-        let Progress { t, y, t_new, y_new, .. } = &self.progress;
-        let (start, end, h) = ((*t, y), (*t_new, y_new), *t_new - *t);
+    fn step<'a>(&'a self, progress: &'a Progress<S, Y>) -> Step<'a, S, Y> {
         match self.bootstrap.slopes() {
-            Some(slopes) => Step::new(start, end, h, slopes, &bootstrap::DENSE),
-            None => Step::new(start, end, h, &self.rates, &self.tableau.dense),
+            Some(slopes) => progress.step(self.size, slopes, &bootstrap::DENSE),
+            None => progress.step(self.size, &self.rates, &self.tableau.dense),
         }
     }
 
-    fn accept(&mut self) {
-        self.last_size = Some(self.progress.step_size());
-        self.progress.accept();
-    }
-
-    fn renew(&mut self, _ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
-        // Nothing is kept but where the iteration begins, for which also the state before the correction will do.
-        self.progress.take_correction();
+    /// Nothing is kept but where the iteration begins, for which also the state before a correction will do.
+    fn advance<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        _integration: &mut Integration<'_, S, Y, O>,
+        _corrected: bool,
+    ) -> Result<(), IntegrationError<S>> {
+        self.last_size = Some(self.size);
         Ok(())
     }
 }

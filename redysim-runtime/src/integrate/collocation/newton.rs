@@ -11,14 +11,14 @@ use super::radau_tableau::RADAU_IIA_5;
 use crate::integrate::complex::Complex;
 use crate::integrate::implicit::jacobian::jacobian;
 use crate::integrate::implicit::lu::Lu;
-use crate::integrate::progress::{Progress, zeros};
+use crate::integrate::integration::{Integration, Progress, zeros};
 use crate::integrate::tolerance::Tolerances;
 use crate::integrate::{IntegrationError, Ode};
 use crate::vector::entry;
 use crate::{Real, Vector};
 
 /// The iteration takes at most so many turns.
-pub(super) const LARGEST_TURN: u32 = 7;
+pub(in crate::integrate) const LARGEST_TURN: u32 = 7;
 /// What the iteration may leave, in units of the tolerance.
 const REST: f64 = 0.03;
 /// What it may leave at the least, in roundoff units.
@@ -100,18 +100,17 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
     ///
     /// # Errors
     /// If a derivative is infinite or not a number, or a matrix is singular.
-    pub fn prepare(
+    pub fn prepare<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        progress: &mut Progress<S, Y>,
+        integration: &mut Integration<'_, S, Y, O>,
         rate: &Y,
-        tolerances: &Tolerances<'_, S>,
     ) -> Result<(), IntegrationError<S>> {
         if self.age == Age::Outdated {
             self.decomposed = None;
-            jacobian(ode, progress, rate, tolerances, &mut self.jacobian)?;
+            jacobian(integration, rate, &mut self.jacobian)?;
             self.age = Age::Current;
         }
+        let progress = &mut integration.progress;
         let h = progress.step_size();
         let serves = |d: &Decomposed<S, Y>| (d.step_size - h).abs() <= S::from_f64(SAME_SIZE) * h.abs();
         if !self.decomposed.as_ref().is_some_and(serves) {
@@ -128,13 +127,12 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
     ///
     /// # Errors
     /// If a state or a derivative is infinite or not a number.
-    pub fn iterate(
+    pub fn iterate<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        progress: &mut Progress<S, Y>,
+        integration: &mut Integration<'_, S, Y, O>,
         increments: &mut [Y; 3],
-        tolerances: &Tolerances<'_, S>,
     ) -> Result<Outcome<S>, IntegrationError<S>> {
+        let tolerances = integration.tolerances;
         let allowed = (S::from_f64(REST) * tolerances.relative()).maximum(S::from_f64(ROUNDOFF_UNITS) * S::EPSILON);
         // Before a second turn tells, the last iteration is trusted, though not entirely.
         self.rest = self.rest.maximum(S::EPSILON).powf(S::from_f64(0.8));
@@ -142,10 +140,10 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
         let mut last_size = None;
         for turn in 1..=LARGEST_TURN {
             for ((rate, z), &node) in self.rates.iter_mut().zip(&*increments).zip(&RADAU_IIA_5.nodes) {
-                progress.advance_by(z);
-                progress.evaluate(ode, progress.time_at(node), rate)?;
+                integration.progress.advance_by(z);
+                integration.evaluate(integration.progress.time_at(node), rate)?;
             }
-            let size = self.correct(progress, increments, tolerances);
+            let size = self.correct(&integration.progress, increments, &tolerances);
             if let Some(last_size) = last_size
                 && let Some(retreat) = self.retreat(turn, size / last_size, size / allowed)
             {

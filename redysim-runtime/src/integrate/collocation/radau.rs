@@ -4,25 +4,21 @@ use core::array::from_fn;
 use core::mem::swap;
 
 use super::extrapolate;
-use super::newton::{LARGEST_TURN, Newton, Outcome};
+pub(in crate::integrate) use super::newton::LARGEST_TURN;
+use super::newton::{Newton, Outcome};
 use super::radau_tableau::{CHECKED_NODE, WITHIN, WITHIN_NODES};
 pub use super::radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
 use crate::integrate::adaptive::Adaptive;
-use crate::integrate::method::{EstimatesErrors, Method, Stepper, root, step_aside, usual_shrinkage};
-use crate::integrate::progress::{Progress, zeros};
+use crate::integrate::algorithm::{Algorithm, EstimatesErrors, Formula};
+use crate::integrate::integration::{Integration, Progress, zeros};
 use crate::integrate::step::{Step, weighted_sum, without_constant};
+use crate::integrate::step_control::Predictive;
 use crate::integrate::tolerance::Tolerances;
-use crate::integrate::{IntegrationError, Ode, Statistics};
+use crate::integrate::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
-/// A new step aims at 0.9^6 of the tolerance, less where the iteration took many turns.
-const SAFETY: f64 = 0.9;
-const SMALLEST_GROWTH: f64 = 0.2;
-const LARGEST_GROWTH: f64 = 8.0;
-/// A step that could be a little longer keeps its size, and with it the decompositions.
-const WORTH_A_CHANGE: f64 = 1.2;
-/// The largest ratio of tolerance to error that a prediction believes in.
-const LARGEST_RATIO: f64 = 1000.0;
+/// The estimate, made a quantity of the order of the error of the step, goes with this power of its size.
+const ERROR_EXPONENT: u32 = 6;
 
 /// The method Radau IIA of order 5 with 3 stages and steps chosen from tolerances: for stiff equations, whose fast
 /// motion has died down or is damped, such as joints with stiff springs and dampers, contacts, or chemical reactions.
@@ -62,40 +58,41 @@ pub type Radau5<'a, S> = Adaptive<'a, S, RadauIIA>;
 #[derive(Clone, Copy, Debug)]
 pub enum RadauIIA {}
 
-impl EstimatesErrors for RadauIIA {}
+impl EstimatesErrors for RadauIIA {
+    type Control<S: Real, Y: Vector<S>> = Predictive<S>;
 
-impl Method for RadauIIA {
-    type Stepper<S: Real, Y: Vector<S>> = Radau<S, Y>;
+    fn control<S: Real, Y: Vector<S>>() -> Predictive<S> {
+        Predictive::new(ERROR_EXPONENT)
+    }
+}
 
-    fn start<S: Real, Y: Vector<S>>(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-        Radau::new(ode, t, y)
+impl Algorithm for RadauIIA {
+    type Formula<S: Real, Y: Vector<S>> = Radau<S, Y>;
+
+    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+        Radau::new(integration)
     }
 }
 
 /// Takes the steps of [`Radau5`].
 #[derive(Clone)]
 pub struct Radau<S: Real, Y: Vector<S>> {
-    progress: Progress<S, Y>,
     /// The derivative at the state.
     rate: Y,
     /// z_k: stage k of the attempted step is y + z_k.
     increments: [Y; 3],
     newton: Newton<S, Y>,
     estimate: Y,
-    /// The attempted step.
-    attempted: Taken<S>,
-    /// The last accepted step.
-    last: Option<Taken<S>>,
+    /// The size of the attempted step.
+    size: S,
+    /// Turns of its iteration.
+    turns: u32,
+    /// The size of the last accepted step.
+    last_size: Option<S>,
     /// Its z_k.
     last_increments: [Y; 3],
-    /// The accepted step before it.
-    before: Option<Taken<S>>,
-    /// Whether the step was rejected before.
-    rejected: bool,
     /// The factor to the size of a step for which the iteration failed.
     retreat: Option<S>,
     /// What [`WITHIN`] is multiplied by, once somebody looks within the attempted step: how far the solution is from
@@ -116,25 +113,14 @@ enum Interpolation {
     Accurate,
 }
 
-/// What the choice of the next step asks of a step.
-#[derive(Clone, Copy)]
-struct Taken<S> {
-    size: S,
-    /// Tolerance over error.
-    ratio: S,
-    /// Turns of the iteration.
-    turns: u32,
-}
-
 impl<S: Real, Y: Vector<S>> Radau<S, Y> {
-    /// Takes the start, evaluates the derivative there, and makes all room that the steps will need.
+    /// Evaluates the derivative at the start, and makes all room that the steps will need.
     ///
     /// # Errors
-    /// If the state or its derivative is infinite or not a number.
-    pub fn new(ode: &mut (impl Ode<S, Y> + ?Sized), t: S, y: Y) -> Result<Self, IntegrationError<S>> {
-        let zero = zeros(&y);
+    /// If the derivative is infinite or not a number.
+    pub fn new<O: Ode<S, Y> + ?Sized>(integration: &mut Integration<'_, S, Y, O>) -> Result<Self, IntegrationError<S>> {
+        let zero = zeros(&integration.progress.y);
         let mut this = Self {
-            progress: Progress::new(t, y)?,
             rate: zero.clone(),
             increments: from_fn(|_| zero.clone()),
             last_increments: from_fn(|_| zero.clone()),
@@ -142,21 +128,35 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
             within: from_fn(|_| zero.clone()),
             interpolation: Interpolation::Absent,
             estimate: zero,
-            attempted: Taken { size: S::zero(), ratio: S::zero(), turns: 0 },
-            last: None,
-            before: None,
-            rejected: false,
+            size: S::zero(),
+            turns: 0,
+            last_size: None,
             retreat: None,
         };
-        this.progress.evaluate(ode, t, &mut this.rate)?;
+        integration.evaluate(integration.progress.t, &mut this.rate)?;
         Ok(this)
+    }
+
+    /// Turns of the iteration of the attempted step.
+    pub(in crate::integrate) fn turns(&self) -> u32 {
+        self.turns
+    }
+
+    /// Whether the next step will use the Jacobian of this one.
+    pub(in crate::integrate) fn keeps_its_jacobian(&self) -> bool {
+        self.newton.keeps_its_jacobian()
+    }
+
+    /// The factor to the size of a step for which the iteration failed, once.
+    pub(in crate::integrate) fn take_retreat(&mut self) -> Option<S> {
+        self.retreat.take()
     }
 
     /// Writes to the increments what is known before the iteration.
     fn predict(&mut self) {
-        match &self.last {
+        match self.last_size {
             Some(last) => {
-                let ratio = self.progress.step_size() / last.size;
+                let ratio = self.size / last;
                 let shape = (&RADAU_IIA_5.dense, &RADAU_IIA_5.nodes);
                 extrapolate(shape, ratio, S::one(), &self.last_increments, &mut self.increments);
             }
@@ -172,20 +172,23 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
 
     /// Solves for the stages from the increments at hand. Where the iteration fails with a Jacobian of an earlier
     /// state, it begins anew with that of this state.
-    fn solve(
+    fn solve<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        tolerances: &Tolerances<'_, S>,
-    ) -> Result<u32, IntegrationError<S>> {
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<(), IntegrationError<S>> {
         loop {
-            let Self { progress, rate, increments, newton, .. } = self;
-            newton.prepare(ode, progress, rate, tolerances)?;
-            match newton.iterate(ode, progress, increments, tolerances)? {
-                Outcome::Solved { turns } => return Ok(turns),
+            let Self { rate, increments, newton, .. } = self;
+            newton.prepare(integration, rate)?;
+            match newton.iterate(integration, increments)? {
+                Outcome::Solved { turns } => {
+                    self.turns = turns;
+                    return Ok(());
+                }
                 Outcome::Failed { .. } if newton.outdate() => self.begin_at_the_state(),
                 Outcome::Failed { retreat } => {
                     self.retreat = Some(retreat);
-                    return Err(IntegrationError::NotConverged { t: progress.t, step: progress.step_size() });
+                    let Progress { t, .. } = integration.progress;
+                    return Err(IntegrationError::NotConverged { t, step: integration.progress.step_size() });
                 }
             }
         }
@@ -193,36 +196,37 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
 
     /// Takes a step of the part `node` of the attempted one from its start, and writes what it adds to the state and h
     /// times the derivative at its end; `false` if its stages are not found.
-    fn shorter(
+    fn shorter<O: Ode<S, Y> + ?Sized>(
         &self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
+        integration: &mut Integration<'_, S, Y, O>,
         node: f64,
-        tolerances: &Tolerances<'_, S>,
         [increment, slope]: [&mut Y; 2],
-    ) -> (Result<bool, IntegrationError<S>>, Statistics) {
-        let mut aside = self.clone();
-        aside.progress.t_new = self.progress.time_at(node);
-        for (start, &c) in aside.increments.iter_mut().zip(&RADAU_IIA_5.nodes) {
+    ) -> Result<bool, IntegrationError<S>> {
+        let mut shorter = self.clone();
+        for (start, &c) in shorter.increments.iter_mut().zip(&RADAU_IIA_5.nodes) {
             let theta = S::from_f64(node * c);
             let weights = RADAU_IIA_5.dense.iter().map(|p| without_constant(p, theta));
             weighted_sum(weights, &self.increments, start);
         }
-        let outcome = match aside.solve(ode, tolerances) {
-            Ok(_) => Ok(true),
+        let outcome = integration.aside(|aside| {
+            aside.progress.t_new = aside.progress.time_at(node);
+            shorter.solve(aside)
+        });
+        let [.., end] = &shorter.increments;
+        increment.clone_from(end);
+        slope_at_end(&shorter.increments, node, slope);
+        match outcome {
+            Ok(()) => Ok(true),
             Err(IntegrationError::NotConverged { .. }) => Ok(false),
             Err(fault) => Err(fault),
-        };
-        let [.., end] = &aside.increments;
-        increment.clone_from(end);
-        slope_at_end(&aside.increments, node, slope);
-        (outcome, aside.progress.statistics)
+        }
     }
 
     /// Estimates the error of the step whose end is `y_new`, from the derivative `rate` or, if there is none, at the
     /// state: the difference from an embedded formula of order 3, filtered so that it stays small where the equation is
     /// stiff.
     fn estimate(&mut self, rate: Option<&Y>) {
-        let h = self.progress.step_size();
+        let h = self.size;
         weighted_sum(RADAU_IIA_5.error.iter().map(|&e| S::from_f64(e) / h), &self.increments, &mut self.estimate);
         for (estimate, &rate) in self.estimate.as_mut().iter_mut().zip(rate.unwrap_or(&self.rate).as_ref()) {
             *estimate += rate;
@@ -231,8 +235,7 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
     }
 
     /// The estimate as the tolerances measure it, and made a quantity that goes with h⁶.
-    fn measure(&self, tolerances: &Tolerances<'_, S>) -> S {
-        let Progress { y, y_new, .. } = &self.progress;
+    fn measure(&self, Progress { y, y_new, .. }: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
         let error = S::from_f64(10.0) * tolerances.norm(&self.estimate, y, y_new);
         error * error.sqrt()
     }
@@ -246,63 +249,52 @@ fn slope_at_end<S: Real, Y: Vector<S>>(increments: &[Y; 3], node: f64, slope: &m
     weighted_sum(RADAU_IIA_5.dense.iter().map(|p| S::from_f64(at_end(p) / node)), increments, slope);
 }
 
-impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
-    fn progress(&self) -> &Progress<S, Y> {
-        &self.progress
-    }
-
-    fn progress_mut(&mut self) -> &mut Progress<S, Y> {
-        &mut self.progress
-    }
-
+impl<S: Real, Y: Vector<S>> Formula<S, Y> for Radau<S, Y> {
     fn rate(&self) -> &Y {
         &self.rate
     }
 
-    fn attempt(
+    fn attempt<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t_new: S,
-        tolerances: &Tolerances<'_, S>,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<(), IntegrationError<S>> {
-        self.progress.t_new = t_new;
+        self.size = integration.progress.step_size();
         self.interpolation = Interpolation::Absent;
+        let again = integration.progress.rejections > 0;
+        if again {
+            self.newton.outdate();
+        }
         self.predict();
-        let turns = self.solve(ode, tolerances)?;
+        self.solve(integration)?;
         let [.., end] = &self.increments;
-        self.progress.advance_by(end);
+        integration.progress.advance_by(end);
         self.estimate(None);
-        let first_or_again = self.last.is_none() || self.rejected;
-        if first_or_again && self.measure(tolerances) > tolerances.relative() {
+        let first_or_again = self.last_size.is_none() || again;
+        let tolerances = integration.tolerances;
+        if first_or_again && self.measure(&integration.progress, &tolerances) > tolerances.relative() {
             // A fast transient makes the first estimate far too large; one from the derivative at y + e does not.
             let mut rate = zeros(&self.rate);
-            self.progress.advance_by(&self.estimate);
-            let evaluated = self.progress.evaluate(ode, self.progress.t, &mut rate).is_ok();
+            integration.progress.advance_by(&self.estimate);
+            let evaluated = integration.evaluate(integration.progress.t, &mut rate).is_ok();
             let [.., end] = &self.increments;
-            self.progress.advance_by(end);
+            integration.progress.advance_by(end);
             if evaluated {
                 self.estimate(Some(&rate));
             }
         }
-        let ratio = tolerances.relative() / self.measure(tolerances);
-        self.attempted = Taken { size: self.progress.step_size(), ratio, turns };
         Ok(())
     }
 
-    fn error(&mut self, tolerances: &Tolerances<'_, S>) -> S {
-        self.measure(tolerances)
-    }
-
-    fn error_exponent(&self) -> u32 {
-        6
+    /// The estimate e has order 3; (10 e)^(3/2) has the order of the error of the step.
+    fn error(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
+        self.measure(progress, tolerances)
     }
 
     /// Where the stages of a shorter step are not found, as about a jump of the derivative, the collocation polynomial
     /// remains.
-    fn look_within(
+    fn prepare_dense_output<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        tolerances: &Tolerances<'_, S>,
+        integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<(), IntegrationError<S>> {
         let mut within = self.within.clone();
         let [first, second, end, first_slope, second_slope, end_slope] = &mut within;
@@ -313,9 +305,7 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
             (CHECKED_NODE, [&mut checked, &mut unused]),
         ];
         for (node, values) in shorter_steps {
-            let (outcome, statistics) = self.shorter(ode, node, tolerances, values);
-            self.progress.statistics = statistics;
-            if !outcome? {
+            if !self.shorter(integration, node, values)? {
                 return Ok(());
             }
         }
@@ -330,69 +320,35 @@ impl<S: Real, Y: Vector<S>> Stepper<S, Y> for Radau<S, Y> {
         for (error, &value) in error.as_mut().iter_mut().zip(checked.as_ref()) {
             *error -= value;
         }
-        let Progress { y, y_new, .. } = &self.progress;
+        let Integration { progress: Progress { y, y_new, .. }, tolerances, .. } = integration;
         let accurate = tolerances.norm(&error, y, y_new) <= tolerances.relative();
         self.interpolation = if accurate { Interpolation::Accurate } else { Interpolation::Coarse };
         Ok(())
     }
 
-    fn extension_suffices(&self) -> bool {
+    fn dense_output_suffices(&self) -> bool {
         self.interpolation == Interpolation::Accurate
     }
 
-    fn state_at(
-        &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        tolerances: &Tolerances<'_, S>,
-    ) -> Result<Option<Y>, IntegrationError<S>> {
-        step_aside(self, ode, t, tolerances)
+    fn aside(&self) -> Option<Self> {
+        Some(self.clone())
     }
 
-    fn step(&self) -> Step<'_, S, Y> {
-        let Progress { t, y, t_new, y_new, .. } = &self.progress;
-        let (start, end) = ((*t, y), (*t_new, y_new));
+    fn step<'a>(&'a self, progress: &'a Progress<S, Y>) -> Step<'a, S, Y> {
         match self.interpolation {
-            Interpolation::Absent => Step::new(start, end, S::one(), &self.increments, &RADAU_IIA_5.dense),
-            _ => Step::new(start, end, S::one(), &self.within, &WITHIN),
+            Interpolation::Absent => progress.step(S::one(), &self.increments, &RADAU_IIA_5.dense),
+            _ => progress.step(S::one(), &self.within, &WITHIN),
         }
     }
 
-    fn accept(&mut self) {
-        self.progress.accept();
+    fn advance<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+        _corrected: bool,
+    ) -> Result<(), IntegrationError<S>> {
         self.newton.leave();
         swap(&mut self.increments, &mut self.last_increments);
-        self.before = self.last.replace(self.attempted);
-        self.rejected = false;
-    }
-
-    fn renew(&mut self, ode: &mut (impl Ode<S, Y> + ?Sized)) -> Result<(), IntegrationError<S>> {
-        self.progress.take_correction();
-        self.progress.y_new.clone_from(&self.progress.y);
-        self.progress.evaluate(ode, self.progress.t, &mut self.rate)
-    }
-
-    fn shrinkage(&mut self, ratio: S, failures: u32) -> S {
-        self.rejected = true;
-        self.newton.outdate();
-        self.retreat.take().unwrap_or_else(|| usual_shrinkage(ratio, failures, self.error_exponent()))
-    }
-
-    /// The smaller of what the error of this step says, and of what the errors of the last two predict if their change
-    /// goes on (K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods*,
-    /// ACM Trans. Math. Softw. 20 (1994)).
-    fn growth(&mut self, ratio: S) -> S {
-        let power = |ratio: S| ratio.powf(root(self.error_exponent()));
-        let turns = S::from_f64(f64::from(2 * LARGEST_TURN + 1) / f64::from(2 * LARGEST_TURN + self.attempted.turns));
-        let mut growth = S::from_f64(SAFETY) * turns.minimum(S::one()) * power(ratio);
-        if let Some(before) = &self.before {
-            let trend = power(ratio * (ratio / before.ratio.minimum(S::from_f64(LARGEST_RATIO))));
-            growth = growth.minimum(S::from_f64(SAFETY) * (self.attempted.size / before.size) * trend);
-        }
-        let worth_a_change = growth < S::one() || growth > S::from_f64(WORTH_A_CHANGE);
-        if self.newton.keeps_its_jacobian() && !worth_a_change {
-            return S::one();
-        }
-        growth.maximum(S::from_f64(SMALLEST_GROWTH)).minimum(S::from_f64(LARGEST_GROWTH))
+        self.last_size = Some(self.size);
+        integration.evaluate_at_state(&mut self.rate)
     }
 }

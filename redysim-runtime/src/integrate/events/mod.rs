@@ -6,8 +6,9 @@ mod root;
 
 use core::ops::ControlFlow;
 
-use super::method::Stepper;
-use super::{Accepted, IntegrationError, Observer, Ode, Step, Tolerances};
+use super::algorithm::Formula;
+use super::observer::ObservedStep;
+use super::{Accepted, IntegrationError, Observer, Ode, Step};
 use crate::{Real, Vector};
 use crossings::{Crossing, Nodes};
 
@@ -147,13 +148,11 @@ where
         (self.on_step)(step)
     }
 
-    fn look(
+    fn observe<R: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
         &mut self,
-        stepper: &mut impl Stepper<S, Y>,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        tolerances: &Tolerances<'_, S>,
+        observed: &mut ObservedStep<'_, '_, S, Y, R, O>,
     ) -> Result<ControlFlow<()>, IntegrationError<S>> {
-        let step = stepper.step();
+        let step = observed.step();
         let (from, to) = (step.start().0, step.end().0);
         for (index, event) in self.events.iter_mut().enumerate() {
             let (value, y) = (event.value, &mut self.y);
@@ -161,29 +160,29 @@ where
             event.next = None;
         }
         let mut latest = from;
-        while let Some((index, crossing)) = self.next(&stepper.step())? {
+        while let Some((index, crossing)) = self.next(&observed.step())? {
             let Some(event) = self.events.get(index) else { break };
-            let (mut t, mut y) = refine::refine(event.value, index, &crossing, stepper, ode, tolerances)?;
+            let (mut t, mut y) = refine::refine(event.value, index, &crossing, observed)?;
             // Refined times of different events may change places by as much as the solution within the step errs.
             if (t < latest) == (to > from) && t != latest {
                 t = latest;
-                y = stepper.step().at(t);
+                y = observed.step().at(t);
             }
             latest = t;
             let direction = if crossing.rising { Direction::Rising } else { Direction::Falling };
             if (self.on_event)(Occurrence { event: index, t, y: &y, direction }).is_break() {
                 if t != to {
-                    if ode.accepted(t, (t - from).abs(), &mut y) == Accepted::Refused {
+                    if observed.integration.ode.accepted(t, (t - from).abs(), &mut y) == Accepted::Refused {
                         return Err(IntegrationError::Refused { t });
                     }
-                    stepper.progress().check(t, &y)?;
+                    observed.integration.progress.check(t, &y)?;
                 }
-                let _ = (self.on_step)(&stepper.step().until(t, &y));
+                let _ = (self.on_step)(&observed.step().until(t, &y));
                 self.stopped = Some((t, y));
                 return Ok(ControlFlow::Break(()));
             }
         }
-        Ok(self.step(&stepper.step()))
+        Ok(self.step(&observed.step()))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::crossings::Crossing;
 use super::finite;
-use crate::integrate::method::Stepper;
-use crate::integrate::{IntegrationError, Ode, Tolerances};
+use crate::integrate::algorithm::Formula;
+use crate::integrate::observer::ObservedStep;
+use crate::integrate::{IntegrationError, Ode, Step};
 use crate::{Real, Vector};
 
 /// Steps of the method for one event at most.
@@ -23,18 +24,17 @@ const REST: f64 = 0.1;
 ///
 /// # Errors
 /// If a derivative or a value of the event is infinite or not a number.
-pub fn refine<S: Real, Y: Vector<S>>(
+pub fn refine<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
     value: &dyn Fn(S, &Y) -> S,
     event: usize,
     crossing: &Crossing<S>,
-    stepper: &mut impl Stepper<S, Y>,
-    ode: &mut (impl Ode<S, Y> + ?Sized),
-    tolerances: &Tolerances<'_, S>,
+    observed: &mut ObservedStep<'_, '_, S, Y, F, O>,
 ) -> Result<(S, Y), IntegrationError<S>> {
-    let (from, to) = (stepper.progress().t, stepper.progress().t_new);
+    let step = observed.step();
+    let (from, to) = (step.start().0, step.end().0);
     // Positive before the crossing.
     let sign = if crossing.rising { -S::one() } else { S::one() };
-    let (change, distance) = change_within(value, crossing.t, from, to, stepper);
+    let (change, distance) = change_within(value, crossing.t, &step);
     let mut slope = sign * change / distance;
     let mut t = crossing.t;
     // Aiming a few roundings of time beyond zero, so that it is passed.
@@ -46,7 +46,7 @@ pub fn refine<S: Real, Y: Vector<S>>(
         if t == to {
             break;
         }
-        let Some(y) = stepper.state_at(ode, t, tolerances)? else { break };
+        let Some(y) = observed.state_by_step(t)? else { break };
         let error = finite(sign * value(t, &y), event, t)?;
         if let Some((t_previous, previous)) = previous
             && t != t_previous
@@ -67,7 +67,7 @@ pub fn refine<S: Real, Y: Vector<S>>(
     }
     Ok(match best {
         Some(Trial { t, y, error }) if error.abs() <= S::from_f64(REST) * change.abs() => (t, y),
-        _ => (crossing.t, stepper.step().at(crossing.t)),
+        _ => (crossing.t, observed.step().at(crossing.t)),
     })
 }
 
@@ -88,14 +88,8 @@ impl<S: Real, Y> Trial<S, Y> {
 }
 
 /// How the value changes about a crossing of the extension, and over what time.
-fn change_within<S: Real, Y: Vector<S>>(
-    value: &dyn Fn(S, &Y) -> S,
-    t: S,
-    from: S,
-    to: S,
-    stepper: &impl Stepper<S, Y>,
-) -> (S, S) {
-    let step = stepper.step();
+fn change_within<S: Real, Y: Vector<S>>(value: &dyn Fn(S, &Y) -> S, t: S, step: &Step<'_, S, Y>) -> (S, S) {
+    let (from, to) = (step.start().0, step.end().0);
     let distance = S::from_f64(DISTANCE) * (to - from);
     let (before, after) = (clamped(t - distance, from, to), clamped(t + distance, from, to));
     (value(after, &step.at(after)) - value(before, &step.at(before)), after - before)

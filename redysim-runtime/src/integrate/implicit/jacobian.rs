@@ -1,7 +1,7 @@
 //! The Jacobian of the right-hand side.
 
-use crate::integrate::progress::{Progress, zeros};
-use crate::integrate::{IntegrationError, Ode, Tolerances};
+use crate::integrate::integration::{Integration, zeros};
+use crate::integrate::{IntegrationError, Ode};
 use crate::vector::entry;
 use crate::{Real, Vector};
 
@@ -10,26 +10,24 @@ use crate::{Real, Vector};
 ///
 /// # Errors
 /// If an element is infinite or not a number.
-pub fn jacobian<S: Real, Y: Vector<S>>(
-    ode: &mut (impl Ode<S, Y> + ?Sized),
-    progress: &mut Progress<S, Y>,
+pub fn jacobian<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+    integration: &mut Integration<'_, S, Y, O>,
     rate: &Y,
-    tolerances: &Tolerances<'_, S>,
     rows: &mut Y::Of<Y>,
 ) -> Result<(), IntegrationError<S>> {
-    progress.statistics.jacobians += 1;
-    let t = progress.t;
+    integration.progress.statistics.jacobians += 1;
+    let t = integration.progress.t;
     let mut direction = zeros(rate);
     let mut column = zeros(rate);
     let mut has_tangent = true;
     for j in 0..rate.as_ref().len() {
         if has_tangent {
             set(&mut direction, j, S::one());
-            has_tangent = ode.tangent(t, &progress.y, &direction, &mut column);
+            has_tangent = integration.ode.tangent(t, &integration.progress.y, &direction, &mut column);
             set(&mut direction, j, S::zero());
         }
         if !has_tangent {
-            difference(ode, progress, rate, j, tolerances, &mut column)?;
+            difference(integration, rate, j, &mut column)?;
         }
         for (component, row) in rows.as_mut().iter_mut().enumerate() {
             let element = entry(&column, component);
@@ -43,20 +41,19 @@ pub fn jacobian<S: Real, Y: Vector<S>>(
 }
 
 /// Column `j` by a difference over √ε of the component, or of what the tolerances say is small.
-fn difference<S: Real, Y: Vector<S>>(
-    ode: &mut (impl Ode<S, Y> + ?Sized),
-    progress: &mut Progress<S, Y>,
+fn difference<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+    integration: &mut Integration<'_, S, Y, O>,
     rate: &Y,
     j: usize,
-    tolerances: &Tolerances<'_, S>,
     column: &mut Y,
 ) -> Result<(), IntegrationError<S>> {
+    let Integration { progress, tolerances, .. } = &mut *integration;
     progress.y_new.clone_from(&progress.y);
     let Some(&old) = progress.y.as_ref().get(j) else { return Ok(()) };
     let step = S::EPSILON.sqrt() * old.abs().maximum(tolerances.threshold(j));
     let new = old + if old < S::zero() { -step } else { step };
     set(&mut progress.y_new, j, new);
-    progress.evaluate(ode, progress.t, column)?;
+    integration.evaluate(integration.progress.t, column)?;
     for (element, &rate) in column.as_mut().iter_mut().zip(rate.as_ref()) {
         // The difference that was taken, not the one that was meant.
         *element = (*element - rate) / (new - old);

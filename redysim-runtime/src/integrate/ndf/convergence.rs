@@ -4,11 +4,12 @@ extern crate std;
 
 use std::println;
 
+use super::coefficients::{BACKWARD_DIFFERENTIATION, NUMERICAL_DIFFERENTIATION};
 use super::differences::Differences;
-use super::formulas::{BACKWARD_DIFFERENTIATION, NUMERICAL_DIFFERENTIATION};
-use super::stepper::NdfStepper;
+use super::formula::NdfFormula;
 use crate::integrate::Tolerances;
-use crate::integrate::method::Stepper;
+use crate::integrate::algorithm::Formula;
+use crate::integrate::integration::Integration;
 use crate::integrate::tolerance::Absolute;
 
 const START: f64 = 0.5;
@@ -31,21 +32,24 @@ fn error(t: f64, y: &[f64; 2]) -> f64 {
 fn errors(kappas: &'static [f64], order: usize, steps: u32) -> [f64; 2] {
     let tolerances = Tolerances { relative: 1e-13, absolute: Absolute::All(1e-13) };
     let size = (END - START) / f64::from(steps);
-    let mut stepper = NdfStepper::new(kappas, &mut nonlinear, START, exact(START)).unwrap();
-    stepper.set_past(Differences::from_past(order, size, |back| exact(START - size * back as f64)));
+    let mut ode = nonlinear;
+    let mut integration = Integration::new(&mut ode, tolerances, START, exact(START)).unwrap();
+    let mut formula = NdfFormula::new(kappas, &mut integration).unwrap();
+    formula.set_past(Differences::from_past(order, size, |back| exact(START - size * back as f64)));
     let (mut at, mut between) = (0.0_f64, 0.0_f64);
     for step in 1..=steps {
-        stepper.attempt(&mut nonlinear, START + size * f64::from(step), &tolerances).unwrap();
-        let shown = stepper.step();
+        integration.progress.t_new = START + size * f64::from(step);
+        formula.attempt(&mut integration).unwrap();
+        let shown = formula.step(&integration.progress);
         at = at.max(error(shown.end().0, shown.end().1));
         for theta in [0.25, 0.5, 0.75] {
             let t = shown.start().0 + theta * size;
             between = between.max(error(t, &shown.at(t)));
         }
-        stepper.accept();
-        stepper.renew(&mut nonlinear).unwrap();
+        let corrected = integration.progress.accept();
+        formula.advance(&mut integration, corrected).unwrap();
     }
-    assert_eq!(stepper.progress().statistics.steps, u64::from(steps));
+    assert_eq!(integration.progress.statistics.steps, u64::from(steps));
     [at, between]
 }
 

@@ -1,7 +1,7 @@
 //! The past of a solution in backward differences of constant step size.
 
-use super::formulas::{HIGHEST_ORDER, newton_polynomial};
-use crate::integrate::progress::zeros;
+use super::coefficients::{HIGHEST_ORDER, newton_polynomial};
+use crate::integrate::integration::zeros;
 use crate::{Real, Vector};
 
 /// ∇y_n, …, ∇^k y_n of order k and, for the choice of the order, two more.

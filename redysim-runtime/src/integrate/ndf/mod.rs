@@ -1,21 +1,23 @@
 //! Numerical differentiation formulas of orders 1 to 5 with steps and order from tolerances, for stiff equations.
 //!
-//! The coefficients are in [`formulas`], the past of the solution in [`differences`], the equation for the end of a
-//! step in [`newton`], the choice of size and order in [`stepper`].
+//! The formulas are in [`coefficients`], the past of the solution in [`differences`], the equation for the end of a
+//! step in [`newton`], a step in [`formula`]; size and order are chosen by [`VariableOrder`].
 
+mod coefficients;
 #[cfg(test)]
 mod convergence;
 mod differences;
-mod formulas;
+mod formula;
 mod newton;
-mod stepper;
 
 use super::adaptive::Adaptive;
-use super::method::{EstimatesErrors, Method};
+use super::algorithm::{Algorithm, EstimatesErrors};
+use super::integration::Integration;
+use super::step_control::VariableOrder;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
-use formulas::{BACKWARD_DIFFERENTIATION, HIGHEST_ORDER, NUMERICAL_DIFFERENTIATION};
-use stepper::NdfStepper;
+use coefficients::{BACKWARD_DIFFERENTIATION, HIGHEST_ORDER, NUMERICAL_DIFFERENTIATION};
+pub use formula::NdfFormula;
 
 /// The numerical differentiation formulas of orders 1 to 5 with steps and order chosen from tolerances: MATLAB's
 /// `ode15s`, ReDySim's choice 1. For stiff equations, those whose fast motions have long died down.
@@ -84,30 +86,38 @@ const fn up_to<const MAX_ORDER: usize>(kappas: &'static [f64; HIGHEST_ORDER]) ->
     kappas.split_at(MAX_ORDER).0
 }
 
-impl<const MAX_ORDER: usize> EstimatesErrors for Ndf<MAX_ORDER> {}
+impl<const MAX_ORDER: usize> EstimatesErrors for Ndf<MAX_ORDER> {
+    type Control<S: Real, Y: Vector<S>> = VariableOrder;
 
-impl<const MAX_ORDER: usize> Method for Ndf<MAX_ORDER> {
-    type Stepper<S: Real, Y: Vector<S>> = NdfStepper<S, Y>;
-
-    fn start<S: Real, Y: Vector<S>>(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-        NdfStepper::new(const { up_to::<MAX_ORDER>(&NUMERICAL_DIFFERENTIATION) }, ode, t, y)
+    fn control<S: Real, Y: Vector<S>>() -> VariableOrder {
+        VariableOrder
     }
 }
 
-impl<const MAX_ORDER: usize> EstimatesErrors for Bdf<MAX_ORDER> {}
+impl<const MAX_ORDER: usize> Algorithm for Ndf<MAX_ORDER> {
+    type Formula<S: Real, Y: Vector<S>> = NdfFormula<S, Y>;
 
-impl<const MAX_ORDER: usize> Method for Bdf<MAX_ORDER> {
-    type Stepper<S: Real, Y: Vector<S>> = NdfStepper<S, Y>;
+    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+        NdfFormula::new(const { up_to::<MAX_ORDER>(&NUMERICAL_DIFFERENTIATION) }, integration)
+    }
+}
 
-    fn start<S: Real, Y: Vector<S>>(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        t: S,
-        y: Y,
-    ) -> Result<Self::Stepper<S, Y>, IntegrationError<S>> {
-        NdfStepper::new(const { up_to::<MAX_ORDER>(&BACKWARD_DIFFERENTIATION) }, ode, t, y)
+impl<const MAX_ORDER: usize> EstimatesErrors for Bdf<MAX_ORDER> {
+    type Control<S: Real, Y: Vector<S>> = VariableOrder;
+
+    fn control<S: Real, Y: Vector<S>>() -> VariableOrder {
+        VariableOrder
+    }
+}
+
+impl<const MAX_ORDER: usize> Algorithm for Bdf<MAX_ORDER> {
+    type Formula<S: Real, Y: Vector<S>> = NdfFormula<S, Y>;
+
+    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+        NdfFormula::new(const { up_to::<MAX_ORDER>(&BACKWARD_DIFFERENTIATION) }, integration)
     }
 }

@@ -2,8 +2,8 @@
 
 use super::differences::add;
 use crate::integrate::implicit::lu::Lu;
-use crate::integrate::progress::{Progress, zeros};
-use crate::integrate::{IntegrationError, Ode, Tolerances};
+use crate::integrate::integration::{Integration, Progress, zeros};
+use crate::integrate::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
 /// The iteration does not go on beyond this: a smaller step or a new Jacobian costs less.
@@ -75,25 +75,26 @@ impl<S: Real, Y: Vector<S>> Newton<S, Y> {
     ///
     /// # Errors
     /// If the state or its derivative becomes infinite or not a number.
-    pub fn solve(
+    pub fn solve<O: Ode<S, Y> + ?Sized>(
         &mut self,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        progress: &mut Progress<S, Y>,
+        integration: &mut Integration<'_, S, Y, O>,
         equation: &Equation<S, Y>,
-        tolerances: &Tolerances<'_, S>,
     ) -> Result<bool, IntegrationError<S>> {
         if self.matrix.as_ref().is_none_or(|(_, factor)| *factor != equation.matrix_factor) {
-            self.decompose(progress, equation.matrix_factor);
+            self.decompose(&mut integration.progress, equation.matrix_factor);
         }
         let Some((matrix, _)) = &self.matrix else { return Ok(false) };
+        let tolerances = integration.tolerances;
         let rtol = tolerances.relative();
         self.correction.as_mut().fill(S::zero());
+        let progress = &mut integration.progress;
         move_to(progress, equation, &self.correction);
         let roundoff =
             S::from_f64(ROUNDOFF_UNITS) * S::EPSILON * tolerances.norm(&progress.y_new, &progress.y, &progress.y_new);
         let mut previous = None;
         for left in (0..MOST_ITERATIONS).rev() {
-            progress.evaluate(ode, progress.t_new, &mut self.change)?;
+            integration.evaluate(integration.progress.t_new, &mut self.change)?;
+            let progress = &mut integration.progress;
             let parts = equation.known.as_ref().iter().zip(self.correction.as_ref());
             for (change, (&known, &d)) in self.change.as_mut().iter_mut().zip(parts) {
                 *change = equation.factor * *change - known - d;

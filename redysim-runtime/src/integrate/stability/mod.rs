@@ -5,12 +5,12 @@
 //! controller moves an eigenvalue as far to the left as it is large, which is why stiff joints ask for small steps.
 
 mod eigenvalues;
-mod method;
+mod largest_step;
 mod participation;
 mod polynomial;
 mod warning;
 
-pub use method::LinearStability;
+pub use largest_step::LinearStability;
 pub use polynomial::StabilityFunction;
 pub use warning::StepWarning;
 
@@ -18,7 +18,7 @@ use crate::integrate::complex::Complex;
 use eigenvalues::{Row, eigenvalues, matrix};
 
 use super::implicit::jacobian::jacobian;
-use super::progress::{Progress, zeros};
+use super::integration::{Integration, zeros};
 use super::tolerance::{Absolute, Tolerances};
 use super::{FixedStep, IntegrationError, Ode};
 use crate::vector::entry;
@@ -47,16 +47,15 @@ pub struct Linearised<S: Real, Y: Vector<S>> {
 }
 
 impl<S: Real, Y: Vector<S>> Linearised<S, Y> {
-    /// Linearises about the state of `progress`, where the derivative is `rate`.
-    pub(super) fn new(
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        progress: &mut Progress<S, Y>,
+    /// Linearises about the state of `integration`, where the derivative is `rate`.
+    pub(super) fn new<O: Ode<S, Y> + ?Sized>(
+        integration: &mut Integration<'_, S, Y, O>,
         rate: &Y,
-        tolerances: &Tolerances<'_, S>,
     ) -> Result<Self, IntegrationError<S>> {
         let len = rate.as_ref().len();
         let mut rows = Y::Of::<Y>::from_fn(len, |_| zeros(rate));
-        jacobian(ode, progress, rate, tolerances, &mut rows)?;
+        jacobian(integration, rate, &mut rows)?;
+        let Integration { ode, progress, .. } = integration;
         let coordinates = ode.coordinate_rates(progress.t, &progress.y, &mut zeros(rate));
         let mut this = Self { rows, eigenvalues: Row::<S, Y>::from_fn(len, |_| Complex::default()), coordinates };
         this.eigenvalues = eigenvalues::<S, Y>(matrix::<S, Y>(len, |i, j| this.element(i, j)))
@@ -118,10 +117,10 @@ pub fn largest_stable_step<S: Real, Y: Vector<S>, M: LinearStability>(
     let _ = method;
     // Differences, where they are needed, are those of components of size 1.
     let unit = Tolerances { relative: S::one(), absolute: Absolute::All(S::one()) };
-    let mut progress = Progress::new(t, y.clone())?;
+    let mut integration = Integration::new(ode, unit, t, y.clone())?;
     let mut rate = zeros(y);
-    progress.evaluate(ode, t, &mut rate)?;
-    let linearised = Linearised::<S, Y>::new(ode, &mut progress, &rate, &unit)?;
+    integration.evaluate(t, &mut rate)?;
+    let linearised = Linearised::<S, Y>::new(&mut integration, &rate)?;
     let (step, limiting) = M::largest_step(&linearised)?;
     let coordinates = linearised.coordinates;
     let component = limiting.and_then(|(re, im)| {

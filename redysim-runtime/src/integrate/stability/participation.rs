@@ -2,7 +2,7 @@
 
 use crate::integrate::complex::Complex;
 use crate::integrate::implicit::lu::Lu;
-use crate::integrate::progress::zeros;
+use crate::integrate::integration::zeros;
 use crate::vector::entry;
 use crate::{Real, Vector};
 

@@ -1,14 +1,15 @@
-//! Answers at the times a caller asks for.
+//! The solution at the times that a caller asks for.
 
 use core::ops::ControlFlow;
 
+use super::algorithm::Formula;
 use super::interval::Interval;
-use super::method::Stepper;
-use super::{IntegrationError, Observer, Ode, Step, Tolerances};
+use super::observer::ObservedStep;
+use super::{IntegrationError, Observer, Ode, Step};
 use crate::{Real, Vector};
 
 /// The times still to be answered. Each is checked when the iterator yields it.
-pub(super) struct AskedTimes<I, S, Y, F> {
+pub(super) struct SaveAt<I, S, Y, F> {
     times: I,
     next: Option<S>,
     interval: Interval<S>,
@@ -18,7 +19,7 @@ pub(super) struct AskedTimes<I, S, Y, F> {
     fault: Option<IntegrationError<S>>,
 }
 
-impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> AskedTimes<I, S, Y, F> {
+impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> SaveAt<I, S, Y, F> {
     pub fn new(times: I, interval: Interval<S>, y: Y, output: F) -> Result<Self, IntegrationError<S>> {
         let mut asked = Self { times, next: None, interval, y, output, fault: None };
         asked.pull(interval.from)?;
@@ -61,9 +62,9 @@ impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> AskedTimes<I
     }
 }
 
-impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> Observer<S, Y> for AskedTimes<I, S, Y, F> {
+impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> Observer<S, Y> for SaveAt<I, S, Y, F> {
     /// A time that follows the next one within the step counts as within, too.
-    fn looks_within(&self, _from: S, to: S) -> bool {
+    fn needs_dense_output(&self, _from: S, to: S) -> bool {
         self.next.is_some_and(|t| t != to && self.interval.reaches(to, t))
     }
 
@@ -75,14 +76,12 @@ impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> Observer<S, 
         ControlFlow::Continue(())
     }
 
-    fn look(
+    fn observe<G: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
         &mut self,
-        stepper: &mut impl Stepper<S, Y>,
-        ode: &mut (impl Ode<S, Y> + ?Sized),
-        tolerances: &Tolerances<'_, S>,
+        observed: &mut ObservedStep<'_, '_, S, Y, G, O>,
     ) -> Result<ControlFlow<()>, IntegrationError<S>> {
-        while let Some(t) = self.next_until(stepper.progress().t_new) {
-            stepper.write_state_at(ode, t, tolerances, &mut self.y)?;
+        while let Some(t) = self.next_until(observed.step().end().0) {
+            observed.write_state_at(t, &mut self.y)?;
             if self.answer(t).is_break() {
                 return Ok(ControlFlow::Break(()));
             }

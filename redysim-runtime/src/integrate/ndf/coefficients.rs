@@ -23,14 +23,14 @@ pub const GAMMA: [f64; HIGHEST_ORDER] = [1.0, 3.0 / 2.0, 11.0 / 6.0, 25.0 / 12.0
 /// In the correction d = y_{n+1} − ŷ = ∇^{k+1} y_{n+1} it is (1 − κ) γ_k d + Σ_{m=1}^k γ_m ∇^m y_n = h f(t_{n+1}, ŷ +
 /// d) (section 2.1 of the paper).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Formula {
+pub struct Coefficients {
     /// (1 − κ) γ_k, which d is multiplied by.
     pub leading: f64,
     /// κ γ_k + 1/(k + 1): the error of the step is this times ∇^{k+1} y.
     pub error: f64,
 }
 
-impl Formula {
+impl Coefficients {
     /// The formula of `order` with the κ of `kappas`; `None` if it has none for that order.
     pub fn new(kappas: &[f64], order: usize) -> Option<Self> {
         let index = order.checked_sub(1)?;
@@ -74,7 +74,7 @@ mod tests {
     fn steps_are_larger_than_those_of_bdf_by_the_published_percentages() {
         for (order, percent) in (1..).zip([26.0, 26.0, 26.0, 12.0, 0.0]) {
             let [ndf, bdf] = [NUMERICAL_DIFFERENTIATION, BACKWARD_DIFFERENTIATION]
-                .map(|kappas| Formula::new(&kappas, order).unwrap().error);
+                .map(|kappas| Coefficients::new(&kappas, order).unwrap().error);
             let gain = 100.0 * (libm::pow(bdf / ndf, 1.0 / (order as f64 + 1.0)) - 1.0);
             assert!((gain - percent).abs() < 0.5, "order {order}: {gain} % instead of {percent} %");
         }
@@ -82,9 +82,9 @@ mod tests {
 
     #[test]
     fn there_are_formulas_of_the_given_orders_only() {
-        assert!(Formula::new(&NUMERICAL_DIFFERENTIATION, 0).is_none());
-        assert!(Formula::new(&NUMERICAL_DIFFERENTIATION, 6).is_none());
-        assert!(Formula::new(&NUMERICAL_DIFFERENTIATION[..2], 3).is_none());
+        assert!(Coefficients::new(&NUMERICAL_DIFFERENTIATION, 0).is_none());
+        assert!(Coefficients::new(&NUMERICAL_DIFFERENTIATION, 6).is_none());
+        assert!(Coefficients::new(&NUMERICAL_DIFFERENTIATION[..2], 3).is_none());
     }
 
     #[test]

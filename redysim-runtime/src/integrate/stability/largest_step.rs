@@ -1,8 +1,8 @@
 //! What limits the steps of each method.
 
 use super::{Linearised, StabilityFunction, spectral_radius};
+use crate::integrate::algorithm::Algorithm;
 use crate::integrate::complex::Complex;
-use crate::integrate::method::Method;
 use crate::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4, Tableau};
 use crate::integrate::{DormandPrince, DormandPrince853, IntegrationError, RungeKutta4, SymplecticEuler};
 use crate::{Real, Vector};
@@ -15,7 +15,7 @@ const SLACK: f64 = 1e-4;
 type Limit<S> = (S, Option<(S, S)>);
 
 /// A method whose steps of a linear equation can be told stable from unstable.
-pub trait LinearStability: Method {
+pub trait LinearStability: Algorithm {
     /// The largest stable step of a linearised equation, and real and imaginary part of the eigenvalue that limits it,
     /// if one does.
     ///

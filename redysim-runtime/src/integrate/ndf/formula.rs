@@ -1,0 +1,283 @@
+//! Steps of the numerical differentiation formulas: their error, size and order.
+
+use super::coefficients::{Coefficients, DENSE, GAMMA};
+use super::differences::{Differences, add};
+use super::newton::{Equation, Newton};
+use crate::integrate::algorithm::Formula;
+use crate::integrate::implicit::jacobian::jacobian;
+use crate::integrate::integration::{Integration, Progress, zeros};
+use crate::integrate::step::weighted_sum;
+use crate::integrate::{IntegrationError, Ode, Step, Tolerances};
+use crate::{Real, Vector};
+
+/// The largest correction of a state with which the past is kept, in units of the error that a step is allowed. A
+/// projection may move a state further than the step was wrong, and in components that were not.
+const LARGEST_CORRECTION: f64 = 10.0;
+/// The largest change of h f by a larger correction with which the past is kept, in the same unit: what the iteration
+/// leaves open changes h f by that much.
+const LARGEST_CHANGE_OF_SLOPE: f64 = 2.0;
+/// What is evaluated at the state that is reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Evaluated {
+    Nothing,
+    Derivative,
+    Jacobian,
+}
+
+/// Takes steps of numerical differentiation formulas of variable order.
+pub struct NdfFormula<S, Y: Vector<S>> {
+    /// κ of each order there is.
+    kappas: &'static [f64],
+    differences: Differences<S, Y>,
+    newton: Newton<S, Y>,
+    equation: Equation<S, Y>,
+    evaluated: Evaluated,
+    /// The derivative at the state, if it is evaluated.
+    rate: Y,
+    /// rtol max(|y_i|, |y_new,i|, atol_i / rtol), the error that the last step was allowed.
+    allowed: Y,
+    scratch: Y,
+    /// rtol over the error that the attempted step would have had with the order below and with the order above; 0 if
+    /// there is none.
+    neighbours: [S; 2],
+    /// Whether the correction of the last step has taken the past away.
+    restarted: bool,
+}
+
+impl<S: Real, Y: Vector<S>> NdfFormula<S, Y> {
+    /// Evaluates the derivative at the start, and makes all room that the steps will need.
+    ///
+    /// # Errors
+    /// If the derivative is infinite or not a number.
+    pub fn new<O: Ode<S, Y> + ?Sized>(
+        kappas: &'static [f64],
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<Self, IntegrationError<S>> {
+        let zero = zeros(&integration.progress.y);
+        let mut rate = zero.clone();
+        integration.evaluate(integration.progress.t, &mut rate)?;
+        let [factor, matrix_factor] = [S::zero(); 2];
+        Ok(Self {
+            kappas,
+            differences: Differences::new(&rate),
+            newton: Newton::new(&zero),
+            equation: Equation { predicted: zero.clone(), known: zero.clone(), factor, matrix_factor },
+            evaluated: Evaluated::Derivative,
+            rate,
+            allowed: zero.clone(),
+            scratch: zero,
+            neighbours: [S::zero(); 2],
+            restarted: false,
+        })
+    }
+
+    /// Goes on from a past that is known.
+    #[cfg(test)]
+    pub fn set_past(&mut self, differences: Differences<S, Y>) {
+        self.differences = differences;
+    }
+
+    /// Evaluates the derivative at the state, if it is not.
+    fn evaluate<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<(), IntegrationError<S>> {
+        if self.evaluated < Evaluated::Derivative {
+            integration.evaluate_at_state(&mut self.rate)?;
+            self.evaluated = Evaluated::Derivative;
+        }
+        Ok(())
+    }
+
+    /// Evaluates the Jacobian at the state.
+    fn linearise<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<(), IntegrationError<S>> {
+        self.evaluate(integration)?;
+        let mut rows = self.newton.take_jacobian();
+        jacobian(integration, &self.rate, &mut rows)?;
+        self.newton.set_jacobian(rows);
+        self.evaluated = Evaluated::Jacobian;
+        Ok(())
+    }
+
+    /// Writes ÿ = ∂f/∂t + J f at the state to the scratch, with ∂f/∂t from a difference towards `reach`, and returns
+    /// its size.
+    pub(in crate::integrate) fn second_derivative<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+        reach: S,
+    ) -> Result<S, IntegrationError<S>> {
+        self.linearise(integration)?;
+        let Progress { t, .. } = integration.progress;
+        let small = S::EPSILON.sqrt() * t.abs().maximum((t + reach).abs());
+        let later = t + if small < reach.abs() { if reach < S::zero() { -small } else { small } } else { reach };
+        integration.progress.y_new.clone_from(&integration.progress.y);
+        integration.evaluate(later, &mut self.scratch)?;
+        let rows = self.newton.jacobian().map_or(&[][..], |rows| rows.as_ref());
+        let ends = self.scratch.as_mut().iter_mut().zip(self.rate.as_ref());
+        for ((second, &rate), row) in ends.zip(rows) {
+            let products = row.as_ref().iter().zip(self.rate.as_ref());
+            *second = products.fold((*second - rate) / (later - t), |sum, (&element, &rate)| sum + element * rate);
+        }
+        Ok(integration.tolerances.norm(&self.scratch, &integration.progress.y, &integration.progress.y))
+    }
+
+    /// The past, by differences.
+    pub(in crate::integrate) fn differences(&self) -> &Differences<S, Y> {
+        &self.differences
+    }
+
+    /// Goes on with another order.
+    pub(in crate::integrate) fn set_order(&mut self, order: usize) {
+        self.differences.set_order(order);
+    }
+
+    /// The tolerance over the error that the attempted step would have had with the order below and with the order
+    /// above; 0 if there is none.
+    pub(in crate::integrate) fn neighbours(&self) -> [S; 2] {
+        self.neighbours
+    }
+
+    /// Whether the correction of the last step has taken the past away.
+    pub(in crate::integrate) fn restarted(&self) -> bool {
+        self.restarted
+    }
+
+    /// Sets up the equation for the end of the step.
+    fn set_equation(&mut self, step: S) {
+        let (differences, order) = (&self.differences, self.differences.order());
+        let share =
+            Coefficients::new(self.kappas, order).map_or(S::zero(), |formula| S::one() / S::from_f64(formula.leading));
+        weighted_sum((0..order).map(|_| S::one()), differences.all(), &mut self.equation.predicted);
+        let gammas = GAMMA.iter().take(order).map(|&gamma| S::from_f64(gamma) * share);
+        weighted_sum(gammas, differences.all(), &mut self.equation.known);
+        self.equation.factor = step * share;
+        self.equation.matrix_factor = differences.size() * share;
+    }
+
+    /// Notes what error the tolerances allow between the ends of the attempted step.
+    fn allow(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) {
+        let sizes = progress.y.as_ref().iter().zip(progress.y_new.as_ref());
+        for (component, (allowed, (y, z))) in self.allowed.as_mut().iter_mut().zip(sizes).enumerate() {
+            let size = y.abs().maximum(z.abs()).maximum(tolerances.threshold(component));
+            *allowed = tolerances.relative() * size;
+        }
+    }
+
+    /// The error of a step of `order` where ∇^{order + 1} is `difference`; `None` if there is no such order.
+    fn error_of(
+        &self,
+        order: usize,
+        difference: Option<&Y>,
+        progress: &Progress<S, Y>,
+        tolerances: &Tolerances<'_, S>,
+    ) -> Option<S> {
+        let formula = Coefficients::new(self.kappas, order)?;
+        Some(S::from_f64(formula.error) * tolerances.norm(difference?, &progress.y, &progress.y_new))
+    }
+
+    /// Whether a correction of the state is of the size of errors of steps.
+    fn is_correction_small(&self, progress: &Progress<S, Y>) -> bool {
+        let Progress { y, y_new: old, increment, .. } = progress;
+        let ends = y.as_ref().iter().zip(old.as_ref().iter().zip(increment.as_ref()));
+        let most = S::from_f64(LARGEST_CORRECTION);
+        ends.zip(self.allowed.as_ref())
+            .all(|((&y, (&old, &increment)), &allowed)| (y - (old + increment)).abs() <= most * allowed)
+    }
+
+    /// Whether h f at the corrected state is that at the end of the step, which by the formula of order k was
+    /// Σ_{m=1}^k (1/m) ∇^m y_{n+1} − κ γ_k d.
+    fn keeps_its_slope(&mut self) -> bool {
+        let order = self.differences.order();
+        let Some(formula) = Coefficients::new(self.kappas, order) else { return false };
+        let shares = (1..=order).map(|m| S::one() / S::from_f64(m as f64));
+        weighted_sum(shares, self.differences.all(), &mut self.scratch);
+        let kappa_gamma = S::from_f64(formula.error - 1.0 / (order as f64 + 1.0));
+        add(&mut self.scratch, -kappa_gamma, &self.newton.correction);
+        let slopes = self.scratch.as_ref().iter().zip(self.rate.as_ref());
+        let (size, most) = (self.differences.size(), S::from_f64(LARGEST_CHANGE_OF_SLOPE));
+        slopes
+            .zip(self.allowed.as_ref())
+            .all(|((&slope, &rate), &allowed)| (size * rate - slope).abs() <= most * allowed)
+    }
+}
+
+impl<S: Real, Y: Vector<S>> Formula<S, Y> for NdfFormula<S, Y> {
+    fn rate(&self) -> &Y {
+        &self.rate
+    }
+
+    fn attempt<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+    ) -> Result<(), IntegrationError<S>> {
+        let Progress { t, t_new, .. } = integration.progress;
+        let step = integration.progress.step_size();
+        // Steps that are meant to be alike differ by the rounding errors of the times at both ends.
+        self.differences.resize(step, (S::EPSILON + S::EPSILON) * t.abs().maximum(t_new.abs()));
+        if self.newton.jacobian().is_none() {
+            self.linearise(integration)?;
+        }
+        self.set_equation(step);
+        let mut converged = self.newton.solve(integration, &self.equation)?;
+        if !converged && self.evaluated < Evaluated::Jacobian {
+            // A smaller step is no remedy for an old Jacobian.
+            self.linearise(integration)?;
+            converged = self.newton.solve(integration, &self.equation)?;
+        }
+        if !converged {
+            return Err(IntegrationError::NotConverged { t, step });
+        }
+        self.differences.correct(&self.newton.correction);
+        self.allow(&integration.progress, &integration.tolerances);
+        Ok(())
+    }
+
+    fn error(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
+        let order = self.differences.order();
+        // The error of the order below goes with ∇^k at the end of the step.
+        if let Some(old) = self.differences.get(order) {
+            self.scratch.clone_from(old);
+            add(&mut self.scratch, S::one(), &self.newton.correction);
+        }
+        let error_of = |order, difference| self.error_of(order, difference, progress, tolerances);
+        let lower = error_of(order.saturating_sub(1), Some(&self.scratch));
+        let higher = error_of(order + 1, self.differences.get(order + 2));
+        let error = error_of(order, self.differences.get(order + 1)).unwrap_or(S::from_f64(f64::INFINITY));
+        self.neighbours = [lower, higher].map(|error| error.map_or(S::zero(), |error| tolerances.relative() / error));
+        error
+    }
+
+    fn step<'a>(&'a self, progress: &'a Progress<S, Y>) -> Step<'a, S, Y> {
+        let dense = self.differences.order().checked_sub(1).and_then(|index| DENSE.get(index)).copied().unwrap_or(&[]);
+        progress.step(S::one(), self.differences.all(), dense)
+    }
+
+    fn advance<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &mut Integration<'_, S, Y, O>,
+        corrected: bool,
+    ) -> Result<(), IntegrationError<S>> {
+        self.differences.advance();
+        self.evaluated = Evaluated::Nothing;
+        self.restarted = false;
+        // A small correction moves the whole past along: y_n changes and ∇^j y_n, j ≥ 1, stay. For the formula that is
+        // an error like those of steps, and where it is of their order the method keeps its own: E. Eich, *Convergence
+        // results for a coordinate projection method applied to mechanical systems with algebraic constraints*, SIAM J.
+        // Numer. Anal. 30 (1993). The next correction d changes by at most about what was corrected, so that the
+        // estimate of the error notices if that is too much. A larger one moves the past along, too, where the
+        // derivative stays what it was: near a singular position of closed loops a projection moves velocities by
+        // rounding errors over the distance from it, step after step, whatever their size. After any other the past is
+        // that of another solution, and nothing but the derivative is left of it.
+        if corrected && !self.is_correction_small(&integration.progress) {
+            self.evaluate(integration)?;
+            if !self.keeps_its_slope() {
+                self.differences.restart(&self.rate);
+                self.restarted = true;
+            }
+        }
+        Ok(())
+    }
+}
