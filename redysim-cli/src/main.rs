@@ -11,6 +11,7 @@ mod animation;
 mod commands;
 mod failure;
 mod interrupt;
+mod layout;
 mod model;
 mod number;
 mod output;

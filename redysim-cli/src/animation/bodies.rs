@@ -6,6 +6,8 @@ use redysim_model::spatial::{Mat3, Vec3};
 use redysim_model::{JointKind, Link, Model};
 use serde::Serialize;
 
+use crate::layout::Layout;
+
 /// A link in its own frame, or the ground (the first body) in the base frame.
 #[derive(Serialize)]
 pub struct Body<'a> {
@@ -36,7 +38,7 @@ struct Joint<'a> {
     slide: f64,
     /// What is added to its coordinate, rad or m.
     offset: f64,
-    /// Number of its coordinate, which is that of its colour; none for a joint that does not move.
+    /// Number of its first coordinate, which is that of its colour; none for a joint that does not move.
     coordinate: Option<usize>,
     /// For a prismatic joint, where it slides from.
     rail: Option<Place>,
@@ -63,8 +65,8 @@ pub struct Cut<'a> {
 }
 
 /// The ground, then the links in the model's order.
-pub fn of(model: &Model) -> Vec<Body<'_>> {
-    let mut coordinates = 0..;
+pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
+    let mut moving = layout.joints.iter();
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let screw = joint::Joint::of(link).map_or(Screw { turn: 0.0, slide: 0.0 }, joint::Joint::screw);
@@ -78,7 +80,7 @@ pub fn of(model: &Model) -> Vec<Body<'_>> {
             turn: screw.turn,
             slide: screw.slide,
             offset: link.offset,
-            coordinate: if link.joint.dof() > 0 { coordinates.next() } else { None },
+            coordinate: if link.joint.dof() > 0 { moving.next().map(|joint| joint.q.start) } else { None },
             rail: (link.joint == JointKind::Prismatic).then(|| Place { body: number(link.parent), point: foot(link) }),
         };
         let com = link.com.0;

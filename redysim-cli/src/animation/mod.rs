@@ -6,6 +6,7 @@ mod motion;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::layout::Layout;
 use crate::recorded::{Chart, Recorded};
 use bodies::{Body, Cut};
 use motion::Motion;
@@ -23,16 +24,17 @@ const PLACE: &str = "{\"redysim\":\"data\"}";
 pub fn page(recorded: &Recorded) -> Result<(String, Vec<String>), Failure> {
     let model = recorded.model()?;
     let charts = recorded.charts()?;
-    let (motion, notes) = motion::of(recorded, &model)?;
+    let layout = Layout::of(&model);
+    let (motion, notes) = motion::of(recorded, &model, &layout)?;
     let animation = Animation {
         name: &model.name,
         gravity: model.gravity.0,
-        bodies: bodies::of(&model),
+        bodies: bodies::of(&model, &layout),
         cuts: bodies::cuts(&model),
         motion,
         notes: &notes,
         charts: charts.iter().map(Curves::of).collect(),
-        joints: model.moving_links().map(|link| link.joint_name.as_str()).collect(),
+        joints: layout.coordinates.iter().map(|coordinate| coordinate.name.as_str()).collect(),
     };
     let json = serde_json::to_string(&animation).map_err(Failure::outside)?;
     Ok((PAGE.replacen(PLACE, &in_html(&json), 1), notes))
@@ -53,6 +55,7 @@ struct Animation<'a> {
     motion: Motion,
     notes: &'a [String],
     charts: Vec<Curves<'a>>,
+    /// The names of the coordinates.
     joints: Vec<&'a str>,
 }
 

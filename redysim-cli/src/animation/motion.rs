@@ -1,12 +1,14 @@
 //! How every joint moves, instant by instant; where the links are, the page computes.
 
 use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
 
-use redysim_model::{GenericMechanism, Link, Model};
+use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::layout::{Component, Layout};
 use crate::number::rounded;
 use crate::recorded::{Recorded, evenly};
 use crate::table::{Column, Table};
@@ -16,15 +18,14 @@ const NUMBERS: usize = 200_000;
 /// From one instant to the next, more than this can hardly be followed.
 const QUARTER_TURN: f64 = FRAC_PI_2;
 
-/// The coordinates of all moving joints over time. Between two instants each is the cubic that has both coordinates and
-/// both rates.
+/// All coordinates over time. Between two instants each is the cubic that has both coordinates and both rates.
 #[derive(Serialize)]
 pub struct Motion {
     /// The instants, s.
     t: Vec<f64>,
-    /// A list for each joint: rad or m.
+    /// A list for each coordinate: rad, m or 1.
     q: Vec<Vec<f64>>,
-    /// A list for each joint: rad/s or m/s.
+    /// Its rates: per s.
     v: Vec<Vec<f64>>,
 }
 
@@ -32,26 +33,17 @@ pub struct Motion {
 ///
 /// # Errors
 /// If it is not there, or not that of the model.
-pub fn of(recorded: &Recorded, model: &Model) -> Result<(Motion, Vec<String>), Failure> {
+pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Motion, Vec<String>), Failure> {
     let Some(table) = recorded.motion()? else {
         return Err(recorded.lacks("no motion, neither statevar.csv nor traj.csv"));
     };
-    let joints: Vec<&Link> = model.moving_links().collect();
-    let rows = evenly(table.t.len(), NUMBERS / (2 * joints.len()).max(1));
-    let pick = |symbol: &str, joint: &Link| -> Result<Vec<f64>, Failure> {
-        let column = column(&table, symbol, &joint.joint_name)?;
-        rows.iter().map(|&row| finite(&table, column, row)).collect()
-    };
-    let t: Vec<f64> = rows.iter().map(|&row| table.t[row]).collect();
-    let q = joints.iter().map(|joint| pick("q", joint)).collect::<Result<Vec<_>, _>>()?;
-    let mut v = joints.iter().map(|joint| pick("v", joint)).collect::<Result<Vec<_>, _>>()?;
-    v.iter_mut().zip(&q).for_each(|(v, q)| *v = rates(&t, q, v));
-    let motion = Motion { t, q, v };
+    let motion = recorded_motion(&table, layout)?;
+    let rows = &motion.t;
     let mut notes = Vec::new();
     if rows.len() < table.t.len() {
         notes.push(format!("{} of {} instants are kept", rows.len(), table.t.len()));
     }
-    notes.extend(joints.iter().zip(&motion.q).filter_map(|(joint, q)| fast(joint, q)));
+    notes.extend(layout.coordinates.iter().zip(&motion.q).filter_map(|(coordinate, q)| fast(coordinate, q)));
     if !model.loops.is_empty() {
         let gap = rounded(motion.gap_between(&GenericMechanism::new(model.clone())));
         notes.push(format!("between instants the loops open by at most {gap} m"));
@@ -59,10 +51,31 @@ pub fn of(recorded: &Recorded, model: &Model) -> Result<(Motion, Vec<String>), F
     Ok((motion, notes))
 }
 
-fn column<'t>(table: &'t Table, symbol: &str, joint: &str) -> Result<&'t Column, Failure> {
-    table.of(symbol).find(|column| column.name == joint.trim()).ok_or_else(|| {
-        Failure::input(format!("{}:1: there is no column `{symbol} {joint} [..]`", table.path.display()))
-            .help(format!("the folder's model.toml has `{joint}`: are both from the same run?"))
+/// The coordinates that a table has, and their rates: the velocity where a coordinate has one of its name, else what the
+/// neighbouring instants show.
+fn recorded_motion(table: &Table, layout: &Layout) -> Result<Motion, Failure> {
+    let rows = evenly(table.t.len(), NUMBERS / (2 * layout.nq()).max(1));
+    let pick = |symbol: &str, component: &Component| -> Result<Vec<f64>, Failure> {
+        let column = column(table, symbol, &component.name)?;
+        rows.iter().map(|&row| finite(table, column, row)).collect()
+    };
+    let t: Vec<f64> = rows.iter().map(|&row| table.t[row]).collect();
+    let (mut q, mut v) = (Vec::new(), Vec::new());
+    for coordinate in &layout.coordinates {
+        let values = pick("q", coordinate)?;
+        v.push(match layout.velocities.iter().find(|velocity| velocity.name == coordinate.name) {
+            Some(velocity) => rates(&t, &values, &pick("v", velocity)?),
+            None => (0..t.len()).map(|k| mean_rate(&t, &values, k).unwrap_or(0.0)).collect(),
+        });
+        q.push(values);
+    }
+    Ok(Motion { t, q, v })
+}
+
+fn column<'t>(table: &'t Table, symbol: &str, name: &str) -> Result<&'t Column, Failure> {
+    table.of(symbol).find(|column| column.name == name.trim()).ok_or_else(|| {
+        Failure::input(format!("{}:1: there is no column `{symbol} {name} [..]`", table.path.display()))
+            .help(format!("the folder's model.toml has `{name}`: are both from the same run?"))
     })
 }
 
@@ -83,20 +96,31 @@ fn rates(t: &[f64], q: &[f64], v: &[f64]) -> Vec<f64> {
         let apart = q[k + 1] - q[k] - 0.5 * time * (v[k] + v[k + 1]);
         apart.abs() <= 0.25 * time * v[k].abs().max(v[k + 1].abs())
     };
-    let rate = |k: usize| {
-        let (before, after) = (k.saturating_sub(1), (k + 1).min(t.len() - 1));
-        let time = t[after] - t[before];
-        if (before..after).all(fit) || time == 0.0 { v[k] } else { (q[after] - q[before]) / time }
+    let rate = |k: usize| match neighbours(t, k).all(fit) {
+        true => v[k],
+        false => mean_rate(t, q, k).unwrap_or(v[k]),
     };
     (0..t.len()).map(rate).collect()
 }
 
+/// The instants from the one before to the one after, without the last.
+fn neighbours(t: &[f64], k: usize) -> Range<usize> {
+    k.saturating_sub(1)..(k + 1).min(t.len() - 1)
+}
+
+/// The mean rate between the neighbours of an instant; `None` where no time passes between them.
+fn mean_rate(t: &[f64], q: &[f64], k: usize) -> Option<f64> {
+    let Range { start, end } = neighbours(t, k);
+    let time = t[end] - t[start];
+    (time != 0.0).then(|| (q[end] - q[start]) / time)
+}
+
 /// That a joint turns so far between instants that its motion cannot be followed.
-fn fast(joint: &Link, q: &[f64]) -> Option<String> {
+fn fast(coordinate: &Component, q: &[f64]) -> Option<String> {
     let most = q.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
-    let too_fast = joint.joint.turns() && most > QUARTER_TURN;
+    let too_fast = coordinate.turns() && most > QUARTER_TURN;
     too_fast.then(|| {
-        let (name, turns) = (&joint.joint_name, rounded(most.to_degrees()));
+        let (name, turns) = (&coordinate.name, rounded(most.to_degrees()));
         format!("joint `{name}` turns by up to {turns} deg from one instant to the next: what lies between is a guess")
     })
 }
@@ -106,8 +130,9 @@ impl Motion {
     fn gap_between(&self, mechanism: &GenericMechanism) -> f64 {
         let middle = |k: usize| {
             let time = self.t[k + 1] - self.t[k];
-            let of_joint = |(q, v): (&Vec<f64>, &Vec<f64>)| 0.5 * (q[k] + q[k + 1]) + 0.125 * time * (v[k] - v[k + 1]);
-            self.q.iter().zip(&self.v).map(of_joint).collect::<Vec<f64>>()
+            let of_coordinate =
+                |(q, v): (&Vec<f64>, &Vec<f64>)| 0.5 * (q[k] + q[k + 1]) + 0.125 * time * (v[k] - v[k + 1]);
+            self.q.iter().zip(&self.v).map(of_coordinate).collect::<Vec<f64>>()
         };
         let gaps = (1..self.t.len()).map(|k| mechanism.loop_residual(&middle(k - 1)));
         gaps.flatten().fold(0.0, |most: f64, gap: f64| most.max(gap.abs()))
@@ -117,6 +142,31 @@ impl Motion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::tests::free_base_with_arm;
+
+    #[test]
+    fn coordinates_of_a_free_joint_move_at_the_rates_that_their_instants_show() {
+        let layout = free_base_with_arm();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("statevar.csv");
+        let header = |symbol: &str, components: &[Component]| -> String {
+            components.iter().map(|of| format!(",{symbol} {} [1]", of.name)).collect()
+        };
+        let mut text = format!("t [s]{}{}\n", header("q", &layout.coordinates), header("v", &layout.velocities));
+        for k in 0..5 {
+            // Coordinate i is i · t, and every velocity 7.
+            let t = 0.5 * f64::from(k);
+            let q: String = (0..8).map(|i| format!(",{:?}", f64::from(i) * t)).collect();
+            text += &format!("{t:?}{q}{}\n", ",7".repeat(7));
+        }
+        std::fs::write(&path, text).unwrap();
+        let motion = recorded_motion(&Table::read(&path).unwrap(), &layout).unwrap();
+        assert_eq!((motion.q.len(), motion.v.len()), (8, 8));
+        for (i, v) in motion.v.iter().enumerate() {
+            // That of the arm is its velocity, which is its rate.
+            assert_eq!(*v, [i as f64; 5], "coordinate {i}");
+        }
+    }
 
     #[test]
     fn rates_are_those_recorded_where_instants_can_show_the_motion() {

@@ -59,21 +59,21 @@ fn warn_of_work(span: Span, record: &Record<'_>) {
 
 /// Says on which branch the loops were closed.
 fn tell_start(scenario: &Scenario, trajectory: &Prescribed, record: &Record<'_>) {
-    let others = scenario.joints.iter().zip(record.start_position()).enumerate();
-    let others = others.filter(|(index, _)| !trajectory.joints.contains(index));
-    let told: Vec<_> =
-        others.map(|(_, (joint, q))| format!("{} at {} {}", joint.name, rounded(*q), joint.unit())).collect();
-    if !told.is_empty() {
-        say(&format!("The loops begin closed with {}.", told.join(", ")));
+    let others = scenario.layout.coordinates.iter().zip(record.start_position()).enumerate();
+    let others = others.filter(|(index, _)| !trajectory.coordinates.contains(index));
+    let at: Vec<_> = others.map(|(_, (of, q))| format!("{} at {} {}", of.name, rounded(*q), of.unit())).collect();
+    if !at.is_empty() {
+        say(&format!("The loops begin closed with {}.", at.join(", ")));
     }
 }
 
 /// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be. `most` has the
-/// largest force of each joint.
+/// largest force along each velocity.
 fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
-    for (joint, &most) in scenario.joints.iter().zip(most) {
-        if most > 0.0 && !joint.actuated {
-            let (name, unit) = (&joint.name, joint.unit_of_force());
+    let layout = &scenario.layout;
+    for (velocity, &most) in layout.velocities.iter().zip(most) {
+        if most > 0.0 && !layout.joints[velocity.joint].actuated {
+            let (name, unit) = (&velocity.name, velocity.unit_of_force());
             let warning =
                 format!("the joint `{name}` has no actuator, but the motion takes up to {most:.3e} {unit} there");
             record
@@ -95,9 +95,9 @@ struct Required {
 fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) -> (Outcome, Vec<f64>) {
     let mechanism = &scenario.mechanism;
     let loops = ClosedLoop::new(mechanism);
-    let whole = trajectory.spread(scenario.joints.len());
-    let mut of_loops = ClosedLoopInverse::new(loops, &trajectory.joints, scenario.initial.q.clone());
-    let actuated = crate::scenario::indices(&scenario.joints, |joint| joint.actuated);
+    let whole = trajectory.spread(&scenario.layout);
+    let mut of_loops = ClosedLoopInverse::new(loops, &trajectory.coordinates, scenario.initial.q.clone());
+    let actuated = scenario.actuated_velocities();
     of_loops = of_loops.actuated(&actuated);
     let mut required_at = |t: f64| -> Result<Required, Failure> {
         if !scenario.loops() {
@@ -111,7 +111,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
         Ok(Required { motion, forces, multipliers, gap })
     };
     let (mut worst, mut work, mut before) = (0.0, 0.0, None);
-    let mut most = vec![0.0; scenario.joints.len()];
+    let mut most = vec![0.0; scenario.layout.nv()];
     let mut compute = |t: f64, record: &mut Record<'_>| -> Result<(), Failure> {
         work += before.map_or(Ok(0.0), |before| work_between(&mut required_at, before, t))?;
         let Required { motion: Motion { q, v, a }, forces: tau, multipliers: lambda, gap } = required_at(t)?;

@@ -31,7 +31,7 @@ pub struct Chart {
 pub struct Curve {
     /// As the legend shows it.
     pub name: String,
-    /// Number of its colour: the same for a joint in all charts.
+    /// Number of its colour: the same for curves of one name in all charts of joints.
     pub colour: usize,
     /// A value at each of the chart's instants.
     pub values: Vec<f64>,
@@ -45,32 +45,56 @@ impl Recorded {
     pub fn charts(&self) -> Result<Vec<Chart>, Failure> {
         let motion = self.motion()?;
         let mut charts = Vec::new();
+        let mut joints = Colours::default();
         if let Some(table) = &motion {
-            charts.extend(by_unit(table, Picture::Motion, &["q"], |unit| match unit {
+            charts.extend(by_unit(table, Picture::Motion, &["q"], &mut joints, |unit| match unit {
                 "m" => ("Joint displacements", "displacement"),
                 _ => ("Joint angles", "angle"),
             }));
         }
         if let Some(table) = self.table(names::TOR)? {
-            charts.extend(by_unit(&table, Picture::Torques, &["tau"], |unit| match unit {
+            charts.extend(by_unit(&table, Picture::Torques, &["tau"], &mut joints, |unit| match unit {
                 "N" => ("Joint forces", "force"),
                 _ => ("Joint torques", "torque"),
             }));
         }
         if let Some(table) = self.table(names::ENERGY)? {
             let energies = ["kinetic", "potential", "total", "work"];
-            charts.extend(by_unit(&table, Picture::Energy, &energies, |_| ("Energy", "energy")));
-            charts.extend(by_unit(&table, Picture::Energy, &["drift"], |_| ("Drift of the energy", "drift")));
+            let (all, drift) = (&mut Colours::default(), &mut Colours::default());
+            charts.extend(by_unit(&table, Picture::Energy, &energies, all, |_| ("Energy", "energy")));
+            charts.extend(by_unit(&table, Picture::Energy, &["drift"], drift, |_| ("Drift of the energy", "drift")));
         }
         if let Some(table) = self.table(names::LAMBDA)? {
-            charts.extend(by_unit(&table, Picture::Multipliers, &["lambda"], |_| ("Lagrange multipliers", "λ")));
+            charts.extend(by_unit(&table, Picture::Multipliers, &["lambda"], &mut Colours::default(), |_| {
+                ("Lagrange multipliers", "λ")
+            }));
         }
         if let Some(table) = &motion {
-            charts.extend(by_unit(table, Picture::Motion, &["v"], |_| ("Joint velocities", "velocity")));
-            charts.extend(by_unit(table, Picture::Motion, &["a"], |_| ("Joint accelerations", "acceleration")));
+            charts.extend(by_unit(table, Picture::Motion, &["v"], &mut joints, |_| ("Joint velocities", "velocity")));
+            charts.extend(by_unit(table, Picture::Motion, &["a"], &mut joints, |_| {
+                ("Joint accelerations", "acceleration")
+            }));
         }
         Ok(charts)
     }
+}
+
+/// The numbers of colours by the names of curves: a new name has the next.
+#[derive(Default)]
+struct Colours(Vec<String>);
+
+impl Colours {
+    fn number(&mut self, name: &str) -> usize {
+        self.0.iter().position(|known| known == name).unwrap_or_else(|| {
+            self.0.push(name.to_owned());
+            self.0.len() - 1
+        })
+    }
+}
+
+/// As the legend shows it.
+fn curve_name(column: &Column) -> &str {
+    if column.name.is_empty() { &column.symbol } else { &column.name }
 }
 
 /// The columns of the given quantities, a chart for each unit.
@@ -78,9 +102,14 @@ fn by_unit(
     table: &Table,
     picture: Picture,
     symbols: &[&str],
+    colours: &mut Colours,
     words: impl Fn(&str) -> (&'static str, &'static str),
 ) -> Vec<Chart> {
-    let columns: Vec<_> = symbols.iter().flat_map(|symbol| table.of(symbol)).enumerate().collect();
+    let columns: Vec<_> = symbols
+        .iter()
+        .flat_map(|symbol| table.of(symbol))
+        .map(|column| (colours.number(curve_name(column)), column))
+        .collect();
     let mut units: Vec<&str> = Vec::new();
     for (_, column) in &columns {
         if !units.contains(&column.unit.as_str()) {
@@ -93,7 +122,7 @@ fn by_unit(
         let rows = with_peaks(&values, table.t.len(), ROWS);
         let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
         let curve = |(colour, column): &&(usize, &Column)| Curve {
-            name: if column.name.is_empty() { column.symbol.clone() } else { column.name.clone() },
+            name: curve_name(column).to_owned(),
             colour: *colour,
             values: pick(&column.values),
         };
@@ -108,4 +137,33 @@ fn by_unit(
         }
     };
     units.into_iter().map(chart).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn a_joint_has_one_colour_though_there_are_more_coordinates_than_velocities() {
+        let folder = tempfile::tempdir().unwrap();
+        let q = ["x", "y", "z"].map(|part| format!("q base.{part} [m]"));
+        let quaternion = ["qx", "qy", "qz", "qw"].map(|part| format!("q base.{part} [1]"));
+        let v = ["vx", "vy", "vz"].map(|part| format!("v base.{part} [m/s]"));
+        let w = ["wx", "wy", "wz"].map(|part| format!("v base.{part} [rad/s]"));
+        let headers =
+            [&["t [s]".into()], &q[..], &quaternion, &["q arm [rad]".into()], &v, &w, &["v arm [rad/s]".into()]];
+        let headers = headers.concat();
+        let rows: String = (0..3).map(|t| format!("{t}{}\n", ",0.5".repeat(headers.len() - 1))).collect();
+        let path: &Path = folder.path();
+        std::fs::write(path.join("statevar.csv"), format!("{}\n{rows}", headers.join(","))).unwrap();
+        let charts = Recorded::open(path).unwrap().charts().unwrap();
+        let curves: Vec<&Curve> = charts.iter().flat_map(|chart| &chart.curves).collect();
+        assert_eq!(curves.len(), 15);
+        let colours = |name: &str| -> Vec<usize> {
+            curves.iter().filter(|curve| curve.name == name).map(|curve| curve.colour).collect()
+        };
+        assert_eq!(colours("arm"), [7, 7]);
+        assert_eq!((colours("base.qw"), colours("base.wx")), (vec![6], vec![11]));
+    }
 }

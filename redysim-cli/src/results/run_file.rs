@@ -16,7 +16,7 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
     folder.write(MODEL, scenario.model_text.as_bytes())?;
     document["model"] = value(MODEL);
     keep(document.as_item_mut(), "name", value(&scenario.name));
-    let name = |joint: &usize| scenario.joints[*joint].name.as_str();
+    let name = |joint: &usize| scenario.layout.joints[*joint].name.as_str();
     let initial = &mut document["initial"];
     keep(initial, "q", numbers(&scenario.initial.q));
     keep(initial, "v", numbers(&scenario.initial.v));

@@ -8,7 +8,8 @@ use redysim_runtime::{Energy, LinkKinematics};
 
 use super::{Folder, Sample, names};
 use crate::failure::Failure;
-use crate::scenario::{Dynamics, Scenario, indices};
+use crate::layout::{Component, Layout};
+use crate::scenario::{Dynamics, Scenario};
 
 /// How numbers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -132,13 +133,8 @@ impl Row<'_> {
 
 /// The tables with names and units, each with the time first.
 fn named(scenario: &Scenario) -> Vec<Table> {
-    let joints = |symbol: &str, per: &str| -> Vec<String> {
-        scenario.joints.iter().map(|joint| format!("{symbol} {} [{}{per}]", joint.name, joint.unit())).collect()
-    };
-    let forces: Vec<String> =
-        scenario.joints.iter().map(|joint| format!("tau {} [{}]", joint.name, joint.unit_of_force())).collect();
+    let Headers { q, v, a, forces } = Headers::of(&scenario.layout);
     let energies = ["kinetic", "potential", "total", "work", "drift"].map(|name| format!("{name} [J]"));
-    let [q, v, a] = [("q", ""), ("v", "/s"), ("a", "/s^2")].map(|(symbol, per)| joints(symbol, per));
     let timed = |name, headers: &[&[String]], make: Make| {
         let headers = [&["t [s]".to_owned()], headers.concat().as_slice()].concat();
         Table { name, headers, make }
@@ -158,6 +154,31 @@ fn named(scenario: &Scenario) -> Vec<Table> {
         tables.push(timed(names::LAMBDA, &[&lambda_headers(&scenario.mechanism)], |at| at.timed(&[&at.sample.lambda])));
     }
     tables
+}
+
+/// The headers of coordinates, velocities, accelerations and forces.
+struct Headers {
+    q: Vec<String>,
+    v: Vec<String>,
+    a: Vec<String>,
+    forces: Vec<String>,
+}
+
+impl Headers {
+    fn of(layout: &Layout) -> Self {
+        let headers = |components: &[Component], header: &dyn Fn(&Component) -> String| {
+            components.iter().map(header).collect::<Vec<_>>()
+        };
+        let [v, a] = [("v", "/s"), ("a", "/s^2")].map(|(symbol, per)| {
+            headers(&layout.velocities, &|of| format!("{symbol} {} [{}{per}]", of.name, of.unit()))
+        });
+        Headers {
+            q: headers(&layout.coordinates, &|of| format!("q {} [{}]", of.name, of.unit())),
+            v,
+            a,
+            forces: headers(&layout.velocities, &|of| format!("tau {} [{}]", of.name, of.unit_of_force())),
+        }
+    }
 }
 
 /// ReDySim's files: the time has one of its own. Its states are q, q̇ and, of forward dynamics, the energy of the
@@ -180,8 +201,8 @@ fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
     });
     match (scenario.loops(), dynamics) {
         (true, Dynamics::Inverse) => tables.push(plain(names::TOR, |at| {
-            let actuated = indices(&at.scenario.joints, |joint| joint.actuated);
-            actuated.iter().map(|&joint| at.sample.tau[joint]).chain(at.sample.lambda.iter().copied()).collect()
+            let actuated = at.scenario.actuated_velocities();
+            actuated.iter().map(|&velocity| at.sample.tau[velocity]).chain(at.sample.lambda.iter().copied()).collect()
         })),
         (true, Dynamics::Forward) => {
             tables.push(plain(names::TOR, |at| at.sample.tau.clone()));
@@ -213,4 +234,19 @@ fn lambda_headers(mechanism: &GenericMechanism) -> Vec<String> {
         })
     });
     headers.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Headers;
+    use crate::layout::tests::free_base_with_arm;
+
+    #[test]
+    fn a_free_joint_has_columns_for_seven_coordinates_and_six_velocities() {
+        let Headers { q, v, a, forces } = Headers::of(&free_base_with_arm());
+        assert_eq!([q.len(), v.len(), a.len(), forces.len()], [8, 7, 7, 7]);
+        assert_eq!((&*q[0], &*q[6], &*q[7]), ("q base.x [m]", "q base.qw [1]", "q arm [rad]"));
+        assert_eq!((&*v[2], &*v[3], &*v[6]), ("v base.vz [m/s]", "v base.wx [rad/s]", "v arm [rad/s]"));
+        assert_eq!((&*a[5], &*forces[0], &*forces[5]), ("a base.wz [rad/s^2]", "tau base.vx [N]", "tau base.wz [N m]"));
+    }
 }

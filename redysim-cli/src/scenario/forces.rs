@@ -3,28 +3,29 @@
 use redysim_model::GenericMechanism;
 use redysim_runtime::TorqueLaw;
 
-use super::joints::Joint;
 use super::subject::spread;
 use super::table::Table;
 use crate::failure::Failure;
+use crate::layout::{Component, Layout};
 
 /// Joint forces over time, with straight lines between the rows of a table.
 #[derive(Clone, Debug)]
 pub struct Forces {
     /// Where they were read from.
     pub table: Table,
-    /// One for each coordinate, zero where the table has none.
+    /// One for each velocity, zero where the table has none.
     rows: Vec<Vec<f64>>,
 }
 
 impl Forces {
-    /// Those of the joints `chosen`, indices into `joints`.
-    pub fn of(table: Table, joints: &[Joint], chosen: &[usize]) -> Result<Forces, Failure> {
-        let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
-        let rows = table.of_joints("tau", &of, None)?;
+    /// Those of the joints `chosen`.
+    pub fn of(table: Table, layout: &Layout, chosen: &[usize]) -> Result<Forces, Failure> {
+        let velocities = layout.velocities_of(chosen);
+        let of: Vec<&Component> = velocities.iter().map(|&velocity| &layout.velocities[velocity]).collect();
+        let rows = table.of_components("tau", &of, None)?;
         let rows =
             rows.ok_or_else(|| table.fault("it has no forces", "add a column `tau <joint> [N m]` for each joint"))?;
-        let rows = rows.iter().map(|row| spread(chosen, row, joints.len())).collect();
+        let rows = rows.iter().map(|row| spread(&velocities, row, layout.nv())).collect();
         Ok(Forces { table, rows })
     }
 

@@ -23,23 +23,30 @@ pub struct Initial {
 impl Initial {
     /// Reads the table `initial`; without one, all coordinates and velocities are zero.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Initial> {
-        let (joints, actuated) = (subject.joints, subject.actuated());
-        let all: Vec<usize> = (0..joints.len()).collect();
-        let rest = || vec![0.0; joints.len()];
+        let (layout, actuated) = (subject.layout, subject.actuated());
+        let rest = || (vec![0.0; layout.nq()], vec![0.0; layout.nv()]);
         let field = reader.table(&keys::INITIAL, |mut reader| {
-            let q = values(&mut reader, &keys::Q, Quantity::Coordinate, joints, &all).value_or(rest());
-            let v = values(&mut reader, &keys::V, Quantity::Rate, joints, &all);
-            let (v, place_of_v) = (v.value_or(rest()), v.spanned().map_or(0..0, Spanned::span));
+            let q = values(&mut reader, &keys::Q, Quantity::Coordinate, &layout.coordinates, &all(layout.nq()));
+            let q = q.value_or(rest().0);
+            let v = values(&mut reader, &keys::V, Quantity::Rate, &layout.velocities, &all(layout.nv()));
+            let (v, place_of_v) = (v.value_or(rest().1), v.spanned().map_or(0..0, Spanned::span));
             let assemble = reader.flag(&keys::ASSEMBLE);
             subject.expect_loops(&mut reader, "initial.assemble", &assemble);
-            let held = some(&mut reader, &keys::HELD, joints);
+            let held = some(&mut reader, &keys::HELD, &layout.joints);
             subject.expect_loops(&mut reader, "initial.held", &held);
             let (assemble, held) = (assemble.value_or(true), held.value_or(actuated.clone()));
             Some(Initial { q: q?, v: v?, place_of_v, assemble: assemble?, held: held? })
         });
         match given(field)? {
             Some(initial) => Some(initial),
-            None => Some(Initial { q: rest(), v: rest(), place_of_v: 0..0, assemble: true, held: actuated }),
+            None => {
+                let (q, v) = rest();
+                Some(Initial { q, v, place_of_v: 0..0, assemble: true, held: actuated })
+            }
         }
     }
+}
+
+fn all(count: usize) -> Vec<usize> {
+    (0..count).collect()
 }

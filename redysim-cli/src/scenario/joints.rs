@@ -1,45 +1,12 @@
-//! The moving joints of a model, and values for each of them.
+//! Values for the coordinates or velocities of joints, and lists of joints.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
-use redysim_model::Model;
 use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Spanned, Value};
 
 use super::resolution::resolved;
-
-/// A moving joint.
-#[derive(Clone, Debug)]
-pub struct Joint {
-    /// Its name.
-    pub name: String,
-    /// Whether it turns; else it slides.
-    pub turns: bool,
-    /// Whether it has an actuator.
-    pub actuated: bool,
-}
-
-impl Joint {
-    /// The unit of its coordinate.
-    pub fn unit(&self) -> &'static str {
-        if self.turns { "rad" } else { "m" }
-    }
-
-    /// The unit of its force.
-    pub fn unit_of_force(&self) -> &'static str {
-        if self.turns { "N m" } else { "N" }
-    }
-}
-
-/// The moving joints, in the model's order: joint `i` has the coordinate `i`.
-pub fn of_model(model: &Model) -> Vec<Joint> {
-    let joint = |link: &redysim_model::Link| Joint {
-        name: link.joint_name.clone(),
-        turns: link.joint.turns(),
-        actuated: link.actuated,
-    };
-    model.moving_links().map(joint).collect()
-}
+use crate::layout::{Component, Joint};
 
 /// What the values for joints are.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -52,23 +19,23 @@ pub enum Quantity {
     Gain,
 }
 
-/// One value for each of the joints `of`, indices into `joints`: an array in their order, or a table by their names, in
-/// which missing ones are zero.
+/// One value for each of `of`, indices into `components`: an array in their order, or a table by their names, in which
+/// missing ones are zero.
 pub fn values(
     reader: &mut Reader<'_, '_>,
     key: &Key,
     quantity: Quantity,
-    joints: &[Joint],
+    components: &[Component],
     of: &[usize],
 ) -> Field<Vec<f64>> {
-    reader.field(key, |reader, path, value| list(reader, path, value, quantity, joints, of))
+    reader.field(key, |reader, path, value| list(reader, path, value, quantity, components, of))
 }
 
 /// Values for every point of a motion: an array of what [`values`] reads.
-pub fn points(reader: &mut Reader<'_, '_>, key: &Key, joints: &[Joint], of: &[usize]) -> Field<Vec<Vec<f64>>> {
+pub fn points(reader: &mut Reader<'_, '_>, key: &Key, components: &[Component], of: &[usize]) -> Field<Vec<Vec<f64>>> {
     reader.field(key, |reader, path, value| {
         let array = reader.array(path, value, "an array with the coordinates of each point")?;
-        let read = |reader: &mut _, path: &_, value| list(reader, path, value, Quantity::Coordinate, joints, of);
+        let read = |reader: &mut _, path: &_, value| list(reader, path, value, Quantity::Coordinate, components, of);
         reader.elements(path, array, read)
     })
 }
@@ -83,7 +50,7 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &Key, joints: &[Joint]) -> Field<V
             let DeValue::String(name) = value.get_ref() else {
                 return reader.wrong_type(&path, value, "the name of a joint");
             };
-            let joint = index(reader, value.span(), name, joints)?;
+            let joint = index(reader, value.span(), name, joints.iter().map(|joint| joint.name.as_str()))?;
             if found.contains(&joint) {
                 let message = Message {
                     title: format!("{}: `{path}` names the joint `{name}` again", reader.item()),
@@ -98,9 +65,14 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &Key, joints: &[Joint]) -> Field<V
     })
 }
 
-/// The joint of a name that stands at `place`.
-fn index(reader: &mut Reader<'_, '_>, place: Range<usize>, name: &str, joints: &[Joint]) -> Option<usize> {
-    let named: Vec<_> = joints.iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index)).collect();
+/// The number of a joint, or of one of its components, whose name stands at `place`.
+fn index<'n>(
+    reader: &mut Reader<'_, '_>,
+    place: Range<usize>,
+    name: &str,
+    names: impl Iterator<Item = &'n str>,
+) -> Option<usize> {
+    let named: Vec<_> = names.enumerate().map(|(index, name)| (name, index)).collect();
     reader.lookup(place, "joint", name, &named)
 }
 
@@ -121,28 +93,30 @@ fn list(
     path: &KeyPath,
     value: &Value<'_>,
     quantity: Quantity,
-    joints: &[Joint],
+    components: &[Component],
     of: &[usize],
 ) -> Option<Vec<f64>> {
     match value.get_ref() {
         DeValue::Array(array) if array.len() != of.len() => {
-            let names: Vec<_> = of.iter().map(|&joint| joints[joint].name.as_str()).collect();
+            let names: Vec<_> = of.iter().map(|&index| components[index].name.as_str()).collect();
             let wanted = format!("{} values, one for each of {}", of.len(), names.join(", "));
             reader.wrong_length(path, value, &wanted, array.len())
         }
         DeValue::Array(array) => {
             let pairs = array.iter().zip(of).enumerate();
-            let read = pairs.map(|(i, (value, &joint))| one(reader, &path.element(i), value, quantity, &joints[joint]));
+            let read =
+                pairs.map(|(i, (value, &index))| one(reader, &path.element(i), value, quantity, &components[index]));
             read.collect::<Vec<_>>().into_iter().collect()
         }
         DeValue::Table(table) => {
             let mut values = vec![0.0; of.len()];
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
-                let joint = index(reader, name.span(), name.get_ref(), joints)?;
-                let Some(at) = of.iter().position(|&other| other == joint) else {
+                let names = components.iter().map(|component| component.name.as_str());
+                let index = index(reader, name.span(), name.get_ref(), names)?;
+                let Some(at) = of.iter().position(|&other| other == index) else {
                     return foreign(reader, name.span(), path, name.get_ref());
                 };
-                values[at] = one(reader, &path.entry(name.get_ref()), value, quantity, &joints[joint])?;
+                values[at] = one(reader, &path.entry(name.get_ref()), value, quantity, &components[index])?;
                 Some(())
             };
             // Every joint is read, so that each error among them is reported.
@@ -161,14 +135,14 @@ fn one(
     path: &KeyPath,
     value: &Value<'_>,
     quantity: Quantity,
-    joint: &Joint,
+    component: &Component,
 ) -> Option<f64> {
     match quantity {
-        Quantity::Coordinate if joint.turns => {
+        Quantity::Coordinate if component.turns() => {
             let angle = reader.parse_angle(path, value)?;
             resolved(reader, value.span(), path, angle)
         }
-        Quantity::Rate => reader.parse_displacement(path, value, joint.turns, "/s"),
+        Quantity::Rate => reader.parse_displacement(path, value, component.turns(), "/s"),
         Quantity::Coordinate | Quantity::Gain => reader.parse_number(path, value),
     }
 }

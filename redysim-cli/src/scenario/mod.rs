@@ -4,7 +4,7 @@ mod forces;
 mod forward;
 mod initial;
 mod integrator;
-pub mod joints;
+mod joints;
 mod keys;
 mod law;
 mod limits;
@@ -24,16 +24,16 @@ use redysim_toml::{DeValue, Field, Message, Reader};
 use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
+use crate::layout::Layout;
 use crate::model;
 use crate::output::tell;
 pub use forward::Forward;
 pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances};
-use joints::Joint;
 pub use law::Law;
 pub use span::Span;
-use subject::given;
-pub use subject::{Dynamics, Subject, indices};
+pub use subject::{Dynamics, Subject};
+use subject::{given, indices};
 use table::Table;
 pub use torque::Torque;
 pub use trajectory::{Prescribed, USUAL_THROUGH};
@@ -48,8 +48,8 @@ pub struct Scenario {
     pub model_text: String,
     /// The model.
     pub mechanism: GenericMechanism,
-    /// Its moving joints.
-    pub joints: Vec<Joint>,
+    /// Its joints that move, and their coordinates.
+    pub layout: Layout,
     /// Where it starts, or which branch of closed loops is meant.
     pub initial: Initial,
     /// The motion that is prescribed or followed.
@@ -96,6 +96,11 @@ impl Scenario {
     /// Whether the model has closed loops.
     pub fn loops(&self) -> bool {
         !self.mechanism.model().loops.is_empty()
+    }
+
+    /// The velocities that have an actuator.
+    pub fn actuated_velocities(&self) -> Vec<usize> {
+        self.layout.velocities_of(&indices(&self.layout.joints, |joint| joint.actuated))
     }
 
     /// The largest component of the loops' residual at `q`, m (or a sine).
@@ -149,8 +154,8 @@ fn read(
             }
         },
     };
-    let joints = joints::of_model(mechanism.model());
-    let subject = Subject { dynamics, joints: &joints, model: mechanism.model(), mobility: OnceCell::new(), folder };
+    let layout = Layout::of(mechanism.model());
+    let subject = Subject { dynamics, layout: &layout, model: mechanism.model(), mobility: OnceCell::new(), folder };
     let initial = Initial::read(&mut reader, &subject);
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);
@@ -168,7 +173,7 @@ fn read(
         limits::check_start(&mut reader, &subject, &initial, span)?;
     }
     let document = document(&mut reader, &text)?;
-    Some(Scenario { name, document, model_text, mechanism, joints, initial, trajectory, inverse, forward })
+    Some(Scenario { name, document, model_text, mechanism, layout, initial, trajectory, inverse, forward })
 }
 
 /// The file as it can be edited. It is read again for that, whole: also what this run has not looked at must be TOML.

@@ -7,9 +7,9 @@ use std::path::Path;
 use redysim_model::{Mobility, Model};
 use redysim_toml::{Field, Key, Message, Reader};
 
-use super::joints::Joint;
 use super::table::Table;
 use crate::failure::Failure;
+use crate::layout::{Joint, Layout};
 
 /// What may be computed of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,8 +33,8 @@ impl fmt::Display for Dynamics {
 pub struct Subject<'s> {
     /// What is to be computed.
     pub dynamics: Dynamics,
-    /// The moving joints.
-    pub joints: &'s [Joint],
+    /// Its joints that move, and their coordinates.
+    pub layout: &'s Layout,
     /// The model.
     pub model: &'s Model,
     /// What its loops leave free, once somebody has asked: to find that closes them.
@@ -63,9 +63,14 @@ impl Subject<'_> {
         }
     }
 
+    /// The joints that move.
+    pub fn joints(&self) -> &[Joint] {
+        &self.layout.joints
+    }
+
     /// The joints that have an actuator.
     pub fn actuated(&self) -> Vec<usize> {
-        indices(self.joints, |joint| joint.actuated)
+        indices(self.joints(), |joint| joint.actuated)
     }
 
     /// What `read` makes of the table that the file under `key` holds; its errors are shown at the key.

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::joints::Joint;
 use crate::failure::Failure;
+use crate::layout::Component;
 use crate::table::{self, Column};
 
 /// The largest number, as in a scenario: products of a few of them are finite.
@@ -55,39 +55,40 @@ impl Table {
         }
     }
 
-    /// What stands under `symbol` for each of `joints`, by rows; nothing, if no column has that symbol. `per` is what
+    /// What stands under `symbol` for each of `components`, by rows; nothing, if no column has that symbol. `per` is what
     /// the unit of a coordinate is divided by, or a force's `None`.
     ///
     /// # Errors
-    /// A joint that has no column or two, and a unit that is not the quantity's.
-    pub fn of_joints(
+    /// A component that has no column or two, and a unit that is not the quantity's.
+    pub fn of_components(
         &self,
         symbol: &str,
-        joints: &[&Joint],
+        components: &[&Component],
         per: Option<&str>,
     ) -> Result<Option<Vec<Vec<f64>>>, Failure> {
         if self.columns.iter().all(|column| column.symbol != symbol) {
             return Ok(None);
         }
-        let columns: Result<Vec<_>, Failure> = joints.iter().map(|joint| self.column(symbol, joint, per)).collect();
+        let columns: Result<Vec<_>, Failure> =
+            components.iter().map(|component| self.column(symbol, component, per)).collect();
         let columns = columns?;
         let row = |row: usize| columns.iter().map(|(column, factor)| factor * column.values[row]).collect();
         Ok(Some((0..self.t.len()).map(row).collect()))
     }
 
-    /// The column of a joint, and by what it is multiplied.
-    fn column(&self, symbol: &str, joint: &Joint, per: Option<&str>) -> Result<(&Column, f64), Failure> {
-        let unit = per.map_or(joint.unit_of_force().to_owned(), |per| format!("{}{per}", joint.unit()));
-        let wanted = format!("{symbol} {} [{unit}]", joint.name);
+    /// The column of a component, and by what it is multiplied.
+    fn column(&self, symbol: &str, component: &Component, per: Option<&str>) -> Result<(&Column, f64), Failure> {
+        let unit = per.map_or(component.unit_of_force().to_owned(), |per| format!("{}{per}", component.unit()));
+        let wanted = format!("{symbol} {} [{unit}]", component.name);
         let mut found =
-            self.columns.iter().filter(|column| column.symbol == symbol && column.name == joint.name.trim());
+            self.columns.iter().filter(|column| column.symbol == symbol && column.name == component.name.trim());
         let Some(column) = found.next() else {
             return Err(self.fault(&format!("there is no column `{wanted}`"), "add it, or name fewer joints"));
         };
         if let Some(again) = found.next() {
             return Err(self.fault(&format!("the column `{}` is there twice", again.header()), "keep one of them"));
         }
-        let degrees = per.filter(|_| joint.turns).map(|per| format!("deg{per}"));
+        let degrees = per.filter(|_| component.turns()).map(|per| format!("deg{per}"));
         match &column.unit {
             given if *given == unit => Ok((column, 1.0)),
             given if Some(given) == degrees.as_ref() => Ok((column, 1_f64.to_radians())),

@@ -7,11 +7,12 @@ use redysim_runtime::{
 use redysim_toml::{Field, Key, Kind, Message, Reader};
 
 use super::forces::Forces;
-use super::joints::{Joint, Quantity, some, values};
+use super::joints::{Quantity, some, values};
 use super::keys;
 use super::law::Law;
 use super::subject::{Subject, spread};
 use super::trajectory::Prescribed;
+use crate::layout::{Component, Joint, Layout};
 
 /// A torque law, as the scenario has it: its values are those of the joints that it drives.
 #[derive(Clone, Debug)]
@@ -38,6 +39,7 @@ pub enum Torque {
     /// The same, with the model; its gains are those of the joints that are prescribed, of closed loops the independent
     /// ones.
     Computed {
+        /// The velocities that have an actuator.
         actuated: Vec<usize>,
         trajectory: Prescribed,
         kp: Vec<f64>,
@@ -105,30 +107,31 @@ impl Torque {
     }
 
     /// The law as it acts on `mechanism`.
-    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism) -> Law<'a> {
-        let count = mechanism.model().dof();
-        let whole = |joints: &[usize], values: &[f64]| spread(joints, values, count);
+    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, layout: &Layout) -> Law<'a> {
+        let positions = |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, layout.nq());
+        let whole = |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, layout.nv());
         match self {
             Torque::Free => Law::total(Free),
             Torque::P { joints, target, kp } => {
-                let [target, kp] = [target, kp].map(|values| whole(joints, values));
+                let (target, kp) = (positions(joints, target), whole(joints, kp));
                 Law::total(Proportional { target, kp })
             }
             Torque::Pd { joints, target, kp, kd } => {
-                let [target, kp, kd] = [target, kp, kd].map(|values| whole(joints, values));
+                let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
+                let target = positions(joints, target);
                 Law::total(ProportionalDerivative { target, kp, kd })
             }
             Torque::TrackingPd { joints, trajectory, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
-                Law::total(TrackingPd { trajectory: trajectory.spread(count), kp, kd })
+                Law::total(TrackingPd { trajectory: trajectory.spread(layout), kp, kd })
             }
             Torque::Computed { trajectory, kp, kd, .. } if mechanism.model().loops.is_empty() => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(&trajectory.joints, gains));
-                Law::total(ComputedTorque { mechanism, trajectory: trajectory.spread(count), kp, kd })
+                Law::total(ComputedTorque { mechanism, trajectory: trajectory.spread(layout), kp, kd })
             }
             Torque::Computed { actuated, trajectory, kp, kd } => {
                 let (loops, gains) = (ClosedLoop::new(mechanism), [kp.clone(), kd.clone()]);
-                let law = ClosedLoopComputedTorque::new(loops, &trajectory.joints, trajectory, gains);
+                let law = ClosedLoopComputedTorque::new(loops, &trajectory.coordinates, trajectory, gains);
                 Law::OfLoops(law.actuated(actuated))
             }
             Torque::Table { forces, .. } => Law::total(forces),
@@ -156,7 +159,7 @@ impl<'s> Source<'s, '_, '_> {
         let joints = self.driven(usual)?;
         let [kp, kd] = [self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
         if let Some(&joint) = joints.iter().find(|joint| !trajectory.joints.contains(joint)) {
-            return astray(&mut self.reader, &self.subject.joints[joint]);
+            return astray(&mut self.reader, &self.subject.joints()[joint]);
         }
         if joints.is_empty() {
             return idle(&mut self.reader);
@@ -167,8 +170,8 @@ impl<'s> Source<'s, '_, '_> {
     fn computed_torque(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
         let [kp, kd] = [keys::KP, keys::KD].map(|key| self.gains(&key, &trajectory.joints));
-        let actuated = self.subject.actuated();
-        if let Some(passive) = self.subject.joints.iter().find(|joint| !joint.actuated && !self.subject.loops()) {
+        let actuated = self.subject.layout.velocities_of(&self.subject.actuated());
+        if let Some(passive) = self.subject.joints().iter().find(|joint| !joint.actuated && !self.subject.loops()) {
             return underactuated(&mut self.reader, passive);
         }
         if let Err((fault, help)) = trajectory.check_joints(self.subject) {
@@ -182,7 +185,7 @@ impl<'s> Source<'s, '_, '_> {
         let joints = self.driven(self.subject.actuated())?;
         let forces = self
             .subject
-            .table(&mut self.reader, &keys::FORCE_FILE, |table| Forces::of(table, self.subject.joints, &joints))?;
+            .table(&mut self.reader, &keys::FORCE_FILE, |table| Forces::of(table, self.subject.layout, &joints))?;
         Some(Torque::Table { joints, forces })
     }
 
@@ -193,12 +196,12 @@ impl<'s> Source<'s, '_, '_> {
 
     /// The joints that the law drives, `usual` unless it says which.
     fn driven(&mut self, usual: Vec<usize>) -> Option<Vec<usize>> {
-        let field = some(&mut self.reader, &keys::DRIVEN, self.subject.joints);
-        let passive = |joint: &&usize| !self.subject.joints[**joint].actuated;
+        let field = some(&mut self.reader, &keys::DRIVEN, self.subject.joints());
+        let passive = |joint: &&usize| !self.subject.joints()[**joint].actuated;
         if let Some(named) = field.spanned()
             && let Some(&joint) = named.get_ref().iter().find(passive)
         {
-            let name = &self.subject.joints[joint].name;
+            let name = &self.subject.joints()[joint].name;
             let item = self.reader.item();
             let message = Message {
                 title: format!("{item}: the torque law drives the joint `{name}`, which has no actuator"),
@@ -211,17 +214,18 @@ impl<'s> Source<'s, '_, '_> {
     }
 
     fn targets(&mut self, joints: &[usize]) -> Option<Vec<f64>> {
-        self.of(&keys::TARGET, Quantity::Coordinate, joints)
+        let layout = self.subject.layout;
+        self.of(&keys::TARGET, Quantity::Coordinate, &layout.coordinates, &layout.coordinates_of(joints))
     }
 
     fn gains(&mut self, key: &Key, joints: &[usize]) -> Option<Vec<f64>> {
-        self.of(key, Quantity::Gain, joints)
+        let layout = self.subject.layout;
+        self.of(key, Quantity::Gain, &layout.velocities, &layout.velocities_of(joints))
     }
 
-    /// What stands under `key` for the joints `of`.
-    fn of(&mut self, key: &Key, quantity: Quantity, of: &[usize]) -> Option<Vec<f64>> {
-        let joints = self.subject.joints;
-        let field = self.reader.required(key, |reader, key| values(reader, key, quantity, joints, of));
+    /// What stands under `key` for `of`, indices into `components`.
+    fn of(&mut self, key: &Key, quantity: Quantity, components: &[Component], of: &[usize]) -> Option<Vec<f64>> {
+        let field = self.reader.required(key, |reader, key| values(reader, key, quantity, components, of));
         field.value().cloned()
     }
 }

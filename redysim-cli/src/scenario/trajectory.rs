@@ -6,18 +6,23 @@ use redysim_model::Mobility;
 use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
 use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 
-use super::joints::{Joint, Quantity, points, some, values};
+use super::joints::{Quantity, points, some, values};
 use super::keys;
 use super::subject::{Dynamics, Subject, spread};
 use super::table::Table;
 use crate::failure::Failure;
+use crate::layout::{Component, Layout};
 use crate::number::counted;
 
-/// A prescribed motion of some joints; its components are in the order of `joints`.
+/// A prescribed motion of some joints; its components are in the order of `coordinates` and `velocities`.
 #[derive(Clone, Debug)]
 pub struct Prescribed {
-    /// The coordinates that it prescribes.
+    /// The joints that it prescribes.
     pub joints: Vec<usize>,
+    /// Their coordinates.
+    pub coordinates: Vec<usize>,
+    /// Their velocities.
+    pub velocities: Vec<usize>,
     /// Where the scenario says how fast or where to.
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
@@ -66,14 +71,16 @@ impl Prescribed {
     /// Reads the table `trajectory`, if there is one: unless it says which joints it prescribes, those of a tree, and
     /// the actuated ones of closed loops.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Option<Prescribed>> {
-        let joints = subject.joints;
+        let (layout, joints) = (subject.layout, subject.joints());
         let usual = if subject.loops() { subject.actuated() } else { (0..joints.len()).collect() };
         let mut place = None;
         let field =
             reader.table_of_kind(&keys::TRAJECTORY, &keys::MOTION_KIND, &KINDS, &KINDS[0], |mut reader, tag| {
                 let chosen = some(&mut reader, &keys::PRESCRIBED, joints).value_or(usual.clone())?;
+                let (of_q, of_v) = (layout.coordinates_of(&chosen), layout.velocities_of(&chosen));
                 let coordinates = |reader: &mut Reader<'_, '_>, key: &Key| {
-                    let read = |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, joints, &chosen);
+                    let read =
+                        |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, &layout.coordinates, &of_q);
                     reader.required(key, read).value().cloned()
                 };
                 let mut table = None;
@@ -87,14 +94,15 @@ impl Prescribed {
                     }
                     Tag::ConstantSpeed => {
                         let from = coordinates(&mut reader, &keys::FROM);
-                        let speed = |reader: &mut _, key: &_| values(reader, key, Quantity::Rate, joints, &chosen);
+                        let speed =
+                            |reader: &mut _, key: &_| values(reader, key, Quantity::Rate, &layout.velocities, &of_v);
                         let speed = reader.required(&keys::SPEED, speed);
                         place = speed.spanned().map(Spanned::span);
                         Path::ConstantSpeed { from: from?, speed: speed.value()?.clone() }
                     }
                     Tag::Via(smooth) => {
                         let times = reader.required(&keys::TIMES, Reader::numbers);
-                        let points = |reader: &mut _, key: &_| points(reader, key, joints, &chosen);
+                        let points = |reader: &mut _, key: &_| points(reader, key, &layout.coordinates, &of_q);
                         let points = reader.required(&keys::POINTS, points);
                         let spanned = times.spanned()?;
                         let through = smooth.through(spanned.get_ref().clone(), points.value()?.clone());
@@ -102,7 +110,7 @@ impl Prescribed {
                     }
                     Tag::Table => {
                         let smooth = reader.choice(&keys::THROUGH, &SMOOTH).value_or(SMOOTH[0].1);
-                        let of: Vec<&Joint> = chosen.iter().map(|&joint| &joints[joint]).collect();
+                        let of = Columns::of(layout, [&of_q, &of_v]);
                         let read = subject.table(&mut reader, &keys::MOTION_FILE, |table| {
                             let through = from_table(&table, &of, smooth.unwrap_or(SMOOTH[0].1))?;
                             Ok((table, through))
@@ -112,7 +120,8 @@ impl Prescribed {
                         Path::ViaPoints(through)
                     }
                 };
-                let prescribed = Prescribed { joints: chosen, place: 0..0, table, motion };
+                let prescribed =
+                    Prescribed { joints: chosen, coordinates: of_q, velocities: of_v, place: 0..0, table, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
                     // What a law needs to follow, it says itself.
@@ -137,7 +146,7 @@ impl Prescribed {
     /// Fails, with what is wrong and what to do, unless it says how all of a mechanism moves and nothing twice: a tree
     /// every joint, closed loops as many as they leave free.
     pub fn check_joints(&self, subject: &Subject<'_>) -> Result<(), (String, String)> {
-        let joints = subject.joints;
+        let joints = subject.joints();
         if !subject.loops() {
             let free = joints.iter().enumerate().find(|(index, _)| !self.joints.contains(index));
             let Some((_, joint)) = free else { return Ok(()) };
@@ -164,9 +173,9 @@ impl Prescribed {
         Err((what, help))
     }
 
-    /// The motion with one component for each of `count` coordinates; those that it does not prescribe are zero.
-    pub fn spread(&self, count: usize) -> Spread<'_> {
-        Spread { prescribed: self, count }
+    /// The motion with all components of `layout`; those that it does not prescribe are zero.
+    pub fn spread(&self, layout: &Layout) -> Spread<'_> {
+        Spread { prescribed: self, nq: layout.nq(), nv: layout.nv() }
     }
 }
 
@@ -194,14 +203,16 @@ impl Trajectory<f64, Vec<f64>, Vec<f64>> for &Prescribed {
 #[derive(Clone, Copy, Debug)]
 pub struct Spread<'a> {
     prescribed: &'a Prescribed,
-    count: usize,
+    nq: usize,
+    nv: usize,
 }
 
 impl Trajectory<f64, Vec<f64>, Vec<f64>> for Spread<'_> {
     fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
         let Motion { q, v, a } = self.prescribed.at(t);
-        let [q, v, a] = [q, v, a].map(|values| spread(&self.prescribed.joints, &values, self.count));
-        Motion { q, v, a }
+        let Prescribed { coordinates, velocities, .. } = self.prescribed;
+        let [v, a] = [v, a].map(|values| spread(velocities, &values, self.nv));
+        Motion { q: spread(coordinates, &q, self.nq), v, a }
     }
 }
 
@@ -228,10 +239,30 @@ fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, 
     .ok()
 }
 
+/// The coordinates and velocities that a table has columns for.
+struct Columns<'l> {
+    coordinates: Vec<&'l Component>,
+    velocities: Vec<&'l Component>,
+}
+
+impl<'l> Columns<'l> {
+    fn of(layout: &'l Layout, [q, v]: [&[usize]; 2]) -> Self {
+        Columns {
+            coordinates: q.iter().map(|&index| &layout.coordinates[index]).collect(),
+            velocities: v.iter().map(|&index| &layout.velocities[index]).collect(),
+        }
+    }
+}
+
 /// With velocities and accelerations in the table, its rows are passed as they say; else as smoothly as can be.
-fn from_table(table: &Table, joints: &[&Joint], smooth: Smooth) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, Failure> {
-    let [q, v, a] =
-        [("q", ""), ("v", "/s"), ("a", "/s^2")].map(|(symbol, per)| table.of_joints(symbol, joints, Some(per)));
+fn from_table(
+    table: &Table,
+    columns: &Columns<'_>,
+    smooth: Smooth,
+) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, Failure> {
+    let q = table.of_components("q", &columns.coordinates, Some(""));
+    let [v, a] =
+        [("v", "/s"), ("a", "/s^2")].map(|(symbol, per)| table.of_components(symbol, &columns.velocities, Some(per)));
     let through = match (q?, v?, a?) {
         (None, ..) => return Err(table.fault("it has no coordinates", "add a column `q <joint> [rad]` for each joint")),
         (Some(q), None, None) => smooth.through(table.t.clone(), q),

@@ -74,7 +74,8 @@ fn warn_of_step(
 ) {
     let at_start = (forward.span.start, start);
     let Some(warning) = forward.integrator.step_warning(system.ode(), at_start, &scenario.mechanism) else { return };
-    let whose = warning.joint.map_or(String::new(), |joint| format!(" of the joint `{joint}`"));
+    let joint = warning.stable.component.and_then(|component| scenario.layout.joint_of_velocity_in_state(component));
+    let whose = joint.map_or(String::new(), |joint| format!(" of the joint `{}`", joint.name));
     // At the limit itself errors just do not grow.
     let (method, step, most) = (forward.integrator.name(), warning.step, two_digits(0.25 * warning.stable.step));
     let warning = format!("with steps of {step:?} s {method} is not stable near the start: errors{whose} grow");
@@ -138,19 +139,12 @@ fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System
     }
 }
 
-/// The error with the name of the joint that it is about.
+/// The error with the name of the coordinate or velocity that it is about.
 fn named(scenario: &Scenario, error: &IntegrationError<f64>) -> String {
     let (IntegrationError::NonFiniteState { component, .. } | IntegrationError::NonFiniteDerivative { component, .. }) =
         *error
     else {
         return error.to_string();
     };
-    let count = scenario.joints.len();
-    match scenario.joints.get(component % count.max(1)).filter(|_| component < 2 * count) {
-        Some(joint) => {
-            let what = if component < count { "coordinate" } else { "velocity" };
-            format!("{error} (component {component} is the {what} of the joint `{}`)", joint.name)
-        }
-        None => format!("{error} (component {component} is the work of the actuators)"),
-    }
+    format!("{error} (component {component} is {})", scenario.layout.name_in_state(component))
 }

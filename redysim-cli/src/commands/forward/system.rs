@@ -7,9 +7,9 @@ use redysim_runtime::{
 };
 
 use crate::failure::Failure;
+use crate::layout::Component;
 use crate::output::say;
 use crate::results::Sample;
-use crate::scenario::joints::Joint;
 use crate::scenario::{Forward, Law, Scenario};
 
 /// The equation of motion of a scenario, and what is known beyond it.
@@ -20,7 +20,7 @@ pub enum System<'a> {
 
 impl<'a> System<'a> {
     pub fn new(scenario: &'a Scenario, forward: &'a Forward) -> Self {
-        let (mechanism, law) = (&scenario.mechanism, forward.torque.law(&scenario.mechanism));
+        let (mechanism, law) = (&scenario.mechanism, forward.torque.law(&scenario.mechanism, &scenario.layout));
         if scenario.loops() {
             let simulation = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), law);
             System::Loops(simulation.stabilisation(forward.stabilisation))
@@ -67,20 +67,22 @@ impl<'a> System<'a> {
                 Stabilisation::Baumgarte { .. } | Stabilisation::None => Ok(simulation.state(&initial.q, &initial.v)),
             };
         }
-        let closed = loops.assemble(&initial.q, &initial.v, &initial.held).map_err(failed)?;
+        let closed =
+            loops.assemble(&initial.q, &initial.v, &scenario.layout.coordinates_of(&initial.held)).map_err(failed)?;
         if !quiet {
-            let told = |to: &[f64], from: &[f64], per: &str| {
-                let joints = scenario.joints.iter().zip(to.iter().zip(from)).filter(|(_, (to, from))| to != from);
-                let by = |(joint, (to, from)): (&Joint, (&f64, &f64))| {
-                    format!("{} by {:.3e} {}{per}", joint.name, to - from, joint.unit())
+            let changes = |components: &[Component], to: &[f64], from: &[f64], per: &str| {
+                let changed = components.iter().zip(to.iter().zip(from)).filter(|(_, (to, from))| to != from);
+                let by = |(component, (to, from)): (&Component, (&f64, &f64))| {
+                    format!("{} by {:.3e} {}{per}", component.name, to - from, component.unit())
                 };
-                joints.map(by).collect::<Vec<_>>().join(", ")
+                changed.map(by).collect::<Vec<_>>().join(", ")
             };
-            let moved = told(&closed.q, &initial.q, "");
+            let layout = &scenario.layout;
+            let moved = changes(&layout.coordinates, &closed.q, &initial.q, "");
             if !moved.is_empty() {
                 say(&format!("To close the loops, the start moves {moved}."));
             }
-            let changed = told(&closed.v, &initial.v, "/s");
+            let changed = changes(&layout.velocities, &closed.v, &initial.v, "/s");
             if !changed.is_empty() {
                 say(&format!("So that they stay closed, its speeds change: {changed}."));
             }

@@ -1,0 +1,225 @@
+//! Which coordinates and velocities each joint has, and what they are called: tables, messages and pictures take sizes
+//! and names from here.
+
+use std::ops::Range;
+
+use redysim_model::{JointKind, Model};
+
+/// The joints that move, with their coordinates and velocities, all in the model's order.
+#[derive(Clone, Debug, Default)]
+pub struct Layout {
+    /// The joints.
+    pub joints: Vec<Joint>,
+    /// The coordinates.
+    pub coordinates: Vec<Component>,
+    /// The velocities; accelerations and forces have the same names.
+    pub velocities: Vec<Component>,
+}
+
+/// A joint that moves.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Whether it has an actuator.
+    pub actuated: bool,
+    /// Its coordinates.
+    pub q: Range<usize>,
+    /// Its velocities.
+    pub v: Range<usize>,
+}
+
+/// One coordinate or velocity.
+#[derive(Clone, Debug)]
+pub struct Component {
+    /// Its name: that of the joint, if the joint has no other.
+    pub name: String,
+    /// The number of its joint.
+    pub joint: usize,
+    /// What it measures.
+    pub measure: Measure,
+}
+
+/// What a coordinate measures, or the integral of a velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// An angle, rad.
+    Angle,
+    /// A length, m.
+    Length,
+    /// A number, as of a unit quaternion.
+    Number,
+}
+
+impl Measure {
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Measure::Angle => "rad",
+            Measure::Length => "m",
+            Measure::Number => "1",
+        }
+    }
+
+    /// The unit of a force that works along it.
+    pub fn unit_of_force(self) -> &'static str {
+        match self {
+            Measure::Angle => "N m",
+            Measure::Length => "N",
+            Measure::Number => "J",
+        }
+    }
+}
+
+impl Component {
+    /// Whether it is an angle.
+    pub fn turns(&self) -> bool {
+        self.measure == Measure::Angle
+    }
+
+    /// Its unit as a coordinate.
+    pub fn unit(&self) -> &'static str {
+        self.measure.unit()
+    }
+
+    /// The unit of a force that works along it.
+    pub fn unit_of_force(&self) -> &'static str {
+        self.measure.unit_of_force()
+    }
+}
+
+/// The coordinates or velocities of a kind of joint: what follows the joint's name, and what each measures.
+type Parts = &'static [(&'static str, Measure)];
+
+const ANGLE: Parts = &[("", Measure::Angle)];
+const LENGTH: Parts = &[("", Measure::Length)];
+
+impl Layout {
+    /// That of a model.
+    pub fn of(model: &Model) -> Self {
+        let mut layout = Layout::default();
+        for link in model.moving_links() {
+            let parts = match link.joint {
+                JointKind::Prismatic => LENGTH,
+                JointKind::Revolute | JointKind::Helical | JointKind::Fixed => ANGLE,
+            };
+            layout.push(&link.joint_name, link.actuated, [parts, parts]);
+        }
+        layout
+    }
+
+    /// Adds a joint with its coordinates and velocities.
+    fn push(&mut self, name: &str, actuated: bool, [coordinates, velocities]: [Parts; 2]) {
+        let joint = self.joints.len();
+        let add = |components: &mut Vec<Component>, parts: Parts| {
+            let first = components.len();
+            let part = |&(part, measure): &(&str, Measure)| Component { name: format!("{name}{part}"), joint, measure };
+            components.extend(parts.iter().map(part));
+            first..components.len()
+        };
+        let (q, v) = (add(&mut self.coordinates, coordinates), add(&mut self.velocities, velocities));
+        self.joints.push(Joint { name: name.to_owned(), actuated, q, v });
+    }
+
+    /// How many coordinates there are.
+    pub fn nq(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// How many velocities there are.
+    pub fn nv(&self) -> usize {
+        self.velocities.len()
+    }
+
+    /// The coordinates of some of the joints.
+    pub fn coordinates_of(&self, joints: &[usize]) -> Vec<usize> {
+        joints.iter().flat_map(|&joint| self.joints[joint].q.clone()).collect()
+    }
+
+    /// The velocities of some of the joints.
+    pub fn velocities_of(&self, joints: &[usize]) -> Vec<usize> {
+        joints.iter().flat_map(|&joint| self.joints[joint].v.clone()).collect()
+    }
+
+    /// The joint whose velocity is this component of the state [q, v, work of the actuators], if it is one.
+    pub fn joint_of_velocity_in_state(&self, component: usize) -> Option<&Joint> {
+        let velocity = self.velocities.get(component.checked_sub(self.nq())?)?;
+        self.joints.get(velocity.joint)
+    }
+
+    /// What messages call a component of the state [q, v, work of the actuators] of a forward run.
+    pub fn name_in_state(&self, component: usize) -> String {
+        let (what, of) = match component.checked_sub(self.nq()) {
+            None => ("coordinate", &self.coordinates[component]),
+            Some(velocity) if velocity < self.nv() => ("velocity", &self.velocities[velocity]),
+            Some(_) => return "the work of the actuators".to_owned(),
+        };
+        let joint = &self.joints[of.joint].name;
+        match &of.name == joint {
+            true => format!("the {what} of the joint `{joint}`"),
+            false => format!("the {what} `{}` of the joint `{joint}`", of.name),
+        }
+    }
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+
+    const POSE: Parts = &[
+        (".x", Measure::Length),
+        (".y", Measure::Length),
+        (".z", Measure::Length),
+        (".qx", Measure::Number),
+        (".qy", Measure::Number),
+        (".qz", Measure::Number),
+        (".qw", Measure::Number),
+    ];
+    const TWIST: Parts = &[
+        (".vx", Measure::Length),
+        (".vy", Measure::Length),
+        (".vz", Measure::Length),
+        (".wx", Measure::Angle),
+        (".wy", Measure::Angle),
+        (".wz", Measure::Angle),
+    ];
+
+    /// A free joint `base` with seven coordinates and six velocities, then a revolute joint `arm`.
+    pub fn free_base_with_arm() -> Layout {
+        let mut layout = Layout::default();
+        layout.push("base", false, [POSE, TWIST]);
+        layout.push("arm", true, [ANGLE, ANGLE]);
+        layout
+    }
+
+    #[test]
+    fn joints_find_their_coordinates_and_velocities_behind_a_free_joint() {
+        let layout = free_base_with_arm();
+        assert_eq!((layout.nq(), layout.nv()), (8, 7));
+        assert_eq!((layout.coordinates_of(&[1]), layout.velocities_of(&[1])), (vec![7], vec![6]));
+        assert_eq!(layout.coordinates_of(&[0]), [0, 1, 2, 3, 4, 5, 6]);
+        assert_eq!(layout.velocities_of(&[1, 0]), [6, 0, 1, 2, 3, 4, 5]);
+    }
+
+    #[test]
+    fn growing_errors_are_those_of_the_joint_whose_velocity_grows_behind_a_free_joint() {
+        let layout = free_base_with_arm();
+        let joint = |component| layout.joint_of_velocity_in_state(component).map(|joint| joint.name.as_str());
+        assert_eq!([7, 8, 13, 14, 15].map(joint), [None, Some("base"), Some("base"), Some("arm"), None]);
+    }
+
+    #[test]
+    fn a_component_of_the_state_is_called_by_its_joint_behind_a_free_joint() {
+        let layout = free_base_with_arm();
+        for (component, name) in [
+            (0, "the coordinate `base.x` of the joint `base`"),
+            (6, "the coordinate `base.qw` of the joint `base`"),
+            (7, "the coordinate of the joint `arm`"),
+            (8, "the velocity `base.vx` of the joint `base`"),
+            (14, "the velocity of the joint `arm`"),
+            (15, "the work of the actuators"),
+        ] {
+            assert_eq!(layout.name_in_state(component), name, "component {component}");
+        }
+    }
+}
