@@ -17,7 +17,8 @@ use common::{Context, Failure, Outputs, column, instants};
 use redysim::closed_loop::Assembly;
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Free, Integrator, Mechanism, Motion, Ode4, Ode5, Ode45, Stabilisation, redysim,
+    ClosedLoop, ClosedLoopSimulation, Integrator, Mechanism, Motion, Ode4, Ode5, Ode45, Stabilisation, ZeroTorque,
+    redysim,
 };
 
 redysim! {
@@ -178,7 +179,8 @@ impl Fall {
         stabilisation: Stabilisation<f64>,
         table: &mut Table,
     ) -> Result<LoopMotion, Failure> {
-        let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(stabilisation);
+        let mut simulation =
+            ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque).stabilisation(stabilisation);
         let start = simulation.assembled(&self.start);
         let run = record(method, &mut simulation, integrator, start, &instants(0.68, 680))?;
         let deviations = run.deviations(&self.reference);
@@ -198,7 +200,8 @@ fn long_fall(outputs: &mut Outputs) -> Result<(), Failure> {
     let mut drift = Panel::new("Drift of the energy", "drift", "J").logarithmic();
     let kinds = [("projection", Stabilisation::Projection), ("plain index 1", Stabilisation::None)];
     for (colour, (name, stabilisation)) in (1..).zip(kinds) {
-        let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(stabilisation);
+        let mut simulation =
+            ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque).stabilisation(stabilisation);
         let start = simulation.assembled(&start);
         let run = record(name, &mut simulation, &Ode4::new(1e-4), start, &instants(10.0, 1000))?;
         let (steps, time) = (run.statistics.steps.to_string(), format!("{:.2}", run.seconds));

@@ -4,7 +4,7 @@
 
 mod common;
 
-use redysim::{Dop853, ForwardSimulation, Free, Integrator, TreeDynamics, Vector, redysim};
+use redysim::{Dop853, ForwardSimulation, Integrator, TreeDynamics, Vector, ZeroTorque, redysim};
 
 redysim! { struct DoublePendulum("models/double_pendulum.toml"); }
 redysim! { struct TriplePendulum("models/triple_pendulum.toml"); }
@@ -35,9 +35,9 @@ fn release<M: TreeDynamics<f64>>(mechanism: &M, case: &str, start: &[f64], toler
     let q = M::Coordinates::from_fn(dof, |i| start[i]);
     let v = M::Velocities::from_fn(dof, |_| 0.0);
     let at_rest = mechanism.energy(&q, &v).total();
-    let mut simulation = ForwardSimulation::new(mechanism, Free);
+    let mut simulation = ForwardSimulation::new(mechanism, ZeroTorque);
     let state = simulation.state(&q, &v);
-    let copy = ForwardSimulation::new(mechanism, Free);
+    let copy = ForwardSimulation::new(mechanism, ZeroTorque);
     let mut errors = Errors { coordinates: Vec::new(), energy: 0.0 };
     let mut expected = rows.iter();
     let times = rows.iter().map(|row| row[0]);

@@ -5,7 +5,7 @@ mod common;
 
 use common::models::generic;
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Free, IntegrationError, Integrator, LoopError, Ode4, Stabilisation, redysim,
+    ClosedLoop, ClosedLoopSimulation, IntegrationError, Integrator, LoopError, Ode4, Stabilisation, ZeroTorque, redysim,
 };
 
 redysim! { struct Fourbar("models/fourbar.toml"); }
@@ -35,7 +35,9 @@ fn a_held_crank_at_rest_stops_the_whole_linkage() {
         let stopped = ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &asked, &[0]).expect("it stops");
         let most = asked.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         assert!(stopped.v.iter().all(|v| v.abs() < 1e-15 * most), "{asked:?}: {:?}", stopped.v);
-        ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).start(&stopped.q, &stopped.v).expect("it fits");
+        ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque)
+            .start(&stopped.q, &stopped.v)
+            .expect("it fits");
     }
 }
 
@@ -106,7 +108,7 @@ fn a_guess_with_all_links_in_line_ends_in_an_answer() {
 
 #[test]
 fn a_start_that_is_open_or_pulls_apart_is_refused() {
-    let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+    let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let error = simulation.start(&[0.0, 0.9844, 4.3144], &[0.0; 3]).unwrap_err();
     assert!(
         matches!(error, LoopError::NotClosed { position_residual: gap, .. } if 1e-6 < gap && gap < 1e-4),
@@ -120,7 +122,8 @@ fn a_start_that_is_open_or_pulls_apart_is_refused() {
 #[test]
 fn baumgarte_with_steps_known_to_blow_up_is_refused() {
     let baumgarte = |alpha| {
-        ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(Stabilisation::Baumgarte { alpha })
+        ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque)
+            .stabilisation(Stabilisation::Baumgarte { alpha })
     };
     let mut simulation = baumgarte(1300.0);
     let start = simulation.start(&START, &[0.0; 3]).expect("a closed start");

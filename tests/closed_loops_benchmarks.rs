@@ -7,7 +7,7 @@ mod common;
 use common::andrews;
 use common::models::generic;
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Free, Integrator, LoopClosure, MechanicalEnergy, Ode4, Ode45, redysim,
+    ClosedLoop, ClosedLoopSimulation, Integrator, LoopClosure, MechanicalEnergy, Ode4, Ode45, ZeroTorque, redysim,
 };
 
 redysim! { struct Andrews("models/andrews.toml"); }
@@ -59,7 +59,7 @@ fn forty_windows_fold_and_open_again() {
     let dof = windows.tree().nv();
     let alternating: Vec<f64> =
         (0..dof).map(|i| if windows.model().links[i].name.starts_with("crank") { -1.0 } else { 1.0 }).collect();
-    let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&windows), Free);
+    let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&windows), ZeroTorque);
     let start = turn.start(&vec![0.0; dof], &alternating).expect("the start is closed");
     let mut gap = 0.0_f64;
     let end = Ode4::new(1e-2)
@@ -87,7 +87,7 @@ fn errors_name_the_loop_and_the_joint() {
     let loops = ClosedLoop::new(&Andrews);
     let mut open = andrews::START;
     open[2] += 0.01;
-    let error = ClosedLoopSimulation::new(loops, Free).start(&open, &[0.0; 7]).expect_err("an open start");
+    let error = ClosedLoopSimulation::new(loops, ZeroTorque).start(&open, &[0.0; 7]).expect_err("an open start");
     let told = loops.with_names(error).to_string();
     assert!(told.contains(" m; close it with `assemble`"), "{told}");
     assert!(told.contains(&format!("belongs to the loop `{}`", Andrews::LOOP_NAMES[0])), "{told}");
@@ -111,7 +111,7 @@ fn the_other_linkages_keep_their_energy_and_stay_closed() {
         let assembly = loops.assemble(&guess, &vec![0.0; dof], &[]).expect("it closes");
         assert!(assembly.largest_displacement < 0.05, "{name} moved by {} rad", assembly.largest_displacement);
         let before = mechanism.energy(&assembly.q, &assembly.v).total();
-        let mut fall = ClosedLoopSimulation::new(loops, Free);
+        let mut fall = ClosedLoopSimulation::new(loops, ZeroTorque);
         let start = fall.assembled(&assembly);
         let end = Ode45::new().rtol(1e-9).atol(1e-9).integrate(&mut fall, (0.0, 0.2), start).expect("it falls");
         let state = fall.split(&end.y);

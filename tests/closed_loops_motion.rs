@@ -8,8 +8,8 @@ mod common;
 use common::models::generic;
 use redysim::integrate::Ode;
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Dop853, Free, Integrator, LoopClosure, Ode4, Ode5, Ode15s, Ode45, Stabilisation,
-    redysim,
+    ClosedLoop, ClosedLoopSimulation, Dop853, Integrator, LoopClosure, Ode4, Ode5, Ode15s, Ode45, Stabilisation,
+    ZeroTorque, redysim,
 };
 use spatial::FourbarSpatial;
 
@@ -52,8 +52,8 @@ fn the_four_bar_falls_as_in_quadruple_precision() {
     ] {
         let rows = reference(text);
         assert_eq!(rows.len(), 69);
-        let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
-        let mut copy = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+        let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
+        let mut copy = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
         let start = fall.start(&START, &v).expect("a closed start");
         let mut worst = [0.0_f64; 3];
         let mut state = start;
@@ -77,10 +77,11 @@ fn the_four_bar_falls_as_in_quadruple_precision() {
 
 /// A multistep method whose past is that of the states before they were corrected.
 #[test]
-fn the_projection_costs_ode15s_no_steps() {
+fn the_projection_costs_ode15s_at_most_three_percent_more_steps() {
     for tolerance in [1e-3, 1e-5, 1e-7] {
         let fall = |stabilisation: Stabilisation<f64>| {
-            let mut spin = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(stabilisation);
+            let mut spin =
+                ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque).stabilisation(stabilisation);
             let start = spin.start(&START, &SPIN).expect("a closed start");
             let method = Ode15s::new().rtol(tolerance).atol(tolerance);
             method.integrate(&mut spin, (0.0, 0.68), start).expect("it moves")
@@ -100,7 +101,7 @@ fn ode15s_passes_singular_positions_at_tolerances_below_the_rounding_errors_ther
     let loops = ClosedLoop::new(&SliderCrank);
     let guess = [-core::f64::consts::FRAC_PI_2, core::f64::consts::TAU, 2.0];
     let assembly = loops.assemble(&guess, &[0.0; 3], &[0]).expect("it closes");
-    let mut fall = ClosedLoopSimulation::new(loops, Free);
+    let mut fall = ClosedLoopSimulation::new(loops, ZeroTorque);
     let start = fall.assembled(&assembly);
     let reference = Dop853::new().rtol(1e-13).atol(1e-13).integrate(&mut fall, (0.0, 3.0), start).expect("it passes").y;
     let mut looser = u64::MAX / 10;
@@ -121,8 +122,8 @@ fn ode15s_passes_singular_positions_at_tolerances_below_the_rounding_errors_ther
 
 /// The largest residual at the end of any step, the largest change of energy, and the end.
 fn drift(stabilisation: Stabilisation<f64>, steps: u32) -> (f64, f64, [f64; 7]) {
-    let mut spin = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(stabilisation);
-    let copy = ClosedLoopSimulation::<f64, _, _>::new(ClosedLoop::new(&Fourbar), Free);
+    let mut spin = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque).stabilisation(stabilisation);
+    let copy = ClosedLoopSimulation::<f64, _, _>::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let start = spin.start(&START, &SPIN).expect("a closed start");
     let energy = Fourbar::energy(&START, &SPIN).total();
     let (mut gap, mut change) = (0.0_f64, 0.0_f64);
@@ -160,7 +161,7 @@ fn without_it_the_loop_drifts_apart_and_baumgarte_holds_it_less_closely() {
 fn every_integrator_keeps_the_loop_closed_and_counts_what_it_costs() {
     let loops = ClosedLoop::new(&Fourbar);
     let gap = |state: &[f64; 7]| largest(&Fourbar::loop_residual(&[state[0], state[1], state[2]]));
-    let mut spin = ClosedLoopSimulation::new(loops, Free);
+    let mut spin = ClosedLoopSimulation::new(loops, ZeroTorque);
     let start = spin.start(&START, &SPIN).expect("a closed start");
     let classical = Ode4::new(1e-3).integrate(&mut spin, (0.0, 0.1), start).expect("it moves");
     let fixed = Ode5::new(1e-3).integrate(&mut spin, (0.0, 0.1), start).expect("it moves");
@@ -187,7 +188,7 @@ fn the_windows_pass_through_their_singular_positions_with_steps_of_every_size() 
         &[(1e-2, 5e-6), (3e-3, 1e-6), (1e-3, 1e-6), (3e-4, 1e-6), (1e-4, 1e-6)]
     };
     for &(size, allowed) in sizes {
-        let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), Free);
+        let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), ZeroTorque);
         let start = turn.start(&[0.0; 5], &WINDOWS_START).expect("a closed start");
         let mut gap = 0.0_f64;
         let end = Ode4::new(size)
@@ -211,7 +212,7 @@ fn the_windows_pass_through_their_singular_positions_with_steps_of_every_size() 
 fn no_size_of_step_meets_the_singular_positions_badly() {
     for k in 0..10 {
         let size = 3e-3 * (1.0 + 0.001_37 * f64::from(k));
-        let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), Free);
+        let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), ZeroTorque);
         let start = turn.start(&[0.0; 5], &WINDOWS_START).expect("a closed start");
         let end = Ode4::new(size).integrate(&mut turn, (0.0, 10.0), start).expect("it passes");
         let error = difference(&[-end.y[0].sin(), end.y[0].cos()], &TIP);
@@ -225,7 +226,7 @@ fn all_links_in_line_give_finite_accelerations_of_lower_rank() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let q = [1.0, -1.0, 1.0, -1.0, 1.0].map(|sign| -quarter * sign);
     for v in [[0.0; 5], WINDOWS_START.map(|v| 3.0 * v)] {
-        let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), Free);
+        let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), ZeroTorque);
         let start = simulation.start(&q, &v).expect("a closed start");
         let motion = simulation.motion(0.0, &start).expect("a finite answer");
         println!("{motion:?}");
@@ -250,8 +251,8 @@ fn a_four_bar_in_space_moves_as_the_one_in_the_plane_and_shows_its_redundant_row
     assert!((size(&a.multipliers) - size(&b.multipliers)).abs() < 1e-10, "the force at the cut");
 
     let method = Ode45::new().rtol(1e-12).atol(1e-13);
-    let mut planar = ClosedLoopSimulation::new(planar, Free);
-    let mut spatial = ClosedLoopSimulation::new(spatial, Free);
+    let mut planar = ClosedLoopSimulation::new(planar, ZeroTorque);
+    let mut spatial = ClosedLoopSimulation::new(spatial, ZeroTorque);
     let start = planar.start(&START, &SPIN).expect("a closed start");
     assert_eq!(spatial.start(&START, &SPIN), Ok(start));
     let a = method.integrate(&mut planar, (0.0, 0.68), start).expect("it moves").y;
@@ -263,8 +264,8 @@ fn a_four_bar_in_space_moves_as_the_one_in_the_plane_and_shows_its_redundant_row
 #[test]
 fn the_generic_path_moves_as_the_compiled_type() {
     let model = generic("fourbar");
-    let mut compiled = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
-    let mut general = ClosedLoopSimulation::new(ClosedLoop::new(&model), Free);
+    let mut compiled = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
+    let mut general = ClosedLoopSimulation::new(ClosedLoop::new(&model), ZeroTorque);
     let a = compiled.start(&START, &SPIN).expect("a closed start");
     let b = general.start(&START.to_vec(), &SPIN.to_vec()).expect("a closed start");
     let a = Ode4::new(1e-3).integrate(&mut compiled, (0.0, 0.2), a).expect("it moves").y;
@@ -295,7 +296,7 @@ fn constraint_forces_balance_the_motion_and_do_no_work() {
 
 #[test]
 fn single_precision_works_too() {
-    let mut spin = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+    let mut spin = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let (q, v) = (START.map(|q| q as f32), SPIN.map(|v| v as f32));
     let start = spin.start(&q, &v).expect("closed to single precision");
     let end = Ode4::new(1e-3_f32).integrate(&mut spin, (0.0, 0.1), start).expect("it moves").y;
@@ -316,7 +317,7 @@ fn energy_error_of_bricard(step: f64) -> f64 {
     let loops = ClosedLoop::new(&Bricard);
     let assembly = loops.assemble(&[0.3; 5], &[2.0, 0.0, 0.0, 0.0, 0.0], &[0]).expect("it closes");
     assert_eq!(assembly.rank, 4);
-    let mut turn = ClosedLoopSimulation::new(loops, Free);
+    let mut turn = ClosedLoopSimulation::new(loops, ZeroTorque);
     let start = turn.assembled(&assembly);
     let energy = |y: &[f64; 11]| Bricard::energy(&y[..5].try_into().unwrap(), &y[5..10].try_into().unwrap()).total();
     let before = energy(&start);
@@ -334,7 +335,7 @@ fn a_loop_with_a_row_too_many_moves_with_the_order_of_the_method() {
 
 #[test]
 fn single_precision_passes_singular_positions() {
-    let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), Free);
+    let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), ZeroTorque);
     let start = turn.start(&[0.0_f32; 5], &[-1.0, 1.0, -1.0, 1.0, -1.0]).expect("a closed start");
     let end = Ode4::new(1e-2_f32).integrate(&mut turn, (0.0, 2.0), start).expect("it passes");
     assert!(end.y.iter().all(|value| value.is_finite()));

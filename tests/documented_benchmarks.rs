@@ -12,8 +12,8 @@ use std::f64::consts::FRAC_PI_2;
 use documented::{assert_bounds, rows, stated, table};
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Dop853, ForwardSimulation, Free, Gauss6, Integrator, LoopClosure, Ode4, Ode45,
-    TreeDynamics, Vector, redysim,
+    ClosedLoop, ClosedLoopSimulation, Dop853, ForwardSimulation, Gauss6, Integrator, LoopClosure, Ode4, Ode45,
+    TreeDynamics, Vector, ZeroTorque, redysim,
 };
 
 redysim! { struct SimplePendulum("models/simple_pendulum.toml"); }
@@ -23,7 +23,7 @@ redysim! { struct Windows("models/n_fourbar_2.toml"); }
 fn error_of_pendulum(duration: f64, method: &impl Integrator<f64>) -> f64 {
     // After 2,000 s, by Jacobi's elliptic functions.
     const END: [f64; 2] = [-0.814_603_068_589_032_2, -0.580_018_827_836_935_5];
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[FRAC_PI_2], &[0.0]);
     let end = method.integrate(&mut simulation, (0.0, duration), start).expect("it swings").y;
     (end[0].sin() - END[0]).hypot(-end[0].cos() - END[1])
@@ -38,7 +38,7 @@ where
     let windows = (mechanism.nv() / 2) as f64;
     let reference = rows(include_str!("reference/exact_n_fourbar.csv"));
     let exact = reference.iter().find(|row| row[..2] == [windows, duration]).expect("an exact tip");
-    let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), Free);
+    let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), ZeroTorque);
     let q = M::Coordinates::from_fn(mechanism.nq(), |_| 0.0);
     let v = M::Velocities::from_fn(mechanism.nv(), |joint| if joint.is_multiple_of(2) { -1.0 } else { 1.0 });
     let start = turn.start(&q, &v).expect("a closed start");

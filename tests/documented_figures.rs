@@ -15,8 +15,8 @@ use common::models::Kr5;
 use documented::{assert_bounds, cells, read, rows, stated};
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
-    Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Cycloid, ForwardSimulation, Free, Integrator,
-    Motion, Ode4, Ode45, OperationCount, Trajectory, redysim,
+    Assembly, ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Cycloid, ForwardSimulation, Integrator, Motion,
+    Ode4, Ode45, OperationCount, Trajectory, ZeroTorque, redysim,
 };
 use redysim_codegen::functions::trace_model;
 use redysim_codegen::passes::Passes;
@@ -62,8 +62,8 @@ fn the_joint_forces_of_the_kr5_deviate_as_the_readme_states() {
 fn the_free_fall_of_the_kr5_deviates_as_the_readme_states() {
     let reference = rows(include_str!("reference/golden_ref_kuka.csv"));
     let reference: Vec<_> = reference.into_iter().filter(|row| row[0] <= 1.0).collect();
-    let mut fall = ForwardSimulation::new(&Kr5, Free);
-    let copy = ForwardSimulation::new(&Kr5, Free);
+    let mut fall = ForwardSimulation::new(&Kr5, ZeroTorque);
+    let copy = ForwardSimulation::new(&Kr5, ZeroTorque);
     let start = fall.state(&[0.0; 6], &[0.0; 6]);
     let at_rest = Kr5::energy(&[0.0; 6], &[0.0; 6]).total();
     let (mut angle, mut drift, mut row) = (0.0_f64, 0.0_f64, 0);
@@ -158,8 +158,8 @@ fn closed_at_rest() -> Assembly<f64, [f64; 3], [f64; 3]> {
 fn the_four_bar_falls_as_closely_as_the_readme_states() {
     let reference = rows(include_str!("reference/golden_ref_hoken_rest_consistent.csv"));
     let reference: Vec<_> = reference.into_iter().filter(|row| row[0] <= 0.68 + 1e-9).collect();
-    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
-    let mut copy = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
+    let mut copy = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let start = fall.assembled(&closed_at_rest());
     let (mut angle, mut lambda) = (0.0_f64, 0.0_f64);
     let mut expected = reference.iter();
@@ -178,8 +178,8 @@ fn the_four_bar_falls_as_closely_as_the_readme_states() {
 fn the_four_bar_drifts_as_little_as_the_readme_states() {
     // 10 s in optimised builds; 1 s in debug builds, which are slower: the energy changes less in it.
     let end = if cfg!(debug_assertions) { 1.0 } else { 10.0 };
-    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
-    let copy = ClosedLoopSimulation::<f64, _, _>::new(ClosedLoop::new(&Fourbar), Free);
+    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
+    let copy = ClosedLoopSimulation::<f64, _, _>::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let closed = closed_at_rest();
     let start = fall.assembled(&closed);
     let energy = Fourbar::energy(&closed.q, &closed.v).total();

@@ -9,7 +9,8 @@ use common::methods::{WithMethod, every_adaptive, every_fixed};
 use common::models::{Kr5, generic};
 use common::random::Random;
 use redysim::{
-    Dop853, ForwardDynamics, ForwardSimulation, Free, IntegrationError, Integrator, InverseDynamics, Ode45, redysim,
+    Dop853, ForwardDynamics, ForwardSimulation, IntegrationError, Integrator, InverseDynamics, Ode45, ZeroTorque,
+    redysim,
 };
 
 const DOF: usize = Kr5::NV;
@@ -24,7 +25,7 @@ struct FromZero {
 
 impl WithMethod for FromZero {
     fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
-        let mut simulation = ForwardSimulation::new(&Kr5, Free);
+        let mut simulation = ForwardSimulation::new(&Kr5, ZeroTorque);
         let start = simulation.state(&[0.0; DOF], &[0.0; DOF]);
         let mut first = None;
         let on_step = |step: &redysim::Step<'_, f64, _>| {
@@ -41,7 +42,7 @@ impl WithMethod for FromZero {
 /// Let go at zero with no speed and no work done, an arm has no size by which a first step could be measured.
 #[test]
 fn from_a_start_of_nothing_but_zeros_the_first_step_is_finite_and_the_error_honest() {
-    let mut simulation = ForwardSimulation::new(&Kr5, Free);
+    let mut simulation = ForwardSimulation::new(&Kr5, ZeroTorque);
     let start = simulation.state(&[0.0; DOF], &[0.0; DOF]);
     let judge = Dop853::new().rtol(1e-13).atol(1e-15).integrate(&mut simulation, (0.0, 0.5), start).expect("it falls");
     let exact = judge.y[1];
@@ -86,7 +87,7 @@ fn a_million_radians_and_a_million_radians_per_second_cost_no_digits() {
 #[test]
 fn a_motion_at_a_million_radians_per_second_keeps_its_energy() {
     let energy = |y: &[f64; 3]| SimplePendulum::energy(&[y[0]], &[y[1]]).total();
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[1e6], &[1e6]);
     let method = Ode45::new().rtol(1e-12).atol(1e-12).max_step(1e-6);
     let end = method.integrate(&mut simulation, (0.0, 0.01), start).expect("it turns");
@@ -99,9 +100,10 @@ struct BadInput;
 
 impl WithMethod for BadInput {
     fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
-        let state = |q: f64, v: f64| ForwardSimulation::new(&SimplePendulum, Free).state(&[q], &[v]);
-        let run =
-            |interval, start| method.integrate(&mut ForwardSimulation::new(&SimplePendulum, Free), interval, start);
+        let state = |q: f64, v: f64| ForwardSimulation::new(&SimplePendulum, ZeroTorque).state(&[q], &[v]);
+        let run = |interval, start| {
+            method.integrate(&mut ForwardSimulation::new(&SimplePendulum, ZeroTorque), interval, start)
+        };
         for (start, component) in [(state(f64::NAN, 0.0), 0), (state(0.1, f64::INFINITY), 1)] {
             let outcome = run((0.0, 1.0), start);
             let expected = Err(IntegrationError::NonFiniteState { t: 0.0, component });
@@ -109,7 +111,7 @@ impl WithMethod for BadInput {
         }
         for interval in [(0.0, 0.0), (0.0, f64::NAN), (f64::NEG_INFINITY, 0.0)] {
             let outcome = run(interval, state(0.1, 0.0));
-            assert!(matches!(outcome, Err(IntegrationError::BadInterval { .. })), "{name}: {outcome:?}");
+            assert!(matches!(outcome, Err(IntegrationError::InvalidInterval { .. })), "{name}: {outcome:?}");
         }
         // Backward in time is no mistake.
         assert!(run((1.0, 0.0), state(0.1, 0.0)).is_ok(), "{name}");
@@ -152,9 +154,9 @@ impl WithMethod for Refused {
         assert!(
             matches!(
                 outcome,
-                Err(IntegrationError::BadStep { .. }
-                    | IntegrationError::BadRelativeTolerance { .. }
-                    | IntegrationError::BadAbsoluteTolerance { .. })
+                Err(IntegrationError::InvalidStep { .. }
+                    | IntegrationError::InvalidRelativeTolerance { .. }
+                    | IntegrationError::InvalidAbsoluteTolerance { .. })
             ),
             "{name}: {outcome:?}"
         );

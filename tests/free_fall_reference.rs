@@ -6,7 +6,7 @@
 mod common;
 
 use common::models::{Gripper, Kr5};
-use redysim::{ForwardSimulation, Free, Integrator, Ode45, TreeDynamics, Vector};
+use redysim::{ForwardSimulation, Integrator, Ode45, TreeDynamics, Vector, ZeroTorque};
 
 /// t, then the coordinates and velocities there.
 fn rows(text: &str, dof: usize) -> Vec<(f64, Vec<f64>)> {
@@ -36,9 +36,9 @@ fn free_fall<M: TreeDynamics<f64>>(mechanism: &M, reference: &str) -> Errors {
     let q = M::Coordinates::from_fn(dof, |i| rows[0].1[i]);
     let v = M::Velocities::from_fn(dof, |i| rows[0].1[dof + i]);
     let at_rest = mechanism.energy(&q, &v).total();
-    let mut fall = ForwardSimulation::new(mechanism, Free);
+    let mut fall = ForwardSimulation::new(mechanism, ZeroTorque);
     let start = fall.state(&q, &v);
-    let copy = ForwardSimulation::new(mechanism, Free);
+    let copy = ForwardSimulation::new(mechanism, ZeroTorque);
     let mut errors = Errors { coordinates: 0.0, coordinates_at_the_end: 0.0, energy: 0.0, work: 0.0 };
     let times: Vec<f64> = rows.iter().map(|(t, _)| *t).collect();
     let mut expected = rows.iter();

@@ -4,7 +4,7 @@
 mod common;
 
 use common::models::generic;
-use redysim::{ForwardDynamics, ForwardSimulation, Free, Integrator, InverseDynamics, MassMatrix};
+use redysim::{ForwardDynamics, ForwardSimulation, Integrator, InverseDynamics, MassMatrix, ZeroTorque};
 use redysim::{Ode45, redysim};
 
 redysim! { struct Spindle("models/test/spindle.toml"); }
@@ -52,7 +52,7 @@ fn theta_is_an_angle_at_which_the_link_stands_at_b() {
 #[test]
 fn free_motion_of_screws_keeps_its_energy_and_both_paths_agree() {
     let (q, v): ([f64; 2], [f64; 2]) = ([0.3, -0.8], [1.5, -2.0]);
-    let mut simulation = ForwardSimulation::new(&Spindle, Free);
+    let mut simulation = ForwardSimulation::new(&Spindle, ZeroTorque);
     let start = simulation.state(&q, &v);
     let end = Ode45::new().rtol(1e-11).atol(1e-12).integrate(&mut simulation, (0.0, 2.0), start).unwrap().y;
     let [before, after]: [f64; 2] =

@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use redysim::{
-    Dop853, Event, ForwardSimulation, Free, Integrator, Ode5, Ode15s, Ode45, Radau5, Statistics, Step, redysim,
+    Dop853, Event, ForwardSimulation, Integrator, Ode5, Ode15s, Ode45, Radau5, Statistics, Step, ZeroTorque, redysim,
 };
 
 redysim! { struct SimplePendulum("models/simple_pendulum.toml"); }
@@ -21,15 +21,16 @@ fn numbers(text: &str) -> Vec<Vec<f64>> {
 
 /// The times, of all passages in 10 s, and what they took.
 fn passages(method: &impl Integrator<f64>) -> (Vec<f64>, Statistics) {
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[START], &[0.0]);
     let mut times = Vec::new();
     let passing = |_t: f64, y: &[f64; 3]| y[0] - LEVEL;
     let go_on = |_: &Step<'_, f64, [f64; 3]>| ControlFlow::Continue(());
-    let end = method.watch(&mut simulation, (0.0, 10.0), start, &mut [Event::any(&passing)], go_on, |passage| {
-        times.push(passage.t);
-        ControlFlow::Continue(())
-    });
+    let end =
+        method.solve_with_events(&mut simulation, (0.0, 10.0), start, &mut [Event::any(&passing)], go_on, |passage| {
+            times.push(passage.t);
+            ControlFlow::Continue(())
+        });
     (times, end.expect("it swings").statistics)
 }
 
@@ -70,7 +71,7 @@ fn implicit_and_fixed_steps_find_them_too() {
 /// Without events, a look at the ends of steps sees fewer: the test above measures something.
 #[test]
 fn the_ends_of_steps_alone_miss_passages() {
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[START], &[0.0]);
     let mut changes = 0;
     let method = Ode45::new().rtol(1e-6).atol(1e-8);
@@ -85,7 +86,7 @@ fn the_ends_of_steps_alone_miss_passages() {
 
 #[test]
 fn the_pendulum_is_where_elliptic_functions_say() {
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[START], &[0.0]);
     let rows = numbers(include_str!("reference/exact_pendulum.csv"));
     let mut expected = rows.iter();
@@ -103,7 +104,7 @@ fn the_pendulum_is_where_elliptic_functions_say() {
 /// What the library asks for: 2,000 s from the horizontal on the other side, to 1 mm.
 #[test]
 fn two_thousand_seconds_keep_the_precision_asked_for_with_high_demands() {
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[-START], &[0.0]);
     let end =
         Dop853::new().rtol(1e-11).atol(1e-13).integrate(&mut simulation, (0.0, 2000.0), start).expect("it swings");

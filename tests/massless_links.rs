@@ -8,8 +8,8 @@ use std::fs;
 use common::models::generic;
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
-    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Dop853, ForwardDynamics, Free, Function, Integrator,
-    LoopError, MassMatrix, Motion, redysim,
+    ClosedLoop, ClosedLoopInverse, ClosedLoopSimulation, Dop853, ForwardDynamics, Function, Integrator, LoopError,
+    MassMatrix, Motion, ZeroTorque, redysim,
 };
 
 redysim! { struct Massless("models/test/fourbar_massless_coupler.toml"); }
@@ -152,9 +152,9 @@ fn its_motion_keeps_the_energy_and_that_of_lagrange() {
     let energy = |q: &[f64; 3], v: &[f64; 3]| Massless::energy(q, v).total();
     let before = energy(&closed.q, &closed.v);
     let method = Dop853::new().rtol(1e-11).atol(1e-12);
-    let mut fall = ClosedLoopSimulation::new(loops, Free);
+    let mut fall = ClosedLoopSimulation::new(loops, ZeroTorque);
     let start = fall.assembled(&closed);
-    let copy = ClosedLoopSimulation::<f64, _, _>::new(loops, Free);
+    let copy = ClosedLoopSimulation::<f64, _, _>::new(loops, ZeroTorque);
     let (mut drift, mut gap, mut exchanged) = (0.0_f64, 0.0_f64, 0.0_f64);
     let end = method.each_step(&mut fall, (0.0, 1.0), start, |step| {
         let now = copy.split(step.end().1);
@@ -179,7 +179,7 @@ fn its_motion_keeps_the_energy_and_that_of_lagrange() {
     assert!(error < 1e-6, "{error:e}");
 
     let general = generic("test/fourbar_massless_coupler");
-    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&general), Free);
+    let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&general), ZeroTorque);
     let start = fall.state(&closed.q.to_vec(), &closed.v.to_vec());
     let of_model = method.integrate(&mut fall, (0.0, 1.0), start).expect("on the generic path, too").y;
     assert!(difference(&of_model[..6], &end[..6]) < 1e-7, "{of_model:?}");

@@ -3,7 +3,7 @@
 mod common;
 
 use common::methods::{WithMethod, every_adaptive, every_fixed};
-use redysim::{Event, ForwardSimulation, Free, Integrator, LinkState, redysim};
+use redysim::{Event, ForwardSimulation, Integrator, LinkState, ZeroTorque, redysim};
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
@@ -60,7 +60,7 @@ struct Fall;
 
 impl WithMethod for Fall {
     fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
-        let mut fall = ForwardSimulation::new(&Kr5, Free);
+        let mut fall = ForwardSimulation::new(&Kr5, ZeroTorque);
         let start = fall.state(&[0.1; Kr5::NV], &[0.0; Kr5::NV]);
         let passing = |_t: f64, y: &[f64; 2 * Kr5::NV + 1]| y[1] + 0.1;
         let mut passages = 0;
@@ -70,7 +70,8 @@ impl WithMethod for Fall {
                 passages += 1;
                 ControlFlow::Continue(())
             };
-            let end = method.watch(&mut fall, (0.0, 0.3), start, events, |_| ControlFlow::Continue(()), on_event);
+            let end =
+                method.solve_with_events(&mut fall, (0.0, 0.3), start, events, |_| ControlFlow::Continue(()), on_event);
             black_box(end.is_ok());
         };
         assert_eq!(allocations(run), 0, "{name}");

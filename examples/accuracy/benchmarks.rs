@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Dop853, ForwardSimulation, Free, Gauss6, Integrator, LoopClosure, Ode4, Ode45,
-    TreeDynamics, Vector, redysim,
+    ClosedLoop, ClosedLoopSimulation, Dop853, ForwardSimulation, Gauss6, Integrator, LoopClosure, Ode4, Ode45,
+    TreeDynamics, Vector, ZeroTorque, redysim,
 };
 
 use crate::common::csv::Csv;
@@ -53,7 +53,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 fn pendulum(rows: &mut Rows, name: &str, method: &impl Integrator<f64>) -> Result<(), Failure> {
     // By Jacobi's elliptic functions.
     const END: [f64; 2] = [-0.814_603_068_589_032_2, -0.580_018_827_836_935_5];
-    let mut simulation = ForwardSimulation::new(&SimplePendulum, Free);
+    let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[std::f64::consts::FRAC_PI_2], &[0.0]);
     let begun = Instant::now();
     let end = method.integrate(&mut simulation, (0.0, 2000.0), start)?;
@@ -73,7 +73,7 @@ fn windows<M>(
 where
     M: TreeDynamics<f64> + LoopClosure<f64, M>,
 {
-    let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), Free);
+    let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), ZeroTorque);
     let q = M::Coordinates::from_fn(mechanism.nq(), |_| 0.0);
     let v = M::Velocities::from_fn(mechanism.nv(), |joint| if joint.is_multiple_of(2) { -1.0 } else { 1.0 });
     let start = simulation.start(&q, &v)?;

@@ -1,6 +1,6 @@
 //! What stays open and what drifts, against the step, for each way to keep a loop closed.
 
-use redysim::{ClosedLoop, ClosedLoopSimulation, Free, Ode4, Stabilisation};
+use redysim::{ClosedLoop, ClosedLoopSimulation, Ode4, Stabilisation, ZeroTorque};
 
 use super::models::Fourbar;
 use crate::common::csv::Csv;
@@ -33,7 +33,8 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     for (colour, (name, way)) in (1..).zip(ways) {
         let (mut gaps, mut drifts, mut cells) = (Vec::new(), Vec::new(), vec![name.to_owned()]);
         for step in STEPS {
-            let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free).stabilisation(way(step));
+            let mut simulation =
+                ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque).stabilisation(way(step));
             let state = simulation.assembled(&start);
             match record(name, &mut simulation, &Ode4::new(step), state, &instants(5.0, 5)) {
                 Ok(run) => {

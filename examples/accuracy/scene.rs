@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use redysim::integrate::Observer;
 use redysim::{
-    Assembly, ClosedLoop, ClosedLoopSimulation, ForwardSimulation, Free, IntegrationError, Integrator, Mechanism, Ode,
-    Ode15s, ProportionalDerivative, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector,
+    Assembly, ClosedLoop, ClosedLoopSimulation, ForwardSimulation, IntegrationError, Integrator, Mechanism, Ode,
+    Ode15s, ProportionalDerivative, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector, ZeroTorque,
 };
 use std::ops::ControlFlow;
 
@@ -115,7 +115,7 @@ pub fn kr5() -> Result<impl Scene, Failure> {
         name: "kr5_free_fall",
         title: "KR5, free fall of 1 s",
         mechanism: &Kr5,
-        law: Free,
+        law: ZeroTorque,
         start: ([0.0; DOF], [0.0; DOF]),
         duration: 1.0,
         most_steps: 100_000,
@@ -130,7 +130,7 @@ pub fn gripper() -> Result<impl Scene, Failure> {
         name: "gripper_free_fall",
         title: "Gripper, free fall of 1 s",
         mechanism: &Gripper,
-        law: Free,
+        law: ZeroTorque,
         start: ([-std::f64::consts::FRAC_PI_3, 0.0, 0.0, 0.0], [0.0; Gripper::NV]),
         duration: 1.0,
         most_steps: 100_000,
@@ -197,7 +197,7 @@ impl Scene for FourbarFall {
         50_000
     }
     fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>> {
-        let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), Free);
+        let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
         let start = simulation.assembled(&self.start);
         timed(simulation, method, self.duration(), &start, |end| largest_difference(end, &self.end))
     }
@@ -247,7 +247,7 @@ impl Scene for LongSwing {
     }
     fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>> {
         let hanging = -std::f64::consts::FRAC_PI_2;
-        let mut simulation = ForwardSimulation::new(&DoublePendulum, Free);
+        let mut simulation = ForwardSimulation::new(&DoublePendulum, ZeroTorque);
         let start = simulation.state(&[hanging + 0.3, 0.1], &[0.0; 2]);
         let mut energies = Energies { start: Energies::of(&start), worst: 0.0 };
         method.run(&mut simulation, (0.0, self.duration()), start, &mut energies)?;

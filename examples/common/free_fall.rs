@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use redysim::control::uniform;
-use redysim::{Energy, ForwardSimulation, Free, Integrator, Ode5, Ode45, Statistics, TreeDynamics};
+use redysim::{Energy, ForwardSimulation, Integrator, Ode5, Ode45, Statistics, TreeDynamics, ZeroTorque};
 
 use super::compare::deviations;
 use super::csv::{Csv, headers};
@@ -52,7 +52,7 @@ where
     M: TreeDynamics<f64>,
     I: Integrator<f64>,
 {
-    let mut simulation = ForwardSimulation::new(mechanism, Free);
+    let mut simulation = ForwardSimulation::new(mechanism, ZeroTorque);
     let state = simulation.state(start, &uniform(mechanism, 0.0));
     let interval = (t[0], t[t.len() - 1]);
     let mut states = Vec::new();

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use redysim::generic::{GenericMechanism, Model};
-use redysim::{ClosedLoop, ClosedLoopSimulation, Free, Ode4, Stabilisation, redysim};
+use redysim::{ClosedLoop, ClosedLoopSimulation, Ode4, Stabilisation, ZeroTorque, redysim};
 
 use super::study::{Plan, Studies};
 use crate::common::figure::{Figure, Panel};
@@ -26,7 +26,7 @@ fn rates(joint: usize) -> f64 {
 
 /// Moves two windows, compiled, and forty, generic, for 10 s.
 pub fn move_both(studies: &mut Studies) -> Result<(), Failure> {
-    let (law, t) = (Free, || instants(10.0, 1000));
+    let (law, t) = (ZeroTorque, || instants(10.0, 1000));
     let v = std::array::from_fn(rates);
     let plan = Plan { name: "n_fourbar_2", mechanism: &NFourbar2, law, q: [0.0; 5], v, held: &[], t: t() };
     studies.run(plan, &Ode4::new(1e-3))?;
@@ -77,7 +77,8 @@ pub fn compare(studies: &Studies, outputs: &mut Outputs) -> Result<(), Failure> 
 
 /// Ten seconds of two windows.
 fn two_windows(what: &'static str, step: f64, stabilisation: Stabilisation<f64>) -> Result<LoopMotion, Failure> {
-    let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&NFourbar2), Free).stabilisation(stabilisation);
+    let mut simulation =
+        ClosedLoopSimulation::new(ClosedLoop::new(&NFourbar2), ZeroTorque).stabilisation(stabilisation);
     let start = simulation.start(&[0.0; 5], &std::array::from_fn(rates))?;
     record(what, &mut simulation, &Ode4::new(step), start, &instants(10.0, 1000))
 }

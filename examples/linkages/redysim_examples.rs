@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Free, Integrator, LoopClosure, Motion, Ode45, Stabilisation, TreeDynamics,
+    ClosedLoop, ClosedLoopSimulation, Integrator, LoopClosure, Motion, Ode45, Stabilisation, TreeDynamics, ZeroTorque,
     redysim,
 };
 
@@ -42,7 +42,7 @@ const LEG_START: [f64; 7] = [0.0, 4.511, -2.7389, -0.8764, -1.4604, -1.4604, -1.
 /// Moves them from the shipped starts for the shipped times.
 pub fn move_all(studies: &mut Studies) -> Result<(), Failure> {
     let (rest, t) = ([0.0; 3], instants(1.33, 1330));
-    let (name, law) = ("fourbar_gui", Free);
+    let (name, law) = ("fourbar_gui", ZeroTorque);
     let plan = Plan { name, mechanism: &FourbarGui, law, q: GUI_START, v: rest, held: &[0], t };
     studies.run(plan, &method())?;
     let (name, q, t) = ("slider_crank", [-FRAC_PI_2, TAU, 2.0], instants(3.0, 3000));
@@ -135,7 +135,7 @@ where
     M: TreeDynamics<f64> + LoopClosure<f64, M>,
 {
     let loops = ClosedLoop::new(mechanism);
-    let mut simulation = ClosedLoopSimulation::new(loops, Free).stabilisation(Stabilisation::None);
+    let mut simulation = ClosedLoopSimulation::new(loops, ZeroTorque).stabilisation(Stabilisation::None);
     let start = simulation.state(&q, &redysim::control::uniform(mechanism, 0.0));
     let run = record(name, &mut simulation, &Ode45::new().rtol(3e-14).atol(1e-15), start, &reference.t)?;
     let numbers = [reference.t[reference.t.len() - 1].to_string(), run.statistics.steps.to_string()];

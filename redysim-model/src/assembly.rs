@@ -102,7 +102,7 @@ impl Tree {
             placement: placement.without_roundoff(),
             joint,
             offset,
-            merged_parallel: false,
+            still: false,
             q: coordinate..coordinate + joint.nq(),
             v: coordinate..coordinate + joint.nv(),
             inertia: PseudoInertia::zero(),

@@ -47,9 +47,9 @@ pub fn uniform<S: Scalar, M: Mechanism<S>>(mechanism: &M, gain: S) -> M::Velocit
 
 /// No torque at all: τ = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Free;
+pub struct ZeroTorque;
 
-impl<S: Scalar, M: Mechanism<S>> TorqueLaw<S, M> for Free {
+impl<S: Scalar, M: Mechanism<S>> TorqueLaw<S, M> for ZeroTorque {
     fn torque(&mut self, _t: S, _q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |_| S::zero())
     }

@@ -38,7 +38,7 @@ pub use closed_loop::{
     Assembly, ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConstrainedMotion,
     ForcedMotion, LoopError, LoopForces, NamedLoopError, Projection, RowSet, Stabilisation,
 };
-pub use control::{ComputedTorque, Free, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd};
+pub use control::{ComputedTorque, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque};
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched};
 pub use dual::Dual;

@@ -14,10 +14,10 @@ use crate::{ForwardDynamics, Mechanism, Ode, Real, TorqueLaw, Vector};
 /// # #[allow(dead_code)]
 /// # mod mechanisms { include!("../tests/mechanisms/mod.rs"); }
 /// # use mechanisms::Pendulum;
-/// use redysim_runtime::{ForwardSimulation, Free, Integrator, Ode45};
+/// use redysim_runtime::{ForwardSimulation, ZeroTorque, Integrator, Ode45};
 ///
 /// let pendulum = Pendulum { mass: 2.0, length: 0.5 };
-/// let mut simulation = ForwardSimulation::new(&pendulum, Free);
+/// let mut simulation = ForwardSimulation::new(&pendulum, ZeroTorque);
 /// let start = simulation.state(&[0.3], &[0.0]);
 /// let times = [0.0, 0.5, 1.0];
 /// Ode45::new().rtol(1e-10).atol(1e-12).solve(&mut simulation, (0.0, 1.0), start, times, |t, y| {

@@ -8,8 +8,8 @@ use mechanisms::Arm;
 use redysim_runtime::integrate::Accepted;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    ForwardDynamics, ForwardSimulation, Free, Gauss4, IntegrationError, Integrator, LinkState, Mechanism, Ode, Ode5,
-    Ode15s, Ode45, Proportional, ProportionalDerivative, Radau5, Solution, TorqueLaw,
+    ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError, Integrator, LinkState, Mechanism, Ode, Ode5, Ode15s,
+    Ode45, Proportional, ProportionalDerivative, Radau5, Solution, TorqueLaw, ZeroTorque,
 };
 
 /// The arm with sizes known only at run time, and as many accelerations as it says.
@@ -113,7 +113,7 @@ fn a_missing_gain_or_target_counts_as_not_a_number() {
 
 #[test]
 fn a_start_of_the_wrong_length_is_reported() {
-    let mut simulation = ForwardSimulation::new(&DynamicArm(2), Free);
+    let mut simulation = ForwardSimulation::new(&DynamicArm(2), ZeroTorque);
     let start = simulation.state(&vec![0.1], &V.to_vec());
     assert_eq!(start.len(), 5);
     let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
@@ -151,7 +151,7 @@ fn a_derivative_that_is_too_short_is_reported() {
 
 #[test]
 fn accelerations_that_are_too_few_are_reported() {
-    let mut simulation = ForwardSimulation::new(&DynamicArm(1), Free);
+    let mut simulation = ForwardSimulation::new(&DynamicArm(1), ZeroTorque);
     let start = simulation.state(&Q.to_vec(), &V.to_vec());
     let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
     assert_eq!(error, IntegrationError::NonFiniteDerivative { t: 0.0, component: 3 });

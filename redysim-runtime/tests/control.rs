@@ -5,8 +5,8 @@ mod mechanisms;
 
 use mechanisms::{Arm, GRAVITY, Pendulum, distance};
 use redysim_runtime::{
-    ComputedTorque, Cycloid, ForwardSimulation, Free, Integrator, InverseDynamics, Motion, Ode45, Proportional,
-    ProportionalDerivative, TorqueLaw, TrackingPd, Trajectory, control::uniform,
+    ComputedTorque, Cycloid, ForwardSimulation, Integrator, InverseDynamics, Motion, Ode45, Proportional,
+    ProportionalDerivative, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, control::uniform,
 };
 
 const Q: [f64; 2] = [0.5, -0.25];
@@ -26,7 +26,7 @@ fn swing(t: f64) -> Motion<[f64; 2], [f64; 2]> {
 
 #[test]
 fn laws_follow_their_formulas() {
-    assert_eq!(torque(Free, 1.0), [0.0, 0.0]);
+    assert_eq!(torque(ZeroTorque, 1.0), [0.0, 0.0]);
     assert_eq!(torque(Proportional { target: TARGET, kp: KP }, 1.0), [10.0 * 0.5, 20.0 * 1.25]);
     assert_eq!(
         torque(ProportionalDerivative { target: TARGET, kp: KP, kd: KD }, 1.0),

@@ -4,7 +4,7 @@
 mod mechanisms;
 
 use mechanisms::{GRAVITY, Pendulum};
-use redysim_runtime::{Dual, ForwardSimulation, Free, Ode, ProportionalDerivative, Scalar, TorqueLaw};
+use redysim_runtime::{Dual, ForwardSimulation, Ode, ProportionalDerivative, Scalar, TorqueLaw, ZeroTorque};
 
 fn slope(f: impl Fn(Dual<f64>) -> Dual<f64>, x: f64) -> f64 {
     f(Dual { value: x, slope: 1.0 }).slope
@@ -76,7 +76,7 @@ fn the_tangent_of_a_simulation_is_its_linearisation() {
 #[test]
 fn coordinates_come_first_and_their_rates_are_the_velocities() {
     let pendulum = Pendulum { mass: 2.0, length: 0.5 };
-    let mut simulation = ForwardSimulation::new(&pendulum, Free);
+    let mut simulation = ForwardSimulation::new(&pendulum, ZeroTorque);
     let mut rates = [f64::NAN; 3];
     assert_eq!(simulation.coordinate_rates(0.0, &[0.1, 0.7, 0.0], &mut rates), 1);
     assert_eq!(rates[0], 0.7);

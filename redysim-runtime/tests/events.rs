@@ -9,8 +9,8 @@ use std::ops::ControlFlow::{self, Break, Continue};
 use mechanisms::{GRAVITY, Pendulum};
 use redysim_runtime::integrate::Direction;
 use redysim_runtime::{
-    Dop8, Dop853, Event, ForwardSimulation, Free, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4,
-    Ode5, Ode45, Radau5, SemiImplicitEuler, Solution, Step,
+    Dop8, Dop853, Event, ForwardSimulation, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5,
+    Ode45, Radau5, SemiImplicitEuler, Solution, Step, ZeroTorque,
 };
 
 /// When, and whether upward.
@@ -58,7 +58,7 @@ fn passages(end: f64) -> Passages {
 }
 
 fn swing(method: &impl Integrator<f64>, to: f64) -> (Passages, Solution<f64, [f64; 3]>) {
-    let mut simulation = ForwardSimulation::new(&PENDULUM, Free);
+    let mut simulation = ForwardSimulation::new(&PENDULUM, ZeroTorque);
     let start = simulation.state(&[AMPLITUDE], &[0.0]);
     let mut found = vec![];
     let note = |o: Occurrence<'_, f64, [f64; 3]>| {
@@ -68,7 +68,7 @@ fn swing(method: &impl Integrator<f64>, to: f64) -> (Passages, Solution<f64, [f6
         Continue(())
     };
     let events = &mut [Event::any(&|_, y: &[f64; 3]| y[0] - LEVEL)];
-    let end = method.watch(&mut simulation, (0.0, to), start, events, |_| Continue(()), note).unwrap();
+    let end = method.solve_with_events(&mut simulation, (0.0, to), start, events, |_| Continue(()), note).unwrap();
     (found, end)
 }
 
@@ -115,7 +115,9 @@ fn power_of_times<M: Integrator<f64>>(method: impl Fn(f64) -> M) -> (f64, u64) {
         let value = move |_: f64, y: &[f64; 2]| y[0] - level;
         let events = &mut [Event::rising(&value)];
         let method = method(h);
-        let end = method.watch(&mut oscillator, (0.0, h), [0.0, 1.0], events, |_| Continue(()), |_| Break(())).unwrap();
+        let end = method
+            .solve_with_events(&mut oscillator, (0.0, h), [0.0, 1.0], events, |_| Continue(()), |_| Break(()))
+            .unwrap();
         evaluations = evaluations.max(end.statistics.evaluations);
         (end.t - 0.6 * h).abs()
     });
@@ -148,7 +150,7 @@ fn a_jump_of_the_function_is_found_as_exactly_as_the_extension_is() {
     };
     let events = &mut [Event::falling(&|_, y: &[f64; 2]| if y[0] > 0.3 { 1.0 } else { -1.0 })];
     let method = Ode45::new().rtol(1e-10).atol(1e-10);
-    method.watch(&mut oscillator, (0.0, 20.0), [1.0, 0.0], events, |_| Continue(()), note).unwrap();
+    method.solve_with_events(&mut oscillator, (0.0, 20.0), [1.0, 0.0], events, |_| Continue(()), note).unwrap();
     assert_eq!(times.len(), 3);
     for (turn, t) in (0..).zip(times) {
         let exact = 0.3_f64.acos() + TAU * f64::from(turn);
@@ -160,7 +162,7 @@ fn a_jump_of_the_function_is_found_as_exactly_as_the_extension_is() {
 fn events_cost_a_few_steps_each_and_change_no_step() {
     for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
         let method = Ode45::new().rtol(tolerance).atol(tolerance);
-        let mut simulation = ForwardSimulation::new(&PENDULUM, Free);
+        let mut simulation = ForwardSimulation::new(&PENDULUM, ZeroTorque);
         let start = simulation.state(&[AMPLITUDE], &[0.0]);
         let plain = method.integrate(&mut simulation, (0.0, 10.0), start).unwrap();
         let (found, watched) = swing(&method, 10.0);
@@ -187,7 +189,7 @@ fn found(
         found.push((o.event, o.t));
         Continue(())
     };
-    method.watch(&mut clock, interval, [interval.0], &mut watched, |_| Continue(()), note).unwrap();
+    method.solve_with_events(&mut clock, interval, [interval.0], &mut watched, |_| Continue(()), note).unwrap();
     found
 }
 
@@ -283,7 +285,7 @@ fn a_stop_ends_the_solution_at_the_event_and_a_new_start_goes_on_from_there() {
             Continue(())
         };
         let events = &mut [Event::falling(&|_, y: &[f64; 2]| y[0])];
-        let end = Ode45::new().watch(&mut fall, (t, t + 5.0), y, events, look, |_| Break(())).unwrap();
+        let end = Ode45::new().solve_with_events(&mut fall, (t, t + 5.0), y, events, look, |_| Break(())).unwrap();
         assert!((end.t - expected).abs() < 1e-12, "bounce {bounce}: {} instead of {expected}", end.t);
         assert_eq!(last, (end.t, end.y));
         assert!(end.y[0] <= 0.0 && end.y[0] > -1e-14, "{:?}", end.y);
@@ -301,7 +303,7 @@ fn break_on_a_step_ends_after_that_step_and_events_before_it_are_told() {
         Continue(())
     };
     let events = &mut [Event::any(line)];
-    let end = Ode5::new(0.5).watch(&mut clock, (0.0, 5.0), [0.0], events, |_| Break(()), note).unwrap();
+    let end = Ode5::new(0.5).solve_with_events(&mut clock, (0.0, 5.0), [0.0], events, |_| Break(()), note).unwrap();
     assert_eq!((end.t, told), (0.5, 1));
 }
 
@@ -309,7 +311,8 @@ fn break_on_a_step_ends_after_that_step_and_events_before_it_are_told() {
 fn an_event_that_is_not_a_number_is_named() {
     let (fine, root): (Value<'_, 1>, Value<'_, 1>) = (&|_, _| 1.0, &|_, y| (0.7 - y[0]).sqrt());
     let events = &mut [Event::any(fine), Event::any(root)];
-    let outcome = Ode5::new(0.5).watch(&mut clock, (0.0, 5.0), [0.0], events, |_| Continue(()), |_| Continue(()));
+    let outcome =
+        Ode5::new(0.5).solve_with_events(&mut clock, (0.0, 5.0), [0.0], events, |_| Continue(()), |_| Continue(()));
     assert!(
         matches!(outcome, Err(IntegrationError::NonFiniteEvent { t, event: 1 }) if t > 0.7 && t < 0.8),
         "{outcome:?}"
@@ -339,7 +342,8 @@ fn the_state_at_a_stop_is_corrected_like_the_end_of_a_step() {
     let events = &mut [Event::rising(&|_, y: &[f64; 2]| y[0] - 0.5)];
     let go_on = |_: &Step<'_, f64, [f64; 2]>| Continue::<()>(());
     let mut circle = Circle(0);
-    let end = Ode45::new().watch(&mut circle, (0.0, 5.0), [0.0, 1.0], events, go_on, |_| Break(())).unwrap();
+    let end =
+        Ode45::new().solve_with_events(&mut circle, (0.0, 5.0), [0.0, 1.0], events, go_on, |_| Break(())).unwrap();
     assert!((end.y[0].hypot(end.y[1]) - 1.0).abs() < 1e-15);
     assert!((end.t - TAU / 12.0).abs() < 1e-3);
     assert_eq!(u64::from(circle.0), end.statistics.steps + 1);
@@ -359,7 +363,7 @@ fn a_state_of_any_length_can_be_watched() {
     };
     let events = &mut [Event::any(&|_, y: &Vec<f64>| y[0])];
     let method = Dop853::new().rtol(1e-11).atol(1e-13);
-    method.watch(&mut turn, (0.0, 10.0), vec![1.0, 0.0], events, |_| Continue(()), note).unwrap();
+    method.solve_with_events(&mut turn, (0.0, 10.0), vec![1.0, 0.0], events, |_| Continue(()), note).unwrap();
     assert_eq!(times.len(), 3);
     for (k, t) in times.iter().enumerate() {
         assert!((t - (k as f64 + 0.5) * PI).abs() < 1e-10, "{times:?}");

@@ -30,7 +30,7 @@ fn errors<const N: usize, M: Integrator<f64>>(
         worst = of_state.fold(worst.max((expected[0] - wanted[0]).abs()), f64::max);
         Continue(())
     };
-    method().watch(ode, (0.0, 3.0), exact(0.0), &mut events, |_| Continue(()), note).unwrap();
+    method().solve_with_events(ode, (0.0, 3.0), exact(0.0), &mut events, |_| Continue(()), note).unwrap();
     assert_eq!(found, times.len());
     [errors_of_steps(method(), ode, exact).0, worst]
 }

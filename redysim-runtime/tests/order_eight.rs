@@ -7,7 +7,9 @@ mod problems;
 
 use mechanisms::Arm;
 use problems::{error_at, exact, nonlinear};
-use redysim_runtime::{Dop8, Dop853, ForwardSimulation, Free, Integrator, MechanicalEnergy, Ode45, Statistics, Step};
+use redysim_runtime::{
+    Dop8, Dop853, ForwardSimulation, Integrator, MechanicalEnergy, Ode45, Statistics, Step, ZeroTorque,
+};
 
 /// Largest errors at the ends of the steps from 0 to 3, and between them.
 fn errors(h: f64) -> (f64, f64) {
@@ -96,7 +98,7 @@ fn at_tight_tolerances_it_takes_fewer_evaluations_than_the_pair_of_order_five() 
 /// Errors as the energy shows them, for work at the same tolerance.
 #[test]
 fn a_swinging_arm_takes_fewer_evaluations_for_a_smaller_error() {
-    let mut simulation = ForwardSimulation::new(&Arm, Free);
+    let mut simulation = ForwardSimulation::new(&Arm, ZeroTorque);
     let start = simulation.state(&[1.0, 0.5], &[0.0, 0.0]);
     let energy = |y: &[f64; 5]| Arm.energy(&[y[0], y[1]], &[y[2], y[3]]).total();
     for (tolerance, gain) in [(1e-8, 1.2), (1e-10, 1.8), (1e-12, 2.8)] {
@@ -111,7 +113,7 @@ fn a_swinging_arm_takes_fewer_evaluations_for_a_smaller_error() {
 }
 
 #[test]
-fn a_look_within_costs_three_evaluations_and_no_look_none() {
+fn dense_output_costs_three_evaluations_in_a_step_that_is_looked_into_and_none_elsewhere() {
     let run = |times: &[f64]| {
         let mut answers = 0;
         let times = times.iter().copied();

@@ -5,8 +5,8 @@ mod mechanisms;
 
 use mechanisms::{Arm, Pendulum};
 use redysim_runtime::{
-    ForwardDynamics, ForwardSimulation, Free, IntegrationError, Integrator, MechanicalEnergy, Ode, Ode45,
-    SemiImplicitEuler, Step,
+    ForwardDynamics, ForwardSimulation, IntegrationError, Integrator, MechanicalEnergy, Ode, Ode45, SemiImplicitEuler,
+    Step, ZeroTorque,
 };
 
 /// ẍ = −x.
@@ -40,7 +40,7 @@ fn a_step_moves_the_velocities_first_and_then_the_coordinates_with_them() {
 #[test]
 fn the_error_is_of_order_one_also_between_the_steps_and_backward() {
     let pendulum = Pendulum { mass: 2.0, length: 0.5 };
-    let mut simulation = ForwardSimulation::new(&pendulum, Free);
+    let mut simulation = ForwardSimulation::new(&pendulum, ZeroTorque);
     let exact = Ode45::new().rtol(1e-12).atol(1e-12);
     let mut error = |h: f64, to: f64| {
         let start = simulation.state(&[1.0], &[0.5]);
@@ -106,7 +106,7 @@ fn the_energy_of_an_oscillator_swings_but_does_not_grow() {
 
 #[test]
 fn the_energy_of_a_falling_arm_does_not_drift() {
-    let mut simulation = ForwardSimulation::new(&Arm, Free);
+    let mut simulation = ForwardSimulation::new(&Arm, ZeroTorque);
     let start = simulation.state(&[0.5, 0.2], &[0.0, 0.0]);
     let energy = |y: &[f64; 5]| Arm.energy(&[y[0], y[1]], &[y[2], y[3]]).total();
     let mut worst: f64 = 0.0;

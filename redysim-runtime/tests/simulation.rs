@@ -5,12 +5,12 @@ mod mechanisms;
 
 use mechanisms::{Arm, Pendulum, distance};
 use redysim_runtime::{
-    ForwardSimulation, Free, Integrator, MechanicalEnergy, Ode, Ode5, Ode45, ProportionalDerivative,
+    ForwardSimulation, Integrator, MechanicalEnergy, Ode, Ode5, Ode45, ProportionalDerivative, ZeroTorque,
 };
 
 #[test]
 fn a_state_is_coordinates_velocities_and_actuator_energy() {
-    let simulation = ForwardSimulation::new(&Arm, Free);
+    let simulation = ForwardSimulation::new(&Arm, ZeroTorque);
     let state = simulation.state(&[1.0, 2.0], &[3.0, 4.0]);
     assert_eq!(state, [1.0, 2.0, 3.0, 4.0, 0.0]);
     let parts = simulation.split(&[1.0, 2.0, 3.0, 4.0, 5.0]);
@@ -32,7 +32,7 @@ fn its_rate_is_velocities_accelerations_and_power() {
 fn a_pendulum_returns_after_its_period() {
     let pendulum = Pendulum { mass: 2.0, length: 0.5 };
     let amplitude = 2.0;
-    let mut simulation = ForwardSimulation::new(&pendulum, Free);
+    let mut simulation = ForwardSimulation::new(&pendulum, ZeroTorque);
     let start = simulation.state(&[amplitude], &[0.0]);
     let method = Ode45::new().rtol(1e-13).atol(1e-13);
     let end = method.integrate(&mut simulation, (0.0, pendulum.period(amplitude)), start).unwrap();
@@ -43,7 +43,7 @@ fn a_pendulum_returns_after_its_period() {
 /// Free fall of the double pendulum, against Taylor series in 30 digits.
 #[test]
 fn a_double_pendulum_keeps_twelve_digits() {
-    let mut simulation = ForwardSimulation::new(&Arm, Free);
+    let mut simulation = ForwardSimulation::new(&Arm, ZeroTorque);
     let start = simulation.state(&[1.5, 0.0], &[0.0, 0.0]);
     let one = [-1.1616193325711432, 0.2828795540069356, -2.4802674785981327, 0.38183581283238055, 0.0];
     let three = [1.0246684402533335, -1.209018063238871, -3.76230033218688, 6.156600784775332, 0.0];
@@ -86,7 +86,7 @@ fn the_work_of_the_actuators_is_the_change_of_mechanical_energy() {
 
 #[test]
 fn free_motion_conserves_energy_and_needs_no_actuator() {
-    let mut simulation = ForwardSimulation::new(&Arm, Free);
+    let mut simulation = ForwardSimulation::new(&Arm, ZeroTorque);
     let (q0, v0) = ([1.5_f64, 0.3], [0.5, -1.0]);
     let start = simulation.state(&q0, &v0);
     let end = Ode45::new().rtol(1e-10).atol(1e-12).integrate(&mut simulation, (0.0, 3.0), start).unwrap();
@@ -97,7 +97,7 @@ fn free_motion_conserves_energy_and_needs_no_actuator() {
 
 #[test]
 fn single_precision_simulates_too() {
-    let mut simulation = ForwardSimulation::new(&Arm, Free);
+    let mut simulation = ForwardSimulation::new(&Arm, ZeroTorque);
     let start = simulation.state(&[1.5_f32, 0.0], &[0.0, 0.0]);
     let end = Ode45::new().rtol(2e-5).atol(1e-6).integrate(&mut simulation, (0.0, 1.0), start).unwrap();
     assert!((end.y[0] + 1.161_619_3).abs() < 1e-3, "{:?}", end.y);

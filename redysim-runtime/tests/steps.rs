@@ -90,7 +90,7 @@ fn every_step_costs_six_evaluations_and_the_start_one() {
 }
 
 #[test]
-fn asked_times_cost_no_evaluations_and_change_no_step() {
+fn save_times_cost_no_evaluations_and_change_no_step() {
     let start = [1.0, 0.0, 1.0, 0.0];
     let plain = Ode45::new().integrate(&mut oscillators, (0.0, 3.0), start).unwrap();
     let times = (0..=1000).map(|k| 3.0 * f64::from(k) / 1000.0);

@@ -7,7 +7,7 @@ use mechanisms::Arm;
 use redysim_runtime::IntegrationError::{self, Stiff};
 use redysim_runtime::integrate::stability::StabilityFunction;
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4};
-use redysim_runtime::{Dop853, ForwardSimulation, Free, Integrator, Ode45, ProportionalDerivative, Solution};
+use redysim_runtime::{Dop853, ForwardSimulation, Integrator, Ode45, ProportionalDerivative, Solution, ZeroTorque};
 
 /// ẏ = λ (y − cos t) − sin t from the smooth solution cos t.
 fn relaxation(rate: f64) -> impl FnMut(f64, &[f64; 1], &mut [f64; 1]) {
@@ -102,7 +102,7 @@ fn fast_swings_long_runs_and_tight_tolerances_are_not_stiff() {
     }
     println!("{jacobians} Jacobians");
     assert!(jacobians > 0);
-    let mut simulation = ForwardSimulation::new(&Arm, Free);
+    let mut simulation = ForwardSimulation::new(&Arm, ZeroTorque);
     let start = simulation.state(&[2.0, 1.0], &[0.0, 0.0]);
     for (rtol, largest) in [(1e-3, 1.0), (1e-13, 1.0), (1e-3, 1e-3), (1e-6, 1e-4)] {
         let method = Ode45::new().rtol(rtol).atol(rtol).max_step(largest).stiffness_limit(Some(0));

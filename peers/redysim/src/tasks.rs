@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
-use redysim::{Cycloid, ForwardSimulation, Free, Integrator, Ode45, Trajectory, redysim};
+use redysim::{Cycloid, ForwardSimulation, ZeroTorque, Integrator, Ode45, Trajectory, redysim};
 
 use crate::call::export;
 
@@ -31,7 +31,7 @@ fn inverse(zero: f64) -> [Joints; INSTANTS] {
 
 /// Free fall from 60° below the horizontal for 1 s, at the tolerances that ReDySim ships.
 fn fall(zero: f64) -> [f64; 2 * ShippedGripper::NV + 1] {
-    let mut simulation = ForwardSimulation::new(&ShippedGripper, Free);
+    let mut simulation = ForwardSimulation::new(&ShippedGripper, ZeroTorque);
     let start = simulation.state(&[-FRAC_PI_3 + zero, 0.0, 0.0, 0.0], &[0.0; ShippedGripper::NV]);
     let shipped = Ode45::new().rtol(1e-4).atol(1e-6);
     shipped.integrate(&mut simulation, (0.0, 1.0), start).expect("a fall of 1 s").y

@@ -2,7 +2,7 @@
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Free, Proportional, ProportionalDerivative, TrackingPd,
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Proportional, ProportionalDerivative, TrackingPd, ZeroTorque,
 };
 use redysim_toml::{Field, Key, Kind, Message, Reader};
 
@@ -111,7 +111,7 @@ impl Torque {
         let positions = |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, layout.nq());
         let whole = |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, layout.nv());
         match self {
-            Torque::Free => Law::total(Free),
+            Torque::Free => Law::total(ZeroTorque),
             Torque::P { joints, target, kp } => {
                 let (target, kp) = (positions(joints, target), whole(joints, kp));
                 Law::total(Proportional { target, kp })

@@ -6,7 +6,7 @@
 pub mod axis_masses;
 pub mod frames;
 pub mod neighbourhood;
-pub mod parallel_axes;
+pub mod still;
 pub mod units;
 
 use crate::accuracy::{MEASURED, Reference};
@@ -91,8 +91,8 @@ impl<'a> Trees<'a> {
         [cheapest, self.plain(), self.tree]
     }
 
-    /// A function on the cheapest description on which it keeps its digits. If there is none, on the model's own,
-    /// without passes over expressions. Forward dynamics is by the recursion.
+    /// A function on the cheapest description on which it keeps its digits. If there is none, on the model's own, without
+    /// passes over expressions. Forward dynamics is by the recursion.
     pub fn keeping_digits(&self, function: Function) -> Result<Expressions, PassError> {
         let allowed_loss = self.allowed_loss(function);
         for tree in self.descriptions(function) {
@@ -157,22 +157,22 @@ impl<'a> Trees<'a> {
 
     /// The candidates for positions and velocities.
     pub fn kinematics(&self) -> Vec<Tree> {
-        let merged = if self.passes.parallel_axes { parallel_axes::merged_everywhere(self.tree) } else { None };
-        std::iter::once(self.tree.clone()).chain(merged).collect()
+        let still = if self.passes.parallel_axes { still::everywhere(self.tree) } else { None };
+        std::iter::once(self.tree.clone()).chain(still).collect()
     }
 
     /// For the mass matrix and gravity forces.
     pub fn matrix(&self) -> &Tree {
         self.matrix.get_or_init(|| {
-            let merged = self.merged(MATRIX, &matrix_price);
-            self.in_unit(MATRIX, merged, mass_matrix)
+            let stilled = self.stilled(MATRIX, &matrix_price);
+            self.in_unit(MATRIX, stilled, mass_matrix)
         })
     }
 
     /// For inverse dynamics and bias forces.
     pub fn bias(&self) -> &Tree {
         self.bias.get_or_init(|| {
-            let mut bias = self.merged(FORCES, &inverse_price);
+            let mut bias = self.stilled(FORCES, &inverse_price);
             if self.passes.base_parameters && self.passes.axis_masses {
                 bias =
                     self.without_loss(FORCES, |keeps_digits| axis_masses::placed(&bias, &inverse_price, keeps_digits));
@@ -181,9 +181,9 @@ impl<'a> Trees<'a> {
         })
     }
 
-    fn merged(&self, functions: &[Function], cost: Cost) -> Tree {
+    fn stilled(&self, functions: &[Function], cost: Cost) -> Tree {
         if self.passes.parallel_axes {
-            self.without_loss(functions, |keeps_digits| parallel_axes::merged(self.base(), cost, keeps_digits))
+            self.without_loss(functions, |keeps_digits| still::stilled(self.base(), cost, keeps_digits))
         } else {
             self.base().clone()
         }
@@ -206,8 +206,8 @@ fn matrix_price(tree: &Tree) -> u32 {
     mass_matrix(tree).price()
 }
 
-/// Costs are counted without the passes over expressions, which would take most of the time and whose gain differs
-/// little between descriptions.
+/// Costs are counted without the passes over expressions, which would take most of the time and whose gain differs little
+/// between descriptions.
 fn inverse_dynamics(tree: &Tree) -> Expressions {
     traced_on(tree, Function::InverseDynamics)
 }

@@ -120,7 +120,9 @@ impl<S: Real, A> Default for Adaptive<'_, S, A> {
 /// Checks a step size, if it is given.
 pub(super) fn check_step<S: Real>(option: &'static str, size: Option<S>) -> Result<(), IntegrationError<S>> {
     match size {
-        Some(value) if !(value > S::zero() && value.is_finite()) => Err(IntegrationError::BadStep { option, value }),
+        Some(value) if !(value > S::zero() && value.is_finite()) => {
+            Err(IntegrationError::InvalidStep { option, value })
+        }
         _ => Ok(()),
     }
 }

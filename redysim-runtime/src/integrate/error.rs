@@ -7,21 +7,21 @@ use core::fmt;
 #[non_exhaustive]
 pub enum IntegrationError<S> {
     /// The interval is empty, infinite, or has an end that is not a number.
-    BadInterval {
+    InvalidInterval {
         /// The given first time.
         from: S,
         /// The given last time.
         to: S,
     },
     /// The relative tolerance is not a number or below what arithmetic can keep.
-    BadRelativeTolerance {
+    InvalidRelativeTolerance {
         /// The given tolerance.
         value: S,
         /// The smallest that is accepted.
         smallest: S,
     },
     /// An absolute tolerance is zero, negative or not a number.
-    BadAbsoluteTolerance {
+    InvalidAbsoluteTolerance {
         /// The component it belongs to; `None` for the tolerance of all.
         component: Option<usize>,
         /// The given tolerance.
@@ -35,26 +35,26 @@ pub enum IntegrationError<S> {
         needed: usize,
     },
     /// A given step size is zero, negative, infinite or not a number.
-    BadStep {
+    InvalidStep {
         /// Which one: "step", "initial step" or "maximum step".
         option: &'static str,
         /// The given size.
         value: S,
     },
-    /// An asked time lies outside the interval of integration or is not a number.
-    AskedTimeOutside {
-        /// The asked time.
+    /// A time at which to save the solution lies outside the interval of integration or is not a number.
+    SaveTimeOutside {
+        /// That time.
         t: S,
         /// The first time of the interval.
         from: S,
         /// The last time of the interval.
         to: S,
     },
-    /// An asked time lies before the one asked for last, seen in the direction of integration.
-    AskedTimesOutOfOrder {
-        /// The asked time.
+    /// A time at which to save the solution lies before the one before it, seen in the direction of integration.
+    SaveTimesOutOfOrder {
+        /// That time.
         t: S,
-        /// The one asked for before it.
+        /// The one before it.
         previous: S,
     },
     /// The state is infinite or not a number: the one given as start, or the one a step arrived at.
@@ -127,22 +127,22 @@ pub enum IntegrationError<S> {
 impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::BadInterval { from, to } => write!(
+            Self::InvalidInterval { from, to } => write!(
                 f,
                 "the interval of integration must have two finite, different ends, but it runs from t = {from:?} to \
                  {to:?}; give it a length, forward or backward in time"
             ),
-            Self::BadRelativeTolerance { value, smallest } => write!(
+            Self::InvalidRelativeTolerance { value, smallest } => write!(
                 f,
                 "the relative tolerance must be finite and at least {smallest:?} (100 roundoff units), but it is \
                  {value:?}; give a larger one, or a scalar of higher precision"
             ),
-            Self::BadAbsoluteTolerance { component: None, value } => write!(
+            Self::InvalidAbsoluteTolerance { component: None, value } => write!(
                 f,
                 "the absolute tolerance must be positive and finite, but it is {value:?}; give the size below which a \
                  component no longer matters"
             ),
-            Self::BadAbsoluteTolerance { component: Some(component), value } => write!(
+            Self::InvalidAbsoluteTolerance { component: Some(component), value } => write!(
                 f,
                 "every absolute tolerance must be positive and finite, but the one of component {component} is \
                  {value:?}; give the size below which that component no longer matters"
@@ -152,17 +152,17 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 "the state has {needed} components, but {given} absolute tolerances are given; give one for each \
                  component, or a single one for all"
             ),
-            Self::BadStep { option, value } => write!(
+            Self::InvalidStep { option, value } => write!(
                 f,
                 "the {option} must be positive and finite, but it is {value:?}; the direction in time comes from the \
                  interval, not from the sign"
             ),
-            Self::AskedTimeOutside { t, from, to } => write!(
+            Self::SaveTimeOutside { t, from, to } => write!(
                 f,
                 "the solution is asked for at t = {t:?}, outside the interval from {from:?} to {to:?}; extend the \
                  interval or drop that time"
             ),
-            Self::AskedTimesOutOfOrder { t, previous } => write!(
+            Self::SaveTimesOutOfOrder { t, previous } => write!(
                 f,
                 "the solution is asked for at t = {t:?} after it was asked for at {previous:?}; sort the times in the \
                  direction of integration"

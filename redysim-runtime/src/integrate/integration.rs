@@ -68,7 +68,7 @@ impl<'a, S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized> Integration<'a, S, Y, O> 
         let accepted = self.ode.accepted(progress.t_new, progress.step_size().abs(), &mut progress.y_new);
         progress.corrected = accepted == Accepted::Corrected;
         match accepted {
-            Accepted::AsItIs => {}
+            Accepted::Unchanged => {}
             Accepted::Refused => return Err(IntegrationError::Refused { t: progress.t_new }),
             Accepted::Corrected => progress.statistics.corrections += 1,
         }

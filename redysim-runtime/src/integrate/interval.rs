@@ -16,7 +16,7 @@ impl<S: Real> Interval<S> {
         if from != to && (to - from).is_finite() {
             Ok(Self { from, to })
         } else {
-            Err(IntegrationError::BadInterval { from, to })
+            Err(IntegrationError::InvalidInterval { from, to })
         }
     }
 

@@ -6,7 +6,7 @@
 //! too. What is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism,
 //! or a [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
-//! [`watch`](Integrator::watch) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be,
+//! [`solve_with_events`](Integrator::solve_with_events) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be,
 //! and where an equation is stiff, explicit methods say so.
 //!
 //! What an integration is made of stands apart, as in OrdinaryDiffEq.jl: a [`Formula`](algorithm::Formula) takes one
@@ -60,7 +60,7 @@ pub use step::Step;
 pub use tolerance::Tolerances;
 
 use crate::{Real, Vector};
-use events::Watch;
+use events::EventSearch;
 use interval::Interval;
 use observer::{Ends, EveryStep};
 use save_at::SaveAt;
@@ -80,7 +80,7 @@ pub trait Ode<S, Y> {
     /// earlier. By default, nothing happens.
     fn accepted(&mut self, t: S, step: S, y: &mut Y) -> Accepted {
         let _ = (t, step, y);
-        Accepted::AsItIs
+        Accepted::Unchanged
     }
 
     /// Writes (∂f/∂y) `direction` at (t, y) to `slope` and returns `true`, if it can do that without differences; from
@@ -103,7 +103,7 @@ pub trait Ode<S, Y> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accepted {
     /// It stays.
-    AsItIs,
+    Unchanged,
     /// It was changed, so that the derivative there must be evaluated again.
     Corrected,
     /// It cannot be accepted: the integration ends with [`IntegrationError::Refused`].
@@ -181,7 +181,7 @@ pub trait Integrator<S: Real> {
         })
     }
 
-    /// Integrates over `interval` and calls `output` with every one of the asked `times` and the solution there. The
+    /// Integrates over `interval` and calls `output` with every time of `save_at` and the solution there. The
     /// times follow the direction of integration, lie within the interval, both ends allowed, and do not change the
     /// steps.
     ///
@@ -193,12 +193,12 @@ pub trait Integrator<S: Real> {
         ode: &mut (impl Ode<S, Y> + ?Sized),
         interval: (S, S),
         start: Y,
-        times: impl IntoIterator<Item = S>,
+        save_at: impl IntoIterator<Item = S>,
         output: impl FnMut(S, &Y),
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
-        let mut asked = SaveAt::new(times.into_iter(), Interval::new(interval)?, start.clone(), output)?;
-        let solution = self.run(ode, interval, start, &mut asked)?;
-        asked.fault().map_or(Ok(solution), Err)
+        let mut saver = SaveAt::new(save_at.into_iter(), Interval::new(interval)?, start.clone(), output)?;
+        let solution = self.run(ode, interval, start, &mut saver)?;
+        saver.fault().map_or(Ok(solution), Err)
     }
 
     /// Integrates over `interval` and looks for `events`: every crossing of zero of their functions is shown to
@@ -225,11 +225,11 @@ pub trait Integrator<S: Real> {
     /// let mut fall = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[1], -9.81];
     /// let events = &mut [Event::falling(&|_t, y: &[f64; 2]| y[0])];
     /// let go_on = |_: &redysim_runtime::Step<'_, f64, [f64; 2]>| ControlFlow::Continue(());
-    /// let end = Ode45::new().watch(&mut fall, (0.0, 5.0), [10.0, 0.0], events, go_on, |_| ControlFlow::Break(()))?;
+    /// let end = Ode45::new().solve_with_events(&mut fall, (0.0, 5.0), [10.0, 0.0], events, go_on, |_| ControlFlow::Break(()))?;
     /// assert!((end.t - (20.0_f64 / 9.81).sqrt()).abs() < 1e-14);
     /// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
     /// ```
-    fn watch<Y: Vector<S>>(
+    fn solve_with_events<Y: Vector<S>>(
         &self,
         ode: &mut (impl Ode<S, Y> + ?Sized),
         interval: (S, S),
@@ -238,9 +238,9 @@ pub trait Integrator<S: Real> {
         on_step: impl FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
         on_event: impl FnMut(Occurrence<'_, S, Y>) -> ControlFlow<()>,
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
-        let mut watch = Watch::new(events, start.clone(), on_step, on_event);
-        let solution = self.run(ode, interval, start, &mut watch)?;
-        Ok(match watch.stopped() {
+        let mut search = EventSearch::new(events, start.clone(), on_step, on_event);
+        let solution = self.run(ode, interval, start, &mut search)?;
+        Ok(match search.stopped() {
             Some((t, y)) => Solution { t, y, ..solution },
             None => solution,
         })

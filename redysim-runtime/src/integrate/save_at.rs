@@ -21,22 +21,22 @@ pub(super) struct SaveAt<I, S, Y, F> {
 
 impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> SaveAt<I, S, Y, F> {
     pub fn new(times: I, interval: Interval<S>, y: Y, output: F) -> Result<Self, IntegrationError<S>> {
-        let mut asked = Self { times, next: None, interval, y, output, fault: None };
-        asked.pull(interval.from)?;
-        Ok(asked)
+        let mut saver = Self { times, next: None, interval, y, output, fault: None };
+        saver.pull(interval.from)?;
+        Ok(saver)
     }
 
-    /// The asked time that could not be answered, if there was one.
+    /// The time that could not be answered, if there was one.
     pub fn fault(self) -> Option<IntegrationError<S>> {
         self.fault
     }
 
-    /// The next asked time up to `end`, the end of a step.
+    /// The next time up to `end`, the end of a step.
     fn next_until(&self, end: S) -> Option<S> {
         self.next.filter(|&t| self.interval.reaches(end, t))
     }
 
-    /// Calls `output` with the state at `t`, which `y` holds, and proceeds to the next asked time.
+    /// Calls `output` with the state at `t`, which `y` holds, and proceeds to the next time.
     fn answer(&mut self, t: S) -> ControlFlow<()> {
         (self.output)(t, &self.y);
         match self.pull(t) {
@@ -52,10 +52,10 @@ impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> SaveAt<I, S,
         self.next = self.times.next();
         match self.next {
             Some(t) if !self.interval.contains(t) => {
-                Err(IntegrationError::AskedTimeOutside { t, from: self.interval.from, to: self.interval.to })
+                Err(IntegrationError::SaveTimeOutside { t, from: self.interval.from, to: self.interval.to })
             }
             Some(t) if !self.interval.reaches(t, previous) => {
-                Err(IntegrationError::AskedTimesOutOfOrder { t, previous })
+                Err(IntegrationError::SaveTimesOutOfOrder { t, previous })
             }
             _ => Ok(()),
         }

@@ -24,10 +24,10 @@ use crate::{Real, Vector};
 /// # #[allow(dead_code)]
 /// # mod mechanisms { include!("../../tests/mechanisms/mod.rs"); }
 /// # use mechanisms::Pendulum;
-/// use redysim_runtime::{ForwardSimulation, Free, Integrator, MechanicalEnergy, SemiImplicitEuler};
+/// use redysim_runtime::{ForwardSimulation, ZeroTorque, Integrator, MechanicalEnergy, SemiImplicitEuler};
 ///
 /// let pendulum = Pendulum { mass: 2.0, length: 0.5 };
-/// let mut simulation = ForwardSimulation::new(&pendulum, Free);
+/// let mut simulation = ForwardSimulation::new(&pendulum, ZeroTorque);
 /// let start = simulation.state(&[0.3], &[0.0]);
 /// let end = SemiImplicitEuler::new(0.01).integrate(&mut simulation, (0.0, 100.0), start)?;
 /// let energy = |y: &[f64; 3]| pendulum.energy(&[y[0]], &[y[1]]).total();

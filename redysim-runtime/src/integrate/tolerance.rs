@@ -36,20 +36,21 @@ impl<S: Real> Tolerances<'_, S> {
     pub fn check(&self, len: usize) -> Result<(), IntegrationError<S>> {
         let smallest = S::from_f64(100.0) * S::EPSILON;
         if !(self.relative >= smallest && self.relative.is_finite()) {
-            return Err(IntegrationError::BadRelativeTolerance { value: self.relative, smallest });
+            return Err(IntegrationError::InvalidRelativeTolerance { value: self.relative, smallest });
         }
         let bad = |value: S| !(value > S::zero() && value.is_finite());
         match self.absolute {
             Absolute::All(value) if bad(value) => {
-                Err(IntegrationError::BadAbsoluteTolerance { component: None, value })
+                Err(IntegrationError::InvalidAbsoluteTolerance { component: None, value })
             }
             Absolute::Each(values) if values.len() != len => {
                 Err(IntegrationError::WrongToleranceCount { given: values.len(), needed: len })
             }
             Absolute::Each(values) => match values.iter().position(|&value| bad(value)) {
-                Some(component) => {
-                    Err(IntegrationError::BadAbsoluteTolerance { component: Some(component), value: values[component] })
-                }
+                Some(component) => Err(IntegrationError::InvalidAbsoluteTolerance {
+                    component: Some(component),
+                    value: values[component],
+                }),
                 None => Ok(()),
             },
             Absolute::All(_) => Ok(()),

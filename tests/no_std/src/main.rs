@@ -7,7 +7,7 @@ use core::ops::ControlFlow;
 
 use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation,
-    Free, Gauss6, Integrator, Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler, redysim,
+    ZeroTorque, Gauss6, Integrator, Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler, redysim,
 };
 
 redysim! {
@@ -55,7 +55,7 @@ fn is_held_by_gravity_forces() -> bool {
 }
 
 fn keeps_its_energy_when_it_falls() -> Option<bool> {
-    let mut fall = ForwardSimulation::new(&Kr5, Free);
+    let mut fall = ForwardSimulation::new(&Kr5, ZeroTorque);
     let start = fall.state(&[0.0_f64; 6], &[0.0; 6]);
     let energy_at_rest = Kr5::energy(&[0.0; 6], &[0.0; 6]).total();
     let adaptive = Ode45::new().rtol(1e-9).atol(1e-9).integrate(&mut fall, (0.0, 0.5), start).ok()?;
@@ -69,11 +69,11 @@ fn keeps_its_energy_when_it_falls() -> Option<bool> {
 }
 
 fn stops_at_an_event_with_stable_steps() -> Option<bool> {
-    let mut fall = ForwardSimulation::new(&Kr5, Free);
+    let mut fall = ForwardSimulation::new(&Kr5, ZeroTorque);
     let start = fall.state(&[0.0_f64; 6], &[0.0; 6]);
     let events = &mut [Event::any(&|_, y: &[f64; 13]| y[1] * y[1] - 0.01)];
     let end = Dop853::new()
-        .watch(&mut fall, (0.0, 0.5), start, events, |_| ControlFlow::Continue(()), |_| ControlFlow::Break(()))
+        .solve_with_events(&mut fall, (0.0, 0.5), start, events, |_| ControlFlow::Continue(()), |_| ControlFlow::Break(()))
         .ok()?;
     let stopped = end.t < 0.5 && end.y[1] * end.y[1] - 0.01 < 1e-9;
     let law = ProportionalDerivative { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
@@ -90,7 +90,7 @@ fn implicit_methods_agree() -> Option<bool> {
     let start = held.state(&[0.1_f64; 6], &[0.0; 6]);
     let bdf = Ode15s::new().rtol(1e-6).atol(1e-8).integrate(&mut held, (0.0, 0.1), start).ok()?;
     let radau = Radau5::new().rtol(1e-6).atol(1e-8).integrate(&mut held, (0.0, 0.1), start).ok()?;
-    let gauss = Gauss6::new(1e-3).integrate(&mut ForwardSimulation::new(&Kr5, Free), (0.0, 0.1), start).ok()?;
+    let gauss = Gauss6::new(1e-3).integrate(&mut ForwardSimulation::new(&Kr5, ZeroTorque), (0.0, 0.1), start).ok()?;
     let apart = bdf.y[1] - radau.y[1];
     Some(-1e-4 < apart && apart < 1e-4 && gauss.y[1] < 0.1)
 }
@@ -98,7 +98,7 @@ fn implicit_methods_agree() -> Option<bool> {
 fn stays_closed_when_it_turns() -> Option<bool> {
     let loops = ClosedLoop::new(&Fourbar);
     let assembly = loops.assemble(&[0.0_f64, 0.9844, 4.3144], &[4.7124, 1.4045, 0.0], &[0]).ok()?;
-    let mut turn = ClosedLoopSimulation::new(loops, Free);
+    let mut turn = ClosedLoopSimulation::new(loops, ZeroTorque);
     let start = turn.start(&assembly.q, &assembly.v).ok()?;
     let adaptive = Ode45::new().rtol(1e-9).atol(1e-9).integrate(&mut turn, (0.0, 0.5), start).ok()?;
     let fixed = Ode5::new(1e-3).integrate(&mut turn, (0.0, 0.5), start).ok()?;

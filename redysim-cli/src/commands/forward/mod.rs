@@ -120,7 +120,9 @@ const IMPLICIT: &str = "integrator = { method = \"Ode15s\", rtol = 1e-6, atol = 
 /// Why the integration ended, in terms of scenarios.
 fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System<'_>) -> Failure {
     match *error {
-        IntegrationError::BadRelativeTolerance { .. } | IntegrationError::BadStep { .. } => Failure::input(error),
+        IntegrationError::InvalidRelativeTolerance { .. } | IntegrationError::InvalidStep { .. } => {
+            Failure::input(error)
+        }
         // What these say of remedies is for programs.
         IntegrationError::TooManySteps { t, limit } => {
             let message = format!("the end is not within {limit} steps of t = {t:?} s");

@@ -64,7 +64,7 @@ impl<'a> System<'a> {
             return match forward.stabilisation {
                 Stabilisation::Projection => simulation.start(&initial.q, &initial.v).map_err(failed),
                 // Without projection, loops may be open: they stay as far open as they are, or feedback closes them.
-                Stabilisation::Baumgarte { .. } | Stabilisation::None => Ok(simulation.state(&initial.q, &initial.v)),
+                _ => Ok(simulation.state(&initial.q, &initial.v)),
             };
         }
         let closed =

@@ -255,7 +255,7 @@ where
                 self.last_error = Some(error);
                 Accepted::Refused
             }
-            Ok(None) => Accepted::AsItIs,
+            Ok(None) => Accepted::Unchanged,
             Ok(Some(projection)) => {
                 let values = projection.q.as_ref().iter().chain(projection.v.as_ref());
                 for (state, &value) in state.as_mut().iter_mut().zip(values) {

@@ -9,9 +9,10 @@ const LARGEST_PRODUCT: f64 = 1.3;
 
 /// How a simulation keeps its loops closed against the errors of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Stabilisation<S> {
     /// After each accepted step, position and velocity go to the nearest ones that close the loops: at the ends of
-    /// steps the residual stays at rounding size. At asked times within a step it is as small as the method is
+    /// steps the residual stays at rounding size. At times within a step it is as small as the method is
     /// accurate; where that matters, [`ClosedLoop::project`](crate::ClosedLoop::project) closes a state.
     #[default]
     Projection,

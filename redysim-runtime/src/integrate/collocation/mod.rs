@@ -10,9 +10,9 @@
 
 mod bootstrap;
 pub mod gauss;
-mod newton;
 pub mod radau;
 mod radau_tableau;
+mod stage_solver;
 
 use super::step::{weighted_sum, without_constant};
 use crate::{Real, Vector};

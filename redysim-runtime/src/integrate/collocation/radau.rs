@@ -4,10 +4,10 @@ use core::array::from_fn;
 use core::mem::swap;
 
 use super::extrapolate;
-pub(in crate::integrate) use super::newton::LARGEST_TURN;
-use super::newton::{Newton, Outcome};
 use super::radau_tableau::{CHECKED_NODE, WITHIN, WITHIN_NODES};
 pub use super::radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
+pub(in crate::integrate) use super::stage_solver::LARGEST_TURN;
+use super::stage_solver::{Outcome, StageSolver};
 use crate::integrate::adaptive::Adaptive;
 use crate::integrate::algorithm::{Algorithm, EstimatesErrors, Formula};
 use crate::integrate::integration::{Integration, Progress, zeros};
@@ -39,7 +39,7 @@ const ERROR_EXPONENT: u32 = 6;
 /// use the derivative at the start, which a fast transient may have made large. A third shorter step, to a twelfth,
 /// compares it with the solution. Where the polynomial meets the tolerance, it is as accurate as the ends of steps, for
 /// three or four times the work. Where it does not, because the equation is stiff and steps are long, its order is 3;
-/// [asked times](crate::Integrator::solve) and [events](crate::Integrator::watch) are then each the end of a shorter
+/// [times to save at](crate::Integrator::solve) and [events](crate::Integrator::solve_with_events) are then each the end of a shorter
 /// step, as accurate as the ends of steps.
 ///
 /// ```
@@ -83,7 +83,7 @@ pub struct Radau<S: Real, Y: Vector<S>> {
     rate: Y,
     /// z_k: stage k of the attempted step is y + z_k.
     increments: [Y; 3],
-    newton: Newton<S, Y>,
+    newton: StageSolver<S, Y>,
     estimate: Y,
     /// The size of the attempted step.
     size: S,
@@ -124,7 +124,7 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
             rate: zero.clone(),
             increments: from_fn(|_| zero.clone()),
             last_increments: from_fn(|_| zero.clone()),
-            newton: Newton::new(&zero),
+            newton: StageSolver::new(&zero),
             within: from_fn(|_| zero.clone()),
             interpolation: Interpolation::Absent,
             estimate: zero,

@@ -24,7 +24,7 @@ pub enum Direction {
 }
 
 /// A function of time and state whose crossings of zero are looked for: see
-/// [`Integrator::watch`](super::Integrator::watch).
+/// [`Integrator::solve_with_events`](super::Integrator::solve_with_events).
 ///
 /// A crossing is where the function, which was not zero, reaches zero or changes its sign. So a function that is zero
 /// at the start, as after an impact, is not reported before it has been somewhere else, and a zero at the very end of a
@@ -84,7 +84,7 @@ pub struct Occurrence<'y, S, Y> {
 }
 
 /// Finds the crossings of events in the steps that it sees.
-pub(super) struct Watch<'a, 'e, S, Y, F, G> {
+pub(super) struct EventSearch<'a, 'e, S, Y, F, G> {
     events: &'a mut [Event<'e, S, Y>],
     on_step: F,
     on_event: G,
@@ -93,7 +93,7 @@ pub(super) struct Watch<'a, 'e, S, Y, F, G> {
     stopped: Option<(S, Y)>,
 }
 
-impl<'a, 'e, S, Y, F, G> Watch<'a, 'e, S, Y, F, G>
+impl<'a, 'e, S, Y, F, G> EventSearch<'a, 'e, S, Y, F, G>
 where
     S: Real,
     Y: Vector<S>,
@@ -137,7 +137,7 @@ where
     }
 }
 
-impl<S, Y, F, G> Observer<S, Y> for Watch<'_, '_, S, Y, F, G>
+impl<S, Y, F, G> Observer<S, Y> for EventSearch<'_, '_, S, Y, F, G>
 where
     S: Real,
     Y: Vector<S>,

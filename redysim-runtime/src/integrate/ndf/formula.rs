@@ -1,8 +1,8 @@
 //! Steps of the numerical differentiation formulas: their error, size and order.
 
 use super::coefficients::{Coefficients, DENSE, GAMMA};
+use super::correction_solver::{CorrectionSolver, Equation};
 use super::differences::{Differences, add};
-use super::newton::{Equation, Newton};
 use crate::integrate::algorithm::Formula;
 use crate::integrate::implicit::jacobian::jacobian;
 use crate::integrate::integration::{Integration, Progress, zeros};
@@ -29,7 +29,7 @@ pub struct NdfFormula<S, Y: Vector<S>> {
     /// κ of each order there is.
     kappas: &'static [f64],
     differences: Differences<S, Y>,
-    newton: Newton<S, Y>,
+    newton: CorrectionSolver<S, Y>,
     equation: Equation<S, Y>,
     evaluated: Evaluated,
     /// The derivative at the state, if it is evaluated.
@@ -60,7 +60,7 @@ impl<S: Real, Y: Vector<S>> NdfFormula<S, Y> {
         Ok(Self {
             kappas,
             differences: Differences::new(&rate),
-            newton: Newton::new(&zero),
+            newton: CorrectionSolver::new(&zero),
             equation: Equation { predicted: zero.clone(), known: zero.clone(), factor, matrix_factor },
             evaluated: Evaluated::Derivative,
             rate,

@@ -1,14 +1,14 @@
 //! Numerical differentiation formulas of orders 1 to 5 with steps and order from tolerances, for stiff equations.
 //!
 //! The formulas are in [`coefficients`], the past of the solution in [`differences`], the equation for the end of a
-//! step in [`newton`], a step in [`formula`]; size and order are chosen by [`VariableOrder`].
+//! step in [`correction_solver`], a step in [`formula`]; size and order are chosen by [`VariableOrder`].
 
 mod coefficients;
 #[cfg(test)]
 mod convergence;
+mod correction_solver;
 mod differences;
 mod formula;
-mod newton;
 
 use super::adaptive::Adaptive;
 use super::algorithm::{Algorithm, EstimatesErrors};

@@ -21,7 +21,7 @@ pub fn matrix<S: Real, Y: Vector<S>>(len: usize, mut element: impl FnMut(usize, 
 /// The eigenvalues; `None` if an element is not finite, or if the iteration does not converge. Costs about 25 n³
 /// operations.
 pub fn eigenvalues<S: Real, Y: Vector<S>>(mut matrix: Matrix<S, Y>) -> Option<Row<S, Y>> {
-    let mut rows = Rows(matrix.as_mut(), core::marker::PhantomData);
+    let mut rows = RowsMut(matrix.as_mut(), core::marker::PhantomData);
     let len = rows.0.len();
     let norm = rows.norm()?;
     rows.reduce();
@@ -51,9 +51,9 @@ pub fn eigenvalues<S: Real, Y: Vector<S>>(mut matrix: Matrix<S, Y>) -> Option<Ro
     Some(values)
 }
 
-struct Rows<'a, S, R>(&'a mut [R], core::marker::PhantomData<S>);
+struct RowsMut<'a, S, R>(&'a mut [R], core::marker::PhantomData<S>);
 
-impl<S: Real, R: AsRef<[Complex<S>]> + AsMut<[Complex<S>]>> Rows<'_, S, R> {
+impl<S: Real, R: AsRef<[Complex<S>]> + AsMut<[Complex<S>]>> RowsMut<'_, S, R> {
     fn at(&self, i: usize, j: usize) -> Complex<S> {
         self.0.get(i).and_then(|row| row.as_ref().get(j)).copied().unwrap_or_default()
     }

@@ -34,7 +34,7 @@ pub struct Equation<S, Y> {
 
 /// Solves an [`Equation`] by d ← d + (I − c J)⁻¹ (c f(y + predicted + d) − known − d), with a Jacobian J and a
 /// decomposed matrix of earlier steps as long as they do.
-pub struct Newton<S, Y: Vector<S>> {
+pub struct CorrectionSolver<S, Y: Vector<S>> {
     /// J; `None` before it was evaluated.
     jacobian: Option<Y::Of<Y>>,
     /// I − c J, and its c.
@@ -46,7 +46,7 @@ pub struct Newton<S, Y: Vector<S>> {
     pub correction: Y,
 }
 
-impl<S: Real, Y: Vector<S>> Newton<S, Y> {
+impl<S: Real, Y: Vector<S>> CorrectionSolver<S, Y> {
     /// Room for vectors like `like`.
     pub fn new(like: &Y) -> Self {
         Self { jacobian: None, matrix: None, rate: None, change: zeros(like), correction: zeros(like) }

@@ -1,4 +1,4 @@
-//! The solution at asked times and within steps.
+//! The solution at the times of `save_at` and within steps.
 
 use redysim_runtime::{Integrator, Ode5, Ode45, Step};
 
@@ -17,7 +17,7 @@ fn solve(method: impl Integrator<f64>, interval: (f64, f64), times: &[f64]) -> V
 }
 
 #[test]
-fn every_asked_time_is_answered_at_exactly_that_time() {
+fn every_save_time_is_answered_at_exactly_that_time() {
     let times = [0.0, 0.0, 1e-300, 0.1, 0.25, 0.25, 1.0, 1.9999, 2.0, 2.0];
     for answers in [solve(Ode5::new(0.1), (0.0, 2.0), &times), solve(Ode45::new().rtol(1e-8), (0.0, 2.0), &times)] {
         assert_eq!(answers.iter().map(|&(t, _)| t).collect::<Vec<_>>(), times);
@@ -48,7 +48,7 @@ fn times_at_ends_of_steps_are_answered_with_the_states_there() {
 }
 
 #[test]
-fn asked_times_run_backward_when_integration_does() {
+fn save_times_run_backward_when_integration_does() {
     let times = [3.0, 2.5, 0.1, -1.0];
     let answers = solve(Ode45::new().rtol(1e-8).atol(1e-10), (3.0, -1.0), &times);
     assert_eq!(answers.len(), times.len());

@@ -34,7 +34,7 @@ type ComplexVector<S, Y> = <Y as Vector<S>>::Of<Complex<S>>;
 
 /// The iteration, and what it keeps from step to step.
 #[derive(Clone)]
-pub(super) struct Newton<S: Real, Y: Vector<S>> {
+pub(super) struct StageSolver<S: Real, Y: Vector<S>> {
     jacobian: Y::Of<Y>,
     age: Age,
     decomposed: Option<Decomposed<S, Y>>,
@@ -77,7 +77,7 @@ pub(super) enum Outcome<S> {
     Failed { retreat: S },
 }
 
-impl<S: Real, Y: Vector<S>> Newton<S, Y> {
+impl<S: Real, Y: Vector<S>> StageSolver<S, Y> {
     /// Room for states as long as `zero`, a vector of zeros.
     pub fn new(zero: &Y) -> Self {
         let len = zero.as_ref().len();
