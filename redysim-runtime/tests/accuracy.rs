@@ -32,7 +32,7 @@ fn ode5_converges_with_order_five() {
 }
 
 #[test]
-fn ode4_converges_with_order_four_and_order_three_within_its_steps() {
+fn ode4_converges_with_order_four_at_the_ends_of_its_steps_and_within() {
     let errors = |h: f64| {
         let mut within: f64 = 0.0;
         let look = |step: &Step<'_, f64, [f64; 2]>| {
@@ -52,7 +52,7 @@ fn ode4_converges_with_order_four_and_order_three_within_its_steps() {
 /// The extension is of order 4: its error over one step shrinks with h⁵. Errors of the steps before do so too, so the
 /// measure is 5.
 #[test]
-fn the_error_between_steps_shrinks_with_the_fifth_power_of_the_step() {
+fn the_error_of_ode5_within_its_steps_shrinks_with_the_fifth_power_of_the_step() {
     let p = order((0.05, dense_error_of_ode5(0.05)), (0.025, dense_error_of_ode5(0.025)));
     println!("measured power {p:.3}");
     assert!((p - 5.0).abs() < 0.2, "{p}");
@@ -106,11 +106,13 @@ fn integration_backward_in_time_returns_to_the_start() {
     assert!(error_at(0.0, &back.y) < 1e-9, "{:?}", back.y);
 }
 
+/// An error that is made on the way grows by at most 1 + tan² 1 = 3.4. The start is rounded by one roundoff unit, and
+/// derivatives by about two; the state moves up and down by 3 in all: 3.4 (1 + 2 · 3) = 24 units.
 #[test]
-fn single_precision_is_as_accurate_as_it_can_be() {
+fn single_precision_ends_within_25_roundoff_units_and_with_chosen_steps_within_2_5_tolerances() {
     let from = exact(0.0).map(|y| y as f32);
     let fixed = Ode5::new(0.02_f32).integrate(&mut nonlinear, (0.0, 3.0), from).unwrap();
-    assert!(error_at(fixed.t, &fixed.y) < 3e-6, "{:?}", fixed.y);
+    assert!(error_at(fixed.t, &fixed.y) < 25.0 * f64::from(f32::EPSILON), "{:?}", fixed.y);
     let adaptive = Ode45::new().rtol(2e-5_f32).atol(1e-6).integrate(&mut nonlinear, (0.0, 3.0), from).unwrap();
     assert!(error_at(adaptive.t, &adaptive.y) < 5e-5, "{:?}", adaptive.y);
 }

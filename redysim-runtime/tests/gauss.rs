@@ -12,7 +12,7 @@ use order_conditions::{defect, dot, values};
 use problems::{error_at, errors_of_steps, exact, nonlinear};
 use redysim_runtime::integrate::collocation::gauss::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, GaussTableau};
 use redysim_runtime::{
-    ForwardSimulation, Free, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Step,
+    ForwardSimulation, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Step, ZeroTorque,
 };
 
 fn matrix<const STAGES: usize>(tableau: &GaussTableau<STAGES>) -> [[f64; STAGES]; STAGES] {
@@ -90,7 +90,7 @@ fn each_method_converges_with_its_order_at_the_ends_of_steps_and_within() {
 #[test]
 fn rows_between_the_ends_of_steps_keep_the_energy_as_the_ends_do() {
     fn drift(method: &impl Integrator<f64>, apart: f64) -> f64 {
-        let mut arm = ForwardSimulation::new(&Arm, Free);
+        let mut arm = ForwardSimulation::new(&Arm, ZeroTorque);
         let start = arm.state(&[std::f64::consts::FRAC_PI_2, 0.0], &[0.0, 0.0]);
         let energy = |y: &[f64; 5]| Arm.energy(&[y[0], y[1]], &[y[2], y[3]]).total();
         let (first, mut drift) = (energy(&start), 0.0_f64);
@@ -112,7 +112,7 @@ fn rows_between_the_ends_of_steps_keep_the_energy_as_the_ends_do() {
 #[test]
 fn steps_forward_and_back_return_to_the_start() {
     fn check(method: impl Integrator<f64>) {
-        let mut arm = ForwardSimulation::new(&Arm, Free);
+        let mut arm = ForwardSimulation::new(&Arm, ZeroTorque);
         let start = arm.state(&[1.0, -0.5], &[0.3, 2.0]);
         let there = method.integrate(&mut arm, (0.0, 10.0), start).unwrap().y;
         let back = method.integrate(&mut arm, (10.0, 0.0), there).unwrap().y;
@@ -149,7 +149,7 @@ fn quadratic_invariants_are_kept_to_roundoff() {
 
 /// The least-squares slope of the relative energy error over time.
 fn energy_slope(method: impl Integrator<f64>, step: f64, until: f64) -> (f64, f64) {
-    let mut arm = ForwardSimulation::new(&Arm, Free);
+    let mut arm = ForwardSimulation::new(&Arm, ZeroTorque);
     let start = arm.state(&[0.8, -0.5], &[0.0, 0.0]);
     let energy = |y: &[f64; 5]| {
         let energy = Arm.energy(&[y[0], y[1]], &[y[2], y[3]]);
@@ -227,38 +227,27 @@ fn what_the_iteration_cannot_solve_is_an_error_that_says_what_to_do() {
     assert!(Gauss4::new(2e-6).integrate(&mut stiff, (0.0, 1e-4), [0.5]).is_ok());
 }
 
-#[test]
-fn a_derivative_that_is_not_finite_is_named_with_bounded_work() {
-    let mut calls = 0;
-    let mut broken = |t: f64, _y: &[f64; 1], dydt: &mut [f64; 1]| {
-        calls += 1;
-        dydt[0] = if t > 0.55 { f64::NAN } else { 1.0 };
-    };
-    let error = Gauss6::new(0.1).integrate(&mut broken, (0.0, 1.0), [0.0]).unwrap_err();
-    assert!(matches!(error, IntegrationError::NonFiniteDerivative { t, component: 0 } if t > 0.55), "{error:?}");
-    assert!(calls < 50, "{calls}");
-}
-
 /// At an equilibrium that is one only up to roundoff the iteration has nothing to do but noise.
 #[test]
 fn rest_is_no_trouble() {
     let pendulum = Pendulum { mass: 2.0, length: 0.5 };
     for q in [0.0, 3e-17, std::f64::consts::PI] {
-        let mut simulation = ForwardSimulation::new(&pendulum, Free);
+        let mut simulation = ForwardSimulation::new(&pendulum, ZeroTorque);
         let start = simulation.state(&[q], &[0.0]);
         let end = Gauss6::new(0.01).integrate(&mut simulation, (0.0, 1.0), start).unwrap();
         assert!((end.y[0] - q).abs() < 1e-13, "{:?}", end.y);
     }
 }
 
+/// As the explicit methods, see `accuracy.rs`.
 #[test]
-fn single_precision_is_as_accurate_as_it_can_be() {
+fn single_precision_ends_within_25_roundoff_units() {
     let from = exact(0.0).map(|y| y as f32);
     for end in [
         Gauss4::new(0.01_f32).integrate(&mut nonlinear, (0.0, 3.0), from).unwrap(),
         Gauss6::new(0.05_f32).integrate(&mut nonlinear, (0.0, 3.0), from).unwrap(),
     ] {
-        assert!(error_at(end.t, &end.y) < 3e-6, "{:?}", end.y);
+        assert!(error_at(end.t, &end.y) < 25.0 * f64::from(f32::EPSILON), "{:?}", end.y);
     }
 }
 

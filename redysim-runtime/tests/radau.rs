@@ -9,11 +9,11 @@ mod problems;
 
 use mechanisms::{Arm, distance};
 use order_conditions::{defect, dot, values};
-use problems::{error_at, errors_of_steps, exact, nonlinear, prothero_robinson, run};
+use problems::{error_at, errors_of_steps, exact, nonlinear, prothero_robinson};
 use redysim_runtime::integrate::collocation::radau::RADAU_IIA_5;
 use redysim_runtime::integrate::{Accepted, FixedStep, Ndf, RadauIIA};
 use redysim_runtime::{
-    ForwardSimulation, Free, IntegrationError, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Statistics,
+    ForwardSimulation, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Statistics, ZeroTorque,
 };
 
 #[test]
@@ -115,7 +115,7 @@ fn rows_within_steps_of_one_size_are_as_accurate_as_the_ends() {
 /// Where the derivative jumps within a step, the equations of a shorter one need not converge: the integration goes on
 /// as without the look.
 #[test]
-fn looking_within_changes_no_step_and_ends_no_integration() {
+fn dense_output_changes_no_step_and_ends_no_integration() {
     for tolerance in [1e-4, 1e-7, 1e-10] {
         let mut jumps = |t: f64, y: &[f64; 2], rate: &mut [f64; 2]| {
             *rate = [y[1], (3.0 * t).sin() - y[0] + if y[0] > 0.05 { 1.0 } else { -1.0 }];
@@ -331,7 +331,7 @@ fn a_jacobian_that_does_not_serve_any_more_is_evaluated_again() {
                 y[0] = 3.0;
                 return Accepted::Corrected;
             }
-            Accepted::AsItIs
+            Accepted::Unchanged
         }
     }
     let end = FixedStep::<f64, RadauIIA>::new(0.1).integrate(&mut Caught, (0.0, 1.0), [0.0]).unwrap();
@@ -364,27 +364,6 @@ fn a_correction_after_each_step_is_gone_on_from() {
     assert!((end.y[1] / end.y[0] - 3.0_f64.tan()).abs() < 1e-4, "{:?}", end.y);
 }
 
-#[test]
-fn whatever_goes_wrong_is_a_typed_error_with_bounded_work() {
-    for bad in [f64::NAN, f64::INFINITY] {
-        let (outcome, calls) = run(&Radau5::new(), 1.0, |_, _| [1.0, bad]);
-        assert_eq!(outcome, Err(IntegrationError::NonFiniteDerivative { t: 0.0, component: 1 }));
-        assert_eq!(calls, 1);
-    }
-    // From a time on, and from a state on, close to the start.
-    let (outcome, calls) = run(&Radau5::new(), 1.0, |t, _| [if t > 0.55 { f64::NAN } else { 1.0 }, 0.0]);
-    println!("{outcome:?} after {calls} evaluations");
-    assert!(matches!(outcome, Err(IntegrationError::NonFiniteDerivative { t, .. }) if (t - 0.55).abs() < 1e-12));
-    assert!(calls < 2000);
-    let (outcome, calls) = run(&Radau5::new(), 2.0, |_, y| [y[0] * y[0], 0.0]);
-    println!("{outcome:?} after {calls} evaluations");
-    assert!(outcome.is_err() && calls < 10_000);
-    let (outcome, calls) = run(&radau(1e-13), 1.0, |t, _| [if t < 0.3 { 0.0 } else { 1e9 }, 0.0]);
-    println!("{outcome:?} after {calls} evaluations");
-    assert!(matches!(outcome, Err(IntegrationError::StepTooSmall { t, .. }) if (t - 0.3).abs() < 1e-12), "{outcome:?}");
-    assert!(calls < 2000);
-}
-
 /// λ/h − J = 0 for the first step that is tried: a smaller one is taken.
 #[test]
 fn a_singular_matrix_makes_the_step_smaller() {
@@ -407,7 +386,7 @@ fn a_singular_matrix_makes_the_step_smaller() {
 }
 
 #[test]
-fn single_precision_is_as_accurate_as_it_can_be() {
+fn single_precision_ends_within_two_and_a_half_tolerances() {
     let from = exact(0.0).map(|y| y as f32);
     let end = Radau5::new().rtol(2e-5_f32).atol(1e-6).integrate(&mut nonlinear, (0.0, 3.0), from).unwrap();
     assert!(error_at(end.t, &end.y) < 5e-5, "{:?}", end.y);
@@ -434,7 +413,7 @@ fn vectors_give_the_same_bits_as_arrays() {
 
 #[test]
 fn rest_is_no_trouble() {
-    let mut arm = ForwardSimulation::new(&Arm, Free);
+    let mut arm = ForwardSimulation::new(&Arm, ZeroTorque);
     let start = arm.state(&[0.0, 0.0], &[0.0, 0.0]);
     assert_eq!(Radau5::new().integrate(&mut arm, (0.0, 10.0), start).unwrap().y, [0.0; 5]);
 }

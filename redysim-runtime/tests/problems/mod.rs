@@ -1,6 +1,6 @@
-// Equations with known solutions, and a right-hand side that counts its calls, for the tests of all methods.
+// Equations with known solutions, for the tests of all methods.
 
-use redysim_runtime::{IntegrationError, Integrator, Ode, Real, Scalar, Solution, Step};
+use redysim_runtime::{Integrator, Ode, Real, Scalar, Step};
 
 /// Two nonlinear equations that depend on time: ẏ₁ = −2 t y₁², ẏ₂ = cos(t) (1 + y₂²), with the solution
 /// 1/(1 + t²), tan(sin t).
@@ -48,19 +48,4 @@ pub fn errors_of_steps<const N: usize>(
 /// The slope of log(error) over log(size).
 pub fn order(coarse: (f64, f64), fine: (f64, f64)) -> f64 {
     (coarse.1 / fine.1).ln() / (coarse.0 / fine.0).ln()
-}
-
-pub type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
-
-/// Runs a right-hand side from [1, 1] at 0, which breaks the test if it is called without end; the outcome, and how
-/// often it was called.
-pub fn run(method: &impl Integrator<f64>, to: f64, mut f: impl FnMut(f64, &[f64; 2]) -> [f64; 2]) -> (Outcome, u32) {
-    let mut calls = 0;
-    let mut counted = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
-        calls += 1;
-        assert!(calls < 100_000, "this does not end");
-        *dydt = f(t, y);
-    };
-    let outcome = method.integrate(&mut counted, (0.0, to), [1.0, 1.0]);
-    (outcome, calls)
 }
