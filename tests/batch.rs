@@ -5,8 +5,8 @@ mod common;
 use common::models::{Gripper, Kr5};
 use redysim::batch::{self, Batched, LengthMismatch};
 use redysim::{
-    BiasForces, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics, MassMatrix, Mechanism, Real,
-    Scalar,
+    BiasForces, ConfigurationSpace, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics, MassMatrix,
+    Real, Scalar,
 };
 
 /// No state, one, about as many as lanes, enough that a last task and a last group are not full.
@@ -24,7 +24,7 @@ fn bits<T: Real, const N: usize>(states: &[[T; N]]) -> Vec<u64> {
 
 fn each_state_is_as_if_alone<T: Batched>(count: usize)
 where
-    Dispatched<Kr5>: Mechanism<T, Coordinates = [T; 6], Velocities = [T; 6], Matrix = [[T; 6]; 6]>
+    Dispatched<Kr5>: ConfigurationSpace<T, Coordinates = [T; 6], Velocities = [T; 6], Matrix = [[T; 6]; 6]>
         + InverseDynamics<T>
         + ForwardDynamics<T>
         + BiasForces<T>

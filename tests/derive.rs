@@ -39,6 +39,6 @@ fn constants_say_what_the_model_says() {
     assert_eq!(ByMacro::NAME, "gripper");
     assert_eq!((ByMacro::NQ, ByMacro::NV, ByMacro::NL, ByMacro::NC), (4, 4, 4, 0));
     assert_eq!(ByMacro::ACTUATED, [true; 4]);
-    assert_eq!(Mechanism::<f32>::joint_name(&ByMacro, 3), Some(ByMacro::JOINT_NAMES[3]));
-    assert_eq!(Mechanism::<f32>::link_name(&ByMacro, 4), None);
+    assert_eq!(ByMacro.joint_name(3), Some(ByMacro::JOINT_NAMES[3]));
+    assert_eq!(ByMacro.link_name(4), None);
 }

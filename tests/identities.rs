@@ -52,7 +52,7 @@ macro_rules! on_every_mechanism {
 }
 
 fn dof(m: &impl Smooth) -> usize {
-    redysim::Mechanism::<Number>::nv(m)
+    redysim::Mechanism::nv(m)
 }
 
 fn states(m: &impl Smooth) -> impl Iterator<Item = State> {

@@ -52,7 +52,7 @@ fn assert_right(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDynamics<f
 #[test]
 fn thirty_joints_compile_in_the_dev_profile_and_are_right() {
     assert_right(&Chain30, &generic("test/chain30"));
-    assert_eq!(Mechanism::<f64>::nv(&Chain30), 30);
+    assert_eq!(Chain30.nv(), 30);
 }
 
 #[test]

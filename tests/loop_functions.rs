@@ -16,7 +16,7 @@ use common::models::generic;
 use common::random::Random;
 use linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
 use redysim::generic::GenericMechanism;
-use redysim::{LoopClosure, Mechanism, redysim};
+use redysim::{ConfigurationSpace, LoopClosure, redysim};
 
 redysim! {
     /// The paper's four-bar, oblique in space.
@@ -56,7 +56,7 @@ macro_rules! on_every_model {
 fn compiled_is_generic() {
     fn check<M>(compiled: &M, generic: &GenericMechanism)
     where
-        M: Mechanism<DoubleDouble> + LoopClosure<DoubleDouble, M>,
+        M: ConfigurationSpace<DoubleDouble> + LoopClosure<DoubleDouble, M>,
     {
         let name = compiled.name();
         let new = |function: &str| Comparison::new(format!("{name} {function}"));
@@ -76,10 +76,10 @@ fn compiled_is_generic() {
 /// J v is how the residual changes along v, and J̇ v how J v does.
 fn assert_derivatives<M>(mechanism: &M, states: impl Iterator<Item = [Vec<DoubleDouble>; 2]>)
 where
-    M: Mechanism<DoubleDouble> + LoopClosure<DoubleDouble, M>,
-    M: Mechanism<Dual<DoubleDouble>> + LoopClosure<Dual<DoubleDouble>, M>,
+    M: ConfigurationSpace<DoubleDouble> + LoopClosure<DoubleDouble, M>,
+    M: ConfigurationSpace<Dual<DoubleDouble>> + LoopClosure<Dual<DoubleDouble>, M>,
 {
-    let name = <M as Mechanism<DoubleDouble>>::name(mechanism);
+    let name = mechanism.name();
     let new = |function: &str| Comparison::new(format!("{name} {function}"));
     let [mut jacobian, mut bias] = ["J v", "J̇ v"].map(new);
     let times = |rows: Vec<Vec<DoubleDouble>>, v: &[DoubleDouble]| -> Vec<DoubleDouble> {
@@ -102,10 +102,10 @@ where
 fn jacobian_and_bias_are_the_derivatives_of_the_residual() {
     fn check<M>(compiled: &M, generic: &GenericMechanism)
     where
-        M: Mechanism<DoubleDouble> + LoopClosure<DoubleDouble, M>,
-        M: Mechanism<Dual<DoubleDouble>> + LoopClosure<Dual<DoubleDouble>, M>,
+        M: ConfigurationSpace<DoubleDouble> + LoopClosure<DoubleDouble, M>,
+        M: ConfigurationSpace<Dual<DoubleDouble>> + LoopClosure<Dual<DoubleDouble>, M>,
     {
-        let dof = <M as Mechanism<DoubleDouble>>::nv(compiled);
+        let dof = compiled.nv();
         assert_derivatives(compiled, states(dof));
         assert_derivatives(generic, states(dof));
     }

@@ -84,7 +84,7 @@ fn assert_few_roundings<Low: Rounding, High: Rounding>(
     what: &str,
     m: &(impl TreeDynamics<Low> + TreeDynamics<High> + TreeDynamics<f64>),
 ) {
-    let dof = redysim::Mechanism::<f64>::nv(m);
+    let dof = redysim::Mechanism::nv(m);
     let mut random = Random::new(2);
     let mut vector = |bound| -> Vec<f64> { random.vector(dof, bound).iter().map(|&x| f64::from(x as f32)).collect() };
     let runs: Vec<(Values, Values)> = (0..STATES)

@@ -3,7 +3,7 @@
 use crate::numbers::Numbers;
 use crate::random::Random;
 use criterion::{Criterion, Throughput};
-use redysim::{ForwardDynamics, InverseDynamics, JointTrig, MassMatrix, Mechanism, TreeDynamics, Vector};
+use redysim::{ForwardDynamics, InverseDynamics, JointTrig, MassMatrix, TreeDynamics, Vector};
 use std::f64::consts::PI;
 use std::hint::black_box;
 
@@ -71,7 +71,7 @@ pub fn other_functions<S: Numbers, M: TreeDynamics<S>>(
     path: &str,
     mechanism: &M,
 ) {
-    let (nq, nv) = (Mechanism::<S>::nq(mechanism), Mechanism::<S>::nv(mechanism));
+    let (nq, nv) = (mechanism.nq(), mechanism.nv());
     let states = states::<S, M::Coordinates, M::Velocities>(nq, nv);
     timed::<S, _, _>(criterion, [robot, "bias_forces", path], &states, |state| {
         mechanism.bias_forces(&state.q, &state.v)

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use redysim::integrate::Observer;
 use redysim::{
-    Assembly, ClosedLoop, ClosedLoopSimulation, ForwardSimulation, IntegrationError, Integrator, Mechanism, Ode,
-    Ode15s, ProportionalDerivative, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector, ZeroTorque,
+    Assembly, ClosedLoop, ClosedLoopSimulation, ConfigurationSpace, ForwardSimulation, IntegrationError, Integrator,
+    Ode, Ode15s, ProportionalDerivative, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector, ZeroTorque,
 };
 use std::ops::ControlFlow;
 
@@ -71,7 +71,7 @@ fn largest_difference(found: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// A tree that is let go or driven, judged by where its joints are at the end.
-pub struct Motion<M: Mechanism<f64> + 'static, L> {
+pub struct Motion<M: ConfigurationSpace<f64> + 'static, L> {
     name: &'static str,
     title: &'static str,
     mechanism: &'static M,

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use redysim::{
-    ClosedLoopSimulation, ForwardSimulation, Integrator, LoopClosure, Mechanism, Statistics, Step, TorqueLaw,
+    ClosedLoopSimulation, ConfigurationSpace, ForwardSimulation, Integrator, LoopClosure, Statistics, Step, TorqueLaw,
     TreeDynamics,
 };
 
@@ -108,7 +108,7 @@ impl Watch {
 /// The largest component of the loops' residual, m.
 pub fn gap<M>(mechanism: &M, q: &M::Coordinates) -> f64
 where
-    M: Mechanism<f64> + LoopClosure<f64, M>,
+    M: ConfigurationSpace<f64> + LoopClosure<f64, M>,
 {
     peak(mechanism.loop_residual(q).as_ref().iter().copied())
 }

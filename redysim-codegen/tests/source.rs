@@ -74,7 +74,7 @@ fn a_scene_has_its_functions_and_their_traits_only() {
     }
     // Of the closure one function is missing.
     for (trait_name, there) in
-        [("GravityForces", true), ("Mechanism", true), ("MassMatrix", false), ("LoopClosure", false)]
+        [("GravityForces", true), ("ConfigurationSpace", true), ("MassMatrix", false), ("LoopClosure", false)]
     {
         assert_eq!(source.contains(&format!("::{trait_name}<S")), there, "{trait_name}");
     }

@@ -6,8 +6,8 @@ use crate::tree::Tree;
 use redysim_runtime::dual;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    BiasForces, CenterOfMass, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
-    LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
+    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -96,10 +96,12 @@ impl GenericMechanism {
 
     fn check<S>(&self, vectors: &[(&str, &[S])]) {
         for (name, vector) in vectors {
-            let expected = if *name == "q" { self.tree.nq() } else { self.tree.nv() };
+            let coordinates = name.starts_with('q');
+            let (expected, elements) =
+                if coordinates { (self.tree.nq(), "coordinates") } else { (self.tree.nv(), "velocities") };
             assert!(
                 vector.len() == expected,
-                "`{name}` must have one element for each of the {expected} moving joints of `{}`, but it has {}",
+                "`{name}` must have one element for each of the {expected} {elements} of `{}`, but it has {}",
                 self.model.name,
                 vector.len()
             );
@@ -107,13 +109,7 @@ impl GenericMechanism {
     }
 }
 
-impl<S: Scalar> Mechanism<S> for GenericMechanism {
-    type Coordinates = Vec<S>;
-    type Velocities = Vec<S>;
-    type State = Vec<S>;
-    type Matrix = Vec<Vec<S>>;
-    type Links = Vec<LinkState<S>>;
-
+impl Mechanism for GenericMechanism {
     fn name(&self) -> &str {
         &self.model.name
     }
@@ -132,8 +128,29 @@ impl<S: Scalar> Mechanism<S> for GenericMechanism {
     fn joint_name(&self, index: usize) -> Option<&str> {
         self.model.moving_links().nth(index).map(|link| link.joint_name.as_str())
     }
-    fn coordinate_rates(&self, _q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
-        v.clone()
+}
+
+impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
+    type Coordinates = Vec<S>;
+    type Velocities = Vec<S>;
+    type State = Vec<S>;
+    type Matrix = Vec<Vec<S>>;
+    type Links = Vec<LinkState<S>>;
+
+    fn coordinate_rates(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q), ("v", v)]);
+        denoc::coordinate_rates(&self.tree, q, v)
+    }
+    fn integrate(&self, q: &Vec<S>, dv: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", q), ("dv", dv)]);
+        denoc::integrate(&self.tree, q, dv)
+    }
+    fn difference(&self, q0: &Vec<S>, q1: &Vec<S>) -> Vec<S> {
+        self.check(&[("q0", q0), ("q1", q1)]);
+        denoc::difference(&self.tree, q0, q1)
+    }
+    fn neutral(&self) -> Vec<S> {
+        denoc::neutral(&self.tree)
     }
 }
 

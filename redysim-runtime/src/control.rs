@@ -6,13 +6,13 @@
 //! for any mechanism [`uniform`]. A gain or a target that a `Vec` lacks counts as NaN, which integrators report.
 
 use crate::vector::entry;
-use crate::{InverseDynamics, Mechanism, Real, Scalar, Trajectory, Vector};
+use crate::{ConfigurationSpace, InverseDynamics, Real, Scalar, Trajectory, Vector};
 
 /// What the actuators do. Every closure `FnMut(S, &Coordinates, &Velocities) -> Velocities` is one.
 ///
 /// Integrators ask at points of their own choice, also at points of steps that they then reject: a law that remembers
 /// should remember by time, not by call.
-pub trait TorqueLaw<S: Scalar, M: Mechanism<S>> {
+pub trait TorqueLaw<S: Scalar, M: ConfigurationSpace<S>> {
     /// The joint forces at time `t` (s) for coordinates `q` and velocities `v`.
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities;
 
@@ -32,7 +32,7 @@ pub trait TorqueLaw<S: Scalar, M: Mechanism<S>> {
 impl<S, M, F> TorqueLaw<S, M> for F
 where
     S: Scalar,
-    M: Mechanism<S>,
+    M: ConfigurationSpace<S>,
     F: FnMut(S, &M::Coordinates, &M::Velocities) -> M::Velocities,
 {
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
@@ -41,7 +41,7 @@ where
 }
 
 /// The same gain, or whatever else belongs to a joint, for all joints of a mechanism.
-pub fn uniform<S: Scalar, M: Mechanism<S>>(mechanism: &M, gain: S) -> M::Velocities {
+pub fn uniform<S: Scalar, M: ConfigurationSpace<S>>(mechanism: &M, gain: S) -> M::Velocities {
     M::Velocities::from_fn(mechanism.nv(), |_| gain)
 }
 
@@ -49,7 +49,7 @@ pub fn uniform<S: Scalar, M: Mechanism<S>>(mechanism: &M, gain: S) -> M::Velocit
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ZeroTorque;
 
-impl<S: Scalar, M: Mechanism<S>> TorqueLaw<S, M> for ZeroTorque {
+impl<S: Scalar, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ZeroTorque {
     fn torque(&mut self, _t: S, _q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |_| S::zero())
     }
@@ -73,7 +73,7 @@ pub struct Proportional<Q, V> {
     pub kp: V,
 }
 
-impl<S: Real, M: Mechanism<S>> TorqueLaw<S, M> for Proportional<M::Coordinates, M::Velocities> {
+impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Proportional<M::Coordinates, M::Velocities> {
     fn torque(&mut self, _t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |i| entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)))
     }
@@ -99,7 +99,7 @@ pub struct ProportionalDerivative<Q, V> {
     pub kd: V,
 }
 
-impl<S: Real, M: Mechanism<S>> TorqueLaw<S, M> for ProportionalDerivative<M::Coordinates, M::Velocities> {
+impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivative<M::Coordinates, M::Velocities> {
     fn torque(&mut self, _t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |i| {
             entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)) - entry(&self.kd, i) * entry(v, i)
@@ -135,7 +135,7 @@ pub struct TrackingPd<T, V> {
 impl<S, M, T> TorqueLaw<S, M> for TrackingPd<T, M::Velocities>
 where
     S: Real,
-    M: Mechanism<S>,
+    M: ConfigurationSpace<S>,
     T: Trajectory<S, M::Coordinates, M::Velocities>,
 {
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
@@ -192,7 +192,7 @@ impl<N, T, V> ComputedTorque<'_, N, T, V> {
 impl<S, M, N, T> TorqueLaw<S, M> for ComputedTorque<'_, N, T, M::Velocities>
 where
     S: Real,
-    M: Mechanism<S>,
+    M: ConfigurationSpace<S>,
     N: InverseDynamics<S, Coordinates = M::Coordinates, Velocities = M::Velocities>,
     T: Trajectory<S, M::Coordinates, M::Velocities>,
 {

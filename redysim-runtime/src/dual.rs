@@ -4,7 +4,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use crate::mechanism::Arguments;
 use crate::vector::entry;
-use crate::{ForwardDynamics, InverseDynamics, Mechanism, Scalar, Vector};
+use crate::{ConfigurationSpace, ForwardDynamics, InverseDynamics, Scalar, Vector};
 
 /// A number a + b ε with ε² = 0: a value and its derivative along one direction.
 ///
@@ -131,9 +131,9 @@ pub fn forward_dynamics_tangent<S: Scalar, M>(
     mechanism: &M,
     (q, v, tau): Arguments<'_, S, M>,
     (dq, dv, dtau): Arguments<'_, S, M>,
-) -> <M as Mechanism<S>>::Velocities
+) -> <M as ConfigurationSpace<S>>::Velocities
 where
-    M: Mechanism<S> + ForwardDynamics<Dual<S>>,
+    M: ConfigurationSpace<S> + ForwardDynamics<Dual<S>>,
 {
     slopes(&ForwardDynamics::<Dual<S>>::forward_dynamics(mechanism, &dual(q, dq), &dual(v, dv), &dual(tau, dtau)))
 }
@@ -144,9 +144,9 @@ pub fn inverse_dynamics_tangent<S: Scalar, M>(
     mechanism: &M,
     (q, v, a): Arguments<'_, S, M>,
     (dq, dv, da): Arguments<'_, S, M>,
-) -> <M as Mechanism<S>>::Velocities
+) -> <M as ConfigurationSpace<S>>::Velocities
 where
-    M: Mechanism<S> + InverseDynamics<Dual<S>>,
+    M: ConfigurationSpace<S> + InverseDynamics<Dual<S>>,
 {
     slopes(&InverseDynamics::<Dual<S>>::inverse_dynamics(mechanism, &dual(q, dq), &dual(v, dv), &dual(a, da)))
 }

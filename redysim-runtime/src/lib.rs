@@ -49,8 +49,8 @@ pub use integrate::{
 };
 pub use joint_trig::JointTrig;
 pub use mechanism::{
-    BiasForces, CenterOfMass, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
-    LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
+    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
 };
 pub use operations::OperationCount;
 pub use scalar::{Real, Scalar};

@@ -3,20 +3,8 @@
 
 use crate::{Scalar, Vector};
 
-/// Sizes, names and coordinates of a mechanism. The types of vectors carry their lengths: arrays for compiled types,
-/// `Vec` for the generic path.
-pub trait Mechanism<S: Scalar> {
-    /// Joint coordinates q, in the model's order: `[S; NQ]`. Radians or metres.
-    type Coordinates: Vector<S>;
-    /// Joint velocities, accelerations or forces, in the model's order: `[S; NV]`.
-    type Velocities: Vector<S>;
-    /// The state of a simulation, [q, q̇, E_act]: `[S; NQ + NV + 1]`.
-    type State: Vector<S>;
-    /// A square matrix over the velocities, by rows: `[[S; NV]; NV]`.
-    type Matrix: Vector<Self::Velocities>;
-    /// One [`LinkState`] for each link, in the model's order: `[LinkState<S>; NL]`.
-    type Links: AsRef<[LinkState<S>]>;
-
+/// Sizes and names of a mechanism.
+pub trait Mechanism {
     /// The model's name.
     fn name(&self) -> &str;
     /// Number of coordinates, NQ.
@@ -29,17 +17,46 @@ pub trait Mechanism<S: Scalar> {
     fn link_name(&self, index: usize) -> Option<&str>;
     /// Name of the moving joint `index` in the model's order; `None` past the last.
     fn joint_name(&self, index: usize) -> Option<&str>;
+}
 
-    /// The time derivative of the coordinates, q̇ = N(q) v; v itself for revolute and prismatic joints.
+/// Coordinates and velocities of a mechanism over the scalar `S`. The types of vectors carry their lengths: arrays for
+/// compiled types, `Vec` for the generic path.
+///
+/// Coordinates need not be as many as velocities, nor may they be added: what moves from one position to another is a
+/// velocity over a unit of time.
+pub trait ConfigurationSpace<S: Scalar>: Mechanism {
+    /// Joint coordinates q, in the model's order: `[S; NQ]`. Radians or metres.
+    type Coordinates: Vector<S>;
+    /// Joint velocities, accelerations or forces, in the model's order: `[S; NV]`.
+    type Velocities: Vector<S>;
+    /// The state of a simulation, [q, q̇, E_act]: `[S; NQ + NV + 1]`.
+    type State: Vector<S>;
+    /// A square matrix over the velocities, by rows: `[[S; NV]; NV]`.
+    type Matrix: Vector<Self::Velocities>;
+    /// One [`LinkState`] for each link, in the model's order: `[LinkState<S>; NL]`.
+    type Links: AsRef<[LinkState<S>]>;
+
+    /// The time derivative of the coordinates, q̇ = N(q) v; v itself for revolute, prismatic and helical joints.
     fn coordinate_rates(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Coordinates;
+    /// q ⊞ dv, the coordinates that the velocities `dv`, constant over a unit of time, lead to from `q`; q + dv for
+    /// revolute, prismatic and helical joints.
+    fn integrate(&self, q: &Self::Coordinates, dv: &Self::Velocities) -> Self::Coordinates;
+    /// q₁ ⊟ q₀, the velocities that lead from `q0` to `q1` in a unit of time: the inverse of
+    /// [`integrate`](Self::integrate).
+    fn difference(&self, q0: &Self::Coordinates, q1: &Self::Coordinates) -> Self::Velocities;
+    /// The coordinates at which every joint is at its zero position.
+    fn neutral(&self) -> Self::Coordinates;
 }
 
 /// Coordinates, velocities, and accelerations or joint forces of the mechanism `M`, or derivatives of them.
-pub type Arguments<'a, S, M> =
-    (&'a <M as Mechanism<S>>::Coordinates, &'a <M as Mechanism<S>>::Velocities, &'a <M as Mechanism<S>>::Velocities);
+pub type Arguments<'a, S, M> = (
+    &'a <M as ConfigurationSpace<S>>::Coordinates,
+    &'a <M as ConfigurationSpace<S>>::Velocities,
+    &'a <M as ConfigurationSpace<S>>::Velocities,
+);
 
 /// Joint forces from motion.
-pub trait InverseDynamics<S: Scalar>: Mechanism<S> {
+pub trait InverseDynamics<S: Scalar>: ConfigurationSpace<S> {
     /// τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.
     fn inverse_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, a: &Self::Velocities) -> Self::Velocities;
 
@@ -56,7 +73,7 @@ pub trait InverseDynamics<S: Scalar>: Mechanism<S> {
 }
 
 /// Accelerations from joint forces.
-pub trait ForwardDynamics<S: Scalar>: Mechanism<S> {
+pub trait ForwardDynamics<S: Scalar>: ConfigurationSpace<S> {
     /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree (loops, if any, open).
     fn forward_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, tau: &Self::Velocities)
     -> Self::Velocities;
@@ -74,38 +91,38 @@ pub trait ForwardDynamics<S: Scalar>: Mechanism<S> {
 }
 
 /// The generalised inertia matrix.
-pub trait MassMatrix<S: Scalar>: Mechanism<S> {
+pub trait MassMatrix<S: Scalar>: ConfigurationSpace<S> {
     /// M(q), symmetric and positive definite: kg m², kg m or kg. Where a link has no mass and only loops hold it, M(q)
     /// is singular, and the mechanism has no [`ForwardDynamics`].
     fn mass_matrix(&self, q: &Self::Coordinates) -> Self::Matrix;
 }
 
 /// Forces that do not depend on accelerations.
-pub trait BiasForces<S: Scalar>: Mechanism<S> {
+pub trait BiasForces<S: Scalar>: ConfigurationSpace<S> {
     /// C(q, v) v + g(q), N m or N.
     fn bias_forces(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Velocities;
 }
 
 /// Forces that hold the mechanism against gravity.
-pub trait GravityForces<S: Scalar>: Mechanism<S> {
+pub trait GravityForces<S: Scalar>: ConfigurationSpace<S> {
     /// g(q), N m or N.
     fn gravity_forces(&self, q: &Self::Coordinates) -> Self::Velocities;
 }
 
 /// Kinetic and potential energy.
-pub trait MechanicalEnergy<S: Scalar>: Mechanism<S> {
+pub trait MechanicalEnergy<S: Scalar>: ConfigurationSpace<S> {
     /// Both energies of the tree, J; the potential is zero at the origin of the base frame.
     fn energy(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Energy<S>;
 }
 
 /// The centre of mass of a whole mechanism.
-pub trait MassCenter<S: Scalar>: Mechanism<S> {
+pub trait MassCenter<S: Scalar>: ConfigurationSpace<S> {
     /// Position and velocity of the centre of mass of all links, those that do not move among them, in the base frame.
     fn center_of_mass(&self, q: &Self::Coordinates, v: &Self::Velocities) -> CenterOfMass<S>;
 }
 
 /// Where every link is and how it moves.
-pub trait LinkKinematics<S: Scalar>: Mechanism<S> {
+pub trait LinkKinematics<S: Scalar>: ConfigurationSpace<S> {
     /// Position and velocity of every link, in the base frame, in the model's order.
     fn link_kinematics(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Links;
 }
@@ -114,7 +131,7 @@ pub trait LinkKinematics<S: Scalar>: Mechanism<S> {
 ///
 /// A compiled type is its own closure; who knows a better one (a closed form, or conditions that no cut joint
 /// describes) implements this for a type of their own.
-pub trait LoopClosure<S: Scalar, M: Mechanism<S>> {
+pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>> {
     /// One value for each row: `[S; NC]`.
     type Rows: Vector<S>;
     /// The Jacobian, by rows: `[[S; NV]; NC]`.

@@ -1,7 +1,7 @@
 //! Forward simulation: a mechanism and a torque law as an ordinary differential equation.
 
 use crate::vector::entry;
-use crate::{ForwardDynamics, Mechanism, Ode, Real, TorqueLaw, Vector};
+use crate::{ConfigurationSpace, ForwardDynamics, Ode, Real, TorqueLaw, Vector};
 
 /// A mechanism moved by a torque law, as an [`Ode`] in the state y = [q, q̇, E_act]:
 ///
@@ -56,7 +56,7 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     /// The state [q, v, 0] to start from: the actuators have done no work yet.
     pub fn state<S: Real>(&self, q: &M::Coordinates, v: &M::Velocities) -> M::State
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
     {
         let sizes @ (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
         M::State::from_fn(nq + nv + 1, |i| component(i, sizes, (q, v, S::zero())))
@@ -65,7 +65,7 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     /// Writes [q, v, energy], or their rates, to `state`. What a `Vec` lacks is NaN.
     fn write<S: Real>(&self, parts: (&M::Coordinates, &M::Velocities, S), state: &mut M::State)
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
     {
         let sizes = (self.mechanism.nq(), self.mechanism.nv());
         for (i, element) in state.as_mut().iter_mut().enumerate() {
@@ -76,7 +76,7 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     /// The parts of a state. What a `Vec` lacks is NaN.
     pub fn split<S: Real>(&self, state: &M::State) -> SimulationState<S, M::Coordinates, M::Velocities>
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
     {
         let (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
         SimulationState {
@@ -89,7 +89,7 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     /// The joint forces in a state.
     pub fn torque<S: Real>(&mut self, t: S, state: &M::State) -> M::Velocities
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
         L: TorqueLaw<S, M>,
     {
         let SimulationState { q, v, .. } = self.split(state);
@@ -156,7 +156,7 @@ fn dot<S: Real, V: Vector<S>>(tau: &V, v: &V) -> S {
 }
 
 /// The derivative of a law's joint forces along `(dq, dv)`: what the law says, or else central differences.
-fn torque_tangent<S: Real, M: Mechanism<S>>(
+fn torque_tangent<S: Real, M: ConfigurationSpace<S>>(
     law: &mut impl TorqueLaw<S, M>,
     t: S,
     (q, v): (&M::Coordinates, &M::Velocities),

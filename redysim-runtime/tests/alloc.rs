@@ -8,20 +8,14 @@ use mechanisms::Arm;
 use redysim_runtime::integrate::Accepted;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError, Integrator, LinkState, Mechanism, Ode, Ode5, Ode15s,
-    Ode45, Proportional, ProportionalDerivative, Radau5, Solution, TorqueLaw, ZeroTorque,
+    ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError, Integrator, LinkState, Mechanism,
+    Ode, Ode5, Ode15s, Ode45, Proportional, ProportionalDerivative, Radau5, Solution, TorqueLaw, ZeroTorque,
 };
 
 /// The arm with sizes known only at run time, and as many accelerations as it says.
 struct DynamicArm(usize);
 
-impl Mechanism<f64> for DynamicArm {
-    type Coordinates = Vec<f64>;
-    type Velocities = Vec<f64>;
-    type State = Vec<f64>;
-    type Matrix = Vec<Vec<f64>>;
-    type Links = Vec<LinkState<f64>>;
-
+impl Mechanism for DynamicArm {
     fn name(&self) -> &str {
         "arm"
     }
@@ -40,8 +34,26 @@ impl Mechanism<f64> for DynamicArm {
     fn joint_name(&self, _: usize) -> Option<&str> {
         None
     }
+}
+
+impl ConfigurationSpace<f64> for DynamicArm {
+    type Coordinates = Vec<f64>;
+    type Velocities = Vec<f64>;
+    type State = Vec<f64>;
+    type Matrix = Vec<Vec<f64>>;
+    type Links = Vec<LinkState<f64>>;
+
     fn coordinate_rates(&self, _: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
         v.clone()
+    }
+    fn integrate(&self, q: &Vec<f64>, dv: &Vec<f64>) -> Vec<f64> {
+        q.iter().zip(dv).map(|(q, dv)| q + dv).collect()
+    }
+    fn difference(&self, q0: &Vec<f64>, q1: &Vec<f64>) -> Vec<f64> {
+        q1.iter().zip(q0).map(|(q1, q0)| q1 - q0).collect()
+    }
+    fn neutral(&self) -> Vec<f64> {
+        vec![0.0; 2]
     }
 }
 

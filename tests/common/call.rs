@@ -1,8 +1,8 @@
 //! The functions of a mechanism on slices, whatever its own vectors are made of.
 
 use redysim::{
-    BiasForces, CenterOfMass, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
-    LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar, Vector,
+    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar, Vector,
 };
 
 fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
@@ -47,15 +47,15 @@ pub fn link_kinematics<S: Scalar>(m: &impl LinkKinematics<S>, q: &[S], v: &[S]) 
     m.link_kinematics(&vector(q), &vector(v)).as_ref().to_vec()
 }
 
-pub fn loop_residual<S: Scalar, M: Mechanism<S> + LoopClosure<S, M>>(m: &M, q: &[S]) -> Vec<S> {
+pub fn loop_residual<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>>(m: &M, q: &[S]) -> Vec<S> {
     m.loop_residual(&vector(q)).as_ref().to_vec()
 }
 
 /// By rows.
-pub fn loop_jacobian<S: Scalar, M: Mechanism<S> + LoopClosure<S, M>>(m: &M, q: &[S]) -> Vec<Vec<S>> {
+pub fn loop_jacobian<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>>(m: &M, q: &[S]) -> Vec<Vec<S>> {
     m.loop_jacobian(&vector(q)).as_ref().iter().map(|row| row.as_ref().to_vec()).collect()
 }
 
-pub fn loop_bias<S: Scalar, M: Mechanism<S> + LoopClosure<S, M>>(m: &M, q: &[S], v: &[S]) -> Vec<S> {
+pub fn loop_bias<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>>(m: &M, q: &[S], v: &[S]) -> Vec<S> {
     m.loop_bias(&vector(q), &vector(v)).as_ref().to_vec()
 }

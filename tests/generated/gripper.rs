@@ -1050,12 +1050,7 @@ impl Gripper {
         []
     }
 }
-impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::Mechanism<S> for Gripper {
-    type Coordinates = [S; 4];
-    type Velocities = [S; 4];
-    type State = [S; 9];
-    type Matrix = [[S; 4]; 4];
-    type Links = [::redysim_runtime::LinkState<S>; 4];
+impl ::redysim_runtime::Mechanism for Gripper {
     fn name(&self) -> &str {
         Self::NAME
     }
@@ -1074,8 +1069,36 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::Mechanism<S> for Gripper {
     fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
         Self::JOINT_NAMES.get(index).copied()
     }
-    fn coordinate_rates(&self, _q: &[S; 4], v: &[S; 4]) -> [S; 4] {
-        *v
+}
+impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::ConfigurationSpace<S> for Gripper {
+    type Coordinates = [S; 4];
+    type Velocities = [S; 4];
+    type State = [S; 9];
+    type Matrix = [[S; 4]; 4];
+    type Links = [::redysim_runtime::LinkState<S>; 4];
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    #[inline]
+    fn coordinate_rates(&self, q: &[S; 4], v: &[S; 4]) -> [S; 4] {
+        let k = S::from_f64;
+        [v[0], v[1], v[2], v[3]]
+    }
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    #[inline]
+    fn integrate(&self, q: &[S; 4], dv: &[S; 4]) -> [S; 4] {
+        let k = S::from_f64;
+        [q[0] + dv[0], q[1] + dv[1], q[2] + dv[2], q[3] + dv[3]]
+    }
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    #[inline]
+    fn difference(&self, q0: &[S; 4], q1: &[S; 4]) -> [S; 4] {
+        let k = S::from_f64;
+        [q1[0] - q0[0], q1[1] - q0[1], q1[2] - q0[2], q1[3] - q0[3]]
+    }
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    #[inline]
+    fn neutral(&self) -> [S; 4] {
+        let k = S::from_f64;
+        [k(0.0), k(0.0), k(0.0), k(0.0)]
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::InverseDynamics<S> for Gripper {

@@ -41,7 +41,7 @@ extern "C" fn prepare(robot: *const c_char) -> c_int {
     match Model::load(path.as_ref()) {
         Ok(loaded) => {
             let mechanism = GenericMechanism::new(loaded.model);
-            let nv = Mechanism::<f64>::nv(&mechanism);
+            let nv = mechanism.nv();
             let (result, matrix) = (vec![0.0; nv], vec![0.0; nv * nv]);
             // SAFETY: the timer has one thread.
             unsafe { *SLOT.0.get() = Some(Prepared { mechanism, workspace: Workspace::default(), result, matrix }) };

@@ -15,6 +15,7 @@
 mod articulated;
 mod base_frame;
 mod center_of_mass;
+mod configuration;
 mod energy;
 mod evaluate;
 mod factorisation;
@@ -28,6 +29,7 @@ mod trace;
 mod workspace;
 
 pub use center_of_mass::center_of_mass;
+pub use configuration::{coordinate_rates, difference, integrate, neutral};
 pub use energy::energy;
 pub use evaluate::evaluate;
 pub use factorisation::Factorisation;

@@ -8,11 +8,13 @@
 //! | `split` | which inertia of the body its parent may carry as well, with the same joint forces |
 //! | `meets` | which inertia alone makes the joint's diagonal element of the mass matrix positive |
 //!
-//! and [`Joint`] has a variant that names them. From S follow the transform (a rotation about z by the turn of q, a
+//! and [`Joint`] has a variant that names them, and says by which functions its coordinates move: `coordinate_rates`,
+//! `integrate`, `difference` and `neutral`, which `linear` has for coordinates that add up. From S follow the transform (a rotation about z by the turn of q, a
 //! displacement along z by its slide), the bias acceleration, and the joint force Sᵀ w of a wrench; the recursions know
 //! no kind of joint.
 
 mod helical;
+mod linear;
 mod prismatic;
 mod revolute;
 mod screw;
@@ -21,6 +23,7 @@ mod shared;
 use crate::model::{JointKind, Link};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
+use redysim_runtime::Scalar;
 pub use screw::Screw;
 pub use shared::{AxisMass, Vanishing};
 
@@ -59,6 +62,35 @@ impl Joint {
     #[inline]
     pub fn nv(self) -> usize {
         1
+    }
+
+    /// The rates of its coordinates, q̇ = N(q) v.
+    pub fn coordinate_rates<S: Scalar>(self, q: &[S], v: &[S], rates: &mut [S]) {
+        let _ = q;
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::coordinate_rates(v, rates),
+        }
+    }
+
+    /// q ⊞ dv: where the joint is after a unit of time at the velocity `dv`.
+    pub fn integrate<S: Scalar>(self, q: &[S], dv: &[S], moved: &mut [S]) {
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::integrate(q, dv, moved),
+        }
+    }
+
+    /// q₁ ⊟ q₀: the velocity that leads from `q0` to `q1` in a unit of time.
+    pub fn difference<S: Scalar>(self, q0: &[S], q1: &[S], dv: &mut [S]) {
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::difference(q0, q1, dv),
+        }
+    }
+
+    /// The coordinates of the zero position.
+    pub fn neutral<S: Scalar>(self, q: &mut [S]) {
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::neutral(q),
+        }
     }
 
     /// The motion subspace S.
@@ -187,6 +219,55 @@ mod tests {
             assert!((joint.screw().project(wrench) - power).abs() < 1e-15, "{joint:?}");
             let held = joint.screw().with_force(wrench, 2.5);
             assert!((joint.screw().project(held) - 2.5).abs() < 1e-15, "{joint:?}");
+        }
+    }
+
+    /// Coordinates in general position, and a velocity.
+    fn position_and_velocity(joint: Joint) -> (Vec<f64>, Vec<f64>) {
+        let (mut q, mut neutral) = (vec![0.0; joint.nq()], vec![0.0; joint.nq()]);
+        joint.neutral(&mut neutral);
+        let to: Vec<f64> = (0..joint.nv()).map(|i| 0.4 + 0.3 * i as f64).collect();
+        joint.integrate(&neutral, &to, &mut q);
+        (q, (0..joint.nv()).map(|i| 0.7 - 0.5 * i as f64).collect())
+    }
+
+    #[test]
+    fn the_rates_of_coordinates_are_the_derivative_of_their_motion() {
+        for joint in JOINTS {
+            let (q, v) = position_and_velocity(joint);
+            let at = |time: f64| {
+                let mut moved = vec![0.0; joint.nq()];
+                joint.integrate(&q, &v.iter().map(|v| v * time).collect::<Vec<_>>(), &mut moved);
+                moved
+            };
+            let mut rates = vec![0.0; joint.nq()];
+            joint.coordinate_rates(&q, &v, &mut rates);
+            for ((rate, before), after) in rates.iter().zip(at(-STEP)).zip(at(STEP)) {
+                let difference = (after - before) / (2.0 * STEP);
+                assert!((rate - difference).abs() < 1e-7, "{joint:?}: {rate} instead of {difference}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_difference_of_two_positions_leads_from_one_to_the_other() {
+        for joint in JOINTS {
+            let (q, v) = position_and_velocity(joint);
+            let (mut moved, mut back) = (vec![0.0; joint.nq()], vec![0.0; joint.nv()]);
+            joint.integrate(&q, &v, &mut moved);
+            joint.difference(&q, &moved, &mut back);
+            for (back, v) in back.iter().zip(&v) {
+                assert!((back - v).abs() < 1e-15, "{joint:?}: {back} instead of {v}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_neutral_position_is_the_zero_of_the_transform() {
+        for joint in JOINTS {
+            let mut q = vec![f64::NAN; joint.nq()];
+            joint.neutral(&mut q);
+            assert_eq!(transform(joint, q[0]), Pose::identity(), "{joint:?}");
         }
     }
 

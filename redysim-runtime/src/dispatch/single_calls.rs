@@ -7,8 +7,8 @@ use super::x86::{Avx2F32, Avx2F64};
 use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
-    BiasForces, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LoopClosure, MassMatrix,
-    MechanicalEnergy, Mechanism, Scalar,
+    BiasForces, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics,
+    LoopClosure, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and
@@ -66,13 +66,7 @@ fn each<A: Scalar, B: Scalar, V: Vector<A>, W: Vector<B>>(numbers: &V, convert: 
     W::from_fn(numbers.as_ref().len(), |index| convert(crate::vector::entry(numbers, index)))
 }
 
-impl<S: Scalar, M: Mechanism<S>> Mechanism<S> for Dispatched<M> {
-    type Coordinates = M::Coordinates;
-    type Velocities = M::Velocities;
-    type State = M::State;
-    type Matrix = M::Matrix;
-    type Links = M::Links;
-
+impl<M: Mechanism> Mechanism for Dispatched<M> {
     fn name(&self) -> &str {
         self.mechanism.name()
     }
@@ -91,8 +85,26 @@ impl<S: Scalar, M: Mechanism<S>> Mechanism<S> for Dispatched<M> {
     fn joint_name(&self, index: usize) -> Option<&str> {
         self.mechanism.joint_name(index)
     }
+}
+
+impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M> {
+    type Coordinates = M::Coordinates;
+    type Velocities = M::Velocities;
+    type State = M::State;
+    type Matrix = M::Matrix;
+    type Links = M::Links;
+
     fn coordinate_rates(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Coordinates {
         self.mechanism.coordinate_rates(q, v)
+    }
+    fn integrate(&self, q: &M::Coordinates, dv: &M::Velocities) -> M::Coordinates {
+        self.mechanism.integrate(q, dv)
+    }
+    fn difference(&self, q0: &M::Coordinates, q1: &M::Coordinates) -> M::Velocities {
+        self.mechanism.difference(q0, q1)
+    }
+    fn neutral(&self) -> M::Coordinates {
+        self.mechanism.neutral()
     }
 }
 
@@ -102,7 +114,7 @@ impl<S: Scalar, M: LinkKinematics<S>> LinkKinematics<S> for Dispatched<M> {
     }
 }
 
-impl<S: Scalar, M: Mechanism<S> + LoopClosure<S, M>> LoopClosure<S, Dispatched<M>> for Dispatched<M> {
+impl<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>> LoopClosure<S, Dispatched<M>> for Dispatched<M> {
     type Rows = M::Rows;
     type Jacobian = M::Jacobian;
     type Gram = M::Gram;
@@ -131,14 +143,14 @@ macro_rules! vector_function {
             #[inline]
             fn $function(
                 &self,
-                $($argument: &<M as Mechanism<$float>>::$kind),*
-            ) -> <M as Mechanism<$float>>::Velocities {
+                $($argument: &<M as ConfigurationSpace<$float>>::$kind),*
+            ) -> <M as ConfigurationSpace<$float>>::Velocities {
                 #[cfg(target_arch = "x86_64")]
                 if self.chooses_avx2() {
                     return $number::with_target_features(
                         #[inline(always)]
                         || {
-                            $(let $argument: <M as Mechanism<$number>>::$kind = each($argument, $number);)*
+                            $(let $argument: <M as ConfigurationSpace<$number>>::$kind = each($argument, $number);)*
                             let found = $trait::<$number>::$function(&self.mechanism, $(&$argument),*);
                             each(&found, |number: $number| number.0)
                         },
@@ -151,7 +163,7 @@ macro_rules! vector_function {
                 &self,
                 at: Arguments<'_, $float, Self>,
                 slopes: Arguments<'_, $float, Self>,
-            ) -> Option<<M as Mechanism<$float>>::Velocities> {
+            ) -> Option<<M as ConfigurationSpace<$float>>::Velocities> {
                 $trait::<$float>::$tangent(&self.mechanism, at, slopes)
             })?
         }
@@ -172,13 +184,16 @@ macro_rules! functions {
 
         impl<M: MassMatrix<$float> + MassMatrix<$number>> MassMatrix<$float> for Dispatched<M> {
             #[inline]
-            fn mass_matrix(&self, q: &<M as Mechanism<$float>>::Coordinates) -> <M as Mechanism<$float>>::Matrix {
+            fn mass_matrix(
+                &self,
+                q: &<M as ConfigurationSpace<$float>>::Coordinates,
+            ) -> <M as ConfigurationSpace<$float>>::Matrix {
                 #[cfg(target_arch = "x86_64")]
                 if self.chooses_avx2() {
                     return $number::with_target_features(
                         #[inline(always)]
                         || {
-                            let q: <M as Mechanism<$number>>::Coordinates = each(q, $number);
+                            let q: <M as ConfigurationSpace<$number>>::Coordinates = each(q, $number);
                             let found = MassMatrix::<$number>::mass_matrix(&self.mechanism, &q);
                             let mut rows = found.as_ref().iter();
                             let size = rows.len();
@@ -197,16 +212,16 @@ macro_rules! functions {
             #[inline]
             fn energy(
                 &self,
-                q: &<M as Mechanism<$float>>::Coordinates,
-                v: &<M as Mechanism<$float>>::Velocities,
+                q: &<M as ConfigurationSpace<$float>>::Coordinates,
+                v: &<M as ConfigurationSpace<$float>>::Velocities,
             ) -> Energy<$float> {
                 #[cfg(target_arch = "x86_64")]
                 if self.chooses_avx2() {
                     return $number::with_target_features(
                         #[inline(always)]
                         || {
-                            let q: <M as Mechanism<$number>>::Coordinates = each(q, $number);
-                            let v: <M as Mechanism<$number>>::Velocities = each(v, $number);
+                            let q: <M as ConfigurationSpace<$number>>::Coordinates = each(q, $number);
+                            let v: <M as ConfigurationSpace<$number>>::Velocities = each(v, $number);
                             let found: Energy<$number> = MechanicalEnergy::energy(&self.mechanism, &q, &v);
                             Energy { kinetic: found.kinetic.0, potential: found.potential.0 }
                         },

@@ -2,7 +2,8 @@
 
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar, Vector, dual,
+    ConfigurationSpace, Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar,
+    Vector, dual,
 };
 
 pub const GRAVITY: f64 = 9.81;
@@ -33,13 +34,7 @@ impl Pendulum {
     }
 }
 
-impl<S: Scalar> Mechanism<S> for Pendulum {
-    type Coordinates = [S; 1];
-    type Velocities = [S; 1];
-    type State = [S; 3];
-    type Matrix = [[S; 1]; 1];
-    type Links = [LinkState<S>; 1];
-
+impl Mechanism for Pendulum {
     fn name(&self) -> &str {
         "pendulum"
     }
@@ -58,8 +53,26 @@ impl<S: Scalar> Mechanism<S> for Pendulum {
     fn joint_name(&self, _: usize) -> Option<&str> {
         None
     }
+}
+
+impl<S: Scalar> ConfigurationSpace<S> for Pendulum {
+    type Coordinates = [S; 1];
+    type Velocities = [S; 1];
+    type State = [S; 3];
+    type Matrix = [[S; 1]; 1];
+    type Links = [LinkState<S>; 1];
+
     fn coordinate_rates(&self, _: &[S; 1], v: &[S; 1]) -> [S; 1] {
         *v
+    }
+    fn integrate(&self, q: &[S; 1], dv: &[S; 1]) -> [S; 1] {
+        std::array::from_fn(|i| q[i] + dv[i])
+    }
+    fn difference(&self, q0: &[S; 1], q1: &[S; 1]) -> [S; 1] {
+        std::array::from_fn(|i| q1[i] - q0[i])
+    }
+    fn neutral(&self) -> [S; 1] {
+        [S::zero(); 1]
     }
 }
 
@@ -124,13 +137,7 @@ impl Arm {
     }
 }
 
-impl<S: Scalar> Mechanism<S> for Arm {
-    type Coordinates = [S; 2];
-    type Velocities = [S; 2];
-    type State = [S; 5];
-    type Matrix = [[S; 2]; 2];
-    type Links = [LinkState<S>; 2];
-
+impl Mechanism for Arm {
     fn name(&self) -> &str {
         "arm"
     }
@@ -149,8 +156,26 @@ impl<S: Scalar> Mechanism<S> for Arm {
     fn joint_name(&self, _: usize) -> Option<&str> {
         None
     }
+}
+
+impl<S: Scalar> ConfigurationSpace<S> for Arm {
+    type Coordinates = [S; 2];
+    type Velocities = [S; 2];
+    type State = [S; 5];
+    type Matrix = [[S; 2]; 2];
+    type Links = [LinkState<S>; 2];
+
     fn coordinate_rates(&self, _: &[S; 2], v: &[S; 2]) -> [S; 2] {
         *v
+    }
+    fn integrate(&self, q: &[S; 2], dv: &[S; 2]) -> [S; 2] {
+        std::array::from_fn(|i| q[i] + dv[i])
+    }
+    fn difference(&self, q0: &[S; 2], q1: &[S; 2]) -> [S; 2] {
+        std::array::from_fn(|i| q1[i] - q0[i])
+    }
+    fn neutral(&self) -> [S; 2] {
+        [S::zero(); 2]
     }
 }
 

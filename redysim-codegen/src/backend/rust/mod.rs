@@ -2,6 +2,7 @@
 
 mod angles;
 mod body;
+mod configuration;
 pub mod documentation;
 mod function;
 mod results;
@@ -26,14 +27,14 @@ pub fn mechanism(
     name: &Ident,
     runtime: &TokenStream,
 ) -> TokenStream {
-    let moving: Vec<&str> = model.moving_links().map(|link| link.name.as_str()).collect();
-    let bodies: Vec<String> = Tree::new(model).bodies.iter().map(|body| moving[body.v.start].to_string()).collect();
+    let (tree, moving) = (Tree::new(model), model.moving_links().map(|link| link.name.as_str()).collect::<Vec<_>>());
+    let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.v.start].to_string()).collect();
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
     let writer = Writer { model, bodies: &bodies, angles: &angles, outline, runtime };
     let definitions =
         std::iter::once(writer.joint_trig()).chain(functions.iter().map(|function| writer.function(function)));
     let operations: Vec<_> = functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect();
-    type_impls(outline, name, runtime, &operations, definitions.collect())
+    type_impls(outline, Some(&tree), name, runtime, &operations, definitions.collect())
 }
 
 /// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
@@ -45,18 +46,19 @@ pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStre
     let heads = functions
         .flat_map(|function| [head(function, outline, runtime), head_with_trig(function, outline, angles, runtime)]);
     let definitions = std::iter::once(joint_trig).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
-    type_impls(outline, name, runtime, &[], definitions.collect())
+    type_impls(outline, None, name, runtime, &[], definitions.collect())
 }
 
 fn type_impls(
     outline: &Outline,
+    tree: Option<&Tree>,
     name: &Ident,
     runtime: &TokenStream,
     operations: &[(Function, OperationCount)],
     definitions: Vec<TokenStream>,
 ) -> TokenStream {
     let constants = constants(outline, operations, runtime);
-    let mechanism = traits::mechanism(outline, name, runtime);
+    let mechanism = traits::mechanism(outline, tree, name, runtime);
     let closure = traits::closure(outline, name, runtime);
     let traits = outline.functions.iter().map(|function| traits::own(function, outline, name, runtime));
     quote! {

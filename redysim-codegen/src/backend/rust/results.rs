@@ -60,6 +60,7 @@ fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
     elements.chunks(length).map(array).collect()
 }
 
-fn array(elements: &[TokenStream]) -> TokenStream {
+/// An array of values.
+pub fn array(elements: &[TokenStream]) -> TokenStream {
     quote!([#(#elements),*])
 }

@@ -1,10 +1,10 @@
 //! The runtime's traits, for a type that has their functions.
 
 use super::function::{arguments, parameters};
-use super::{length, results};
+use super::{configuration, length, results};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Function, Outline};
+use redysim_model::{Function, Outline, Tree};
 use redysim_runtime::function::{Dimension, Interface};
 
 /// The trait that has the function alone; nothing for a function of a trait that has several.
@@ -75,19 +75,16 @@ pub fn closure(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenS
     }
 }
 
-pub fn mechanism(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+/// Sizes, names, and the space of positions.
+pub fn mechanism(outline: &Outline, tree: Option<&Tree>, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let [nq, nv, nl] =
         [Dimension::Coordinates, Dimension::Velocities, Dimension::Links].map(|dimension| length(outline, dimension));
     // Coordinates, velocities, and the energy of the actuators.
     let state = outline.size(Dimension::Coordinates) + outline.size(Dimension::Velocities) + 1;
     let state = Literal::usize_unsuffixed(state);
+    let methods = configuration::methods(tree, outline);
     quote! {
-        impl<S: #runtime::Scalar> #runtime::Mechanism<S> for #name {
-            type Coordinates = [S; #nq];
-            type Velocities = [S; #nv];
-            type State = [S; #state];
-            type Matrix = [[S; #nv]; #nv];
-            type Links = [#runtime::LinkState<S>; #nl];
+        impl #runtime::Mechanism for #name {
             fn name(&self) -> &str {
                 Self::NAME
             }
@@ -106,9 +103,14 @@ pub fn mechanism(outline: &Outline, name: &Ident, runtime: &TokenStream) -> Toke
             fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
                 Self::JOINT_NAMES.get(index).copied()
             }
-            fn coordinate_rates(&self, _q: &[S; #nq], v: &[S; #nv]) -> [S; #nq] {
-                *v
-            }
+        }
+        impl<S: #runtime::Scalar> #runtime::ConfigurationSpace<S> for #name {
+            type Coordinates = [S; #nq];
+            type Velocities = [S; #nv];
+            type State = [S; #state];
+            type Matrix = [[S; #nv]; #nv];
+            type Links = [#runtime::LinkState<S>; #nl];
+            #methods
         }
     }
 }

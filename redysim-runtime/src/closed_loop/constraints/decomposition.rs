@@ -10,7 +10,7 @@ use core::marker::PhantomData;
 
 use super::linear_algebra::{add_scaled, dot, largest, norm, zeros};
 use super::{LoopError, RowSet};
-use crate::{LoopClosure, Mechanism, Real, Vector};
+use crate::{ConfigurationSpace, LoopClosure, Real, Vector};
 
 /// A row counts as dependent when what remains of it is at most this part of the longest row.
 ///
@@ -27,7 +27,7 @@ fn rank_tolerance<S: Real>() -> S {
 }
 
 /// W = T R Q.
-pub struct OrthogonalDecomposition<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+pub struct OrthogonalDecomposition<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> {
     /// The rows of Q.
     basis: C::Jacobian,
     /// The columns of T.
@@ -42,7 +42,7 @@ pub struct OrthogonalDecomposition<S: Real, M: Mechanism<S>, C: LoopClosure<S, M
     scalar: PhantomData<fn() -> (S, M)>,
 }
 
-impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> OrthogonalDecomposition<S, M, C> {
+impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecomposition<S, M, C> {
     /// Decomposes the matrix with the given rows, each of length `count`.
     pub fn new(mut rows: C::Jacobian, count: usize) -> Result<Self, LoopError<S>> {
         let nc = rows.as_ref().len();

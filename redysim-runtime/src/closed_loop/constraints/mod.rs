@@ -6,14 +6,14 @@ pub(super) mod linear_algebra;
 mod metric;
 
 use super::{ClosedLoop, LoopError, RowSet};
-use crate::{LoopClosure, MassMatrix, Mechanism, Real, Vector};
+use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 use linear_algebra::largest;
 use metric::MassMetric;
 
 pub(super) use decomposition::OrthogonalDecomposition;
 
 /// J(q) and the decomposition of W = J U⁻ᵀ D^−½.
-pub struct Constraints<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+pub struct Constraints<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> {
     pub jacobian: C::Jacobian,
     pub metric: MassMetric<M::Matrix>,
     /// What the metric adds to M: this times JᵀJ.
@@ -124,7 +124,7 @@ pub fn zero_columns<S: Real, V: Vector<S>>(row: &mut V, held: &[usize]) {
     }
 }
 
-impl<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> Constraints<S, M, C> {
+impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> Constraints<S, M, C> {
     /// The length scale of the mechanism, m.
     pub fn length_scale(&self) -> S {
         length_scale(self.jacobian.as_ref())

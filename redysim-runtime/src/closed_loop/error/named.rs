@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::LoopError;
 use crate::closed_loop::ClosedLoop;
-use crate::{LoopClosure, Mechanism, Scalar};
+use crate::{ConfigurationSpace, LoopClosure, Scalar};
 
 /// A [`LoopError`] that names its loop and its joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
     /// The error with the names of the loop and the joint that it is about.
     pub fn with_names<S: Scalar>(&self, error: LoopError<S>) -> NamedLoopError<'_, S>
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
         C: LoopClosure<S, M>,
     {
         NamedLoopError {

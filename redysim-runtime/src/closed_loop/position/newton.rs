@@ -4,7 +4,7 @@ use crate::closed_loop::constraints::linear_algebra::{largest, norm};
 use crate::closed_loop::constraints::{Constraints, Metric};
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
-use crate::{LoopClosure, MassMatrix, Mechanism, Real, Vector};
+use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 
 /// The farthest that a coordinate moves in one iteration, rad or m: far below the distance of assembly modes.
 const LARGEST_STEP: f64 = 0.2;
@@ -16,7 +16,7 @@ const SHRINKING: f64 = 0.999;
 const SLOW_ITERATIONS: usize = 10;
 
 /// Where the iteration ended.
-pub struct NewtonSolution<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+pub struct NewtonSolution<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> {
     pub q: M::Coordinates,
     /// The constraints there.
     pub constraints: Constraints<S, M, C>,
@@ -93,12 +93,13 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        let way = self.mechanism.coordinate_rates(q, &constraints.least_norm(residual));
-        let (farthest, _) = largest(way.as_ref().iter().copied());
+        let step = constraints.least_norm(residual);
+        let (farthest, _) = largest(step.as_ref().iter().copied());
         let mut part = (S::from_f64(LARGEST_STEP) / farthest).minimum(S::one());
         let before = norm(residual.as_ref());
         for _ in 0..HALVINGS {
-            let moved = M::Coordinates::from_fn(self.mechanism.nq(), |i| entry(q, i) - part * entry(&way, i));
+            let back = M::Velocities::from_fn(self.mechanism.nv(), |i| -(part * entry(&step, i)));
+            let moved = self.mechanism.integrate(q, &back);
             let residual = self.closure.loop_residual(&moved);
             if norm(residual.as_ref()) < before {
                 return Some((moved, residual));

@@ -5,7 +5,7 @@ use crate::closed_loop::constraints::linear_algebra::largest;
 use crate::closed_loop::constraints::{Constraints, Metric};
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
-use crate::{LoopClosure, MassMatrix, Mechanism, Real, Vector};
+use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 
 /// A handful of iterations are enough from near; where the mechanism is singular, each only halves the error.
 const ITERATIONS: usize = 20;
@@ -24,7 +24,7 @@ pub struct Projection<S, Q, V> {
 }
 
 /// A projection and the constraints there.
-pub struct ProjectedPoint<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+pub struct ProjectedPoint<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> {
     pub projection: Projection<S, M::Coordinates, M::Velocities>,
     pub constraints: Constraints<S, M, C>,
 }

@@ -10,7 +10,9 @@ use super::position::ProjectedPoint;
 use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
 use crate::integrate::Accepted;
 use crate::vector::entry;
-use crate::{BiasForces, ForwardSimulation, LoopClosure, MassMatrix, Mechanism, Ode, Real, SimulationState, TorqueLaw};
+use crate::{
+    BiasForces, ConfigurationSpace, ForwardSimulation, LoopClosure, MassMatrix, Ode, Real, SimulationState, TorqueLaw,
+};
 
 pub use stabilisation::Stabilisation;
 
@@ -42,7 +44,7 @@ pub struct ForcedMotion<V, R> {
 }
 
 /// Where the derivative is evaluated, and the constraints there.
-struct EvaluationPoint<S: Real, M: Mechanism<S>, C: LoopClosure<S, M>> {
+struct EvaluationPoint<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> {
     q: M::Coordinates,
     v: M::Velocities,
     constraints: Constraints<S, M, C>,
@@ -82,7 +84,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     /// [`state`](Self::state) takes any.
     pub fn start(&self, q: &M::Coordinates, v: &M::Velocities) -> Result<M::State, LoopError<S>>
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
         C: LoopClosure<S, M>,
     {
         let closure = self.loops.closure;
@@ -108,7 +110,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     /// The state [q, v, 0] to start from an [`Assembly`].
     pub fn assembled(&self, assembly: &Assembly<S, M::Coordinates, M::Velocities>) -> M::State
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
     {
         self.state(&assembly.q, &assembly.v)
     }
@@ -116,7 +118,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     /// The state [q, v, 0], whether or not the loops are closed there.
     pub fn state(&self, q: &M::Coordinates, v: &M::Velocities) -> M::State
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
     {
         ForwardSimulation::new(self.loops.mechanism, ()).state(q, v)
     }
@@ -124,7 +126,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     /// The parts of a state. What a `Vec` lacks is NaN.
     pub fn split(&self, state: &M::State) -> SimulationState<S, M::Coordinates, M::Velocities>
     where
-        M: Mechanism<S>,
+        M: ConfigurationSpace<S>,
     {
         ForwardSimulation::new(self.loops.mechanism, ()).split(state)
     }

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::{LinearStability, StableStep, largest_stable_step};
 use crate::integrate::{FixedStep, IntegrationError};
-use crate::{ForwardDynamics, ForwardSimulation, Mechanism, Real, TorqueLaw};
+use crate::{ConfigurationSpace, ForwardDynamics, ForwardSimulation, Real, TorqueLaw};
 
 /// Says that a step is too large to be stable, which joint asks for smaller ones, and what to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl<S: fmt::Debug + Copy> fmt::Display for StepWarning<'_, S> {
 
 impl<S: Real> StableStep<S> {
     /// The warning for steps of size `step`; `None` if they are stable.
-    pub fn warning<'m, M: Mechanism<S>>(&self, step: S, mechanism: &'m M) -> Option<StepWarning<'m, S>> {
+    pub fn warning<'m, M: ConfigurationSpace<S>>(&self, step: S, mechanism: &'m M) -> Option<StepWarning<'m, S>> {
         let joint = self.joint.and_then(|joint| mechanism.joint_name(joint));
         (step > self.step).then_some(StepWarning { step, stable: *self, joint })
     }

@@ -1,0 +1,87 @@
+//! How coordinates move with velocities: the methods of `ConfigurationSpace`.
+
+use super::body::{Printer, RESERVED, local};
+use super::length;
+use super::results::array;
+use crate::angles::Angles;
+use crate::expressions::Expressions;
+use crate::program::{NamingContext, program};
+use crate::symbol::{Symbol, Tracer};
+use proc_macro2::TokenStream;
+use quote::quote;
+use redysim_model::{Outline, Tree, denoc};
+use redysim_runtime::function::Dimension;
+
+/// A function over coordinates and velocities: its name, its arguments, and what it computes.
+struct Method {
+    name: &'static str,
+    arguments: &'static [(&'static str, Dimension)],
+    result: Dimension,
+    computed: for<'g> fn(&Tree, &[Vec<Symbol<'g>>]) -> Vec<Symbol<'g>>,
+}
+
+const METHODS: [Method; 4] = [
+    Method {
+        name: "coordinate_rates",
+        arguments: &[("q", Dimension::Coordinates), ("v", Dimension::Velocities)],
+        result: Dimension::Coordinates,
+        computed: |tree, x| denoc::coordinate_rates(tree, &x[0], &x[1]),
+    },
+    Method {
+        name: "integrate",
+        arguments: &[("q", Dimension::Coordinates), ("dv", Dimension::Velocities)],
+        result: Dimension::Coordinates,
+        computed: |tree, x| denoc::integrate(tree, &x[0], &x[1]),
+    },
+    Method {
+        name: "difference",
+        arguments: &[("q0", Dimension::Coordinates), ("q1", Dimension::Coordinates)],
+        result: Dimension::Velocities,
+        computed: |tree, x| denoc::difference(tree, &x[0], &x[1]),
+    },
+    Method {
+        name: "neutral",
+        arguments: &[],
+        result: Dimension::Coordinates,
+        computed: |tree, _| denoc::neutral(tree),
+    },
+];
+
+/// The methods, of the mechanism with the given tree; without one, of a model that has faults, they have types alone.
+pub fn methods(tree: Option<&Tree>, outline: &Outline) -> TokenStream {
+    METHODS.iter().map(|method| method.definition(tree, outline)).collect()
+}
+
+impl Method {
+    fn definition(&self, tree: Option<&Tree>, outline: &Outline) -> TokenStream {
+        let (name, result) = (local(self.name), length(outline, self.result));
+        let parameters = self.arguments.iter().map(|&(argument, dimension)| {
+            let (argument, length) = (local(argument), length(outline, dimension));
+            quote!(#argument: &[S; #length])
+        });
+        let body = tree.map_or_else(|| quote!(::core::unreachable!()), |tree| self.body(tree, outline));
+        quote! {
+            #[allow(unused_variables, clippy::all, clippy::pedantic)]
+            #[inline]
+            fn #name(&self, #(#parameters),*) -> [S; #result] {
+                #body
+            }
+        }
+    }
+
+    fn body(&self, tree: &Tree, outline: &Outline) -> TokenStream {
+        let tracer = Tracer::default();
+        let outputs = {
+            let argument =
+                |(index, &(_, dimension)): (u8, &(_, Dimension))| tracer.argument(index, outline.size(dimension));
+            let symbols: Vec<Vec<Symbol>> = (0..).zip(self.arguments).map(argument).collect();
+            tracer.edges(&(self.computed)(tree, &symbols))
+        };
+        let expressions = Expressions { graph: tracer.into_graph(), outputs };
+        let arguments: Vec<&str> = self.arguments.iter().map(|&(argument, _)| argument).collect();
+        let reserved = [arguments.as_slice(), &RESERVED].concat();
+        let angles = Angles::of([&expressions]);
+        let program = program(&expressions, &NamingContext { reserved: &reserved, bodies: &[], angles: &angles });
+        Printer { arguments: &arguments }.body(&program, array)
+    }
+}
