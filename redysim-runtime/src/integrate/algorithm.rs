@@ -36,8 +36,8 @@ pub trait EstimatesErrors: Algorithm {
 /// that a driver owns, and shows it.
 ///
 /// A driver sets the end of the step in the integration and calls [`attempt`](Self::attempt), with a step control also
-/// [`error`](Self::error), until a step is good; then [`prepare_dense_output`](Self::prepare_dense_output) if somebody
-/// asks for the solution within, then [`step`](Self::step) to show it, and [`advance`](Self::advance) if it goes on.
+/// [`error`](Self::error), until a step is good; then [`prepare_dense_output`](Self::prepare_dense_output) if the
+/// solution within is asked for, then [`step`](Self::step) to show it, and [`advance`](Self::advance) if it goes on.
 pub trait Formula<S: Real, Y: Vector<S>> {
     /// Computes the attempted step. What is solved by iteration is solved well within the tolerances.
     ///

@@ -6,8 +6,8 @@
 //! too. What is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism,
 //! or a [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
-//! [`solve_with_events`](Integrator::solve_with_events) finds [`Event`]s on the way, [`stability`] says before a run how large steps may be,
-//! and where an equation is stiff, explicit methods say so.
+//! [`solve_with_events`](Integrator::solve_with_events) finds [`Event`]s on the way, [`stability`] tells before a run
+//! how large steps may be, and explicit methods report where an equation is stiff.
 //!
 //! What an integration is made of stands apart, as in OrdinaryDiffEq.jl: a [`Formula`](algorithm::Formula) takes one
 //! trial step and keeps its own cache ([`explicit`], [`collocation`]; coefficients in [`tableau`]), a
@@ -225,7 +225,8 @@ pub trait Integrator<S: Real> {
     /// let mut fall = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[1], -9.81];
     /// let events = &mut [Event::falling(&|_t, y: &[f64; 2]| y[0])];
     /// let go_on = |_: &redysim_runtime::Step<'_, f64, [f64; 2]>| ControlFlow::Continue(());
-    /// let end = Ode45::new().solve_with_events(&mut fall, (0.0, 5.0), [10.0, 0.0], events, go_on, |_| ControlFlow::Break(()))?;
+    /// let stop = |_: redysim_runtime::Occurrence<'_, f64, [f64; 2]>| ControlFlow::Break(());
+    /// let end = Ode45::new().solve_with_events(&mut fall, (0.0, 5.0), [10.0, 0.0], events, go_on, stop)?;
     /// assert!((end.t - (20.0_f64 / 9.81).sqrt()).abs() < 1e-14);
     /// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
     /// ```
@@ -278,8 +279,8 @@ pub struct Statistics {
     pub steps: u64,
     /// Attempted steps that were rejected and tried again with a smaller size.
     pub rejected: u64,
-    /// Evaluations of the right-hand side, those after corrections, for differences, for events and for looks within
-    /// steps included; [tangents](Ode::tangent) are not.
+    /// Evaluations of the right-hand side, those after corrections, for differences, for events and for dense output
+    /// included; [tangents](Ode::tangent) are not.
     pub evaluations: u64,
     /// Accepted steps whose end was corrected by [`Ode::accepted`]; a state at which an event ends the integration is
     /// none.

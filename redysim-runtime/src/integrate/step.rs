@@ -4,7 +4,7 @@ use crate::{Real, Vector};
 
 /// An accepted step, and the solution at every time within.
 ///
-/// The solution between the ends is the method's continuous extension: for [`Ode5`](crate::Ode5) and
+/// The solution between the ends (dense output) is the continuous extension: for [`Ode5`](crate::Ode5) and
 /// [`Ode45`](crate::Ode45) a polynomial of degree 4 in time, accurate to order 4, for [`Dop853`](crate::Dop853) one of
 /// degree 7 and order 7, for [`Ode4`](crate::Ode4) the cubic through values and derivatives at both ends; for
 /// [`Gauss4`](crate::Gauss4) and [`Gauss6`](crate::Gauss6) one of degree 7, and for [`Radau5`](crate::Radau5) one of

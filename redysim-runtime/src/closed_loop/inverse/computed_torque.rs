@@ -10,11 +10,11 @@ use crate::{InverseDynamics, LoopClosure, Real, TorqueLaw, Trajectory, Vector};
 /// the accelerations q̈_d + Kd ė + Kp e, with the error e = q_d(t) − q.
 ///
 /// The other coordinates follow from the loops, and the forces are those that
-/// [`ClosedLoopInverse`](super::ClosedLoopInverse) finds for such a motion. For a model that is right they leave ë + Kd
+/// [`ClosedLoopInverse`](crate::ClosedLoopInverse) finds for such a motion. For a model that is right they leave ë + Kd
 /// ė + Kp e = 0, as [`ComputedTorque`](crate::ComputedTorque) does for a tree. The gains multiply accelerations: Kp
 /// 1/s², Kd 1/s.
 ///
-/// It expects positions with closed loops: in a [`ClosedLoopSimulation`](super::ClosedLoopSimulation), the projection.
+/// It expects positions with closed loops: in a [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), the projection.
 #[derive(Debug)]
 pub struct ClosedLoopComputedTorque<'m, S, M, T, I, C = M> {
     actuation: Actuation<'m, M, C>,

@@ -35,7 +35,7 @@ pub struct LoopForces<Q, V, R> {
     pub motion: Motion<Q, V>,
     /// Joint forces, N m or N; zero where no actuator is.
     pub forces: V,
-    /// λ, one for each row; sign and order as in [`ConstrainedMotion`](super::ConstrainedMotion).
+    /// λ, one for each row; sign and order as in [`ConstrainedMotion`](crate::ConstrainedMotion).
     pub multipliers: R,
     /// How many rows are independent at this position.
     pub rank: usize,

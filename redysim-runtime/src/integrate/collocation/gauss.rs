@@ -37,7 +37,7 @@ const ROUNDOFF_UNITS: f64 = 1024.0;
 /// methods*, BIT 48 (2008), so that what remains of it is a random walk. The iteration contracts where h ‖∂f/∂y‖ is
 /// below 2; where it does not, [`IntegrationError::NotConverged`] asks for smaller steps, or for
 /// [`Radau5`](crate::Radau5). Between the ends of its steps the solution is a polynomial of degree 7, as accurate as
-/// the ends, for ten evaluations in each step within which somebody looks.
+/// the ends, for ten evaluations in each step with dense output.
 ///
 /// ```
 /// use redysim_runtime::{Gauss4, Integrator};

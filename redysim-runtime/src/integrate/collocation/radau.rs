@@ -39,8 +39,8 @@ const ERROR_EXPONENT: u32 = 6;
 /// use the derivative at the start, which a fast transient may have made large. A third shorter step, to a twelfth,
 /// compares it with the solution. Where the polynomial meets the tolerance, it is as accurate as the ends of steps, for
 /// three or four times the work. Where it does not, because the equation is stiff and steps are long, its order is 3;
-/// [times to save at](crate::Integrator::solve) and [events](crate::Integrator::solve_with_events) are then each the end of a shorter
-/// step, as accurate as the ends of steps.
+/// [times to save at](crate::Integrator::solve) and [events](crate::Integrator::solve_with_events) are then each the
+/// end of a shorter step, as accurate as the ends of steps.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Radau5};
@@ -95,7 +95,7 @@ pub struct Radau<S: Real, Y: Vector<S>> {
     last_increments: [Y; 3],
     /// The factor to the size of a step for which the iteration failed.
     retreat: Option<S>,
-    /// What [`WITHIN`] is multiplied by, once somebody looks within the attempted step: how far the solution is from
+    /// What [`WITHIN`] is multiplied by, once dense output is prepared: how far the solution is from
     /// the start at the [`WITHIN_NODES`] and at the end, and h times its derivatives there.
     within: [Y; 6],
     /// Whether that is known of the attempted step, and whether the polynomial through it meets the tolerance.

@@ -11,33 +11,46 @@ use crate::{Real, Vector};
 /// those of a free motion do, are known to less than roundoff.
 const SLACK: f64 = 1e-4;
 
-/// The largest stable step, and the eigenvalue that limits it, if one does.
-type Limit<S> = (S, Option<(S, S)>);
+/// The largest stable step of a linearised equation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StabilityLimit<S> {
+    /// The size, s; infinite if nothing limits it.
+    pub step: S,
+    /// Real and imaginary part of the eigenvalue that limits it, 1/s, if one does.
+    pub eigenvalue: Option<(S, S)>,
+}
 
 /// A method whose steps of a linear equation can be told stable from unstable.
 pub trait LinearStability: Algorithm {
-    /// The largest stable step of a linearised equation, and real and imaginary part of the eigenvalue that limits it,
-    /// if one does.
+    /// The largest stable step of a linearised equation.
     ///
     /// # Errors
     /// If the method cannot take steps of this equation, or if no eigenvalues are found.
-    fn largest_step<S: Real, Y: Vector<S>>(equation: &Linearised<S, Y>) -> Result<Limit<S>, IntegrationError<S>>;
+    fn largest_step<S: Real, Y: Vector<S>>(
+        equation: &Linearised<S, Y>,
+    ) -> Result<StabilityLimit<S>, IntegrationError<S>>;
 }
 
 impl LinearStability for RungeKutta4 {
-    fn largest_step<S: Real, Y: Vector<S>>(equation: &Linearised<S, Y>) -> Result<Limit<S>, IntegrationError<S>> {
+    fn largest_step<S: Real, Y: Vector<S>>(
+        equation: &Linearised<S, Y>,
+    ) -> Result<StabilityLimit<S>, IntegrationError<S>> {
         Ok(of_explicit(&RUNGE_KUTTA_4, equation))
     }
 }
 
 impl LinearStability for DormandPrince {
-    fn largest_step<S: Real, Y: Vector<S>>(equation: &Linearised<S, Y>) -> Result<Limit<S>, IntegrationError<S>> {
+    fn largest_step<S: Real, Y: Vector<S>>(
+        equation: &Linearised<S, Y>,
+    ) -> Result<StabilityLimit<S>, IntegrationError<S>> {
         Ok(of_explicit(&DORMAND_PRINCE, equation))
     }
 }
 
 impl LinearStability for DormandPrince853 {
-    fn largest_step<S: Real, Y: Vector<S>>(equation: &Linearised<S, Y>) -> Result<Limit<S>, IntegrationError<S>> {
+    fn largest_step<S: Real, Y: Vector<S>>(
+        equation: &Linearised<S, Y>,
+    ) -> Result<StabilityLimit<S>, IntegrationError<S>> {
         Ok(of_explicit(&DORMAND_PRINCE_853, equation))
     }
 }
@@ -45,18 +58,21 @@ impl LinearStability for DormandPrince853 {
 fn of_explicit<S: Real, Y: Vector<S>, const STAGES: usize>(
     tableau: &Tableau<STAGES>,
     equation: &Linearised<S, Y>,
-) -> Limit<S> {
+) -> StabilityLimit<S> {
     let function = StabilityFunction::new(tableau);
-    equation.damped().fold((S::from_f64(f64::INFINITY), None), |(step, limiting), (re, im)| {
+    let unlimited = StabilityLimit { step: S::from_f64(f64::INFINITY), eigenvalue: None };
+    equation.damped().fold(unlimited, |limit, (re, im)| {
         let reach = S::from_f64(function.reach((re.to_f64(), im.to_f64())));
-        if reach < step { (reach, Some((re, im))) } else { (step, limiting) }
+        if reach < limit.step { StabilityLimit { step: reach, eigenvalue: Some((re, im)) } } else { limit }
     })
 }
 
 /// The stability of this method is that of v_new = v + h (K q + D v), q_new = q + h (G q + N v_new), and no function of
 /// h λ: the largest step follows from the eigenvalues of that map, by bisection.
 impl LinearStability for SymplecticEuler {
-    fn largest_step<S: Real, Y: Vector<S>>(equation: &Linearised<S, Y>) -> Result<Limit<S>, IntegrationError<S>> {
+    fn largest_step<S: Real, Y: Vector<S>>(
+        equation: &Linearised<S, Y>,
+    ) -> Result<StabilityLimit<S>, IntegrationError<S>> {
         let (coordinates, len) = (equation.coordinates, equation.rows.as_ref().len());
         if coordinates == 0 {
             return Err(IntegrationError::NoCoordinates);
@@ -81,11 +97,12 @@ impl LinearStability for SymplecticEuler {
         let fastest = equation.damped().fold((S::zero(), S::zero()), |fastest, value| {
             if magnitude(value) > magnitude(fastest) { value } else { fastest }
         });
-        let (two, infinity) = (S::from_f64(2.0), S::from_f64(f64::INFINITY));
+        let two = S::from_f64(2.0);
+        let unlimited = StabilityLimit { step: S::from_f64(f64::INFINITY), eigenvalue: None };
         let rate = magnitude(fastest);
         let mut inside = S::from_f64(1e-2) / rate;
         if rate == S::zero() || !inside.is_finite() {
-            return Ok((infinity, None));
+            return Ok(unlimited);
         }
         let Some(_) = (0..20).find(|_| {
             let next = stable(two * inside);
@@ -94,14 +111,14 @@ impl LinearStability for SymplecticEuler {
             }
             !next
         }) else {
-            return Ok((infinity, None));
+            return Ok(unlimited);
         };
         let mut outside = two * inside;
         for _ in 0..20 {
             let middle = (inside + outside) / two;
             *if stable(middle) { &mut inside } else { &mut outside } = middle;
         }
-        Ok((inside, Some(fastest)))
+        Ok(StabilityLimit { step: inside, eigenvalue: Some(fastest) })
     }
 }
 

@@ -10,7 +10,7 @@ mod participation;
 mod polynomial;
 mod warning;
 
-pub use largest_step::LinearStability;
+pub use largest_step::{LinearStability, StabilityLimit};
 pub use polynomial::StabilityFunction;
 pub use warning::StepWarning;
 
@@ -121,7 +121,7 @@ pub fn largest_stable_step<S: Real, Y: Vector<S>, M: LinearStability>(
     let mut rate = zeros(y);
     integration.evaluate(t, &mut rate)?;
     let linearised = Linearised::<S, Y>::new(&mut integration, &rate)?;
-    let (step, limiting) = M::largest_step(&linearised)?;
+    let StabilityLimit { step, eigenvalue: limiting } = M::largest_step(&linearised)?;
     let coordinates = linearised.coordinates;
     let component = limiting.and_then(|(re, im)| {
         participation::dominant_component::<S, Y>(&linearised.rows, Complex { re, im }, coordinates)
