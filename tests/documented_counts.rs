@@ -45,6 +45,22 @@ fn the_table_of_passes_is_that_of_the_snapshot() {
 }
 
 #[test]
+fn the_documentation_states_which_kr5_takes_how_many_operations() {
+    let text = |path: &str| read(path).split_whitespace().collect::<Vec<_>>().join(" ");
+    let counts = snapshot();
+    let [of_peers, shipped] = [ROBOTS[0], ROBOTS[4]]
+        .map(|robot| counts[&("all".to_string(), robot)].split(" / ").map(str::to_owned).collect::<Vec<_>>());
+    let sentence = format!("(`models/kr5.toml`) it takes {}, {} and {}.", shipped[0], shipped[1], shipped[2]);
+    assert!(text("docs/performance.md").contains(&sentence), "docs/performance.md lacks: {sentence}");
+    let readme = text("README.md");
+    for part in
+        [format!("[{} for inverse dynamics](docs", of_peers[0]), format!("| inverse dynamics | {} | 5 |", shipped[0])]
+    {
+        assert!(readme.contains(&part), "README.md lacks: {part}");
+    }
+}
+
+#[test]
 fn the_changelog_has_the_operations_of_the_snapshot() {
     let counts = snapshot();
     let [inverse, forward, matrix]: [&str; 3] =

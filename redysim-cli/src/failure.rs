@@ -58,7 +58,7 @@ impl Failure {
         self.message.trim_end()
     }
 
-    /// Says more.
+    /// With more text.
     pub fn and(mut self, more: &str) -> Self {
         self.message += more;
         self

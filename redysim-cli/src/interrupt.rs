@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::failure::Failure;
-use crate::output::tell;
+use crate::output::to_stderr;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
@@ -43,10 +43,10 @@ pub fn undisturbed<T>(work: impl FnOnce() -> T) -> T {
 fn end() {
     // Held until the end, so that nobody complains of what is no longer there.
     let mut undo = lock();
-    // Without anything to undo nothing was begun, or what was is whole, and told.
+    // Without anything to undo nothing was begun, or what was is whole, and reported.
     if let Some(undo) = undo.take() {
         undo();
-        tell(&Failure::interrupted("nothing is kept").to_string());
+        to_stderr(&Failure::interrupted("nothing is kept").to_string());
     }
     std::process::exit(Failure::INTERRUPTED.into());
 }

@@ -66,7 +66,7 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            output::tell(&failure.to_string());
+            output::to_stderr(&failure.to_string());
             failure.exit_code()
         }
     }

@@ -1,12 +1,12 @@
-//! Model files, and what to say of those that are none.
+//! Model files, and the failures of files that are not models.
 
 use std::path::Path;
 
 use crate::failure::Failure;
-use crate::output::tell;
+use crate::output::to_stderr;
 use redysim_model::{Faults, Loaded, Model};
 
-/// Reads a model, prints its warnings unless `quiet`, and says every fault at once.
+/// Reads a model, prints its warnings unless `quiet`, and reports every fault at once.
 pub fn load(path: &Path, quiet: bool) -> Result<Loaded, Failure> {
     loaded(path, Model::load(path), quiet)
 }
@@ -19,13 +19,13 @@ pub fn loaded(path: &Path, read: Result<Loaded, Faults>, quiet: bool) -> Result<
     })?;
     if !quiet {
         for warning in &loaded.warnings {
-            tell(&format!("{warning}\n"));
+            to_stderr(&format!("{warning}\n"));
         }
     }
     Ok(loaded)
 }
 
-/// What to say of a file that is a scenario where a model is wanted.
+/// The failure of a file that is a scenario where a model is wanted.
 pub fn not_a_model(path: &Path) -> Option<Failure> {
     let table: toml::Table = std::fs::read_to_string(path).ok()?.parse().ok()?;
     let model = table.get("model").filter(|_| !table.contains_key("link"))?.as_str()?;
@@ -34,7 +34,7 @@ pub fn not_a_model(path: &Path) -> Option<Failure> {
     Some(failure.help(format!("name its model: {}", model.display())))
 }
 
-/// What to say of a file that is a model where a scenario is wanted.
+/// The failure of a file that is a model where a scenario is wanted.
 pub fn not_a_scenario(path: &Path, text: &str) -> Option<Failure> {
     let table: toml::Table = text.parse().ok()?;
     (table.contains_key("link") && !table.contains_key("model")).then(|| {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 
 /// Writes `contents` to `path`: first beside it under another name, so that an interruption or a full disk leaves
-/// nothing half-written. A file that is there already stays, unless `force`. Links are followed; what is no file, such
+/// nothing half-written. A file that is there already stays, unless `force`. Links are followed; what is not a file, such
 /// as a device or a pipe, is written into.
 ///
 /// # Errors
@@ -32,7 +32,7 @@ pub fn write_beside(source: &Path, path: &Path, contents: &[u8], force: bool) ->
     write_file(path, contents, force)
 }
 
-/// Fails if [`write_file`] would, as far as that can be told before there is something to write.
+/// Fails if [`write_file`] would, as far as that is known before there is something to write.
 ///
 /// # Errors
 /// If the file is there and `force` is not given, or its path leads nowhere.
@@ -40,7 +40,7 @@ pub fn check_place(path: &Path, force: bool) -> Result<(), Failure> {
     place(path, force).map(drop)
 }
 
-/// Prints what was asked for. A reader that has seen enough, as `head` does, is no failure.
+/// Prints what was asked for. A reader that has seen enough, as `head` does, is not a failure.
 ///
 /// # Errors
 /// If the output cannot be written.
@@ -54,13 +54,13 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Says something beside what was asked for: that it cannot be said is no reason to end.
-pub fn say(text: &str) {
+/// Prints a line beside what was asked for on the standard output. That it cannot be printed is ignored.
+pub fn to_stdout(text: &str) {
     let _ = print(&format!("{text}\n"));
 }
 
-/// Says it to the person, on the stream for errors: a warning, or why something failed.
-pub fn tell(text: &str) {
+/// Prints a line on the standard error: a warning, or why something failed. That it cannot be printed is ignored.
+pub fn to_stderr(text: &str) {
     let _ = io::stderr().write_all(format!("{text}\n").as_bytes());
 }
 

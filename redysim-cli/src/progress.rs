@@ -33,9 +33,9 @@ impl Progress {
         self.bar.set_position(done as u64);
     }
 
-    /// Says something above it.
-    pub fn say(&self, text: &str) {
-        self.bar.suspend(|| crate::output::tell(text));
+    /// Prints a line above it.
+    pub fn report(&self, text: &str) {
+        self.bar.suspend(|| crate::output::to_stderr(text));
     }
 }
 

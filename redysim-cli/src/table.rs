@@ -139,7 +139,7 @@ fn columns(path: &Path, text: &str, headers: &StringRecord) -> Result<Vec<Column
     headers.iter().skip(1).map(column).collect()
 }
 
-/// The line on which a row stands: the reader tells where the one before it ended, and passes over empty lines and
+/// The line on which a row stands: the reader has where the one before it ended, and passes over empty lines and
 /// comments.
 fn line(text: &str, position: Option<&Position>) -> usize {
     let (before, byte) = position.map_or((1, 0), |position| (position.line() as usize, position.byte() as usize));
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_is_told_with_its_line_and_what_to_do() {
+    fn a_fault_is_reported_with_its_line_and_what_to_do() {
         for (text, wrong) in [
             ("", ":1: the first column must be the time, `t [s]`, but is ``"),
             ("time,q j [m]\n0,1\n", ":1: the first column must be the time, `t [s]`, but is `time`"),
@@ -203,8 +203,8 @@ mod tests {
             ("t [s],q j [m]\n1,1\n0.5,1\n", ":3: time runs backwards: t = 0.5 s comes after 1.0 s"),
             ("t [s],q j [m]\nNaN,1\n", ":2: `t [s]` must be a finite number, found NaN"),
         ] {
-            let said = read(text).unwrap_err().to_string();
-            assert!(said.contains(&format!("table.csv{wrong}")), "{text:?}: {said}");
+            let shown = read(text).unwrap_err().to_string();
+            assert!(shown.contains(&format!("table.csv{wrong}")), "{text:?}: {shown}");
         }
     }
 }

@@ -149,32 +149,32 @@ inertia = { xx = 10.0, yy = 1000.0, zz = 1000.0 }
 "#;
 
 /// The exit code, and what is suspicious of a model.
-fn suspicions(name: &str, text: &str) -> (i32, Vec<String>) {
+fn lints(name: &str, text: &str) -> (i32, Vec<String>) {
     let path = scratch(&format!("check-{name}")).join("slips.toml");
     std::fs::write(&path, text).unwrap();
     let (report, code) = json(&[path.to_str().unwrap()]);
-    let lines = report["summary"]["suspicions"].as_array().unwrap();
+    let lines = report["summary"]["lints"].as_array().unwrap();
     (code, lines.iter().map(|line| line.as_str().unwrap().to_owned()).collect())
 }
 
 #[test]
 fn links_of_very_different_lengths_and_points_of_mass_are_suspicious() {
     let arm = SLIPS.replace("2000.0", "2.0").replace("-9810.0", "-9.81").replace("[150.0, ", "[0.15, ");
-    let (_, found) = suspicions("lengths", &arm.replace("[0.4, ", "[400.0, "));
+    let (_, found) = lints("lengths", &arm.replace("[0.4, ", "[400.0, "));
     let words =
         "link `fore` is placed 400 m from the one that carries it, and the next, `upper`, only 0.3 m: m and mm?";
     assert!(found.contains(&words.to_owned()), "{found:#?}");
-    let (_, found) = suspicions("reach", &arm.replace("[0.4, ", "[400.0, ").replace("0.3]", "300.0]"));
+    let (_, found) = lints("reach", &arm.replace("[0.4, ", "[400.0, ").replace("0.3]", "300.0]"));
     assert!(found.contains(&"the mechanism reaches 700 m: m and mm?".to_owned()), "{found:#?}");
     let points: String =
         arm.lines().filter(|line| !line.starts_with("inertia")).map(|line| format!("{line}\n")).collect();
-    let (_, found) = suspicions("points", &points);
+    let (_, found) = lints("points", &points);
     assert_eq!(found[0], "no link has an `inertia`: all masses are points", "{found:#?}");
 }
 
 #[test]
 fn slips_of_units_are_suspicious() {
-    let (code, suspicions) = suspicions("units", SLIPS);
+    let (code, lints) = lints("units", SLIPS);
     let wanted = [
         "gravity is 9810 m/s²",
         "kg and g?",
@@ -182,18 +182,18 @@ fn slips_of_units_are_suspicious() {
         "`fore`",
         "an actuator at 1 joint",
     ];
-    assert_eq!((code, suspicions.len()), (0, wanted.len()), "{suspicions:#?}");
-    for (line, wanted) in suspicions.iter().zip(wanted) {
+    assert_eq!((code, lints.len()), (0, wanted.len()), "{lints:#?}");
+    for (line, wanted) in lints.iter().zip(wanted) {
         assert!(line.contains(wanted), "`{wanted}` in `{line}`");
     }
 }
 
 /// What is suspicious is a matter of taste; that the shipped models are not is none.
 #[test]
-fn shipped_models_are_above_suspicion() {
+fn shipped_models_have_no_lints() {
     for name in ["kr5.toml", "gripper.toml", "fourbar.toml", "three_rrr.toml", "leg.toml", "slider_crank.toml"] {
         let (report, _) = json(&[&model(name)]);
-        assert_eq!(report["summary"]["suspicions"], Value::Array(vec![]), "{name}");
+        assert_eq!(report["summary"]["lints"], Value::Array(vec![]), "{name}");
     }
 }
 

@@ -177,8 +177,8 @@ fn a_run_without_length() {
     );
     refuses("short", "forward", &SWING.replace("end = 1.0", "end = 0.01"), 1, &["no instant but the first"]);
     refuses("many", "forward", &SWING.replace("end = 1.0", "end = 1e9"), 1, &["rows", "give a larger `step`"]);
-    refuses("neither", "inverse", SWING, 1, &["does not say at which instants"]);
-    refuses("nor", "forward", LIFT, 1, &["does not say which motion"]);
+    refuses("neither", "inverse", SWING, 1, &["does not state at which instants"]);
+    refuses("nor", "forward", LIFT, 1, &["does not state which motion"]);
 }
 
 /// A table whose text has a fault.
@@ -310,7 +310,7 @@ fn a_motion_that_cannot_go_on_is_kept_as_far_as_it_went() {
     let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
     assert!(run.contains("ended = \"failed\""), "{run}");
     assert!(run.contains("reason = \"component ") && run.contains("\nsteps = "), "{run}");
-    assert!(!run.contains("rejected"), "an integration that fails does not say: {run}");
+    assert!(!run.contains("rejected"), "an integration that fails does not report it: {run}");
     assert!(!fs::read_to_string(folder.join("run/statevar.csv")).unwrap().contains("NaN"));
 }
 

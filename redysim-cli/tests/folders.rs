@@ -39,7 +39,7 @@ fn what_is_no_result_is_never_overwritten() {
     fs::create_dir(folder.join("mine")).unwrap();
     fs::write(folder.join("mine/thesis.txt"), "years of work").unwrap();
     let said = fail(&folder, &["forward", &path, "-o", "mine", "--force"], 3);
-    assert!(said.contains("it is no result"), "{said}");
+    assert!(said.contains("it is not a result"), "{said}");
     assert_eq!(names(&folder.join("mine")), ["thesis.txt"]);
 }
 
@@ -75,7 +75,7 @@ fn a_folder_with_a_scenario_of_ones_own_is_no_result() {
     fs::create_dir(folder.join("project")).unwrap();
     fs::copy(folder.join("trial.toml"), folder.join("project/run.toml")).unwrap();
     let said = fail(&folder, &["forward", &path, "-o", "project", "--force"], 3);
-    assert!(said.contains("it is no result"), "{said}");
+    assert!(said.contains("it is not a result"), "{said}");
     assert_eq!(names(&folder.join("project")), ["run.toml"]);
 }
 

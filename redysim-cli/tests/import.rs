@@ -198,7 +198,7 @@ const LOSSY: &str = r#"<?xml version="1.0"?>
 "#;
 
 #[test]
-fn what_is_lost_is_said_in_the_file_and_to_the_person() {
+fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
     let (mechanism, run) = import(LOSSY, &[]);
     let said = [
         "its 5 kg never move",
@@ -233,6 +233,50 @@ fn what_is_lost_is_said_in_the_file_and_to_the_person() {
     assert_eq!(kinds, [1, 1, 0, 0]);
     let quiet = import(LOSSY, &["--quiet"]).1;
     assert_eq!((quiet.stderr.as_str(), quiet.stdout), ("", run.stdout));
+}
+
+/// Each sentence of the help, and what shows that it holds.
+#[test]
+fn the_help_of_import_states_what_import_does() {
+    let help = succeed(&scratch("import-help"), &["import", "--help"]);
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+    let limit = "<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>";
+    let kinds = ["continuous", "floating", "planar", "spherical"];
+    let of_kind = |kind: &str| {
+        let hand = format!(
+            "<link name=\"hand\">{inertial}</link><joint name=\"wrist\" type=\"revolute\"><parent link=\"rod\"/>\
+             <child link=\"hand\"/>{limit}</joint></robot>"
+        );
+        let urdf = pendulum("", inertial).replace("<robot", "<robot version=\"1.2\"").replace("continuous", kind);
+        import(&urdf.replace("</robot>", &hand), &[])
+    };
+    let imported = kinds.map(of_kind);
+    let first_joint = |index: usize| imported[index].0.model().links[0].joint.name();
+    assert!(
+        help.contains("Continuous joints become revolute. Floating, planar and spherical joints become fixed at zero.")
+    );
+    assert_eq!([0, 1, 2, 3].map(first_joint), ["revolute", "fixed", "fixed", "fixed"]);
+    for (kind, (_, run)) in kinds.iter().zip(&imported).skip(1) {
+        assert!(run.stderr.contains(&format!("is {kind} in the URDF: it is fixed at zero here")), "{}", run.stderr);
+    }
+
+    let (mechanism, run) = import(LOSSY, &[]);
+    let link = |joint: &str| mechanism.model().links.iter().find(|link| link.joint_name == joint).unwrap();
+    assert!(help.contains("The root link becomes the ground."));
+    assert_eq!(link("waist").parent, None);
+    assert!(help.contains("Joints that mimic others move by themselves."));
+    assert_eq!((link("knuckle").joint.dof(), link("knuckle").actuated), (1, true));
+    assert!(help.contains("Joints that move no mass become fixed."));
+    assert_eq!(link("spin").joint.name(), "fixed");
+    assert!(help.contains("Limits with an acceleration become a `range`; others stay as comments."));
+    assert_eq!(imported[0].0.model().links[1].range.unwrap().acceleration, 7.0);
+    assert!(link("waist").range.is_none() && run.stdout.contains("# limits: position = [-1.0, 1.0]"));
+    assert!(help.contains("Visuals, collisions, transmissions, damping and friction are left out."));
+    for left_out in ["<visual>", "<transmission>", "<dynamics>"] {
+        let head = run.stdout.split("[[link]]").next().unwrap();
+        assert!(head.contains(left_out) && run.stderr.contains(left_out), "{left_out}: {head}");
+    }
 }
 
 #[test]

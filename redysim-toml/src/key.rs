@@ -16,7 +16,7 @@ pub struct Key {
     pub name: &'static str,
     /// A value that may be copied; `None` for an array of tables, each with a header of its own.
     value: Option<&'static str>,
-    /// What the value means, with its unit; empty where the name says it.
+    /// What the value means, with its unit; empty where the name is enough.
     pub meaning: &'static str,
     /// The keys of the table that is its value: one set of keys, or one for each kind of table.
     pub tables: &'static [&'static Keys],
@@ -123,7 +123,7 @@ impl KeyPath {
         KeyPath { key: self.key, path: format!("{}[{index}]", self.path) }
     }
 
-    /// The value under `name`, which is no known key but a name that the file gives.
+    /// The value under `name`, which is not a known key but a name that the file gives.
     pub fn entry(&self, name: &str) -> Self {
         KeyPath { key: self.key, path: format!("{}.{name}", self.path) }
     }

@@ -16,7 +16,7 @@ fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> 
 pub(crate) fn syntax(reason: &str) -> Message {
     let help = match reason {
         "duplicate key" => "a key may stand only once in its table: delete one of the two, or rename it",
-        _ => "correct the TOML first; what the file says is checked after that",
+        _ => "correct the TOML first; the rest of the file is checked after that",
     };
     message(format!("TOML: {reason}"), reason, help)
 }

@@ -42,7 +42,7 @@ pub struct Reader<'a, 'f> {
     place: Range<usize>,
     /// What messages call the item that the table describes.
     item: &'f str,
-    /// Valid keys that unknown ones were probably meant to be: their absence is no second error.
+    /// Valid keys that unknown ones were probably meant to be: their absence is not a second error.
     misspelt: Vec<&'static str>,
     /// Stands before a key in messages: empty, or `dh.` in the table `dh`.
     prefix: String,
@@ -218,7 +218,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
-    /// A table within this one whose kind, named under the key `tag`, says which keys it has. The name of a kind alone
+    /// A table within this one whose kind, named under the key `tag`, determines which keys it has. The name of a kind alone
     /// stands for a table without other keys.
     pub fn table_of_kind<T, K: Copy>(
         &mut self,

@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_may_say_per_second() {
+    fn rates_may_have_a_unit_per_second() {
         assert_eq!(angle("90 deg/s", "/s"), Ok(FRAC_PI_2));
         assert_eq!(angle("90 deg", "/s"), Ok(FRAC_PI_2));
         assert_eq!(angle("2 rad/s^2", "/s^2"), Ok(2.0));

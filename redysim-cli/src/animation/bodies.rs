@@ -1,4 +1,4 @@
-//! What the model says about the looks of a mechanism: from where to where its links reach, and how they are joined.
+//! The looks of a mechanism, from its model: from where to where its links reach, and how they are joined.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use redysim_model::joint::{self, Screw};
@@ -86,7 +86,7 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
         let com = link.com.0;
         let mut ends = ends(model, Some(index));
         if ends.is_empty() {
-            // No joint says where it ends: a uniform rod with this centre of mass ends at twice its distance.
+            // No joint marks where it ends: a uniform rod with this centre of mass ends at twice its distance.
             ends.push(com.map(|x| 2.0 * x));
         }
         let tip = model.links.iter().all(|other| other.parent != Some(index));

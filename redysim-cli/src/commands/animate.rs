@@ -37,8 +37,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let (page, notes) = animation::page(&recorded)?;
     output::write_file(&path, page.as_bytes(), arguments.force)?;
     if !quiet {
-        notes.iter().for_each(|note| output::tell(&format!("note: {note}")));
-        output::say(&format!("{} ({} kB): open it in a browser", path.display(), page.len().div_ceil(1000)));
+        notes.iter().for_each(|note| output::to_stderr(&format!("note: {note}")));
+        output::to_stdout(&format!("{} ({} kB): open it in a browser", path.display(), page.len().div_ceil(1000)));
     }
     Ok(())
 }

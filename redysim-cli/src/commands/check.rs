@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::failure::Failure;
 use crate::model::not_a_model;
 use crate::number::counted;
-use crate::output::{print, tell};
+use crate::output::{print, to_stderr};
 use crate::summary::Summary;
 use redysim_model::{Diagnostic, Faults, Model, Severity};
 use serde::Serialize;
@@ -25,7 +25,7 @@ With --quiet only faults are shown; the exit code is 0 for a model without fault
                      from 1 and are null where the file could not be read
   summary            null for a faulty model; else an object:
     name, gravity, mass, dof, mobility, loop_conditions, loop_rank,
-    actuated, passive (names of joints), suspicions (texts),
+    actuated, passive (names of joints), lints (texts),
     links       [{ name, parent, joint, kind, actuated, mass }]
     loops       [{ name, kind, link_a, link_b, conditions, rank }]; the rank
                 counts what does not follow from the loops before
@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         print_json(arguments, &diagnostics, summary.as_ref().ok().and_then(Option::as_ref))?;
     } else {
         let shown = diagnostics.iter().filter(|found| !quiet || found.severity() == Severity::Error);
-        shown.for_each(|found| tell(&format!("{found}\n")));
+        shown.for_each(|found| to_stderr(&format!("{found}\n")));
     }
     match summary {
         Ok(Some(summary)) if !arguments.json => print(&summary.to_string())?,

@@ -6,13 +6,13 @@ use clap::builder::PossibleValuesParser;
 
 use crate::failure::Failure;
 use crate::model;
-use crate::output::{print, tell, write_beside};
+use crate::output::{print, to_stderr, write_beside};
 use redysim_codegen::{SourceError, source_file_with};
 use redysim_model::{Function, Loaded, Model};
 
 /// Print the Rust source that `redysim!` would make of a model.
 ///
-/// The source stands by itself: it needs the crate redysim-runtime and nothing else. Its head says how many operations
+/// The source stands by itself: it needs the crate redysim-runtime and nothing else. Its head states how many operations
 /// each function takes. The same model gives the same bytes.
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -55,8 +55,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     if !quiet {
         // The head of the source is the report; behind `// ` it reads as text.
         let head = source.lines().take_while(|line| line.starts_with("//"));
-        head.for_each(|line| tell(line.trim_start_matches("//").trim_start()));
-        tell(&format!("\n{name} is in {}", path.display()));
+        head.for_each(|line| to_stderr(line.trim_start_matches("//").trim_start()));
+        to_stderr(&format!("\n{name} is in {}", path.display()));
     }
     Ok(())
 }
@@ -72,7 +72,7 @@ fn load(arguments: &Arguments, quiet: bool) -> Result<Loaded, Failure> {
     model::loaded(path, Model::load_with(path, path.display().to_string(), scene), quiet)
 }
 
-/// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is none for a type, such as `3rrr`, is
+/// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is not one of a type, such as `3rrr`, is
 /// `Mechanism3rrr`.
 fn type_name(model: &str) -> String {
     let words = model.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());

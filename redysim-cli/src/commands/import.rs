@@ -4,15 +4,16 @@ use std::fs;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::output::{print, tell, write_beside};
+use crate::output::{print, to_stderr, write_beside};
 use crate::urdf::{Imported, Options, import};
 
-/// Make a model file from a URDF, and say what gets lost.
+/// Make a model file from a URDF, and report what changes.
 ///
-/// Joints keep their order, names, origins and axes; inertias are turned into the links' axes. Continuous joints become
-/// revolute; the root link becomes the ground. A model has no visuals, collisions, transmissions, damping or friction,
-/// and no floating, planar or mimic joints: what of that is in the file is said, here and in the model's head. Limits
-/// stay as comments.
+/// Joints keep their order, names, origins and axes. The root link becomes the ground. Inertias are turned into the
+/// links' axes. Continuous joints become revolute. Floating, planar and spherical joints become fixed at zero. Joints
+/// that mimic others move by themselves. Joints that move no mass become fixed. Limits with an acceleration become a
+/// `range`; others stay as comments. Visuals, collisions, transmissions, damping and friction are left out. Whatever
+/// changes or is left out is reported, here and in the model's head.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -55,11 +56,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         None => print(&text)?,
     }
     if !quiet {
-        changes.iter().for_each(|change| tell(&format!("warning: {change}")));
-        notes.iter().for_each(|note| tell(&format!("note: {note}")));
-        warnings.iter().for_each(|warning| tell(&format!("warning: {}", warning.title())));
+        changes.iter().for_each(|change| to_stderr(&format!("warning: {change}")));
+        notes.iter().for_each(|note| to_stderr(&format!("note: {note}")));
+        warnings.iter().for_each(|warning| to_stderr(&format!("warning: {}", warning.title())));
         if let Some(output) = &arguments.output {
-            tell(&format!("\nThe model is in {0}: redysim check {0}", output.display()));
+            to_stderr(&format!("\nThe model is in {0}: redysim check {0}", output.display()));
         }
     }
     Ok(())

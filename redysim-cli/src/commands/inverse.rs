@@ -5,7 +5,7 @@ use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopForces
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::rounded;
-use crate::output::say;
+use crate::output::to_stdout;
 use crate::results::{self, Ended, Outcome, Record, Sample};
 use crate::scenario::{Dynamics, Prescribed, Scenario, Span};
 
@@ -22,7 +22,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
     let scenario = Scenario::load(&results.scenario, Dynamics::Inverse, quiet)?;
     let missing = |what: &str, help: &str| {
-        Failure::input(format!("{} does not say {what}", results.scenario.display())).help(help)
+        Failure::input(format!("{} does not state {what}", results.scenario.display())).help(help)
     };
     let span = scenario.inverse.ok_or_else(|| {
         missing("at which instants forces are wanted", "add a table, as in: inverse = { end = 1.0, step = 0.01 }")
@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     warn_of_passive(&scenario, &most, &record);
     warn_of_work(span, &record);
     if scenario.loops() && !quiet {
-        tell_start(&scenario, trajectory, &record);
+        report_start(&scenario, trajectory, &record);
     }
     record.finish(outcome)
 }
@@ -57,13 +57,13 @@ fn warn_of_work(span: Span, record: &Record<'_>) {
     }
 }
 
-/// Says on which branch the loops were closed.
-fn tell_start(scenario: &Scenario, trajectory: &Prescribed, record: &Record<'_>) {
+/// Reports on which branch the loops were closed.
+fn report_start(scenario: &Scenario, trajectory: &Prescribed, record: &Record<'_>) {
     let others = scenario.layout.coordinates.iter().zip(record.start_position()).enumerate();
     let others = others.filter(|(index, _)| !trajectory.coordinates.contains(index));
     let at: Vec<_> = others.map(|(_, (of, q))| format!("{} at {} {}", of.name, rounded(*q), of.unit())).collect();
     if !at.is_empty() {
-        say(&format!("The loops begin closed with {}.", at.join(", ")));
+        to_stdout(&format!("The loops begin closed with {}.", at.join(", ")));
     }
 }
 

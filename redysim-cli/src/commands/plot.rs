@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     }
     write(folder, &pictures, arguments.force)?;
     if !quiet {
-        pictures.iter().for_each(|(path, _)| output::say(&path.display().to_string()));
+        pictures.iter().for_each(|(path, _)| output::to_stdout(&path.display().to_string()));
     }
     Ok(())
 }
@@ -72,7 +72,7 @@ fn figure(charts: &[Chart]) -> Option<Figure> {
     (!panels.is_empty()).then_some(Figure { columns: 1, panels, shared_legend })
 }
 
-/// What a panel's legend tells: curves that coincide in one panel may be apart in the next.
+/// A panel's legend: curves that coincide in one panel may be apart in the next.
 fn legend(panel: &Panel) -> impl Iterator<Item = (&str, usize)> {
     panel.curves.iter().map(|curve| (curve.name.as_str(), curve.colour))
 }

@@ -42,7 +42,7 @@ impl Recorded {
     /// One of its tables; `None` if the run has not written it.
     ///
     /// # Errors
-    /// If it cannot be read, or is no such table.
+    /// If it cannot be read, or is not such a table.
     pub fn table(&self, name: &str) -> Result<Option<Table>, Failure> {
         let path = self.folder.join(format!("{name}.csv"));
         if path.exists() { Table::read(&path).map(Some) } else { Ok(None) }

@@ -30,14 +30,14 @@ impl Balance {
         drift
     }
 
-    /// The largest drift as a part of what was exchanged, if it is so large a part that it is no matter of taste.
+    /// The largest drift as a part of what was exchanged, if it is so large a part that it is not a matter of taste.
     pub fn wrong_part(&self) -> Option<f64> {
         Some(self.part()).filter(|part| *part > MUCH)
     }
 
     /// The largest drift as a part of what was exchanged.
     fn part(&self) -> f64 {
-        // Where nothing moves, the rounding of the potential energy is no drift.
+        // Where nothing moves, the rounding of the potential energy is not drift.
         let scale = self.exchanged.max(f64::EPSILON.sqrt() * self.potential);
         if self.drift > 0.0 { self.drift / scale } else { 0.0 }
     }
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_where_nothing_moves_is_no_drift() {
+    fn rounding_where_nothing_moves_is_not_drift() {
         assert!(part([(0.0, 100.0, 0.0), (0.0, 100.0 + 2e-14, 0.0)]) < 1e-6);
         assert_eq!(part([(0.0, 0.0, 0.0); 2]), 0.0);
     }

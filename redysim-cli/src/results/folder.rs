@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::replaceable::{is_empty, replaces};
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::{tell, write_file};
+use crate::output::{to_stderr, write_file};
 
 /// For so long a draft is taken away from a run that goes on writing.
 const TRIES: u32 = 500;
@@ -37,7 +37,7 @@ impl Folder {
     /// If it cannot be made, or if something is there already that must not be replaced.
     pub fn draft(target: PathBuf, force: bool) -> Result<Folder, Failure> {
         if target.file_name().is_none() {
-            let message = format!("{} is no name for a new folder", target.display());
+            let message = format!("{} cannot be the name of a new folder", target.display());
             return Err(Failure::outside(message).help("name one with --output, as in --output results/trial"));
         }
         replaces(&target, force)?;
@@ -75,7 +75,7 @@ impl Folder {
     ///
     /// # Errors
     /// If something is there by now that must not be replaced, or the name cannot be given: the folder then gets another,
-    /// and the failure says which.
+    /// and the failure names it.
     pub fn finish(mut self, complete: bool) -> Result<PathBuf, Failure> {
         interrupt::undisturbed(|| {
             let replaces = replaces(&self.target, self.force);
@@ -111,8 +111,8 @@ impl Folder {
             return Err(failed(error));
         }
         if replaces && let Err(error) = fs::remove_dir_all(&before) {
-            // The result is in its place: this is no reason to fail.
-            tell(&format!("warning: the result that was replaced is left in {}: {error}", before.display()));
+            // The result is in its place: this is not a failure.
+            to_stderr(&format!("warning: the result that was replaced is left in {}: {error}", before.display()));
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ use redysim_runtime::MechanicalEnergy;
 use super::tables::{Row, Tables};
 use super::{Arguments, Balance, Ended, Folder, Outcome, Summary, run_file};
 use crate::failure::Failure;
-use crate::output::say;
+use crate::output::to_stdout;
 use crate::progress::Progress;
 use crate::scenario::{Dynamics, Scenario, Span};
 
@@ -47,7 +47,7 @@ pub struct Record<'a> {
 
 impl<'a> Record<'a> {
     /// Begins the folder of a run of `scenario` over `span`. It is made before anything is computed, so that what
-    /// cannot be written is said at once.
+    /// cannot be written is reported at once.
     pub fn begin(
         arguments: &Arguments,
         scenario: &'a Scenario,
@@ -104,10 +104,10 @@ impl<'a> Record<'a> {
         self.progress.reach(self.count);
     }
 
-    /// Warns, unless nobody wants to hear.
+    /// Warns, unless the run is quiet.
     pub fn warn(&self, warning: &str, help: &str) {
         if !self.quiet {
-            self.progress.say(&format!("warning: {warning}\n  = help: {help}\n"));
+            self.progress.report(&format!("warning: {warning}\n  = help: {help}\n"));
         }
     }
 
@@ -121,12 +121,12 @@ impl<'a> Record<'a> {
         &self.balance
     }
 
-    /// Ends the run, says how it went, and fails if it did not come to its end.
+    /// Ends the run, reports how it went, and fails if it did not come to its end.
     pub fn finish(self, outcome: Outcome) -> Result<(), Failure> {
         if let Some(failure) = self.broken {
             return Err(failure);
         }
-        // That a motion begins where it was told to is no result; forces at its first instant are.
+        // That a motion begins at its start is not a result; forces at its first instant are.
         let least = if self.dynamics == Dynamics::Forward { 2 } else { 1 };
         if self.count < least {
             return Err(match outcome.ended {
@@ -149,7 +149,7 @@ impl<'a> Record<'a> {
         let complete = matches!(summary.outcome.ended, Ended::Complete);
         let target = self.folder.finish(complete)?;
         if !self.quiet {
-            say(&format!("{summary}\n  written to {}", target.display()));
+            to_stdout(&format!("{summary}\n  written to {}", target.display()));
         }
         let (_, until, count) = summary.instants;
         let kept = format!("{count} instants, until {until:?} s, are in {}", target.display());

@@ -17,10 +17,10 @@ pub fn is_empty(path: &Path) -> bool {
 /// Whether there is something at `target` that is to be replaced.
 ///
 /// # Errors
-/// If it is anything but an empty folder, and `force` is not given, or if it is no result, or one with anything beside what
+/// If it is anything but an empty folder, and `force` is not given, or if it is not a result, or one with anything beside what
 /// this program writes: notes would be lost.
 pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
-    // What cannot be looked at cannot be written either, and that says why.
+    // What cannot be looked at cannot be written either, and that fails with a reason.
     let Ok(found) = fs::symlink_metadata(target) else { return Ok(false) };
     if is_empty(target) {
         return Ok(true);
@@ -31,7 +31,7 @@ pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
     };
     if !found.is_dir() {
         return kept(
-            "it is no folder of its own, but a file or a link",
+            "it is not a folder of its own, but a file or a link",
             "write elsewhere with --output, or delete it yourself",
         );
     }
@@ -47,7 +47,7 @@ pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
     };
     let foreign = entries.iter().filter_map(foreign).min();
     if !fs::read_to_string(target.join(RUN_FILE)).is_ok_and(|text| is_of_a_run(&text)) {
-        let why = format!("it is no result, for it holds no {RUN_FILE} that a run has written");
+        let why = format!("it is not a result, for it holds no {RUN_FILE} that a run has written");
         return kept(&why, "write elsewhere with --output, or delete it yourself");
     }
     match foreign {

@@ -15,7 +15,7 @@ pub struct Outcome {
     pub integrator: Option<String>,
     /// Accepted steps of the integration, if there was one.
     pub steps: Option<u64>,
-    /// What else it took: an integration that fails does not say.
+    /// What else it took: an integration that fails does not report it.
     pub statistics: Option<Statistics>,
     /// The largest gap of a loop, m (or a sine), if there are loops.
     pub gap: Option<f64>,

@@ -12,7 +12,7 @@ use super::subject::{Subject, given};
 pub struct Initial {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
-    /// Where the scenario says so, if it does.
+    /// The place of `v` in the scenario, if it is there.
     pub place_of_v: Range<usize>,
     /// Whether closed loops are closed from there.
     pub assemble: bool,

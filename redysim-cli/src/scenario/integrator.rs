@@ -169,7 +169,7 @@ impl Integrator {
         }
     }
 
-    /// What says that steps of one size grow errors near the state at `t`, and which joint asks for smaller ones;
+    /// The warning that steps of one size grow errors near the state at `t`, and which joint asks for smaller ones;
     /// nothing where they do not, or where the method does not know.
     pub fn step_warning<'m>(
         &self,
@@ -186,7 +186,7 @@ impl Integrator {
             // They are stable wherever their iteration converges, and say where it does not.
             Fixed::Gauss4 | Fixed::Gauss6 => return None,
         };
-        // Where there are no derivatives, the integration says why.
+        // Where there are no derivatives, the integration reports why.
         stable.ok()?.warning(step, mechanism)
     }
 

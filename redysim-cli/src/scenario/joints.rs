@@ -76,7 +76,7 @@ fn index<'n>(
     reader.lookup(place, "joint", name, &named)
 }
 
-/// A joint that is none of those that the values are for.
+/// Reports a joint that the values are not for. Always `None`.
 fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, name: &str) -> Option<T> {
     reader.error_at(
         place,

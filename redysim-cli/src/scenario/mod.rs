@@ -26,7 +26,7 @@ use toml_edit::DocumentMut;
 use crate::failure::Failure;
 use crate::layout::Layout;
 use crate::model;
-use crate::output::tell;
+use crate::output::to_stderr;
 pub use forward::Forward;
 pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances};
@@ -40,7 +40,7 @@ pub use trajectory::{Prescribed, USUAL_THROUGH};
 
 /// What is to be computed of a model.
 pub struct Scenario {
-    /// Its name: that of the file, unless it says another.
+    /// Its name, by default that of the file.
     pub name: String,
     /// Its file, as it is copied into results.
     pub document: DocumentMut,
@@ -61,7 +61,7 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// Reads what a scenario says of a run, and its model, and prints their warnings unless `quiet`. What it says of
+    /// Reads what a scenario has for a run, and its model, and prints their warnings unless `quiet`. What it has for
     /// the other run may wait for what this one writes.
     ///
     /// # Errors
@@ -86,7 +86,7 @@ impl Scenario {
         let (scenario, warnings) = read.map_err(Failure::input)?;
         if !quiet {
             for warning in warnings {
-                tell(&format!("{warning}\n"));
+                to_stderr(&format!("{warning}\n"));
             }
         }
         scenario.check_tables()?;
@@ -138,7 +138,7 @@ fn read(
     let model = reader.required(&keys::MODEL, Reader::text);
     let named = model.spanned()?;
     let model_path = folder.join(named.get_ref());
-    // What the rest of the scenario says depends on the joints.
+    // What the rest of the scenario means depends on the joints.
     let (mechanism, model_text) = match Model::load(&model_path) {
         Err(faults) if faults.unread => {
             let why = faults.errors().map(Diagnostic::title).collect::<String>();
@@ -187,7 +187,7 @@ fn document(reader: &mut Reader<'_, '_>, text: &str) -> Option<DocumentMut> {
     reader.error_at(fault.span().unwrap_or(0..0), Message { title, label: "here".into(), help })
 }
 
-/// The scenario's name, after which a folder is called.
+/// The scenario's name, which a folder gets.
 fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
     reader.field(&keys::NAME, |reader, path, value| {
         let DeValue::String(name) = value.get_ref() else {
@@ -197,8 +197,8 @@ fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
         if is_plain {
             return Some(name.to_string());
         }
-        let title = format!("{}: `{path}` is `{name}`, after which no folder can be called", reader.item());
+        let title = format!("{}: `{path}` is `{name}`, which cannot be the name of a folder", reader.item());
         let help = "the results go to a folder of this name: give one without / and not empty".to_owned();
-        reader.error(value, Message { title, label: "no name of a folder".into(), help })
+        reader.error(value, Message { title, label: "not the name of a folder".into(), help })
     })
 }

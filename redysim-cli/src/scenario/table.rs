@@ -24,7 +24,7 @@ impl Table {
     /// Reads a file.
     ///
     /// # Errors
-    /// The first fault, with its line: a gap, what is no finite number, or times that do not grow.
+    /// The first fault, with its line: a gap, what is not a finite number, or times that do not grow.
     pub fn read(path: &Path) -> Result<Table, Failure> {
         let read = table::Table::read(path).map_err(|fault| match path.is_file() {
             true => fault,

@@ -194,7 +194,7 @@ impl<'s> Source<'s, '_, '_> {
         self.trajectory?.or_else(|| unfollowed(&mut self.reader))
     }
 
-    /// The joints that the law drives, `usual` unless it says which.
+    /// The joints that the law drives, by default `usual`.
     fn driven(&mut self, usual: Vec<usize>) -> Option<Vec<usize>> {
         let field = some(&mut self.reader, &keys::DRIVEN, self.subject.joints());
         let passive = |joint: &&usize| !self.subject.joints()[**joint].actuated;

@@ -23,7 +23,7 @@ pub struct Prescribed {
     pub coordinates: Vec<usize>,
     /// Their velocities.
     pub velocities: Vec<usize>,
-    /// Where the scenario says how fast or where to.
+    /// The place of its speed, or of the whole table.
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
     pub table: Option<Table>,
@@ -68,7 +68,7 @@ const KINDS: [Kind<Tag>; 5] = [
 ];
 
 impl Prescribed {
-    /// Reads the table `trajectory`, if there is one: unless it says which joints it prescribes, those of a tree, and
+    /// Reads the table `trajectory`, if there is one. By default it prescribes all joints of a tree, and
     /// the actuated ones of closed loops.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Option<Prescribed>> {
         let (layout, joints) = (subject.layout, subject.joints());
@@ -124,7 +124,7 @@ impl Prescribed {
                     Prescribed { joints: chosen, coordinates: of_q, velocities: of_v, place: 0..0, table, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
-                    // What a law needs to follow, it says itself.
+                    // A law reports itself what it needs to follow.
                     Dynamics::Forward => Ok(()),
                 };
                 match checked {
@@ -143,14 +143,14 @@ impl Prescribed {
         Some(Some(Prescribed { place, ..read.get_ref().clone()? }))
     }
 
-    /// Fails, with what is wrong and what to do, unless it says how all of a mechanism moves and nothing twice: a tree
+    /// Fails, with what is wrong and what to do, unless it prescribes how all of a mechanism moves and nothing twice: a tree
     /// every joint, closed loops as many as they leave free.
     pub fn check_joints(&self, subject: &Subject<'_>) -> Result<(), (String, String)> {
         let joints = subject.joints();
         if !subject.loops() {
             let free = joints.iter().enumerate().find(|(index, _)| !self.joints.contains(index));
             let Some((_, joint)) = free else { return Ok(()) };
-            let help = "name all joints among its `joints`: without loops nothing else tells how they move";
+            let help = "name all joints among its `joints`: without loops nothing else determines how they move";
             return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
         }
         let Mobility { mobility: free, position_residual, .. } = *subject.mobility();
@@ -166,7 +166,7 @@ impl Prescribed {
             names.join(", ")
         );
         let help = match free {
-            0 => "as the model is, nothing moves: `redysim check` tells which conditions do not follow from others"
+            0 => "as the model is, nothing moves: `redysim check` reports which conditions do not follow from others"
                 .into(),
             _ => format!("name {} among its `joints`: the others follow from the loops", counted(free, "joint")),
         };

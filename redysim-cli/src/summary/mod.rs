@@ -1,6 +1,6 @@
 //! What a model is, for a person to check at a glance and for programs to read.
 
-mod suspicions;
+mod lints;
 mod table;
 
 use redysim_codegen::Counted;
@@ -37,7 +37,7 @@ pub struct Summary {
     /// Operations of each compiled function.
     pub operations: Vec<FunctionSummary>,
     /// What is allowed, but rarely meant.
-    pub suspicions: Vec<String>,
+    pub lints: Vec<String>,
 }
 
 /// A link and its joint.
@@ -106,8 +106,8 @@ impl Summary {
         let model = &loaded.model;
         let found = Mobility::of(model);
         let Counted { operations, warnings } = redysim_codegen::operations(model, &loaded.scene)?;
-        let mut suspicions = suspicions::of(model, &found);
-        suspicions.extend(warnings);
+        let mut lints = lints::of(model, &found);
+        lints.extend(warnings);
         let joints = |actuated: bool| {
             let chosen = model.moving_links().filter(move |link| link.actuated == actuated);
             chosen.map(|link| link.joint_name.clone()).collect()
@@ -129,7 +129,7 @@ impl Summary {
                 .filter(|(function, _)| !model.loops.is_empty() || !function.needs_loops())
                 .map(|(function, count)| FunctionSummary { function: function.name(), count })
                 .collect(),
-            suspicions,
+            lints,
         })
     }
 }

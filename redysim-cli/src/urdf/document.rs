@@ -214,7 +214,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Damping and friction are no part of a model, and worth more words than a picture.
+/// Damping and friction are not part of a model, and worth more words than a picture.
 fn described(node: Node) -> String {
     let (tag, owner) = (node.tag_name().name(), node.parent().map_or("", |owner| owner.tag_name().name()));
     match (owner, tag) {

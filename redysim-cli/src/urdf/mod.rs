@@ -20,7 +20,7 @@ use crate::number::{counted, rounded};
 pub struct Imported {
     /// The text of the model file.
     pub text: String,
-    /// The joints that move otherwise than the URDF says.
+    /// The joints that move otherwise than in the URDF.
     pub changes: Vec<String>,
     /// What is left out or written otherwise.
     pub notes: Vec<String>,
@@ -40,7 +40,7 @@ pub struct Options {
 /// Imports the text of the URDF file at `path`.
 ///
 /// # Errors
-/// If the file is no URDF, its robot is no tree, or no mechanism can be as it says. Messages have the file's line.
+/// If the file is not a URDF, its robot is not a tree, or its values are impossible. Messages have the file's line.
 pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Failure> {
     let file = path.display().to_string();
     let document = Document::parse(text, &file)?;
@@ -52,7 +52,7 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     if options.quarter_turns {
         robot = robot.with_quarter_turns();
     }
-    robot = robot.without_reserved_name().without_massless_motion().with_mimics_said();
+    robot = robot.without_reserved_name().without_massless_motion().with_remarks_on_mimics();
     let changes: Vec<String> = robot.links.iter().flat_map(|link| &link.remarks).cloned().collect();
     if robot.links.iter().all(|link| link.kind == JointKind::Fixed) {
         return Err(document.fault_at("robot", "", "every joint is fixed here: nothing of the robot moves"));

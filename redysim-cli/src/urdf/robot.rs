@@ -22,7 +22,7 @@ pub struct Robot {
     pub name: String,
     /// All links but the root, in the order of the file's joints.
     pub links: Vec<Link>,
-    /// What the file says that this does not, beside the remarks of the links.
+    /// What the file has and this has not, beside the remarks of the links.
     pub notes: Vec<String>,
 }
 
@@ -74,7 +74,7 @@ impl Robot {
     /// The robot of a document.
     ///
     /// # Errors
-    /// If the links and joints are no tree.
+    /// If the links and joints are not a tree.
     pub fn read(document: &Document) -> Result<Robot, Failure> {
         let urdf = urdf_rs::read_from_string(&document.text_to_read())
             .map_err(|error| document.fault_at("robot", "", format!("URDF: {error}")))?;
@@ -139,8 +139,8 @@ impl Robot {
         self
     }
 
-    /// Says of each joint that mimics another what it is here.
-    pub fn with_mimics_said(mut self) -> Self {
+    /// Adds a remark to each joint that mimics another: what it is here.
+    pub fn with_remarks_on_mimics(mut self) -> Self {
         for link in &mut self.links {
             let Some(mimics) = &link.mimics else { continue };
             let here = if link.kind == JointKind::Fixed { "fixed" } else { "free here, with an actuator of its own" };
@@ -169,7 +169,7 @@ fn kind(joint: &urdf_rs::Joint) -> JointKind {
     }
 }
 
-/// What a joint is in the URDF that there is none of here.
+/// The kind that a joint has in the URDF and cannot have here.
 fn not_here(joint: &urdf_rs::Joint) -> Option<String> {
     let kind = match joint.joint_type {
         JointType::Floating => "floating",

@@ -25,7 +25,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
     let scenario = Scenario::load(&results.scenario, Dynamics::Forward, quiet)?;
     let forward = scenario.forward.as_ref().ok_or_else(|| {
-        let message = format!("{} does not say which motion is to be computed", results.scenario.display());
+        let message = format!("{} does not state which motion is to be computed", results.scenario.display());
         Failure::input(message).help("add a table, as in: forward = { end = 1.0, step = 0.01 }")
     })?;
     interrupt::watch()?;
@@ -64,7 +64,7 @@ fn move_on<'a>(
     })
 }
 
-/// Says before the run that its steps are too large, if that is so at the start.
+/// Warns before the run that its steps are too large, if that is so at the start.
 fn warn_of_step(
     scenario: &Scenario,
     forward: &Forward,
@@ -92,7 +92,7 @@ fn two_digits(value: f64) -> f64 {
     (value / unit).floor() * unit
 }
 
-/// Says that a motion is wrong, if its energy shows it.
+/// Warns that a motion is wrong, if its energy shows it.
 fn warn_of_drift(forward: &Forward, record: &Record<'_>) {
     if matches!(forward.stabilisation, Stabilisation::Baumgarte { .. }) {
         // While it closes loops, its feedback does work that nobody counts.

@@ -8,7 +8,7 @@ use redysim_runtime::{
 
 use crate::failure::Failure;
 use crate::layout::Component;
-use crate::output::say;
+use crate::output::to_stdout;
 use crate::results::Sample;
 use crate::scenario::{Forward, Law, Scenario};
 
@@ -80,11 +80,11 @@ impl<'a> System<'a> {
             let layout = &scenario.layout;
             let moved = changes(&layout.coordinates, &closed.q, &initial.q, "");
             if !moved.is_empty() {
-                say(&format!("To close the loops, the start moves {moved}."));
+                to_stdout(&format!("To close the loops, the start moves {moved}."));
             }
             let changed = changes(&layout.velocities, &closed.v, &initial.v, "/s");
             if !changed.is_empty() {
-                say(&format!("So that they stay closed, its speeds change: {changed}."));
+                to_stdout(&format!("So that they stay closed, its speeds change: {changed}."));
             }
         }
         Ok(simulation.assembled(&closed))

@@ -1,4 +1,4 @@
-//! What a model is allowed to say, but rarely means: most often a slip of units.
+//! Lints: what a model may have, but rarely means, most often by a slip of units.
 
 use crate::number::{counted, rounded};
 use redysim_model::spatial::Vec3;
@@ -16,7 +16,7 @@ const GYRATION: RangeInclusive<f64> = 1e-4..=2.0;
 /// Gravity on Earth, m/s², from the equator to the poles with some room.
 const EARTH: RangeInclusive<f64> = 9.7..=9.9;
 
-/// One line for each thing that looks odd.
+/// A line for each lint that applies.
 pub fn of(model: &Model, mobility: &Mobility) -> Vec<String> {
     let mut found = Vec::new();
     found.extend(gravity(model));
