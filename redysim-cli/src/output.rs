@@ -105,28 +105,31 @@ fn write_into(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
 }
 
+/// Writes a draft beside the file, which takes the file's name when it is whole and goes away when it fails.
 fn replace(target: &Path, contents: &[u8]) -> io::Result<()> {
-    let draft = draft_of(target);
-    let permissions = fs::metadata(target).ok().map(|before| before.permissions());
-    let written = write_all(&draft, contents)
-        .and_then(|()| permissions.map_or(Ok(()), |as_before| fs::set_permissions(&draft, as_before)))
-        .and_then(|()| fs::rename(&draft, target));
-    if written.is_err() {
-        // What is left of the draft is of no use to anybody, and if even this fails there is no more to do.
-        let _ = fs::remove_file(&draft);
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut draft = drafts().tempfile_in(folder)?;
+    if let Ok(before) = fs::metadata(target) {
+        draft.as_file().set_permissions(before.permissions())?;
     }
-    written
+    draft.write_all(contents)?;
+    draft.as_file().sync_all()?;
+    draft.persist(target)?;
+    Ok(())
 }
 
-/// The name under which a file is written before it is whole.
-fn draft_of(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.draft", std::process::id()));
-    path.with_file_name(name)
+/// Drafts that those may read who may read any new file.
+#[cfg(unix)]
+fn drafts() -> tempfile::Builder<'static, 'static> {
+    use std::os::unix::fs::PermissionsExt;
+    let mut drafts = tempfile::Builder::new();
+    drafts.suffix(".draft").permissions(fs::Permissions::from_mode(0o666));
+    drafts
 }
 
-fn write_all(path: &Path, contents: &[u8]) -> io::Result<()> {
-    let mut file = fs::File::create(path)?;
-    file.write_all(contents)?;
-    file.sync_all()
+#[cfg(not(unix))]
+fn drafts() -> tempfile::Builder<'static, 'static> {
+    let mut drafts = tempfile::Builder::new();
+    drafts.suffix(".draft");
+    drafts
 }

@@ -161,7 +161,7 @@ fn a_name_that_leads_elsewhere() {
             "forward",
             &format!("name = '{name}'\n{SWING}"),
             1,
-            &["no folder can be called", "trial.toml:2:8"],
+            &["cannot be the name of a folder", "trial.toml:2:8"],
         );
     }
 }
