@@ -61,7 +61,7 @@ fn every_shipped_scenario_runs_again_from_its_folder_alone_and_keeps_its_energy(
 }
 
 #[test]
-fn so_does_a_run_with_a_table_of_forces() {
+fn a_run_with_a_table_of_forces_runs_again_from_its_folder_alone() {
     let folder = scratch("again-forces");
     fs::write(folder.join("forces.csv"), "t [s],tau joint1 [N m],tau joint2 [N m]\n0,0,0\n1,1,-1\n").unwrap();
     let rest = "initial = { q = { joint2 = '60 deg' } }\n[forward]\nend = 1.0\nstep = 0.1\ntorque = { law = 'csv', file = 'forces.csv' }\n";
@@ -74,7 +74,7 @@ fn so_does_a_run_with_a_table_of_forces() {
 }
 
 #[test]
-fn so_does_a_run_along_a_table_of_points() {
+fn a_run_along_a_table_of_points_runs_again_from_its_folder_alone() {
     let folder = scratch("again-points");
     fs::write(folder.join("points.csv"), "t [s],q joint1 [rad],q joint2 [rad]\n0,0,0\n0.5,1,-1\n1,0,1\n").unwrap();
     let rest = "trajectory = { kind = 'csv', file = 'points.csv' }\n[inverse]\nend = 1.0\nstep = 0.1\n\
@@ -90,7 +90,7 @@ fn so_does_a_run_along_a_table_of_points() {
 }
 
 #[test]
-fn so_does_one_whose_scenario_names_kinds_alone() {
+fn a_run_whose_scenario_names_kinds_alone_runs_again_from_its_folder_alone() {
     let folder = scratch("again-kinds");
     let rest = "initial = { q = [0, 0.9844, 4.3144] }\n[forward]\nend = 0.2\nstep = 0.1\ntorque = 'free'\n\
                 stabilisation = 'none'\nintegrator = 0\n";

@@ -80,7 +80,7 @@ fn a_rotor_goes_on_turning_the_way_it_does_however_long_it_runs() {
 }
 
 #[test]
-fn a_motion_too_long_for_a_page_is_thinned_and_that_is_told() {
+fn a_motion_too_long_for_a_page_is_thinned_and_that_is_reported() {
     let (data, said, size) = rotor("thinned", 1.0, 150.0, 0.001);
     let t = numbers(&data["motion"]["t"]);
     assert_eq!((t.len(), t[0], t[t.len() - 1]), (100_000, 0.0, 150.0));
@@ -98,7 +98,7 @@ fn a_joint_too_fast_for_its_instants_is_named() {
 
 /// A pinned four-bar some 0.3 m across, whose crank turns by 3.6 deg from one instant to the next.
 #[test]
-fn how_far_loops_open_between_instants_is_told_and_not_to_be_seen() {
+fn how_far_loops_open_between_instants_is_reported_and_not_to_be_seen() {
     let folder = scratch("animate-gap");
     let data = data(&page(&turn(&folder, 100)));
     let note = data["notes"][0].as_str().unwrap();
@@ -141,7 +141,7 @@ fn a_chart_has_the_curves_of_one_unit_alone() {
 }
 
 #[test]
-fn what_is_missing_or_wrong_is_told() {
+fn what_is_missing_or_wrong_is_reported() {
     let folder = scratch("animate-missing");
     let fails = |code: i32, wrong: &str| {
         let said = fail(&folder, &["animate", "."], code);

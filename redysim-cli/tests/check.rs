@@ -106,7 +106,7 @@ fn faults_are_shown_where_they_stand() {
 }
 
 #[test]
-fn a_file_that_is_not_there_is_the_worlds_fault() {
+fn a_missing_file_ends_with_exit_code_3() {
     let run = call(&root(), &["check", "nowhere.toml"]);
     assert_eq!(run.code, 3);
     assert!(run.stderr.contains("nowhere.toml"), "{}", run.stderr);
@@ -115,7 +115,7 @@ fn a_file_that_is_not_there_is_the_worlds_fault() {
 }
 
 #[test]
-fn quiet_says_nothing_of_a_good_model() {
+fn quiet_prints_nothing_of_a_good_model() {
     let run = call(&root(), &["check", "--quiet", &model("kr5_table2.toml")]);
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
     let run = call(&root(), &["check", &model("kr5_table2.toml")]);
@@ -158,7 +158,7 @@ fn lints(name: &str, text: &str) -> (i32, Vec<String>) {
 }
 
 #[test]
-fn links_of_very_different_lengths_and_points_of_mass_are_suspicious() {
+fn links_of_very_different_lengths_and_points_of_mass_have_lints() {
     let arm = SLIPS.replace("2000.0", "2.0").replace("-9810.0", "-9.81").replace("[150.0, ", "[0.15, ");
     let (_, found) = lints("lengths", &arm.replace("[0.4, ", "[400.0, "));
     let words =
@@ -173,7 +173,7 @@ fn links_of_very_different_lengths_and_points_of_mass_are_suspicious() {
 }
 
 #[test]
-fn slips_of_units_are_suspicious() {
+fn slips_of_units_have_lints() {
     let (code, lints) = lints("units", SLIPS);
     let wanted = [
         "gravity is 9810 m/s²",

@@ -7,7 +7,7 @@ use std::fs;
 use common::{LIFT, SWING, fail, refuses, refuses_in, scenario, scratch, succeed};
 
 #[test]
-fn a_missing_scenario() {
+fn a_missing_scenario_is_reported_with_its_path() {
     let folder = scratch("faults-no-scenario");
     refuses_in(&folder, "forward", "nowhere.toml", 3, &["cannot read nowhere.toml", "help"]);
     fs::create_dir(folder.join("folder.toml")).unwrap();
@@ -15,7 +15,7 @@ fn a_missing_scenario() {
 }
 
 #[test]
-fn a_missing_model() {
+fn a_missing_model_is_reported_at_the_key_that_names_it() {
     let folder = scratch("faults-no-model");
     fs::write(folder.join("trial.toml"), format!("model = 'nowhere.toml'\n{SWING}")).unwrap();
     refuses_in(
@@ -30,7 +30,7 @@ fn a_missing_model() {
 }
 
 #[test]
-fn a_model_in_the_place_of_a_scenario_and_the_other_way_round() {
+fn a_model_in_the_place_of_a_scenario_is_recognised_and_the_other_way_round() {
     let folder = scratch("faults-place");
     let scenario = scenario(&folder, "two_link.toml", SWING);
     let model = common::model("two_link.toml");
@@ -45,7 +45,7 @@ fn a_model_in_the_place_of_a_scenario_and_the_other_way_round() {
 
 /// What cannot be read is outside, whoever asks for it.
 #[test]
-fn a_folder_in_the_place_of_a_model() {
+fn a_folder_in_the_place_of_a_model_is_refused() {
     let folder = scratch("faults-folder");
     for command in ["check", "generate"] {
         let said = fail(&folder, &[command, "."], 3);
@@ -54,7 +54,7 @@ fn a_folder_in_the_place_of_a_model() {
 }
 
 #[test]
-fn a_model_with_a_fault() {
+fn a_model_with_a_fault_is_reported_with_its_own_lines() {
     let folder = scratch("faults-model");
     fs::write(
         folder.join("model.toml"),
@@ -66,12 +66,12 @@ fn a_model_with_a_fault() {
 }
 
 #[test]
-fn what_is_no_toml() {
+fn text_that_is_not_toml_is_refused_where_it_stands() {
     refuses("toml", "forward", "[forward\nend = 1", 1, &["trial.toml:2:", "TOML"]);
 }
 
 #[test]
-fn a_wrong_number_of_joints() {
+fn a_wrong_number_of_joints_is_refused_with_the_right_one() {
     let swing = SWING.replace("[0, 1]", "[0, 1, 2]");
     refuses(
         "joints",
@@ -87,7 +87,7 @@ fn a_wrong_number_of_joints() {
 }
 
 #[test]
-fn values_that_are_none() {
+fn values_that_are_not_angles_are_refused() {
     for (value, word) in [
         ("nan", "not a finite number"),
         ("'60 grad'", "unit"),
@@ -99,7 +99,7 @@ fn values_that_are_none() {
 }
 
 #[test]
-fn a_joint_that_is_not_there() {
+fn an_unknown_joint_is_reported_with_the_one_that_was_meant() {
     let words = ["no joint `jiont2`", "did you mean `joint2`?", "trial.toml:2:"];
     refuses("joint", "forward", &SWING.replace("[0, 1]", "{ jiont2 = 1 }"), 1, &words);
     let several = SWING.replace("[0, 1]", "{ jiont2 = 1, joint1 = '10 dg' }");
@@ -114,7 +114,7 @@ fn a_joint_that_is_not_there() {
 }
 
 #[test]
-fn an_unknown_key_is_said_with_the_one_that_was_meant() {
+fn an_unknown_key_is_reported_with_the_one_that_was_meant() {
     refuses(
         "key",
         "forward",
@@ -127,7 +127,7 @@ fn an_unknown_key_is_said_with_the_one_that_was_meant() {
 }
 
 #[test]
-fn an_unknown_integrator() {
+fn an_unknown_integrator_is_refused() {
     let swing = |settings: &str| format!("{SWING}integrator = {{ {settings} }}\n");
     refuses(
         "integrator",
@@ -145,7 +145,7 @@ fn an_unknown_integrator() {
 }
 
 #[test]
-fn an_unknown_law_or_one_without_a_trajectory() {
+fn an_unknown_law_is_refused_and_so_is_one_without_its_trajectory() {
     let swing = |law: &str| format!("{SWING}torque = {{ {law} }}\n");
     refuses("law", "forward", &swing("law = 'pid'"), 1, &["cannot be `pid`", "did you mean `pd`?"]);
     refuses("gain", "forward", &swing("law = 'p', target = [0, 0]"), 1, &["`forward.torque.kp` is missing"]);
@@ -154,7 +154,7 @@ fn an_unknown_law_or_one_without_a_trajectory() {
 }
 
 #[test]
-fn a_name_that_leads_elsewhere() {
+fn a_name_that_leads_to_another_folder_is_refused() {
     for name in ["../elsewhere", "", "/tmp", "..", "a/b"] {
         refuses(
             "name",
@@ -167,7 +167,7 @@ fn a_name_that_leads_elsewhere() {
 }
 
 #[test]
-fn a_run_without_length() {
+fn a_run_without_length_is_refused() {
     refuses(
         "end",
         "forward",
@@ -190,7 +190,7 @@ fn refuses_table(name: &str, text: &str, words: &[&str]) {
 }
 
 #[test]
-fn a_table_with_a_fault() {
+fn a_table_with_a_fault_is_refused_with_its_line() {
     const HEADER: &str = "t [s],tau joint1 [N m],tau joint2 [N m]\n";
     let with = |rows: &str| format!("{HEADER}{rows}");
     refuses_table("gap", &with("0,0,0\n1,,0\n"), &["forces.csv:3: `tau joint1 [N m]` must be a number, found nothing"]);
@@ -221,14 +221,14 @@ fn a_table_with_a_fault() {
 }
 
 #[test]
-fn a_missing_table() {
+fn a_missing_table_is_reported_at_the_key_that_names_it() {
     let rest = format!("{SWING}torque = {{ law = 'csv', file = 'nowhere.csv' }}\n");
     let words = ["cannot read", "nowhere.csv", "trial.toml:6:", "folder of the scenario"];
     refuses("no-table", "forward", &rest, 1, &words);
 }
 
 #[test]
-fn every_fault_at_once_and_none_that_follows_from_another() {
+fn every_fault_is_reported_at_once_and_none_that_follows_from_another() {
     let rest = "nonsense = 1\n[trajectory]\nkind = 'csv'\nfile = 'motion.csv'\n\
                 [forward]\nend = 1.0\nstepp = 0.1\ntorque = { law = 'csv', file = 'forces.csv' }\n";
     let words = ["`nonsense`", "motion.csv", "`step`?", "forces.csv", "trial.toml:5:", "trial.toml:9:"];
@@ -254,7 +254,7 @@ fn inverse_dynamics_asks_nothing_of_the_forward_run() {
 }
 
 #[test]
-fn a_table_of_velocities_without_accelerations() {
+fn a_table_of_velocities_without_accelerations_is_refused() {
     let folder = scratch("faults-velocities");
     fs::write(
         folder.join("motion.csv"),
@@ -272,20 +272,20 @@ fn a_table_of_velocities_without_accelerations() {
 }
 
 #[test]
-fn points_out_of_order() {
+fn points_out_of_order_are_refused() {
     let rest = "[trajectory]\nkind = 'cubic'\ntimes = [0, 2, 1]\npoints = [[0, 0], [1, 1], [0, 0]]\n[inverse]\nend = 1.0\nstep = 0.1\n";
     refuses("order", "inverse", rest, 1, &["must follow each other in time", "trial.toml:4:9"]);
     refuses("count", "inverse", &rest.replace("[0, 2, 1]", "[0, 1]"), 1, &["3 points came with 2 times"]);
 }
 
 #[test]
-fn a_tree_that_is_only_half_prescribed() {
+fn a_tree_that_is_only_half_prescribed_is_refused() {
     let lift = LIFT.replace("from = [0, 0]\nto = [1, 1]", "joints = ['joint2']\nfrom = [0]\nto = [1]");
     refuses("half", "inverse", &lift, 1, &["does not prescribe the joint `joint1`", "trial.toml:"]);
 }
 
 #[test]
-fn loops_that_cannot_close() {
+fn loops_that_cannot_close_are_reported_by_name() {
     let folder = scratch("faults-loops");
     let open = "initial = { q = [0, 0.9844, 4.3144], assemble = false }\n[forward]\nend = 1.0\nstep = 0.1\n";
     refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", open), 1, &["open", "crank-coupler"]);
@@ -336,7 +336,7 @@ fn forces_are_kept_from_the_first_instant_on() {
 }
 
 #[test]
-fn the_command_line_itself() {
+fn a_wrong_command_line_ends_with_exit_code_2() {
     let folder = scratch("faults-command");
     for arguments in [&["forward"][..], &["inverse", "x.toml", "--format", "xml"], &["backward", "x.toml"]] {
         fail(&folder, arguments, 2);

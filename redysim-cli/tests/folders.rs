@@ -33,7 +33,7 @@ fn a_result_is_not_overwritten_unless_it_must_be() {
 }
 
 #[test]
-fn what_is_no_result_is_never_overwritten() {
+fn what_is_not_a_result_is_never_overwritten() {
     let folder = scratch("folders-mine");
     let path = scenario(&folder, "two_link.toml", SWING);
     fs::create_dir(folder.join("mine")).unwrap();
@@ -44,11 +44,11 @@ fn what_is_no_result_is_never_overwritten() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_made() {
+fn a_folder_that_cannot_be_made_is_reported_and_leaves_nothing() {
     let folder = scratch("folders-unwritable");
     let path = scenario(&folder, "two_link.toml", SWING);
     let before = names(&folder);
-    // A file is no folder, whoever asks.
+    // A file is not a folder, whoever asks.
     let said = fail(&folder, &["forward", &path, "-o", "trial.toml/run"], 3);
     assert!(said.contains("cannot make the folder trial.toml/run"), "{said}");
     let said = fail(&folder, &["forward", &path, "-o", "/"], 3);
@@ -69,7 +69,7 @@ fn a_full_disk_leaves_nothing_half_written() {
 
 /// Somebody's project: their own scenario is called as the one of a result is.
 #[test]
-fn a_folder_with_a_scenario_of_ones_own_is_no_result() {
+fn a_folder_with_a_scenario_of_ones_own_is_not_a_result() {
     let folder = scratch("folders-project");
     let path = scenario(&folder, "two_link.toml", SWING);
     fs::create_dir(folder.join("project")).unwrap();
@@ -108,7 +108,7 @@ fn pictures_of_a_result_go_with_it() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_is_said_before_anything_is_computed() {
+fn a_link_is_refused_before_anything_is_computed() {
     let folder = scratch("folders-link");
     let path = scenario(&folder, "two_link.toml", SWING);
     std::os::unix::fs::symlink("nowhere", folder.join("run")).unwrap();

@@ -40,14 +40,14 @@ fn an_existing_file_stays_unless_forced() {
 }
 
 #[test]
-fn a_name_that_is_no_type_is_refused() {
+fn a_name_that_is_not_one_of_a_type_is_refused() {
     let run = call(&root(), &["generate", &model("kr5.toml"), "--name", "my robot"]);
     assert_eq!((run.code, run.stdout.as_str()), (1, ""));
     assert!(run.stderr.contains("`my robot`") && run.stderr.contains("--name"), "{}", run.stderr);
 }
 
 #[test]
-fn a_function_that_there_is_not_is_refused() {
+fn an_unknown_function_is_refused() {
     let run = call(&root(), &["generate", &model("kr5.toml"), "--functions", "mas_matrix"]);
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("mass_matrix"), "{}", run.stderr);

@@ -1,4 +1,4 @@
-//! `redysim import`: a URDF and the model made of it are one mechanism, and what is not in the model is said.
+//! `redysim import`: a URDF and the model made of it are one mechanism, and what is not in the model is reported.
 
 mod common;
 mod import_faults;

@@ -62,14 +62,14 @@ fn ctrl_c_keeps_what_was_computed() {
 }
 
 #[test]
-fn so_it_does_of_closed_loops() {
+fn ctrl_c_keeps_what_was_computed_of_closed_loops() {
     let folder = scratch("interrupt-loops");
     let rest = LONG.replace("q = [0, 1]", "q = [0, 0.9844, 4.3144]");
     kept(&folder, "forward", &scenario(&folder, "fourbar.toml", &rest));
 }
 
 #[test]
-fn so_it_does_of_inverse_dynamics() {
+fn ctrl_c_keeps_what_was_computed_of_inverse_dynamics() {
     let folder = scratch("interrupt-inverse");
     let rest = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1e4\n[inverse]\nend = 1e4\nstep = 0.001\n";
     kept(&folder, "inverse", &scenario(&folder, "two_link.toml", rest));
@@ -93,7 +93,7 @@ fn a_part_of_a_run_replaces_no_result() {
 /// The second may come while the tables are being finished: then there is a whole result, or nothing. It may even come
 /// between the result and the line that reports it.
 #[test]
-fn two_of_them_in_a_row_leave_no_half_result() {
+fn two_ctrl_cs_in_a_row_leave_no_half_result() {
     let folder = scratch("interrupt-pair");
     let path = scenario(&folder, "two_link.toml", LONG);
     for _ in 0..3 {

@@ -33,7 +33,7 @@ fn computed_torque_leaves_the_crank_the_error_of_a_damped_spring() {
 
 /// The rocker cannot go further than where crank and coupler are in line: there its speed no longer says the crank's.
 #[test]
-fn computed_torque_says_where_the_prescribed_joint_determines_nothing() {
+fn computed_torque_reports_where_the_prescribed_joint_determines_nothing() {
     let folder = scratch("loops-dead-point");
     let rest = "initial = { q = [0, 0.9844, 4.3144] }\n\
                 trajectory = { kind = 'constant-speed', joints = ['rocker'], from = [0.9844], speed = [4] }\n\
@@ -124,7 +124,7 @@ fn baumgartes_feedback_needs_its_rate() {
 }
 
 #[test]
-fn what_assembly_changes_of_the_start_is_said() {
+fn what_assembly_changes_of_the_start_is_reported() {
     let folder = scratch("loops-start");
     let rest = "initial = { q = [0, 0.9844, 4.3144], v = [4.7124, 99, -77] }\n[forward]\nend = 0.1\nstep = 0.1\n";
     let said = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);

@@ -73,7 +73,7 @@ fn a_cubic_passes_its_points() {
 }
 
 #[test]
-fn a_table_of_states_is_passed_as_it_says() {
+fn a_table_of_states_is_passed_with_its_velocities_and_accelerations() {
     let folder = scratch("table-of-states");
     // A cubic has no fifth power: rows half a second apart say all of it.
     let cubic = |t: f64| [t * t * t - t, 3.0 * t * t - 1.0, 6.0 * t];

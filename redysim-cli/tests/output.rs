@@ -113,7 +113,7 @@ fn a_full_disk_leaves_nothing_half_written() {
 }
 
 #[test]
-fn a_full_device_is_told() {
+fn a_full_device_is_reported() {
     let folder = scratch("output-full-device");
     let said = fail(&folder, &["generate", &model("two_link.toml"), "-o", "/dev/full"], 3);
     assert!(said.contains("cannot write /dev/full"), "{said}");

@@ -28,7 +28,7 @@ const ROBOT: &str = "<robot name=\"r\"><material name=\"red\"/><link name=\"a\"/
     <joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/></joint></robot>";
 
 #[test]
-fn that_nobody_listens_is_no_fault() {
+fn a_reader_that_closes_the_pipe_is_not_a_failure() {
     for stream in ["stdout", "stderr"] {
         for arguments in [
             "check model.toml",
@@ -51,7 +51,7 @@ fn that_nobody_listens_is_no_fault() {
 }
 
 #[test]
-fn a_failure_that_nobody_hears_is_still_one() {
+fn a_failure_keeps_its_exit_code_when_the_pipe_is_closed() {
     for stream in ["stdout", "stderr"] {
         for (arguments, code) in [
             ("check nowhere.toml", 3),

@@ -104,7 +104,7 @@ fn a_bad_table_is_named_with_its_line_and_what_to_do() {
 }
 
 #[test]
-fn values_that_are_no_numbers_leave_a_gap() {
+fn values_that_are_not_numbers_leave_a_gap() {
     let folder = scratch("plot-gaps");
     let rows = "0,1\n1,2\n2,NaN\n3,inf\n4,-inf\n5,2\n6,3\n";
     fs::write(folder.join("tor.csv"), format!("t [s],tau j [N m]\n{rows}")).unwrap();
@@ -116,7 +116,7 @@ fn values_that_are_no_numbers_leave_a_gap() {
 }
 
 #[test]
-fn a_folder_without_results_is_told() {
+fn a_folder_without_results_is_refused() {
     let folder = scratch("plot-nothing");
     let said = fail(&folder, &["plot", "."], 1);
     assert!(said.contains("holds nothing to draw"), "{said}");
@@ -125,7 +125,7 @@ fn a_folder_without_results_is_told() {
 }
 
 #[test]
-fn tables_without_names_are_told_from_a_folder_without_results() {
+fn tables_without_names_are_distinguished_from_a_folder_without_results() {
     let folder = scratch("plot-nameless");
     let lift = "trajectory = { from = [0, 0], to = [1, 1], duration = 1.0 }\ninverse = { end = 1.0, step = 0.1 }\n";
     results(&folder, "inverse", "two_link.toml", lift);

@@ -11,7 +11,7 @@ fn shipped(name: &str) -> String {
 }
 
 #[test]
-fn the_files_of_a_run() {
+fn a_run_writes_its_tables_its_scenario_and_its_model() {
     let folder = scratch("files");
     let always = [
         "energy.csv",
@@ -117,7 +117,7 @@ fn kinematics_are_those_of_the_angles() {
 }
 
 #[test]
-fn the_run_says_what_was_left_open_and_how_it_went() {
+fn the_scenario_of_a_run_has_what_was_left_open_and_how_it_went() {
     let folder = scratch("resolved");
     let rest = "# mine\ninitial = { q = [0, 0.9844, 4.3144] }\n[forward]\nend = 0.5\nstep = 0.1\n";
     let said = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);

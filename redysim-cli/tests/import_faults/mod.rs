@@ -44,7 +44,7 @@ fn broken_xml_is_shown_where_it_breaks() {
 }
 
 #[test]
-fn loops_circles_and_several_roots_are_no_tree() {
+fn loops_circles_and_several_roots_are_refused() {
     refused(
         &robot(&[["j", "a", "b"], ["k", "a", "c"], ["l", "b", "c"]]),
         &["robot.urdf:7:", "link `c`", "`k` and `l`"],
@@ -55,7 +55,7 @@ fn loops_circles_and_several_roots_are_no_tree() {
 }
 
 #[test]
-fn names_are_known_and_used_once() {
+fn an_unknown_or_repeated_name_is_refused() {
     refused(&robot(&[["j", "a", "b"], ["k", "bb", "c"]]), &["robot.urdf:6:", "joint `k` names the link `bb`"]);
     refused(&robot(&[["j", "a", "b"], ["j", "b", "c"]]), &["robot.urdf:6:", "two joints of the name `j`"]);
     let twice = robot(&[["j", "a", "b"], ["k", "b", "c"]]).replace("<link name=\"c\">", "<link name=\"b\">");
@@ -67,7 +67,7 @@ fn names_are_known_and_used_once() {
 }
 
 #[test]
-fn numbers_are_numbers() {
+fn what_is_not_a_number_is_refused_where_a_number_is_due() {
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     let with = |from: &str, to: &str| good.replacen(from, to, 1);
     refused(&with("value=\"1\"", "value=\"one\""), &["robot.urdf:2:", "link `a`", "`value` of its <mass>", "\"one\""]);
@@ -87,7 +87,7 @@ fn numbers_are_numbers() {
 }
 
 #[test]
-fn numbers_of_limits_and_mimics_are_numbers_too() {
+fn what_is_not_a_number_is_refused_in_limits_and_mimics_too() {
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     // Joint k is on line 6; what is added to it stands on the next.
     let with = |inside: &str| good.replace("<child link=\"c\"/>", &format!("<child link=\"c\"/>\n{inside}"));
@@ -109,7 +109,7 @@ fn numbers_of_limits_and_mimics_are_numbers_too() {
 }
 
 #[test]
-fn an_infinite_limit_is_one() {
+fn an_infinite_limit_is_accepted() {
     let limit = "<limit lower=\"-inf\" upper=\"inf\" effort=\"inf\" velocity=\"3\"/></joint>";
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     let run = import_from(&folder_with(good.replacen("</joint>", limit, 1)), &[]);
@@ -117,7 +117,7 @@ fn an_infinite_limit_is_one() {
 }
 
 #[test]
-fn what_is_there_once_is_not_there_twice() {
+fn a_second_element_of_what_may_stand_once_is_refused() {
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     let twice = good.replacen("</link>", &format!("\n{BODY}</link>"), 1);
     refused(&twice, &["robot.urdf:3:", "link `a`: its <link> has a second <inertial>", "keep one"]);
@@ -137,7 +137,7 @@ fn what_is_there_once_is_not_there_twice() {
 }
 
 #[test]
-fn what_no_mechanism_can_be_is_shown_with_its_line() {
+fn impossible_values_are_shown_with_their_line() {
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     let heavy =
         good.replace("<link name=\"c\"><inertial><mass value=\"1\"", "<link name=\"c\"><inertial><mass value=\"-1\"");
@@ -160,13 +160,13 @@ fn deeply_nested_elements_do_no_harm() {
 }
 
 #[test]
-fn macros_are_expanded_first() {
+fn a_file_with_xacro_macros_is_refused_until_they_are_expanded() {
     let urdf = "<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:arm/></robot>";
     refused(urdf, &["robot.urdf:2:", "<xacro:arm>", "expand it first"]);
 }
 
 #[test]
-fn a_file_that_is_not_utf8_says_so() {
+fn a_file_that_is_not_utf8_is_refused_as_such() {
     let folder = folder_with(b"<robot name=\"\xff\"/>");
     let run = import_from(&folder, &[]);
     assert!(run.code == 1 && run.stderr.contains("not UTF-8 (byte 14)"), "{}", run.stderr);
