@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 
 /// Writes `contents` to `path`: first beside it under another name, so that an interruption or a full disk leaves
-/// nothing half-written. A file that is there already stays, unless `force`. Links are followed; what is not a file, such
-/// as a device or a pipe, is written into.
+/// nothing half-written. A file that is there already stays, unless `force`. Links are followed; what is not a file,
+/// such as a device or a pipe, is written into.
 ///
 /// # Errors
 /// If the file is there and `force` is not given, or if it cannot be written.

@@ -133,7 +133,8 @@ impl Model {
         let mut findings = new_findings();
         let (file, scene) = (parse(&source), parse(&scene_source));
         if !file.is_valid() || !scene.is_valid() {
-            // What stands in a broken text is read for the outline only: its errors would be echoes of the syntax errors.
+            // What stands in a broken text is read for the outline only: its errors would be echoes of the syntax
+            // errors.
             let outline = Document::read(&file, &scene, &mut new_findings()).outline();
             file.report(&mut findings);
             findings.within(Text::Beside, |findings| scene.report(findings));

@@ -78,8 +78,8 @@ impl Keys {
     /// use redysim_toml::{Key, Keys};
     ///
     /// const CLOCK: Keys = Keys::new("A clock", &[Key::new("hands", "2", "how many")]);
-    /// let expected = "A clock has the keys:\n\n| key | example | meaning |\n|---|---|---|\n| `hands` | `hands = 2` | how many |\n";
-    /// assert_eq!(CLOCK.documentation(), expected);
+    /// let [head, row] = ["| key | example | meaning |\n|---|---|---|", "| `hands` | `hands = 2` | how many |"];
+    /// assert_eq!(CLOCK.documentation(), format!("A clock has the keys:\n\n{head}\n{row}\n"));
     /// ```
     pub fn documentation(&self) -> String {
         let mut seen = Vec::new();

@@ -218,8 +218,8 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
-    /// A table within this one whose kind, named under the key `tag`, determines which keys it has. The name of a kind alone
-    /// stands for a table without other keys.
+    /// A table within this one whose kind, named under the key `tag`, determines which keys it has. The name of a kind
+    /// alone stands for a table without other keys.
     pub fn table_of_kind<T, K: Copy>(
         &mut self,
         key: &Key,
@@ -282,8 +282,8 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.parse_turn(path, value, "")
     }
 
-    /// The value as a displacement of a joint, or that `per` something, as "/s": a number, or of a joint that turns also
-    /// an angle with a unit, in radians. Unlike of an angle, more than a turn of it is nothing odd.
+    /// The value as a displacement of a joint, or that `per` something, as "/s": a number, or of a joint that turns
+    /// also an angle with a unit, in radians. Unlike of an angle, more than a turn of it is nothing odd.
     pub fn parse_displacement(&mut self, path: &KeyPath, value: &Value<'_>, turns: bool, per: &str) -> Option<f64> {
         match value.get_ref() {
             DeValue::String(_) if turns => self.parse_turn(path, value, per),

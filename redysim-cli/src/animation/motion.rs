@@ -51,8 +51,8 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Motion
     Ok((motion, notes))
 }
 
-/// The coordinates that a table has, and their rates: the velocity where a coordinate has one of its name, else what the
-/// neighbouring instants show.
+/// The coordinates that a table has, and their rates: the velocity where a coordinate has one of its name, else what
+/// the neighbouring instants show.
 fn recorded_motion(table: &Table, layout: &Layout) -> Result<Motion, Failure> {
     let rows = evenly(table.t.len(), NUMBERS / (2 * layout.nq()).max(1));
     let pick = |symbol: &str, component: &Component| -> Result<Vec<f64>, Failure> {

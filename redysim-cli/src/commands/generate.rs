@@ -12,8 +12,8 @@ use redysim_model::{Function, Loaded, Model};
 
 /// Print the Rust source that `redysim!` would make of a model.
 ///
-/// The source stands by itself: it needs the crate redysim-runtime and nothing else. Its head states how many operations
-/// each function takes. The same model gives the same bytes.
+/// The source stands by itself: it needs the crate redysim-runtime and nothing else. Its head states how many
+/// operations each function takes. The same model gives the same bytes.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -74,8 +74,8 @@ impl Folder {
     /// part of a run stands beside it.
     ///
     /// # Errors
-    /// If something is there by now that must not be replaced, or the name cannot be given: the folder then gets another,
-    /// and the failure names it.
+    /// If something is there by now that must not be replaced, or the name cannot be given: the folder then gets
+    /// another, and the failure names it.
     pub fn finish(mut self, complete: bool) -> Result<PathBuf, Failure> {
         interrupt::undisturbed(|| {
             let replaces = replaces(&self.target, self.force);

@@ -55,8 +55,8 @@ impl Table {
         }
     }
 
-    /// What stands under `symbol` for each of `components`, by rows; nothing, if no column has that symbol. `per` is what
-    /// the unit of a coordinate is divided by, or a force's `None`.
+    /// What stands under `symbol` for each of `components`, by rows; nothing, if no column has that symbol. `per` is
+    /// what the unit of a coordinate is divided by, or a force's `None`.
     ///
     /// # Errors
     /// A component that has no column or two, and a unit that is not the quantity's.

@@ -143,8 +143,8 @@ impl Prescribed {
         Some(Some(Prescribed { place, ..read.get_ref().clone()? }))
     }
 
-    /// Fails, with what is wrong and what to do, unless it prescribes how all of a mechanism moves and nothing twice: a tree
-    /// every joint, closed loops as many as they leave free.
+    /// Fails, with what is wrong and what to do, unless it prescribes how all of a mechanism moves and nothing twice: a
+    /// tree every joint, closed loops as many as they leave free.
     pub fn check_joints(&self, subject: &Subject<'_>) -> Result<(), (String, String)> {
         let joints = subject.joints();
         if !subject.loops() {

@@ -24,7 +24,8 @@ impl Inertial {
         Inertial { mass: 0.0, com: Vec3::zero(), inertia: Sym3::zero() }
     }
 
-    /// The inertial of a URDF's link: its inertia is in the axes of the inertial frame, whose origin is the centre of mass.
+    /// The inertial of a URDF's link: its inertia is in the axes of the inertial frame, whose origin is the centre of
+    /// mass.
     pub fn of(inertial: &urdf_rs::Inertial) -> Self {
         let urdf_rs::Inertia { ixx, ixy, ixz, iyy, iyz, izz } = inertial.inertia;
         let inertia = Sym3 { xx: ixx, yy: iyy, zz: izz, xy: ixy, yz: iyz, xz: ixz };
