@@ -9,7 +9,7 @@ use common::styles::Style;
 use redysim_codegen::accuracy::{MEASURED, Reference};
 use redysim_codegen::functions::{TracedFunction, trace_of};
 use redysim_codegen::passes::Passes;
-use redysim_model::{AccelerationMethod, Function, Functions, Model, Scene, Tree};
+use redysim_model::{AccelerationMethod, CodegenOptions, Function, Functions, Model, Tree};
 
 /// Of each style. Unoptimised, a tree takes a second.
 const TREES: u64 = if cfg!(debug_assertions) { 1 } else { 20 };
@@ -18,7 +18,8 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 fn traced(tree: &Tree, passes: &Passes, forward_dynamics: AccelerationMethod) -> Vec<TracedFunction> {
     let functions = Functions::of(MEASURED);
-    trace_of(tree, &Scene { functions, forward_dynamics, ..Scene::default() }, passes).expect("no pass changes a value")
+    trace_of(tree, &CodegenOptions { functions, forward_dynamics, ..CodegenOptions::default() }, passes)
+        .expect("no pass changes a value")
 }
 
 /// The expressions of one function among `functions`.

@@ -20,7 +20,7 @@ use redysim::{
 };
 use redysim_codegen::functions::trace_model;
 use redysim_codegen::passes::Passes;
-use redysim_model::{Functions, Inertia, Scene};
+use redysim_model::{CodegenOptions, Functions, Inertia};
 
 redysim! { struct Fourbar("models/fourbar.toml"); }
 redysim! { struct ThreeRrr("models/three_rrr.toml"); }
@@ -104,8 +104,9 @@ fn the_operations_of_the_puma_within_tolerances_are_those_that_the_readme_states
     // least.
     let exponents = if cfg!(debug_assertions) { 4..=4 } else { 1..=4 };
     for exponent in exponents {
-        let scene = Scene { functions, tolerance: Some(10_f64.powi(-exponent)), ..Scene::default() };
-        let traced = trace_model(&model, &scene, &Passes::all()).expect("functions");
+        let options =
+            CodegenOptions { functions, tolerance: Some(10_f64.powi(-exponent)), ..CodegenOptions::default() };
+        let traced = trace_model(&model, &options, &Passes::all()).expect("functions");
         for (name, title) in [("inverse_dynamics", "inverse dynamics"), ("bias_forces", "bias forces")] {
             let function = traced.iter().find(|function| function.function.name() == name).expect("asked for");
             let counts = [function.pruning.expect("pruned").before.flops(), function.expressions.count().flops()];

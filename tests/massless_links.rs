@@ -284,8 +284,8 @@ fn the_forward_dynamics_of_a_tree_with_a_massless_link_is_refused_by_name_and_le
     let massless = text("test/fourbar_massless_coupler");
     let loaded = Model::from_toml(massless.clone(), "trial.toml").expect("a model");
     assert!(
-        !loaded.scene.functions.contains(Function::ForwardDynamics)
-            && loaded.scene.functions.contains(Function::MassMatrix)
+        !loaded.options.functions.contains(Function::ForwardDynamics)
+            && loaded.options.functions.contains(Function::MassMatrix)
     );
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     assert_eq!(Massless::OPS.forward_dynamics.flops(), 0);
@@ -317,7 +317,7 @@ fn the_tree_alone_has_accelerations_that_are_not_finite() {
     let general = generic("test/fourbar_massless_coupler");
     let a = general.forward_dynamics(&q.to_vec(), &v.to_vec(), &vec![0.1; 3]);
     assert!(a.iter().any(|a: &f64| !a.is_finite()), "{a:?}");
-    // Code that is generated without the scene of the file has the function, and the same there.
+    // Code that is generated without the options of the file has the function, and the same there.
     let source = redysim_codegen::source_file(general.model(), "Trial").expect("source");
     assert!(source.contains("forward_dynamics"));
 }

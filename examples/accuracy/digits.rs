@@ -4,7 +4,7 @@
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::trace_of;
 use redysim_codegen::passes::Passes;
-use redysim_model::{AccelerationMethod, Function, Functions, Model, Scene, Tree};
+use redysim_model::{AccelerationMethod, CodegenOptions, Function, Functions, Model, Tree};
 
 use crate::chains::{Rod, chain, oblique, palm};
 use crate::common::csv::Csv;
@@ -72,8 +72,8 @@ fn panel(name: &'static str, tree: &Tree, csv: &mut Csv) -> Result<Panel, Failur
         let mut passes = Passes::all();
         switch(&mut passes);
         let of = |forward_dynamics| -> Result<(String, f64, f64), Failure> {
-            let scene = Scene { functions: only, forward_dynamics, ..Scene::default() };
-            let function = trace_of(tree, &scene, &passes)?.swap_remove(0);
+            let options = CodegenOptions { functions: only, forward_dynamics, ..CodegenOptions::default() };
+            let function = trace_of(tree, &options, &passes)?.swap_remove(0);
             let flops = f64::from(function.expressions.count().flops());
             let [lost, ..] = reference.losses_by(Function::ForwardDynamics, |x| function.expressions.evaluate(x));
             Ok((function.remark.unwrap_or_default(), flops, lost))

@@ -3,7 +3,7 @@
 
 use redysim_codegen::functions::trace_model;
 use redysim_codegen::passes::Passes;
-use redysim_model::{Functions, Model, Scene};
+use redysim_model::{CodegenOptions, Functions, Model};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -13,10 +13,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{path}");
         for exponent in 1..=6 {
             let tolerance = 10_f64.powi(-exponent);
-            let scene =
-                Scene { functions: Functions::named(functions)?, tolerance: Some(tolerance), ..Scene::default() };
+            let options = CodegenOptions {
+                functions: Functions::named(functions)?,
+                tolerance: Some(tolerance),
+                ..CodegenOptions::default()
+            };
             let start = Instant::now();
-            let traced = trace_model(&model, &scene, &Passes::all())?;
+            let traced = trace_model(&model, &options, &Passes::all())?;
             println!("  to {tolerance:e}, in {:.1?}", start.elapsed());
             for function in traced {
                 let (Some(pruning), count) = (function.pruning, function.expressions.count()) else { continue };

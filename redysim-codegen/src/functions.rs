@@ -8,7 +8,7 @@ use crate::pruning::{Pruning, States, pruned};
 use crate::reroll;
 use crate::tracing::simplified_on;
 use crate::trees::Trees;
-use redysim_model::{Function, JointRange, Link, Model, Scene, Tree};
+use redysim_model::{CodegenOptions, Function, JointRange, Link, Model, Tree};
 use redysim_runtime::function::Shape;
 use std::cell::{LazyCell, OnceCell};
 
@@ -40,42 +40,46 @@ pub fn trace(tree: &Tree) -> Result<Vec<TracedFunction>, PassError> {
 ///
 /// As [`trace_of`].
 pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<TracedFunction>, PassError> {
-    trace_of(tree, &Scene::default(), passes)
+    trace_of(tree, &CodegenOptions::default(), passes)
 }
 
-/// Traces and simplifies the functions that `scene` selects, in the order of [`Function::ALL`]. Nothing is pruned.
+/// Traces and simplifies the functions that `options` select, in the order of [`Function::ALL`]. Nothing is pruned.
 ///
 /// # Errors
 ///
 /// In debug builds passes over expressions are verified, and one that changes a value or breaks the graph is reported.
-pub fn trace_of(tree: &Tree, scene: &Scene, passes: &Passes) -> Result<Vec<TracedFunction>, PassError> {
-    let pipeline = Pipeline { tree, scene, passes, reference: &Reference::new(tree), pruning: None };
+pub fn trace_of(tree: &Tree, options: &CodegenOptions, passes: &Passes) -> Result<Vec<TracedFunction>, PassError> {
+    let pipeline = Pipeline { tree, options, passes, reference: &Reference::new(tree), pruning: None };
     pipeline.run()
 }
 
-/// Traces and simplifies the functions that `scene` selects. If it has a tolerance, joint forces, accelerations and the
+/// Traces and simplifies the functions that `options` select. With a tolerance, joint forces, accelerations and the
 /// mass matrix are pruned.
 ///
 /// Energies, link kinematics and loops are always exact, and so are functions that are too long to be unrolled.
 ///
 /// # Errors
 ///
-/// If the scene has a tolerance and a joint no range; as [`trace_of`].
-pub fn trace_model(model: &Model, scene: &Scene, passes: &Passes) -> Result<Vec<TracedFunction>, TraceError> {
+/// If there is a tolerance and a joint without a range; as [`trace_of`].
+pub fn trace_model(
+    model: &Model,
+    options: &CodegenOptions,
+    passes: &Passes,
+) -> Result<Vec<TracedFunction>, TraceError> {
     let tree = Tree::new(model);
     let range = |link: &Link| link.range.ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() });
-    let pruning = match scene.tolerance {
+    let pruning = match options.tolerance {
         Some(tolerance) => Some((tolerance, model.moving_links().map(range).collect::<Result<Vec<_>, _>>()?)),
         None => None,
     };
-    let pipeline = Pipeline { tree: &tree, scene, passes, reference: &Reference::new(&tree), pruning };
+    let pipeline = Pipeline { tree: &tree, options, passes, reference: &Reference::new(&tree), pruning };
     Ok(pipeline.run()?)
 }
 
 /// The inputs from which all functions of a mechanism are made.
 struct Pipeline<'a> {
     tree: &'a Tree,
-    scene: &'a Scene,
+    options: &'a CodegenOptions,
     passes: &'a Passes,
     /// The exact numbers of the robot, by which the loss of digits is measured.
     reference: &'a Reference<'a>,
@@ -131,14 +135,14 @@ impl Pipeline<'_> {
             let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, self.passes)?;
             Ok(TracedFunction { expressions, pruning: Some(pruning), ..whole })
         };
-        self.scene.functions.iter().map(make).collect()
+        self.options.functions.iter().map(make).collect()
     }
 
     /// The function on the description of the robot on which it is best computed.
     fn simplified(&self, function: Function, trees: &Trees, passes: &Passes) -> Result<TracedFunction, PassError> {
         let (expressions, remark) = match function {
             Function::ForwardDynamics => {
-                let choice = forward_dynamics::choose(trees, self.scene.forward_dynamics, passes)?;
+                let choice = forward_dynamics::choose(trees, self.options.forward_dynamics, passes)?;
                 let remark = choice.to_string();
                 (choice.expressions, Some(remark))
             }

@@ -4,7 +4,7 @@ use crate::backend::rust::{self, documentation};
 use crate::functions::{TraceError, TracedFunction, trace_model, trace_of};
 use crate::passes::{PassError, Passes};
 use proc_macro2::{Ident, TokenStream};
-use redysim_model::{Function, Model, Outline, Scene, Tree};
+use redysim_model::{CodegenOptions, Function, Model, PublicInterface, Tree};
 use redysim_runtime::OperationCount;
 
 /// The code of a mechanism, and its operations.
@@ -33,7 +33,7 @@ pub struct Counted {
 ///
 /// In debug builds passes over expressions are verified, and one that changes a value or breaks the graph is reported.
 pub fn implementation(model: &Model, name: &Ident, runtime: &TokenStream) -> Result<Generated, PassError> {
-    implementation_with(model, name, runtime, &Scene::default(), &Passes::default())
+    implementation_with(model, name, runtime, &CodegenOptions::default(), &Passes::default())
 }
 
 /// The same with options, and with the given passes only.
@@ -45,11 +45,11 @@ pub fn implementation_with(
     model: &Model,
     name: &Ident,
     runtime: &TokenStream,
-    scene: &Scene,
+    options: &CodegenOptions,
     passes: &Passes,
 ) -> Result<Generated, PassError> {
-    let (functions, warnings) = functions(model, scene, passes)?;
-    let tokens = rust::mechanism(model, &Outline::new(model, scene), &functions, name, runtime);
+    let (functions, warnings) = functions(model, options, passes)?;
+    let tokens = rust::mechanism(model, &PublicInterface::new(model, options), &functions, name, runtime);
     Ok(Generated { tokens, operations: operations_of(&functions), warnings })
 }
 
@@ -58,19 +58,23 @@ pub fn implementation_with(
 /// # Errors
 ///
 /// As [`implementation`].
-pub fn operations(model: &Model, scene: &Scene) -> Result<Counted, PassError> {
-    let (functions, warnings) = functions(model, scene, &Passes::default())?;
+pub fn operations(model: &Model, options: &CodegenOptions) -> Result<Counted, PassError> {
+    let (functions, warnings) = functions(model, options, &Passes::default())?;
     Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
-/// The functions that `scene` selects, and warnings.
-fn functions(model: &Model, scene: &Scene, passes: &Passes) -> Result<(Vec<TracedFunction>, Vec<String>), PassError> {
-    let (functions, unpruned) = match trace_model(model, scene, passes) {
+/// The functions that `options` select, and warnings.
+fn functions(
+    model: &Model,
+    options: &CodegenOptions,
+    passes: &Passes,
+) -> Result<(Vec<TracedFunction>, Vec<String>), PassError> {
+    let (functions, unpruned) = match trace_model(model, options, passes) {
         Ok(functions) => (functions, None),
         Err(TraceError::Pass(error)) => return Err(error),
         Err(no_range @ TraceError::NoRange { .. }) => {
             let unpruned = format!("nothing is pruned: {no_range}");
-            (trace_of(&Tree::new(model), scene, passes)?, Some(unpruned))
+            (trace_of(&Tree::new(model), options, passes)?, Some(unpruned))
         }
     };
     let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();

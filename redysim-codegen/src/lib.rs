@@ -1,15 +1,25 @@
-//! From a checked model to Rust code made for it.
+//! The code generator of redysim: from a checked model to Rust code made for it.
 //!
-//! Before anything is traced, the robot is described in the way that costs least: frames, inertias and units are chosen
-//! anew where the values stay the same ([`passes::Passes`] lists what is done and switches it).
+//! 1. The robot is described in the way that costs least: the choice of frames, inertias and units does not change the
+//!    values of its functions.
+//! 2. The recursions of [`redysim_model::denoc`] run once with a [symbol](symbol::Symbol) as scalar. The result is a
+//!    [graph](graph::Graph) of the operations that this mechanism needs: operations on zeros, ones and constants are
+//!    folded, and equal values are one node.
+//! 3. [Passes](passes) over the graph simplify it. With a tolerance, terms that do not matter within the ranges of the
+//!    joints are [pruned](Pruning).
+//! 4. The graph becomes a program of statements, with loops over uniform bodies where it is long, which is printed as
+//!    Rust over `S: Scalar`.
 //!
-//! The recursions of [`redysim_model::denoc`] run once with a [symbol](symbol::Symbol) for a scalar. What they leave
-//! behind is a [graph](graph::Graph) of the operations that this one mechanism needs: zeros, ones and constants are
-//! folded as they arise, equal values are one node, and [passes] over the graph collect what is left. The graph is then
-//! written out as Rust over `S: Scalar`, in blocks that a compiler can take.
+//! [Options](redysim_model::CodegenOptions) select functions, a tolerance, and the algorithm for forward dynamics.
 //!
-//! A [scene](redysim_model::Scene) asks for less: for some of the functions only, or for joint forces that may be wrong
-//! by a tolerance, for which terms are left out that do not matter within the ranges of the joints.
+//! | to get | use |
+//! |---|---|
+//! | a source file | [`source_file`], [`source_file_with`] (feature `source`, on by default) |
+//! | the tokens of a mechanism's `impl`s | [`implementation`], [`implementation_with`], [`stub`] |
+//! | operation counts alone | [`operations`] |
+//! | the expressions of functions | [`functions::trace`], [`functions::trace_model`] |
+//! | the loss of digits of a function | [`accuracy::Reference`] |
+//! | what a pass saves | [`passes::Passes`] |
 //!
 //! ```
 //! use redysim_codegen::source_file;

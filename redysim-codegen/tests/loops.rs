@@ -4,13 +4,18 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{Generated, implementation_with};
-use redysim_model::{Model, Scene};
+use redysim_model::{CodegenOptions, Model};
 
 /// The code of a model, without spaces, function by function: name and body.
 fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
-    let Generated { tokens, operations, .. } =
-        implementation_with(model, &format_ident!("Robot"), &quote!(redysim_runtime), &Scene::default(), passes)
-            .expect("no pass changes a value");
+    let Generated { tokens, operations, .. } = implementation_with(
+        model,
+        &format_ident!("Robot"),
+        &quote!(redysim_runtime),
+        &CodegenOptions::default(),
+        passes,
+    )
+    .expect("no pass changes a value");
     let text = without_spaces(tokens);
     let start = |name: &str| {
         text.find(&format!("pubfn{name}_with_trig<")).expect("every function takes joint trigonometry, too")

@@ -3,7 +3,7 @@
 use redysim_codegen::functions::{TracedFunction, trace_model, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, source_file_with};
-use redysim_model::{Functions, JointRange, Model, Scene, Tree};
+use redysim_model::{CodegenOptions, Functions, JointRange, Model, Tree};
 use redysim_runtime::OperationCount;
 
 fn model(name: &str) -> Model {
@@ -18,7 +18,12 @@ fn with_range(mut model: Model, range: JointRange) -> Model {
 
 fn traced(model: &Model, functions: &[&str], tolerance: f64) -> Vec<TracedFunction> {
     let functions = Functions::named(functions.iter().copied()).unwrap();
-    trace_model(model, &Scene { functions, tolerance: Some(tolerance), ..Scene::default() }, &Passes::all()).unwrap()
+    trace_model(
+        model,
+        &CodegenOptions { functions, tolerance: Some(tolerance), ..CodegenOptions::default() },
+        &Passes::all(),
+    )
+    .unwrap()
 }
 
 /// Evenly spread numbers within ±1, by the golden ratio.
@@ -149,22 +154,22 @@ fn energies_places_and_loops_are_exact() {
 #[test]
 fn the_code_says_what_was_pruned_and_how_well() {
     let functions = Functions::named(["inverse_dynamics"]).unwrap();
-    let scene = Scene { functions, tolerance: Some(0.01), ..Scene::default() };
-    let source = source_file_with(&model("test/kr5_ranges"), "Kr5", &scene).unwrap();
+    let options = CodegenOptions { functions, tolerance: Some(0.01), ..CodegenOptions::default() };
+    let source = source_file_with(&model("test/kr5_ranges"), "Kr5", &options).unwrap();
     assert!(source.contains(
         "/// Pruned to a tolerance of 0.01: 333 flops and 5 sine-cosine pairs before. The worst error of 100000"
     ));
     assert!(source.contains("/// - `joint1`: -2.7053 to 2.7053 rad, ±2.6878 rad/s, ±8.0000 rad/s²"));
-    assert_eq!(source, source_file_with(&model("test/kr5_ranges"), "Kr5", &scene).unwrap());
+    assert_eq!(source, source_file_with(&model("test/kr5_ranges"), "Kr5", &options).unwrap());
 }
 
 #[test]
 fn without_a_range_nothing_is_pruned_and_that_is_said() {
     let functions = Functions::named(["gravity_forces"]).unwrap();
-    let scene = Scene { functions, tolerance: Some(0.01), ..Scene::default() };
+    let options = CodegenOptions { functions, tolerance: Some(0.01), ..CodegenOptions::default() };
     let (name, runtime) = (quote::format_ident!("Kr5"), quote::quote!(::redysim_runtime));
     let generated =
-        implementation_with(&model("kr5"), &name, &runtime, &scene, &Passes::all()).expect("no pass changes a value");
+        implementation_with(&model("kr5"), &name, &runtime, &options, &Passes::all()).expect("no pass changes a value");
     assert_eq!(
         generated.warnings,
         [
@@ -172,7 +177,7 @@ fn without_a_range_nothing_is_pruned_and_that_is_said() {
           link a `range`"
         ]
     );
-    assert!(source_file_with(&model("kr5"), "Kr5", &scene).unwrap().contains("// Warning: nothing is pruned"));
+    assert!(source_file_with(&model("kr5"), "Kr5", &options).unwrap().contains("// Warning: nothing is pruned"));
 }
 
 #[test]

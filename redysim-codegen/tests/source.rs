@@ -1,7 +1,7 @@
 //! The generated code as people see it: the same every time, whole, and readable.
 
 use redysim_codegen::{implementation, source_file, source_file_with, stub};
-use redysim_model::{Function, Functions, Model, Outline, Scene};
+use redysim_model::{CodegenOptions, Function, Functions, Model, PublicInterface};
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -45,7 +45,7 @@ fn temporaries_are_named_for_what_they_hold_and_the_link() {
 }
 
 #[test]
-fn functions_say_what_they_cost() {
+fn functions_document_their_operations() {
     let source = source_file(&model("kr5.toml"), "Kr5").unwrap();
     let generated = implementation(&model("kr5.toml"), &quote::format_ident!("Kr5"), &quote::quote!(::redysim_runtime))
         .expect("no pass changes a value");
@@ -62,10 +62,10 @@ fn an_invalid_type_name_is_an_error() {
 }
 
 #[test]
-fn a_scene_has_its_functions_and_their_traits_only() {
+fn only_selected_functions_and_their_traits_are_generated() {
     let functions = Functions::named(["gravity_forces", "loop_residual", "loop_jacobian"]).unwrap();
-    let scene = Scene { functions, ..Scene::default() };
-    let source = source_file_with(&model("fourbar.toml"), "Fourbar", &scene).unwrap();
+    let options = CodegenOptions { functions, ..CodegenOptions::default() };
+    let source = source_file_with(&model("fourbar.toml"), "Fourbar", &options).unwrap();
     for &function in Function::ALL {
         let name = function.name();
         for form in [format!("pub fn {name}<"), format!("pub fn {name}_with_trig<"), format!("// {name} ")] {
@@ -81,10 +81,10 @@ fn a_scene_has_its_functions_and_their_traits_only() {
 }
 
 #[test]
-fn a_stub_has_what_the_scene_asks_for() {
+fn a_stub_has_the_selected_functions_only() {
     let functions = Functions::named(["energy"]).unwrap();
-    let outline = Outline { functions, ..Outline::default() };
-    let stub = stub(&outline, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
+    let interface = PublicInterface { functions, ..PublicInterface::default() };
+    let stub = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
     assert!(
         stub.contains("pub fn energy")
             && stub.contains("pub fn energy_with_trig")

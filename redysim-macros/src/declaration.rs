@@ -1,22 +1,22 @@
-//! What the macros are given: a unit struct, the path of a model, and what is asked of it.
+//! The input of the macros: a unit struct, the path of a model, and options.
 
-use crate::scene::SceneText;
+use crate::options::OptionsText;
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Data, DeriveInput, Error, Fields, Ident, LitStr, Result, Token, Visibility, parenthesized};
 
-/// A struct that is to be the mechanism of a model.
+/// A struct that becomes the mechanism of a model.
 pub struct Declaration {
     pub attributes: Vec<Attribute>,
     pub visibility: Visibility,
     pub name: Ident,
     pub model: LitStr,
-    pub scene: SceneText,
+    pub options: OptionsText,
 }
 
-/// A model and what is asked of it: `"models/kr5.toml", functions = [mass_matrix]`.
+/// A model and options: `"models/kr5.toml", functions = [mass_matrix]`.
 struct Robot {
     model: LitStr,
-    scene: SceneText,
+    options: OptionsText,
 }
 
 impl Parse for Robot {
@@ -25,11 +25,11 @@ impl Parse for Robot {
         if !input.is_empty() {
             input.parse::<Token![,]>()?;
         }
-        Ok(Robot { model, scene: input.parse()? })
+        Ok(Robot { model, options: input.parse()? })
     }
 }
 
-/// The input of `redysim!`: `pub struct Kr5("models/kr5.toml");`, with what is asked of it after the path.
+/// The input of `redysim!`: `pub struct Kr5("models/kr5.toml");`, with options after the path.
 pub struct Macro(pub Declaration);
 
 /// The input of the derive: a unit struct with the attribute `#[mechanism("models/kr5.toml")]`.
@@ -43,12 +43,12 @@ impl Parse for Macro {
         let name = input.parse()?;
         let content;
         parenthesized!(content in input);
-        let Robot { model, scene } = content.parse()?;
+        let Robot { model, options } = content.parse()?;
         input.parse::<Option<Token![;]>>()?;
         if !input.is_empty() {
             return Err(Error::new(input.span(), "expected `struct Name(\"path/of/model.toml\");` and nothing else"));
         }
-        Ok(Macro(Declaration { attributes, visibility, name: usable(name)?, model, scene }))
+        Ok(Macro(Declaration { attributes, visibility, name: checked_name(name)?, model, options }))
     }
 }
 
@@ -67,13 +67,13 @@ impl Parse for Derive {
         if let Some(more) = more {
             return Err(Error::new_spanned(more, "a mechanism has one model; remove this attribute"));
         }
-        let Robot { model, scene } = model.parse_args()?;
-        Ok(Derive(Declaration { attributes: attrs, visibility: vis, name: usable(ident)?, model, scene }))
+        let Robot { model, options } = model.parse_args()?;
+        Ok(Derive(Declaration { attributes: attrs, visibility: vis, name: checked_name(ident)?, model, options }))
     }
 }
 
-/// A name for a mechanism. Generated functions are over a scalar type `S`, which would hide a struct of that name.
-fn usable(name: Ident) -> Result<Ident> {
+/// The name of a mechanism, which cannot be `S`: generated functions have a scalar type `S`.
+fn checked_name(name: Ident) -> Result<Ident> {
     if name == "S" {
         return Err(Error::new(name.span(), "a mechanism cannot be called `S`: generated code means the scalar by it"));
     }

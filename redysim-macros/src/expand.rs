@@ -1,4 +1,4 @@
-//! From a declaration to code: the mechanism, its warnings, or its faults.
+//! From a declaration to code: the mechanism, warnings and errors.
 
 use crate::declaration::Declaration;
 use crate::locate::{model_file, shown};
@@ -6,18 +6,18 @@ use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, stub};
-use redysim_model::{Diagnostic, Model, Outline, Severity};
+use redysim_model::{Diagnostic, Model, PublicInterface, Severity};
 use syn::Attribute;
 
 /// The struct and its `impl`s.
-pub fn declared(declaration: &Declaration) -> TokenStream {
+pub fn struct_and_impls(declaration: &Declaration) -> TokenStream {
     let Declaration { attributes, visibility, name, .. } = declaration;
     let derive = if attributes.iter().any(|attribute| attribute.path().is_ident("derive")) {
         None
     } else {
         Some(quote!(#[derive(Clone, Copy, Debug, Default)]))
     };
-    let implementation = derived(declaration);
+    let implementation = impls(declaration);
     quote! {
         #(#attributes)*
         #derive
@@ -26,27 +26,27 @@ pub fn declared(declaration: &Declaration) -> TokenStream {
     }
 }
 
-/// The `impl`s of a struct that stands in the caller's code.
-pub fn derived(declaration: &Declaration) -> TokenStream {
-    let Declaration { name, model, scene, .. } = declaration;
+/// The `impl`s of a struct in the caller's code.
+pub fn impls(declaration: &Declaration) -> TokenStream {
+    let Declaration { name, model, options, .. } = declaration;
     let runtime = quote!(::redysim::runtime);
     let file = model_file(model);
     let registered = file.to_str().filter(|_| file.is_file()).map(|path| {
-        // The compiler then knows that the code depends on the file.
+        // So that the compiler tracks the file as a dependency.
         quote!(
             const _: &[u8] = ::core::include_bytes!(#path);
         )
     });
-    let (diagnostics, warnings, implementation) = match Model::load_with(&file, shown(&file), scene.text.as_str()) {
-        Ok(loaded) => match implementation_with(&loaded.model, name, &runtime, &loaded.scene, &Passes::default()) {
+    let (diagnostics, warnings, implementation) = match Model::load_with(&file, shown(&file), options.text.as_str()) {
+        Ok(loaded) => match implementation_with(&loaded.model, name, &runtime, &loaded.options, &Passes::default()) {
             Ok(generated) => (loaded.warnings, generated.warnings, generated.tokens),
-            Err(changed) => {
-                let error = compile_error(declaration, &changed.to_string(), model.span());
-                let outline = Outline::new(&loaded.model, &loaded.scene);
-                (loaded.warnings, Vec::new(), [error, stub(&outline, name, &runtime)].into_iter().collect())
+            Err(error) => {
+                let error = compile_error(declaration, &error.to_string(), model.span());
+                let interface = PublicInterface::new(&loaded.model, &loaded.options);
+                (loaded.warnings, Vec::new(), [error, stub(&interface, name, &runtime)].into_iter().collect())
             }
         },
-        Err(faults) => (faults.diagnostics.0, Vec::new(), stub(&faults.outline, name, &runtime)),
+        Err(faults) => (faults.diagnostics.0, Vec::new(), stub(&faults.interface, name, &runtime)),
     };
     let messages = diagnostics.iter().map(|diagnostic| {
         let (message, span) = (message(diagnostic), place(declaration, diagnostic));
@@ -68,7 +68,7 @@ pub fn derived(declaration: &Declaration) -> TokenStream {
     }
 }
 
-/// What the existence of the struct, and so of all that belongs to it, depends on.
+/// The `cfg` attributes of the struct, which its `impl`s and messages need as well.
 fn cfgs(declaration: &Declaration) -> impl Iterator<Item = &Attribute> {
     declaration.attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"))
 }
@@ -78,15 +78,15 @@ fn compile_error(declaration: &Declaration, message: &str, span: Span) -> TokenS
     quote_spanned!(span=> #(#cfgs)* ::core::compile_error!(#message);)
 }
 
-/// Where the compiler shows a diagnostic: at what was asked for in the declaration, or at the path of the model.
+/// Where the compiler shows a diagnostic: at an option in the declaration, or at the path of the model.
 fn place(declaration: &Declaration, diagnostic: &Diagnostic) -> Span {
-    let asked = diagnostic.span_in_scene().and_then(|range| declaration.scene.span_of(&range));
-    asked.unwrap_or(declaration.model.span())
+    let option = diagnostic.span_beside().and_then(|range| declaration.options.span_of(&range));
+    option.unwrap_or(declaration.model.span())
 }
 
-/// What the compiler says: with the line of the model file, but where it shows a line of the declaration itself.
+/// The compiler's message: with the line of the model file, unless the compiler shows that of the declaration.
 fn message(diagnostic: &Diagnostic) -> String {
-    if diagnostic.span_in_scene().is_some() {
+    if diagnostic.span_beside().is_some() {
         return format!("{}\n = help: {}", diagnostic.title(), diagnostic.help());
     }
     let picture = diagnostic.to_string();
@@ -97,7 +97,7 @@ fn message(diagnostic: &Diagnostic) -> String {
     picture.strip_prefix(severity).unwrap_or(&picture).to_string()
 }
 
-/// A compiler warning: the use of a constant that is deprecated for what the warning says.
+/// A compiler warning: the use of a deprecated constant, with the warning as its note.
 fn compile_warning(declaration: &Declaration, note: &str, span: Span) -> TokenStream {
     let lints = declaration.attributes.iter().filter(is_lint_level);
     let cfgs = cfgs(declaration);

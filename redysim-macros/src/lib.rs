@@ -3,7 +3,7 @@
 mod declaration;
 mod expand;
 mod locate;
-mod scene;
+mod options;
 
 use proc_macro::TokenStream;
 
@@ -25,7 +25,7 @@ use proc_macro::TokenStream;
 /// all over any `S: Scalar`, and the traits that have them. Unless the declaration derives traits itself, the type is
 /// `Clone`, `Copy`, `Debug` and `Default`.
 ///
-/// After the path may stand what is asked of the model, so that nothing else is generated and compiled:
+/// Options may follow the path:
 ///
 /// ```text
 /// redysim! {
@@ -37,20 +37,20 @@ use proc_macro::TokenStream;
 ///   that they make up; `OPS` has no operations for the others.
 /// - `locked = { joint6 = "0 deg", slide = 0.3 }`: joints, by their names or those of their links, are held at these
 ///   coordinates, as if they were fixed there.
-/// - `tolerance = 1e-3`: joint forces, accelerations and the mass matrix may be wrong by this share of each joint's
+/// - `tolerance = 1e-3`: joint forces, accelerations and the mass matrix may have errors of this share of each joint's
 ///   scale while every joint stays within the `range` that the model file gives it, and terms that do not matter then
 ///   are left out. The documentation of each function states its operations before and after, the ranges, and the worst
 ///   error of 100,000 sampled states; the compiler warns where the tolerance did not hold and a function is left whole.
 ///
-/// A model file may say the same at its top, with names in quotes: `functions = ["inverse_dynamics"]`. Each key that is
-/// given here wins over the file's.
+/// A model file may have the same options at its top, with names in quotes: `functions = ["inverse_dynamics"]`. A key
+/// that is given here takes precedence over the file's.
 ///
-/// Faults of the model are compile errors that show the model file's own lines. Warnings of the model are warnings of
-/// the kind `deprecated`, the only one a macro can give; `#[allow(deprecated)]` on the struct accepts them.
+/// Errors in the model are compile errors that show the lines of the model file. Warnings about the model are warnings
+/// of the lint `deprecated`, the only kind that a macro can emit; `#[allow(deprecated)]` on the struct silences them.
 #[proc_macro]
 pub fn redysim(input: TokenStream) -> TokenStream {
     match syn::parse(input) {
-        Ok(declaration::Macro(declaration)) => expand::declared(&declaration),
+        Ok(declaration::Macro(declaration)) => expand::struct_and_impls(&declaration),
         Err(error) => error.into_compile_error(),
     }
     .into()
@@ -58,12 +58,12 @@ pub fn redysim(input: TokenStream) -> TokenStream {
 
 /// Makes a unit struct the mechanism of a model file: `#[derive(Mechanism)] #[mechanism("models/kr5.toml")]`.
 ///
-/// The same code as [`redysim!`], for a type whose declaration stands outside the macro. After the path may stand what
-/// is asked of the model, as there: `#[mechanism("models/kr5.toml", functions = [inverse_dynamics])]`.
+/// The same code as [`redysim!`], for a type that is declared outside the macro. Options may follow the path, as there:
+/// `#[mechanism("models/kr5.toml", functions = [inverse_dynamics])]`.
 #[proc_macro_derive(Mechanism, attributes(mechanism))]
 pub fn mechanism(input: TokenStream) -> TokenStream {
     match syn::parse(input) {
-        Ok(declaration::Derive(declaration)) => expand::derived(&declaration),
+        Ok(declaration::Derive(declaration)) => expand::impls(&declaration),
         Err(error) => error.into_compile_error(),
     }
     .into()

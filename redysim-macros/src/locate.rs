@@ -1,4 +1,4 @@
-//! Where a model's file is.
+//! The path of a model file.
 
 use std::path::{Path, PathBuf};
 use syn::LitStr;

@@ -1,6 +1,6 @@
 //! Why a file is not a model.
 
-use crate::outline::Outline;
+use crate::public_interface::PublicInterface;
 use redysim_toml::{Diagnostic, Diagnostics};
 use std::fmt;
 
@@ -10,7 +10,7 @@ pub struct Faults {
     /// Errors (at least one) and warnings.
     pub diagnostics: Diagnostics,
     /// What could be read nevertheless: enough for a stub that lets the code around the model compile.
-    pub outline: Box<Outline>,
+    pub interface: Box<PublicInterface>,
     /// Whether nothing was read: the file is not there, or may not be read.
     pub unread: bool,
 }

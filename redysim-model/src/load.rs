@@ -4,7 +4,7 @@ use crate::check;
 use crate::faults::Faults;
 use crate::messages;
 use crate::model::Model;
-use crate::scene::Scene;
+use crate::options::CodegenOptions;
 use crate::schema::Document;
 use redysim_toml::{Diagnostic, Diagnostics, Findings, Message, Source, Text, parse};
 use std::path::Path;
@@ -18,7 +18,7 @@ pub struct Loaded {
     /// The text of its file, as it was read.
     pub text: String,
     /// What is asked of it, by the file or beside it.
-    pub scene: Scene,
+    pub options: CodegenOptions,
     /// Warnings, in the file's order.
     pub warnings: Vec<Diagnostic>,
 }
@@ -43,26 +43,26 @@ impl Model {
         Model::load_with(path, file_name, "")
     }
 
-    /// Reads and checks a model file with a scene beside it, as [`from_toml_with`](Model::from_toml_with) does.
+    /// Reads and checks a model file with options beside it, as [`from_toml_with`](Model::from_toml_with) does.
     ///
     /// # Errors
     ///
-    /// As [`load`](Model::load), and every fault in the scene.
+    /// As [`load`](Model::load), and every fault in the options.
     pub fn load_with(
         path: impl AsRef<Path>,
         file_name: impl Into<String>,
-        scene: impl Into<String>,
+        options: impl Into<String>,
     ) -> Result<Loaded, Faults> {
-        let (path, name, scene) = (path.as_ref(), file_name.into(), scene.into());
+        let (path, name, options) = (path.as_ref(), file_name.into(), options.into());
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
-            Err(_) if path.is_dir() => return Err(nothing_of(name, messages::is_directory(), &scene, true)),
-            Err(error) => return Err(nothing_of(name, messages::unreadable(&error), &scene, true)),
+            Err(_) if path.is_dir() => return Err(nothing_of(name, messages::is_directory(), &options, true)),
+            Err(error) => return Err(nothing_of(name, messages::unreadable(&error), &options, true)),
         };
         match String::from_utf8(bytes) {
-            Ok(text) => Model::from_toml_with(text, name, scene),
+            Ok(text) => Model::from_toml_with(text, name, options),
             Err(error) => {
-                Err(nothing_of(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &scene, false))
+                Err(nothing_of(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &options, false))
             }
         }
     }
@@ -105,7 +105,7 @@ impl Model {
         Model::from_toml_with(text, file_name, "")
     }
 
-    /// Checks the text of a model file with a scene beside it: TOML with the keys `functions`, `locked` and
+    /// Checks the text of a model file with options beside it: TOML with the keys `functions`, `locked` and
     /// `tolerance`, each of which wins over that of the file.
     ///
     /// # Errors
@@ -120,49 +120,49 @@ impl Model {
     /// # let pendulum = "name = 'pendulum'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
     /// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 1.0\ncom = [0.5, 0, 0]";
     /// let loaded = Model::from_toml_with(pendulum, "pendulum.toml", "functions = ['inverse_dynamics']").unwrap();
-    /// assert!(!loaded.scene.functions.contains(Function::MassMatrix));
+    /// assert!(!loaded.options.functions.contains(Function::MassMatrix));
     /// ```
     pub fn from_toml_with(
         text: impl Into<String>,
         file_name: impl Into<String>,
-        scene: impl Into<String>,
+        options: impl Into<String>,
     ) -> Result<Loaded, Faults> {
         let source = Arc::new(Source::new(file_name, text));
-        let scene_source = scene_source(scene.into());
-        let new_findings = || Findings::with_beside(Arc::clone(&source), Arc::clone(&scene_source));
+        let options_source = options_source(options.into());
+        let new_findings = || Findings::with_beside(Arc::clone(&source), Arc::clone(&options_source));
         let mut findings = new_findings();
-        let (file, scene) = (parse(&source), parse(&scene_source));
-        if !file.is_valid() || !scene.is_valid() {
-            // What stands in a broken text is read for the outline only: its errors would be echoes of the syntax
+        let (file, options) = (parse(&source), parse(&options_source));
+        if !file.is_valid() || !options.is_valid() {
+            // What stands in a broken text is read for the interface only: its errors would be echoes of the syntax
             // errors.
-            let outline = Document::read(&file, &scene, &mut new_findings()).outline();
+            let interface = Document::read(&file, &options, &mut new_findings()).public_interface();
             file.report(&mut findings);
-            findings.within(Text::Beside, |findings| scene.report(findings));
-            return Err(Faults { diagnostics: findings.into_sorted(), outline: Box::new(outline), unread: false });
+            findings.within(Text::Beside, |findings| options.report(findings));
+            return Err(Faults { diagnostics: findings.into_sorted(), interface: Box::new(interface), unread: false });
         }
-        let document = Document::read(&file, &scene, &mut findings);
+        let document = Document::read(&file, &options, &mut findings);
         match check::check(&document, &mut findings) {
-            Some((model, scene)) => {
-                Ok(Loaded { model, text: source.text.clone(), scene, warnings: findings.into_sorted().0 })
+            Some((model, options)) => {
+                Ok(Loaded { model, text: source.text.clone(), options, warnings: findings.into_sorted().0 })
             }
             None => Err(Faults {
                 diagnostics: findings.into_sorted(),
-                outline: Box::new(document.outline()),
+                interface: Box::new(document.public_interface()),
                 unread: false,
             }),
         }
     }
 }
 
-fn scene_source(text: String) -> Arc<Source> {
-    Arc::new(Source::new("scene", text))
+fn options_source(text: String) -> Arc<Source> {
+    Arc::new(Source::new("options", text))
 }
 
-/// Without a file there are no links, but the scene still says which functions code around the model will call.
-fn nothing_of(name: String, message: Message, scene: &str, unread: bool) -> Faults {
-    let (nothing, scene_source) = (Source::new("", ""), scene_source(scene.to_string()));
-    let mut echoes = Findings::with_beside(scene_source.clone(), scene_source.clone());
-    let outline = Document::read(&parse(&nothing), &parse(&scene_source), &mut echoes).outline();
+/// Without a file there are no links, but the options still list the functions that the code around the model calls.
+fn nothing_of(name: String, message: Message, options: &str, unread: bool) -> Faults {
+    let (nothing, options_source) = (Source::new("", ""), options_source(options.to_string()));
+    let mut echoes = Findings::with_beside(options_source.clone(), options_source.clone());
+    let interface = Document::read(&parse(&nothing), &parse(&options_source), &mut echoes).public_interface();
     let diagnostics = Diagnostics(vec![Diagnostic::unreadable(name, message)]);
-    Faults { diagnostics, outline: Box::new(outline), unread }
+    Faults { diagnostics, interface: Box::new(interface), unread }
 }

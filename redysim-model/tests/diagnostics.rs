@@ -107,14 +107,14 @@ fn faulty_files_still_have_an_outline() {
         ("missing_key", ["link #1", "fore"], ["link #1", "fore"]),
         ("duplicate_joint", ["upper", "fore"], ["upper", "upper"]),
     ] {
-        let outline = Model::load(models().join(format!("fail/{name}.toml"))).unwrap_err().outline;
-        assert_eq!(outline.name, "arm", "{name}");
+        let interface = Model::load(models().join(format!("fail/{name}.toml"))).unwrap_err().interface;
+        assert_eq!(interface.name, "arm", "{name}");
         assert_eq!(
-            (outline.links, outline.joints),
+            (interface.links, interface.joints),
             (links.map(String::from).into(), joints.map(String::from).into()),
             "{name}"
         );
     }
-    let fixed = Model::load(models().join("fail/axis_on_fixed.toml")).unwrap_err().outline;
+    let fixed = Model::load(models().join("fail/axis_on_fixed.toml")).unwrap_err().interface;
     assert_eq!(fixed.joints, ["upper"]);
 }

@@ -6,8 +6,8 @@ fn text(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../models/{name}.toml", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-fn loaded(text: &str, scene: &str) -> Model {
-    Model::from_toml_with(text, "test.toml", scene).unwrap_or_else(|faults| panic!("{faults}")).model
+fn loaded(text: &str, options: &str) -> Model {
+    Model::from_toml_with(text, "test.toml", options).unwrap_or_else(|faults| panic!("{faults}")).model
 }
 
 /// KR5 with its third and sixth joints written as fixed ones.
@@ -43,7 +43,7 @@ fn a_prismatic_joint_is_locked_at_a_length() {
 }
 
 #[test]
-fn the_scene_beside_the_file_wins() {
+fn options_beside_the_file_take_precedence() {
     let in_file =
         text("kr5").replace("[[link]]\nname = \"link1\"", "locked = { joint6 = 0 }\n[[link]]\nname = \"link1\"");
     assert_eq!(loaded(&in_file, "").dof(), 5);
@@ -69,9 +69,9 @@ fn a_locked_joint_needs_no_range() {
     let without = &without[..last];
     let faults = Model::from_toml_with(without, "test.toml", "tolerance = 1e-3").unwrap_err();
     assert!(faults.errors().next().unwrap().title().contains("joint `joint6` has no range"), "{faults}");
-    let scene = "tolerance = 1e-3\nlocked = { joint6 = 0 }";
-    let loaded = Model::from_toml_with(without, "test.toml", scene).unwrap();
-    assert_eq!((loaded.scene.tolerance, loaded.model.dof()), (Some(1e-3), 5));
+    let options = "tolerance = 1e-3\nlocked = { joint6 = 0 }";
+    let loaded = Model::from_toml_with(without, "test.toml", options).unwrap();
+    assert_eq!((loaded.options.tolerance, loaded.model.dof()), (Some(1e-3), 5));
 }
 
 #[test]
@@ -100,5 +100,5 @@ fn unreadable_links_give_no_echoes() {
     let broken = text("kr5").replace("joint_name = \"joint6\"", "joint_name = 6");
     let faults = Model::from_toml_with(broken, "test.toml", "locked = { joint6 = 0 }").unwrap_err();
     assert_eq!(faults.errors().count(), 1, "{faults}");
-    assert_eq!(faults.outline.joints.len(), 6);
+    assert_eq!(faults.interface.joints.len(), 6);
 }

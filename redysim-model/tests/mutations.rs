@@ -122,14 +122,14 @@ proptest! {
         check(&mutations.iter().fold(FILES[file].to_owned(), |text, mutation| mutated(&text, mutation)));
     }
 
-    /// A scene is read beside a good file.
+    /// Options are read beside a good file.
     #[test]
-    fn mutated_scenes_never_panic(mutations in prop::collection::vec(mutation(), 1..4)) {
-        let scene = "functions = ['mass_matrix', \"energy\"]\nlocked = { joint6 = \"30 deg\", link2 = 1 }\ntolerance = 0.01";
-        let scene = mutations.iter().fold(scene.to_owned(), |scene, mutation| mutated(&scene, mutation));
-        if let Err(faults) = Model::from_toml_with(FILES[0], "test.toml", scene.as_str()) {
-            for span in faults.diagnostics.iter().filter_map(Diagnostic::span_in_scene) {
-                assert!(span.start <= scene.len(), "{span:?} in {scene}");
+    fn mutated_options_never_panic(mutations in prop::collection::vec(mutation(), 1..4)) {
+        let options = "functions = ['mass_matrix', \"energy\"]\nlocked = { joint6 = \"30 deg\", link2 = 1 }\ntolerance = 0.01";
+        let options = mutations.iter().fold(options.to_owned(), |options, mutation| mutated(&options, mutation));
+        if let Err(faults) = Model::from_toml_with(FILES[0], "test.toml", options.as_str()) {
+            for span in faults.diagnostics.iter().filter_map(Diagnostic::span_beside) {
+                assert!(span.start <= options.len(), "{span:?} in {options}");
             }
         }
     }

@@ -40,7 +40,7 @@ pub enum Text {
     /// The file.
     #[default]
     File,
-    /// The text that is given beside it, such as the scene in a program that names a model file.
+    /// The text that is given beside it, such as the options in a program that names a model file.
     Beside,
 }
 
@@ -93,9 +93,9 @@ impl Diagnostic {
         &self.source.name
     }
 
-    /// The bytes concerned, of the text that was given beside the file, such as a scene; `None` if the finding is about
+    /// The bytes concerned, of the text that was given beside the file, such as options; `None` if the finding is about
     /// the file.
-    pub fn span_in_scene(&self) -> Option<Range<usize>> {
+    pub fn span_beside(&self) -> Option<Range<usize>> {
         self.span.clone().filter(|_| self.text == Text::Beside)
     }
 

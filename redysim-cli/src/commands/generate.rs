@@ -46,7 +46,7 @@ fn names_of_functions() -> impl Iterator<Item = &'static str> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let loaded = load(arguments, quiet)?;
     let name = arguments.name.clone().unwrap_or_else(|| type_name(&loaded.model.name));
-    let source = source_file_with(&loaded.model, &name, &loaded.scene).map_err(|error| match error {
+    let source = source_file_with(&loaded.model, &name, &loaded.options).map_err(|error| match error {
         SourceError::InvalidName(_) => Failure::input(error).help("give another name with --name"),
         _ => Failure::input(error),
     })?;
@@ -61,15 +61,15 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The model with the functions that are asked for here, checked as those of a scene are.
+/// The model with the functions that are asked for here, checked as those of a declaration are.
 fn load(arguments: &Arguments, quiet: bool) -> Result<Loaded, Failure> {
     if arguments.functions.is_empty() {
         return model::load(&arguments.model, quiet);
     }
     let names: Vec<String> = arguments.functions.iter().map(|name| format!("\"{name}\"")).collect();
-    let scene = format!("functions = [{}]", names.join(", "));
+    let options = format!("functions = [{}]", names.join(", "));
     let path = &arguments.model;
-    model::loaded(path, Model::load_with(path, path.display().to_string(), scene), quiet)
+    model::loaded(path, Model::load_with(path, path.display().to_string(), options), quiet)
 }
 
 /// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is not one of a type, such as `3rrr`, is

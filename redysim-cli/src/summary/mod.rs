@@ -105,7 +105,7 @@ impl Summary {
     pub fn of(loaded: &Loaded) -> Result<Summary, PassError> {
         let model = &loaded.model;
         let found = Mobility::of(model);
-        let Counted { operations, warnings } = redysim_codegen::operations(model, &loaded.scene)?;
+        let Counted { operations, warnings } = redysim_codegen::operations(model, &loaded.options)?;
         let mut lints = lints::of(model, &found);
         lints.extend(warnings);
         let joints = |actuated: bool| {

@@ -6,21 +6,21 @@ mod inertia;
 mod massless;
 mod mobility;
 mod names;
+mod options;
 mod placement;
-mod scene;
 mod singular;
 mod tree;
 
 use crate::messages;
 use crate::model::{JointKind, Link, Model};
-use crate::scene::Scene;
+use crate::options::CodegenOptions;
 use crate::schema::{Document, LinkTable};
 use crate::spatial::Vec3;
 use redysim_toml::{Findings, Message, Spanned};
 
 /// The model and what is asked of it, unless an error is found, or was found while reading.
-pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Model, Scene)> {
-    let scene = scene::check(document, findings);
+pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Model, CodegenOptions)> {
+    let options = options::check(document, findings);
     names::check(document, findings);
     something_moves(document, findings);
     let parents = tree::parents(document, findings);
@@ -41,7 +41,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
         }
     }
     let gravity = Vec3(*document.gravity.value()?);
-    let mut scene = scene;
+    let mut options = options;
     let model = Model { name: document.name.value()?.clone(), gravity, links, loops: loops? };
     if findings.errors() > 0 {
         return None;
@@ -49,7 +49,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     let unmoved = if massless.is_empty() { singular::check(&model) } else { massless };
     if let Some((link, _)) = unmoved.first() {
         if closed::is_well_posed(&model) {
-            scene::without_dynamics_of_tree(document, &model.links[*link], scene.as_mut(), findings);
+            options::without_dynamics_of_tree(document, &model.links[*link], options.as_mut(), findings);
         } else {
             report(document, &unmoved, findings);
         }
@@ -62,7 +62,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
         let message = messages::with_locks(message, &document.locks());
         findings.warning(table.map_or(document.place.clone(), Spanned::span), message);
     }
-    Some((model, scene?))
+    Some((model, options?))
 }
 
 /// Reports links whose joints meet no inertia.
@@ -105,7 +105,7 @@ fn something_moves(document: &Document, findings: &mut Findings) {
         return;
     };
     let fixed = |link: &LinkTable| link.joint.value() == Some(&JointKind::Fixed);
-    let locks = &document.scene.locked;
+    let locks = &document.options.locked;
     if let Some(last) = locks.value.last()
         && document.links.iter().all(LinkTable::is_rigid)
     {

@@ -5,11 +5,11 @@
 
 mod file;
 mod mechanism;
-mod scene;
+mod options;
 
 pub(crate) use file::*;
 pub(crate) use mechanism::*;
-pub(crate) use scene::*;
+pub(crate) use options::*;
 
 use redysim_toml::Message;
 use redysim_toml::words::quoted;
@@ -18,7 +18,7 @@ fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> 
     Message::new(title, label, help)
 }
 
-/// The message with the joints that the scene locks, where that may be why.
+/// The message with the joints that the options lock, where that may be why.
 pub(crate) fn with_locks(mut message: Message, locks: &[&str]) -> Message {
     if !locks.is_empty() {
         let names: Vec<_> = locks.iter().map(|name| quoted(name)).collect();

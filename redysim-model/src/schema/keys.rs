@@ -10,7 +10,7 @@ pub(crate) const GRAVITY: Key = Key::new("gravity", "[0.0, 0.0, -9.81]", "m/s²,
 pub(crate) const LINKS: Key = Key::of_tables("link", "one such table for each link", &[&LINK]);
 pub(crate) const LOOPS: Key = Key::of_tables("loop", "one such table for each cut joint", &[&LOOP]);
 
-pub(crate) const SCENE: Keys = Keys::new("A scene", &[FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS]);
+pub(crate) const OPTIONS: Keys = Keys::new("A declaration", &[FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS]);
 pub(crate) const FUNCTIONS: Key =
     Key::new("functions", "[\"inverse_dynamics\", \"mass_matrix\"]", "only these are generated; default: all");
 pub(crate) const LOCKED: Key =

@@ -27,7 +27,7 @@ pub(crate) struct LinkTable {
     pub(crate) inertia: Field<Inertia>,
     pub(crate) actuated: Field<bool>,
     pub(crate) range: Field<JointRange>,
-    /// The value at which the scene holds the joint.
+    /// The value at which the options hold the joint.
     pub(crate) locked: Option<f64>,
 }
 

@@ -7,13 +7,13 @@ mod cut;
 mod item;
 pub(crate) mod keys;
 mod link;
-mod scene;
+mod options;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
 pub(crate) use link::{Dh, LinkTable, Origin};
-pub(crate) use scene::{Entry, SceneTable};
+pub(crate) use options::{Entry, OptionsTable};
 
-use crate::outline::Outline;
+use crate::public_interface::PublicInterface;
 use redysim_runtime::Functions;
 use redysim_toml::words::quoted;
 use redysim_toml::{Field, Findings, Parsed, Reader, Spanned, TableAt};
@@ -37,13 +37,13 @@ pub(crate) struct Document {
     /// Whether each link of the file is in `links`.
     pub(crate) links_complete: bool,
     pub(crate) loops: Vec<LoopTable>,
-    /// What is asked of the model, by the file or beside it.
-    pub(crate) scene: SceneTable,
+    /// The options of code generation, in the file or beside it.
+    pub(crate) options: OptionsTable,
 }
 
 impl Document {
-    /// Reads the file, and the scene beside it.
-    pub(crate) fn read(file: &Parsed<'_>, scene: &Parsed<'_>, findings: &mut Findings) -> Document {
+    /// Reads the file, and the options beside it.
+    pub(crate) fn read(file: &Parsed<'_>, options: &Parsed<'_>, findings: &mut Findings) -> Document {
         let root = file.root();
         let name = root.get(keys::NAME.name);
         let place = name.map_or(file.start(), Spanned::span);
@@ -57,33 +57,33 @@ impl Document {
         let links_complete = links.as_ref().is_some_and(|links| links.iter().all(Option::is_some));
         let mut links: Vec<_> = entries(links).map(|(i, table)| LinkTable::read(table, i, findings)).collect();
         let loops = entries(loops).map(|(i, table)| LoopTable::read(table, i, findings)).collect();
-        let scene = SceneTable::read([root, scene.root()], &item, links_complete.then_some(&links), findings);
-        for lock in &scene.locked.value {
+        let options = OptionsTable::read([root, options.root()], &item, links_complete.then_some(&links), findings);
+        for lock in &options.locked.value {
             links[lock.link].locked = Some(lock.value);
         }
-        Document { item, place, name, gravity, links, links_complete, loops, scene }
+        Document { item, place, name, gravity, links, links_complete, loops, options }
     }
 
-    /// The joints that the scene locks.
+    /// The joints that the options lock.
     pub(crate) fn locks(&self) -> Vec<&str> {
         let locked = self.links.iter().filter(|link| link.locked.is_some());
         locked.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect()
     }
 
-    /// The outline of the model, whatever is wrong with it.
-    pub(crate) fn outline(&self) -> Outline {
+    /// The interface of the model, whatever is wrong with it.
+    pub(crate) fn public_interface(&self) -> PublicInterface {
         let name = |name: Option<&Spanned<String>>, link: &LinkTable| {
             name.map_or(link.item.clone(), |name| name.get_ref().clone())
         };
         let moving: Vec<&LinkTable> = self.links.iter().filter(|link| !link.is_rigid()).collect();
-        Outline {
+        PublicInterface {
             name: self.name.value().cloned().unwrap_or_default(),
             links: self.links.iter().map(|link| name(link.name.spanned(), link)).collect(),
             joints: moving.iter().map(|link| name(link.joint_name(), link)).collect(),
             actuated: moving.iter().map(|link| link.actuated.value_or(true).unwrap_or(true)).collect(),
             loop_rows: Vec::new(),
             mass: self.links.iter().filter_map(|link| link.mass.value()).sum(),
-            functions: self.scene.functions.value.value().map_or(Functions::ALL, |given| given.set()),
+            functions: self.options.functions.value.value().map_or(Functions::ALL, |given| given.set()),
         }
     }
 }

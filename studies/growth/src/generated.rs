@@ -23,7 +23,7 @@ pub fn code(text: &str, passes: &Passes) -> Code {
     let loaded = Model::from_toml(text.to_owned(), "model.toml").unwrap_or_else(|faults| panic!("{faults}"));
     let name = format_ident!("Robot");
     let Generated { tokens, operations, .. } =
-        implementation_with(&loaded.model, &name, &quote!(::redysim::runtime), &loaded.scene, passes)
+        implementation_with(&loaded.model, &name, &quote!(::redysim::runtime), &loaded.options, passes)
             .unwrap_or_else(|error| panic!("{error}"));
     let seconds = begun.elapsed().as_secs_f64();
     let flops = [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix]

@@ -9,7 +9,7 @@ use crate::program::{NamingContext, program};
 use crate::symbol::{Symbol, Tracer};
 use proc_macro2::TokenStream;
 use quote::quote;
-use redysim_model::{Outline, Tree, denoc};
+use redysim_model::{PublicInterface, Tree, denoc};
 use redysim_runtime::function::Dimension;
 
 /// A function over coordinates and velocities: its name, its arguments, and what it computes.
@@ -48,18 +48,18 @@ const METHODS: [Method; 4] = [
 ];
 
 /// The methods, of the mechanism with the given tree; without one, of a model that has faults, they have types alone.
-pub fn methods(tree: Option<&Tree>, outline: &Outline) -> TokenStream {
-    METHODS.iter().map(|method| method.definition(tree, outline)).collect()
+pub fn methods(tree: Option<&Tree>, interface: &PublicInterface) -> TokenStream {
+    METHODS.iter().map(|method| method.definition(tree, interface)).collect()
 }
 
 impl Method {
-    fn definition(&self, tree: Option<&Tree>, outline: &Outline) -> TokenStream {
-        let (name, result) = (local(self.name), length(outline, self.result));
+    fn definition(&self, tree: Option<&Tree>, interface: &PublicInterface) -> TokenStream {
+        let (name, result) = (local(self.name), length(interface, self.result));
         let parameters = self.arguments.iter().map(|&(argument, dimension)| {
-            let (argument, length) = (local(argument), length(outline, dimension));
+            let (argument, length) = (local(argument), length(interface, dimension));
             quote!(#argument: &[S; #length])
         });
-        let body = tree.map_or_else(|| quote!(::core::unreachable!()), |tree| self.body(tree, outline));
+        let body = tree.map_or_else(|| quote!(::core::unreachable!()), |tree| self.body(tree, interface));
         quote! {
             #[allow(unused_variables, clippy::all, clippy::pedantic)]
             #[inline]
@@ -69,11 +69,11 @@ impl Method {
         }
     }
 
-    fn body(&self, tree: &Tree, outline: &Outline) -> TokenStream {
+    fn body(&self, tree: &Tree, interface: &PublicInterface) -> TokenStream {
         let tracer = Tracer::default();
         let outputs = {
             let argument =
-                |(index, &(_, dimension)): (u8, &(_, Dimension))| tracer.argument(index, outline.size(dimension));
+                |(index, &(_, dimension)): (u8, &(_, Dimension))| tracer.argument(index, interface.size(dimension));
             let symbols: Vec<Vec<Symbol>> = (0..).zip(self.arguments).map(argument).collect();
             tracer.edges(&(self.computed)(tree, &symbols))
         };

@@ -79,7 +79,7 @@ mod tests {
     use super::*;
     use crate::functions::trace_model;
     use crate::passes::Passes;
-    use redysim_model::Scene;
+    use redysim_model::CodegenOptions;
 
     #[test]
     fn a_tolerance_that_does_not_hold_is_a_warning() {
@@ -87,8 +87,8 @@ mod tests {
                     dh = {}\nmass = 1\ncom = [1, 0, 0]\n\
                     range = { position = [0, 1], velocity = 1, acceleration = 1 }";
         let model = Model::from_toml(text, "rod.toml").expect("a good model").model;
-        let scene = Scene { tolerance: Some(0.01), ..Scene::default() };
-        let mut function = trace_model(&model, &scene, &Passes::all()).expect("a range").swap_remove(0);
+        let options = CodegenOptions { tolerance: Some(0.01), ..CodegenOptions::default() };
+        let mut function = trace_model(&model, &options, &Passes::all()).expect("a range").swap_remove(0);
         assert_eq!(warning(&function), None);
         function.pruning = function.pruning.map(|pruning| Pruning { worst: 0.02, holds: false, ..pruning });
         assert_eq!(

@@ -9,7 +9,7 @@ use crate::functions::TracedFunction;
 use crate::program::{NamingContext, program};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Function, Model, Outline};
+use redysim_model::{Function, Model, PublicInterface};
 use redysim_runtime::function::{Argument, Dimension};
 
 /// The name of the argument that has the coordinates with the sines and cosines.
@@ -20,14 +20,14 @@ pub struct Writer<'a> {
     pub model: &'a Model,
     pub bodies: &'a [String],
     pub angles: &'a Angles,
-    pub outline: &'a Outline,
+    pub interface: &'a PublicInterface,
     pub runtime: &'a TokenStream,
 }
 
 impl Writer<'_> {
     /// The function that computes the sines and cosines of all angles.
     pub fn joint_trig(&self) -> TokenStream {
-        let head = joint_trig_head(self.outline, self.angles.len(), self.runtime);
+        let head = joint_trig_head(self.interface, self.angles.len(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
         let (terms, angles) =
             (self.terms_of_sums(0..self.angles.len()), self.angles.at(0..self.angles.len()).map(angle));
@@ -59,14 +59,14 @@ impl Writer<'_> {
     pub fn function(&self, traced: &TracedFunction) -> TokenStream {
         let TracedFunction { function, ref expressions, .. } = *traced;
         let signature = function.signature();
-        let Writer { model, bodies, angles, outline, runtime } = *self;
+        let Writer { model, bodies, angles, interface, runtime } = *self;
         let (head, head_with_trig) =
-            (head(function, outline, runtime), head_with_trig(function, outline, angles.len(), runtime));
-        let head_inlined = head_inlined(function, outline, angles.len(), runtime);
+            (head(function, interface, runtime), head_with_trig(function, interface, angles.len(), runtime));
+        let head_inlined = head_inlined(function, interface, angles.len(), runtime);
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let reserved = [arguments.as_slice(), &RESERVED].concat();
         let program = program(expressions, &NamingContext { reserved: &reserved, bodies, angles });
-        let result = |outputs: &[TokenStream]| results::value(signature.result, outline, outputs, runtime);
+        let result = |outputs: &[TokenStream]| results::value(signature.result, interface, outputs, runtime);
         let body = Printer { arguments: &arguments }.body(&program, result);
         let paragraphs = documentation::paragraphs(traced, model);
         let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
@@ -139,9 +139,9 @@ fn others(function: Function) -> impl Iterator<Item = Ident> {
 }
 
 /// The arguments with their types.
-pub fn parameters(function: Function, outline: &Outline) -> impl Iterator<Item = TokenStream> {
+pub fn parameters(function: Function, interface: &PublicInterface) -> impl Iterator<Item = TokenStream> {
     function.signature().arguments.iter().map(|argument: &Argument| {
-        let (name, length) = (local(argument.name()), length(outline, argument.dimension()));
+        let (name, length) = (local(argument.name()), length(interface, argument.dimension()));
         quote!(#name: &[S; #length])
     })
 }
@@ -152,39 +152,44 @@ fn inlined(function: Function) -> Ident {
 }
 
 /// Name, arguments and result of the function that is given the sines and cosines of `angles` angles.
-fn head_inlined(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+fn head_inlined(function: Function, interface: &PublicInterface, angles: usize, runtime: &TokenStream) -> TokenStream {
     let name = inlined(function);
     let angles = Literal::usize_unsuffixed(angles);
     let [sin, cos] = [SIN, COS].map(local);
-    let (q, others) = (parameters(function, outline).take(1), parameters(function, outline).skip(1));
-    let output = results::output_type(function.signature().result, outline, runtime);
+    let (q, others) = (parameters(function, interface).take(1), parameters(function, interface).skip(1));
+    let output = results::output_type(function.signature().result, interface, runtime);
     quote!(fn #name<S: #runtime::Scalar>(
         #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)*
     ) -> #output)
 }
 
 /// Name, argument and result of the function that computes sines and cosines.
-pub fn joint_trig_head(outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
-    let (nq, angles) = (length(outline, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
+pub fn joint_trig_head(interface: &PublicInterface, angles: usize, runtime: &TokenStream) -> TokenStream {
+    let (nq, angles) = (length(interface, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
     let q = local("q");
     quote!(fn joint_trig<S: #runtime::Scalar>(#q: &[S; #nq]) -> #runtime::JointTrig<S, #nq, #angles>)
 }
 
 /// Name, arguments and result of a function of the joint trigonometry of `angles` angles.
-pub fn head_with_trig(function: Function, outline: &Outline, angles: usize, runtime: &TokenStream) -> TokenStream {
+pub fn head_with_trig(
+    function: Function,
+    interface: &PublicInterface,
+    angles: usize,
+    runtime: &TokenStream,
+) -> TokenStream {
     let name = format_ident!("{}_with_trig", function.name());
-    let (nq, angles) = (length(outline, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
-    let (trig, others) = (local(TRIG), parameters(function, outline).skip(1));
-    let output = results::output_type(function.signature().result, outline, runtime);
+    let (nq, angles) = (length(interface, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
+    let (trig, others) = (local(TRIG), parameters(function, interface).skip(1));
+    let output = results::output_type(function.signature().result, interface, runtime);
     quote!(fn #name<S: #runtime::Scalar>(
         #trig: &#runtime::JointTrig<S, #nq, #angles> #(, #others)*
     ) -> #output)
 }
 
 /// Name, arguments and result of a function.
-pub fn head(function: Function, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+pub fn head(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
     let name = format_ident!("{}", function.name());
-    let parameters = parameters(function, outline);
-    let output = results::output_type(function.signature().result, outline, runtime);
+    let parameters = parameters(function, interface);
+    let output = results::output_type(function.signature().result, interface, runtime);
     quote!(fn #name<S: #runtime::Scalar>(#(#parameters),*) -> #output)
 }

@@ -15,14 +15,14 @@ use crate::functions::TracedFunction;
 use function::{Writer, head, head_with_trig, joint_trig_head};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Function, Model, Outline, Tree};
+use redysim_model::{Function, Model, PublicInterface, Tree};
 use redysim_runtime::OperationCount;
 use redysim_runtime::function::Dimension;
 
 /// The `impl`s of the type `name` with the given functions.
 pub fn mechanism(
     model: &Model,
-    outline: &Outline,
+    interface: &PublicInterface,
     functions: &[TracedFunction],
     name: &Ident,
     runtime: &TokenStream,
@@ -30,37 +30,38 @@ pub fn mechanism(
     let (tree, moving) = (Tree::new(model), model.moving_links().map(|link| link.name.as_str()).collect::<Vec<_>>());
     let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.v.start].to_string()).collect();
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
-    let writer = Writer { model, bodies: &bodies, angles: &angles, outline, runtime };
+    let writer = Writer { model, bodies: &bodies, angles: &angles, interface, runtime };
     let definitions =
         std::iter::once(writer.joint_trig()).chain(functions.iter().map(|function| writer.function(function)));
     let operations: Vec<_> = functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect();
-    type_impls(outline, Some(&tree), name, runtime, &operations, definitions.collect())
+    type_impls(interface, Some(&tree), name, runtime, &operations, definitions.collect())
 }
 
 /// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
 /// the model are the only errors.
-pub fn stub(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
-    let angles = outline.size(Dimension::Coordinates);
-    let joint_trig = joint_trig_head(outline, angles, runtime);
-    let functions = outline.functions.iter();
-    let heads = functions
-        .flat_map(|function| [head(function, outline, runtime), head_with_trig(function, outline, angles, runtime)]);
+pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let angles = interface.size(Dimension::Coordinates);
+    let joint_trig = joint_trig_head(interface, angles, runtime);
+    let functions = interface.functions.iter();
+    let heads = functions.flat_map(|function| {
+        [head(function, interface, runtime), head_with_trig(function, interface, angles, runtime)]
+    });
     let definitions = std::iter::once(joint_trig).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
-    type_impls(outline, None, name, runtime, &[], definitions.collect())
+    type_impls(interface, None, name, runtime, &[], definitions.collect())
 }
 
 fn type_impls(
-    outline: &Outline,
+    interface: &PublicInterface,
     tree: Option<&Tree>,
     name: &Ident,
     runtime: &TokenStream,
     operations: &[(Function, OperationCount)],
     definitions: Vec<TokenStream>,
 ) -> TokenStream {
-    let constants = constants(outline, operations, runtime);
-    let mechanism = traits::mechanism(outline, tree, name, runtime);
-    let closure = traits::closure(outline, name, runtime);
-    let traits = outline.functions.iter().map(|function| traits::own(function, outline, name, runtime));
+    let constants = constants(interface, operations, runtime);
+    let mechanism = traits::mechanism(interface, tree, name, runtime);
+    let closure = traits::closure(interface, name, runtime);
+    let traits = interface.functions.iter().map(|function| traits::own(function, interface, name, runtime));
     quote! {
         #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
         impl #name {
@@ -74,14 +75,18 @@ fn type_impls(
 }
 
 /// A size of the mechanism, as the length of an array.
-fn length(outline: &Outline, dimension: Dimension) -> Literal {
-    Literal::usize_unsuffixed(outline.size(dimension))
+fn length(interface: &PublicInterface, dimension: Dimension) -> Literal {
+    Literal::usize_unsuffixed(interface.size(dimension))
 }
 
-fn constants(outline: &Outline, operations: &[(Function, OperationCount)], runtime: &TokenStream) -> TokenStream {
-    let Outline { name, links, joints, actuated, loop_rows, mass, .. } = outline;
+fn constants(
+    interface: &PublicInterface,
+    operations: &[(Function, OperationCount)],
+    runtime: &TokenStream,
+) -> TokenStream {
+    let PublicInterface { name, links, joints, actuated, loop_rows, mass, .. } = interface;
     let sizes = [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows];
-    let [nq, nv, nl, nc] = sizes.map(|dimension| length(outline, dimension));
+    let [nq, nv, nl, nc] = sizes.map(|dimension| length(interface, dimension));
     let counts = operations.iter().map(|(function, count)| {
         let field = format_ident!("{}", function.name());
         let [additions, multiplications, divisions, trig] =

@@ -3,13 +3,13 @@
 use super::length;
 use proc_macro2::TokenStream;
 use quote::quote;
-use redysim_model::Outline;
+use redysim_model::PublicInterface;
 use redysim_runtime::function::{Dimension, Shape};
 
 /// The return type.
-pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
     let [nv, nl, nc] =
-        [Dimension::Velocities, Dimension::Links, Dimension::LoopRows].map(|dimension| length(outline, dimension));
+        [Dimension::Velocities, Dimension::Links, Dimension::LoopRows].map(|dimension| length(interface, dimension));
     match shape {
         Shape::Forces | Shape::Accelerations => quote!([S; #nv]),
         Shape::MassMatrix => quote!([[S; #nv]; #nv]),
@@ -22,10 +22,10 @@ pub fn output_type(shape: Shape, outline: &Outline, runtime: &TokenStream) -> To
 }
 
 /// The value returned, made of the outputs in the order in which they were traced.
-pub fn value(shape: Shape, outline: &Outline, outputs: &[TokenStream], runtime: &TokenStream) -> TokenStream {
+pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     match shape {
         Shape::Forces | Shape::Accelerations | Shape::LoopRows => array(outputs),
-        Shape::MassMatrix | Shape::LoopJacobian => array(&rows(outputs, outline.size(Dimension::Velocities))),
+        Shape::MassMatrix | Shape::LoopJacobian => array(&rows(outputs, interface.size(Dimension::Velocities))),
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
             quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })

@@ -3,7 +3,7 @@
 use crate::generate::{Generated, implementation_with};
 use crate::passes::{PassError, Passes};
 use quote::{format_ident, quote};
-use redysim_model::{Model, Scene};
+use redysim_model::{CodegenOptions, Model};
 
 /// A Rust module that declares the struct `name` and makes it the mechanism of `model`, as `redysim!` does.
 ///
@@ -13,7 +13,7 @@ use redysim_model::{Model, Scene};
 ///
 /// If `name` is not an identifier; in debug builds, if a pass over expressions is wrong.
 pub fn source_file(model: &Model, name: &str) -> Result<String, SourceError> {
-    source_file_with(model, name, &Scene::default())
+    source_file_with(model, name, &CodegenOptions::default())
 }
 
 /// The same with options.
@@ -21,13 +21,13 @@ pub fn source_file(model: &Model, name: &str) -> Result<String, SourceError> {
 /// # Errors
 ///
 /// As [`source_file`].
-pub fn source_file_with(model: &Model, name: &str, scene: &Scene) -> Result<String, SourceError> {
+pub fn source_file_with(model: &Model, name: &str, options: &CodegenOptions) -> Result<String, SourceError> {
     if syn::parse_str::<syn::Ident>(name).is_err() {
         return Err(SourceError::InvalidName(name.to_string()));
     }
     let name = format_ident!("{name}");
     let Generated { tokens, operations, warnings } =
-        implementation_with(model, &name, &quote!(::redysim_runtime), scene, &Passes::default())?;
+        implementation_with(model, &name, &quote!(::redysim_runtime), options, &Passes::default())?;
     let doc = format!(" The mechanism `{}`.", model.name);
     let file = quote! {
         #[doc = #doc]

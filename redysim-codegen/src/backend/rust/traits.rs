@@ -4,18 +4,18 @@ use super::function::{arguments, parameters};
 use super::{configuration, length, results};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Function, Outline, Tree};
+use redysim_model::{Function, PublicInterface, Tree};
 use redysim_runtime::function::{Dimension, Interface};
 
 /// The trait that has the function alone; nothing for a function of a trait that has several.
-pub fn own(function: Function, outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+pub fn own(function: Function, interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let (trait_name, tangent) = match function.signature().interface {
         Interface::Own(trait_name) => (trait_name, None),
         Interface::WithTangent(trait_name) => (trait_name, Some(tangent(function, runtime))),
         Interface::LoopClosure => return TokenStream::new(),
     };
     let trait_name = format_ident!("{trait_name}");
-    let method = method(function, outline, runtime);
+    let method = method(function, interface, runtime);
     quote! {
         impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
             #method
@@ -39,10 +39,10 @@ fn tangent(function: Function, runtime: &TokenStream) -> TokenStream {
 }
 
 /// The method of a trait that is one of the type's own functions.
-fn method(function: Function, outline: &Outline, runtime: &TokenStream) -> TokenStream {
+fn method(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
     let name = format_ident!("{}", function.name());
-    let (arguments, parameters) = (arguments(function), parameters(function, outline));
-    let output = results::output_type(function.signature().result, outline, runtime);
+    let (arguments, parameters) = (arguments(function), parameters(function, interface));
+    let output = results::output_type(function.signature().result, interface, runtime);
     quote! {
         #[inline]
         fn #name(&self, #(#parameters),*) -> #output {
@@ -52,13 +52,13 @@ fn method(function: Function, outline: &Outline, runtime: &TokenStream) -> Token
 }
 
 /// The closure of the loops, for a type that has all of its functions.
-pub fn closure(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenStream {
+pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let own = Function::ALL.iter().copied().filter(|function| function.needs_loops());
-    if !own.clone().all(|function| outline.functions.contains(function)) {
+    if !own.clone().all(|function| interface.functions.contains(function)) {
         return TokenStream::new();
     }
-    let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| length(outline, dimension));
-    let methods = own.map(|function| method(function, outline, runtime));
+    let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| length(interface, dimension));
+    let methods = own.map(|function| method(function, interface, runtime));
     quote! {
         impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {
             type Rows = [S; #nc];
@@ -76,13 +76,13 @@ pub fn closure(outline: &Outline, name: &Ident, runtime: &TokenStream) -> TokenS
 }
 
 /// Sizes, names, and the space of positions.
-pub fn mechanism(outline: &Outline, tree: Option<&Tree>, name: &Ident, runtime: &TokenStream) -> TokenStream {
+pub fn mechanism(interface: &PublicInterface, tree: Option<&Tree>, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let [nq, nv, nl] =
-        [Dimension::Coordinates, Dimension::Velocities, Dimension::Links].map(|dimension| length(outline, dimension));
+        [Dimension::Coordinates, Dimension::Velocities, Dimension::Links].map(|dimension| length(interface, dimension));
     // Coordinates, velocities, and the energy of the actuators.
-    let state = outline.size(Dimension::Coordinates) + outline.size(Dimension::Velocities) + 1;
+    let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
     let state = Literal::usize_unsuffixed(state);
-    let methods = configuration::methods(tree, outline);
+    let methods = configuration::methods(tree, interface);
     quote! {
         impl #runtime::Mechanism for #name {
             fn name(&self) -> &str {

@@ -1,7 +1,7 @@
-//! What is asked of a mechanism beside its model: `functions = [mass_matrix], locked = { joint6 = "0 deg" }`.
+//! The options of a declaration: `functions = [mass_matrix], locked = { joint6 = "0 deg" }`.
 //!
-//! It is written out as TOML, in which model files say the same, so that one reader knows all keys and all faults. For
-//! each piece of that text the place in the declaration is kept.
+//! They are written as TOML, as in a model file, so that one reader checks both. For each piece of that text, its span
+//! in the declaration is kept.
 
 use proc_macro2::Span;
 use std::ops::Range;
@@ -10,14 +10,14 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Ident, Lit, Result, Token, braced, bracketed, token};
 
-/// A scene as TOML, and where each piece of it comes from.
+/// Options as TOML, with the span of each piece.
 #[derive(Default)]
-pub struct SceneText {
+pub struct OptionsText {
     pub text: String,
     pieces: Vec<(Range<usize>, Span)>,
 }
 
-impl SceneText {
+impl OptionsText {
     /// Where the piece of the text that begins with `range` stands in the declaration.
     pub fn span_of(&self, range: &Range<usize>) -> Option<Span> {
         let holds = |piece: &&(Range<usize>, Span)| piece.0.contains(&range.start);
@@ -63,14 +63,14 @@ impl SceneText {
     }
 }
 
-impl Parse for SceneText {
+impl Parse for OptionsText {
     fn parse(input: ParseStream) -> Result<Self> {
-        let mut scene = SceneText::default();
+        let mut options = OptionsText::default();
         for pair in Punctuated::<Pair, Token![,]>::parse_terminated(input)? {
-            scene.add_pair(&pair);
-            scene.text.push('\n');
+            options.add_pair(&pair);
+            options.text.push('\n');
         }
-        Ok(scene)
+        Ok(options)
     }
 }
 
@@ -85,15 +85,15 @@ impl Parse for Pair {
             let ident = Ident::parse_any(input)?;
             (quoted(&ident.unraw().to_string()), ident.span())
         } else {
-            let name: syn::LitStr = input.parse().map_err(|error| what_is_meant(error.span()))?;
+            let name: syn::LitStr = input.parse().map_err(|error| unexpected(error.span()))?;
             (quoted(&name.value()), name.span())
         };
-        input.parse::<Token![=]>().map_err(|_| what_is_meant(key.1))?;
+        input.parse::<Token![=]>().map_err(|_| unexpected(key.1))?;
         Ok(Pair { key, value: input.parse()? })
     }
 }
 
-fn what_is_meant(span: Span) -> syn::Error {
+fn unexpected(span: Span) -> syn::Error {
     syn::Error::new(
         span,
         "after the path of the model only `functions = [..]`, `locked = { .. }`, `tolerance = ..` and `forward_dynamics = ..` \
@@ -101,7 +101,7 @@ fn what_is_meant(span: Span) -> syn::Error {
     )
 }
 
-/// A value as TOML has them; a name stands for itself as a string.
+/// A TOML value. A Rust name is a string.
 enum Value {
     Plain(String, Span),
     Array(Vec<Value>, Span),

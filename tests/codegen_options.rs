@@ -1,4 +1,4 @@
-//! No more than a scene needs: what is not asked for is not there, and what is there is what the whole mechanism has.
+//! Options of code generation: what is not selected is not generated, and what is generated is as without options.
 
 mod common;
 
@@ -36,13 +36,13 @@ redysim! {
 }
 
 redysim! {
-    /// A scene that the model file itself asks for.
-    struct FromFile("models/test/scene.toml");
+    /// Options in the model file.
+    struct FromFile("models/test/codegen_options.toml");
 }
 
 redysim! {
-    /// The declaration wins over the file.
-    struct FromDeclaration("models/test/scene.toml", functions = [energy]);
+    /// Options in the declaration take precedence over the file's.
+    struct FromDeclaration("models/test/codegen_options.toml", functions = [energy]);
 }
 
 /// The number of angles of joint trigonometry.
@@ -51,7 +51,7 @@ fn angles<const Q: usize, const A: usize>(_: redysim::JointTrig<f64, Q, A>) -> u
 }
 
 #[test]
-fn a_scene_of_few_functions_computes_the_same_bits() {
+fn selected_functions_compute_the_same_bits() {
     let mut random = Random::new(1);
     for _ in 0..100 {
         let State { q, v, a } = random.state(6);

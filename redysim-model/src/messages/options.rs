@@ -1,7 +1,7 @@
 //! Messages about what is asked of a mechanism.
 
 use super::message;
-use crate::scene::AccelerationMethod;
+use crate::options::AccelerationMethod;
 use redysim_runtime::Function;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
 use redysim_toml::{KeyPath, Message};

@@ -2,14 +2,14 @@
 
 use crate::messages;
 use crate::model::Link;
-use crate::scene::{AccelerationMethod, Scene};
+use crate::options::{AccelerationMethod, CodegenOptions};
 use crate::schema::{Document, Entry};
 use redysim_runtime::{Function, Functions};
 use redysim_toml::Findings;
 
-/// The scene, if it has no fault.
-pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scene> {
-    let Entry { text, value: functions } = &document.scene.functions;
+/// The options, if they have no fault.
+pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<CodegenOptions> {
+    let Entry { text, value: functions } = &document.options.functions;
     let requested = functions.value().into_iter().flat_map(|requested| &requested.0);
     for function in requested.filter(|function| function.get_ref().needs_loops() && document.loops.is_empty()) {
         findings.within(*text, |findings| {
@@ -17,10 +17,10 @@ pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scen
         });
     }
     let functions = if functions.is_missing() { Functions::ALL } else { functions.value()?.set() };
-    let forward_dynamics = &document.scene.forward_dynamics.value;
+    let forward_dynamics = &document.options.forward_dynamics.value;
     let forward_dynamics =
         if forward_dynamics.is_missing() { AccelerationMethod::Auto } else { *forward_dynamics.value()? };
-    Some(Scene { functions, tolerance: tolerance(document, findings)?, forward_dynamics })
+    Some(CodegenOptions { functions, tolerance: tolerance(document, findings)?, forward_dynamics })
 }
 
 /// Leaves out what only the tree could do, whose mass matrix is singular because of `link`, though closed loops move:
@@ -28,10 +28,10 @@ pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Scen
 pub(super) fn without_dynamics_of_tree(
     document: &Document,
     link: &Link,
-    scene: Option<&mut Scene>,
+    options: Option<&mut CodegenOptions>,
     findings: &mut Findings,
 ) {
-    let Entry { text, value: functions } = &document.scene.functions;
+    let Entry { text, value: functions } = &document.options.functions;
     let solving = Function::ForwardDynamics;
     let requested = functions.value().into_iter().flat_map(|requested| &requested.0);
     for function in requested.filter(|function| *function.get_ref() == solving) {
@@ -40,14 +40,14 @@ pub(super) fn without_dynamics_of_tree(
             findings.error(function.span(), message);
         });
     }
-    if let Some(scene) = scene {
-        scene.functions = scene.functions.without(solving);
+    if let Some(options) = options {
+        options.functions = options.functions.without(solving);
     }
 }
 
 /// The tolerance, which needs the range of every joint that moves; `Some(None)` without one.
 fn tolerance(document: &Document, findings: &mut Findings) -> Option<Option<f64>> {
-    let Entry { text, value: tolerance } = &document.scene.tolerance;
+    let Entry { text, value: tolerance } = &document.options.tolerance;
     if tolerance.is_missing() {
         return Some(None);
     }

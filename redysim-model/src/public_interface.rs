@@ -1,20 +1,20 @@
-//! What the outside of a mechanism's type depends on.
+//! The public interface of a generated type: its names, sizes and functions.
 
 use crate::model::Model;
-use crate::scene::Scene;
+use crate::options::CodegenOptions;
 use crate::tree::Tree;
 use redysim_runtime::Functions;
 use redysim_runtime::function::Dimension;
 
-/// What the outside of a mechanism's type depends on. A model whose file has faults still has one, as far as the file
-/// can be read.
+/// The public interface of a generated type: its names, sizes and functions. A model whose file has faults has one as
+/// far as the file can be read.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outline {
+pub struct PublicInterface {
     /// Name of the mechanism; empty if it cannot be read.
     pub name: String,
     /// Names of the links; "link #2" stands for one that cannot be read.
     pub links: Vec<String>,
-    /// Names of the joints that move. A joint of unreadable kind is taken for one.
+    /// Names of the joints that move, among them joints whose kind cannot be read.
     pub joints: Vec<String>,
     /// Whether each of these has an actuator.
     pub actuated: Vec<bool>,
@@ -22,11 +22,11 @@ pub struct Outline {
     pub loop_rows: Vec<String>,
     /// Mass of all links, kg; zero if it cannot be read.
     pub mass: f64,
-    /// The functions that it has.
+    /// The functions of the type.
     pub functions: Functions,
 }
 
-impl Outline {
+impl PublicInterface {
     /// A size of the mechanism.
     pub fn size(&self, dimension: Dimension) -> usize {
         match dimension {
@@ -36,16 +36,16 @@ impl Outline {
         }
     }
 
-    /// The outline of a checked model and what is asked of it.
-    pub fn new(model: &Model, scene: &Scene) -> Self {
-        Outline {
+    /// The interface of the type that is generated of a checked model with the given options.
+    pub fn new(model: &Model, options: &CodegenOptions) -> Self {
+        PublicInterface {
             name: model.name.clone(),
             links: model.links.iter().map(|link| link.name.clone()).collect(),
             joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
             actuated: model.moving_links().map(|link| link.actuated).collect(),
             loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
             mass: model.mass(),
-            functions: scene.functions,
+            functions: options.functions,
         }
     }
 }

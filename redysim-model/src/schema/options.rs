@@ -5,14 +5,14 @@ use super::link::LinkTable;
 use crate::lock::by_name;
 use crate::messages;
 use crate::model::JointKind;
-use crate::scene::AccelerationMethod;
+use crate::options::AccelerationMethod;
 use redysim_runtime::{Function, Functions};
 use redysim_toml::{DeValue, Field, Findings, Reader, Spanned, Table, Text};
 use std::ops::Range;
 
-/// The scene: key by key what stands beside the file or, where nothing does, what the file has.
+/// The options: key by key what stands beside the file or, where nothing does, what the file has.
 #[derive(Debug)]
-pub(crate) struct SceneTable {
+pub(crate) struct OptionsTable {
     pub(crate) functions: Entry<Field<RequestedFunctions>>,
     /// The joints that are locked. One whose value is invalid is among them, at zero: what is around the model counts
     /// joints.
@@ -50,19 +50,19 @@ impl RequestedFunctions {
     }
 }
 
-impl SceneTable {
-    /// Reads the keys of a scene from the file and from what is beside it. `links` are there if all can be read.
+impl OptionsTable {
+    /// Reads the keys of options from the file and from what is beside it. `links` are there if all can be read.
     pub(super) fn read(
         [file, beside]: [&Table<'_>; 2],
         item: &str,
         links: Option<&Vec<LinkTable>>,
         findings: &mut Findings,
-    ) -> SceneTable {
-        let in_file = SceneFields::read(Reader::known(file, item, findings), links);
+    ) -> OptionsTable {
+        let in_file = OptionFields::read(Reader::known(file, item, findings), links);
         let beside = findings.within(Text::Beside, |findings| {
-            SceneFields::read(Reader::new(beside, 0..0, item, &keys::SCENE, findings), links)
+            OptionFields::read(Reader::new(beside, 0..0, item, &keys::OPTIONS, findings), links)
         });
-        SceneTable {
+        OptionsTable {
             functions: first(beside.functions, in_file.functions),
             tolerance: first(beside.tolerance, in_file.tolerance),
             forward_dynamics: first(beside.forward_dynamics, in_file.forward_dynamics),
@@ -74,17 +74,17 @@ impl SceneTable {
     }
 }
 
-/// The scene of one text.
-struct SceneFields {
+/// The options of one text.
+struct OptionFields {
     functions: Field<RequestedFunctions>,
     locked: Option<Vec<Lock>>,
     tolerance: Field<f64>,
     forward_dynamics: Field<AccelerationMethod>,
 }
 
-impl SceneFields {
-    fn read(mut reader: Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> SceneFields {
-        SceneFields {
+impl OptionFields {
+    fn read(mut reader: Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> OptionFields {
+        OptionFields {
             functions: functions(&mut reader),
             locked: locked(&mut reader, links),
             tolerance: tolerance(&mut reader),

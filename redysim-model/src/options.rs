@@ -1,24 +1,24 @@
-//! What one program asks of a mechanism: no more than that is traced, emitted and compiled.
+//! Options of code generation: what is traced, generated and compiled.
 
 use redysim_runtime::Functions;
 
-/// What is asked of a mechanism. By default, everything.
+/// Options of code generation. The default is every function, without pruning.
 ///
-/// A model file may have a scene, under its keys `functions`, `locked` and `tolerance`; `redysim!` may be given
-/// another, of which each key wins over the file's. Locked joints are no part of this: a model that is loaded has them
-/// fixed already.
+/// A model file may have options, under its keys `functions`, `locked`, `tolerance` and `forward_dynamics`. Each key
+/// that is given to `redysim!` takes precedence over the file's. Locked joints are not among the options: in a loaded
+/// model they are fixed already.
 ///
 /// ```
-/// use redysim_model::{Function, Functions, Scene};
+/// use redysim_model::{CodegenOptions, Function, Functions};
 ///
 /// let functions = Functions::of([Function::InverseDynamics, Function::MassMatrix]);
-/// let scene = Scene { functions, ..Scene::default() };
-/// assert!(scene.functions.contains(Function::MassMatrix) && !scene.functions.contains(Function::Energy));
-/// assert!(Scene::default().functions.contains(Function::Energy));
+/// let options = CodegenOptions { functions, ..CodegenOptions::default() };
+/// assert!(options.functions.contains(Function::MassMatrix) && !options.functions.contains(Function::Energy));
+/// assert!(CodegenOptions::default().functions.contains(Function::Energy));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Scene {
-    /// The functions that are wanted.
+pub struct CodegenOptions {
+    /// The functions that are generated.
     pub functions: Functions,
     /// The share of each joint's largest force by which joint forces, and of the largest of each of their results by
     /// which the mass matrix and accelerations, may be wrong within the ranges of the joints. `None` prunes nothing.
@@ -27,7 +27,7 @@ pub struct Scene {
     pub forward_dynamics: AccelerationMethod,
 }
 
-/// How compiled forward dynamics is computed: the key `forward_dynamics` of a model or a scene.
+/// How compiled forward dynamics is computed: the key `forward_dynamics` of a model file or a declaration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AccelerationMethod {
     /// `"auto"`: by the factorisation where that takes fewer operations and keeps the digits that the recursion keeps,
