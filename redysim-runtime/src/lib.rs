@@ -5,6 +5,8 @@
 //! feature `alloc`, `Vec` may stand in for them where sizes are known only at run time (the generic path). With the
 //! feature `std`, `batch` works on many states on all cores.
 #![no_std]
+// Parts of the constraint solve serve simulation only.
+#![cfg_attr(not(feature = "simulation"), allow(dead_code, unused_imports))]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
@@ -14,12 +16,14 @@ extern crate std;
 #[cfg(feature = "std")]
 pub mod batch;
 pub mod closed_loop;
+#[cfg(feature = "simulation")]
 pub mod control;
 #[cfg(feature = "std")]
 pub mod dispatch;
 pub mod dual;
 mod floats;
 pub mod function;
+#[cfg(feature = "simulation")]
 pub mod integrate;
 mod joint_trig;
 #[cfg(feature = "lanes")]
@@ -29,20 +33,25 @@ pub mod operations;
 #[cfg(feature = "lanes")]
 mod registers;
 pub mod scalar;
+#[cfg(feature = "simulation")]
 pub mod simulate;
+#[cfg(feature = "simulation")]
 pub mod trajectory;
 mod trigonometry;
 pub mod vector;
 
+pub use closed_loop::{Assembly, ClosedLoop, ConstrainedMotion, LoopError, NamedLoopError, Projection, RowSet};
+#[cfg(feature = "simulation")]
 pub use closed_loop::{
-    Assembly, ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConstrainedMotion,
-    ForcedMotion, LoopError, LoopForces, NamedLoopError, Projection, RowSet, Stabilisation,
+    ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion, LoopForces, Stabilisation,
 };
+#[cfg(feature = "simulation")]
 pub use control::{ComputedTorque, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque};
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched};
 pub use dual::Dual;
 pub use function::{Function, Functions, Operations};
+#[cfg(feature = "simulation")]
 pub use integrate::{
     Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,
     Radau5, SemiImplicitEuler, Solution, Statistics, Step,
@@ -54,6 +63,8 @@ pub use mechanism::{
 };
 pub use operations::OperationCount;
 pub use scalar::{Real, Scalar};
+#[cfg(feature = "simulation")]
 pub use simulate::{ForwardSimulation, SimulationState};
+#[cfg(feature = "simulation")]
 pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
 pub use vector::Vector;

@@ -23,14 +23,18 @@
 mod constraints;
 mod dynamics;
 mod error;
+#[cfg(feature = "simulation")]
 mod inverse;
 mod position;
+#[cfg(feature = "simulation")]
 mod simulation;
 
 pub use dynamics::ConstrainedMotion;
 pub use error::{LoopError, NamedLoopError, RowSet};
+#[cfg(feature = "simulation")]
 pub use inverse::{ClosedLoopComputedTorque, ClosedLoopInverse, LoopForces};
 pub use position::{Assembly, Projection};
+#[cfg(feature = "simulation")]
 pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
 
 /// A mechanism and the closure of its loops.
