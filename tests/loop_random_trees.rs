@@ -57,6 +57,7 @@ fn joint<S: Scalar>(kind: JointKind, pitch: f64, u: [f64; 3], q: S) -> Transform
                     *element += S::from_f64(cross[i][j]) * sin + S::from_f64(square) * (S::one() - cos);
                 }
             }
+            other => panic!("{other:?} joints are not among the random ones"),
         }
     }
     transform
@@ -92,6 +93,7 @@ fn residual<S: Scalar>(model: &Model, frames: &[Matrix3<f64>], q: &[S]) -> Vec<S
             CutKind::Weld => {
                 rows.extend([(2, 1), (0, 2), (1, 0)].map(|(i, j)| half * (dot(i, j) - dot(j, i))));
             }
+            other => panic!("{other:?} cuts are not among the random ones"),
         }
     }
     rows
@@ -102,7 +104,7 @@ fn cut_axes(joint: CutKind, axis: [f64; 3]) -> Matrix3<f64> {
     let z = Vector3::from(axis);
     match joint {
         CutKind::Weld => Matrix3::identity(),
-        CutKind::Revolute | CutKind::Spherical => {
+        _ => {
             let x = z.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
             Matrix3::from_columns(&[x, z.cross(&x), z])
         }

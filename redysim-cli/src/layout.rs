@@ -3,7 +3,8 @@
 
 use std::ops::Range;
 
-use redysim_model::{JointKind, Model};
+use redysim_model::Model;
+use redysim_model::joint;
 
 /// The joints that move, with their coordinates and velocities, all in the model's order.
 #[derive(Clone, Debug, Default)]
@@ -99,10 +100,8 @@ impl Layout {
     pub fn of(model: &Model) -> Self {
         let mut layout = Layout::default();
         for link in model.moving_links() {
-            let parts = match link.joint {
-                JointKind::Prismatic => LENGTH,
-                JointKind::Revolute | JointKind::Helical | JointKind::Fixed => ANGLE,
-            };
+            let turns = joint::Joint::of(link).is_some_and(|joint| joint.screw().turn != 0.0);
+            let parts = if turns { ANGLE } else { LENGTH };
             layout.push(&link.joint_name, link.actuated, [parts, parts]);
         }
         layout

@@ -1,4 +1,38 @@
 //! The model of a mechanism: read from TOML, checked, and driven through the DeNOC recursions.
+//!
+//! ```
+//! use redysim_model::{GenericMechanism, Model};
+//! use redysim_runtime::{ForwardDynamics, InverseDynamics};
+//!
+//! let pendulum = r#"
+//!     name = "pendulum"
+//!     gravity = [0.0, 0.0, -9.81]
+//!
+//!     [[link]]
+//!     name = "rod"
+//!     parent = "base"
+//!     joint = "revolute"
+//!     axis = [0.0, 1.0, 0.0]
+//!     mass = 2.0
+//!     com = [0.5, 0.0, 0.0]
+//! "#;
+//! let pendulum = GenericMechanism::new(Model::from_toml(pendulum, "pendulum.toml")?.model);
+//! let (q, v) = (vec![0.3], vec![1.2]);
+//! let tau = pendulum.inverse_dynamics(&q, &v, &vec![0.7]);
+//! let a: Vec<f64> = pendulum.forward_dynamics(&q, &v, &tau);
+//! assert!((a[0] - 0.7).abs() < 1e-14);
+//! # Ok::<(), redysim_model::Faults>(())
+//! ```
+//!
+//! | where | what it is |
+//! |---|---|
+//! | [`Model`], [`Loaded`], [`Faults`] | a model file: what it says, what is suspicious in it, what is wrong with it |
+//! | [`GenericMechanism`] | the functions of a model that is read at run time; with a [`denoc::Workspace`], without allocation |
+//! | [`Tree`], [`joint`], [`parameter`] | the moving bodies, their joints, and numbers that may be given at run time |
+//! | [`denoc`] | the recursions over a tree: RNEA, CRBA, ABA and their kin in the DeNOC form, for any scalar |
+//! | [`frames`], [`regroup`], [`scaling`] | the same robot described otherwise, so that recursions cost less |
+//! | [`spatial`], [`inertia`], [`pseudo`], [`rotation`] | vectors, twists, wrenches, inertias and rotations |
+//! | [`Mobility`], [`LockError`] | independent velocities of closed loops; joints that are locked |
 
 mod assembly;
 mod check;

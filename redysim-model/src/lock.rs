@@ -87,6 +87,7 @@ pub(crate) fn by_name<'a>(
 
 /// Why joints cannot be locked.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum LockError {
     /// Neither a joint nor a link has this name.
     Unknown {

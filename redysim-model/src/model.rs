@@ -1,5 +1,6 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
+use crate::joint::Joint;
 use crate::spatial::{Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links and loops stand in the file's order.
@@ -49,6 +50,13 @@ pub struct Link {
     pub range: Option<JointRange>,
 }
 
+impl Link {
+    /// How far along its axis the link stands where the joint variable is zero, m.
+    pub fn offset_along_axis(&self) -> f64 {
+        Joint::of(self).and_then(|joint| joint.screw().slide(self.offset)).unwrap_or(0.0)
+    }
+}
+
 /// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function
 /// is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +74,7 @@ pub struct JointRange {
 
 /// The kinds of joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum JointKind {
     /// Rotation about the axis.
     Revolute,
@@ -153,6 +162,7 @@ pub struct CutSide {
 
 /// The kinds of cut joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CutKind {
     /// Points coincide and axes align.
     Revolute,

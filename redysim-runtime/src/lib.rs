@@ -2,8 +2,42 @@
 //! integrators, trajectories and torque laws.
 //!
 //! The crate is `no_std` and allocates nothing. Vectors are arrays whose length comes from the type; with the
-//! feature `alloc`, `Vec` may stand in for them where sizes are known only at run time (the generic path). With the
-//! feature `std`, `batch` works on many states on all cores.
+//! feature `alloc`, `Vec` may stand in for them where sizes are known only at run time (the generic path).
+//!
+//! ```
+//! # #[cfg(feature = "simulation")] {
+//! use redysim_runtime::{Integrator, Ode, Ode45};
+//!
+//! /// An oscillator of one radian per second.
+//! struct Oscillator;
+//!
+//! impl Ode<f64, [f64; 2]> for Oscillator {
+//!     fn derivative(&mut self, _t: f64, y: &[f64; 2], rate: &mut [f64; 2]) {
+//!         *rate = [y[1], -y[0]];
+//!     }
+//! }
+//!
+//! let end = Ode45::new().rtol(1e-9).solve(&mut Oscillator, (0.0, 1.0), [1.0, 0.0], [], |_, _| {}).unwrap();
+//! assert!((end.y[0] - 1.0_f64.cos()).abs() < 1e-8);
+//! # }
+//! ```
+//!
+//! | module | what it has |
+//! |---|---|
+//! | [`mechanism`] | the traits of a mechanism: [`Mechanism`], [`ConfigurationSpace`], one for each function |
+//! | [`scalar`], [`dual`], [`lanes`] | numbers: [`Scalar`] and [`Real`], derivatives, several numbers side by side |
+//! | [`function`], [`operations`] | the table of functions and what each costs |
+//! | [`integrate`], [`simulate`] | integrators with events and dense output; motion of a mechanism in time |
+//! | [`control`], [`trajectory`] | torque laws and the motions that they follow |
+//! | [`closed_loop`] | constraint forces, assembly, projection and inverse dynamics of closed loops |
+//! | [`batch`], [`dispatch`] | many states on all cores; the instructions that the processor has |
+//!
+//! # Features
+//!
+//! - `simulation` (default): integrators, trajectories, torque laws, and the closed-loop solves that need them.
+//! - `lanes` (default): [`lanes`], and several angles of one state at a time.
+//! - `alloc`: `Vec` for vectors. `std`: [`batch`] and [`dispatch`].
+//! - `deterministic`: products and sums are never fused, so that every target gives the same bits.
 #![no_std]
 // Parts of the constraint solve serve simulation only.
 #![cfg_attr(not(feature = "simulation"), allow(dead_code, unused_imports))]

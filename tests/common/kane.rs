@@ -104,6 +104,7 @@ impl Body {
                 body.angular_acceleration += w.cross(&z) * v;
             }
             JointKind::Fixed => {}
+            other => panic!("Kane's equations are not written for {other:?} joints"),
         }
         body.com = body.origin + body.rotation * Vector3::from(link.com.0);
         if link.joint != JointKind::Fixed {

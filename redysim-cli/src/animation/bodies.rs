@@ -123,10 +123,6 @@ fn ends(model: &Model, link: Option<usize>) -> Vec<[f64; 3]> {
 
 /// Where a link's joint stands on its parent: for a prismatic one, where the joint variable is zero.
 fn foot(link: &Link) -> [f64; 3] {
-    let slid = match link.joint {
-        JointKind::Prismatic => link.offset,
-        JointKind::Helical => link.pitch * link.offset,
-        JointKind::Revolute | JointKind::Fixed => 0.0,
-    };
+    let slid = link.offset_along_axis();
     (link.placement.position + link.placement.rotation * Vec3(link.axis.0.map(|x| x * slid))).0
 }

@@ -2,7 +2,7 @@
 
 use crate::number::{counted, rounded};
 use redysim_model::spatial::Vec3;
-use redysim_model::{JointKind, Link, Mobility, Model};
+use redysim_model::{Link, Mobility, Model};
 use std::ops::RangeInclusive;
 
 /// Beyond this, the heaviest link is suspiciously heavier than the lightest.
@@ -131,12 +131,7 @@ fn size(model: &Model) -> f64 {
 }
 
 fn own_length(link: &Link) -> f64 {
-    let offset = match link.joint {
-        JointKind::Prismatic => link.offset.abs(),
-        JointKind::Helical => (link.pitch * link.offset).abs(),
-        JointKind::Revolute | JointKind::Fixed => 0.0,
-    };
-    length(link.placement.position) + offset
+    length(link.placement.position) + link.offset_along_axis().abs()
 }
 
 fn length(vector: Vec3<f64>) -> f64 {

@@ -29,6 +29,7 @@ pub use shared::{AxisMass, Vanishing};
 
 /// What a joint of the tree does.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Joint {
     /// Turns the body about its z axis.
     Revolute,
