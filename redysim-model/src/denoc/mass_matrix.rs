@@ -8,7 +8,7 @@ use crate::joint::Screw;
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Vec3, Wrench};
-use crate::tree::{Body, Tree};
+use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
 /// M(q), by rows: element (i, j) is the force on joint i for a unit acceleration of joint j.
@@ -34,9 +34,10 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     let Workspace { angles, frames, planar, composites, .. } = work;
     joint_frames_in(angles, frames, tree, trace, q);
     find_planar(planar, tree);
-    let own_inertia = |(body, frame): (&Body<P>, &JointFrame<S>)| Composite::new(body.inertia, frame);
     composites.clear();
-    composites.extend(tree.bodies.iter().zip(frames.iter()).map(own_inertia));
+    for (body, frame) in tree.bodies.iter().zip(frames.iter()) {
+        composites.push(Composite::new(body.inertia, frame));
+    }
     matrix.fill(S::zero());
     for (index, body) in tree.bodies.iter().enumerate().rev() {
         let composite = &composites[index];
@@ -76,6 +77,7 @@ pub(super) struct Composite<S> {
 }
 
 impl<S: Scalar> Composite<S> {
+    #[inline(always)]
     fn new(inertia: PseudoInertia<impl ParameterIn<S>>, frame: &JointFrame<S>) -> Self {
         let Sym3 { xx, yy, .. } = inertia.second.map(ParameterIn::value);
         Composite { inertia: frame.own_inertia(inertia), polar: xx + yy }
