@@ -102,7 +102,7 @@ impl Tree {
             placement: placement.without_roundoff(),
             joint,
             offset,
-            still: false,
+            merged_parallel: false,
             q: coordinate..coordinate + joint.nq(),
             v: coordinate..coordinate + joint.nv(),
             inertia: PseudoInertia::zero(),

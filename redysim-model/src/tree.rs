@@ -36,10 +36,10 @@ pub struct Body<P = f64> {
     pub joint: Joint,
     /// What is added to the joint variable, rad.
     pub offset: f64,
-    /// Whether the body's quantities are computed in axes that do not turn with its joint: those of the parent, by the
-    /// fixed rotation. What is fixed to the body then turns against them, and a child with a parallel axis turns by the
-    /// sum of angles.
-    pub still: bool,
+    /// Whether the body's quantities are computed in axes that do not rotate with its joint: those of the parent, after
+    /// the fixed rotation. The body then rotates against its axes, and the angle of a child with a parallel axis is
+    /// merged with that of this joint: their sum.
+    pub merged_parallel: bool,
     /// The joint's coordinates in the model's order.
     pub q: Range<usize>,
     /// The joint's velocities and forces in the model's order.
@@ -123,7 +123,7 @@ impl<P> Tree<P> {
             placement: body.placement,
             joint: body.joint,
             offset: body.offset,
-            still: body.still,
+            merged_parallel: body.merged_parallel,
             q: body.q.clone(),
             v: body.v.clone(),
             inertia: body.inertia.map(&f),

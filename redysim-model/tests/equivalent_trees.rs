@@ -100,15 +100,15 @@ fn canonical_frames_do_not_depend_on_those_of_the_model() {
 }
 
 #[test]
-fn still_axes_change_no_quantity() {
+fn axes_that_do_not_rotate_with_their_joint_change_no_quantity() {
     for (name, tree) in trees() {
         for pattern in 1..8_usize {
-            let mut still = tree.clone();
-            for (index, body) in still.bodies.iter_mut().enumerate() {
-                body.still = (pattern >> (index % 3)) & 1 == 1;
+            let mut merged = tree.clone();
+            for (index, body) in merged.bodies.iter_mut().enumerate() {
+                body.merged_parallel = (pattern >> (index % 3)) & 1 == 1;
             }
-            assert_same(&format!("{name} {pattern}"), &dynamics(&still), &dynamics(&tree));
-            assert_same(&format!("{name} {pattern}"), &kinematics(&still), &kinematics(&tree));
+            assert_same(&format!("{name} {pattern}"), &dynamics(&merged), &dynamics(&tree));
+            assert_same(&format!("{name} {pattern}"), &kinematics(&merged), &kinematics(&tree));
             let forward = |tree: &Tree| {
                 denoc::forward_dynamics(
                     Method::Recursion,
@@ -119,7 +119,7 @@ fn still_axes_change_no_quantity() {
                     &tree.sample(2),
                 )
             };
-            let (found, expected) = (forward(&still), forward(&tree));
+            let (found, expected) = (forward(&merged), forward(&tree));
             let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
             for (x, y) in found.iter().zip(&expected) {
                 assert!((x - y).abs() <= 1e-9 * scale, "{name} {pattern} forward: {x:e} instead of {y:e}");

@@ -6,7 +6,7 @@
 pub mod axis_masses;
 pub mod frames;
 pub mod neighbourhood;
-pub mod still;
+pub mod parallel_axes;
 pub mod units;
 
 use crate::accuracy::{MEASURED, Reference};
@@ -157,22 +157,22 @@ impl<'a> Trees<'a> {
 
     /// The candidates for positions and velocities.
     pub fn kinematics(&self) -> Vec<Tree> {
-        let still = if self.passes.parallel_axes { still::everywhere(self.tree) } else { None };
-        std::iter::once(self.tree.clone()).chain(still).collect()
+        let merged = if self.passes.parallel_axes { parallel_axes::merged_everywhere(self.tree) } else { None };
+        std::iter::once(self.tree.clone()).chain(merged).collect()
     }
 
     /// For the mass matrix and gravity forces.
     pub fn matrix(&self) -> &Tree {
         self.matrix.get_or_init(|| {
-            let stilled = self.stilled(MATRIX, &matrix_price);
-            self.in_unit(MATRIX, stilled, mass_matrix)
+            let merged = self.merged(MATRIX, &matrix_price);
+            self.in_unit(MATRIX, merged, mass_matrix)
         })
     }
 
     /// For inverse dynamics and bias forces.
     pub fn bias(&self) -> &Tree {
         self.bias.get_or_init(|| {
-            let mut bias = self.stilled(FORCES, &inverse_price);
+            let mut bias = self.merged(FORCES, &inverse_price);
             if self.passes.base_parameters && self.passes.axis_masses {
                 bias =
                     self.without_loss(FORCES, |keeps_digits| axis_masses::placed(&bias, &inverse_price, keeps_digits));
@@ -181,9 +181,9 @@ impl<'a> Trees<'a> {
         })
     }
 
-    fn stilled(&self, functions: &[Function], cost: Cost) -> Tree {
+    fn merged(&self, functions: &[Function], cost: Cost) -> Tree {
         if self.passes.parallel_axes {
-            self.without_loss(functions, |keeps_digits| still::stilled(self.base(), cost, keeps_digits))
+            self.without_loss(functions, |keeps_digits| parallel_axes::merged(self.base(), cost, keeps_digits))
         } else {
             self.base().clone()
         }

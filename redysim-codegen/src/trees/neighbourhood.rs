@@ -92,7 +92,7 @@ fn stand_in(parent: Option<usize>) -> Body {
         placement: Pose { rotation, position: Vec3([0.3, 0.5, 0.2]) },
         joint: Joint::Revolute,
         offset: 0.0,
-        still: false,
+        merged_parallel: false,
         q: own(parent.map_or(0, |parent| parent + 1)),
         v: own(parent.map_or(0, |parent| parent + 1)),
         inertia: PseudoInertia::zero(),

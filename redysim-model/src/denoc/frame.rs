@@ -8,25 +8,25 @@ use crate::spatial::{Mat3, Pose, Vec3, Wrench};
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
-/// Cosine and sine of an angle about z.
-type Turn<S> = (S, S);
+/// A rotation about z: cosine and sine of its angle.
+type RotationAboutZ<S> = (S, S);
 
 /// The axes in which a body's quantities are computed, in its parent's: a fixed rotation, then the joint's own.
 ///
-/// The two rotations are kept apart, since the fixed one is mostly made of zeros and ones. The axes of a still body
-/// ([`Body::still`](crate::tree::Body::still)) do not turn with its joint; then what is fixed to the body turns against
-/// them.
+/// The two rotations are kept apart, since the fixed one is mostly made of zeros and ones. The axes of a body
+/// may not rotate with its joint ([`Body::merged_parallel`](crate::tree::Body::merged_parallel)); the body then rotates
+/// against them.
 #[derive(Clone, Debug)]
 pub(super) struct JointFrame<S> {
-    /// The parent against its axes, where these are still and the joint's axis turns against them.
-    before: Option<Turn<S>>,
+    /// The rotation of the parent against its axes, where these do not rotate with its joint and the axes are not parallel.
+    parent_rotation: Option<RotationAboutZ<S>>,
     fixed: Mat3<S>,
     /// The product of all rotations between the parent's axes and the body's, where it is wanted.
     whole: Option<Mat3<S>>,
-    /// The body's axes against the fixed rotation; `None` where they do not turn.
-    turn: Option<Turn<S>>,
-    /// The body against its axes; `None` where they are its own.
-    attitude: Option<Turn<S>>,
+    /// The rotation of the body's axes by its joint; `None` where they do not rotate.
+    rotation_about_z: Option<RotationAboutZ<S>>,
+    /// The rotation of the body against its axes; `None` where they are fixed to it.
+    body_rotation: Option<RotationAboutZ<S>>,
     /// Whether the joint's axis is one of the parent's axes.
     along_axis: bool,
     /// The body's origin in the parent's axes.
@@ -57,8 +57,8 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     frames.clear();
     trace.sweep("frames", tree.outward(), |index| {
         let (body, angle) = (&tree.bodies[index], angles[index]);
-        let parent = body.parent.and_then(|parent| frames[parent].attitude);
-        let turn = angle.map(|Angle { value, is_sum }| {
+        let parent = body.parent.and_then(|parent| frames[parent].body_rotation);
+        let joint_rotation = angle.map(|Angle { value, is_sum }| {
             let (sin, cos) = value.sin_cos();
             let [cosine, sine] = if is_sum { ["cos_sum", "sin_sum"] } else { ["cos", "sin"] };
             trace.name(cos, cosine, index, "");
@@ -67,41 +67,55 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         });
         let Pose { rotation, position } = body.placement;
         let fixed = Mat3::constant(rotation);
-        let mut position = turned(parent, Vec3::constant(position));
-        let before = parent.filter(|_| !body.is_parallel());
+        let mut position = rotated(parent, Vec3::constant(position));
+        let parent_rotation = parent.filter(|_| !body.is_parallel());
         if let Some(slide) = body.joint.screw().slide(q[body.q.start]) {
-            position = position + turned(before, fixed.column(2)).scale(slide);
+            position = position + rotated(parent_rotation, fixed.column(2)).scale(slide);
         }
-        let along_axis = before.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
-        let (turn, attitude) = if body.still { (None, turn) } else { (turn, None) };
+        let along_axis = parent_rotation.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
+        let (rotation_about_z, body_rotation) =
+            if body.merged_parallel { (None, joint_rotation) } else { (joint_rotation, None) };
         let whole = T::WHOLE_ROTATIONS.then(|| {
-            let own = Mat3(fixed.0.map(|row| turned_back(turn, Vec3(row)).0));
-            before.map_or(own, |_| Mat3(own.transpose().0.map(|column| turned(before, Vec3(column)).0)).transpose())
+            let own = Mat3(fixed.0.map(|row| rotated_back(rotation_about_z, Vec3(row)).0));
+            parent_rotation.map_or(own, |_| {
+                Mat3(own.transpose().0.map(|column| rotated(parent_rotation, Vec3(column)).0)).transpose()
+            })
         });
-        frames.push(JointFrame { before, fixed, whole, turn, attitude, along_axis, position });
+        frames.push(JointFrame {
+            parent_rotation,
+            fixed,
+            whole,
+            rotation_about_z,
+            body_rotation,
+            along_axis,
+            position,
+        });
     });
 }
 
-/// By how much a body has turned about its z axis.
+/// The angle of a body about its z axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Angle<S> {
     value: S,
-    /// Whether more than one joint has a part in it.
+    /// Whether it is the sum of several joint angles.
     is_sum: bool,
 }
 
-/// By how much each body has turned about its z axis: against its parent, or if that is still and the axes are
-/// parallel, against the parent's axes.
+/// The angle of each body about its z axis: against its parent or, if the joint axes are parallel and the parent's axes
+/// do not rotate with its joint, against the parent's axes.
 fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree<impl Copy>, q: &[S]) {
     angles.clear();
     for body in &tree.bodies {
         let q = q[body.q.start];
-        let still_parent = body.parent.filter(|&parent| tree.bodies[parent].still && body.is_parallel());
-        let [near] =
-            if body.still || still_parent.is_some() || body.offset != 0.0 { S::without_turns([q]) } else { [q] };
+        let merged_parent = body.parent.filter(|&parent| tree.bodies[parent].merged_parallel && body.is_parallel());
+        let [near] = if body.merged_parallel || merged_parent.is_some() || body.offset != 0.0 {
+            S::without_turns([q])
+        } else {
+            [q]
+        };
         let offset = |turn: S| if body.offset == 0.0 { turn } else { turn + S::from_f64(body.offset) };
         let own = body.joint.screw().turn(near).map(offset);
-        let carried = still_parent.and_then(|parent| angles[parent]).map(|angle| {
+        let carried = merged_parent.and_then(|parent| angles[parent]).map(|angle| {
             let opposite = body.placement.rotation.0[2][2] < 0.0;
             if opposite { -angle.value } else { angle.value }
         });
@@ -118,7 +132,7 @@ impl<S: Scalar> JointFrame<S> {
     pub fn to_parent(&self, v: Vec3<S>) -> Vec3<S> {
         match self.whole {
             Some(rotation) => product(rotation, v),
-            None => turned(self.before, self.fixed * turned(self.turn, v)),
+            None => rotated(self.parent_rotation, self.fixed * rotated(self.rotation_about_z, v)),
         }
     }
 
@@ -127,7 +141,7 @@ impl<S: Scalar> JointFrame<S> {
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
         match self.whole {
             Some(rotation) => product(rotation.transpose(), v),
-            None => turned_back(self.turn, self.fixed.transpose() * turned_back(self.before, v)),
+            None => rotated_back(self.rotation_about_z, self.fixed.transpose() * rotated_back(self.parent_rotation, v)),
         }
     }
 
@@ -141,13 +155,13 @@ impl<S: Scalar> JointFrame<S> {
     /// A vector fixed to the body, in its axes.
     #[inline(always)]
     pub fn fixed_vector(&self, v: Vec3<S>) -> Vec3<S> {
-        turned(self.attitude, v)
+        rotated(self.body_rotation, v)
     }
 
     /// The axes fixed to the body as columns, where its own axes are the columns of `axes`.
     #[inline(always)]
     pub fn fixed_axes(&self, axes: Mat3<S>) -> Mat3<S> {
-        Mat3(axes.0.map(|row| turned_back(self.attitude, Vec3(row)).0))
+        Mat3(axes.0.map(|row| rotated_back(self.body_rotation, Vec3(row)).0))
     }
 
     /// A pose fixed to the body, in its axes.
@@ -161,13 +175,13 @@ impl<S: Scalar> JointFrame<S> {
     #[inline(always)]
     pub fn own_inertia(&self, inertia: PseudoInertia<impl ParameterIn<S>>) -> PseudoInertia<S> {
         let PseudoInertia { mass, moment, second } = inertia.map(ParameterIn::value);
-        PseudoInertia { mass, moment: self.fixed_vector(moment), second: turned_tensor(self.attitude, second) }
+        PseudoInertia { mass, moment: self.fixed_vector(moment), second: rotated_tensor(self.body_rotation, second) }
     }
 
-    /// Whether what is fixed to the body turns against its axes.
+    /// Whether the body rotates against its axes.
     #[inline(always)]
-    pub fn is_still(&self) -> bool {
-        self.attitude.is_some()
+    pub fn merged_parallel(&self) -> bool {
+        self.body_rotation.is_some()
     }
 
     /// A wrench on the body, in the parent's axes and about the parent's origin.
@@ -186,7 +200,9 @@ impl<S: Scalar> JointFrame<S> {
                 let half = Mat3::from_fn(|i, j| product(full, Vec3(rotation.0[i]))[j]);
                 Sym3::from_upper(|i, j| product(rotation, Vec3(half.0[i]))[j])
             }
-            None => turned_tensor(self.before, turned_tensor(self.turn, tensor).rotated(self.fixed)),
+            None => {
+                rotated_tensor(self.parent_rotation, rotated_tensor(self.rotation_about_z, tensor).rotated(self.fixed))
+            }
         }
     }
 
@@ -219,19 +235,19 @@ fn product<S: Scalar>(Mat3(rows): Mat3<S>, v: Vec3<S>) -> Vec3<S> {
 }
 
 #[inline(always)]
-fn turned<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
-    match turn {
+fn rotated<S: Scalar>(rotation: Option<RotationAboutZ<S>>, v: Vec3<S>) -> Vec3<S> {
+    match rotation {
         Some((cos, sin)) => Vec3([cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]]),
         None => v,
     }
 }
 
 #[inline(always)]
-fn turned_back<S: Scalar>(turn: Option<Turn<S>>, v: Vec3<S>) -> Vec3<S> {
-    turned(turn.map(|(cos, sin)| (cos, -sin)), v)
+fn rotated_back<S: Scalar>(rotation: Option<RotationAboutZ<S>>, v: Vec3<S>) -> Vec3<S> {
+    rotated(rotation.map(|(cos, sin)| (cos, -sin)), v)
 }
 
 #[inline(always)]
-fn turned_tensor<S: Scalar>(turn: Option<Turn<S>>, tensor: Sym3<S>) -> Sym3<S> {
-    turn.map_or(tensor, |(cos, sin)| tensor.rotated_about_z(cos, sin))
+fn rotated_tensor<S: Scalar>(rotation: Option<RotationAboutZ<S>>, tensor: Sym3<S>) -> Sym3<S> {
+    rotation.map_or(tensor, |(cos, sin)| tensor.rotated_about_z(cos, sin))
 }

@@ -78,7 +78,7 @@ impl<S: Scalar> BodyMotion<S> {
 
     /// Force and moment about the origin that give a body of these moments of mass this motion: f = m a + U h, and n
     /// such that n× = U Σ − (U Σ)ᵀ, plus h × a.
-    fn wrench(&self, inertia: &PseudoInertia<S>, shape: Shape<S>) -> Wrench<S> {
+    fn wrench(&self, inertia: &PseudoInertia<S>, moments: SecondMoments<S>) -> Wrench<S> {
         let PseudoInertia { mass, moment, second: s } = *inertia;
         let force = self.acceleration.scale(mass) + self.angular_acceleration_tensor * moment;
         let (w, u) = (self.angular, self.angular_acceleration_tensor.0);
@@ -86,11 +86,11 @@ impl<S: Scalar> BodyMotion<S> {
         let squares = |i: usize, j: usize| w[j] * w[j] - w[i] * w[i];
         // Σ_jj U_kj − Σ_kk U_jk, for i, j, k in cyclic order: where the two moments are equal, only ω̇ is left of U.
         let across = |i: usize, j: usize, k: usize, first: S, second: S| {
-            if shape.equal[i] {
+            if moments.equal[i] {
                 (first + second) * self.angular_acceleration[i]
-            } else if shape.still && i == 2 {
-                // In axes that do not turn, the sum is a constant and the difference is not.
-                shape.polar * self.angular_acceleration[i] + (first - second) * (w[j] * w[k])
+            } else if moments.merged_parallel && i == 2 {
+                // In axes that do not rotate with the joint, the sum is a constant and the difference is not.
+                moments.polar * self.angular_acceleration[i] + (first - second) * (w[j] * w[k])
             } else {
                 first * u[k][j] - second * u[j][k]
             }
@@ -106,24 +106,24 @@ impl<S: Scalar> BodyMotion<S> {
 
 /// What is known of a body's moments of mass before run time.
 #[derive(Clone, Copy)]
-struct Shape<S> {
+struct SecondMoments<S> {
     /// Σ_xx + Σ_yy.
     polar: S,
     /// Whether the two second moments across each axis are equal.
     equal: [bool; 3],
-    /// Whether the body turns against its axes.
-    still: bool,
+    /// Whether the body rotates against its axes.
+    merged_parallel: bool,
 }
 
-impl<S: Scalar> Shape<S> {
+impl<S: Scalar> SecondMoments<S> {
     fn new<P: ParameterIn<S>>(inertia: &PseudoInertia<P>, frame: &JointFrame<S>) -> Self {
         let Sym3 { xx, yy, zz, xy, .. } = inertia.second;
-        let still = frame.is_still();
+        let merged_parallel = frame.merged_parallel();
         let equal = |a: P, b: P| a.number().is_some() && a.number() == b.number();
-        let round = equal(xx, yy) && (xy.number() == Some(0.0) || !still);
-        Shape {
-            equal: [equal(yy, zz) && !still, equal(zz, xx) && !still, round],
-            still,
+        let round = equal(xx, yy) && (xy.number() == Some(0.0) || !merged_parallel);
+        SecondMoments {
+            equal: [equal(yy, zz) && !merged_parallel, equal(zz, xx) && !merged_parallel, round],
+            merged_parallel,
             polar: xx.value() + yy.value(),
         }
     }
@@ -163,7 +163,7 @@ pub fn inverse_dynamics_in<S: Scalar>(
         let parent = body.parent.map_or(ground, |parent| motions[parent]);
         let motion = parent.across(frame, body.joint.screw(), v[body.v.start], a[body.v.start]);
         motion.name(trace, index);
-        wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), Shape::new(&body.inertia, frame)));
+        wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), SecondMoments::new(&body.inertia, frame)));
         motions.push(motion);
     });
     trace.sweep("inward", tree.inward(), |index| {
