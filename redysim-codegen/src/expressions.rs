@@ -75,7 +75,8 @@ impl Expressions {
         count
     }
 
-    /// Operations, with each sine-cosine pair at its price in operations: the measure by which alternatives are compared.
+    /// Operations, with each sine-cosine pair at its price in operations: the measure by which alternatives are
+    /// compared.
     pub fn price(&self) -> u32 {
         let count = self.count();
         count.flops() + PRICE_PER_PAIR * count.trig

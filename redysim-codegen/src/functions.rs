@@ -92,10 +92,10 @@ impl Pipeline<'_> {
     ///
     /// 1. It is traced on the cheapest description of the robot that keeps its digits; forward dynamics by the method
     ///    that [`forward_dynamics`] chooses.
-    /// 2. Where it is too long to be unrolled, it is also traced without the passes that make uniform bodies differ, and
-    ///    the shorter code is taken.
-    /// 3. Where it has a tolerance and can be unrolled, terms that do not matter within the ranges of the joints are left
-    ///    out.
+    /// 2. Where it is too long to be unrolled, it is also traced without the passes that make uniform bodies differ,
+    ///    and the shorter code is taken.
+    /// 3. Where it has a tolerance and can be unrolled, terms that do not matter within the ranges of the joints are
+    ///    left out.
     fn run(&self) -> Result<Vec<TracedFunction>, PassError> {
         let trees = Trees::new(self.tree, self.passes, self.reference);
         let uniform_passes = self.passes.uniform();

@@ -4,8 +4,8 @@
 /// together.
 pub const PRICE_PER_PAIR: u32 = 20;
 
-/// With more operations, unrolled code does not fit an instruction cache of 32 KB, and every operation takes about twice
-/// as long: loops are tried.
+/// With more operations, unrolled code does not fit an instruction cache of 32 KB, and every operation takes about
+/// twice as long: loops are tried.
 pub const LONGEST_UNROLLED: u32 = 3000;
 
 /// The longest chain for which the explicit mass matrix is considered at all: it takes O(n³) operations there, and the

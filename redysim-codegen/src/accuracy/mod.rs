@@ -1,8 +1,9 @@
 //! The rounding errors of a function, measured at sampled states of the robot.
 //!
-//! The reference values come from the recursions on the model's own tree, in [double-double](double_double) arithmetic. Errors are taken in the metric of the mass matrix, in which a heavy joint and a light one count alike:
-//! of accelerations √M_ii |Δa_i| as a share of the largest √M_jj |a_j|, of forces |Δτ_i| / √M_ii as a share of the
-//! largest |τ_j| / √M_jj, of the mass matrix |ΔM_ij| as a share of √(M_ii M_jj).
+//! The reference values come from the recursions on the model's own tree, in [double-double](double_double) arithmetic.
+//! Errors are taken in the metric of the mass matrix, in which a heavy joint and a light one count alike: of
+//! accelerations √M_ii |Δa_i| as a share of the largest √M_jj |a_j|, of forces |Δτ_i| / √M_ii as a share of the largest
+//! |τ_j| / √M_jj, of the mass matrix |ΔM_ij| as a share of √(M_ii M_jj).
 
 pub mod double_double;
 pub mod rounding;
@@ -107,8 +108,8 @@ impl<'a> Reference<'a> {
         self.loss_by(function, |x| denoc::evaluate(function, tree, &AsGenerated, x))
     }
 
-    /// The loss of `function` in any description: that of the recursion on the model's own, with its numbers as they are
-    /// and with each perturbed by a few roundings.
+    /// The loss of `function` in any description: that of the recursion on the model's own, with its numbers as they
+    /// are and with each perturbed by a few roundings.
     ///
     /// A mechanism that lies in a plane of space, or a link whose centre of mass nearly balances another's, depends so
     /// much on the last digits of its numbers that no other description has the digits of the model's own.

@@ -19,8 +19,8 @@ const OF_SINE: f64 = 2.0;
 #[derive(Clone, Copy, Debug)]
 pub enum Bound {}
 
-/// A value computed in `f64`, with a bound of its distance from the exact value: |`value` − exact| ≤ `error`. The bound is
-/// infinite or NaN where none is known.
+/// A value computed in `f64`, with a bound of its distance from the exact value: |`value` − exact| ≤ `error`. The bound
+/// is infinite or NaN where none is known.
 pub type Rounded = WithError<Bound>;
 
 impl Rounded {

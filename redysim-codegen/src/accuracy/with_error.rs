@@ -3,8 +3,8 @@
 use std::marker::PhantomData;
 use std::ops::{Add, AddAssign, Neg, Sub, SubAssign};
 
-/// A number and its rounding error; `Meaning` names what the error is: the [rest](super::double_double) of the number or a
-/// [bound](super::rounding).
+/// A number and its rounding error; `Meaning` names what the error is: the [rest](super::double_double) of the number
+/// or a [bound](super::rounding).
 #[derive(Clone, Copy, Debug)]
 pub struct WithError<Meaning> {
     pub(crate) value: f64,

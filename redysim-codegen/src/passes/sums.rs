@@ -1,10 +1,10 @@
 //! Like terms of a sum become one: x·c + y + x·d is x·(c + d) + y.
 //!
-//! A constructor of the graph sees two terms at a time; this pass sees a whole sum, through all additions whose only use
-//! is the sum. Constants are added, and a coefficient that is only roundoff vanishes.
+//! A constructor of the graph sees two terms at a time; this pass sees a whole sum, through all additions whose only
+//! use is the sum. Constants are added, and a coefficient that is only roundoff vanishes.
 //!
-//! In a long function each body is treated by itself, so that uniform bodies stay uniform and their code can be a loop: a
-//! sum does not extend into the steps of other bodies. What other sweeps have computed counts as ready, what the same
+//! In a long function each body is treated by itself, so that uniform bodies stay uniform and their code can be a loop:
+//! a sum does not extend into the steps of other bodies. What other sweeps have computed counts as ready, what the same
 //! sweep has computed at another body as late.
 
 use super::terms::inner_sums;

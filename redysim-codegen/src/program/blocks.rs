@@ -1,7 +1,7 @@
 //! Long functions, cut into blocks.
 //!
-//! Each `let` opens a debug scope inside that of the `let` before it, and a few thousand nested scopes crash the compiler
-//! in a dev build. So statements stand in blocks, each of which returns only what is read later.
+//! Each `let` opens a debug scope inside that of the `let` before it, and a few thousand nested scopes crash the
+//! compiler in a dev build. So statements stand in blocks, each of which returns only what is read later.
 
 use super::Statement;
 use std::collections::{HashMap, HashSet};

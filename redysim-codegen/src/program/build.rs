@@ -184,8 +184,8 @@ fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
     fused
 }
 
-/// The subtractions a − b of which b − a is used: those whose name is that of the negative, and those mostly used with a
-/// minus sign.
+/// The subtractions a − b of which b − a is used: those whose name is that of the negative, and those mostly used with
+/// a minus sign.
 fn flipped(expressions: &Expressions, uses: &[usize]) -> Vec<bool> {
     let graph = &expressions.graph;
     let mut minus = vec![0; graph.len()];

@@ -112,8 +112,8 @@ impl Builder<'_> {
         }
     }
 
-    /// A value that a loop computes, as it is read in `scope`, and whether the value wanted is its negative; `None` for a
-    /// value of the template in its own loop, and for one that no loop computes.
+    /// A value that a loop computes, as it is read in `scope`, and whether the value wanted is its negative; `None` for
+    /// a value of the template in its own loop, and for one that no loop computes.
     fn loop_value(&self, index: usize, scope: Scope) -> Option<(bool, Value)> {
         let rerolled = self.rerolled.as_ref()?;
         let place = rerolled.place(index)?;

@@ -73,7 +73,8 @@ pub fn scales(shape: Shape, states: &States, sizes: &[f64]) -> Vec<f64> {
     }
 }
 
-/// The extremes in the given blocks of states; `both` has the outputs of the whole function, then those of the pruned one.
+/// The extremes in the given blocks of states; `both` has the outputs of the whole function, then those of the pruned
+/// one.
 fn extremes(both: &Expressions, states: &States, blocks: Range<usize>, seed: u64) -> Extremes {
     let live = live(both);
     let mut values = Columns::new(both.graph.len(), BLOCK);

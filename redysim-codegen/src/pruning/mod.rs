@@ -52,7 +52,8 @@ const ROUNDS: usize = 6;
 const ATTEMPTS: usize = 8;
 /// Bisection ends where the ratio of the smallest aim that fails to the largest that holds is less.
 const BISECTION_RATIO: f64 = 1.15;
-/// The most and the fewest states of the sample from which terms are judged, and the most numbers that are stored for it.
+/// The most and the fewest states of the sample from which terms are judged, and the most numbers that are stored for
+/// it.
 const LARGEST_SAMPLE: usize = 1000;
 const SMALLEST_SAMPLE: usize = 60;
 const LARGEST_STORE: usize = 8_000_000;

@@ -1,10 +1,10 @@
 //! Loop rerolling: code that an unrolled recursion repeats for each of many bodies becomes a loop again.
 //!
 //! Every sweep of a recursion does one step at each body. Bodies are uniform if their steps have the same operations on
-//! the values of the body before, on those of other sweeps at the same body, on the body's own inputs, and on constants;
-//! only the constants differ. A run of such bodies, taken `period` at a time (neighbours may be mirrored), is found here
-//! by comparing steps. One group of bodies is the template; its nodes become the body of a loop for each sweep, with the
-//! constants in a table.
+//! the values of the body before, on those of other sweeps at the same body, on the body's own inputs, and on
+//! constants; only the constants differ. A run of such bodies, taken `period` at a time (neighbours may be mirrored),
+//! is found here by comparing steps. One group of bodies is the template; its nodes become the body of a loop for each
+//! sweep, with the constants in a table.
 //!
 //! Since constants of a graph are positive and signs stand on edges, a value of one group may be the negative of the
 //! same value in the template: `signs` finds which values are.

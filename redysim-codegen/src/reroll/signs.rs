@@ -1,9 +1,10 @@
 //! Which values of a group of bodies are the negatives of their template nodes.
 //!
 //! Each value has a sign relative to its template node. Both terms of a sum have the sign of the sum, a product has the
-//! product of the signs of its factors, and a product with a constant may have either sign, since the constant takes it.
-//! Values whose signs depend on each other are joined into classes (union-find), in the order of the operations. A sign
-//! that is needed before it is determined becomes an unknown, and a cycle in a class gives an equation for the unknowns.
+//! product of the signs of its factors, and a product with a constant may have either sign, since the constant takes
+//! it. Values whose signs depend on each other are joined into classes (union-find), in the order of the operations. A
+//! sign that is needed before it is determined becomes an unknown, and a cycle in a class gives an equation for the
+//! unknowns.
 
 use super::{Place, TEMPLATE};
 use crate::graph::{Edge, Graph, Node};

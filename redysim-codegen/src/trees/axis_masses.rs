@@ -1,8 +1,8 @@
 //! The distribution of masses on joint axes between the bodies.
 //!
 //! [Base parameters](redysim_model::regroup) make three numbers of each body vanish. The same freedom can make others
-//! vanish, such as the parent's first moment, which saves a column of U h and a part of h × a. For each body, the masses
-//! on its axis that cancel one number of its parent are tried, and the one that lowers the count most is taken.
+//! vanish, such as the parent's first moment, which saves a column of U h and a part of h × a. For each body, the
+//! masses on its axis that cancel one number of its parent are tried, and the one that lowers the count most is taken.
 
 use super::neighbourhood::neighbourhood;
 use super::{Cost, KeepsDigits};

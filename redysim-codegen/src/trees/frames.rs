@@ -1,7 +1,7 @@
 //! The choice of frames.
 //!
-//! The search starts from [canonical](redysim_model::frames::canonical) frames, so that the result does not depend on the
-//! model's own, and tries for each body the few placements that can make a constant vanish.
+//! The search starts from [canonical](redysim_model::frames::canonical) frames, so that the result does not depend on
+//! the model's own, and tries for each body the few placements that can make a constant vanish.
 
 use super::neighbourhood::neighbourhood;
 use super::{Cost, KeepsDigits};

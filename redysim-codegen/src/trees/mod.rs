@@ -91,8 +91,8 @@ impl<'a> Trees<'a> {
         [cheapest, self.plain(), self.tree]
     }
 
-    /// A function on the cheapest description on which it keeps its digits. If there is none, on the model's own, without
-    /// passes over expressions. Forward dynamics is by the recursion.
+    /// A function on the cheapest description on which it keeps its digits. If there is none, on the model's own,
+    /// without passes over expressions. Forward dynamics is by the recursion.
     pub fn keeping_digits(&self, function: Function) -> Result<Expressions, PassError> {
         let allowed_loss = self.allowed_loss(function);
         for tree in self.descriptions(function) {
@@ -206,8 +206,8 @@ fn matrix_price(tree: &Tree) -> u32 {
     mass_matrix(tree).price()
 }
 
-/// Costs are counted without the passes over expressions, which would take most of the time and whose gain differs little
-/// between descriptions.
+/// Costs are counted without the passes over expressions, which would take most of the time and whose gain differs
+/// little between descriptions.
 fn inverse_dynamics(tree: &Tree) -> Expressions {
     traced_on(tree, Function::InverseDynamics)
 }

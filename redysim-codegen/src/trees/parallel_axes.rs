@@ -1,15 +1,15 @@
 //! One angle for consecutive parallel axes.
 //!
-//! Where the axis of a child is parallel to its parent's, the parent may be computed in axes that do not rotate with its
-//! joint. Then only what is fixed to the parent is rotated by its angle, a few constants, and everything that passes
-//! between the child and the rest of the tree is rotated once, by the sum of the two angles, instead of twice.
+//! Where the axis of a child is parallel to its parent's, the parent may be computed in axes that do not rotate with
+//! its joint. Then only what is fixed to the parent is rotated by its angle, a few constants, and everything that
+//! passes between the child and the rest of the tree is rotated once, by the sum of the two angles, instead of twice.
 
 use super::neighbourhood::neighbourhood;
 use super::{Cost, KeepsDigits};
 use redysim_model::Tree;
 
-/// The tree with bodies in axes that do not rotate with their joints where that lowers the cost and costs no digits: one
-/// after the other, or all at once.
+/// The tree with bodies in axes that do not rotate with their joints where that lowers the cost and costs no digits:
+/// one after the other, or all at once.
 pub fn merged(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
     let one_by_one = one_by_one(tree, cost, keeps_digits);
     match merged_everywhere(tree) {

@@ -18,7 +18,8 @@ type RotationAboutZ<S> = (S, S);
 /// against them.
 #[derive(Clone, Debug)]
 pub(super) struct JointFrame<S> {
-    /// The rotation of the parent against its axes, where these do not rotate with its joint and the axes are not parallel.
+    /// The rotation of the parent against its axes, where these do not rotate with its joint and the axes are not
+    /// parallel.
     parent_rotation: Option<RotationAboutZ<S>>,
     fixed: Mat3<S>,
     /// The product of all rotations between the parent's axes and the body's, where it is wanted.

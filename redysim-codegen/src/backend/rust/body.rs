@@ -97,8 +97,8 @@ impl Printer<'_> {
     /// }
     /// ```
     ///
-    /// `array::from_fn` would not have to set the array to zero first, but where the compiler does not inline its closure,
-    /// carried variables go through memory.
+    /// `array::from_fn` would not have to set the array to zero first, but where the compiler does not inline its
+    /// closure, carried variables go through memory.
     fn sweep(&self, Loop { groups, ascending, carried, live_out, constants, reads, body }: &Loop) -> TokenStream {
         let (group, row) = (local(GROUP), local(ROW));
         let length = Literal::usize_unsuffixed(*groups);

@@ -54,8 +54,8 @@ impl Writer<'_> {
         (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
     }
 
-    /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and cosines
-    /// is a third function, inlined into both, so that sines and cosines do not go through memory.
+    /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
+    /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, traced: &TracedFunction) -> TokenStream {
         let TracedFunction { function, ref expressions, .. } = *traced;
         let signature = function.signature();
@@ -98,8 +98,8 @@ impl Writer<'_> {
         }
     }
 
-    /// The statement that computes the sines and cosines that one function needs, and the arrays of those of all angles,
-    /// with zeros for the others.
+    /// The statement that computes the sines and cosines that one function needs, and the arrays of those of all
+    /// angles, with zeros for the others.
     fn needed_angles(&self, expressions: &Expressions) -> (Option<TokenStream>, TokenStream, TokenStream) {
         let needed = self.angles.needed_by(expressions);
         let values: Vec<TokenStream> = self.angles.at(needed.iter().copied()).map(angle).collect();
