@@ -8,11 +8,12 @@ use super::neighbourhood::neighbourhood;
 use super::{Cost, KeepsDigits};
 use redysim_model::Tree;
 use redysim_model::joint::{AxisMass, Joint};
+use redysim_model::parameter::Parameter;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::take_from_parent;
 
 /// The tree, of base parameters, with masses on its axes where they lower the cost and cost no digits.
-pub fn placed(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
+pub fn placed<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
         if tree.bodies[body].parent.is_none() || tree.bodies[body].joint != Joint::Revolute {
@@ -23,18 +24,18 @@ pub fn placed(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
             let local = part.index_of(body).expect("the body itself");
             let mut least = cost(&part.tree);
             let mut best = None;
-            for mass in candidates(&tree, body, order) {
+            for amount in candidates(&tree, body, order) {
                 let mut other = part.tree.clone();
-                take_from_parent(&mut other, local, mass);
+                take_from_parent(&mut other, local, order.times(amount));
                 part.relieve_stand_ins(&mut other);
                 let price = cost(&other);
                 if price < least {
-                    (least, best) = (price, Some(mass));
+                    (least, best) = (price, Some(amount));
                 }
             }
-            if let Some(mass) = best {
+            if let Some(amount) = best {
                 let mut other = tree.clone();
-                take_from_parent(&mut other, body, mass);
+                take_from_parent(&mut other, body, order.times(amount));
                 if keeps_digits(&other) {
                     tree = other;
                 }
@@ -44,8 +45,8 @@ pub fn placed(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
     tree
 }
 
-#[derive(Clone, Copy)]
 /// The moment of a mass on an axis that is changed.
+#[derive(Clone, Copy)]
 enum MomentOrder {
     Zeroth,
     First,
@@ -53,29 +54,32 @@ enum MomentOrder {
 }
 
 impl MomentOrder {
-    /// The largest moment of this order in the robot. Base parameters have moved most of the mass to the ground, whose
-    /// other moments depend on where the robot stands.
-    fn largest(self, tree: &Tree) -> f64 {
-        let least = if let MomentOrder::Zeroth = self { tree.ground.mass } else { 0.0 };
+    /// The largest known moment of this order in the robot. Base parameters have moved most of the mass to the ground,
+    /// whose other moments depend on where the robot stands.
+    fn largest<P: Parameter>(self, tree: &Tree<P>) -> f64 {
+        let ground = if let MomentOrder::Zeroth = self { tree.ground.mass } else { P::zero() };
         let values = tree.bodies.iter().flat_map(|body| match self {
-            MomentOrder::Zeroth => [body.inertia.mass, 0.0, 0.0],
+            MomentOrder::Zeroth => [body.inertia.mass, P::zero(), P::zero()],
             MomentOrder::First => body.inertia.moment.0,
             MomentOrder::Second => [body.inertia.second.xx, body.inertia.second.yy, body.inertia.second.zz],
         });
-        values.fold(least, |largest, value| largest.max(value.abs()))
+        let known = values.chain([ground]).filter_map(Parameter::number);
+        known.fold(0.0, |largest, value| largest.max(value.abs()))
     }
 
-    fn times(self, amount: f64) -> AxisMass {
+    fn times<P: Parameter>(self, amount: f64) -> AxisMass<P> {
+        let none = AxisMass { mass: P::zero(), first: P::zero(), second: P::zero() };
+        let amount = P::from_f64(amount);
         match self {
-            MomentOrder::Zeroth => AxisMass { mass: amount, ..AxisMass::default() },
-            MomentOrder::First => AxisMass { first: amount, ..AxisMass::default() },
-            MomentOrder::Second => AxisMass { second: amount, ..AxisMass::default() },
+            MomentOrder::Zeroth => AxisMass { mass: amount, ..none },
+            MomentOrder::First => AxisMass { first: amount, ..none },
+            MomentOrder::Second => AxisMass { second: amount, ..none },
         }
     }
 }
 
-/// The masses that make one number of the parent vanish.
-fn candidates(tree: &Tree, body: usize, order: MomentOrder) -> Vec<AxisMass> {
+/// The amounts of mass that make one number of the parent vanish. Numbers that are not known before run time stay.
+fn candidates<P: Parameter>(tree: &Tree<P>, body: usize, order: MomentOrder) -> Vec<f64> {
     let Some(parent) = tree.bodies[body].parent else { return Vec::new() };
     let now = numbers(tree, parent);
     let mut changed = tree.clone();
@@ -83,19 +87,20 @@ fn candidates(tree: &Tree, body: usize, order: MomentOrder) -> Vec<AxisMass> {
     let then = numbers(&changed, parent);
     // With a short lever the mass would be large, and cost the others digits.
     let most = order.largest(tree);
-    let mut found: Vec<AxisMass> = Vec::new();
+    let mut found: Vec<f64> = Vec::new();
     for (now, then) in now.into_iter().zip(then) {
+        let (Some(now), Some(then)) = (now, then) else { continue };
         // The number falls by `now − then` for each unit.
         let amount = now / (now - then);
-        if now != 0.0 && amount.abs() <= most && !found.contains(&order.times(amount)) {
-            found.push(order.times(amount));
+        if now != 0.0 && amount.abs() <= most && !found.contains(&amount) {
+            found.push(amount);
         }
     }
     found
 }
 
 /// The numbers of a body that no mass on its own axis cancels.
-fn numbers(tree: &Tree, body: usize) -> [f64; 7] {
+fn numbers<P: Parameter>(tree: &Tree<P>, body: usize) -> [Option<f64>; 7] {
     let PseudoInertia { moment, second: s, .. } = tree.bodies[body].inertia;
-    [moment[0], moment[1], s.xx, s.yy, s.xy, s.xz, s.yz]
+    [moment[0], moment[1], s.xx, s.yy, s.xy, s.xz, s.yz].map(Parameter::number)
 }

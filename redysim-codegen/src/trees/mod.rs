@@ -7,6 +7,8 @@ pub mod axis_masses;
 pub mod frames;
 pub mod neighbourhood;
 pub mod parallel_axes;
+#[cfg(test)]
+mod tests;
 pub mod units;
 
 use crate::accuracy::{MEASURED, Reference};
@@ -20,9 +22,9 @@ use redysim_model::{Function, Tree};
 use std::cell::OnceCell;
 
 /// The cost of a function on a tree, in operations.
-pub type Cost<'a> = &'a dyn Fn(&Tree) -> u32;
+pub type Cost<'a, P = f64> = &'a dyn Fn(&Tree<P>) -> u32;
 /// Whether a tree keeps the digits that the model's own description has.
-pub type KeepsDigits<'a> = &'a dyn Fn(&Tree) -> bool;
+pub type KeepsDigits<'a, P = f64> = &'a dyn Fn(&Tree<P>) -> bool;
 
 /// The functions on the tree for inverse dynamics.
 const FORCES: &[Function] = &[Function::InverseDynamics, Function::BiasForces];

@@ -3,6 +3,7 @@
 use redysim_model::Tree;
 use redysim_model::inertia::Sym3;
 use redysim_model::joint::Joint;
+use redysim_model::parameter::Parameter;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::spatial::{Pose, Vec3};
 use redysim_model::tree::Body;
@@ -14,21 +15,21 @@ const ABOVE: usize = 2;
 const BELOW: usize = 1;
 
 /// A part of a tree, and the indices of its bodies in the whole.
-pub struct Neighbourhood {
+pub struct Neighbourhood<P> {
     /// The part.
-    pub tree: Tree,
+    pub tree: Tree<P>,
     /// The index in the whole of each body; `None` for a stand-in for the rest of the tree.
     origins: Vec<Option<usize>>,
 }
 
-impl Neighbourhood {
+impl<P: Parameter> Neighbourhood<P> {
     /// The index in the part of a body of the whole.
     pub fn index_of(&self, body: usize) -> Option<usize> {
         self.origins.iter().position(|origin| *origin == Some(body))
     }
 
     /// Makes the stand-ins massless again.
-    pub fn relieve_stand_ins(&self, tree: &mut Tree) {
+    pub fn relieve_stand_ins(&self, tree: &mut Tree<P>) {
         for (body, origin) in tree.bodies.iter_mut().zip(&self.origins) {
             if origin.is_none() {
                 body.inertia = PseudoInertia::zero();
@@ -41,7 +42,7 @@ impl Neighbourhood {
 ///
 /// Where the tree continues towards the ground, two oblique joints give the part a motion without zeros; where it
 /// continues outwards, the last body gets an inertia without zeros.
-pub fn neighbourhood(tree: &Tree, body: usize) -> Neighbourhood {
+pub fn neighbourhood<P: Parameter>(tree: &Tree<P>, body: usize) -> Neighbourhood<P> {
     let above: Vec<usize> = std::iter::successors(Some(body), |&at| tree.bodies[at].parent).take(ABOVE + 1).collect();
     let top = *above.last().expect("the body itself");
     let mut part = Tree { bodies: Vec::new(), links: Vec::new(), cuts: Vec::new(), ..tree.clone() };
@@ -71,7 +72,7 @@ pub fn neighbourhood(tree: &Tree, body: usize) -> Neighbourhood {
             if index == top { part.bodies.len().checked_sub(1) } else { original.parent.and_then(|at| places[at]) };
         let mut copy = Body { parent, q: own(part.bodies.len()), v: own(part.bodies.len()), ..original.clone() };
         if generation == Some(BELOW) && tree.children(index).next().is_some() {
-            copy.inertia = full_inertia();
+            copy.inertia = full_inertia().map(P::from_f64);
         }
         part.bodies.push(copy);
         origins.push(Some(index));
@@ -85,7 +86,7 @@ fn own(index: usize) -> Range<usize> {
 }
 
 /// A massless body on an oblique joint.
-fn stand_in(parent: Option<usize>) -> Body {
+fn stand_in<P: Parameter>(parent: Option<usize>) -> Body<P> {
     let rotation = redysim_model::rotation::roll_pitch_yaw([0.7, 0.4, 0.2]);
     Body {
         parent,

@@ -7,10 +7,11 @@
 use super::neighbourhood::neighbourhood;
 use super::{Cost, KeepsDigits};
 use redysim_model::Tree;
+use redysim_model::parameter::Parameter;
 
 /// The tree with bodies in axes that do not rotate with their joints where that lowers the cost and costs no digits:
 /// one after the other, or all at once.
-pub fn merged(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
+pub fn merged<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
     let one_by_one = one_by_one(tree, cost, keeps_digits);
     match merged_everywhere(tree) {
         Some(all) if cost(&all) < cost(&one_by_one) && keeps_digits(&all) => all,
@@ -20,7 +21,7 @@ pub fn merged(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
 
 /// The tree with all bodies in such axes whose own axis is parallel to their parent's or a child's; `None` if there is
 /// none.
-pub fn merged_everywhere(tree: &Tree) -> Option<Tree> {
+pub fn merged_everywhere<P: Parameter>(tree: &Tree<P>) -> Option<Tree<P>> {
     let mut all = tree.clone();
     for body in 0..tree.bodies.len() {
         let below = tree.bodies[body].parent.is_some() && tree.bodies[body].is_parallel();
@@ -29,7 +30,7 @@ pub fn merged_everywhere(tree: &Tree) -> Option<Tree> {
     all.bodies.iter().any(|body| body.merged_parallel).then_some(all)
 }
 
-fn one_by_one(tree: &Tree, cost: Cost, keeps_digits: KeepsDigits) -> Tree {
+fn one_by_one<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
     let mut tree = tree.clone();
     for body in 0..tree.bodies.len() {
         let beside = |child: usize| tree.bodies[child].is_parallel();

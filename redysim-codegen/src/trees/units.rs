@@ -3,12 +3,13 @@
 use crate::expressions::Expressions;
 use crate::graph::Node;
 use redysim_model::Tree;
+use redysim_model::parameter::Parameter;
 use redysim_model::scaling::in_unit;
 use std::collections::HashMap;
 
 /// The tree in the unit of length that saves most products of `expressions`, which were traced on it; unchanged if none
 /// saves any.
-pub fn chosen(tree: &Tree, expressions: &Expressions) -> Tree {
+pub fn chosen<P: Parameter>(tree: &Tree<P>, expressions: &Expressions) -> Tree<P> {
     let products = products(expressions);
     let saved = |constant: f64| products.get(&key(constant)).copied().unwrap_or(0);
     let mut best = (0, 1.0);
@@ -19,8 +20,11 @@ pub fn chosen(tree: &Tree, expressions: &Expressions) -> Tree {
     };
     for body in &tree.bodies {
         body.placement.position.0.into_iter().for_each(|length| consider(length, length.abs()));
-        body.inertia.moment.0.into_iter().for_each(|moment| consider(moment, 1.0 / moment.abs()));
-        consider(body.inertia.mass, 1.0 / body.inertia.mass.abs().sqrt());
+        let moments = body.inertia.moment.0.into_iter().filter_map(Parameter::number);
+        moments.for_each(|moment| consider(moment, 1.0 / moment.abs()));
+        if let Some(mass) = body.inertia.mass.number() {
+            consider(mass, 1.0 / mass.abs().sqrt());
+        }
     }
     let (_, unit) = best;
     if unit == 1.0 { tree.clone() } else { in_unit(tree, unit).unwrap_or_else(|| tree.clone()) }
