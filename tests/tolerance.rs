@@ -146,7 +146,7 @@ fn a_larger_tolerance_never_costs_more() {
 /// The row of the README's table of the KR5 whose first cell is `name`.
 fn stated_row(name: &str) -> Vec<u32> {
     let readme = include_str!("../README.md");
-    let table = readme.split_once("| operations of the KR5").expect("its table").1;
+    let table = readme.split_once("| operations of the [KR5]").expect("its table").1;
     let row = table.lines().find_map(|line| line.strip_prefix(&format!("| {name} | "))).expect("a row");
     row.trim_end_matches(" |").split(" | ").map(|count| count.parse().expect("a count")).collect()
 }
