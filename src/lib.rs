@@ -87,7 +87,11 @@ pub use redysim_runtime::*;
 #[cfg(feature = "generic")]
 pub mod generic {
     pub use redysim_model::denoc::Workspace;
-    pub use redysim_model::{Diagnostic, Faults, GenericMechanism, JointRange, Loaded, Model, Severity};
+    pub use redysim_model::spatial::{Mat3, Pose, Vec3};
+    pub use redysim_model::{
+        CutKind, CutSide, Diagnostic, Diagnostics, Faults, GenericMechanism, Inertia, JointKind, JointRange, Link,
+        Loaded, LockError, Loop, Mobility, Model, Severity,
+    };
 }
 
 /// The README's program, so that it is known to run.

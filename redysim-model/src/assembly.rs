@@ -23,7 +23,7 @@ impl Tree {
                 .collect(),
             cuts: Vec::new(),
         };
-        let coordinates = coordinates(model);
+        let first = first_of_joints(model);
         for index in parents_first(model) {
             let link = &model.links[index];
             let (parent, reference) = match link.parent {
@@ -33,7 +33,7 @@ impl Tree {
             let placement = reference * link.placement;
             let (body, pose) = match Joint::of(link) {
                 None => (parent, placement),
-                Some(joint) => tree.add_body(parent, placement, link, joint, coordinates[index]),
+                Some(joint) => tree.add_body(parent, placement, link, joint, first[index]),
             };
             let pose = pose.without_roundoff();
             tree.links[index].body = body;
@@ -80,7 +80,7 @@ impl Tree {
         placement: Pose<f64>,
         link: &Link,
         joint: Joint,
-        coordinate: usize,
+        [q, v]: [usize; 2],
     ) -> (Option<usize>, Pose<f64>) {
         let aligned = align_z(link.axis);
         let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
@@ -103,8 +103,8 @@ impl Tree {
             joint,
             offset,
             merged_parallel: false,
-            q: coordinate..coordinate + joint.nq(),
-            v: coordinate..coordinate + joint.nv(),
+            q: q..q + joint.nq(),
+            v: v..v + joint.nv(),
             inertia: PseudoInertia::zero(),
         });
         let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
@@ -112,15 +112,17 @@ impl Tree {
     }
 }
 
-/// For each link, the index of its joint variable (for fixed links, of the next one).
-fn coordinates(model: &Model) -> Vec<usize> {
+/// For each link, the first of its joint's coordinates and of its velocities (for fixed links, of the next joint's).
+fn first_of_joints(model: &Model) -> Vec<[usize; 2]> {
     model
         .links
         .iter()
-        .scan(0, |next, link| {
-            let coordinate = *next;
-            *next += link.joint.dof();
-            Some(coordinate)
+        .scan([0, 0], |[q, v], link| {
+            let first = [*q, *v];
+            if let Some(joint) = Joint::of(link) {
+                (*q, *v) = (*q + joint.nq(), *v + joint.nv());
+            }
+            Some(first)
         })
         .collect()
 }
