@@ -51,7 +51,7 @@ fn exact_angle(windows: f64, duration: f64) -> f64 {
     Ode45::new().rtol(1e-13).atol(1e-13).integrate(&mut pendulum, (0.0, duration), [0.0, 1.0]).expect("it turns").y[0]
 }
 
-/// 81 links and 80 conditions. A debug build has time for the first fold only: release builds take all of 10 s.
+/// 81 links and 80 constraints. A debug build has time for the first fold only: release builds take all of 10 s.
 #[test]
 fn forty_windows_fold_and_open_again() {
     let duration = if cfg!(debug_assertions) { 0.7 } else { 10.0 };

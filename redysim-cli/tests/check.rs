@@ -21,12 +21,12 @@ fn the_summary_of_the_fourbar_is_that_of_a_fourbar() {
     // Grübler: three moving links, four revolutes: 3·3 − 2·4 = 1.
     assert_eq!(summary["mobility"], 1);
     assert_eq!(summary["dof"], 3);
-    assert_eq!((&summary["loop_rank"], &summary["loop_conditions"]), (&Value::from(2), &Value::from(2)));
+    assert_eq!((&summary["loop_rank"], &summary["loop_constraints"]), (&Value::from(2), &Value::from(2)));
     assert_eq!(summary["mass"], 1.5 + 3.0 + 5.0);
     assert_eq!(summary["actuated"], Value::from(vec!["crank"]));
     // In the plane, a revolute cut holds two coordinates of a point.
     assert_eq!(
-        (&summary["loops"][0]["kind"], &summary["loops"][0]["conditions"]),
+        (&summary["loops"][0]["kind"], &summary["loops"][0]["constraints"]),
         (&Value::from("revolute"), &Value::from(2))
     );
 }
@@ -38,7 +38,7 @@ fn the_rank_of_each_loop_is_what_it_adds_to_those_before() {
     let summary = &report["summary"];
     let ranks: Vec<_> = summary["loops"].as_array().unwrap().iter().map(|each| each["rank"].clone()).collect();
     assert_eq!(ranks, [2, 1]);
-    assert_eq!((&summary["loop_rank"], &summary["loop_conditions"]), (&Value::from(3), &Value::from(4)));
+    assert_eq!((&summary["loop_rank"], &summary["loop_constraints"]), (&Value::from(3), &Value::from(4)));
 }
 
 /// The rank is that of the closed position, however badly a few of the loops alone can be closed.

@@ -86,7 +86,7 @@ fn computed_torque_of_loops_with_redundant_conditions_wants_them_closed() {
         )
     };
     let said = warned("loops-redundant", "test/fourbar_spatial.toml", &rest("'none'"));
-    assert!(said.contains("3 conditions 2 are independent, for which computed torque needs closed loops"), "{said}");
+    assert!(said.contains("3 constraints 2 are independent, for which computed torque needs closed loops"), "{said}");
     let said = warned("loops-redundant-closed", "test/fourbar_spatial.toml", &rest("'projection'"));
     assert!(!said.contains("computed torque"), "{said}");
 }

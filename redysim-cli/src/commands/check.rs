@@ -24,10 +24,10 @@ With --quiet only faults are shown; the exit code is 0 for a model without fault
   errors, warnings   [{ title, help, file, line, column }]; line and column count
                      from 1 and are null where the file could not be read
   summary            null for a faulty model; else an object:
-    name, gravity, mass, dof, mobility, loop_conditions, loop_rank,
+    name, gravity, mass, dof, mobility, loop_constraints, loop_rank,
     actuated, passive (names of joints), lints (texts),
     links       [{ name, parent, joint, kind, actuated, mass }]
-    loops       [{ name, kind, link_a, link_b, conditions, rank }]; the rank
+    loops       [{ name, kind, link_a, link_b, constraints, rank }]; the rank
                 counts what does not follow from the loops before
     operations  [{ function, flops, additions, multiplications, divisions,
                    sine_cosine_pairs }]")]

@@ -41,7 +41,7 @@ impl Forward {
     }
 }
 
-/// The law asks for what all conditions allow: where some follow from others, in loops that are slightly open they
+/// The law asks for what all constraints allow: where some follow from others, in loops that are slightly open they
 /// contradict each other.
 fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabilisation: Stabilisation<f64>) {
     if !subject.loops() || stabilisation == Stabilisation::Projection {
@@ -52,10 +52,10 @@ fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabil
         let item = reader.item();
         reader.warning_of_table(Message {
             title: format!(
-                "{item}: of the loops' {constraints} conditions {rank} are independent, for which computed torque needs closed loops"
+                "{item}: of the loops' {constraints} constraints {rank} are independent, for which computed torque needs closed loops"
             ),
             label: "each step leaves them a little open".into(),
-            help: "take stabilisation = \"projection\", or leave conditions out that follow from others".into(),
+            help: "take stabilisation = \"projection\", or leave constraints out that follow from others".into(),
         });
     }
 }

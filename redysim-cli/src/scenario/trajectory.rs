@@ -166,7 +166,7 @@ impl Prescribed {
             names.join(", ")
         );
         let help = match free {
-            0 => "as the model is, nothing moves: `redysim check` reports which conditions do not follow from others"
+            0 => "as the model is, nothing moves: `redysim check` reports which constraints do not follow from others"
                 .into(),
             _ => format!("name {} among its `joints`: the others follow from the loops", counted(free, "joint")),
         };

@@ -22,8 +22,8 @@ pub struct Summary {
     pub dof: usize,
     /// Independent joint velocities, with the loops closed.
     pub mobility: usize,
-    /// Conditions of all loops together, NC.
-    pub loop_conditions: usize,
+    /// Constraints of all loops together, NC.
+    pub loop_constraints: usize,
     /// How many of them are independent.
     pub loop_rank: usize,
     /// Names of the joints that have an actuator.
@@ -68,8 +68,8 @@ pub struct LoopSummary {
     pub link_a: String,
     /// The link on side b, or "base".
     pub link_b: String,
-    /// Its conditions that do not hold at every position.
-    pub conditions: usize,
+    /// Its constraints that do not hold at every position.
+    pub constraints: usize,
     /// How many of these do not follow from the loops before it.
     pub rank: usize,
 }
@@ -118,7 +118,7 @@ impl Summary {
             mass: model.mass(),
             dof: model.dof(),
             mobility: found.mobility,
-            loop_conditions: found.constraints,
+            loop_constraints: found.constraints,
             loop_rank: found.rank,
             actuated: joints(true),
             passive: joints(false),
@@ -147,16 +147,16 @@ fn link_summary(model: &Model, link: &Link) -> LinkSummary {
 
 fn loop_summaries(model: &Model, added: &[usize]) -> Vec<LoopSummary> {
     let cuts = Tree::new(model).cuts;
-    let summary = |((cut, conditions), &rank): ((&redysim_model::Loop, usize), &usize)| LoopSummary {
+    let summary = |((cut, constraints), &rank): ((&redysim_model::Loop, usize), &usize)| LoopSummary {
         name: cut.name.clone(),
         kind: cut.joint.name(),
         link_a: link_name(model, cut.a.link),
         link_b: link_name(model, cut.b.link),
-        conditions,
+        constraints,
         rank,
     };
-    let conditions = cuts.iter().map(|cut| cut.rows.iter().filter(|kept| **kept).count());
-    model.loops.iter().zip(conditions).zip(added).map(summary).collect()
+    let constraints = cuts.iter().map(|cut| cut.rows.iter().filter(|kept| **kept).count());
+    model.loops.iter().zip(constraints).zip(added).map(summary).collect()
 }
 
 fn link_name(model: &Model, link: Option<usize>) -> String {

@@ -19,11 +19,11 @@ impl Display for Summary {
         row(f, "gravity", self.gravity_text())?;
         for each in &self.loops {
             let sides = format!("{} – {}", each.link_a, each.link_b);
-            let rank = format!("rank {} of {}", each.rank, counted(each.conditions, "condition"));
+            let rank = format!("rank {} of {}", each.rank, counted(each.constraints, "constraint"));
             row(f, "loop", format!("{}: {}, {sides}, {rank}", each.name, each.kind))?;
         }
         if self.loops.len() > 1 {
-            row(f, "all loops", format!("rank {} of {} conditions", self.loop_rank, self.loop_conditions))?;
+            row(f, "all loops", format!("rank {} of {} constraints", self.loop_rank, self.loop_constraints))?;
         }
         writeln!(f)?;
         self.write_links(f)?;

@@ -17,7 +17,7 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
     let mechanism = GenericMechanism::new(model.clone());
     let empty = (0..model.loops.len()).filter(|&cut| mechanism.tree().loops_of_rows().all(|other| other != cut));
     let mut findings: Vec<_> =
-        empty.map(|cut| (Some(cut), messages::loop_without_conditions(&model.loops[cut].name))).collect();
+        empty.map(|cut| (Some(cut), messages::loop_without_constraints(&model.loops[cut].name))).collect();
     let (found, closed) = Mobility::found(&mechanism);
     let Mobility { constraints, rank, ref added, mobility, position_residual } = found;
     if let Some(gap) = position_residual {

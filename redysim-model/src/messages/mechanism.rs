@@ -217,10 +217,10 @@ pub(crate) fn loops_stay_open(model: &str, starts: usize, gap: f64) -> Message {
     )
 }
 
-pub(crate) fn loop_without_conditions(name: &str) -> Message {
+pub(crate) fn loop_without_constraints(name: &str) -> Message {
     message(
         format!("loop {}: what it asks for holds at every position", quoted(name)),
-        "no conditions",
+        "no constraints",
         "remove it, or check its links and points: the two sides may be held together by the tree already",
     )
 }
@@ -228,9 +228,9 @@ pub(crate) fn loop_without_conditions(name: &str) -> Message {
 pub(crate) fn redundant_rows(name: &str, dependent: usize, [rows, structural, mobility]: [usize; 3]) -> Message {
     let follow = if dependent == 1 { "follows" } else { "follow" };
     message(
-        format!("loop {}: {dependent} of its conditions {follow} from the others", quoted(name)),
+        format!("loop {}: {dependent} of its constraints {follow} from the others", quoted(name)),
         format!(
-            "the loops set {rows} conditions, which leave a mobility of {structural} by their structure, of {mobility} by their rank"
+            "the loops set {rows} constraints, which leave a mobility of {structural} by their structure, of {mobility} by their rank"
         ),
         "the motion is not affected; of the constraint forces those of least norm are given. A cut of another kind \
          (spherical instead of revolute) may leave them out",
@@ -240,7 +240,7 @@ pub(crate) fn redundant_rows(name: &str, dependent: usize, [rows, structural, mo
 pub(crate) fn no_mobility(model: &str, dof: usize, rank: usize) -> Message {
     message(
         format!("model {}: its loops leave nothing that moves", quoted(model)),
-        format!("{dof} joint velocities, {rank} independent conditions"),
+        format!("{dof} joint velocities, {rank} independent constraints"),
         "check the cuts: each joint between two links is either in the tree or cut, not both",
     )
 }
