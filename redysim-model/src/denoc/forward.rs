@@ -86,10 +86,12 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid())
     };
     inertias.clear();
+    inertias.reserve(tree.bodies.len());
     inertias.extend(tree.bodies.iter().zip(frames.iter()).map(rigid));
     wrenches.clear();
     wrenches.resize(tree.bodies.len(), Wrench::zero());
     pivots.clear();
+    pivots.reserve(tree.bodies.len());
     trace.sweep("inward", tree.inward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let screw = body.joint.screw();
@@ -118,6 +120,7 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
 
     let ground = Twist { angular: Vec3::zero(), linear: (-tree.gravity).map(ParameterIn::value) };
     accelerations.clear();
+    accelerations.reserve(tree.bodies.len());
     trace.sweep("accelerations", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| accelerations[parent]);
@@ -172,6 +175,7 @@ fn bias_accelerations<S: Scalar>(
     v: &[S],
 ) {
     biases.clear();
+    biases.reserve(tree.bodies.len());
     trace.sweep("velocities", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let (screw, rate) = (body.joint.screw(), v[body.v.start]);

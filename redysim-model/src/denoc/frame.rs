@@ -56,6 +56,7 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     // All angles first, so that compiled code can take their sines and cosines together.
     find_angles(angles, tree, q);
     frames.clear();
+    frames.reserve(tree.bodies.len());
     trace.sweep("frames", tree.outward(), |index| {
         let (body, angle) = (&tree.bodies[index], angles[index]);
         let parent = body.parent.and_then(|parent| frames[parent].body_rotation);
@@ -106,6 +107,7 @@ pub(super) struct Angle<S> {
 /// do not rotate with its joint, against the parent's axes.
 fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree<impl Copy>, q: &[S]) {
     angles.clear();
+    angles.reserve(tree.bodies.len());
     for body in &tree.bodies {
         let q = q[body.q.start];
         let merged_parent = body.parent.filter(|&parent| tree.bodies[parent].merged_parallel && body.is_parallel());

@@ -157,7 +157,9 @@ pub fn inverse_dynamics_in<S: Scalar>(
     children.find(tree);
     let ground = BodyMotion::ground(tree.gravity);
     motions.clear();
+    motions.reserve(tree.bodies.len());
     wrenches.clear();
+    wrenches.reserve(tree.bodies.len());
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| motions[parent]);

@@ -35,6 +35,7 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     joint_frames_in(angles, frames, tree, trace, q);
     find_planar(planar, tree);
     composites.clear();
+    composites.reserve(tree.bodies.len());
     for (body, frame) in tree.bodies.iter().zip(frames.iter()) {
         composites.push(Composite::new(body.inertia, frame));
     }
@@ -63,6 +64,7 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
 /// Which bodies can turn about directions parallel to their own joint's axis only, as all bodies of a planar mechanism.
 fn find_planar(planar: &mut Vec<bool>, tree: &Tree<impl Copy>) {
     planar.clear();
+    planar.reserve(tree.bodies.len());
     for body in &tree.bodies {
         planar.push(body.parent.is_none_or(|parent| body.is_parallel() && planar[parent]));
     }
