@@ -22,8 +22,8 @@ pub(super) struct JointFrame<S> {
     /// parallel.
     parent_rotation: Option<RotationAboutZ<S>>,
     fixed: Mat3<S>,
-    /// The product of all rotations between the parent's axes and the body's, where it is wanted.
-    whole: Option<Mat3<S>>,
+    /// The columns of the product of all rotations between the parent's axes and the body's, for numbers.
+    columns: Option<Mat3<S>>,
     /// The rotation of the body's axes by its joint; `None` where they do not rotate.
     rotation_about_z: Option<RotationAboutZ<S>>,
     /// The rotation of the body against its axes; `None` where they are fixed to it.
@@ -86,7 +86,7 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         frames.push(JointFrame {
             parent_rotation,
             fixed,
-            whole,
+            columns: whole.map(Mat3::transpose),
             rotation_about_z,
             body_rotation,
             along_axis,
@@ -133,8 +133,8 @@ impl<S: Scalar> JointFrame<S> {
     /// A vector in the body's axes, in the parent's.
     #[inline(always)]
     pub fn to_parent(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.whole {
-            Some(rotation) => product(rotation, v),
+        match self.columns {
+            Some(columns) => product_by_columns(columns, v),
             None => rotated(self.parent_rotation, self.fixed * rotated(self.rotation_about_z, v)),
         }
     }
@@ -142,8 +142,8 @@ impl<S: Scalar> JointFrame<S> {
     /// A vector in the parent's axes, in the body's.
     #[inline(always)]
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
-        match self.whole {
-            Some(rotation) => product(rotation.transpose(), v),
+        match self.columns {
+            Some(columns) => product(columns, v),
             None => rotated_back(self.rotation_about_z, self.fixed.transpose() * rotated_back(self.parent_rotation, v)),
         }
     }
@@ -197,8 +197,9 @@ impl<S: Scalar> JointFrame<S> {
     /// A symmetric tensor of the body's axes, in the parent's.
     #[inline(always)]
     pub fn tensor_to_parent(&self, tensor: Sym3<S>) -> Sym3<S> {
-        match self.whole {
-            Some(rotation) => {
+        match self.columns {
+            Some(columns) => {
+                let rotation = columns.transpose();
                 let full = tensor.full();
                 let half = Mat3::from_fn(|i, j| product(full, Vec3(rotation.0[i]))[j]);
                 Sym3::from_upper(|i, j| product(rotation, Vec3(half.0[i]))[j])
@@ -212,7 +213,8 @@ impl<S: Scalar> JointFrame<S> {
     /// A general tensor of the body's axes, in the parent's.
     #[inline(always)]
     pub fn matrix_to_parent(&self, matrix: Mat3<S>) -> Mat3<S> {
-        if let Some(rotation) = self.whole {
+        if let Some(columns) = self.columns {
+            let rotation = columns.transpose();
             return rotation * (matrix * rotation.transpose());
         }
         let rows = Mat3(matrix.0.map(|row| self.to_parent(Vec3(row)).0)).transpose();
@@ -231,7 +233,13 @@ impl<S: Scalar> JointFrame<S> {
     }
 }
 
-/// The product of a whole rotation and a vector.
+/// The product of a matrix, given by its columns, and a vector.
+#[inline(always)]
+fn product_by_columns<S: Scalar>(Mat3([x, y, z]): Mat3<S>, v: Vec3<S>) -> Vec3<S> {
+    Vec3::from_fn(|i| z[i].mul_add(v[2], y[i].mul_add(v[1], x[i] * v[0])))
+}
+
+/// The product of a matrix and a vector.
 #[inline(always)]
 fn product<S: Scalar>(Mat3(rows): Mat3<S>, v: Vec3<S>) -> Vec3<S> {
     Vec3(rows.map(|[x, y, z]| z.mul_add(v[2], y.mul_add(v[1], x * v[0]))))
