@@ -130,7 +130,7 @@ impl Pipeline<'_> {
                 }),
                 _ => None,
             };
-            let states = States { ranges, forces };
+            let states = States { tree: self.tree, ranges, forces };
             let shape = function.signature().result;
             let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, self.passes)?;
             Ok(TracedFunction { expressions, pruning: Some(pruning), ..whole })

@@ -3,11 +3,15 @@
 use super::columns::{Columns, evaluate, live, sign};
 use crate::expressions::Expressions;
 use crate::random::Random;
-use redysim_model::JointRange;
+use redysim_model::denoc;
+use redysim_model::tree::Body;
+use redysim_model::{JointRange, Tree};
 
 /// The states in which a function is sampled.
 pub struct States<'a> {
-    /// The ranges of the joints, in the model's order.
+    /// The bodies whose joints map displacements to coordinates.
+    pub tree: &'a Tree,
+    /// The ranges of displacement, velocity and acceleration, in the order of the velocities.
     pub ranges: &'a [JointRange],
     /// Inverse dynamics, where the third argument of the function is joint forces.
     pub forces: Option<&'a Expressions>,
@@ -33,20 +37,29 @@ impl States<'_> {
         vec![q, v, tau]
     }
 
-    /// Coordinates, velocities and accelerations in the same states.
+    /// Coordinates, velocities and accelerations in the same states. A position is a displacement from the zero
+    /// position, one number for each velocity.
     pub fn motion(&self, states: usize, seed: u64) -> [Columns; 3] {
         let mut random = Random::new(seed);
-        let joints = self.ranges.len();
-        let [mut q, mut v, mut a] = [0; 3].map(|_| Columns::new(joints, states));
+        let [mut v, mut a] = [0; 2].map(|_| Columns::new(self.ranges.len(), states));
+        let mut q = Columns::new(self.tree.nq(), states);
+        let neutral: Vec<f64> = denoc::neutral(self.tree);
+        let (mut displacement, mut moved) = (vec![0.0; self.ranges.len()], neutral.clone());
         for state in 0..states {
             let corners = random.bits();
-            for (joint, JointRange { position: [least, largest], velocity, acceleration, .. }) in
+            for (index, JointRange { position: [least, largest], velocity, acceleration, .. }) in
                 self.ranges.iter().enumerate()
             {
                 let middle = 0.5 * (least + largest);
-                q.column_mut(joint)[state] = middle + (largest - middle) * random.share(corners & 7 == 0);
-                v.column_mut(joint)[state] = velocity * random.share(corners & 8 == 0);
-                a.column_mut(joint)[state] = acceleration * random.share(corners & 16 == 0);
+                displacement[index] = middle + (largest - middle) * random.share(corners & 7 == 0);
+                v.column_mut(index)[state] = velocity * random.share(corners & 8 == 0);
+                a.column_mut(index)[state] = acceleration * random.share(corners & 16 == 0);
+            }
+            for Body { joint, q, v, .. } in &self.tree.bodies {
+                joint.integrate(&neutral[q.clone()], &displacement[v.clone()], &mut moved[q.clone()]);
+            }
+            for (index, &moved) in moved.iter().enumerate() {
+                q.column_mut(index)[state] = moved;
             }
         }
         [q, v, a]
