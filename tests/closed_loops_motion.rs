@@ -8,7 +8,7 @@ mod common;
 use common::models::generic;
 use redysim::integrate::Ode;
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Dop853, Integrator, LoopClosure, Ode4, Ode5, Ode15s, Ode45, Stabilisation,
+    ClosedLoop, ClosedLoopSimulation, Dop853, Integrator, LoopRows, Ode4, Ode5, Ode15s, Ode45, Stabilisation,
     ZeroTorque, redysim,
 };
 use spatial::FourbarSpatial;
@@ -240,7 +240,7 @@ fn all_links_in_line_give_finite_accelerations_of_lower_rank() {
 
 #[test]
 fn a_four_bar_in_space_moves_as_the_one_in_the_plane_and_shows_its_redundant_rows() {
-    let rows = LoopClosure::<f64, FourbarSpatial>::nc(&FourbarSpatial);
+    let rows = FourbarSpatial.nc();
     assert!(rows > 2);
     let (planar, spatial) = (ClosedLoop::new(&Fourbar), ClosedLoop::new(&FourbarSpatial));
     let (a, b) = (planar.dynamics(&START, &SPIN, &[0.3, 0.0, 0.0]), spatial.dynamics(&START, &SPIN, &[0.3, 0.0, 0.0]));

@@ -16,7 +16,7 @@ use common::models::generic;
 use common::random::Random;
 use linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
 use redysim::generic::GenericMechanism;
-use redysim::{ConfigurationSpace, LoopClosure, redysim};
+use redysim::{ConfigurationSpace, LoopClosure, LoopRows, redysim};
 
 redysim! {
     /// The paper's four-bar, oblique in space.
@@ -118,7 +118,7 @@ fn only_rows_that_vary_are_kept() {
     // Two a loop in the plane.
     assert_eq!((Fourbar::NC, FourbarGui::NC, SliderCrank::NC), (2, 2, 2));
     assert_eq!((ThreeRrr::NC, Leg::NC, Andrews::NC, NFourbar2::NC), (4, 6, 6, 4));
-    assert_eq!(LoopClosure::<f64, GenericMechanism>::nc(&generic("n_fourbar_40")), 80);
+    assert_eq!(generic("n_fourbar_40").nc(), 80);
     // In the axes of an oblique base frame no component of the gap vanishes, but the axes are still parallel.
     assert_eq!(FourbarSpatial::NC, 3);
     assert_eq!(Bricard::NC, 5);

@@ -1,7 +1,7 @@
 //! One's own closure takes the place of the generated one: here that of the paper's four-bar, written out by hand as in
 //! ReDySim's `jacobian.m`.
 
-use redysim::{ClosedLoop, LoopClosure, redysim};
+use redysim::{ClosedLoop, LoopClosure, LoopRows, redysim};
 
 redysim! { struct Fourbar("models/fourbar.toml"); }
 
@@ -13,14 +13,17 @@ const PIVOT: f64 = -0.0895;
 
 struct ByHand;
 
+impl LoopRows for ByHand {
+    fn nc(&self) -> usize {
+        2
+    }
+}
+
 impl LoopClosure<f64, Fourbar> for ByHand {
     type Rows = [f64; 2];
     type Jacobian = [[f64; 3]; 2];
     type Gram = [[f64; 2]; 2];
 
-    fn nc(&self) -> usize {
-        2
-    }
     fn loop_residual(&self, q: &[f64; 3]) -> [f64; 2] {
         let (crank, rocker, coupler) = (q[0], q[1], q[1] + q[2]);
         [
@@ -63,5 +66,5 @@ fn a_closure_by_hand_and_the_generated_one_move_the_four_bar_alike() {
     for (a, b) in ours.multipliers.iter().zip(theirs.multipliers) {
         assert!((a - b).abs() <= 1e-10 * (1.0 + b.abs()), "{a} {b}");
     }
-    assert_eq!(LoopClosure::<f64, Fourbar>::loop_name(&ByHand, 0), None);
+    assert_eq!(ByHand.loop_name(0), None);
 }

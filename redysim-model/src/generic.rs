@@ -7,7 +7,7 @@ use redysim_runtime::dual;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
     BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
+    LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -217,14 +217,20 @@ impl<S: Scalar> LinkKinematics<S> for GenericMechanism {
     }
 }
 
+impl LoopRows for GenericMechanism {
+    fn nc(&self) -> usize {
+        self.tree.loops_of_rows().count()
+    }
+    fn loop_name(&self, row: usize) -> Option<&str> {
+        self.tree.loops_of_rows().nth(row).map(|index| self.model.loops[index].name.as_str())
+    }
+}
+
 impl<S: Scalar> LoopClosure<S, GenericMechanism> for GenericMechanism {
     type Rows = Vec<S>;
     type Jacobian = Vec<Vec<S>>;
     type Gram = Vec<Vec<S>>;
 
-    fn nc(&self) -> usize {
-        self.tree.loops_of_rows().count()
-    }
     fn loop_residual(&self, q: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q)]);
         denoc::loop_residual(&self.tree, &Untraced, q)
@@ -236,8 +242,5 @@ impl<S: Scalar> LoopClosure<S, GenericMechanism> for GenericMechanism {
     fn loop_bias(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q), ("v", v)]);
         denoc::loop_bias(&self.tree, &Untraced, q, v)
-    }
-    fn loop_name(&self, row: usize) -> Option<&str> {
-        self.tree.loops_of_rows().nth(row).map(|index| self.model.loops[index].name.as_str())
     }
 }

@@ -1,9 +1,11 @@
 //! How many independent velocities closed loops leave.
 
+use crate::denoc;
 use crate::generic::GenericMechanism;
 use crate::model::Model;
-use redysim_runtime::LoopClosure;
+use crate::tree::Tree;
 use redysim_runtime::closed_loop::{ClosedLoop, LoopError};
+use redysim_runtime::{LoopClosure, LoopRows};
 
 /// Positions from which the loops are closed, and how many of them have to succeed.
 pub(crate) const STARTS: usize = 6;
@@ -48,7 +50,7 @@ impl Mobility {
 
     /// The same, with a closed position at which the rank was found.
     pub(crate) fn found(mechanism: &GenericMechanism) -> (Mobility, Option<Vec<f64>>) {
-        let constraints = LoopClosure::<f64, _>::nc(mechanism);
+        let constraints = mechanism.nc();
         let (rank, added, position_residual, position) = match closed_position(mechanism) {
             // A position may be singular; the rank of the mechanism is the largest.
             Ok((q, rank)) => {
@@ -117,14 +119,18 @@ pub(crate) fn structural_rank(jacobian: &[Vec<f64>]) -> usize {
     (0..jacobian.len()).filter(|&row| pair(row, jacobian, &mut vec![false; columns], &mut rows_of)).count()
 }
 
+/// The positions from which loops are closed: the zero position, then others spread by a fixed rule.
+pub(crate) fn starts(tree: &Tree) -> impl Iterator<Item = Vec<f64>> {
+    std::iter::once(denoc::neutral(tree)).chain((1..STARTS).map(|start| tree.sample(start)))
+}
+
 /// A closed position at which the rank of the loops is largest, and that rank; or the smallest residual that any
 /// start leaves.
 fn closed_position(mechanism: &GenericMechanism) -> Result<(Vec<f64>, usize), f64> {
     let loops = ClosedLoop::new(mechanism);
     let (mut closed, mut smallest) = (Vec::<(Vec<f64>, usize)>::new(), f64::INFINITY);
     let rest = vec![0.0; mechanism.tree().nv()];
-    let starts = (0..STARTS).map(|start| if start == 0 { rest.clone() } else { mechanism.tree().sample(start) });
-    for start in starts {
+    for start in starts(mechanism.tree()) {
         match loops.assemble(&start, &rest, &[]) {
             Ok(assembly) => closed.push((assembly.q, assembly.rank)),
             Err(
@@ -135,7 +141,7 @@ fn closed_position(mechanism: &GenericMechanism) -> Result<(Vec<f64>, usize), f6
             Err(_) => {}
         }
         // No position has a larger rank than a full one.
-        let full = closed.last().is_some_and(|(_, rank)| *rank == LoopClosure::<f64, _>::nc(mechanism));
+        let full = closed.last().is_some_and(|(_, rank)| *rank == mechanism.nc());
         if full || closed.len() == SUCCESSES {
             break;
         }

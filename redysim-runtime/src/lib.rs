@@ -93,7 +93,8 @@ pub use integrate::{
 pub use joint_trig::JointTrig;
 pub use mechanism::{
     BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, TreeDynamics,
+    LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
+    TreeDynamics,
 };
 pub use operations::OperationCount;
 pub use scalar::{Real, Scalar};

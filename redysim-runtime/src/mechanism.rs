@@ -17,6 +17,16 @@ pub trait Mechanism {
     fn link_name(&self, index: usize) -> Option<&str>;
     /// Name of the moving joint `index` in the model's order; `None` past the last.
     fn joint_name(&self, index: usize) -> Option<&str>;
+    /// Name of coordinate `index` in the model's order; `None` past the last. The default is the joint's name, for
+    /// joints of one coordinate each.
+    fn coordinate_name(&self, index: usize) -> Option<&str> {
+        self.joint_name(index)
+    }
+    /// Name of velocity `index` in the model's order; `None` past the last. The default is the joint's name, for joints
+    /// of one velocity each.
+    fn velocity_name(&self, index: usize) -> Option<&str> {
+        self.joint_name(index)
+    }
 }
 
 /// Coordinates and velocities of a mechanism over the scalar `S`. The types of vectors carry their lengths: arrays for
@@ -127,11 +137,22 @@ pub trait LinkKinematics<S: Scalar>: ConfigurationSpace<S> {
     fn link_kinematics(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Links;
 }
 
+/// The rows of the closure of loops: how many there are, and to which loop each belongs.
+pub trait LoopRows {
+    /// Number of rows, NC.
+    fn nc(&self) -> usize;
+    /// Name of the loop that row `row` belongs to; `None` past the last, and where loops have no names.
+    fn loop_name(&self, row: usize) -> Option<&str> {
+        let _ = row;
+        None
+    }
+}
+
 /// The closure of the loops of a mechanism `M`: conditions on its coordinates that the cut joints set.
 ///
 /// A compiled type is its own closure; who knows a better one (a closed form, or conditions that no cut joint
 /// describes) implements this for a type of their own.
-pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>> {
+pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>>: LoopRows {
     /// One value for each row: `[S; NC]`.
     type Rows: Vector<S>;
     /// The Jacobian, by rows: `[[S; NV]; NC]`.
@@ -139,8 +160,6 @@ pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>> {
     /// A square matrix over the rows: `[[S; NC]; NC]`.
     type Gram: Vector<Self::Rows>;
 
-    /// Number of rows, NC.
-    fn nc(&self) -> usize;
     /// How far the loops are from closed: the point of side b minus the point of side a of each cut, in the base frame,
     /// m; then what aligns directions, sines.
     fn loop_residual(&self, q: &M::Coordinates) -> Self::Rows;
@@ -148,11 +167,6 @@ pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>> {
     fn loop_jacobian(&self, q: &M::Coordinates) -> Self::Jacobian;
     /// J̇ v, the second derivative of the residual at zero joint accelerations.
     fn loop_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> Self::Rows;
-    /// Name of the loop that row `row` belongs to; `None` past the last, and where loops have no names.
-    fn loop_name(&self, row: usize) -> Option<&str> {
-        let _ = row;
-        None
-    }
 }
 
 /// All functions of a tree-type mechanism at once; every type that has them all has this.

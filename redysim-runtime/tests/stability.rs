@@ -5,7 +5,7 @@ mod mechanisms;
 
 use mechanisms::Arm;
 use redysim_runtime::integrate::FixedStep;
-use redysim_runtime::integrate::stability::{LinearStability, StabilityFunction, largest_stable_step};
+use redysim_runtime::integrate::stability::{LinearStability, StabilityFunction, StableStep, largest_stable_step};
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4};
 use redysim_runtime::{
     Dop8, ForwardSimulation, Integrator, Ode, Ode4, Ode5, ProportionalDerivative, SemiImplicitEuler, Step,
@@ -62,7 +62,7 @@ fn the_warning_names_the_joint_whose_gain_is_large() {
         let state = simulation.state(&[0.3, 1.5], &[0.1, 0.2]);
         let warning = simulation.step_warning(&Ode5::new(0.1), 0.0, &state).unwrap().unwrap();
         println!("{warning}");
-        assert_eq!(warning.stable.joint, Some(joint));
+        assert_eq!(warning.stable.velocity, Some(joint));
         assert_eq!(warning.stable.component, Some(joint + 2));
         let message = warning.to_string();
         for word in ["0.1 s", &format!("joint {joint}"), &format!("{:?}", warning.stable.step), "lower the gain"] {
@@ -144,13 +144,37 @@ fn what_grows_by_itself_is_no_fault_of_the_method() {
     }
     let euler = largest_stable_step(&mut Upright, 0.0, &[0.0; 4], &SemiImplicitEuler::new(1.0)).unwrap();
     assert!((euler.step * 50.0 / 2.0 - 1.0).abs() < 0.01, "{euler:?}");
-    assert_eq!(euler.joint, Some(1));
+    assert_eq!(euler.velocity, Some(1));
     let four = largest_stable_step(&mut Upright, 0.0, &[0.0; 4], &Ode4::new(1.0)).unwrap();
     assert!((four.step * 50.0 / 8.0_f64.sqrt() - 1.0).abs() < 1e-3, "{four:?}");
 
     let mut growing = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[0] + 50.0 * y[1], y[1] - 50.0 * y[0]];
     let four = largest_stable_step(&mut growing, 0.0, &[0.0; 2], &Ode4::new(1.0)).unwrap();
     assert!((four.step * 50.0 / 8.0_f64.sqrt() - 1.0).abs() < 1e-3, "{four:?}");
+}
+
+/// A body on a hinge and a slider; the hinge has two coordinates, cosine and sine, for its one velocity.
+#[test]
+fn the_limiting_velocity_is_found_where_a_joint_has_more_coordinates_than_velocities() {
+    struct HingeAndSlider;
+    impl Ode<f64, [f64; 5]> for HingeAndSlider {
+        fn derivative(&mut self, _t: f64, y: &[f64; 5], dydt: &mut [f64; 5]) {
+            let [cosine, sine, x, turning, sliding] = *y;
+            *dydt = [-sine * turning, cosine * turning, sliding, -4.0 * sine, -2500.0 * x];
+        }
+        fn coordinate_rates(&mut self, _t: f64, y: &[f64; 5], rates: &mut [f64; 5]) -> usize {
+            let [cosine, sine, _, turning, sliding] = *y;
+            *rates = [-sine * turning, cosine * turning, sliding, 0.0, 0.0];
+            3
+        }
+    }
+    let rest = [1.0, 0.0, 0.0, 0.0, 0.0];
+    let check = |stable: StableStep<f64>, limit: f64| {
+        assert_eq!((stable.component, stable.velocity), (Some(4), Some(1)));
+        assert!((stable.step * 50.0 / limit - 1.0).abs() < 1e-3, "{stable:?}");
+    };
+    check(largest_stable_step(&mut HingeAndSlider, 0.0, &rest, &Ode4::new(1.0)).unwrap(), 8.0_f64.sqrt());
+    check(largest_stable_step(&mut HingeAndSlider, 0.0, &rest, &SemiImplicitEuler::new(1.0)).unwrap(), 2.0);
 }
 
 /// h² ω² + 4 ζ ω h ≤ 4.

@@ -1175,17 +1175,19 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LinkKinematics<S> for Grip
         Self::link_kinematics(q, v)
     }
 }
-impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LoopClosure<S, Gripper>
-for Gripper {
-    type Rows = [S; 0];
-    type Jacobian = [[S; 4]; 0];
-    type Gram = [[S; 0]; 0];
+impl ::redysim_runtime::LoopRows for Gripper {
     fn nc(&self) -> usize {
         Self::NC
     }
     fn loop_name(&self, row: usize) -> ::core::option::Option<&str> {
         Self::LOOP_NAMES.get(row).copied()
     }
+}
+impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LoopClosure<S, Gripper>
+for Gripper {
+    type Rows = [S; 0];
+    type Jacobian = [[S; 4]; 0];
+    type Gram = [[S; 0]; 0];
     #[inline]
     fn loop_residual(&self, q: &[S; 4]) -> [S; 0] {
         Self::loop_residual(q)

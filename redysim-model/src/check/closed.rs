@@ -3,7 +3,7 @@
 
 use super::singular::pivotless;
 use crate::generic::GenericMechanism;
-use crate::mobility::STARTS;
+use crate::mobility::starts;
 use crate::model::Model;
 use redysim_runtime::closed_loop::ClosedLoop;
 
@@ -18,8 +18,7 @@ pub(super) fn is_well_posed(model: &Model) -> bool {
     let mechanism = GenericMechanism::new(model.clone());
     let (loops, tree) = (ClosedLoop::new(&mechanism), mechanism.tree());
     let rest = vec![0.0; tree.nv()];
-    let starts = (0..STARTS).map(|start| if start == 0 { rest.clone() } else { tree.sample(start) });
-    starts
+    starts(tree)
         .filter_map(|start| loops.assemble(&start, &rest, &[]).ok())
         .any(|closed| pivotless(tree, &loops.augmented_mass_matrix::<f64>(&closed.q)).is_empty())
 }

@@ -8,7 +8,7 @@ use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
     BiasForces, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics,
-    LoopClosure, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
+    LoopClosure, LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and
@@ -85,6 +85,12 @@ impl<M: Mechanism> Mechanism for Dispatched<M> {
     fn joint_name(&self, index: usize) -> Option<&str> {
         self.mechanism.joint_name(index)
     }
+    fn coordinate_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.coordinate_name(index)
+    }
+    fn velocity_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.velocity_name(index)
+    }
 }
 
 impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M> {
@@ -114,14 +120,20 @@ impl<S: Scalar, M: LinkKinematics<S>> LinkKinematics<S> for Dispatched<M> {
     }
 }
 
+impl<M: LoopRows> LoopRows for Dispatched<M> {
+    fn nc(&self) -> usize {
+        self.mechanism.nc()
+    }
+    fn loop_name(&self, row: usize) -> Option<&str> {
+        self.mechanism.loop_name(row)
+    }
+}
+
 impl<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>> LoopClosure<S, Dispatched<M>> for Dispatched<M> {
     type Rows = M::Rows;
     type Jacobian = M::Jacobian;
     type Gram = M::Gram;
 
-    fn nc(&self) -> usize {
-        self.mechanism.nc()
-    }
     fn loop_residual(&self, q: &M::Coordinates) -> M::Rows {
         self.mechanism.loop_residual(q)
     }
@@ -130,9 +142,6 @@ impl<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>> LoopClosure<S, Dis
     }
     fn loop_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Rows {
         self.mechanism.loop_bias(q, v)
-    }
-    fn loop_name(&self, row: usize) -> Option<&str> {
-        self.mechanism.loop_name(row)
     }
 }
 

@@ -60,16 +60,18 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
     let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| length(interface, dimension));
     let methods = own.map(|function| method(function, interface, runtime));
     quote! {
-        impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {
-            type Rows = [S; #nc];
-            type Jacobian = [[S; #nv]; #nc];
-            type Gram = [[S; #nc]; #nc];
+        impl #runtime::LoopRows for #name {
             fn nc(&self) -> usize {
                 Self::NC
             }
             fn loop_name(&self, row: usize) -> ::core::option::Option<&str> {
                 Self::LOOP_NAMES.get(row).copied()
             }
+        }
+        impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {
+            type Rows = [S; #nc];
+            type Jacobian = [[S; #nv]; #nc];
+            type Gram = [[S; #nc]; #nc];
             #(#methods)*
         }
     }

@@ -13,7 +13,7 @@ pub struct NamedLoopError<'a, S> {
     pub error: LoopError<S>,
     /// The loop that its row belongs to.
     pub loop_name: Option<&'a str>,
-    /// The joint that its coordinate belongs to.
+    /// The name of its coordinate, which is that of its joint if the joint has no other.
     pub joint_name: Option<&'a str>,
 }
 
@@ -26,7 +26,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
     {
         NamedLoopError {
             loop_name: error.row().and_then(|row| self.closure.loop_name(row)),
-            joint_name: error.coordinate().and_then(|coordinate| self.mechanism.joint_name(coordinate)),
+            joint_name: error.coordinate().and_then(|coordinate| self.mechanism.coordinate_name(coordinate)),
             error,
         }
     }

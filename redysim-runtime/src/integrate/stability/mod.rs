@@ -34,9 +34,9 @@ pub struct StableStep<S> {
     /// The component of the state that takes part most in the mode of that eigenvalue; of a mechanical system, the one
     /// of the velocities. `None` where nothing limits the step or no component stands out.
     pub component: Option<usize>,
-    /// The joint, counted as in [`Mechanism::joint_name`](crate::Mechanism::joint_name), if the equation has
-    /// coordinates: each has one velocity.
-    pub joint: Option<usize>,
+    /// The same component counted from the first velocity, as in
+    /// [`Mechanism::velocity_name`](crate::Mechanism::velocity_name), if the equation has coordinates.
+    pub velocity: Option<usize>,
 }
 
 /// The Jacobian of an equation in a state.
@@ -126,8 +126,8 @@ pub fn largest_stable_step<S: Real, Y: Vector<S>, M: LinearStability>(
     let component = limiting.and_then(|(re, im)| {
         participation::dominant_component::<S, Y>(&linearised.rows, Complex { re, im }, coordinates)
     });
-    let joint = component.and_then(|component| component.checked_sub(coordinates)).filter(|&j| j < coordinates);
-    Ok(StableStep { step, eigenvalue: limiting.unwrap_or_default(), component, joint })
+    let velocity = component.filter(|_| coordinates > 0).and_then(|component| component.checked_sub(coordinates));
+    Ok(StableStep { step, eigenvalue: limiting.unwrap_or_default(), component, velocity })
 }
 
 /// The spectral radius of the matrix with the given elements; `None` if it is not found.

@@ -13,7 +13,7 @@ pub struct StepWarning<'m, S> {
     pub step: S,
     /// The largest stable one, and what limits it.
     pub stable: StableStep<S>,
-    /// The name of the joint, where it has one.
+    /// The name of the velocity, which is that of its joint if the joint has no other; `None` if it does not have one.
     pub joint: Option<&'m str>,
 }
 
@@ -21,7 +21,7 @@ impl<S: fmt::Debug + Copy> fmt::Display for StepWarning<'_, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { step, stable, joint } = self;
         write!(f, "the step of {step:?} s is not stable")?;
-        match (joint, stable.joint) {
+        match (joint, stable.velocity) {
             (Some(name), _) => write!(f, " for joint `{name}`")?,
             (None, Some(index)) => write!(f, " for joint {index}")?,
             (None, None) => {}
@@ -39,7 +39,7 @@ impl<S: fmt::Debug + Copy> fmt::Display for StepWarning<'_, S> {
 impl<S: Real> StableStep<S> {
     /// The warning for steps of size `step`; `None` if they are stable.
     pub fn warning<'m, M: ConfigurationSpace<S>>(&self, step: S, mechanism: &'m M) -> Option<StepWarning<'m, S>> {
-        let joint = self.joint.and_then(|joint| mechanism.joint_name(joint));
+        let joint = self.velocity.and_then(|velocity| mechanism.velocity_name(velocity));
         (step > self.step).then_some(StepWarning { step, stable: *self, joint })
     }
 }
@@ -61,7 +61,7 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     /// let mut simulation = ForwardSimulation::new(&Arm, law);
     /// let state = simulation.state(&[0.0, 0.0], &[0.0, 0.0]);
     /// let warning = simulation.step_warning(&Ode5::new(0.02), 0.0, &state)?.unwrap();
-    /// assert_eq!(warning.stable.joint, Some(1));
+    /// assert_eq!(warning.stable.velocity, Some(1));
     /// println!("{warning}");
     /// assert!(simulation.step_warning(&Ode5::new(0.002), 0.0, &state)?.is_none());
     /// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
