@@ -1,6 +1,6 @@
 //! The body of one function: a graph and the values it returns.
 
-use crate::graph::{Edge, Graph, Node};
+use crate::graph::{Edge, Graph, Name, Node};
 use crate::policies::{LONGEST_UNROLLED, PRICE_PER_PAIR};
 use redysim_runtime::{OperationCount, Scalar};
 use std::collections::HashSet;
@@ -44,6 +44,30 @@ impl Expressions {
             }
         }
         uses
+    }
+
+    /// The outputs in a new graph. For each node that is `kept`, in order and in its step, `make` returns the new value
+    /// and its name; it is given the node's index and the new values of the kept nodes before. Outputs must be kept.
+    pub(crate) fn rebuilt(
+        &self,
+        kept: impl Fn(usize) -> bool,
+        mut make: impl FnMut(&mut Graph, usize, &dyn Fn(Edge) -> Edge) -> (Edge, Option<Name>),
+    ) -> Expressions {
+        let mut graph = Graph::default();
+        let mut made: Vec<Option<Edge>> = vec![None; self.graph.len()];
+        let mapped = |made: &[Option<Edge>], edge: Edge| {
+            made[edge.node()].expect("kept nodes are made before what uses them").flipped_if(edge.is_negative())
+        };
+        for index in (0..self.graph.len()).filter(|&index| kept(index)) {
+            graph.enter_step(self.graph.step(index));
+            let (edge, name) = make(&mut graph, index, &|edge| mapped(&made, edge));
+            if let Some(name) = name {
+                graph.set_name(edge, name);
+            }
+            made[index] = Some(edge);
+        }
+        let outputs = self.outputs.iter().map(|&output| mapped(&made, output)).collect();
+        Expressions { graph, outputs }
     }
 
     /// Whether unrolled code is too long for an instruction cache.

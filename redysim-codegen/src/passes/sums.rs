@@ -7,7 +7,7 @@
 //! a sum does not extend into the steps of other bodies. What other sweeps have computed counts as ready, what the same
 //! sweep has computed at another body as late.
 
-use super::terms::inner_sums;
+use super::terms::with_sums;
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node, Step, sum_without_noise};
 use std::cmp::Reverse;
@@ -15,55 +15,26 @@ use std::collections::{BinaryHeap, HashMap};
 
 /// The expressions with like terms collected.
 pub fn collected(expressions: &Expressions) -> Expressions {
-    let old = &expressions.graph;
-    let uses = expressions.uses();
-    let by_body = expressions.is_long();
-    let inner = inner_sums(old, &uses, by_body);
-    let mut graph = Graph::default();
-    let mut made: Vec<Option<Edge>> = vec![None; old.len()];
-    let mut depths = Depths { by_body, depths: Vec::new(), in_step: Vec::new() };
-    for index in (0..old.len()).filter(|&index| uses[index] > 0 && !inner[index]) {
-        let node = old.node(index);
-        graph.enter_step(old.step(index));
-        let edge = match node {
-            Node::Add(..) | Node::Subtract(..) => rebuilt_sum(old, index, &inner, &mut graph, &made, &mut depths),
-            _ => graph.rebuild(node, |edge| mapped(&made, edge)),
-        };
-        if let Some(name) = old.name(index) {
-            graph.set_name(edge, name);
+    let mut depths = Depths { by_body: expressions.is_long(), depths: Vec::new(), in_step: Vec::new() };
+    with_sums(expressions, |graph, terms, mapped| {
+        let (constant, coefficients) = collect(graph, terms, mapped);
+        let mut terms = vec![graph.constant(constant)];
+        for (base, factor) in coefficients {
+            let factor = graph.constant(factor);
+            terms.push(graph.multiply(factor, base));
         }
-        made[index] = Some(edge);
-    }
-    let outputs = expressions.outputs.iter().map(|&output| mapped(&made, output)).collect();
-    Expressions { graph, outputs }
+        terms.retain(|&term| graph.constant_value(term) != Some(0.0));
+        // Added up again so that the result is ready soonest.
+        depths.add_up(graph, terms)
+    })
 }
 
-/// The terms of the sum at `root`, like ones collected, added up again so that the result is ready soonest.
-fn rebuilt_sum(
-    old: &Graph,
-    root: usize,
-    inner: &[bool],
-    graph: &mut Graph,
-    made: &[Option<Edge>],
-    depths: &mut Depths,
-) -> Edge {
-    let (constant, coefficients) = collect(old, root, inner, graph, made);
-    let mut terms = vec![graph.constant(constant)];
-    for (base, factor) in coefficients {
-        let factor = graph.constant(factor);
-        terms.push(graph.multiply(factor, base));
-    }
-    terms.retain(|&term| graph.constant_value(term) != Some(0.0));
-    depths.add_up(graph, terms)
-}
-
-/// The constant and, in the order in which they are met, the coefficients of all other terms of the sum at `root`.
-fn collect(old: &Graph, root: usize, inner: &[bool], graph: &Graph, made: &[Option<Edge>]) -> (f64, Vec<(Edge, f64)>) {
+/// The constant and, in the order in which they are met, the coefficients of all other terms of a sum.
+fn collect(graph: &Graph, operands: &[Edge], mapped: &dyn Fn(Edge) -> Edge) -> (f64, Vec<(Edge, f64)>) {
     let mut constant = 0.0;
     let mut terms: Vec<(Edge, f64)> = Vec::new();
     let mut places: HashMap<Edge, usize> = HashMap::new();
-    for operand in super::terms::terms(old, root, inner) {
-        let edge = mapped(made, operand);
+    for edge in operands.iter().map(|&operand| mapped(operand)) {
         if let Some(value) = graph.constant_value(edge) {
             constant = sum_without_noise(constant, value);
             continue;
@@ -143,8 +114,4 @@ impl Depths {
             ready.push(Reverse((self.of(graph, sum), order, sum)));
         }
     }
-}
-
-fn mapped(made: &[Option<Edge>], edge: Edge) -> Edge {
-    made[edge.node()].expect("operands are made before what uses them").flipped_if(edge.is_negative())
 }

@@ -5,7 +5,7 @@ use crate::graph::{Edge, Graph, Node};
 
 /// Additions and subtractions that are only part of one larger sum; if `by_body`, of one in the same step of a
 /// recursion.
-pub fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
+fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
     let mut inner = vec![false; graph.len()];
     for index in (0..graph.len()).rev() {
         if uses[index] == 0 {
@@ -23,7 +23,7 @@ pub fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
 }
 
 /// The terms of the sum at `root`, each with its sign, in the order in which they are met.
-pub fn terms(graph: &Graph, root: usize, inner: &[bool]) -> Vec<Edge> {
+fn terms(graph: &Graph, root: usize, inner: &[bool]) -> Vec<Edge> {
     let mut terms = Vec::new();
     let mut open = vec![(root, false)];
     while let Some((index, negative)) = open.pop() {
@@ -48,23 +48,14 @@ pub fn with_sums(
     let old = &expressions.graph;
     let uses = expressions.uses();
     let inner = inner_sums(old, &uses, expressions.is_long());
-    let mut graph = Graph::default();
-    let mut made: Vec<Option<Edge>> = vec![None; old.len()];
-    for index in (0..old.len()).filter(|&index| uses[index] > 0 && !inner[index]) {
-        let mapped = |edge: Edge| {
-            made[edge.node()].expect("operands are made before what uses them").flipped_if(edge.is_negative())
-        };
-        graph.enter_step(old.step(index));
-        let edge = match old.node(index) {
-            Node::Add(..) | Node::Subtract(..) => sum(&mut graph, &terms(old, index, &inner), &mapped),
-            node => graph.rebuild(node, mapped),
-        };
-        if let Some(name) = old.name(index) {
-            graph.set_name(edge, name);
-        }
-        made[index] = Some(edge);
-    }
-    let mapped = |edge: Edge| made[edge.node()].expect("outputs are made").flipped_if(edge.is_negative());
-    let outputs = expressions.outputs.iter().map(|&output| mapped(output)).collect();
-    Expressions { graph, outputs }
+    expressions.rebuilt(
+        |index| uses[index] > 0 && !inner[index],
+        |graph, index, mapped| {
+            let edge = match old.node(index) {
+                Node::Add(..) | Node::Subtract(..) => sum(graph, &terms(old, index, &inner), mapped),
+                node => graph.rebuild(node, mapped),
+            };
+            (edge, old.name(index))
+        },
+    )
 }

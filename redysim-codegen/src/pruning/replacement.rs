@@ -140,27 +140,14 @@ impl<'a> Simplification<'a> {
     /// The expressions with all replacements made.
     pub fn rebuilt(&self) -> Expressions {
         let old = &self.expressions.graph;
-        let mut graph = Graph::default();
-        let mut made: Vec<Option<Edge>> = vec![None; old.len()];
-        for node in (0..old.len()).filter(|&node| self.uses[node] > 0) {
-            let mapped =
-                |edge: Edge| made[edge.node()].expect("what is used is made first").flipped_if(edge.is_negative());
-            graph.enter_step(old.step(node));
-            let edge = match self.replaced[node] {
-                Some(Simpler::Number(number)) => graph.constant(number),
-                Some(Simpler::Operand(edge)) => mapped(edge),
-                None => graph.rebuild(old.node(node), mapped),
-            };
-            if let Some(name) = old.name(node)
-                && self.replaced[node].is_none()
-            {
-                graph.set_name(edge, name);
-            }
-            made[node] = Some(edge);
-        }
-        let mapped = |edge: &Edge| made[edge.node()].expect("outputs are used").flipped_if(edge.is_negative());
-        let outputs = self.expressions.outputs.iter().map(mapped).collect();
-        Expressions { graph, outputs }
+        self.expressions.rebuilt(
+            |node| self.uses[node] > 0,
+            |graph, node, mapped| match self.replaced[node] {
+                Some(Simpler::Number(number)) => (graph.constant(number), None),
+                Some(Simpler::Operand(edge)) => (mapped(edge), None),
+                None => (graph.rebuild(old.node(node), mapped), old.name(node)),
+            },
+        )
     }
 }
 
