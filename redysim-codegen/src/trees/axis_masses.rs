@@ -68,8 +68,7 @@ impl MomentOrder {
     }
 
     fn times<P: Parameter>(self, amount: f64) -> AxisMass<P> {
-        let none = AxisMass { mass: P::zero(), first: P::zero(), second: P::zero() };
-        let amount = P::from_f64(amount);
+        let (none, amount) = (AxisMass::zero(), P::from_f64(amount));
         match self {
             MomentOrder::Zeroth => AxisMass { mass: amount, ..none },
             MomentOrder::First => AxisMass { first: amount, ..none },

@@ -13,12 +13,9 @@ pub fn screw(pitch: f64) -> Screw {
 /// Mass on the axis moves along it, so of what a revolute joint shares the second moment alone is left.
 pub fn split<P: Parameter>(inertia: PseudoInertia<P>, vanishing: Vanishing) -> (PseudoInertia<P>, PseudoInertia<P>) {
     let PseudoInertia { second, .. } = inertia;
-    let left = match vanishing {
-        Vanishing::TensorYy => -second.xx,
-        Vanishing::SecondMomentZz => P::zero(),
-    };
+    let left = vanishing.second_zz(second);
     let own = PseudoInertia { second: Sym3 { zz: left, ..second }, ..inertia };
-    (own, AxisMass { mass: P::zero(), first: P::zero(), second: second.zz - left }.inertia())
+    (own, AxisMass { second: second.zz - left, ..AxisMass::zero() }.inertia())
 }
 
 /// The moment of inertia about the axis, and the mass along it.

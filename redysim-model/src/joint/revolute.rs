@@ -11,11 +11,7 @@ pub const SCREW: Screw = Screw { turn: 1.0, slide: 0.0 };
 /// Mass on the axis belongs to both bodies.
 pub fn split<P: Parameter>(inertia: PseudoInertia<P>, vanishing: Vanishing) -> (PseudoInertia<P>, PseudoInertia<P>) {
     let PseudoInertia { mass, moment, second } = inertia;
-    // J_yy is Σ_zz + Σ_xx.
-    let left = match vanishing {
-        Vanishing::TensorYy => -second.xx,
-        Vanishing::SecondMomentZz => P::zero(),
-    };
+    let left = vanishing.second_zz(second);
     let own = PseudoInertia {
         mass: P::zero(),
         moment: Vec3([moment[0], moment[1], P::zero()]),

@@ -14,8 +14,19 @@ pub enum Vanishing {
     SecondMomentZz,
 }
 
+impl Vanishing {
+    /// The Σ_zz with which the number vanishes, of a body with the given second moments.
+    pub(super) fn second_zz<P: Parameter>(self, second: Sym3<P>) -> P {
+        match self {
+            // J_yy is Σ_zz + Σ_xx.
+            Vanishing::TensorYy => -second.xx,
+            Vanishing::SecondMomentZz => P::zero(),
+        }
+    }
+}
+
 /// Moments of mass on a joint's axis, about the body's origin: ∫1, ∫z and ∫z².
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisMass<P = f64> {
     /// ∫1 dm, kg.
     pub mass: P,
@@ -26,6 +37,11 @@ pub struct AxisMass<P = f64> {
 }
 
 impl<P: Parameter> AxisMass<P> {
+    /// No mass.
+    pub fn zero() -> Self {
+        AxisMass { mass: P::zero(), first: P::zero(), second: P::zero() }
+    }
+
     /// As the inertia of a body.
     pub fn inertia(self) -> PseudoInertia<P> {
         let AxisMass { mass, first, second } = self;
