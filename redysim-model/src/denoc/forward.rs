@@ -79,14 +79,13 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     tau: &[S],
     result: &mut [S],
 ) {
-    let Workspace { angles, frames, biases: drifts, inertias, wrenches, pivots, accelerations, .. } = work;
+    let Workspace { angles, frames, biases, inertias, wrenches, pivots, accelerations, .. } = work;
     joint_frames_in(angles, frames, tree, trace, q);
-    bias_accelerations(drifts, tree, trace, frames, v);
+    bias_accelerations(biases, tree, trace, frames, v);
     let rigid = |(body, frame): (&Body<P>, &JointFrame<S>)| {
         ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid())
     };
     inertias.clear();
-    inertias.reserve(tree.bodies.len());
     inertias.extend(tree.bodies.iter().zip(frames.iter()).map(rigid));
     wrenches.clear();
     wrenches.resize(tree.bodies.len(), Wrench::zero());
@@ -98,7 +97,7 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         let inertia = inertias[index];
         inertia.name(trace, index);
         let own = frame.own_inertia(body.inertia).to_rigid();
-        let bias = wrenches[index] + centrifugal_wrench(own, drifts[index].angular);
+        let bias = wrenches[index] + centrifugal_wrench(own, biases[index].angular);
         trace.name_wrench(bias, ["bias_n", "bias_f"], index);
         let column = inertia.column(screw);
         let inverse = S::one() / screw.project(column);
@@ -109,7 +108,7 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         trace.name(drive, "drive", index, "");
         if let Some(parent) = body.parent {
             let felt = inertia.project_through_joint(screw, column, ratio);
-            let wrench = bias + felt.apply(drifts[index].acceleration) + ratio.scale(drive);
+            let wrench = bias + felt.apply(biases[index].acceleration) + ratio.scale(drive);
             let wrench = screw.with_force(wrench, tau[body.v.start]);
             wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
@@ -127,7 +126,7 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         let acceleration = Twist {
             angular: frame.to_body(parent.angular),
             linear: frame.to_body(parent.linear + parent.angular.cross(frame.position)),
-        } + drifts[index].acceleration;
+        } + biases[index].acceleration;
         let screw = body.joint.screw();
         let Pivot { inverse, ratio, drive } = &pivots[index];
         let joint = *inverse * *drive - power(screw, *ratio, acceleration);
