@@ -11,7 +11,7 @@ pub struct Faults {
     pub diagnostics: Diagnostics,
     /// What could be read nevertheless: enough for a stub that lets the code around the model compile.
     pub interface: Box<PublicInterface>,
-    /// Whether nothing was read: the file is not there, or may not be read.
+    /// Whether nothing was read, because the file does not exist or cannot be read.
     pub unread: bool,
 }
 

@@ -26,11 +26,11 @@
 //!
 //! | where | what it is |
 //! |---|---|
-//! | [`Model`], [`Loaded`], [`Faults`] | a model file: what it says, what is suspicious in it, what is wrong with it |
+//! | [`Model`], [`Loaded`], [`Faults`] | a model file: its contents, its warnings and its errors |
 //! | [`GenericMechanism`] | the functions of a model that is read at run time; with a [`denoc::Workspace`], without allocation |
 //! | [`Tree`], [`joint`], [`parameter`] | the moving bodies, their joints, and numbers that may be given at run time |
-//! | [`denoc`] | the recursions over a tree: RNEA, CRBA, ABA and their kin in the DeNOC form, for any scalar |
-//! | [`frames`], [`regroup`], [`scaling`] | the same robot described otherwise, so that recursions cost less |
+//! | [`denoc`] | the recursions over a tree: RNEA, CRBA, ABA and others in the DeNOC form, for any scalar |
+//! | [`frames`], [`regroup`], [`scaling`] | other descriptions of the same robot, for which the recursions cost less |
 //! | [`spatial`], [`inertia`], [`pseudo`], [`rotation`] | vectors, twists, wrenches, inertias and rotations |
 //! | [`Mobility`], [`LockError`] | independent velocities of closed loops; joints that are locked |
 

@@ -5,8 +5,8 @@ use redysim_runtime::{Dual, Scalar};
 /// An inertial parameter, or a component of gravity: a constant of the model or a value that is given at run time.
 ///
 /// A [`Tree`](crate::tree::Tree) has its geometry in `f64` and these in `P`. What is linear in inertias, such as
-/// [regrouping](crate::regroup), holds for any `P`; a pass that has to compare numbers asks for [`number`](Self::number)
-/// and leaves alone what has none.
+/// [regrouping](crate::regroup), holds for any `P`. A pass that compares numbers reads [`number`](Self::number) and
+/// skips parameters that are not known before run time.
 pub trait Parameter: Scalar {
     /// The number, where it is known before run time.
     fn number(self) -> Option<f64>;

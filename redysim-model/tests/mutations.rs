@@ -125,7 +125,8 @@ proptest! {
     /// Options are read beside a good file.
     #[test]
     fn mutated_options_never_panic(mutations in prop::collection::vec(mutation(), 1..4)) {
-        let options = "functions = ['mass_matrix', \"energy\"]\nlocked = { joint6 = \"30 deg\", link2 = 1 }\ntolerance = 0.01";
+        let options = "functions = ['mass_matrix', \"energy\"]\nlocked = { joint6 = \"30 deg\", link2 = 1 }\n\
+                       tolerance = 0.01";
         let options = mutations.iter().fold(options.to_owned(), |options, mutation| mutated(&options, mutation));
         if let Err(faults) = Model::from_toml_with(FILES[0], "test.toml", options.as_str()) {
             for span in faults.diagnostics.iter().filter_map(Diagnostic::span_beside) {

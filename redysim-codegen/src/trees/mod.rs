@@ -33,8 +33,7 @@ const MATRIX: &[Function] = &[Function::MassMatrix, Function::GravityForces];
 
 /// The descriptions of a robot for its functions, each made when it is first needed.
 ///
-/// A pass that costs no digits is made for the whole robot. Where it does, it is made body by body, as far as it costs
-/// none.
+/// A pass is applied to the whole robot. If that costs digits, it is applied body by body, without the steps that do.
 pub struct Trees<'a> {
     tree: &'a Tree,
     passes: &'a Passes,
@@ -93,8 +92,8 @@ impl<'a> Trees<'a> {
         [cheapest, self.plain(), self.tree]
     }
 
-    /// A function on the cheapest description on which it keeps its digits. If there is none, on the model's own,
-    /// without passes over expressions. Forward dynamics is by the recursion.
+    /// A function on the cheapest description on which it keeps its digits. If every description loses digits, the
+    /// function is traced on the model's own, without passes over expressions. Forward dynamics is by the recursion.
     pub fn keeping_digits(&self, function: Function) -> Result<Expressions, PassError> {
         let allowed_loss = self.allowed_loss(function);
         for tree in self.descriptions(function) {

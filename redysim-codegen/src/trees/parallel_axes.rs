@@ -20,7 +20,7 @@ pub fn merged<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDi
 }
 
 /// The tree with all bodies in such axes whose own axis is parallel to their parent's or a child's; `None` if there is
-/// none.
+/// no such body.
 pub fn merged_everywhere<P: Parameter>(tree: &Tree<P>) -> Option<Tree<P>> {
     let mut all = tree.clone();
     for body in 0..tree.bodies.len() {

@@ -36,7 +36,7 @@ fn passes_over_trees_keep_joint_forces_where_an_inertia_is_given_at_run_time() {
         let second = &mut inertia.second;
         (second.xx, second.yy, second.zz, second.xy, second.yz, second.xz) = (xx, yy, zz, xy, yz, xz);
 
-        // What is given counts as a number of its own.
+        // Values given at run time count as the constant 0.7.
         let known = |tree: &Tree<Symbol>| tree.map(|symbol| symbol.number().unwrap_or(0.7));
         let cost = |tree: &Tree<Symbol>| traced_on(&known(tree), Function::InverseDynamics).price();
         let framed = frames::chosen(&tree, &cost, &|_| true);

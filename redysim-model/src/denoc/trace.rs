@@ -9,8 +9,9 @@ use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 /// of the generated code. Every function has a default that observes nothing, so that a recursion over numbers costs
 /// what it would without. [`Untraced`] has these defaults.
 pub trait Trace<S: Copy> {
-    /// Whether the product of the rotations between a body and its parent is computed once for each body. Numbers are
-    /// faster so; expressions leave out the zeros and ones of each rotation, which the product does not have.
+    /// Whether the product of the rotations between a body and its parent is computed once for each body. This is
+    /// faster for numbers. Expressions take more operations with it: the zeros and ones of each rotation fold, and the
+    /// product has none.
     const WHOLE_ROTATIONS: bool = false;
 
     /// Does the `work` of body `body` in the sweep `sweep` over all bodies.

@@ -8,10 +8,10 @@
 //! | `split` | which inertia of the body its parent may carry as well, with the same joint forces |
 //! | `meets` | which inertia alone makes the joint's diagonal element of the mass matrix positive |
 //!
-//! and [`Joint`] has a variant that names them, and says by which functions its coordinates move: `coordinate_rates`,
-//! `integrate`, `difference` and `neutral`, which `linear` has for coordinates that add up. From S follow the transform (a rotation about z by the turn of q, a
-//! displacement along z by its slide), the bias acceleration, and the joint force Sᵀ w of a wrench; the recursions know
-//! no kind of joint.
+//! and [`Joint`] has a variant that names them and the functions by which its coordinates move, `coordinate_rates`,
+//! `integrate`, `difference` and `neutral`; those of coordinates that add up are in `linear`. From S follow the
+//! transform (a rotation about z by the turn of q, a displacement along z by its slide), the bias acceleration, and the
+//! joint force Sᵀ w of a wrench. The recursions do not depend on the kind of a joint.
 
 mod helical;
 mod linear;

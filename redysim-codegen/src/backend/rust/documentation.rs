@@ -23,8 +23,8 @@ pub fn paragraphs(traced: &TracedFunction, model: &Model) -> Vec<String> {
 pub fn warning(traced: &TracedFunction) -> Option<String> {
     let Pruning { tolerance, worst, states, .. } = traced.pruning.filter(|pruning| !pruning.holds)?;
     Some(format!(
-        "`{}` is not pruned: the tolerance {tolerance:?} did not hold, the worst error of {states} sampled states was {worst:.1e} \
-         of {}",
+        "`{}` is not pruned: the tolerance {tolerance:?} did not hold, the worst error of {states} sampled \
+         states was {worst:.1e} of {}",
         traced.function.name(),
         scale(traced.function),
     ))
@@ -33,7 +33,8 @@ pub fn warning(traced: &TracedFunction) -> Option<String> {
 fn cost(count: &OperationCount) -> String {
     let OperationCount { additions, multiplications, divisions, trig } = count;
     format!(
-        "{} flops: {additions} additions, {multiplications} multiplications, {divisions} divisions; {trig} sine-cosine pairs.",
+        "{} flops: {additions} additions, {multiplications} multiplications, {divisions} divisions; {trig} sine-cosine \
+         pairs.",
         count.flops()
     )
 }
@@ -43,8 +44,8 @@ fn pruned(Pruning { tolerance, before, worst, states, holds }: &Pruning, functio
         return format!("Not pruned: a tolerance of {tolerance:?} did not hold in {states} sampled states.");
     }
     format!(
-        "Pruned to a tolerance of {tolerance:?}: {} flops and {} sine-cosine pairs before. The worst error of {states} sampled \
-         states within the ranges below is {worst:.1e} of {}.",
+        "Pruned to a tolerance of {tolerance:?}: {} flops and {} sine-cosine pairs before. The worst error of {states} \
+         sampled states within the ranges below is {worst:.1e} of {}.",
         before.flops(),
         before.trig,
         scale(function),
@@ -94,8 +95,8 @@ mod tests {
         assert_eq!(
             warning(&function).as_deref(),
             Some(
-                "`inverse_dynamics` is not pruned: the tolerance 0.01 did not hold, the worst error of 100000 sampled states \
-                 was 2.0e-2 of each joint's force: the one stated for it, else its largest"
+                "`inverse_dynamics` is not pruned: the tolerance 0.01 did not hold, the worst error of 100000 sampled \
+                 states was 2.0e-2 of each joint's force: the one stated for it, else its largest"
             )
         );
         assert!(paragraphs(&function, &model).iter().any(|line| line.starts_with("Not pruned: a tolerance of 0.01")));
