@@ -22,17 +22,24 @@ pub fn traced(
     function: Function,
     computed: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 ) -> Expressions {
+    let length = |argument: &Argument| match argument.dimension() {
+        Dimension::Coordinates => tree.nq(),
+        Dimension::Velocities => tree.nv(),
+        Dimension::Links => tree.links.len(),
+        Dimension::LoopRows => tree.loops_of_rows().count(),
+    };
+    traced_of(function.signature().arguments.iter().map(length), computed)
+}
+
+/// The expressions of `computed`, a function of arrays of the given lengths, before any pass.
+pub fn traced_of(
+    lengths: impl IntoIterator<Item = usize>,
+    computed: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
+) -> Expressions {
     let tracer = Tracer::default();
     let outputs = {
-        let length = |argument: &Argument| match argument.dimension() {
-            Dimension::Coordinates => tree.nq(),
-            Dimension::Velocities => tree.nv(),
-            Dimension::Links => tree.links.len(),
-            Dimension::LoopRows => tree.loops_of_rows().count(),
-        };
-        let arguments = (0..).zip(function.signature().arguments);
         let symbols: Vec<Vec<Symbol>> =
-            arguments.map(|(index, argument)| tracer.argument(index, length(argument))).collect();
+            (0..).zip(lengths).map(|(index, length)| tracer.argument(index, length)).collect();
         let symbols: Vec<&[Symbol]> = symbols.iter().map(Vec::as_slice).collect();
         tracer.edges(&computed(&tracer, &symbols))
     };

@@ -1,9 +1,8 @@
 //! The passes over a robot of which some inertias are given at run time.
 
 use super::{axis_masses, frames, parallel_axes, units};
-use crate::expressions::Expressions;
-use crate::symbol::{Symbol, Tracer};
-use crate::tracing::traced_on;
+use crate::symbol::Symbol;
+use crate::tracing::{traced_of, traced_on};
 use redysim_model::denoc::evaluate;
 use redysim_model::joint::Vanishing;
 use redysim_model::parameter::{Parameter, ParameterIn};
@@ -26,12 +25,10 @@ fn numbers<S: Copy>(inertia: &PseudoInertia<S>) -> [S; 10] {
 fn passes_over_trees_keep_joint_forces_where_an_inertia_is_given_at_run_time() {
     let plain = robot();
     let payload = plain.bodies.last().expect("six bodies").inertia;
-    let tracer = Tracer::default();
-    let outputs = {
+    let expressions = traced_of([6, 6, 6, 10], |tracer, arguments| {
         let mut tree: Tree<Symbol> = plain.map(|value| value.value());
-        let given = tracer.argument(3, 10);
         let inertia = &mut tree.bodies.last_mut().expect("six bodies").inertia;
-        let [mass, x, y, z, xx, yy, zz, xy, yz, xz] = given[..] else { unreachable!("ten symbols") };
+        let [mass, x, y, z, xx, yy, zz, xy, yz, xz] = *arguments[3] else { unreachable!("ten symbols") };
         (inertia.mass, inertia.moment.0) = (mass, [x, y, z]);
         let second = &mut inertia.second;
         (second.xx, second.yy, second.zz, second.xy, second.yz, second.xz) = (xx, yy, zz, xy, yz, xz);
@@ -47,11 +44,8 @@ fn passes_over_trees_keep_joint_forces_where_an_inertia_is_given_at_run_time() {
         assert!(cost(&described) < cost(&tree), "the passes gain nothing");
         assert!(described.bodies.last().expect("six bodies").inertia.number().is_none(), "the inertia is still given");
 
-        let arguments = [0, 1, 2].map(|argument| tracer.argument(argument, 6));
-        let arguments: Vec<&[Symbol]> = arguments.iter().map(Vec::as_slice).collect();
-        tracer.edges(&evaluate(Function::InverseDynamics, &described, &tracer, &arguments))
-    };
-    let expressions = Expressions { graph: tracer.into_graph(), outputs };
+        evaluate(Function::InverseDynamics, &described, tracer, &arguments[..3])
+    });
 
     let motion = [0.7, 1.3, -0.4].map(|x| (1..=6).map(|i| f64::sin(x * f64::from(i))).collect::<Vec<_>>());
     for factor in [1.0, 3.0, 0.2] {

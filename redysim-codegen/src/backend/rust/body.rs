@@ -1,6 +1,8 @@
-//! A program as Rust: statements and expressions over `S: Scalar`.
+//! The body of a function as Rust: its program, printed as statements and expressions over `S: Scalar`.
 
-use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, Program, Statement, Trig, Value};
+use crate::angles::Angles;
+use crate::expressions::Expressions;
+use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, NamingContext, Statement, Trig, Value, program};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -15,7 +17,7 @@ const GROUP: &str = "group";
 const ROW: &str = "constants";
 
 /// Names that variables must not have, beside those of arguments.
-pub const RESERVED: [&str; 5] = [FROM_F64, SIN, COS, GROUP, ROW];
+const RESERVED: [&str; 5] = [FROM_F64, SIN, COS, GROUP, ROW];
 
 /// The name of an argument or a local value.
 pub fn local(name: &str) -> Ident {
@@ -32,10 +34,32 @@ pub fn constant(value: f64) -> TokenStream {
     if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
 }
 
-/// Writes the bodies of functions.
-pub struct Printer<'a> {
+/// The body of a function of the given arguments: statements, then the result that `result` makes of the outputs.
+pub fn body(
+    expressions: &Expressions,
+    arguments: &[&str],
+    bodies: &[String],
+    angles: &Angles,
+    result: impl FnOnce(&[TokenStream]) -> TokenStream,
+) -> TokenStream {
+    let reserved = [arguments, &RESERVED].concat();
+    let program = program(expressions, &NamingContext { reserved: &reserved, bodies, angles });
+    let (printer, k) = (Printer { arguments }, local(FROM_F64));
+    let statements = program.statements.iter().map(|statement| printer.statement(statement));
+    let outputs: Vec<TokenStream> =
+        program.outputs.iter().map(|output| printer.value(output, Binding::Lowest)).collect();
+    let result = result(&outputs);
+    quote! {
+        let #k = S::from_f64;
+        #(#statements)*
+        #result
+    }
+}
+
+/// Prints statements and values.
+struct Printer<'a> {
     /// The names of the function's arguments.
-    pub arguments: &'a [&'a str],
+    arguments: &'a [&'a str],
 }
 
 /// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
@@ -48,20 +72,6 @@ enum Binding {
 }
 
 impl Printer<'_> {
-    /// Statements, then the result that `result` makes of the outputs.
-    pub fn body(&self, program: &Program, result: impl FnOnce(&[TokenStream]) -> TokenStream) -> TokenStream {
-        let k = local(FROM_F64);
-        let statements = program.statements.iter().map(|statement| self.statement(statement));
-        let outputs: Vec<TokenStream> =
-            program.outputs.iter().map(|output| self.value(output, Binding::Lowest)).collect();
-        let result = result(&outputs);
-        quote! {
-            let #k = S::from_f64;
-            #(#statements)*
-            #result
-        }
-    }
-
     fn statement(&self, statement: &Statement) -> TokenStream {
         match statement {
             Statement::Destructure { array, names } => {

@@ -1,12 +1,11 @@
 //! How coordinates move with velocities: the methods of `ConfigurationSpace`.
 
-use super::body::{Printer, RESERVED, local};
+use super::body::{body, local};
 use super::length;
 use super::results::array;
 use crate::angles::Angles;
-use crate::expressions::Expressions;
-use crate::program::{NamingContext, program};
-use crate::symbol::{Symbol, Tracer};
+use crate::symbol::Symbol;
+use crate::tracing::traced_of;
 use proc_macro2::TokenStream;
 use quote::quote;
 use redysim_model::{PublicInterface, Tree, denoc};
@@ -17,7 +16,7 @@ struct Method {
     name: &'static str,
     arguments: &'static [(&'static str, Dimension)],
     result: Dimension,
-    computed: for<'g> fn(&Tree, &[Vec<Symbol<'g>>]) -> Vec<Symbol<'g>>,
+    computed: for<'g> fn(&Tree, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 }
 
 const METHODS: [Method; 4] = [
@@ -25,19 +24,19 @@ const METHODS: [Method; 4] = [
         name: "coordinate_rates",
         arguments: &[("q", Dimension::Coordinates), ("v", Dimension::Velocities)],
         result: Dimension::Coordinates,
-        computed: |tree, x| denoc::coordinate_rates(tree, &x[0], &x[1]),
+        computed: |tree, x| denoc::coordinate_rates(tree, x[0], x[1]),
     },
     Method {
         name: "integrate",
         arguments: &[("q", Dimension::Coordinates), ("dv", Dimension::Velocities)],
         result: Dimension::Coordinates,
-        computed: |tree, x| denoc::integrate(tree, &x[0], &x[1]),
+        computed: |tree, x| denoc::integrate(tree, x[0], x[1]),
     },
     Method {
         name: "difference",
         arguments: &[("q0", Dimension::Coordinates), ("q1", Dimension::Coordinates)],
         result: Dimension::Velocities,
-        computed: |tree, x| denoc::difference(tree, &x[0], &x[1]),
+        computed: |tree, x| denoc::difference(tree, x[0], x[1]),
     },
     Method {
         name: "neutral",
@@ -70,18 +69,9 @@ impl Method {
     }
 
     fn body(&self, tree: &Tree, interface: &PublicInterface) -> TokenStream {
-        let tracer = Tracer::default();
-        let outputs = {
-            let argument =
-                |(index, &(_, dimension)): (u8, &(_, Dimension))| tracer.argument(index, interface.size(dimension));
-            let symbols: Vec<Vec<Symbol>> = (0..).zip(self.arguments).map(argument).collect();
-            tracer.edges(&(self.computed)(tree, &symbols))
-        };
-        let expressions = Expressions { graph: tracer.into_graph(), outputs };
+        let lengths = self.arguments.iter().map(|&(_, dimension)| interface.size(dimension));
+        let expressions = traced_of(lengths, |_, x| (self.computed)(tree, x));
         let arguments: Vec<&str> = self.arguments.iter().map(|&(argument, _)| argument).collect();
-        let reserved = [arguments.as_slice(), &RESERVED].concat();
-        let angles = Angles::of([&expressions]);
-        let program = program(&expressions, &NamingContext { reserved: &reserved, bodies: &[], angles: &angles });
-        Printer { arguments: &arguments }.body(&program, array)
+        body(&expressions, &arguments, &[], &Angles::of([&expressions]), array)
     }
 }

@@ -1,12 +1,11 @@
 //! One function of a mechanism: of coordinates, and of precomputed joint trigonometry.
 
 use super::angles::{angle, without_turns};
-use super::body::{COS, Printer, RESERVED, SIN, local};
+use super::body::{COS, SIN, body, local};
 use super::{documentation, length, results};
 use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::functions::TracedFunction;
-use crate::program::{NamingContext, program};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, Model, PublicInterface};
@@ -64,10 +63,8 @@ impl Writer<'_> {
             (head(function, interface, runtime), head_with_trig(function, interface, angles.len(), runtime));
         let head_inlined = head_inlined(function, interface, angles.len(), runtime);
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
-        let reserved = [arguments.as_slice(), &RESERVED].concat();
-        let program = program(expressions, &NamingContext { reserved: &reserved, bodies, angles });
         let result = |outputs: &[TokenStream]| results::value(signature.result, interface, outputs, runtime);
-        let body = Printer { arguments: &arguments }.body(&program, result);
+        let body = body(expressions, &arguments, bodies, angles, result);
         let paragraphs = documentation::paragraphs(traced, model);
         let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
