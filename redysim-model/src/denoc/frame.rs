@@ -77,16 +77,14 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         let along_axis = parent_rotation.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (rotation_about_z, body_rotation) =
             if body.merged_parallel { (None, joint_rotation) } else { (joint_rotation, None) };
-        let whole = T::WHOLE_ROTATIONS.then(|| {
-            let own = Mat3(fixed.0.map(|row| rotated_back(rotation_about_z, Vec3(row)).0));
-            parent_rotation.map_or(own, |_| {
-                Mat3(own.transpose().0.map(|column| rotated(parent_rotation, Vec3(column)).0)).transpose()
-            })
+        let columns = T::WHOLE_ROTATIONS.then(|| {
+            let own = Mat3(fixed.0.map(|row| rotated_back(rotation_about_z, Vec3(row)).0)).transpose();
+            parent_rotation.map_or(own, |_| Mat3(own.0.map(|column| rotated(parent_rotation, Vec3(column)).0)))
         });
         frames.push(JointFrame {
             parent_rotation,
             fixed,
-            columns: whole.map(Mat3::transpose),
+            columns,
             rotation_about_z,
             body_rotation,
             along_axis,
