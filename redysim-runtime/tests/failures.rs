@@ -75,14 +75,7 @@ fn an_interval_needs_two_finite_different_ends() {
             }
         }
     }
-    fn check_adaptive<A: EstimatesErrors>(name: &str) {
-        check(name, &adaptive::<A>());
-    }
-    fn check_fixed<A: Algorithm>(name: &str) {
-        check(name, &fixed::<A>(0.1));
-    }
-    every_adaptive!(check_adaptive);
-    every_fixed!(check_fixed);
+    every_method!(check, 0.1);
 }
 
 #[test]
@@ -162,14 +155,7 @@ fn save_times_lie_within_the_interval_and_follow_its_direction() {
         let outcome = method.solve(&mut equation(still), (1.0, 0.0), [0.0; 2], [0.5, 0.6], |_, _| {});
         assert_eq!(outcome, Err(SaveTimesOutOfOrder { t: 0.6, previous: 0.5 }), "{name}");
     }
-    fn check_adaptive<A: EstimatesErrors>(name: &str) {
-        check(name, &adaptive::<A>());
-    }
-    fn check_fixed<A: Algorithm>(name: &str) {
-        check(name, &fixed::<A>(0.1));
-    }
-    every_adaptive!(check_adaptive);
-    every_fixed!(check_fixed);
+    every_method!(check, 0.1);
 }
 
 #[test]
@@ -182,14 +168,7 @@ fn a_start_or_a_first_derivative_that_is_not_finite_is_named() {
             assert_eq!((outcome, calls), (Err(NonFiniteDerivative { t: 0.0, component: 1 }), 1), "{name}");
         }
     }
-    fn check_adaptive<A: EstimatesErrors>(name: &str) {
-        check(name, &adaptive::<A>());
-    }
-    fn check_fixed<A: Algorithm>(name: &str) {
-        check(name, &fixed::<A>(0.1));
-    }
-    every_adaptive!(check_adaptive);
-    every_fixed!(check_fixed);
+    every_method!(check, 0.1);
 }
 
 #[test]
@@ -283,14 +262,7 @@ fn a_state_that_overflows_is_reported() {
         let reported = matches!(outcome, Err(NonFiniteState { component, .. }) if is_named(component));
         assert!(reported && calls < 1000, "{name}: {outcome:?} after {calls}");
     }
-    fn check_adaptive<A: EstimatesErrors>(name: &str) {
-        check(name, &adaptive::<A>());
-    }
-    fn check_fixed<A: Algorithm>(name: &str) {
-        check(name, &fixed::<A>(0.5));
-    }
-    every_adaptive!(check_adaptive);
-    every_fixed!(check_fixed);
+    every_method!(check, 0.5);
 }
 
 /// The stages of the step are finite, its end is not.
@@ -341,14 +313,7 @@ fn an_end_that_is_refused_or_corrected_to_no_number_is_reported() {
         let reported = matches!(outcome, Err(NonFiniteState { t, component: 1 }) if (t - 0.55).abs() < 1e-9);
         assert!(reported, "{name}: {outcome:?}");
     }
-    fn check_adaptive<A: EstimatesErrors>(name: &str) {
-        check(name, &adaptive::<A>());
-    }
-    fn check_fixed<A: Algorithm>(name: &str) {
-        check(name, &fixed::<A>(0.1));
-    }
-    every_adaptive!(check_adaptive);
-    every_fixed!(check_fixed);
+    every_method!(check, 0.1);
 }
 
 #[test]
@@ -364,14 +329,7 @@ fn an_observer_ends_the_integration_after_the_step_that_it_was_shown() {
         assert_eq!((shown.len(), shown[2]), (3, (t, y)), "{name}");
         assert!(t < 1.0 && statistics.steps == 3, "{name}: {statistics:?} at {t}");
     }
-    fn check_adaptive<A: EstimatesErrors>(name: &str) {
-        check(name, &adaptive::<A>());
-    }
-    fn check_fixed<A: Algorithm>(name: &str) {
-        check(name, &fixed::<A>(0.1));
-    }
-    every_adaptive!(check_adaptive);
-    every_fixed!(check_fixed);
+    every_method!(check, 0.1);
 }
 
 #[test]

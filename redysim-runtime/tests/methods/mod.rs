@@ -27,3 +27,20 @@ macro_rules! every_fixed {
         $check::<of::RadauIIA>("RadauIIA");
     }};
 }
+
+/// Calls `$check(name, &method)` with every method: as it is by default if it chooses its steps from tolerances, else
+/// with steps of size `$step`.
+macro_rules! every_method {
+    ($check:ident, $step:literal) => {{
+        use redysim_runtime::integrate::algorithm::{Algorithm, EstimatesErrors};
+        use redysim_runtime::integrate::{Adaptive, FixedStep};
+        fn check_adaptive<A: EstimatesErrors>(name: &str) {
+            $check(name, &Adaptive::<f64, A>::new());
+        }
+        fn check_fixed<A: Algorithm>(name: &str) {
+            $check(name, &FixedStep::<f64, A>::new($step));
+        }
+        every_adaptive!(check_adaptive);
+        every_fixed!(check_fixed);
+    }};
+}
