@@ -180,12 +180,14 @@ fn a_derivative_that_ceases_to_be_finite_is_named_with_its_time() {
         let (outcome, calls) = run(&adaptive::<A>(), 1.0, f);
         println!("{name}: {calls} evaluations until the step was smallest");
         let named = matches!(outcome, Err(NonFiniteDerivative { t, component: 0 }) if (t - 0.55).abs() < 1e-14);
-        assert!(named && calls < 2000, "{name}: {outcome:?} after {calls}");
+        let most = if name == "Dop853" { 2000 } else { 1000 };
+        assert!(named && calls < most, "{name}: {outcome:?} after {calls}");
     }
     fn check_fixed<A: Algorithm>(name: &str) {
         let (outcome, calls) = run(&fixed::<A>(0.1), 1.0, f);
         let named = matches!(outcome, Err(NonFiniteDerivative { t, component: 0 }) if t > 0.55 && t <= 0.6 + 1e-15);
-        assert!(named && calls < 75, "{name}: {outcome:?} after {calls}");
+        let most = if name == "Dop8" { 75 } else { 38 };
+        assert!(named && calls < most, "{name}: {outcome:?} after {calls}");
     }
     every_adaptive!(check_adaptive);
     every_fixed!(check_fixed);
@@ -337,7 +339,8 @@ fn steps_are_counted_before_they_become_too_many() {
     fn check_adaptive<A: EstimatesErrors>(name: &str) {
         let (outcome, calls) = run(&adaptive::<A>().max_steps(50), 1e3, |t, y| [y[1], -y[0] + t.sin()]);
         let reported = matches!(outcome, Err(TooManySteps { limit: 50, t }) if t > 0.0 && t < 1e3);
-        assert!(reported && calls < 1000, "{name}: {outcome:?} after {calls}");
+        let most = if name == "Dop853" { 1000 } else { 400 };
+        assert!(reported && calls < most, "{name}: {outcome:?} after {calls}");
     }
     fn check_fixed<A: Algorithm>(name: &str) {
         let (outcome, _) = run(&fixed::<A>(1e-300), 1.0, never);
@@ -349,7 +352,7 @@ fn steps_are_counted_before_they_become_too_many() {
     every_adaptive!(check_adaptive);
     every_fixed!(check_fixed);
     let (outcome, calls) = run(&Ode45::new().max_steps(50), 1e3, |_, y| [-1e3 * y[0], 0.0]);
-    assert!(matches!(outcome, Err(TooManySteps { limit: 50, .. })), "{outcome:?}");
+    assert!(matches!(outcome, Err(TooManySteps { limit: 50, t }) if t > 0.0 && t < 1e3), "{outcome:?}");
     assert_eq!(calls, 301, "six for each step and one at the start");
 }
 
