@@ -40,7 +40,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S> + BiasForces<S>,
         C: LoopClosure<S, M>,
     {
-        self.dynamics_with(&self.constraints_at(q, &[])?, q, v, tau, |_| S::zero())
+        self.dynamics_with(&self.constraints_at(q)?, q, v, tau, |_| S::zero())
     }
 
     /// As [`dynamics`](Self::dynamics), with the constraints at `q` given and J a = −J̇ q̇ − feedback(row).

@@ -41,23 +41,22 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        Ok(self.constraints_at(q, &[])?.decomposition.rank())
+        Ok(self.constraints_at(q)?.decomposition.rank())
     }
 
-    /// The constraints at `q`, in the metric of M; the coordinates `held` do not move in what is solved.
+    /// The constraints at `q`, in the metric of M.
     pub(in crate::closed_loop) fn constraints_at<S: Real>(
         &self,
         q: &M::Coordinates,
-        held: &[usize],
     ) -> Result<Constraints<S, M, C>, LoopError<S>>
     where
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        self.constraints_in(Metric::Mass, q, held)
+        self.constraints_in(Metric::Mass, q, &[])
     }
 
-    /// As [`constraints_at`](Self::constraints_at), in the given metric.
+    /// The constraints at `q`, in the given metric; the coordinates `held` do not move in what is solved.
     pub(in crate::closed_loop) fn constraints_in<S: Real>(
         &self,
         metric: Metric,

@@ -160,7 +160,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     {
         let SimulationState { q, v, .. } = self.split(state);
         let tau = self.law.torque(t, &q, &v);
-        let motion = self.constrained(&self.loops.constraints_at(&q, &[])?, &q, &v, &tau)?;
+        let motion = self.constrained(&self.loops.constraints_at(&q)?, &q, &v, &tau)?;
         Ok(ForcedMotion { tau, motion })
     }
 
@@ -173,7 +173,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         C: LoopClosure<S, M>,
     {
         let SimulationState { q, v, .. } = self.split(state);
-        let constraints = self.loops.constraints_at(&q, &[])?;
+        let constraints = self.loops.constraints_at(&q)?;
         if self.stabilisation == Stabilisation::Projection
             && (constraints.decomposition.nearly_singular()
                 || constraints.decomposition.rank() < self.loops.closure.nc())
