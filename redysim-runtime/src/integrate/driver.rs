@@ -57,9 +57,9 @@ where
         if observer.needs_dense_output(integration.progress.t, integration.progress.t_new) {
             formula.prepare_dense_output(integration)?;
         }
-        integration.finish()?;
+        let corrected = integration.finish()?;
         let flow = observer.observe(&mut ObservedStep { integration: &mut *integration, formula: &mut *formula })?;
-        let corrected = integration.progress.accept();
+        integration.progress.accept();
         if flow.is_break() || integration.progress.t == interval.to {
             return Ok(ControlFlow::Break(()));
         }

@@ -57,22 +57,22 @@ impl<'a, S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized> Integration<'a, S, Y, O> 
         outcome
     }
 
-    /// Takes the attempted step as good, and lets the equation correct its end. What `y + increment` has rounded away
-    /// is kept for the steps to come.
+    /// Finishes the attempted step: the equation may correct its end. Returns whether it did. What `y + increment` has
+    /// rounded away is kept for the steps to come.
     ///
     /// # Errors
     /// If the equation refuses the end, or a component of it is infinite or not a number.
-    pub(super) fn finish(&mut self) -> Result<(), IntegrationError<S>> {
+    pub(super) fn finish(&mut self) -> Result<bool, IntegrationError<S>> {
         let progress = &mut self.progress;
         progress.keep_what_rounding_leaves_out();
         let accepted = self.ode.accepted(progress.t_new, progress.step_size().abs(), &mut progress.y_new);
-        progress.corrected = accepted == Accepted::Corrected;
         match accepted {
             Accepted::Unchanged => {}
             Accepted::Refused => return Err(IntegrationError::Refused { t: progress.t_new }),
             Accepted::Corrected => progress.statistics.corrections += 1,
         }
-        progress.check_state(progress.t_new)
+        progress.check_state(progress.t_new)?;
+        Ok(accepted == Accepted::Corrected)
     }
 }
 
@@ -95,8 +95,6 @@ pub struct Progress<S, Y> {
     pub statistics: Statistics,
     /// How often the step that is attempted was rejected with a larger size.
     pub rejections: u32,
-    /// Whether the end of the last step was corrected, so that the derivative there is another.
-    corrected: bool,
 }
 
 impl<S: Real, Y: Vector<S>> Progress<S, Y> {
@@ -114,7 +112,6 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
             carry: zero,
             statistics: Statistics::default(),
             rejections: 0,
-            corrected: false,
             y,
         };
         this.check_state(t)?;
@@ -172,13 +169,12 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         }
     }
 
-    /// Makes the end of the finished step the state; whether it was corrected.
-    pub(super) fn accept(&mut self) -> bool {
+    /// Makes the end of the finished step the state.
+    pub(super) fn accept(&mut self) {
         self.statistics.steps += 1;
         self.rejections = 0;
         self.t = self.t_new;
         swap(&mut self.y, &mut self.y_new);
-        core::mem::take(&mut self.corrected)
     }
 
     /// Takes the attempted step as not good.
