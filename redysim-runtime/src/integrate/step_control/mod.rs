@@ -21,11 +21,10 @@ use crate::{Real, Vector};
 
 /// The largest factor between the sizes of two steps.
 const LARGEST_GROWTH: f64 = 5.0;
-/// The smallest factor after the first failure of a step. A second failure says that the estimate cannot be trusted;
-/// from then on the size is halved.
+/// The smallest factor after the first rejection of a step.
 const SMALLEST_SHRINKAGE: f64 = 0.1;
-/// The factor after further failures.
-const SHRINKAGE_WITHOUT_TRUST: f64 = 0.5;
+/// The factor after further rejections, which show that the estimate is unreliable.
+const SHRINKAGE_WITHOUT_ESTIMATE: f64 = 0.5;
 /// A new step aims at an error of 0.8^order of the tolerance, so that it rarely has to be tried again.
 const SAFETY: f64 = 0.8;
 
@@ -99,7 +98,7 @@ fn first_size<S: Real, Y: Vector<S>>(rate: &Y, y: &Y, tolerances: &Tolerances<'_
 /// The factor to the size of a rejected step.
 fn shrinkage<S: Real>(trial: Trial<S>, error_exponent: u32) -> S {
     if trial.rejections > 0 {
-        return S::from_f64(SHRINKAGE_WITHOUT_TRUST);
+        return S::from_f64(SHRINKAGE_WITHOUT_ESTIMATE);
     }
     (S::from_f64(SAFETY) * trial.ratio.powf(root(error_exponent))).maximum(S::from_f64(SMALLEST_SHRINKAGE))
 }

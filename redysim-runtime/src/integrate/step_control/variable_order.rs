@@ -1,6 +1,6 @@
 //! The control of size and order of numerical differentiation formulas.
 
-use super::{StepControl, Trial, root};
+use super::{SHRINKAGE_WITHOUT_ESTIMATE, SMALLEST_SHRINKAGE, StepControl, Trial, root};
 use crate::integrate::integration::Integration;
 use crate::integrate::ndf::NdfFormula;
 use crate::integrate::{IntegrationError, Ode};
@@ -8,10 +8,6 @@ use crate::{Real, Vector};
 
 /// The factor to a step size for which the iteration did not converge.
 const SHRINKAGE_WITHOUT_CONVERGENCE: f64 = 0.3;
-/// The smallest factor after the first failure of a step.
-const SMALLEST_SHRINKAGE: f64 = 0.1;
-/// The factor after further ones, which say that the estimate cannot be trusted.
-const SHRINKAGE_WITHOUT_TRUST: f64 = 0.5;
 /// The largest factor between the sizes of two steps.
 const LARGEST_GROWTH: f64 = 10.0;
 /// How many times smaller than the estimated error allows a step of the same order is made, one of the order below, and
@@ -44,7 +40,7 @@ impl<S: Real, Y: Vector<S>> StepControl<S, Y, NdfFormula<S, Y>> for VariableOrde
             return S::from_f64(SHRINKAGE_WITHOUT_CONVERGENCE);
         }
         if rejections > 0 {
-            return S::from_f64(SHRINKAGE_WITHOUT_TRUST);
+            return S::from_f64(SHRINKAGE_WITHOUT_ESTIMATE);
         }
         let (order, factor) = best(formula, ratio, 2, |factor| factor.maximum(S::from_f64(SMALLEST_SHRINKAGE)));
         formula.set_order(order);
