@@ -187,13 +187,13 @@ impl<S: Real, A: EstimatesErrors> Integrator<S> for Adaptive<'_, S, A> {
                 size = smallest.maximum(control.shrink(&mut driver.formula, trial) * size);
             };
             let rest = (interval.to - driver.progress().t_new).abs();
-            let suspects =
+            let suspected =
                 stiffness.suspects(&mut driver.formula, &driver.integration.progress, rest, &self.tolerances);
             if driver.accept()?.is_break() {
                 return Ok(driver.solution());
             }
-            if suspects {
-                stiffness.confirm(&mut driver.formula, &mut driver.integration, rest)?;
+            if let Some(stability_limit) = suspected {
+                stiffness.confirm(&mut driver.integration, driver.formula.rate(), stability_limit, rest)?;
             }
             size = control.grow(&mut driver.formula, trial) * size;
         }

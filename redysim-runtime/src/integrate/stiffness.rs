@@ -1,6 +1,6 @@
 //! Whether steps are small for stability rather than for accuracy: then an explicit method crawls, and should say so.
 
-use super::algorithm::{Formula, StabilityEstimate};
+use super::algorithm::Formula;
 use super::integration::{Integration, Progress};
 use super::stability::Linearised;
 use super::tolerance::Tolerances;
@@ -44,26 +44,25 @@ impl<S: Real> StiffnessTest<S> {
     }
 
     /// Looks at an attempted step that is good, before it is accepted; `rest` is what is left of the interval after it.
-    /// Whether it is time for [`confirm`](Self::confirm).
+    /// Returns the limit of stability when it is time for [`confirm`](Self::confirm).
     pub fn suspects<Y: Vector<S>>(
         &mut self,
         formula: &mut impl Formula<S, Y>,
         progress: &Progress<S, Y>,
         rest: S,
         tolerances: &Tolerances<'_, S>,
-    ) -> bool {
+    ) -> Option<S> {
         let size = progress.step_size().abs();
-        let Some(limit) = self.limit else { return false };
-        if rest.to_f64() <= limit as f64 * size.to_f64() {
-            return false;
+        if rest.to_f64() <= self.limit? as f64 * size.to_f64() {
+            return None;
         }
         self.wait = self.wait.saturating_sub(1);
         if self.wait > 0 {
-            return false;
+            return None;
         }
         let Some(estimate) = formula.stability(progress, tolerances) else {
             self.limit = None;
-            return false;
+            return None;
         };
         if estimate.size > S::from_f64(NEAR) * estimate.limit {
             (self.misses, self.hits) = (0, self.hits + 1);
@@ -75,32 +74,32 @@ impl<S: Real> StiffnessTest<S> {
                 self.start_over(INTERVAL);
             }
         }
-        self.hits == HITS
+        (self.hits == HITS).then_some(estimate.limit)
     }
 
-    /// Asks the eigenvalues of the state that is reached, with `rest` left of the interval.
+    /// Compares the steps with the limit of stability by the eigenvalues at the state that is reached, where the
+    /// derivative is `rate`, with `rest` left of the interval.
     ///
     /// # Errors
     /// [`IntegrationError::Stiff`] if the equation is stiff. Where there are no eigenvalues, nothing is known.
     pub fn confirm<Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
         &mut self,
-        formula: &mut impl Formula<S, Y>,
         integration: &mut Integration<'_, S, Y, O>,
+        rate: &Y,
+        stability_limit: S,
         rest: S,
     ) -> Result<(), IntegrationError<S>> {
         let step = self.sizes / S::from_f64(f64::from(HITS));
         // Where this was not it, the price is not to be paid again soon.
         self.start_over(10 * INTERVAL);
-        let estimate = formula.stability(&integration.progress, &integration.tolerances);
-        let Some(StabilityEstimate { limit, .. }) = estimate else { return Ok(()) };
-        let linearised = integration.aside(|aside| Linearised::<S, Y>::new(aside, formula.rate()));
+        let linearised = integration.aside(|aside| Linearised::<S, Y>::new(aside, rate));
         let Ok(linearised) = linearised else { return Ok(()) };
         let fastest = linearised.damped().fold(S::zero(), |fastest, (re, im)| {
             let size = (re * re + im * im).sqrt();
             // What swings more than it is damped is to be followed, not stepped over.
             if -re >= im { fastest.maximum(size) } else { fastest }
         });
-        if step * fastest < S::from_f64(CONFIRMED) * limit {
+        if step * fastest < S::from_f64(CONFIRMED) * stability_limit {
             return Ok(());
         }
         let remaining = libm::ceil(rest.to_f64() / step.to_f64()) as u64;
