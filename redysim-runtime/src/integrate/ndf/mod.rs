@@ -86,38 +86,27 @@ const fn up_to<const MAX_ORDER: usize>(kappas: &'static [f64; HIGHEST_ORDER]) ->
     kappas.split_at(MAX_ORDER).0
 }
 
-impl<const MAX_ORDER: usize> EstimatesErrors for Ndf<MAX_ORDER> {
-    type Control<S: Real, Y: Vector<S>> = VariableOrder;
+macro_rules! method {
+    ($name:ident, $kappas:ident) => {
+        impl<const MAX_ORDER: usize> EstimatesErrors for $name<MAX_ORDER> {
+            type Control<S: Real, Y: Vector<S>> = VariableOrder;
 
-    fn control<S: Real, Y: Vector<S>>() -> VariableOrder {
-        VariableOrder
-    }
+            fn control<S: Real, Y: Vector<S>>() -> VariableOrder {
+                VariableOrder
+            }
+        }
+
+        impl<const MAX_ORDER: usize> Algorithm for $name<MAX_ORDER> {
+            type Formula<S: Real, Y: Vector<S>> = NdfFormula<S, Y>;
+
+            fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+                integration: &mut Integration<'_, S, Y, O>,
+            ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
+                NdfFormula::new(const { up_to::<MAX_ORDER>(&$kappas) }, integration)
+            }
+        }
+    };
 }
 
-impl<const MAX_ORDER: usize> Algorithm for Ndf<MAX_ORDER> {
-    type Formula<S: Real, Y: Vector<S>> = NdfFormula<S, Y>;
-
-    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
-        integration: &mut Integration<'_, S, Y, O>,
-    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
-        NdfFormula::new(const { up_to::<MAX_ORDER>(&NUMERICAL_DIFFERENTIATION) }, integration)
-    }
-}
-
-impl<const MAX_ORDER: usize> EstimatesErrors for Bdf<MAX_ORDER> {
-    type Control<S: Real, Y: Vector<S>> = VariableOrder;
-
-    fn control<S: Real, Y: Vector<S>>() -> VariableOrder {
-        VariableOrder
-    }
-}
-
-impl<const MAX_ORDER: usize> Algorithm for Bdf<MAX_ORDER> {
-    type Formula<S: Real, Y: Vector<S>> = NdfFormula<S, Y>;
-
-    fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
-        integration: &mut Integration<'_, S, Y, O>,
-    ) -> Result<Self::Formula<S, Y>, IntegrationError<S>> {
-        NdfFormula::new(const { up_to::<MAX_ORDER>(&BACKWARD_DIFFERENTIATION) }, integration)
-    }
-}
+method!(Ndf, NUMERICAL_DIFFERENTIATION);
+method!(Bdf, BACKWARD_DIFFERENTIATION);
