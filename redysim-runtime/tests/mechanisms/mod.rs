@@ -8,6 +8,53 @@ use redysim_runtime::{
 
 pub const GRAVITY: f64 = 9.81;
 
+/// A mechanism of `$n` revolute joints and links without names.
+macro_rules! mechanism {
+    ($type:ident, $name:literal, $n:literal) => {
+        impl Mechanism for $type {
+            fn name(&self) -> &str {
+                $name
+            }
+            fn nq(&self) -> usize {
+                $n
+            }
+            fn nv(&self) -> usize {
+                $n
+            }
+            fn nl(&self) -> usize {
+                $n
+            }
+            fn link_name(&self, _: usize) -> Option<&str> {
+                None
+            }
+            fn joint_name(&self, _: usize) -> Option<&str> {
+                None
+            }
+        }
+
+        impl<S: Scalar> ConfigurationSpace<S> for $type {
+            type Coordinates = [S; $n];
+            type Velocities = [S; $n];
+            type State = [S; 2 * $n + 1];
+            type Matrix = [[S; $n]; $n];
+            type Links = [LinkState<S>; $n];
+
+            fn coordinate_rates(&self, _: &[S; $n], v: &[S; $n]) -> [S; $n] {
+                *v
+            }
+            fn integrate(&self, q: &[S; $n], dv: &[S; $n]) -> [S; $n] {
+                std::array::from_fn(|i| q[i] + dv[i])
+            }
+            fn difference(&self, q0: &[S; $n], q1: &[S; $n]) -> [S; $n] {
+                std::array::from_fn(|i| q1[i] - q0[i])
+            }
+            fn neutral(&self) -> [S; $n] {
+                [S::zero(); $n]
+            }
+        }
+    };
+}
+
 /// A point mass on a massless rod; q = 0 hangs down.
 #[derive(Clone, Copy)]
 pub struct Pendulum {
@@ -34,47 +81,7 @@ impl Pendulum {
     }
 }
 
-impl Mechanism for Pendulum {
-    fn name(&self) -> &str {
-        "pendulum"
-    }
-    fn nq(&self) -> usize {
-        1
-    }
-    fn nv(&self) -> usize {
-        1
-    }
-    fn nl(&self) -> usize {
-        1
-    }
-    fn link_name(&self, _: usize) -> Option<&str> {
-        None
-    }
-    fn joint_name(&self, _: usize) -> Option<&str> {
-        None
-    }
-}
-
-impl<S: Scalar> ConfigurationSpace<S> for Pendulum {
-    type Coordinates = [S; 1];
-    type Velocities = [S; 1];
-    type State = [S; 3];
-    type Matrix = [[S; 1]; 1];
-    type Links = [LinkState<S>; 1];
-
-    fn coordinate_rates(&self, _: &[S; 1], v: &[S; 1]) -> [S; 1] {
-        *v
-    }
-    fn integrate(&self, q: &[S; 1], dv: &[S; 1]) -> [S; 1] {
-        std::array::from_fn(|i| q[i] + dv[i])
-    }
-    fn difference(&self, q0: &[S; 1], q1: &[S; 1]) -> [S; 1] {
-        std::array::from_fn(|i| q1[i] - q0[i])
-    }
-    fn neutral(&self) -> [S; 1] {
-        [S::zero(); 1]
-    }
-}
+mechanism!(Pendulum, "pendulum", 1);
 
 impl<S: Scalar> InverseDynamics<S> for Pendulum {
     fn inverse_dynamics(&self, q: &[S; 1], _: &[S; 1], a: &[S; 1]) -> [S; 1] {
@@ -137,47 +144,7 @@ impl Arm {
     }
 }
 
-impl Mechanism for Arm {
-    fn name(&self) -> &str {
-        "arm"
-    }
-    fn nq(&self) -> usize {
-        2
-    }
-    fn nv(&self) -> usize {
-        2
-    }
-    fn nl(&self) -> usize {
-        2
-    }
-    fn link_name(&self, _: usize) -> Option<&str> {
-        None
-    }
-    fn joint_name(&self, _: usize) -> Option<&str> {
-        None
-    }
-}
-
-impl<S: Scalar> ConfigurationSpace<S> for Arm {
-    type Coordinates = [S; 2];
-    type Velocities = [S; 2];
-    type State = [S; 5];
-    type Matrix = [[S; 2]; 2];
-    type Links = [LinkState<S>; 2];
-
-    fn coordinate_rates(&self, _: &[S; 2], v: &[S; 2]) -> [S; 2] {
-        *v
-    }
-    fn integrate(&self, q: &[S; 2], dv: &[S; 2]) -> [S; 2] {
-        std::array::from_fn(|i| q[i] + dv[i])
-    }
-    fn difference(&self, q0: &[S; 2], q1: &[S; 2]) -> [S; 2] {
-        std::array::from_fn(|i| q1[i] - q0[i])
-    }
-    fn neutral(&self) -> [S; 2] {
-        [S::zero(); 2]
-    }
-}
+mechanism!(Arm, "arm", 2);
 
 impl<S: Scalar> InverseDynamics<S> for Arm {
     fn inverse_dynamics(&self, q: &[S; 2], v: &[S; 2], a: &[S; 2]) -> [S; 2] {
