@@ -1,6 +1,5 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
-use crate::joint::Joint;
 use crate::spatial::{Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links and loops stand in the file's order.
@@ -48,13 +47,6 @@ pub struct Link {
     pub actuated: bool,
     /// Within what the joint moves; not every file says.
     pub range: Option<JointRange>,
-}
-
-impl Link {
-    /// How far along its axis the link stands where the joint variable is zero, m.
-    pub fn offset_along_axis(&self) -> f64 {
-        Joint::of(self).and_then(|joint| joint.screw().slide(self.offset)).unwrap_or(0.0)
-    }
 }
 
 /// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function
