@@ -51,7 +51,7 @@ fn without_the_pass_nothing_is_a_loop() {
 }
 
 #[test]
-fn short_functions_and_robots_without_alike_links_are_unrolled() {
+fn short_functions_and_robots_without_uniform_links_are_unrolled() {
     for name in ["kr5", "gripper", "peers/humanoid30"] {
         assert!(with_loops(&shipped(name), &Passes::all()).is_empty(), "{name}");
     }

@@ -152,7 +152,7 @@ fn energies_places_and_loops_are_exact() {
 }
 
 #[test]
-fn the_code_says_what_was_pruned_and_how_well() {
+fn the_documentation_states_the_tolerance_and_the_worst_error() {
     let functions = Functions::named(["inverse_dynamics"]).unwrap();
     let options = CodegenOptions { functions, tolerance: Some(0.01), ..CodegenOptions::default() };
     let source = source_file_with(&model("test/kr5_ranges"), "Kr5", &options).unwrap();
@@ -164,7 +164,7 @@ fn the_code_says_what_was_pruned_and_how_well() {
 }
 
 #[test]
-fn without_a_range_nothing_is_pruned_and_that_is_said() {
+fn without_a_range_nothing_is_pruned_with_a_warning() {
     let functions = Functions::named(["gravity_forces"]).unwrap();
     let options = CodegenOptions { functions, tolerance: Some(0.01), ..CodegenOptions::default() };
     let (name, runtime) = (quote::format_ident!("Kr5"), quote::quote!(::redysim_runtime));

@@ -9,7 +9,7 @@ use std::fmt;
 pub struct Faults {
     /// Errors (at least one) and warnings.
     pub diagnostics: Diagnostics,
-    /// What could be read nevertheless: enough for a stub that lets the code around the model compile.
+    /// The interface as far as it can be read: enough for a stub with which the code around the model compiles.
     pub interface: Box<PublicInterface>,
     /// Whether nothing was read, because the file does not exist or cannot be read.
     pub unread: bool,

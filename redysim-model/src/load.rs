@@ -133,8 +133,7 @@ impl Model {
         let mut findings = new_findings();
         let (file, options) = (parse(&source), parse(&options_source));
         if !file.is_valid() || !options.is_valid() {
-            // What stands in a broken text is read for the interface only: its errors would be echoes of the syntax
-            // errors.
+            // A text with syntax errors is read for the interface only: other errors in it may follow from these.
             let interface = Document::read(&file, &options, &mut new_findings()).public_interface();
             file.report(&mut findings);
             findings.within(Text::Beside, |findings| options.report(findings));

@@ -36,7 +36,7 @@ impl PublicInterface {
         }
     }
 
-    /// The interface of the type that is generated of a checked model with the given options.
+    /// The interface of the type that is generated from a checked model with the given options.
     pub fn new(model: &Model, options: &CodegenOptions) -> Self {
         PublicInterface {
             name: model.name.clone(),

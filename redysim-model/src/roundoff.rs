@@ -6,7 +6,7 @@ use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
 
 /// Sets to zero what is smaller than the roundoff of the largest element, so that the noise of a fixed rotation never
-/// becomes a term of a recursion. What is not known before run time stays.
+/// becomes a term of a recursion. A value that is not known before run time is unchanged.
 fn without_noise<P: Parameter>(values: &mut [&mut P]) {
     let largest = values.iter().filter_map(|value| value.number()).fold(0.0_f64, |largest, x| largest.max(x.abs()));
     for value in values {

@@ -113,7 +113,7 @@ impl<P> Tree<P> {
         self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
     }
 
-    /// The same tree with `f` of each inertial parameter and of gravity.
+    /// The tree with `f` applied to gravity and to each inertial parameter.
     pub fn map<Q>(&self, f: impl Fn(P) -> Q) -> Tree<Q>
     where
         P: Scalar,

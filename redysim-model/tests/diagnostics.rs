@@ -100,7 +100,7 @@ fn a_file_that_cannot_be_read_is_a_diagnostic() {
 }
 
 #[test]
-fn faulty_files_still_have_an_outline() {
+fn invalid_files_have_a_public_interface() {
     for (name, links, joints) in [
         ("duplicate_key", ["upper", "fore"], ["upper", "fore"]),
         ("many_faults", ["upper", "fore"], ["upper", "fore"]),

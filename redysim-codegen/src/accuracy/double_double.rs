@@ -7,7 +7,7 @@ use super::with_error::WithError;
 use redysim_runtime::Scalar;
 use std::ops::{Add, Div, Mul, Neg};
 
-/// The error is the rest of the number, which is the sum of value and error.
+/// The number is the sum of value and error.
 #[derive(Clone, Copy, Debug)]
 pub enum Rest {}
 

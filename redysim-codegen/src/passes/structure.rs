@@ -1,5 +1,5 @@
-//! What holds of every graph: operands precede the nodes that use them, equal values are one node, and every node is
-//! as the constructors of [`Graph`] make it.
+//! The invariants of every graph: operands precede the nodes that use them, equal values are one node, and every node
+//! is as the constructors of [`Graph`] make it.
 
 use super::PassFault;
 use crate::expressions::Expressions;

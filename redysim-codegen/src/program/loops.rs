@@ -30,7 +30,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The live-out values of the loops before that this one reads for the same group.
+    /// The live-out values of earlier loops that this loop reads for the same group.
     fn reads_of_other_loops(&self, rerolled: &Rerolled, number: usize) -> Vec<LoopRead> {
         let template = &rerolled.sweeps[number].template;
         let is_read = |node: usize| {

@@ -13,7 +13,7 @@ use redysim_model::joint::Vanishing;
 use redysim_model::parameter::Parameter;
 use redysim_model::regroup::base_parameters;
 
-/// The tree with frames that lower the cost, as far as they cost no digits.
+/// The tree with frames that lower the cost and cost no digits.
 pub fn chosen<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
     let mut best = canonical(tree, keeps_digits);
     for body in (0..best.bodies.len()).rev() {

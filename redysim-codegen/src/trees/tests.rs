@@ -1,4 +1,4 @@
-//! The passes over a robot of which some inertias are given at run time.
+//! Passes over a tree with inertias that are given at run time.
 
 use super::{axis_masses, frames, parallel_axes, units};
 use crate::symbol::Symbol;

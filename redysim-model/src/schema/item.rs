@@ -1,4 +1,4 @@
-//! What messages call links and loops.
+//! The names of links and loops in messages.
 
 use super::keys::NAME;
 use redysim_toml::words::quoted;

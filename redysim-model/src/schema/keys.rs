@@ -1,5 +1,5 @@
-//! The keys of a model file. All that is known of a key stands here: the reader, the messages and the key documentation
-//! (`docs/model_keys.md`) take it from here.
+//! The keys of a model file. Each is defined once, for the reader, the messages and the key documentation
+//! (`docs/model_keys.md`).
 
 use redysim_toml::{Key, Keys};
 

@@ -10,12 +10,12 @@ use redysim_runtime::{Function, Functions};
 use redysim_toml::{DeValue, Field, Findings, Reader, Spanned, Table, Text};
 use std::ops::Range;
 
-/// The options: key by key what stands beside the file or, where nothing does, what the file has.
+/// The options. Each key beside the file takes precedence over the file's.
 #[derive(Debug)]
 pub(crate) struct OptionsTable {
     pub(crate) functions: Entry<Field<RequestedFunctions>>,
-    /// The joints that are locked. One whose value is invalid is among them, at zero: what is around the model counts
-    /// joints.
+    /// The joints that are locked. One whose value is invalid is locked at zero, so that the interface has the right
+    /// number of joints.
     pub(crate) locked: Entry<Vec<Lock>>,
     pub(crate) tolerance: Entry<Field<f64>>,
     pub(crate) forward_dynamics: Entry<Field<AccelerationMethod>>,
@@ -32,7 +32,7 @@ pub(crate) struct Lock {
     pub(crate) place: Range<usize>,
 }
 
-/// What one of the two texts has under a key.
+/// The value of a key, and the text that has it.
 #[derive(Debug)]
 pub(crate) struct Entry<T> {
     pub(crate) text: Text,
@@ -51,7 +51,7 @@ impl RequestedFunctions {
 }
 
 impl OptionsTable {
-    /// Reads the keys of options from the file and from what is beside it. `links` are there if all can be read.
+    /// Reads the options in the file and beside it. `links` is `None` if one of them cannot be read.
     pub(super) fn read(
         [file, beside]: [&Table<'_>; 2],
         item: &str,
