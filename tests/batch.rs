@@ -3,10 +3,10 @@
 mod common;
 
 use common::models::{Gripper, Kr5};
-use redysim::batch::{self, Batched, LengthMismatch};
+use redysim::batch::{self, Batched};
 use redysim::{
-    BiasForces, ConfigurationSpace, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics, MassMatrix,
-    Real, Scalar,
+    BiasForces, ConfigurationSpace, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics,
+    LengthMismatch, MassMatrix, Real, Scalar,
 };
 
 /// No state, one, about as many as lanes, enough that a last task and a last group are not full.
@@ -123,7 +123,7 @@ fn a_wrong_length_is_named_and_nothing_is_written() {
     let states = [[0.5; 6]; 8];
     let short = [[0.5; 6]; 7];
     let mut found = [[9.0; 6]; 8];
-    let expected = |slice| Err(LengthMismatch { slice, length: 7, states: 8 });
+    let expected = |vector| Err(LengthMismatch { vector, length: 7, expected: 8 });
     assert_eq!(batch::inverse_dynamics(&Kr5, &states, &short, &states, &mut found), expected("v"));
     assert_eq!(batch::inverse_dynamics(&Kr5, &states, &states, &short, &mut found), expected("a"));
     assert_eq!(batch::inverse_dynamics(&Kr5, &states, &states, &states, &mut found[..7]), expected("tau"));
@@ -137,8 +137,8 @@ fn a_wrong_length_is_named_and_nothing_is_written() {
     assert_eq!(batch::evaluate(&Held, &states, &mut found[..7]), expected("results"));
     assert_eq!(batch::mass_matrix(&Kr5, &states, &mut [[[0.0; 6]; 6]; 7]), expected("matrices"));
     assert_eq!(found, [[9.0; 6]; 8]);
-    let mismatch = LengthMismatch { slice: "v", length: 7, states: 8 };
-    assert_eq!(mismatch.to_string(), "`v` has 7 entries for 8 states");
+    let mismatch = LengthMismatch { vector: "v", length: 7, expected: 8 };
+    assert_eq!(mismatch.to_string(), "`v` must have 8 elements, but it has 7");
 }
 
 #[test]

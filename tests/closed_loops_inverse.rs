@@ -6,7 +6,11 @@
 mod common;
 
 use common::comparison::Comparison;
-use redysim::{ClosedLoop, ClosedLoopInverse, LoopError, LoopRows, Motion, redysim};
+use common::models::generic;
+use redysim::{
+    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, IntegrationError, Integrator,
+    LengthMismatch, LoopError, LoopRows, Motion, Ode45, redysim,
+};
 use spatial::FourbarSpatial;
 
 #[allow(deprecated, reason = "the compiler warns of its redundant row")]
@@ -151,7 +155,20 @@ fn each_independent_coordinate_has_one_component_of_the_trajectory() {
     let error = ClosedLoopInverse::new(loops, &[0, 0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
     assert_eq!(error, LoopError::RepeatedCoordinate { coordinate: 0 });
     let error = ClosedLoopInverse::new(loops, &[0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
-    assert_eq!(error, LoopError::WrongTrajectoryLength { given: 2, needed: 1 });
+    assert_eq!(error, LoopError::WrongLength(LengthMismatch { vector: "trajectory.q", length: 2, expected: 1 }));
+}
+
+#[test]
+fn each_independent_coordinate_has_one_component_of_the_gains() {
+    let fourbar = generic("fourbar");
+    let motion = |_t: f64| redysim::Motion { q: vec![0.3], v: vec![0.0], a: vec![0.0] };
+    let law = ClosedLoopComputedTorque::new(ClosedLoop::new(&fourbar), &[0], motion, [vec![1.0; 2], vec![1.0]]);
+    let mismatch = LengthMismatch { vector: "kp", length: 2, expected: 1 };
+    assert_eq!(law.forces(0.0, &GUESS.to_vec(), &vec![0.0; 3]), Err(LoopError::WrongLength(mismatch)));
+    let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&fourbar), law);
+    let start = simulation.state(&GUESS.to_vec(), &vec![0.0; 3]);
+    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
+    assert_eq!(error, IntegrationError::WrongLength(mismatch));
 }
 
 redysim! { struct SliderCrank("models/slider_crank.toml"); }

@@ -173,3 +173,9 @@ fn steps_and_tolerances_that_cannot_be_are_refused_before_any_work() {
         every_adaptive(rtol, atol, &mut Refused);
     }
 }
+
+#[test]
+#[should_panic(expected = "`tau` must have 6 elements, but it has 5: `kr5` has 6 coordinates and 6 velocities")]
+fn the_run_time_path_names_a_vector_of_wrong_length() {
+    let _: Vec<f64> = generic("kr5").forward_dynamics(&vec![0.0; 6], &vec![0.0; 6], &vec![0.0; 5]);
+}

@@ -7,14 +7,16 @@ use redysim_runtime::dual;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
     BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
+    LengthMismatch, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
+    Mechanism, Scalar,
 };
 
 /// A mechanism whose model is known only at run time.
 ///
 /// It implements the traits of [`redysim_runtime`] as compiled types do, with `Vec` for arrays, and is the oracle that
-/// specialised code is tested against. The lengths of the vectors are known only at run time, too: a vector that has
-/// not one element for each joint is a fault of the program and panics, with a message that names it.
+/// specialised code is tested against. The lengths of the vectors are known only at run time, too: a function that is
+/// called with a vector of wrong length panics, as slices of the standard library do, with the [`LengthMismatch`] that
+/// names it. A simulation of the mechanism reports wrong lengths before it begins.
 #[derive(Clone, Debug)]
 pub struct GenericMechanism {
     model: Model,
@@ -84,27 +86,22 @@ impl GenericMechanism {
     /// [`MassMatrix::mass_matrix`], written by rows to `matrix` of length NV², in the room of `workspace`.
     pub fn mass_matrix_in<S: Scalar>(&self, workspace: &mut Workspace<S>, q: &[S], matrix: &mut [S]) {
         self.check(&[("q", q)]);
-        let nv = self.tree.nv();
-        assert!(
-            matrix.len() == nv * nv,
-            "`matrix` must have {nv} rows of {nv} elements for `{}`, but it has {} elements",
-            self.model.name,
-            matrix.len()
-        );
+        self.check_length("matrix", matrix, self.tree.nv().pow(2));
         denoc::mass_matrix_in(workspace, &self.tree, &Untraced, q, matrix);
     }
 
-    fn check<S>(&self, vectors: &[(&str, &[S])]) {
+    /// Panics with the first vector of wrong length: coordinates are those whose names begin with q.
+    fn check<S>(&self, vectors: &[(&'static str, &[S])]) {
+        let (nq, nv) = (self.tree.nq(), self.tree.nv());
         for (name, vector) in vectors {
-            let coordinates = name.starts_with('q');
-            let (expected, elements) =
-                if coordinates { (self.tree.nq(), "coordinates") } else { (self.tree.nv(), "velocities") };
-            assert!(
-                vector.len() == expected,
-                "`{name}` must have one element for each of the {expected} {elements} of `{}`, but it has {}",
-                self.model.name,
-                vector.len()
-            );
+            self.check_length(name, vector, if name.starts_with('q') { nq } else { nv });
+        }
+    }
+
+    fn check_length<S>(&self, name: &'static str, vector: &[S], expected: usize) {
+        if let Err(mismatch) = LengthMismatch::check(name, vector, expected) {
+            let (nq, nv) = (self.tree.nq(), self.tree.nv());
+            panic!("{mismatch}: `{}` has {nq} coordinates and {nv} velocities", self.model.name);
         }
     }
 }

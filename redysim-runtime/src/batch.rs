@@ -22,8 +22,7 @@
 
 use crate::dispatch::Instructions;
 use crate::lanes::{self, Lanes};
-use crate::{BiasForces, ForwardDynamics, GravityForces, InverseDynamics, MassMatrix, Real, Scalar};
-use core::fmt;
+use crate::{BiasForces, ForwardDynamics, GravityForces, InverseDynamics, LengthMismatch, MassMatrix, Real, Scalar};
 use rayon::prelude::*;
 
 /// As many states as are not worth a second thread.
@@ -173,31 +172,6 @@ fn unpack<L: Lanes<T, W>, T: Real, const W: usize, const N: usize>(lanes: [L; N]
     }
 }
 
-/// A slice that has not one entry for each state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LengthMismatch {
-    /// The name of the slice, as the function calls it.
-    pub slice: &'static str,
-    /// Its length.
-    pub length: usize,
-    /// The number of states, which is the length of the function's first slice.
-    pub states: usize,
-}
-
-impl fmt::Display for LengthMismatch {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { slice, length, states } = self;
-        write!(formatter, "`{slice}` has {length} entries for {states} states")
-    }
-}
-
-impl core::error::Error for LengthMismatch {}
-
-fn same_length<T>(states: usize, slice: &'static str, entries: &[T]) -> Result<(), LengthMismatch> {
-    let length = entries.len();
-    if length == states { Ok(()) } else { Err(LengthMismatch { slice, length, states }) }
-}
-
 /// Calls the form of `group` for the best instructions that the processor has, for each group of up to as many results
 /// as its lanes hold, with the index of the first.
 fn in_groups<T: Batched, R: Send>(
@@ -264,14 +238,14 @@ fn part<T>(entries: &[T], start: usize, count: usize) -> &[T] {
 /// let mut ends = vec![[0.0; 2]; starts.len()];
 /// batch::map(&starts, &mut ends, swung)?;
 /// assert_eq!(ends[0], [0.0, 0.0]);
-/// # Ok::<(), batch::LengthMismatch>(())
+/// # Ok::<(), redysim_runtime::LengthMismatch>(())
 /// ```
 pub fn map<T: Batched, const I: usize, const O: usize>(
     inputs: &[[T; I]],
     results: &mut [[T; O]],
     function: impl Fn([T::Lanes; I]) -> [T::Lanes; O] + Sync,
 ) -> Result<(), LengthMismatch> {
-    same_length(inputs.len(), "results", results)?;
+    LengthMismatch::check("results", results, inputs.len())?;
     in_lanes::<T, T::Lanes, _>(results, |start, results| {
         Packed::unpack(function(Packed::pack(part(inputs, start, results.len()))), results);
     });
@@ -315,7 +289,7 @@ pub trait Function<const I: usize, const O: usize> {
 /// let mut ends = vec![[0.0; 2]; starts.len()];
 /// batch::evaluate(&Swung, &starts, &mut ends)?;
 /// assert_eq!(ends[0], [0.0, 0.0]);
-/// # Ok::<(), batch::LengthMismatch>(())
+/// # Ok::<(), redysim_runtime::LengthMismatch>(())
 /// ```
 pub fn evaluate<T: Batched, F: Function<I, O> + Sync, const I: usize, const O: usize>(
     function: &F,
@@ -331,7 +305,7 @@ pub fn evaluate<T: Batched, F: Function<I, O> + Sync, const I: usize, const O: u
     ) {
         L::unpack(function.evaluate::<L>(L::pack(part(inputs, start, results.len()))), results);
     }
-    same_length(inputs.len(), "results", results)?;
+    LengthMismatch::check("results", results, inputs.len())?;
     in_groups::<T, _>(
         results,
         #[inline(always)]
@@ -378,9 +352,9 @@ where
         let a = L::pack(part(a, start, tau.len()));
         L::unpack(mechanism.inverse_dynamics(&q, &v, &a), tau);
     }
-    same_length(q.len(), "v", v)?;
-    same_length(q.len(), "a", a)?;
-    same_length(q.len(), "tau", tau)?;
+    LengthMismatch::check("v", v, q.len())?;
+    LengthMismatch::check("a", a, q.len())?;
+    LengthMismatch::check("tau", tau, q.len())?;
     in_groups::<T, _>(
         tau,
         #[inline(always)]
@@ -427,9 +401,9 @@ where
         let tau = L::pack(part(tau, start, a.len()));
         L::unpack(mechanism.forward_dynamics(&q, &v, &tau), a);
     }
-    same_length(q.len(), "v", v)?;
-    same_length(q.len(), "tau", tau)?;
-    same_length(q.len(), "a", a)?;
+    LengthMismatch::check("v", v, q.len())?;
+    LengthMismatch::check("tau", tau, q.len())?;
+    LengthMismatch::check("a", a, q.len())?;
     in_groups::<T, _>(
         a,
         #[inline(always)]
@@ -473,8 +447,8 @@ where
         let v = L::pack(part(v, start, tau.len()));
         L::unpack(mechanism.bias_forces(&q, &v), tau);
     }
-    same_length(q.len(), "v", v)?;
-    same_length(q.len(), "tau", tau)?;
+    LengthMismatch::check("v", v, q.len())?;
+    LengthMismatch::check("tau", tau, q.len())?;
     in_groups::<T, _>(
         tau,
         #[inline(always)]
@@ -515,7 +489,7 @@ where
         let q = L::pack(part(q, start, tau.len()));
         L::unpack(mechanism.gravity_forces(&q), tau);
     }
-    same_length(q.len(), "tau", tau)?;
+    LengthMismatch::check("tau", tau, q.len())?;
     in_groups::<T, _>(
         tau,
         #[inline(always)]
@@ -561,7 +535,7 @@ where
             }
         }
     }
-    same_length(q.len(), "matrices", matrices)?;
+    LengthMismatch::check("matrices", matrices, q.len())?;
     in_groups::<T, _>(
         matrices,
         #[inline(always)]

@@ -3,10 +3,11 @@
 //! The given laws treat each joint by itself, with one gain for each, and subtract coordinates from coordinates: they
 //! are for revolute and prismatic joints. Torques are N m (N for a prismatic joint), proportional gains N m/rad (N/m),
 //! derivative gains N m s/rad (N s/m), unless said otherwise. One gain for all joints is written `[50.0; Kr5::NV]`, or
-//! for any mechanism [`uniform`]. A gain or a target that a `Vec` lacks counts as NaN, which integrators report.
+//! for any mechanism [`uniform`]. A simulation does not begin with gains or targets of wrong length, which a `Vec` can have
+//! ([`TorqueLaw::check_lengths`]).
 
 use crate::vector::entry;
-use crate::{ConfigurationSpace, InverseDynamics, Real, Scalar, Trajectory, Vector};
+use crate::{ConfigurationSpace, InverseDynamics, LengthMismatch, Mechanism, Motion, Real, Scalar, Trajectory, Vector};
 
 /// What the actuators do. Every closure `FnMut(S, &Coordinates, &Velocities) -> Velocities` is one.
 ///
@@ -15,6 +16,16 @@ use crate::{ConfigurationSpace, InverseDynamics, Real, Scalar, Trajectory, Vecto
 pub trait TorqueLaw<S: Scalar, M: ConfigurationSpace<S>> {
     /// The joint forces at time `t` (s) for coordinates `q` and velocities `v`.
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities;
+
+    /// Checks, before a simulation of `mechanism` begins at the time `t`, that the vectors of the law have the lengths
+    /// that it needs. Arrays always have. By default, nothing is checked.
+    ///
+    /// # Errors
+    /// The first vector that has another length.
+    fn check_lengths(&self, t: S, mechanism: &M) -> Result<(), LengthMismatch> {
+        let _ = (t, mechanism);
+        Ok(())
+    }
 
     /// The derivative of the joint forces along `(dq, dv)`, (∂τ/∂q) dq + (∂τ/∂v) dv, for the Jacobians of implicit
     /// integrators. `None`, the default, leaves it to differences of [`torque`](Self::torque).
@@ -78,6 +89,11 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Proportional<M::Coor
         M::Velocities::from_fn(v.as_ref().len(), |i| entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)))
     }
 
+    fn check_lengths(&self, _t: S, mechanism: &M) -> Result<(), LengthMismatch> {
+        LengthMismatch::check("target", self.target.as_ref(), mechanism.nq())?;
+        LengthMismatch::check("kp", self.kp.as_ref(), mechanism.nv())
+    }
+
     fn torque_tangent(
         &mut self,
         _t: S,
@@ -106,6 +122,11 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivati
         })
     }
 
+    fn check_lengths(&self, _t: S, mechanism: &M) -> Result<(), LengthMismatch> {
+        LengthMismatch::check("target", self.target.as_ref(), mechanism.nq())?;
+        check_gains(mechanism, &self.kp, &self.kd)
+    }
+
     fn torque_tangent(
         &mut self,
         _t: S,
@@ -114,6 +135,22 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivati
     ) -> Option<M::Velocities> {
         Some(spring_and_damper(&self.kp, &self.kd, dq, dv))
     }
+}
+
+/// Checks that there is a gain Kp and a gain Kd for each velocity.
+fn check_gains<S: Scalar, V: Vector<S>>(mechanism: &impl Mechanism, kp: &V, kd: &V) -> Result<(), LengthMismatch> {
+    LengthMismatch::check("kp", kp.as_ref(), mechanism.nv())?;
+    LengthMismatch::check("kd", kd.as_ref(), mechanism.nv())
+}
+
+/// Checks that a motion moves all coordinates.
+fn check_motion<S: Scalar, Q: Vector<S>, V: Vector<S>>(
+    mechanism: &impl Mechanism,
+    motion: &Motion<Q, V>,
+) -> Result<(), LengthMismatch> {
+    LengthMismatch::check("trajectory.q", motion.q.as_ref(), mechanism.nq())?;
+    LengthMismatch::check("trajectory.v", motion.v.as_ref(), mechanism.nv())?;
+    LengthMismatch::check("trajectory.a", motion.a.as_ref(), mechanism.nv())
 }
 
 /// −Kp dq − Kd dv.
@@ -144,6 +181,11 @@ where
             entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, i))
                 + entry(&self.kd, i) * (entry(&desired.v, i) - entry(v, i))
         })
+    }
+
+    fn check_lengths(&self, t: S, mechanism: &M) -> Result<(), LengthMismatch> {
+        check_motion(mechanism, &self.trajectory.at(t))?;
+        check_gains(mechanism, &self.kp, &self.kd)
     }
 
     fn torque_tangent(
@@ -198,6 +240,11 @@ where
 {
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         self.mechanism.inverse_dynamics(q, v, &self.acceleration(t, q, v))
+    }
+
+    fn check_lengths(&self, t: S, mechanism: &M) -> Result<(), LengthMismatch> {
+        check_motion(mechanism, &self.trajectory.at(t))?;
+        check_gains(mechanism, &self.kp, &self.kd)
     }
 
     fn torque_tangent(

@@ -32,6 +32,14 @@
 //! | [`closed_loop`] | constraint forces, assembly, projection and inverse dynamics of closed loops |
 //! | [`batch`], [`dispatch`] | many states on all cores; the instructions that the processor has |
 //!
+//! # Lengths
+//!
+//! The length of an array is part of its type. The length of a slice or a `Vec` is checked where it enters, and one
+//! that is wrong is named by a [`LengthMismatch`] or an error of the type that is built: when a trajectory is built, a
+//! batch is computed, inverse dynamics of loops are asked for, or an integration begins ([`Ode::check_lengths`],
+//! [`TorqueLaw::check_lengths`]). Functions of a mechanism whose result is a vector cannot return an error: with a `Vec`
+//! of wrong length, they panic with the same words.
+//!
 //! # Features
 //!
 //! - `simulation` (default): integrators, trajectories, torque laws, and the closed-loop solves that need them.
@@ -102,4 +110,4 @@ pub use scalar::{Real, Scalar};
 pub use simulate::{ForwardSimulation, SimulationState};
 #[cfg(feature = "simulation")]
 pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
-pub use vector::Vector;
+pub use vector::{LengthMismatch, Vector};

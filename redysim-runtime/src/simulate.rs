@@ -1,7 +1,7 @@
 //! Forward simulation: a mechanism and a torque law as an ordinary differential equation.
 
 use crate::vector::entry;
-use crate::{ConfigurationSpace, ForwardDynamics, Ode, Real, TorqueLaw, Vector};
+use crate::{ConfigurationSpace, ForwardDynamics, LengthMismatch, Ode, Real, TorqueLaw, Vector};
 
 /// A mechanism moved by a torque law, as an [`Ode`] in the state y = [q, q̇, E_act]:
 ///
@@ -53,13 +53,22 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
         self.mechanism
     }
 
-    /// The state [q, v, 0] to start from: the actuators have done no work yet.
+    /// The state [q, v, 0] to start from: the actuators have done no work yet. A `Vec` that is too short or too long
+    /// makes it so, which an integration reports before it begins.
     pub fn state<S: Real>(&self, q: &M::Coordinates, v: &M::Velocities) -> M::State
     where
         M: ConfigurationSpace<S>,
     {
-        let sizes @ (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
-        M::State::from_fn(nq + nv + 1, |i| component(i, sizes, (q, v, S::zero())))
+        let sizes = (self.mechanism.nq(), self.mechanism.nv());
+        M::State::from_fn(q.as_ref().len() + v.as_ref().len() + 1, |i| component(i, sizes, (q, v, S::zero())))
+    }
+
+    /// Checks that a state has the parts q, v and energy.
+    pub(crate) fn check_state<S: Real>(&self, state: &M::State) -> Result<(), LengthMismatch>
+    where
+        M: ConfigurationSpace<S>,
+    {
+        LengthMismatch::check("state", state.as_ref(), self.mechanism.nq() + self.mechanism.nv() + 1)
     }
 
     /// Writes [q, v, energy], or their rates, to `state`. What a `Vec` lacks is NaN.
@@ -109,6 +118,11 @@ where
         let rates = self.mechanism.coordinate_rates(&q, &v);
         let accelerations = self.mechanism.forward_dynamics(&q, &v, &tau);
         self.write((&rates, &accelerations, dot(&tau, &v)), rate);
+    }
+
+    fn check_lengths(&self, t: S, state: &M::State) -> Result<(), LengthMismatch> {
+        self.check_state(state)?;
+        self.law.check_lengths(t, self.mechanism)
     }
 
     fn tangent(&mut self, t: S, state: &M::State, direction: &M::State, slope: &mut M::State) -> bool {

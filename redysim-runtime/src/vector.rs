@@ -1,5 +1,7 @@
 //! Vectors whose length comes from their type, or, on the generic path, from the model.
 
+use core::fmt;
+
 /// A list of values of fixed length: `[T; N]`, or `Vec<T>` with the feature `alloc`.
 pub trait Vector<T>: Clone + AsRef<[T]> + AsMut<[T]> {
     /// A vector of as many elements of another kind: `[U; N]`. `Of<Self>` holds the rows of a square matrix.
@@ -28,8 +30,44 @@ impl<T: Clone> Vector<T> for alloc::vec::Vec<T> {
     }
 }
 
-/// Element `index`; NaN if the vector is too short, which only a `Vec` can be. NaN does not go unnoticed: integrators
-/// report it, where a panic would take a controller down and a zero would hide the fault.
+/// A vector or a slice has another length than its use needs.
+///
+/// The length of an array is part of its type, so that this is an error of slices and of `Vec`, and it is found where
+/// they enter: when an integration or a batch begins, not while it runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LengthMismatch {
+    /// The name of the vector, as the function or the type calls it.
+    pub vector: &'static str,
+    /// Its length.
+    pub length: usize,
+    /// The length that is needed.
+    pub expected: usize,
+}
+
+impl LengthMismatch {
+    /// Checks that a vector has the length `expected`.
+    ///
+    /// # Errors
+    /// If it does not.
+    #[inline]
+    pub fn check<T>(vector: &'static str, elements: &[T], expected: usize) -> Result<(), Self> {
+        let length = elements.len();
+        if length == expected { Ok(()) } else { Err(Self { vector, length, expected }) }
+    }
+}
+
+impl fmt::Display for LengthMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { vector, length, expected } = self;
+        let elements = if *expected == 1 { "element" } else { "elements" };
+        write!(f, "`{vector}` must have {expected} {elements}, but it has {length}")
+    }
+}
+
+impl core::error::Error for LengthMismatch {}
+
+/// Element `index`; NaN if the vector is too short, which only a `Vec` can be whose length nobody has checked. NaN does
+/// not go unnoticed: integrators report it, where a panic would take a controller down and a zero would hide the error.
 pub(crate) fn entry<T: crate::Scalar, V: Vector<T>>(vector: &V, index: usize) -> T {
     vector.as_ref().get(index).copied().unwrap_or_else(|| T::from_f64(f64::NAN))
 }

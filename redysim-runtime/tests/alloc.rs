@@ -8,8 +8,9 @@ use mechanisms::Arm;
 use redysim_runtime::integrate::Accepted;
 use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError, Integrator, LinkState, Mechanism,
-    Ode, Ode5, Ode15s, Ode45, Proportional, ProportionalDerivative, Radau5, Solution, TorqueLaw, ZeroTorque,
+    ComputedTorque, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError, Integrator,
+    InverseDynamics, LengthMismatch, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Proportional,
+    ProportionalDerivative, Radau5, Solution, TorqueLaw, TrackingPd, ZeroTorque,
 };
 
 /// The arm with sizes known only at run time, and as many accelerations as it says.
@@ -74,6 +75,12 @@ impl ForwardDynamics<f64> for DynamicArm {
     }
 }
 
+impl InverseDynamics<f64> for DynamicArm {
+    fn inverse_dynamics(&self, q: &Vec<f64>, v: &Vec<f64>, a: &Vec<f64>) -> Vec<f64> {
+        Arm.inverse_dynamics(&[q[0], q[1]], &[v[0], v[1]], &[a[0], a[1]]).to_vec()
+    }
+}
+
 const Q: [f64; 2] = [0.5, -0.25];
 const V: [f64; 2] = [2.0, 3.0];
 
@@ -111,27 +118,52 @@ fn vectors_give_the_same_bits_as_arrays() {
     compare(Ode15s::new());
 }
 
+fn refused(law: impl TorqueLaw<f64, DynamicArm>) -> IntegrationError<f64> {
+    let mut simulation = ForwardSimulation::new(&DynamicArm(2), law);
+    let start = simulation.state(&Q.to_vec(), &V.to_vec());
+    Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err()
+}
+
+fn wrong(vector: &'static str, length: usize, expected: usize) -> IntegrationError<f64> {
+    IntegrationError::WrongLength(LengthMismatch { vector, length, expected })
+}
+
 #[test]
-fn a_missing_gain_or_target_counts_as_not_a_number() {
+fn a_simulation_begins_only_with_gains_and_targets_of_the_right_length() {
+    let two = || vec![1.0; 2];
+    assert_eq!(refused(Proportional { target: two(), kp: vec![1.0] }), wrong("kp", 1, 2));
+    assert_eq!(refused(Proportional { target: vec![0.0; 3], kp: two() }), wrong("target", 3, 2));
+    assert_eq!(refused(ProportionalDerivative { target: two(), kp: two(), kd: vec![] }), wrong("kd", 0, 2));
+    assert_eq!(refused(ProportionalDerivative { target: vec![], kp: two(), kd: two() }), wrong("target", 0, 2));
+
+    let motion =
+        |q: usize, v: usize, a: usize| move |_t: f64| Motion { q: vec![0.0; q], v: vec![0.0; v], a: vec![0.0; a] };
+    assert_eq!(refused(TrackingPd { trajectory: motion(2, 2, 2), kp: vec![1.0; 4], kd: two() }), wrong("kp", 4, 2));
+    assert_eq!(refused(TrackingPd { trajectory: motion(2, 1, 2), kp: two(), kd: two() }), wrong("trajectory.v", 1, 2));
+    let torques = |trajectory| ComputedTorque { mechanism: &DynamicArm(2), trajectory, kp: two(), kd: two() };
+    assert_eq!(refused(torques(motion(3, 2, 2))), wrong("trajectory.q", 3, 2));
+    assert_eq!(refused(torques(motion(2, 2, 0))), wrong("trajectory.a", 0, 2));
+    assert_eq!(wrong("kp", 1, 2).to_string(), "`kp` must have 2 elements, but it has 1");
+}
+
+#[test]
+fn a_law_that_is_evaluated_outside_a_simulation_gives_nan_for_a_missing_gain() {
     let mut short_gain = Proportional { target: vec![0.0; 2], kp: vec![1.0] };
     let torque = TorqueLaw::<f64, DynamicArm>::torque(&mut short_gain, 0.0, &Q.to_vec(), &V.to_vec());
     assert!(torque.len() == 2 && torque[0] == -0.5 && torque[1].is_nan());
-
-    let mut simulation = ForwardSimulation::new(&DynamicArm(2), short_gain);
-    let start = simulation.state(&Q.to_vec(), &V.to_vec());
-    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
-    assert!(matches!(error, IntegrationError::NonFiniteDerivative { t: 0.0, .. }), "{error}");
 }
 
 #[test]
 fn a_start_of_the_wrong_length_is_reported() {
     let mut simulation = ForwardSimulation::new(&DynamicArm(2), ZeroTorque);
-    let start = simulation.state(&vec![0.1], &V.to_vec());
-    assert_eq!(start.len(), 5);
-    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
-    assert_eq!(error, IntegrationError::NonFiniteState { t: 0.0, component: 1 });
-    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), vec![0.1; 3]).unwrap_err();
-    assert!(matches!(error, IntegrationError::NonFiniteDerivative { t: 0.0, .. }), "{error}");
+    let mut error = |start| Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
+    let state = |q: &[f64], v: &[f64]| ForwardSimulation::new(&DynamicArm(2), ()).state(&q.to_vec(), &v.to_vec());
+    assert_eq!(error(state(&[0.1], &V)), wrong("state", 4, 5));
+    assert_eq!(error(state(&Q, &[0.1, 0.2, 0.3])), wrong("state", 6, 5));
+    // Coordinates and velocities whose lengths are wrong by as much.
+    assert_eq!(error(state(&[0.1], &[0.1, 0.2, 0.3])), IntegrationError::NonFiniteState { t: 0.0, component: 1 });
+    assert_eq!(error(state(&[0.1, 0.2, 0.3], &[0.1])), IntegrationError::NonFiniteState { t: 0.0, component: 3 });
+    assert_eq!(error(vec![0.1; 3]), wrong("state", 3, 5));
 }
 
 #[test]

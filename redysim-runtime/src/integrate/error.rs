@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::LengthMismatch;
+
 /// Why an integration was not begun, or could not go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -34,6 +36,8 @@ pub enum IntegrationError<S> {
         /// How many components the state has.
         needed: usize,
     },
+    /// The state, or a vector that the equation holds, has a wrong length.
+    WrongLength(LengthMismatch),
     /// A given step size is zero, negative, infinite or not a number.
     InvalidStep {
         /// Which one: "step", "initial step" or "maximum step".
@@ -152,6 +156,7 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 "the state has {needed} components, but {given} absolute tolerances are given; give one for each \
                  component, or a single one for all"
             ),
+            Self::WrongLength(mismatch) => mismatch.fmt(f),
             Self::InvalidStep { option, value } => write!(
                 f,
                 "the {option} must be positive and finite, but it is {value:?}; the direction in time comes from the \

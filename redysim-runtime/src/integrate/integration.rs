@@ -19,8 +19,9 @@ impl<'a, S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized> Integration<'a, S, Y, O> 
     /// Starts from `y` at `t`.
     ///
     /// # Errors
-    /// If a component of `y` is infinite or not a number.
+    /// If `y` or a vector of the equation has a wrong length, or a component of `y` is infinite or not a number.
     pub fn new(ode: &'a mut O, tolerances: Tolerances<'a, S>, t: S, y: Y) -> Result<Self, IntegrationError<S>> {
+        ode.check_lengths(t, &y).map_err(IntegrationError::WrongLength)?;
         Ok(Self { ode, tolerances, progress: Progress::new(t, y)? })
     }
 

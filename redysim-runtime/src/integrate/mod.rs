@@ -59,7 +59,7 @@ pub use semi_implicit_euler::{SemiImplicitEuler, SymplecticEuler};
 pub use step::Step;
 pub use tolerance::Tolerances;
 
-use crate::{Real, Vector};
+use crate::{LengthMismatch, Real, Vector};
 use events::EventSearch;
 use interval::Interval;
 use observer::{Ends, EveryStep};
@@ -72,6 +72,16 @@ use save_at::SaveAt;
 pub trait Ode<S, Y> {
     /// Writes f(t, y) to `dydt`, which has the length of `y` and holds anything.
     fn derivative(&mut self, t: S, y: &Y, dydt: &mut Y);
+
+    /// Checks, before the first derivative, that the state `y` at the first time `t` and the vectors that the equation
+    /// holds have the lengths that it needs. Arrays always have. By default, nothing is checked.
+    ///
+    /// # Errors
+    /// The first vector that has another length.
+    fn check_lengths(&self, t: S, y: &Y) -> Result<(), LengthMismatch> {
+        let _ = (t, y);
+        Ok(())
+    }
 
     /// Called once for each accepted step, with its end `t`, its size `step` > 0 and the state `y` there, which may be
     /// corrected in place: brought back to what an invariant of the equation demands. What an integration shows as the

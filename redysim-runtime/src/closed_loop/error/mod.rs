@@ -5,6 +5,8 @@ mod row_set;
 
 use core::fmt;
 
+use crate::LengthMismatch;
+
 pub use named::NamedLoopError;
 pub use row_set::RowSet;
 
@@ -71,13 +73,8 @@ pub enum LoopError<S> {
         /// The number that is given again.
         coordinate: usize,
     },
-    /// The trajectory has not one component for each independent coordinate.
-    WrongTrajectoryLength {
-        /// How many components it has.
-        given: usize,
-        /// How many independent coordinates there are.
-        needed: usize,
-    },
+    /// The trajectory or a gain does not have one component for each independent coordinate.
+    WrongLength(LengthMismatch),
     /// A joint needs a force that neither its actuator nor the loops can give.
     Unactuated {
         /// The joint's coordinate.
@@ -179,11 +176,7 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             Self::RepeatedCoordinate { coordinate } => {
                 write!(f, "coordinate {coordinate} is prescribed twice; name each independent coordinate once")
             }
-            Self::WrongTrajectoryLength { given, needed } => write!(
-                f,
-                "the trajectory has {given} components for {needed} independent coordinates; give one for each, in \
-                 positions, velocities and accelerations"
-            ),
+            Self::WrongLength(mismatch) => write!(f, "{mismatch}; give one for each independent coordinate"),
             Self::Unactuated { coordinate, force } => write!(
                 f,
                 "the joint of coordinate {coordinate} needs a force of {force:?} that neither its actuator nor the \

@@ -5,7 +5,7 @@ use crate::closed_loop::constraints::linear_algebra::{add_scaled, difference, do
 use crate::closed_loop::constraints::{OrthogonalDecomposition, zero_columns};
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
-use crate::{InverseDynamics, LoopClosure, Motion, Real, Vector};
+use crate::{InverseDynamics, LengthMismatch, LoopClosure, Motion, Real, Vector};
 
 /// What a force may miss, as a part of the largest, before it counts as unactuated; likewise speeds.
 const SMALL: f64 = 1e-9;
@@ -35,12 +35,18 @@ impl<M, C> Actuation<'_, M, C> {
     }
 
     /// Fails unless a trajectory has a component for each independent coordinate.
-    pub fn check_length<S: Real, I: Vector<S>>(&self, wanted: &Motion<I, I>) -> Result<(), LoopError<S>> {
-        let wanted = [&wanted.q, &wanted.v, &wanted.a].map(|part| part.as_ref().len());
-        match wanted.into_iter().find(|&given| given != self.independent.len()) {
-            Some(given) => Err(LoopError::WrongTrajectoryLength { given, needed: self.independent.len() }),
-            None => Ok(()),
-        }
+    pub fn check_motion<S: Real, I: Vector<S>>(&self, wanted: &Motion<I, I>) -> Result<(), LengthMismatch> {
+        let Motion { q, v, a } = wanted;
+        self.check_lengths([("trajectory.q", q), ("trajectory.v", v), ("trajectory.a", a)])
+    }
+
+    /// Fails unless vectors have a component for each independent coordinate.
+    pub fn check_lengths<S: Real, I: Vector<S>, const N: usize>(
+        &self,
+        vectors: [(&'static str, &I); N],
+    ) -> Result<(), LengthMismatch> {
+        let expected = self.independent.len();
+        vectors.into_iter().try_for_each(|(name, vector)| LengthMismatch::check(name, vector.as_ref(), expected))
     }
 
     /// Motion and forces at the closed position `q` for these velocities and accelerations of the independent

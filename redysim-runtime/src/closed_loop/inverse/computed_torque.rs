@@ -4,7 +4,7 @@ use super::LoopForces;
 use super::actuation::Actuation;
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
-use crate::{InverseDynamics, LoopClosure, Real, TorqueLaw, Trajectory, Vector};
+use crate::{InverseDynamics, LengthMismatch, LoopClosure, Motion, Real, TorqueLaw, Trajectory, Vector};
 
 /// Computed torque of a mechanism with closed loops: the forces of its actuators that give the independent coordinates
 /// the accelerations q̈_d + Kd ė + Kp e, with the error e = q_d(t) − q.
@@ -42,6 +42,12 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
         self.last_error
     }
 
+    /// Checks that the desired motion and the gains have a component for each independent coordinate.
+    fn check(&self, desired: &Motion<I, I>) -> Result<(), LengthMismatch> {
+        self.actuation.check_motion(desired)?;
+        self.actuation.check_lengths([("kp", &self.kp), ("kd", &self.kd)])
+    }
+
     /// The motion that is asked for in a state, and the forces that it takes.
     ///
     /// # Errors
@@ -60,7 +66,7 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
     {
         self.actuation.check()?;
         let desired = self.trajectory.at(t);
-        self.actuation.check_length(&desired)?;
+        self.check(&desired).map_err(LoopError::WrongLength)?;
         let of = |i: usize| self.actuation.independent.get(i).copied().unwrap_or(usize::MAX);
         let count = self.actuation.independent.len();
         let speeds = I::from_fn(count, |i| entry(v, of(i)));
@@ -81,6 +87,10 @@ where
     T: Trajectory<S, I, I>,
     I: Vector<S>,
 {
+    fn check_lengths(&self, t: S, _mechanism: &M) -> Result<(), LengthMismatch> {
+        self.check(&self.trajectory.at(t))
+    }
+
     /// Not numbers where no forces give the motion; [`last_error`](Self::last_error) then says why.
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         match self.forces(t, q, v) {

@@ -61,7 +61,7 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     /// # Errors
     /// [`LoopError::Unreachable`], [`LoopError::RankDeficient`] if the independent coordinates do not determine the
     /// others, [`LoopError::InconsistentVelocity`] if they contradict each other, [`LoopError::Unactuated`] if there
-    /// are too few actuators, [`LoopError::WrongTrajectoryLength`], [`LoopError::RepeatedCoordinate`],
+    /// are too few actuators, [`LoopError::WrongLength`], [`LoopError::RepeatedCoordinate`],
     /// [`LoopError::CoordinateOutOfRange`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn at<S: Real, I: Vector<S>>(
@@ -76,7 +76,7 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     {
         self.actuation.check()?;
         let wanted = trajectory.at(t);
-        self.actuation.check_length(&wanted)?;
+        self.actuation.check_motion(&wanted).map_err(LoopError::WrongLength)?;
         let q = self.follow(t, &wanted.q)?;
         let found = self.actuation.forces(q, &wanted.v, &wanted.a)?;
         self.q = found.motion.q.clone();

@@ -11,7 +11,8 @@ use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
 use crate::integrate::Accepted;
 use crate::vector::entry;
 use crate::{
-    BiasForces, ConfigurationSpace, ForwardSimulation, LoopClosure, MassMatrix, Ode, Real, SimulationState, TorqueLaw,
+    BiasForces, ConfigurationSpace, ForwardSimulation, LengthMismatch, LoopClosure, MassMatrix, Ode, Real,
+    SimulationState, TorqueLaw,
 };
 
 pub use stabilisation::Stabilisation;
@@ -214,6 +215,11 @@ where
     L: TorqueLaw<S, M>,
     C: LoopClosure<S, M>,
 {
+    fn check_lengths(&self, t: S, state: &M::State) -> Result<(), LengthMismatch> {
+        ForwardSimulation::new(self.loops.mechanism, ()).check_state(state)?;
+        self.law.check_lengths(t, self.loops.mechanism)
+    }
+
     /// Not a number where the loops cannot be solved; [`last_error`](Self::last_error) then says why.
     fn derivative(&mut self, t: S, state: &M::State, rate: &mut M::State) {
         let taken = self.evaluation_point(state).and_then(|EvaluationPoint { q, v, constraints }| {
