@@ -1,5 +1,5 @@
-//! `redysim animate`: the page, and what is said where none can be made. What the page does in a browser is tested in
-//! `viewer.rs`.
+//! `redysim animate`: the page, and what is reported where none can be made. What the page does in a browser is tested
+//! in `viewer.rs`.
 
 mod common;
 
@@ -56,7 +56,7 @@ fn every_instant_of_the_run_is_in_the_page_with_its_coordinates_and_rates() {
     assert_eq!(data["notes"], serde_json::json!([]));
 }
 
-/// Of a rotor of the given speed, rad/s: the page's data, and what is said about it.
+/// Of a rotor of the given speed, rad/s: the page's data, and what is printed about it.
 fn rotor(name: &str, speed: f64, seconds: f64, step: f64) -> (Value, String, usize) {
     let folder = scratch(&format!("animate-{name}"));
     let motion = format!(
@@ -64,36 +64,36 @@ fn rotor(name: &str, speed: f64, seconds: f64, step: f64) -> (Value, String, usi
          inverse = {{ end = {seconds:?}, step = {step:?} }}\n"
     );
     let run = results(&folder, "inverse", "simple_pendulum.toml", &motion);
-    let said = call(&run, &["animate", "."]).said();
+    let output = call(&run, &["animate", "."]).output();
     let page = fs::read_to_string(run.join("animation.html")).unwrap();
-    (data(&page), said, page.len())
+    (data(&page), output, page.len())
 }
 
 #[test]
 fn a_rotor_goes_on_turning_the_way_it_does_however_long_it_runs() {
-    let (data, said, _) = rotor("turning", 20.0, 600.0, 0.02);
+    let (data, output, _) = rotor("turning", 20.0, 600.0, 0.02);
     let [t, q] = ["t", "q"].map(|key| data["motion"][key].clone());
     let (t, q) = (numbers(&t), numbers(&q[0]));
     assert_eq!((t.len(), t[t.len() - 1]), (30_001, 600.0));
     assert!(t.iter().zip(&q).all(|(t, q)| (q - 20.0 * t).abs() < 1e-9), "the angle is not taken modulo a turn");
-    assert!(!said.contains("note"), "{said}");
+    assert!(!output.contains("note"), "{output}");
 }
 
 #[test]
 fn a_motion_too_long_for_a_page_is_thinned_and_that_is_reported() {
-    let (data, said, size) = rotor("thinned", 1.0, 150.0, 0.001);
+    let (data, output, size) = rotor("thinned", 1.0, 150.0, 0.001);
     let t = numbers(&data["motion"]["t"]);
     assert_eq!((t.len(), t[0], t[t.len() - 1]), (100_000, 0.0, 150.0));
     assert!(size < 6_000_000, "{size} bytes");
-    assert!(said.contains("note: 100000 of 150001 instants are kept"), "{said}");
+    assert!(output.contains("note: 100000 of 150001 instants are kept"), "{output}");
     assert_eq!(data["notes"][0], "100000 of 150001 instants are kept");
 }
 
 #[test]
 fn a_joint_too_fast_for_its_instants_is_named() {
-    let (data, said, _) = rotor("fast", 20.0, 1.0, 0.1);
+    let (data, output, _) = rotor("fast", 20.0, 1.0, 0.1);
     let note = "joint `bar` turns by up to 114.6 deg from one instant to the next";
-    assert!(said.contains(note) && data["notes"][0].as_str().unwrap().contains(note), "{said}");
+    assert!(output.contains(note) && data["notes"][0].as_str().unwrap().contains(note), "{output}");
 }
 
 /// A pinned four-bar some 0.3 m across, whose crank turns by 3.6 deg from one instant to the next.
@@ -144,8 +144,8 @@ fn a_chart_has_the_curves_of_one_unit_alone() {
 fn what_is_missing_or_wrong_is_reported() {
     let folder = scratch("animate-missing");
     let fails = |code: i32, wrong: &str| {
-        let said = fail(&folder, &["animate", "."], code);
-        assert!(said.contains(wrong) && said.contains("help:"), "{said}");
+        let output = fail(&folder, &["animate", "."], code);
+        assert!(output.contains(wrong) && output.contains("help:"), "{output}");
         assert!(!folder.join("animation.html").exists());
     };
     fails(3, "holds no model.toml");
@@ -162,7 +162,7 @@ fn a_page_that_is_there_stays_unless_forced() {
     let folder = scratch("animate-exists");
     swing(&folder, "simple_pendulum.toml", 1, 1.0, 10);
     fs::write(folder.join("mine.html"), "mine").unwrap();
-    let said = fail(&folder, &["animate", "run", "-o", "mine.html"], 3);
-    assert!(said.contains("mine.html is there already"), "{said}");
+    let output = fail(&folder, &["animate", "run", "-o", "mine.html"], 3);
+    assert!(output.contains("mine.html is there already"), "{output}");
     assert_eq!(fs::read_to_string(folder.join("mine.html")).unwrap(), "mine");
 }

@@ -37,9 +37,9 @@ fn a_model_in_the_place_of_a_scenario_is_recognised_and_the_other_way_round() {
     refuses_in(&folder, "forward", &model, 1, &["is a model, not a scenario", "model = "]);
     refuses_in(&folder, "inverse", &model, 1, &["is a model, not a scenario"]);
     for command in ["check", "generate"] {
-        let said = fail(&folder, &[command, &scenario], 1);
-        assert!(said.contains("is a scenario, not a model") && said.contains("two_link.toml"), "{said}");
-        assert_eq!(said.matches("error: ").count(), 1, "{said}");
+        let output = fail(&folder, &[command, &scenario], 1);
+        assert!(output.contains("is a scenario, not a model") && output.contains("two_link.toml"), "{output}");
+        assert_eq!(output.matches("error: ").count(), 1, "{output}");
     }
 }
 
@@ -48,8 +48,8 @@ fn a_model_in_the_place_of_a_scenario_is_recognised_and_the_other_way_round() {
 fn a_folder_in_the_place_of_a_model_is_refused() {
     let folder = scratch("faults-folder");
     for command in ["check", "generate"] {
-        let said = fail(&folder, &[command, "."], 3);
-        assert!(said.contains("it is a directory"), "{said}");
+        let output = fail(&folder, &[command, "."], 3);
+        assert!(output.contains("it is a directory"), "{output}");
     }
 }
 
@@ -104,8 +104,8 @@ fn an_unknown_joint_is_reported_with_the_one_that_was_meant() {
     refuses("joint", "forward", &SWING.replace("[0, 1]", "{ jiont2 = 1 }"), 1, &words);
     let several = SWING.replace("[0, 1]", "{ jiont2 = 1, joint1 = '10 dg' }");
     let folder = scratch("faults-joints");
-    let said = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &several)], 1);
-    assert!(said.contains("no joint `jiont2`") && said.contains("the unit `dg`"), "every one of them: {said}");
+    let output = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &several)], 1);
+    assert!(output.contains("no joint `jiont2`") && output.contains("the unit `dg`"), "every one of them: {output}");
     let one = "torque = { law = 'p', joints = ['joint1'], target = { joint2 = 1 }, kp = 1 }\n";
     let words = ["`forward.torque.target` has nothing to do with the joint `joint2`"];
     refuses("foreign", "forward", &format!("{SWING}{one}"), 1, &words);
@@ -233,13 +233,13 @@ fn every_fault_is_reported_at_once_and_none_that_follows_from_another() {
                 [forward]\nend = 1.0\nstepp = 0.1\ntorque = { law = 'csv', file = 'forces.csv' }\n";
     let words = ["`nonsense`", "motion.csv", "`step`?", "forces.csv", "trial.toml:5:", "trial.toml:9:"];
     let folder = scratch("faults-all");
-    let said = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", rest)], 1);
-    assert!(words.iter().all(|word| said.contains(word)), "{said}");
+    let output = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", rest)], 1);
+    assert!(words.iter().all(|word| output.contains(word)), "{output}");
     let law = "torque = { law = 'tracking-pd', kp = 1, kd = 1 }\n";
     let misspelt = format!("[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduratoin = 1.0\n{SWING}{law}");
     let folder = scratch("faults-misspelt");
-    let said = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &misspelt)], 1);
-    assert!(said.contains("`duration`?") && !said.contains("there is none"), "{said}");
+    let output = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &misspelt)], 1);
+    assert!(output.contains("`duration`?") && !output.contains("there is none"), "{output}");
 }
 
 /// What a run would write may be what the other run reads.
@@ -293,7 +293,7 @@ fn loops_that_cannot_close_are_reported_by_name() {
     refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", &held), 1, &["the start", "crank-coupler"]);
 }
 
-/// A force without bound ends the motion; what was computed before is kept, and it is said.
+/// An unbounded force ends the motion; what was computed before is kept, and the reason is reported.
 #[test]
 fn a_motion_that_cannot_go_on_is_kept_as_far_as_it_went() {
     let folder = scratch("faults-singular");
@@ -301,12 +301,12 @@ fn a_motion_that_cannot_go_on_is_kept_as_far_as_it_went() {
     let rest = format!(
         "{SWING}torque = {{ law = 'p', target = [0, 0], kp = -1e6 }}\nintegrator = {{ method = 'Ode4', step = 0.1 }}\n"
     );
-    let said = fail(
+    let output = fail(
         &folder,
         &["forward", &scenario(&folder, "two_link.toml", &rest.replace("end = 1.0", "end = 100.0")), "-o", "run"],
         3,
     );
-    assert!(said.contains("infinite or not a number") && said.contains("is kept"), "{said}");
+    assert!(output.contains("infinite or not a number") && output.contains("is kept"), "{output}");
     let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
     assert!(run.contains("ended = \"failed\""), "{run}");
     assert!(run.contains("reason = \"component ") && run.contains("\nsteps = "), "{run}");
@@ -330,8 +330,8 @@ fn forces_are_kept_from_the_first_instant_on() {
     let folder = scratch("faults-one-row");
     let rest = "initial = { q = [0, 0.9844, 4.3144] }\n[inverse]\nend = 2.0\nstep = 1.0\n\
                 [trajectory]\nkind = 'constant-speed'\njoints = ['rocker']\nfrom = [0.9844]\nspeed = [4]\n";
-    let said = fail(&folder, &["inverse", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 3);
-    assert!(said.contains("is kept: 1 instants"), "{said}");
+    let output = fail(&folder, &["inverse", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 3);
+    assert!(output.contains("is kept: 1 instants"), "{output}");
     assert_eq!(common::Table::csv(&folder.join("run/tor.csv")).rows.len(), 1);
 }
 

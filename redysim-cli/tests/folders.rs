@@ -24,8 +24,8 @@ fn a_result_is_not_overwritten_unless_it_must_be() {
     assert_eq!(names(&folder), ["results", "trial.toml"]);
     let result = folder.join("results/trial/forward");
     let before = fs::read(result.join("run.toml")).unwrap();
-    let said = fail(&folder, &["forward", &path], 3);
-    assert!(said.contains("there already") && said.contains("--force"), "{said}");
+    let output = fail(&folder, &["forward", &path], 3);
+    assert!(output.contains("there already") && output.contains("--force"), "{output}");
     assert_eq!(fs::read(result.join("run.toml")).unwrap(), before);
     succeed(&folder, &["forward", &path, "--force"]);
     assert_ne!(fs::read(result.join("run.toml")).unwrap(), before, "the times differ");
@@ -38,8 +38,8 @@ fn what_is_not_a_result_is_never_overwritten() {
     let path = scenario(&folder, "two_link.toml", SWING);
     fs::create_dir(folder.join("mine")).unwrap();
     fs::write(folder.join("mine/thesis.txt"), "years of work").unwrap();
-    let said = fail(&folder, &["forward", &path, "-o", "mine", "--force"], 3);
-    assert!(said.contains("it is not a result"), "{said}");
+    let output = fail(&folder, &["forward", &path, "-o", "mine", "--force"], 3);
+    assert!(output.contains("it is not a result"), "{output}");
     assert_eq!(names(&folder.join("mine")), ["thesis.txt"]);
 }
 
@@ -49,10 +49,10 @@ fn a_folder_that_cannot_be_made_is_reported_and_leaves_nothing() {
     let path = scenario(&folder, "two_link.toml", SWING);
     let before = names(&folder);
     // A file is not a folder, whoever asks.
-    let said = fail(&folder, &["forward", &path, "-o", "trial.toml/run"], 3);
-    assert!(said.contains("cannot make the folder trial.toml/run"), "{said}");
-    let said = fail(&folder, &["forward", &path, "-o", "/"], 3);
-    assert!(said.contains("--output"), "{said}");
+    let output = fail(&folder, &["forward", &path, "-o", "trial.toml/run"], 3);
+    assert!(output.contains("cannot make the folder trial.toml/run"), "{output}");
+    let output = fail(&folder, &["forward", &path, "-o", "/"], 3);
+    assert!(output.contains("--output"), "{output}");
     assert_eq!(names(&folder), before);
 }
 
@@ -62,9 +62,9 @@ fn a_full_disk_leaves_nothing_half_written() {
     let folder = scratch("folders-full");
     let path = scenario(&folder, "two_link.toml", &SWING.replace("step = 0.1", "step = 0.001"));
     let before = names(&folder);
-    let said = common::on_a_full_disk(&folder, 8, &["forward", &path]);
-    assert!(said.contains("cannot write"), "{said}");
-    assert_eq!(names(&folder), before, "{said}");
+    let output = common::on_a_full_disk(&folder, 8, &["forward", &path]);
+    assert!(output.contains("cannot write"), "{output}");
+    assert_eq!(names(&folder), before, "{output}");
 }
 
 /// Somebody's project: their own scenario is called as the one of a result is.
@@ -74,8 +74,8 @@ fn a_folder_with_a_scenario_of_ones_own_is_not_a_result() {
     let path = scenario(&folder, "two_link.toml", SWING);
     fs::create_dir(folder.join("project")).unwrap();
     fs::copy(folder.join("trial.toml"), folder.join("project/run.toml")).unwrap();
-    let said = fail(&folder, &["forward", &path, "-o", "project", "--force"], 3);
-    assert!(said.contains("it is not a result"), "{said}");
+    let output = fail(&folder, &["forward", &path, "-o", "project", "--force"], 3);
+    assert!(output.contains("it is not a result"), "{output}");
     assert_eq!(names(&folder.join("project")), ["run.toml"]);
 }
 
@@ -85,8 +85,8 @@ fn notes_beside_a_result_are_not_lost() {
     let path = scenario(&folder, "two_link.toml", SWING);
     succeed(&folder, &["forward", &path, "-o", "run"]);
     fs::write(folder.join("run/notes.md"), "what I have seen").unwrap();
-    let said = fail(&folder, &["forward", &path, "-o", "run", "--force"], 3);
-    assert!(said.contains("run is not overwritten: it holds notes.md"), "{said}");
+    let output = fail(&folder, &["forward", &path, "-o", "run", "--force"], 3);
+    assert!(output.contains("run is not overwritten: it holds notes.md"), "{output}");
     assert!(folder.join("run/notes.md").exists());
 }
 
@@ -113,8 +113,8 @@ fn a_link_is_refused_before_anything_is_computed() {
     let path = scenario(&folder, "two_link.toml", SWING);
     std::os::unix::fs::symlink("nowhere", folder.join("run")).unwrap();
     for force in [&[][..], &["--force"]] {
-        let said = fail(&folder, &[&["forward", &path, "-o", "run"], force].concat(), 3);
-        assert!(said.contains("a file or a link") && !said.contains("computed"), "{said}");
+        let output = fail(&folder, &[&["forward", &path, "-o", "run"], force].concat(), 3);
+        assert!(output.contains("a file or a link") && !output.contains("computed"), "{output}");
     }
     assert_eq!(names(&folder), ["run", "trial.toml"]);
 }
@@ -132,9 +132,9 @@ mod meanwhile {
             let run = Running::begin(&folder, &[&["forward", &path, "-o", "run"], options].concat());
             fs::create_dir(folder.join("run")).unwrap();
             fs::write(folder.join("run/notes.md"), "not a result").unwrap();
-            let (code, said) = interrupted(run);
-            assert_eq!(code, Some(3), "{said}");
-            assert!(said.contains("what was computed is in run-2"), "{said}");
+            let (code, output) = interrupted(run);
+            assert_eq!(code, Some(3), "{output}");
+            assert!(output.contains("what was computed is in run-2"), "{output}");
             assert_eq!(names(&folder), ["run", "run-2", "trial.toml"]);
             assert_eq!(names(&folder.join("run")), ["notes.md"]);
             assert!(names(&folder.join("run-2")).contains(&"run.toml".to_owned()));
@@ -162,8 +162,8 @@ mod meanwhile {
         fs::write(folder.join("trial.toml"), format!("model = 'model.toml'\n{}", common::LONG)).unwrap();
         let run = Running::begin(&folder, &["forward", "trial.toml", "-o", "run"]);
         fs::remove_file(folder.join("model.toml")).unwrap();
-        let (code, said) = interrupted(run);
-        assert_eq!(code, Some(130), "{said}");
+        let (code, output) = interrupted(run);
+        assert_eq!(code, Some(130), "{output}");
         assert_eq!(fs::read_to_string(folder.join("run/model.toml")).unwrap(), model);
     }
 }
@@ -177,8 +177,8 @@ fn a_folder_within_a_result_is_not_of_a_run() {
     fs::remove_file(folder.join("run/tor.csv")).unwrap();
     fs::create_dir(folder.join("run/tor.csv")).unwrap();
     fs::write(folder.join("run/tor.csv/thesis.txt"), "years of work").unwrap();
-    let said = fail(&folder, &["forward", &path, "-o", "run", "--force"], 3);
-    assert!(said.contains("it holds tor.csv, which is of no run"), "{said}");
+    let output = fail(&folder, &["forward", &path, "-o", "run", "--force"], 3);
+    assert!(output.contains("it holds tor.csv, which is of no run"), "{output}");
 }
 
 #[test]
@@ -188,8 +188,8 @@ fn a_page_takes_no_place_of_a_table() {
     succeed(&folder, &["forward", &path, "-o", "run"]);
     let before = fs::read(folder.join("run/statevar.csv")).unwrap();
     for name in ["run/statevar.csv", "run/model.toml", "./run/../run/run.toml"] {
-        let said = fail(&folder, &["animate", "run", "-o", name, "--force"], 1);
-        assert!(said.contains("is a file of the results"), "{said}");
+        let output = fail(&folder, &["animate", "run", "-o", name, "--force"], 1);
+        assert!(output.contains("is a file of the results"), "{output}");
     }
     assert_eq!(fs::read(folder.join("run/statevar.csv")).unwrap(), before);
 }

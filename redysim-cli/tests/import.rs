@@ -1,4 +1,4 @@
-//! `redysim import`: a URDF and the model made of it are one mechanism, and what is not in the model is reported.
+//! `redysim import`: the model describes the mechanism of the URDF, and everything left out is reported.
 
 mod common;
 mod import_faults;
@@ -24,7 +24,7 @@ fn import_from(folder: &Path, options: &[&str]) -> Run {
     call(folder, &[&["import", "robot.urdf"], options].concat())
 }
 
-/// Imports the text of a URDF; the model, which has no faults, and what was said.
+/// Imports the text of a URDF; the model, which has no faults, and the run.
 fn import(urdf: &str, options: &[&str]) -> (GenericMechanism, Run) {
     let run = import_from(&folder_with(urdf), options);
     assert_eq!(run.code, 0, "{}", run.stderr);
@@ -200,7 +200,7 @@ const LOSSY: &str = r#"<?xml version="1.0"?>
 #[test]
 fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
     let (mechanism, run) = import(LOSSY, &[]);
-    let said = [
+    let reports = [
         "its 5 kg never move",
         "link `base` is called `base_link` here",
         "joint `knuckle` mimics `waist` in the URDF (2 times its value, plus 0)",
@@ -214,8 +214,13 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
         "left out: <transmission>, 2 of them, the first on line 19",
         "left out: <visual> in a <link>, on line 6",
     ];
-    for said in said {
-        assert!(run.stdout.contains(said) && run.stderr.contains(said), "{said}:\n{}\n{}", run.stdout, run.stderr);
+    for report in reports {
+        assert!(
+            run.stdout.contains(report) && run.stderr.contains(report),
+            "{report}:\n{}\n{}",
+            run.stdout,
+            run.stderr
+        );
     }
     assert!(run.stderr.contains("warning: link `base_link`: `origin.rpy[1]` is 1.5708 rad"), "{}", run.stderr);
     assert!(run.stdout.contains("# limits: position = [-1.0, 1.0], velocity = 2.0, force = 40.0"), "{}", run.stdout);
@@ -226,8 +231,8 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
         assert!(head.contains(&format!("# - {change}")), "{change}: {head}");
     }
     let fused = import(LOSSY, &["--fuse-fixed"]).1;
-    for said in said.iter().chain(&["link `tool` is a part of `finger`", "link `puck` is a part of the ground"]) {
-        assert!(fused.stdout.contains(said) && fused.stderr.contains(said), "{said}:\n{}", fused.stdout);
+    for report in reports.iter().chain(&["link `tool` is a part of `finger`", "link `puck` is a part of the ground"]) {
+        assert!(fused.stdout.contains(report) && fused.stderr.contains(report), "{report}:\n{}", fused.stdout);
     }
     let kinds: Vec<usize> = mechanism.model().links.iter().map(|link| link.joint.dof()).collect();
     assert_eq!(kinds, [1, 1, 0, 0]);

@@ -38,13 +38,13 @@ fn kept(folder: &Path, command: &str, path: &str) -> Table {
     let run = Running::begin(folder, &[command, path, "-o", "run"]);
     // Rows are written as they are computed, a buffer at a time.
     run.wait(|draft| fs::metadata(draft.join("statevar.csv")).is_ok_and(|file| file.len() > 100_000));
-    let (code, said) = interrupted(run);
-    assert_eq!(code, Some(130), "{said}");
-    assert!(said.contains("interrupted: ") && said.contains("are in run"), "{said}");
-    assert!(!said.contains('%'), "no terminal, no bar: {said}");
+    let (code, output) = interrupted(run);
+    assert_eq!(code, Some(130), "{output}");
+    assert!(output.contains("interrupted: ") && output.contains("are in run"), "{output}");
+    assert!(!output.contains('%'), "no terminal, no bar: {output}");
     assert_eq!(names(folder), ["run", "trial.toml"], "no draft is left");
     let states = Table::csv(&folder.join("run/statevar.csv"));
-    assert!(said.contains(&format!("{} instants", states.rows.len())), "{said}");
+    assert!(output.contains(&format!("{} instants", states.rows.len())), "{output}");
     for table in names(&folder.join("run")).iter().filter(|name| name.ends_with(".csv")) {
         assert_eq!(Table::csv(&folder.join("run").join(table)).rows.len(), states.rows.len(), "{table}");
     }
@@ -83,9 +83,9 @@ fn a_part_of_a_run_replaces_no_result() {
     succeed(&folder, &["forward", &short, "-o", "run"]);
     let before = fs::read(folder.join("run/run.toml")).unwrap();
     let long = scenario(&folder, "two_link.toml", LONG);
-    let (code, said) = interrupted(Running::begin(&folder, &["forward", &long, "-o", "run", "--force"]));
-    assert_eq!(code, Some(130), "{said}");
-    assert!(said.contains("are in run-2"), "{said}");
+    let (code, output) = interrupted(Running::begin(&folder, &["forward", &long, "-o", "run", "--force"]));
+    assert_eq!(code, Some(130), "{output}");
+    assert!(output.contains("are in run-2"), "{output}");
     assert_eq!(fs::read(folder.join("run/run.toml")).unwrap(), before);
     assert_eq!(names(&folder), ["run", "run-2", "trial.toml"]);
 }
@@ -102,11 +102,11 @@ fn two_ctrl_cs_in_a_row_leave_no_half_result() {
         run.wait(|draft| std::fs::metadata(draft.join("statevar.csv")).is_ok_and(|file| file.len() > 1000));
         run.interrupt();
         run.interrupt();
-        let (code, said) = run.end();
-        assert_eq!(code, Some(130), "{said}");
+        let (code, output) = run.end();
+        assert_eq!(code, Some(130), "{output}");
         let left = names(&folder);
-        let reported = said.contains("are in run") || said.contains("nothing is kept");
-        assert!(reported || left.len() > before.len(), "{left:?}: {said}");
+        let reported = output.contains("are in run") || output.contains("nothing is kept");
+        assert!(reported || left.len() > before.len(), "{left:?}: {output}");
         for name in left.iter().filter(|name| *name != "trial.toml") {
             assert!(!name.contains("draft") && names(&folder.join(name)).contains(&"run.toml".to_owned()), "{left:?}");
         }
@@ -136,10 +136,10 @@ mod waiting {
         let (mut run, reader) = stuck(&folder);
         run.interrupt();
         run.interrupt_until_it_ends();
-        let (code, said) = run.end();
+        let (code, output) = run.end();
         drop(reader);
-        assert_eq!(code, Some(130), "{said}");
-        assert!(said.contains("interrupted: nothing is kept"), "{said}");
+        assert_eq!(code, Some(130), "{output}");
+        assert!(output.contains("interrupted: nothing is kept"), "{output}");
         assert_eq!(names(&folder), ["trial.toml"]);
     }
 
@@ -149,10 +149,10 @@ mod waiting {
         let (run, mut reader) = stuck(&folder);
         run.interrupt();
         let reading = std::thread::spawn(move || reader.read_to_end(&mut Vec::new()));
-        let (code, said) = run.end();
+        let (code, output) = run.end();
         reading.join().unwrap().unwrap();
-        assert_eq!(code, Some(130), "{said}");
-        assert!(said.contains("nothing was computed yet"), "{said}");
+        assert_eq!(code, Some(130), "{output}");
+        assert!(output.contains("nothing was computed yet"), "{output}");
         assert_eq!(names(&folder), ["trial.toml"]);
     }
 }

@@ -38,8 +38,8 @@ fn computed_torque_reports_where_the_prescribed_joint_determines_nothing() {
     let rest = "initial = { q = [0, 0.9844, 4.3144] }\n\
                 trajectory = { kind = 'constant-speed', joints = ['rocker'], from = [0.9844], speed = [4] }\n\
                 [forward]\nend = 2.0\nstep = 0.1\ntorque = { law = 'computed-torque', kp = 100, kd = 20 }\n";
-    let said = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 3);
-    assert!(said.contains("determine 1 of the 2 coordinates") && said.contains("is kept"), "{said}");
+    let output = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 3);
+    assert!(output.contains("determine 1 of the 2 coordinates") && output.contains("is kept"), "{output}");
 }
 
 /// The four-bar has one joint to prescribe.
@@ -52,8 +52,8 @@ fn as_many_joints_are_prescribed_as_the_loops_leave_free() {
         let motion = format!("kind = 'constant-speed', joints = [{joints}], from = [{zeros}], speed = [{zeros}]");
         let path = scenario(&folder, "fourbar.toml", &format!("trajectory = {{ {motion} }}\n{runs}"));
         for command in ["inverse", "forward"] {
-            let said = fail(&folder, &[command, &path, "-o", "run"], 1);
-            assert!(said.contains(&format!("prescribes {count}, but the loops leave 1 free")), "{said}");
+            let output = fail(&folder, &[command, &path, "-o", "run"], 1);
+            assert!(output.contains(&format!("prescribes {count}, but the loops leave 1 free")), "{output}");
         }
     }
 }
@@ -71,9 +71,9 @@ fn warned(name: &str, model: &str, rest: &str) -> String {
 fn the_work_of_baumgartes_feedback_is_not_called_wrong() {
     let open = "initial = { q = [0, 1.5, 4.0], assemble = false }\n[forward]\nend = 0.5\nstep = 0.1\n\
                 integrator = { method = 'Ode45', rtol = 1e-8, atol = 1e-8 }\n";
-    let said =
+    let output =
         warned("loops-work", "fourbar.toml", &format!("{open}stabilisation = {{ kind = 'baumgarte', alpha = 20 }}\n"));
-    assert_eq!(said, "");
+    assert_eq!(output, "");
 }
 
 #[test]
@@ -85,19 +85,22 @@ fn computed_torque_of_loops_with_redundant_conditions_wants_them_closed() {
              stabilisation = {stabilisation}\n"
         )
     };
-    let said = warned("loops-redundant", "test/fourbar_spatial.toml", &rest("'none'"));
-    assert!(said.contains("3 constraints 2 are independent, for which computed torque needs closed loops"), "{said}");
-    let said = warned("loops-redundant-closed", "test/fourbar_spatial.toml", &rest("'projection'"));
-    assert!(!said.contains("computed torque"), "{said}");
+    let output = warned("loops-redundant", "test/fourbar_spatial.toml", &rest("'none'"));
+    assert!(
+        output.contains("3 constraints 2 are independent, for which computed torque needs closed loops"),
+        "{output}"
+    );
+    let output = warned("loops-redundant-closed", "test/fourbar_spatial.toml", &rest("'projection'"));
+    assert!(!output.contains("computed torque"), "{output}");
 }
 
 #[test]
 fn settings_of_loops_have_no_effect_on_a_tree_and_are_warned_of() {
     let rest =
         "initial = { assemble = false, held = ['joint1'] }\n[forward]\nend = 0.2\nstep = 0.1\nstabilisation = 'none'\n";
-    let said = warned("loops-none", "two_link.toml", rest);
+    let output = warned("loops-none", "two_link.toml", rest);
     for key in ["initial.assemble", "initial.held", "forward.stabilisation"] {
-        assert!(said.contains(&format!("`{key}` is of closed loops, and the model has none")), "{key}: {said}");
+        assert!(output.contains(&format!("`{key}` is of closed loops, and the model has none")), "{key}: {output}");
     }
 }
 
@@ -119,16 +122,16 @@ fn baumgartes_feedback_closes_a_loop_that_starts_open() {
 fn baumgartes_feedback_needs_its_rate() {
     let folder = scratch("loops-no-rate");
     let rest = "[forward]\nend = 1.0\nstep = 0.1\nstabilisation = 'baumgarte'\n";
-    let said = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 1);
-    assert!(said.contains("alpha") && said.contains("alpha = 20.0"), "{said}");
+    let output = fail(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"], 1);
+    assert!(output.contains("alpha") && output.contains("alpha = 20.0"), "{output}");
 }
 
 #[test]
 fn what_assembly_changes_of_the_start_is_reported() {
     let folder = scratch("loops-start");
     let rest = "initial = { q = [0, 0.9844, 4.3144], v = [4.7124, 99, -77] }\n[forward]\nend = 0.1\nstep = 0.1\n";
-    let said = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);
-    assert!(said.contains("the start moves rocker by -2.694e-5 rad"), "{said}");
+    let output = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);
+    assert!(output.contains("the start moves rocker by -2.694e-5 rad"), "{output}");
     // The rocker turns at 1.4045 rad/s when the crank is at zero and turns at 4.7124 rad/s; the coupler then stands.
-    assert!(said.contains("its speeds change: rocker by -9.760e1 rad/s, coupler by 7.700e1 rad/s"), "{said}");
+    assert!(output.contains("its speeds change: rocker by -9.760e1 rad/s, coupler by 7.700e1 rad/s"), "{output}");
 }

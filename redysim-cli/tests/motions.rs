@@ -75,7 +75,7 @@ fn a_cubic_passes_its_points() {
 #[test]
 fn a_table_of_states_is_passed_with_its_velocities_and_accelerations() {
     let folder = scratch("table-of-states");
-    // A cubic has no fifth power: rows half a second apart say all of it.
+    // A cubic has no fifth power: rows half a second apart determine it.
     let cubic = |t: f64| [t * t * t - t, 3.0 * t * t - 1.0, 6.0 * t];
     let mut text =
         "t [s],q joint2 [deg],v joint2 [rad/s],a joint2 [rad/s^2],q joint1 [rad],v joint1 [rad/s],a joint1 [rad/s^2]\n"
@@ -111,7 +111,7 @@ fn a_table_of_coordinates_alone_is_passed_from_rest_to_rest() {
 const SLIDER: &str = "name = 'slider'\ngravity = [0, 0, -9.81]\n[[link]]\nname = 'mass'\nparent = 'base'\njoint = 'prismatic'\n\
                       axis = [1, 0, 0]\nmass = 2.0\n";
 
-/// The motion of the slider by `forward`, from 1 m at rest unless `initial` says else.
+/// The motion of the slider by `forward`, from 1 m at rest unless `rest` has an `initial`.
 fn slides(name: &str, forward: &str, rest: &str) -> Table {
     let folder = scratch(name);
     fs::write(folder.join("slider.toml"), SLIDER).unwrap();
@@ -236,7 +236,7 @@ fn rows_between_the_ends_of_steps_of_gauss_do_not_add_to_the_drift() {
     let drift = |rows: f64| -> f64 {
         let rest = format!("[forward]\nend = 2.0\nstep = {rows}\nintegrator = {{ method = 'Gauss6', step = 0.01 }}\n");
         let run = call(&folder, &["forward", &scenario(&folder, "two_link.toml", &rest), "-o", "run", "--force"]);
-        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{}", run.said());
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{}", run.output());
         let text = std::fs::read_to_string(folder.join("run/run.toml")).expect("it is written");
         let line = text.lines().find_map(|line| line.strip_prefix("energy_drift = ")).expect("it is there");
         line.parse().expect("a number")
@@ -298,21 +298,21 @@ fn passive(name: &str, law: &str) -> (Table, String) {
     );
     fs::write(folder.join("trial.toml"), text).unwrap();
     let run = call(&folder, &["forward", "trial.toml", "-o", "run"]);
-    assert_eq!(run.code, 0, "{}", run.said());
+    assert_eq!(run.code, 0, "{}", run.output());
     (Table::csv(&folder.join("run/tor.csv")), run.stderr)
 }
 
 #[test]
 fn a_tracking_law_drives_what_has_an_actuator() {
-    let (forces, said) = passive("tracking-passive", "law = 'tracking-pd', kp = 10, kd = 8");
-    assert!(forces.column("tau passive [N]").iter().all(|force| *force == 0.0) && said.is_empty(), "{said}");
+    let (forces, output) = passive("tracking-passive", "law = 'tracking-pd', kp = 10, kd = 8");
+    assert!(forces.column("tau passive [N]").iter().all(|force| *force == 0.0) && output.is_empty(), "{output}");
     assert!(forces.column("tau mass [N]").iter().any(|force| *force > 1.0));
 }
 
 #[test]
 fn a_spring_at_a_joint_without_actuator_is_warned_of() {
-    let (forces, said) = passive("spring-passive", "law = 'p', joints = ['passive'], target = [1], kp = 10");
-    assert!(said.contains("drives the joint `passive`, which has no actuator") && said.contains("^"), "{said}");
+    let (forces, output) = passive("spring-passive", "law = 'p', joints = ['passive'], target = [1], kp = 10");
+    assert!(output.contains("drives the joint `passive`, which has no actuator") && output.contains("^"), "{output}");
     assert!(forces.column("tau passive [N]").iter().any(|force| *force > 1.0));
 }
 
@@ -323,6 +323,6 @@ fn computed_torque_is_refused_where_joints_of_a_tree_have_no_actuator() {
     let law = "torque = { law = 'computed-torque', kp = 1, kd = 1 }";
     let text = format!("model = 'slider.toml'\n{AHEAD}[forward]\nend = 1.0\nstep = 0.1\n{law}\n");
     fs::write(folder.join("trial.toml"), text).unwrap();
-    let said = fail(&folder, &["forward", "trial.toml", "-o", "run"], 1);
-    assert!(said.contains("the joint `mass` has no actuator") && said.contains("tracking-pd"), "{said}");
+    let output = fail(&folder, &["forward", "trial.toml", "-o", "run"], 1);
+    assert!(output.contains("the joint `mass` has no actuator") && output.contains("tracking-pd"), "{output}");
 }

@@ -36,8 +36,8 @@ fn a_link_to_a_file_that_is_yet_to_be_made_makes_it() {
     generate(&folder, &["-o", "link.rs"]);
     assert!(folder.join("later.rs").is_file() && folder.join("link.rs").is_symlink());
     symlink("round.rs", folder.join("round.rs")).unwrap();
-    let said = fail(&folder, &["generate", &model("two_link.toml"), "-o", "round.rs", "--force"], 3);
-    assert!(said.contains("cannot write round.rs"), "{said}");
+    let output = fail(&folder, &["generate", &model("two_link.toml"), "-o", "round.rs", "--force"], 3);
+    assert!(output.contains("cannot write round.rs"), "{output}");
 }
 
 #[test]
@@ -45,9 +45,9 @@ fn what_is_made_of_a_file_never_takes_its_place() {
     let folder = scratch("output-itself");
     fs::copy(model("kr5.toml"), folder.join("kr5.toml")).unwrap();
     symlink("kr5.toml", folder.join("alias.toml")).unwrap();
-    for output in ["kr5.toml", "./kr5.toml", "alias.toml"] {
-        let said = fail(&folder, &["generate", "kr5.toml", "-o", output, "--force"], 1);
-        assert!(said.contains("is what it would be made of") && said.contains("--output"), "{said}");
+    for target in ["kr5.toml", "./kr5.toml", "alias.toml"] {
+        let output = fail(&folder, &["generate", "kr5.toml", "-o", target, "--force"], 1);
+        assert!(output.contains("is what it would be made of") && output.contains("--output"), "{output}");
     }
     assert_eq!(fs::read(folder.join("kr5.toml")).unwrap(), fs::read(model("kr5.toml")).unwrap());
 }
@@ -72,7 +72,7 @@ fn a_pipe_with_a_name_is_written_into_and_stays_one() {
             "rm -f pipe; mkfifo pipe; timeout 10 cat pipe > got & \"$0\" generate \"$1\" -o pipe {options} --quiet && wait && test -p pipe"
         );
         let run = bash(&folder, &command, &[&model("two_link.toml")]);
-        assert_eq!(run.code, 0, "{}", run.said());
+        assert_eq!(run.code, 0, "{}", run.output());
         assert_eq!(fs::read_to_string(folder.join("got")).unwrap(), source);
     }
     assert_eq!(names(&folder), ["got", "pipe"]);
@@ -106,17 +106,17 @@ fn a_full_disk_leaves_nothing_half_written() {
         (1, &["generate", &model, "-o", "model.rs"]),
         (1, &["import", "robot.urdf", "-o", "robot.toml"]),
     ] {
-        let said = on_a_full_disk(&folder, kilobytes, arguments);
-        assert!(said.contains("error: cannot write"), "{arguments:?}: {said}");
-        assert_eq!((names(&folder), names(&folder.join("run"))), before, "{arguments:?}: {said}");
+        let output = on_a_full_disk(&folder, kilobytes, arguments);
+        assert!(output.contains("error: cannot write"), "{arguments:?}: {output}");
+        assert_eq!((names(&folder), names(&folder.join("run"))), before, "{arguments:?}: {output}");
     }
 }
 
 #[test]
 fn a_full_device_is_reported() {
     let folder = scratch("output-full-device");
-    let said = fail(&folder, &["generate", &model("two_link.toml"), "-o", "/dev/full"], 3);
-    assert!(said.contains("cannot write /dev/full"), "{said}");
+    let output = fail(&folder, &["generate", &model("two_link.toml"), "-o", "/dev/full"], 3);
+    assert!(output.contains("cannot write /dev/full"), "{output}");
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let run = Run::of(program(&folder, &["completions", "bash"]).stdout(full));
     assert!(run.code == 3 && run.stderr.contains("cannot write the output"), "{}", run.stderr);

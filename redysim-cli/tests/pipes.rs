@@ -6,7 +6,7 @@ mod common;
 use common::{bash, root, scenario, scratch, succeed};
 
 /// Calls the program in a folder with results, a model and a URDF, with a reader of `stream` that leaves at once: it
-/// must end with `code`, and say nothing about it on the other stream.
+/// must end with `code`, and print nothing about it on the other stream.
 fn ends(stream: &str, arguments: &str, code: i32) {
     let folder = scratch(&format!("pipes-{}", arguments.replace(|c: char| !c.is_alphanumeric(), "_") + stream));
     let swing = "initial = { q = [0, 1] }\nforward = { end = 0.1, step = 0.1 }\n";

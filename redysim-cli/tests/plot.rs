@@ -1,4 +1,4 @@
-//! `redysim plot`: what it draws, and what it says where it cannot.
+//! `redysim plot`: what it draws, and what it reports where it cannot.
 
 mod common;
 
@@ -84,8 +84,8 @@ fn a_picture_that_is_there_stays_unless_forced_and_then_no_other_is_written() {
     let folder = scratch("plot-exists");
     let run = swing(&folder, "kr5.toml", 6, 1.0, 50);
     fs::write(run.join("torques.svg"), "mine").unwrap();
-    let said = fail(&folder, &["plot", "run"], 3);
-    assert!(said.contains("torques.svg is there already") && said.contains("--force"), "{said}");
+    let output = fail(&folder, &["plot", "run"], 3);
+    assert!(output.contains("torques.svg is there already") && output.contains("--force"), "{output}");
     assert!(!run.join("motion.svg").exists());
     assert_eq!(fs::read_to_string(run.join("torques.svg")).unwrap(), "mine");
     succeed(&folder, &["plot", "run", "--force"]);
@@ -96,9 +96,9 @@ fn a_picture_that_is_there_stays_unless_forced_and_then_no_other_is_written() {
 fn a_bad_table_is_named_with_its_line_and_what_to_do() {
     let folder = scratch("plot-bad-table");
     fs::write(folder.join("tor.csv"), "t [s],tau j [N m]\n0,1\n1,one\n").unwrap();
-    let said = fail(&folder, &["plot", "."], 1);
+    let output = fail(&folder, &["plot", "."], 1);
     for words in ["tor.csv:3: `tau j [N m]` must be a number, found `one`", "help: "] {
-        assert!(said.contains(words), "{said}");
+        assert!(output.contains(words), "{output}");
     }
     assert!(!folder.join("torques.svg").exists());
 }
@@ -118,10 +118,10 @@ fn values_that_are_not_numbers_leave_a_gap() {
 #[test]
 fn a_folder_without_results_is_refused() {
     let folder = scratch("plot-nothing");
-    let said = fail(&folder, &["plot", "."], 1);
-    assert!(said.contains("holds nothing to draw"), "{said}");
-    let said = fail(&folder, &["plot", "nowhere"], 3);
-    assert!(said.contains("nowhere is not there"), "{said}");
+    let output = fail(&folder, &["plot", "."], 1);
+    assert!(output.contains("holds nothing to draw"), "{output}");
+    let output = fail(&folder, &["plot", "nowhere"], 3);
+    assert!(output.contains("nowhere is not there"), "{output}");
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn tables_without_names_are_distinguished_from_a_folder_without_results() {
     results(&folder, "inverse", "two_link.toml", lift);
     succeed(&folder, &["inverse", "trial.toml", "-o", "run", "--force", "--format", "dat"]);
     for command in ["plot", "animate"] {
-        let said = fail(&folder, &[command, "run"], 1);
-        assert!(said.contains("*.dat") && said.contains("--format csv"), "{said}");
+        let output = fail(&folder, &[command, "run"], 1);
+        assert!(output.contains("*.dat") && output.contains("--format csv"), "{output}");
     }
 }

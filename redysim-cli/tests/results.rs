@@ -120,7 +120,7 @@ fn kinematics_are_those_of_the_angles() {
 fn the_scenario_of_a_run_has_what_was_left_open_and_how_it_went() {
     let folder = scratch("resolved");
     let rest = "# mine\ninitial = { q = [0, 0.9844, 4.3144] }\n[forward]\nend = 0.5\nstep = 0.1\n";
-    let said = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);
+    let output = succeed(&folder, &["forward", &scenario(&folder, "fourbar.toml", rest), "-o", "run"]);
     let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
     let words = [
         "# mine",
@@ -155,7 +155,7 @@ fn the_scenario_of_a_run_has_what_was_left_open_and_how_it_went() {
         "written to run",
     ];
     for word in words {
-        assert!(said.contains(word), "no `{word}` in: {said}");
+        assert!(output.contains(word), "no `{word}` in: {output}");
     }
     let quiet = succeed(&folder, &["forward", &folder.join("trial.toml").display().to_string(), "-o", "quiet", "-q"]);
     assert_eq!(quiet, "");
@@ -245,7 +245,7 @@ fn forces_that_no_actuator_gives_are_warned_of() {
     let lift = "model = 'model.toml'\n[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
     fs::write(folder.join("trial.toml"), lift).unwrap();
     let run = call(&folder, &["inverse", "trial.toml", "-o", "run"]);
-    assert_eq!(run.code, 0, "{}", run.said());
+    assert_eq!(run.code, 0, "{}", run.output());
     assert!(run.stderr.contains("the joint `joint2` has no actuator"), "{}", run.stderr);
     assert!(!run.stderr.contains("joint1"), "{}", run.stderr);
 }

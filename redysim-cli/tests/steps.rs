@@ -1,11 +1,11 @@
-//! Who asks for steps that are too long hears of it.
+//! `redysim forward` warns of steps that are too large.
 
 mod common;
 
 use common::{SWING, call, scenario, scratch};
 
-/// What a run of two links says beside its results.
-fn said(name: &str, rest: &str, options: &[&str]) -> String {
+/// What a run of two links prints beside its results.
+fn output(name: &str, rest: &str, options: &[&str]) -> String {
     let folder = scratch(name);
     let path = scenario(&folder, "two_link.toml", rest);
     call(&folder, &[&["forward", &path, "-o", "run"], options].concat()).stderr
@@ -21,22 +21,22 @@ fn steps_that_are_not_stable_are_warned_of_before_the_run() {
         let law = "torque = { law = 'pd', target = [0, 1], kp = 1000, kd = 100 }\n";
         with(&format!("method = 'Ode4', step = {step}")) + law
     };
-    let long = said("steps-unstable", &held("0.02"), &[]);
+    let long = output("steps-unstable", &held("0.02"), &[]);
     for word in ["with steps of 0.02 s Ode4 is not stable", "joint `joint2`", "method = \"Ode4\", step = ", "Ode15s"] {
         assert!(long.contains(word), "no `{word}` in: {long}");
     }
     let most = long.split("step = ").nth(1).unwrap().split(' ').next().unwrap();
-    assert_eq!(said("steps-stable", &held(most), &[]), "");
+    assert_eq!(output("steps-stable", &held(most), &[]), "");
 }
 
 /// A double pendulum in two steps: the energy grows to 10¹⁷⁷ J.
 #[test]
 fn a_motion_whose_energy_comes_from_nowhere_is_called_wrong() {
     let wild = with("method = 'Ode4', step = 0.5");
-    let warned = said("steps-wild", &wild, &[]);
+    let warned = output("steps-wild", &wild, &[]);
     assert!(warned.contains("the motion is wrong") && warned.contains("below 0.5 s"), "{warned}");
-    assert_eq!(said("steps-wild-quiet", &wild, &["--quiet"]), "");
-    assert_eq!(said("steps-right", &with("method = 'Ode4', step = 0.01"), &[]), "");
+    assert_eq!(output("steps-wild-quiet", &wild, &["--quiet"]), "");
+    assert_eq!(output("steps-right", &with("method = 'Ode4', step = 0.01"), &[]), "");
 }
 
 /// The forces of each instant are right, but what lies between rows that are far apart nobody has looked at.
@@ -50,10 +50,10 @@ fn work_between_rows_that_are_too_far_apart_is_called_wrong() {
         assert_eq!(run.code, 0, "{}", run.stderr);
         run.stderr
     };
-    let said = lift(0.3);
+    let output = lift(0.3);
     assert!(
-        said.contains("too far apart") && said.contains("the forces are right") && said.contains("`step`"),
-        "{said}"
+        output.contains("too far apart") && output.contains("the forces are right") && output.contains("`step`"),
+        "{output}"
     );
     assert_eq!(lift(0.001), "");
 }

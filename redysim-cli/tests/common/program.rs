@@ -28,8 +28,8 @@ impl Run {
         Run { stdout, stderr, code: status.code().expect("it ends by itself") }
     }
 
-    /// What was printed, be it on which stream it may.
-    pub fn said(&self) -> String {
+    /// What was printed, on both streams.
+    pub fn output(&self) -> String {
         format!("{}{}", self.stdout, self.stderr)
     }
 }
@@ -64,17 +64,17 @@ pub fn call(folder: &Path, arguments: &[&str]) -> Run {
 /// Calls the program in `folder`, which must go well, and returns what it prints.
 pub fn succeed(folder: &Path, arguments: &[&str]) -> String {
     let run = call(folder, arguments);
-    assert_eq!(run.code, 0, "{arguments:?}: {}", run.said());
+    assert_eq!(run.code, 0, "{arguments:?}: {}", run.output());
     run.stdout
 }
 
-/// Calls the program in `folder`, which must end with `code`, and returns what it says of that.
+/// Calls the program in `folder`, which must end with `code`, and returns its standard error.
 pub fn fail(folder: &Path, arguments: &[&str], code: i32) -> String {
     failed(call(folder, arguments), arguments, code)
 }
 
 fn failed(run: Run, arguments: &[&str], code: i32) -> String {
-    assert_eq!(run.code, code, "{arguments:?}: {}", run.said());
+    assert_eq!(run.code, code, "{arguments:?}: {}", run.output());
     assert!(!run.stderr.contains("panicked"), "{arguments:?}: {}", run.stderr);
     run.stderr
 }
@@ -87,7 +87,7 @@ pub fn bash(folder: &Path, command: &str, arguments: &[&str]) -> Run {
 }
 
 /// Calls the program in `folder`, where it must fail because no file may become larger than that: to write more is
-/// refused, as by a disk that is full. Returns what it says.
+/// refused, as by a disk that is full. Returns its standard error.
 #[cfg(unix)]
 pub fn on_a_full_disk(folder: &Path, kilobytes: u32, arguments: &[&str]) -> String {
     // Without the trap a signal would end it; bash counts in kilobytes.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{fail, names, scenario, scratch};
 
-/// Runs a scenario of two links that must fail with `code`, say every one of `words`, and leave nothing.
+/// Runs a scenario of two links that must fail with `code`, print every one of `words`, and leave nothing.
 pub fn refuses(name: &str, command: &str, rest: &str, code: i32, words: &[&str]) {
     let folder = scratch(&format!("{}-{name}", env!("CARGO_CRATE_NAME")));
     refuses_in(&folder, command, &scenario(&folder, "two_link.toml", rest), code, words);
@@ -12,11 +12,11 @@ pub fn refuses(name: &str, command: &str, rest: &str, code: i32, words: &[&str])
 
 pub fn refuses_in(folder: &Path, command: &str, path: &str, code: i32, words: &[&str]) {
     let before = names(folder);
-    let said = fail(folder, &[command, path], code);
-    println!("{said}\n");
+    let output = fail(folder, &[command, path], code);
+    println!("{output}\n");
     for word in words {
-        assert!(said.contains(word), "no `{word}` in: {said}");
+        assert!(output.contains(word), "no `{word}` in: {output}");
     }
-    assert_eq!(said.lines().filter(|line| line.starts_with("error")).count(), 1, "one message: {said}");
+    assert_eq!(output.lines().filter(|line| line.starts_with("error")).count(), 1, "one message: {output}");
     assert_eq!(names(folder), before, "nothing is left");
 }

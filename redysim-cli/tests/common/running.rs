@@ -56,7 +56,7 @@ impl Running {
         }
     }
 
-    /// Waits until it ends; its exit code, and what it says.
+    /// Waits until it ends; returns its exit code and its standard error.
     pub fn end(mut self) -> (Option<i32>, String) {
         for _ in 0..1200 {
             if self.child.try_wait().unwrap().is_some() {
@@ -65,9 +65,9 @@ impl Running {
             sleep(Duration::from_millis(50));
         }
         let status = self.child.try_wait().unwrap().expect("it goes on");
-        let mut said = String::new();
-        self.child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
-        (status.code(), said)
+        let mut output = String::new();
+        self.child.stderr.take().unwrap().read_to_string(&mut output).unwrap();
+        (status.code(), output)
     }
 }
 

@@ -103,8 +103,8 @@ fn what_is_not_a_number_is_refused_in_limits_and_mimics_too() {
         ("<limit lower=\"\"/>", "`lower` of its <limit> must be a number, found \"\""),
         ("<limit velocity=\"1\" jerk=\"x\"/>", "`jerk` of its <limit> must be a number, found \"x\""),
     ];
-    for (inside, said) in wrong {
-        refused(&with(inside), &["robot.urdf:7: joint `k`: ", said]);
+    for (inside, reason) in wrong {
+        refused(&with(inside), &["robot.urdf:7: joint `k`: ", reason]);
     }
 }
 
