@@ -139,7 +139,8 @@ pub(crate) fn nearly_quarter_turn(item: &str, path: &KeyPath, radians: f64, degr
         format!("{item}: `{path}` is {radians:?} rad, nearly but not exactly {degrees} deg"),
         format!("nearly {degrees} deg"),
         format!(
-            "write \"{degrees} deg\": it is exact, and its zeros leave the generated code; \"{radians:?} rad\" ends this warning"
+            "write \"{degrees} deg\": it is exact, and its zeros leave the generated code; \"{radians:?} rad\" ends \
+             this warning"
         ),
     )
 }

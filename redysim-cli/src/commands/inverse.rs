@@ -48,8 +48,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 fn warn_of_work(span: Span, record: &Record<'_>) {
     if let Some(part) = record.balance().wrong_part() {
         let warning = format!(
-            "rows each {:?} s are too far apart to add up the work between them: it is wrong by {:.0} % of the energy that \
-             was exchanged; the forces are right",
+            "rows each {:?} s are too far apart to add up the work between them: it is wrong by {:.0} % of the energy \
+             that was exchanged; the forces are right",
             span.step,
             100.0 * part
         );

@@ -52,7 +52,8 @@ fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabil
         let item = reader.item();
         reader.warning_of_table(Message {
             title: format!(
-                "{item}: of the loops' {constraints} constraints {rank} are independent, for which computed torque needs closed loops"
+                "{item}: of the loops' {constraints} constraints {rank} are independent, for which computed torque \
+                 needs closed loops"
             ),
             label: "each step leaves them a little open".into(),
             help: "take stabilisation = \"projection\", or leave constraints out that follow from others".into(),

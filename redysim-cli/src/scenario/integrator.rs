@@ -238,8 +238,8 @@ fn check_count(reader: &mut Reader<'_, '_>, key: &Key, step: &Field<f64>, (lengt
         return Some(());
     }
     let title = format!(
-        "{}: with the integrator's `{key}` of {step:?} s the {length:?} s of the run take {:.1e} steps, and at most {most:e} \
-         are taken",
+        "{}: with the integrator's `{key}` of {step:?} s the {length:?} s of the run take {:.1e} steps, and at most \
+         {most:e} are taken",
         reader.item(),
         length / step
     );

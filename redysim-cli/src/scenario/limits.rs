@@ -20,8 +20,8 @@ pub fn check_start(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, initial: 
     let too_fast = |(component, v): &(&Component, &f64)| component.turns() && v.abs() * length > MOST_ANGLE;
     let Some((component, v)) = subject.layout.velocities.iter().zip(&initial.v).find(too_fast) else { return Some(()) };
     let title = format!(
-        "{}: the joint `{}` starts with {v:?} rad/s and would turn by {:.1e} rad in the {length:?} s of the run; an angle is \
-         at most {MOST_ANGLE:e} rad",
+        "{}: the joint `{}` starts with {v:?} rad/s and would turn by {:.1e} rad in the {length:?} s of the run; an \
+         angle is at most {MOST_ANGLE:e} rad",
         reader.item(),
         component.name,
         v.abs() * length
@@ -75,8 +75,8 @@ pub fn check_motion(
 fn too_far(item: &str, coordinate: &Component, (t, q): (f64, f64)) -> Option<(String, String)> {
     (coordinate.turns() && q.abs() > MOST_ANGLE).then(|| {
         let title = format!(
-            "{item}: the joint `{}` is prescribed to be at {q:.1e} rad at t = {t:?} s, and an angle is at most {MOST_ANGLE:e} \
-             rad",
+            "{item}: the joint `{}` is prescribed to be at {q:.1e} rad at t = {t:?} s, and an angle is at most \
+             {MOST_ANGLE:e} rad",
             coordinate.name
         );
         (title, unresolved("prescribe a slower motion (speeds are in rad/s), or end earlier"))
@@ -87,11 +87,12 @@ fn too_far(item: &str, coordinate: &Component, (t, q): (f64, f64)) -> Option<(St
 fn too_fast(item: &str, coordinate: &Component, (t, way): (f64, f64)) -> (String, String) {
     let (name, unit) = (&coordinate.name, coordinate.unit());
     let title = format!(
-        "{item}: the joint `{name}` is prescribed to move by {way:.1e} {unit} up to t = {t:?} s, and closed loops are followed \
-         over {MOST_MOVE:?} {unit} from one row to the next"
+        "{item}: the joint `{name}` is prescribed to move by {way:.1e} {unit} up to t = {t:?} s, and closed loops are \
+         followed over {MOST_MOVE:?} {unit} from one row to the next"
     );
     let help = format!(
-        "prescribe a slower motion (speeds are in {unit}/s), give `inverse` a smaller `step`, or begin with `initial.q` nearer"
+        "prescribe a slower motion (speeds are in {unit}/s), give `inverse` a smaller `step`, or begin with \
+         `initial.q` nearer"
     );
     (title, help)
 }

@@ -85,7 +85,8 @@ fn far_com(link: &Link, size: f64) -> Option<String> {
     let distance = length(link.com);
     (distance > size).then(|| {
         format!(
-            "link `{}`: its centre of mass is {} m from its frame, further than the whole mechanism reaches, {} m: m and mm?",
+            "link `{}`: its centre of mass is {} m from its frame, further than the whole mechanism reaches, {} m: m \
+             and mm?",
             link.name,
             rounded(distance),
             rounded(size)

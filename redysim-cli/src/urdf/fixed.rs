@@ -20,7 +20,8 @@ impl Robot {
         for (link, _) in idle {
             let Link { name, joint_name, .. } = &link;
             let remark = format!(
-                "joint `{joint_name}` moves no mass, for neither `{name}` nor a link further out has any: it is fixed at zero here"
+                "joint `{joint_name}` moves no mass, for neither `{name}` nor a link further out has any: it is fixed \
+                 at zero here"
             );
             (link.kind, link.limit) = (JointKind::Fixed, None);
             link.remarks.push(remark);

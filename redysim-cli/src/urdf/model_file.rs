@@ -90,7 +90,8 @@ fn range(limit: &JointLimit) -> String {
     let moves = |largest: f64| largest.is_finite() && largest > 0.0;
     if whole && moves(velocity) && moves(acceleration) {
         return format!(
-            "range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}, acceleration = {acceleration:?}{force} }}"
+            "range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}, \
+             acceleration = {acceleration:?}{force} }}"
         );
     }
     // Whatever is given is kept, if it makes sense or not.

@@ -91,7 +91,8 @@ impl Robot {
         notes.push(match inertial_of(root).mass {
             0.0 => format!("the root link `{root}` is the ground, called `base` here"),
             mass => format!(
-                "the root link `{root}` is fixed to the ground, called `base` here: its {mass} kg never move and are left out"
+                "the root link `{root}` is fixed to the ground, called `base` here: its {mass} kg never move and are \
+                 left out"
             ),
         });
         let link = |joint: &urdf_rs::Joint| Link {

@@ -69,8 +69,8 @@ pub(crate) fn no_placement(item: &str) -> Message {
     message(
         format!("{item}: its joint has no place"),
         "no `dh`, `origin` or `axis`",
-        "give `dh = { a = .., alpha = .., b = .., theta = .. }`, or `origin = { xyz = [..], rpy = [..] }` and `axis = [..]`; \
-         `origin = {}` is the parent's frame",
+        "give `dh = { a = .., alpha = .., b = .., theta = .. }`, or `origin = { xyz = [..], rpy = [..] }` and \
+         `axis = [..]`; `origin = {}` is the parent's frame",
     )
 }
 
@@ -169,14 +169,14 @@ pub(crate) fn singular_tree(item: &str, function: Function, link: &str, joint: &
     let name = function.name();
     message(
         format!(
-            "{item}: `{name}` is that of the tree with its loops open, whose mass matrix is singular: the joint {} of link {} \
-             meets no inertia",
+            "{item}: `{name}` is that of the tree with its loops open, whose mass matrix is singular: the joint {} of \
+             link {} meets no inertia",
             quoted(joint),
             quoted(link)
         ),
         "the closed mechanism alone has accelerations",
-        "leave it out and take `ClosedLoop::dynamics`, for which the loops hold the link, or give the link a small mass and \
-         inertia",
+        "leave it out and take `ClosedLoop::dynamics`, for which the loops hold the link, or give the link a small \
+         mass and inertia",
     )
 }
 
@@ -212,8 +212,8 @@ pub(crate) fn loops_stay_open(model: &str, starts: usize, gap: f64) -> Message {
             rounded(gap)
         ),
         "the loops stay open",
-        "check lengths, points and axes at the cuts; if the mechanism closes only near one position, close it from there \
-         with `assemble`",
+        "check lengths, points and axes at the cuts; if the mechanism closes only near one position, close it from \
+         there with `assemble`",
     )
 }
 
@@ -230,7 +230,8 @@ pub(crate) fn redundant_rows(name: &str, dependent: usize, [rows, structural, mo
     message(
         format!("loop {}: {dependent} of its constraints {follow} from the others", quoted(name)),
         format!(
-            "the loops set {rows} constraints, which leave a mobility of {structural} by their structure, of {mobility} by their rank"
+            "the loops set {rows} constraints, which leave a mobility of {structural} by their structure, of \
+             {mobility} by their rank"
         ),
         "the motion is not affected; of the constraint forces those of least norm are given. A cut of another kind \
          (spherical instead of revolute) may leave them out",
@@ -249,7 +250,7 @@ pub(crate) fn over_actuated(model: &str, actuated: usize, mobility: usize) -> Me
     message(
         format!("model {}: {actuated} actuated joints, but a mobility of {mobility}", quoted(model)),
         "more actuators than freedom",
-        "write `actuated = false` for joints without an actuator; if all are meant, inverse dynamics gives the joint forces \
-         of least norm",
+        "write `actuated = false` for joints without an actuator; if all are meant, inverse dynamics gives the joint \
+         forces of least norm",
     )
 }

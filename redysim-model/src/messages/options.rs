@@ -81,8 +81,8 @@ pub(crate) fn unknown_acceleration_method(item: &str, name: &str) -> Message {
         format!("{item}: `forward_dynamics` is {}, which is invalid", quoted(name)),
         "not a method",
         format!(
-            "{meant}The methods are: {}; with `auto`, the default, the generator takes the factorisation where it is cheaper \
-             and keeps the digits that the recursion keeps",
+            "{meant}The methods are: {}; with `auto`, the default, the generator takes the factorisation where it is \
+             cheaper and keeps the digits that the recursion keeps",
             names.join(", ")
         ),
     )
@@ -92,7 +92,8 @@ pub(crate) fn bad_tolerance(item: &str, tolerance: f64) -> Message {
     message(
         format!("{item}: `tolerance` is {tolerance:?}, which is not a share between 0 and 1"),
         "not between 0 and 1",
-        "give the error allowed as a share of each joint's largest force, as in 1e-3; without `tolerance` nothing is pruned",
+        "give the error allowed as a share of each joint's largest force, as in 1e-3; without `tolerance` nothing is \
+         pruned",
     )
 }
 

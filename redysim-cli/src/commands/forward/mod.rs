@@ -80,8 +80,8 @@ fn warn_of_step(
     let (method, step, most) = (forward.integrator.name(), warning.step, two_digits(0.25 * warning.stable.step));
     let warning = format!("with steps of {step:?} s {method} is not stable near the start: errors{whose} grow");
     let help = format!(
-        "take integrator = {{ method = \"{method}\", step = {most:.1e} }} or less, lower gains or dampings, or an implicit \
-         method, as in: {IMPLICIT}"
+        "take integrator = {{ method = \"{method}\", step = {most:.1e} }} or less, lower gains or dampings, or an \
+         implicit method, as in: {IMPLICIT}"
     );
     record.warn(&warning, &help);
 }
@@ -130,8 +130,8 @@ fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System
         }
         IntegrationError::Stiff { t, step, remaining } => {
             let message = format!(
-                "the equation is stiff at t = {t:?} s: stability, not accuracy, keeps the steps at {step:.1e} s, and the rest \
-                 would take about {remaining} of them"
+                "the equation is stiff at t = {t:?} s: stability, not accuracy, keeps the steps at {step:.1e} s, and \
+                 the rest would take about {remaining} of them"
             );
             Failure::outside(message)
                 .help(format!("take an implicit method, as in: {IMPLICIT}, or lower gains or dampings"))
