@@ -58,7 +58,7 @@ impl Failure {
         self.message.trim_end()
     }
 
-    /// With more text.
+    /// Appends `more` to the message.
     pub fn and(mut self, more: &str) -> Self {
         self.message += more;
         self

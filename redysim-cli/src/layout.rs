@@ -33,7 +33,7 @@ pub struct Joint {
 /// One coordinate or velocity.
 #[derive(Clone, Debug)]
 pub struct Component {
-    /// Its name: that of the joint, if the joint has no other.
+    /// Its name: that of the joint, if the joint has no other component.
     pub name: String,
     /// The number of its joint.
     pub joint: usize,
@@ -96,7 +96,7 @@ const ANGLE: Parts = &[("", Measure::Angle)];
 const LENGTH: Parts = &[("", Measure::Length)];
 
 impl Layout {
-    /// That of a model.
+    /// The layout of a model.
     pub fn of(model: &Model) -> Self {
         let mut layout = Layout::default();
         for link in model.moving_links() {

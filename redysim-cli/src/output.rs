@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 
 /// Writes `contents` to `path`: first beside it under another name, so that an interruption or a full disk leaves
-/// nothing half-written. A file that is there already stays, unless `force`. Links are followed; what is not a file,
-/// such as a device or a pipe, is written into.
+/// nothing half-written. An existing file is kept unless `force` is given. Links are followed; a device or a pipe is
+/// written directly.
 ///
 /// # Errors
 /// If the file is there and `force` is not given, or if it cannot be written.
@@ -54,12 +54,12 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints a line beside what was asked for on the standard output. That it cannot be printed is ignored.
+/// Prints a line beside what was asked for on the standard output. A failure to print is ignored.
 pub fn to_stdout(text: &str) {
     let _ = print(&format!("{text}\n"));
 }
 
-/// Prints a line on the standard error: a warning, or why something failed. That it cannot be printed is ignored.
+/// Prints a line on the standard error: a warning, or why something failed. A failure to print is ignored.
 pub fn to_stderr(text: &str) {
     let _ = io::stderr().write_all(format!("{text}\n").as_bytes());
 }
@@ -105,7 +105,7 @@ fn write_into(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
 }
 
-/// Writes a draft beside the file, which takes the file's name when it is whole and goes away when it fails.
+/// Writes a draft beside the file and renames it to the file when it is complete; a draft that fails is deleted.
 fn replace(target: &Path, contents: &[u8]) -> io::Result<()> {
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut draft = drafts().tempfile_in(folder)?;
@@ -118,7 +118,7 @@ fn replace(target: &Path, contents: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// Drafts that those may read who may read any new file.
+/// Drafts with the permissions of any new file.
 #[cfg(unix)]
 fn drafts() -> tempfile::Builder<'static, 'static> {
     use std::os::unix::fs::PermissionsExt;

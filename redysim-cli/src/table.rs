@@ -139,7 +139,7 @@ fn columns(path: &Path, text: &str, headers: &StringRecord) -> Result<Vec<Column
     headers.iter().skip(1).map(column).collect()
 }
 
-/// The line on which a row stands: the reader has where the one before it ended, and passes over empty lines and
+/// The line on which a row stands: the reader knows where the one before it ended, and skips empty lines and
 /// comments.
 fn line(text: &str, position: Option<&Position>) -> usize {
     let (before, byte) = position.map_or((1, 0), |position| (position.line() as usize, position.byte() as usize));

@@ -152,7 +152,7 @@ fn what_is_missing_or_wrong_is_reported() {
     fs::copy(model("simple_pendulum.toml"), folder.join("model.toml")).unwrap();
     fails(1, "holds no motion");
     fs::write(folder.join("statevar.csv"), "t [s],q other [rad]\n0,0\n").unwrap();
-    fails(1, "statevar.csv:1: there is no column `q bar [..]`");
+    fails(1, "statevar.csv:1: the column `q bar [..]` is missing");
     fs::write(folder.join("statevar.csv"), "t [s],q bar [rad],v bar [rad/s]\n0,0,0\n1,NaN,0\n").unwrap();
     fails(1, "statevar.csv:3: `q bar [rad]` must be a finite number, found NaN");
 }

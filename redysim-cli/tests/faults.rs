@@ -110,7 +110,7 @@ fn an_unknown_joint_is_reported_with_the_one_that_was_meant() {
     let words = ["`forward.torque.target` has nothing to do with the joint `joint2`"];
     refuses("foreign", "forward", &format!("{SWING}{one}"), 1, &words);
     let law = "torque = { law = 'p', joints = ['joint9'], target = [0], kp = 1 }\n";
-    refuses("driven", "forward", &format!("{SWING}{law}"), 1, &["no joint `joint9`", "there are: joint1, joint2"]);
+    refuses("driven", "forward", &format!("{SWING}{law}"), 1, &["no joint `joint9`", "The joints are: joint1, joint2"]);
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn a_table_with_a_fault_is_refused_with_its_line() {
     refuses_table("one-row", &with("0,0,0\n"), &["1 row"]);
     refuses_table("empty", "", &["forces.csv:1", "`t [s]`"]);
     refuses_table("no-time", "tau joint1 [N m]\n0\n1\n", &["forces.csv:1", "the first column must be the time"]);
-    refuses_table("column", "t [s],tau joint1 [N m]\n0,0\n1,0\n", &["no column `tau joint2 [N m]`"]);
+    refuses_table("column", "t [s],tau joint1 [N m]\n0,0\n1,0\n", &["the column `tau joint2 [N m]` is missing"]);
     refuses_table(
         "unit",
         "t [s],tau joint1 [N],tau joint2 [N m]\n0,0,0\n1,0,0\n",

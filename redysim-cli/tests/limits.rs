@@ -1,4 +1,4 @@
-//! Numbers with which nothing can be computed are refused at once, where they stand, as the user's fault.
+//! Numbers that are out of range are refused before the run, where they stand, with exit code 1.
 
 mod common;
 

@@ -77,7 +77,7 @@ fn the_work_of_baumgartes_feedback_is_not_called_wrong() {
 }
 
 #[test]
-fn computed_torque_of_loops_with_redundant_conditions_wants_them_closed() {
+fn computed_torque_of_loops_with_redundant_constraints_needs_them_closed() {
     let rest = |stabilisation: &str| {
         format!(
             "initial = {{ q = [0, 0.9844, 4.3144] }}\ntrajectory = {{ kind = 'constant-speed', from = [0], speed = [1] }}\n\
@@ -100,7 +100,10 @@ fn settings_of_loops_have_no_effect_on_a_tree_and_are_warned_of() {
         "initial = { assemble = false, held = ['joint1'] }\n[forward]\nend = 0.2\nstep = 0.1\nstabilisation = 'none'\n";
     let output = warned("loops-none", "two_link.toml", rest);
     for key in ["initial.assemble", "initial.held", "forward.stabilisation"] {
-        assert!(output.contains(&format!("`{key}` is of closed loops, and the model has none")), "{key}: {output}");
+        assert!(
+            output.contains(&format!("`{key}` applies only to closed loops, and the model has no loops")),
+            "{key}: {output}"
+        );
     }
 }
 

@@ -1,15 +1,15 @@
-//! What a file has under a key.
+//! The value of a key in a file.
 
 use toml::Spanned;
 
-/// What a file has under a key.
+/// The value of a key in a file.
 #[derive(Debug)]
 pub enum Field<T> {
-    /// Nothing.
+    /// The key is missing.
     Missing,
-    /// Something that is not a `T`. The error has been reported; checks of this field are to keep silent.
+    /// The value is not a `T`. The error has been reported; checks of this field report nothing more.
     Invalid,
-    /// A value, with its place.
+    /// The value, with its place.
     Value(Spanned<T>),
 }
 
@@ -27,12 +27,12 @@ impl<T> Field<T> {
         }
     }
 
-    /// Whether the file has nothing here.
+    /// Whether the key is missing.
     pub fn is_missing(&self) -> bool {
         matches!(self, Field::Missing)
     }
 
-    /// The value, or `default` where the file has none; `None` where it is invalid.
+    /// The value, or `default` if the key is missing; `None` if the value is invalid.
     pub fn value_or(&self, default: T) -> Option<T>
     where
         T: Clone,

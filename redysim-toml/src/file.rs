@@ -1,4 +1,4 @@
-//! A file from its text to a value.
+//! Reading a file from its text to a value.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,11 +15,11 @@ use crate::source::Source;
 use crate::value::Table;
 
 /// Reads the text of a file whose table has the keys `keys`. Messages call the file `file_name` and what it describes
-/// `item`. `read` is handed a reader of the file's table; where it returns `None`, it has reported why. Beside what it
-/// returns stand the warnings.
+/// `item`. `read` receives a reader of the file's table; it returns `None` after it has reported an error. Returns the
+/// value of `read` and the warnings.
 ///
 /// # Errors
-/// Every error in the text, each shown where it stands: what is not TOML, or what `read` and the [`Reader`] reported.
+/// Every error in the text, each shown at its place: invalid TOML, or errors reported by `read` and the [`Reader`].
 pub fn read<T>(
     text: impl Into<String>,
     file_name: impl Into<String>,
@@ -57,7 +57,7 @@ pub fn parse(source: &Source) -> Parsed<'_> {
     Parsed { source, root, errors }
 }
 
-/// More lines that are not TOML are not listed: the file is of another kind.
+/// The number of lines with syntax errors that are listed: a file with more is probably not TOML.
 const MOST_SYNTAX_ERRORS: usize = 10;
 
 impl<'s> Parsed<'s> {
@@ -71,12 +71,12 @@ impl<'s> Parsed<'s> {
         self.errors.is_empty()
     }
 
-    /// The place of the first key, where messages show what the whole text lacks.
+    /// The place of the first key, where keys missing in the whole text are reported.
     pub fn start(&self) -> Range<usize> {
         self.root().keys().map(Spanned::span).min_by_key(|span| span.start).unwrap_or_default()
     }
 
-    /// Reports the first syntax error of each line; the parser stumbles on over the rest of a broken line.
+    /// Reports the first syntax error of each line; those after it follow from the first.
     pub fn report(&self, findings: &mut Findings) {
         let text = &self.source.text;
         let start = text.len() - text.trim_start_matches('\u{feff}').trim_start().len();

@@ -1,4 +1,4 @@
-//! What is found while a file is read.
+//! Errors and warnings that are collected while a file is read.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,24 +11,24 @@ use crate::source::Source;
 pub struct Findings {
     file: Arc<Source>,
     beside: Arc<Source>,
-    /// Which of the two is being looked at.
+    /// The text that reports are about.
     text: Text,
     diagnostics: Vec<Diagnostic>,
     errors: usize,
 }
 
 impl Findings {
-    /// Nothing is found yet in a file.
+    /// An empty collection for a file.
     pub fn new(file: Arc<Source>) -> Self {
         Findings::with_beside(file, Arc::new(Source::new("", "")))
     }
 
-    /// Nothing is found yet in a file and a text beside it.
+    /// An empty collection for a file and a text beside it.
     pub fn with_beside(file: Arc<Source>, beside: Arc<Source>) -> Self {
         Findings { file, beside, text: Text::File, diagnostics: Vec::new(), errors: 0 }
     }
 
-    /// What `look` finds stands in `text`.
+    /// Runs `look`; what it reports is about `text`.
     pub fn within<T>(&mut self, text: Text, look: impl FnOnce(&mut Self) -> T) -> T {
         let before = std::mem::replace(&mut self.text, text);
         let seen = look(self);

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A key of a table. All that is known of it stands here, once.
+/// A key of a table, defined once for the reader, the messages and the documentation.
 ///
 /// ```
 /// use redysim_toml::Key;
@@ -14,9 +14,9 @@ use std::fmt;
 pub struct Key {
     /// Its name.
     pub name: &'static str,
-    /// A value that may be copied; `None` for an array of tables, each with a header of its own.
+    /// An example of the value, to be copied; `None` for an array of tables, each with its own header.
     value: Option<&'static str>,
-    /// What the value means, with its unit; empty where the name is enough.
+    /// The meaning of the value, with its unit; empty if the name is enough.
     pub meaning: &'static str,
     /// The keys of the table that is its value: one set of keys, or one for each kind of table.
     pub tables: &'static [&'static Keys],
@@ -43,7 +43,7 @@ impl Key {
         Key { name, value: None, meaning, tables }
     }
 
-    /// A line that may be copied.
+    /// An example line, to be copied.
     pub fn example(&self) -> String {
         match self.value {
             Some(value) => format!("{} = {value}", self.name),
@@ -123,7 +123,7 @@ impl KeyPath {
         KeyPath { key: self.key, path: format!("{}[{index}]", self.path) }
     }
 
-    /// The value under `name`, which is not a known key but a name that the file gives.
+    /// The value under `name`, a name defined by the file instead of a known key.
     pub fn entry(&self, name: &str) -> Self {
         KeyPath { key: self.key, path: format!("{}.{name}", self.path) }
     }

@@ -7,12 +7,12 @@
 //! | item | what it is |
 //! |---|---|
 //! | [`Key`], [`Keys`] | the keys of a table: name, example, meaning with unit; also for [`Keys::documentation`] |
-//! | [`Reader`] | reads the values under the keys of one table, and reports what is unknown, missing or invalid |
-//! | [`Field`] | what a file has under a key: nothing, something invalid, or a value with its place |
+//! | [`Reader`] | reads the values of the keys of one table, and reports unknown keys, missing keys and invalid values |
+//! | [`Field`] | the value of a key: missing, invalid, or a value with its place |
 //! | [`Findings`] | collects errors and warnings while a file is read and checked |
 //! | [`Diagnostic`] | an error or a warning; its `Display` shows the line of the file with a caret |
 //! | [`Message`] | its words: item, rule and value in the title, the rule in the label, the remedy in the help |
-//! | [`read`] | a file from its text to a value, with all of these |
+//! | [`read`] | reads a file from its text to a value, with all of these |
 //! | [`words`] | quoted values, nearest names, short numbers: for further messages |
 //!
 //! # Example

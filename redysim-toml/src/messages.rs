@@ -15,7 +15,7 @@ fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> 
 
 pub(crate) fn syntax(reason: &str) -> Message {
     let help = match reason {
-        "duplicate key" => "a key may stand only once in its table: delete one of the two, or rename it",
+        "duplicate key" => "a key may occur only once in a table: delete one of the two, or rename it",
         _ => "correct the TOML first; the rest of the file is checked after that",
     };
     message(format!("TOML: {reason}"), reason, help)
@@ -29,7 +29,7 @@ pub(crate) fn xml() -> Message {
     message(
         "this is XML, not TOML".into(),
         "TOML does not begin like this",
-        "of a URDF, `redysim import` makes a model file",
+        "convert a URDF to a model file with `redysim import`",
     )
 }
 
@@ -88,7 +88,7 @@ pub(crate) fn not_positive(item: &str, path: &KeyPath, found: f64) -> Message {
 
 pub(crate) fn out_of_range(item: &str, path: &KeyPath, found: &str, allowed: &RangeInclusive<f64>) -> Message {
     message(
-        format!("{item}: `{path}` is {}, with which nothing can be computed", quoted(found)),
+        format!("{item}: `{path}` is {}, which is out of range", quoted(found)),
         "too large or too small",
         format!("a number is 0 or from {:e} to {:e} in size", allowed.start(), allowed.end()),
     )
@@ -122,7 +122,8 @@ pub(crate) fn unknown_choice(item: &str, path: &KeyPath, found: &str, choices: &
 }
 
 pub(crate) fn unknown_name(item: &str, what: &str, found: &str, names: &[&str]) -> Message {
-    let help = format!("{}there are: {}", did_you_mean(nearest(found, names.iter().copied())), names.join(", "));
+    let meant = did_you_mean(nearest(found, names.iter().copied()));
+    let help = format!("{meant}The {what}s are: {}", names.join(", "));
     message(format!("{item}: there is no {what} {}", quoted(found)), format!("no such {what}"), help)
 }
 

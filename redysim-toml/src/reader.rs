@@ -1,4 +1,4 @@
-//! Reads the keys of one table, and reports what is not as it should be.
+//! Reads the keys of one table, and reports errors.
 
 use std::ops::Range;
 
@@ -22,23 +22,21 @@ pub struct TableAt<'a> {
     pub header: Range<usize>,
 }
 
-/// A kind of table: its name, what it stands for, and which keys it has.
+/// A kind of table: its name, its meaning, and its keys.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind<K> {
     /// The name, as the file has it.
     pub name: &'static str,
-    /// What it stands for.
+    /// Its meaning.
     pub kind: K,
     /// The keys.
     pub keys: &'static Keys,
 }
 
-/// One table, and whose it is.
-///
-/// What it reads is a [`Field`]; what is not as it should be is reported with its place.
+/// Reads the values of one table as [`Field`]s, and reports every error at its place.
 pub struct Reader<'a, 'f> {
     table: &'a DeTable<'a>,
-    /// A place for what the table lacks.
+    /// Where missing keys are reported.
     place: Range<usize>,
     /// What messages call the item that the table describes.
     item: &'f str,
@@ -50,8 +48,8 @@ pub struct Reader<'a, 'f> {
 }
 
 impl<'a, 'f> Reader<'a, 'f> {
-    /// Opens a table and reports its unknown keys. Messages call what it describes `item`, as in "link `arm`"; `place`
-    /// is where they show what the table lacks.
+    /// Opens a table and reports its unknown keys. Messages call what it describes `item`, as in "link `arm`"; missing
+    /// keys are reported at `place`.
     pub fn new(
         table: &'a Table<'a>,
         place: Range<usize>,
@@ -89,7 +87,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         self
     }
 
-    /// What `read` makes of a key that must be there: that it is missing is reported.
+    /// Reads a required key with `read`, and reports it if it is missing.
     pub fn required<T>(&mut self, key: &Key, read: impl FnOnce(&mut Self, &Key) -> Field<T>) -> Field<T> {
         let field = read(self, key);
         if field.is_missing() {
@@ -98,7 +96,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         field
     }
 
-    /// What `read` makes of the value under a key; invalid if it reports any error.
+    /// Reads the value of a key with `read`; the field is invalid if `read` reports an error.
     pub fn field<T>(
         &mut self,
         key: &Key,
@@ -178,7 +176,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
-    /// The `found` one of the names in `choices`.
+    /// Looks up the name `found` in `choices`.
     pub fn choose<T: Copy>(
         &mut self,
         path: &KeyPath,
@@ -193,7 +191,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
-    /// The one of `named` with the name `found`, which stands at `place`; each of them is a `what`.
+    /// Looks up the name `found`, which stands at `place`, in `named`; messages call each of them a `what`.
     pub fn lookup<T: Copy>(&mut self, place: Range<usize>, what: &str, found: &str, named: &[(&str, T)]) -> Option<T> {
         let there = named.iter().find(|(name, _)| *name == found).map(|(_, thing)| *thing);
         there.or_else(|| {
@@ -256,7 +254,8 @@ impl<'a, 'f> Reader<'a, 'f> {
         Reader { prefix, ..inner }
     }
 
-    /// The tables of an array of tables. `None` stands for what is not a table, or not an array.
+    /// The tables of an array of tables. `None` stands for an invalid array, and within it for an entry that is not a
+    /// table.
     pub fn tables(&mut self, key: &Key) -> Option<Vec<Option<TableAt<'a>>>> {
         let (table, path) = (self.table, self.path(key));
         let Some(value) = table.get(key.name) else {
@@ -282,8 +281,9 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.parse_turn(path, value, "")
     }
 
-    /// The value as a displacement of a joint, or that `per` something, as "/s": a number, or of a joint that turns
-    /// also an angle with a unit, in radians. Unlike of an angle, more than a turn of it is nothing odd.
+    /// The value as a displacement of a joint, or as its rate `per` time, such as "/s": a number, or for a joint that
+    /// turns also an angle with a unit, in radians. Unlike [`parse_angle`](Self::parse_angle), it accepts more than a
+    /// turn without a warning.
     pub fn parse_displacement(&mut self, path: &KeyPath, value: &Value<'_>, turns: bool, per: &str) -> Option<f64> {
         match value.get_ref() {
             DeValue::String(_) if turns => self.parse_turn(path, value, per),
@@ -308,7 +308,7 @@ impl<'a, 'f> Reader<'a, 'f> {
         }
     }
 
-    /// What `read` makes of each element of an array. Every element is read, so that each error among them is reported.
+    /// Reads each element of an array with `read`. Every element is read, so that each error among them is reported.
     pub fn elements<T>(
         &mut self,
         path: &KeyPath,
@@ -365,12 +365,12 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.error_at(self.place.clone(), message)
     }
 
-    /// Warns of what is at a place.
+    /// Reports a warning at a place.
     pub fn warning_at(&mut self, place: Range<usize>, message: Message) {
         self.findings.warning(place, message);
     }
 
-    /// Warns of the table as a whole.
+    /// Reports a warning about the table as a whole.
     pub fn warning_of_table(&mut self, message: Message) {
         self.warning_at(self.place.clone(), message);
     }
@@ -380,7 +380,7 @@ impl<'a, 'f> Reader<'a, 'f> {
     }
 }
 
-/// The name that a value is: a string, or a number that serves as one.
+/// The value as a name: a string, or a number used as one.
 pub fn name_of<'v>(value: &'v Value<'_>) -> Option<&'v str> {
     match value.get_ref() {
         DeValue::String(text) => Some(text.as_ref()),

@@ -1,4 +1,4 @@
-//! What single values are: numbers and angles, finite and plausible.
+//! Single values: numbers and angles, finite and plausible.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::RangeInclusive;
@@ -20,7 +20,7 @@ pub type Table<'a> = DeTable<'a>;
 /// An array.
 pub type Array<'a> = DeArray<'a>;
 
-/// What a number other than zero may be, so that products of a mass and two lengths, and their reciprocals, are finite.
+/// The range of a number other than zero: products of a mass and two lengths, and their reciprocals, are finite.
 const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1416.
@@ -34,7 +34,7 @@ pub(crate) struct Named<'v, 'a> {
     pub(crate) value: &'v Value<'a>,
 }
 
-/// An angle, in radians, with a warning if it is doubtful.
+/// An angle, in radians, with a warning if it is implausible.
 pub(crate) struct Angle {
     pub(crate) radians: f64,
     pub(crate) warning: Option<Message>,
@@ -71,7 +71,7 @@ impl Named<'_, '_> {
         }
     }
 
-    /// A warning of plain numbers that look like degrees, or like quarter turns rounded by hand.
+    /// A warning about a plain number that looks like degrees, or like quarter turns rounded by hand.
     fn doubt(self, radians: f64) -> Option<Message> {
         let Named { item, path, .. } = self;
         let quarters = (radians / FRAC_PI_2).round();
@@ -95,7 +95,7 @@ impl Named<'_, '_> {
         }
     }
 
-    /// That the value is not of the type `wanted`, a noun with its article.
+    /// The error of a value that is not of the type `wanted`, a noun with its article.
     pub(crate) fn wrong_type(self, wanted: &str) -> Message {
         messages::wrong_type(self.item, self.path, wanted, &described(self.value.get_ref()))
     }

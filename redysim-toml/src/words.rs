@@ -1,4 +1,4 @@
-//! How messages show names, values and numbers.
+//! Names, values and numbers as messages show them.
 
 /// A name or value of the file between backticks; long ones are cut, odd characters escaped.
 pub fn quoted(text: &str) -> String {
@@ -18,7 +18,7 @@ pub fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
     candidates.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
 }
 
-/// Names, as many as one reads.
+/// A list of names, shortened to the first 20.
 pub fn shortened(names: &[&str]) -> String {
     const MOST: usize = 20;
     let more = if names.len() > MOST { ", …" } else { "" };
@@ -30,7 +30,7 @@ pub fn did_you_mean(name: Option<&str>) -> String {
     name.map_or(String::new(), |name| format!("did you mean {}? ", quoted(name)))
 }
 
-/// A computed value with as many digits as one reads.
+/// A computed value, rounded to six digits.
 pub fn rounded(value: f64) -> String {
     let short: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     format!("{short:?}")

@@ -51,8 +51,8 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Motion
     Ok((motion, notes))
 }
 
-/// The coordinates that a table has, and their rates: the velocity where a coordinate has one of its name, else what
-/// the neighbouring instants show.
+/// The coordinates in a table, and their rates: the velocity of the same name, or the mean rate between the
+/// neighbouring instants if there is none.
 fn recorded_motion(table: &Table, layout: &Layout) -> Result<Motion, Failure> {
     let rows = evenly(table.t.len(), NUMBERS / (2 * layout.nq()).max(1));
     let pick = |symbol: &str, component: &Component| -> Result<Vec<f64>, Failure> {
@@ -74,7 +74,7 @@ fn recorded_motion(table: &Table, layout: &Layout) -> Result<Motion, Failure> {
 
 fn column<'t>(table: &'t Table, symbol: &str, name: &str) -> Result<&'t Column, Failure> {
     table.of(symbol).find(|column| column.name == name.trim()).ok_or_else(|| {
-        Failure::input(format!("{}:1: there is no column `{symbol} {name} [..]`", table.path.display()))
+        Failure::input(format!("{}:1: the column `{symbol} {name} [..]` is missing", table.path.display()))
             .help(format!("the folder's model.toml has `{name}`: are both from the same run?"))
     })
 }
@@ -108,7 +108,7 @@ fn neighbours(t: &[f64], k: usize) -> Range<usize> {
     k.saturating_sub(1)..(k + 1).min(t.len() - 1)
 }
 
-/// The mean rate between the neighbours of an instant; `None` where no time passes between them.
+/// The mean rate between the neighbours of an instant; `None` if no time passes between them.
 fn mean_rate(t: &[f64], q: &[f64], k: usize) -> Option<f64> {
     let Range { start, end } = neighbours(t, k);
     let time = t[end] - t[start];
@@ -163,7 +163,7 @@ mod tests {
         let motion = recorded_motion(&Table::read(&path).unwrap(), &layout).unwrap();
         assert_eq!((motion.q.len(), motion.v.len()), (8, 8));
         for (i, v) in motion.v.iter().enumerate() {
-            // That of the arm is its velocity, which is its rate.
+            // The rate of the arm is its velocity, 7.
             assert_eq!(*v, [i as f64; 5], "coordinate {i}");
         }
     }

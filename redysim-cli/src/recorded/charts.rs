@@ -79,7 +79,7 @@ impl Recorded {
     }
 }
 
-/// The numbers of colours by the names of curves: a new name has the next.
+/// The numbers of colours by the names of curves: a new name gets the next number.
 #[derive(Default)]
 struct Colours(Vec<String>);
 

@@ -126,7 +126,7 @@ impl<'a> Record<'a> {
         if let Some(failure) = self.broken {
             return Err(failure);
         }
-        // That a motion begins at its start is not a result; forces at its first instant are.
+        // The start of a motion is not a result; the forces at its first instant are.
         let least = if self.dynamics == Dynamics::Forward { 2 } else { 1 };
         if self.count < least {
             return Err(match outcome.ended {

@@ -20,7 +20,7 @@ pub fn is_empty(path: &Path) -> bool {
 /// If it is anything but an empty folder, and `force` is not given, or if it is not a result, or one with anything
 /// beside what this program writes: notes would be lost.
 pub fn replaces(target: &Path, force: bool) -> Result<bool, Failure> {
-    // What cannot be looked at cannot be written either, and that fails with a reason.
+    // A path without metadata cannot be written either, and writing reports the reason.
     let Ok(found) = fs::symlink_metadata(target) else { return Ok(false) };
     if is_empty(target) {
         return Ok(true);

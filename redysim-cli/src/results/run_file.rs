@@ -66,7 +66,7 @@ pub fn is_of_a_run(text: &str) -> bool {
     document.is_ok_and(|document| document.get("run").and_then(|run| run.get("redysim")).is_some())
 }
 
-/// What the scenario has stays, and what it leaves open is filled in.
+/// Sets a key to its resolved value, unless the scenario has it.
 fn keep(table: &mut Item, key: &str, resolved: Item) {
     if table.get(key).is_some() {
         return;

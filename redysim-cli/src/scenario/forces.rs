@@ -11,9 +11,9 @@ use crate::layout::{Component, Layout};
 /// Joint forces over time, with straight lines between the rows of a table.
 #[derive(Clone, Debug)]
 pub struct Forces {
-    /// Where they were read from.
+    /// The table that they were read from.
     pub table: Table,
-    /// One for each velocity, zero where the table has none.
+    /// By rows, a force for each velocity; zero for a velocity without a column.
     rows: Vec<Vec<f64>>,
 }
 

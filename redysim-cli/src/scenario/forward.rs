@@ -21,8 +21,8 @@ pub struct Forward {
 }
 
 impl Forward {
-    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None`, if what is wrong with that has
-    /// been reported.
+    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None` if it is invalid, which has been
+    /// reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,
@@ -41,8 +41,8 @@ impl Forward {
     }
 }
 
-/// The law asks for what all constraints allow: where some follow from others, in loops that are slightly open they
-/// contradict each other.
+/// Warns that redundant constraints contradict each other in loops that are slightly open, so that computed torque has
+/// no solution there.
 fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabilisation: Stabilisation<f64>) {
     if !subject.loops() || stabilisation == Stabilisation::Projection {
         return;

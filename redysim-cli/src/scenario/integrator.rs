@@ -169,8 +169,8 @@ impl Integrator {
         }
     }
 
-    /// The warning that steps of one size grow errors near the state at `t`, and which joint asks for smaller ones;
-    /// nothing where they do not, or where the method does not know.
+    /// The warning that steps of one size grow errors near the state at `t`, with the joint that needs smaller ones;
+    /// `None` if errors do not grow, or if the method cannot predict it.
     pub fn step_warning<'m>(
         &self,
         ode: &mut dyn Ode<f64, Vec<f64>>,
@@ -183,10 +183,10 @@ impl Integrator {
             Fixed::Ode4 => largest_stable_step(ode, t, state, &Ode4::new(step)),
             Fixed::Ode5 => largest_stable_step(ode, t, state, &Ode5::new(step)),
             Fixed::Dop8 => largest_stable_step(ode, t, state, &Dop8::new(step)),
-            // They are stable wherever their iteration converges, and say where it does not.
+            // They are stable wherever their iteration converges, and report where it does not.
             Fixed::Gauss4 | Fixed::Gauss6 => return None,
         };
-        // Where there are no derivatives, the integration reports why.
+        // Without derivatives, the integration reports the reason.
         stable.ok()?.warning(step, mechanism)
     }
 

@@ -62,7 +62,7 @@ pub struct Scenario {
 
 impl Scenario {
     /// Reads what a scenario has for a run, and its model, and prints their warnings unless `quiet`. What it has for
-    /// the other run may wait for what this one writes.
+    /// the other run is not read: it may name files that this run writes.
     ///
     /// # Errors
     /// Every fault of the scenario at once; or those of the model, or the first of a table.
@@ -176,7 +176,8 @@ fn read(
     Some(Scenario { name, document, model_text, mechanism, layout, initial, trajectory, inverse, forward })
 }
 
-/// The file as it can be edited. It is read again for that, whole: also what this run has not looked at must be TOML.
+/// The file as a document that can be edited. It is parsed again for that: the parts that this run does not read must
+/// be TOML as well.
 fn document(reader: &mut Reader<'_, '_>, text: &str) -> Option<DocumentMut> {
     let fault = match text.parse() {
         Ok(document) => return Some(document),

@@ -37,9 +37,9 @@ pub struct Subject<'s> {
     pub layout: &'s Layout,
     /// The model.
     pub model: &'s Model,
-    /// What its loops leave free, once somebody has asked: to find that closes them.
+    /// What its loops leave free, computed on first use, because it takes closing them.
     pub mobility: OnceCell<Mobility>,
-    /// Where the files are that it names.
+    /// The folder of the files that it names.
     pub folder: &'s Path,
 }
 
@@ -54,10 +54,10 @@ impl Subject<'_> {
         self.mobility.get_or_init(|| Mobility::of(self.model))
     }
 
-    /// Warns of a setting of closed loops where there are none.
+    /// Warns about a setting that applies only to closed loops, if the model has no loops.
     pub fn expect_loops<T>(&self, reader: &mut Reader<'_, '_>, key: &str, setting: &Field<T>) {
         if let (false, Some(given)) = (self.loops(), setting.spanned()) {
-            let title = format!("{}: `{key}` is of closed loops, and the model has none", reader.item());
+            let title = format!("{}: `{key}` applies only to closed loops, and the model has no loops", reader.item());
             let message = Message { title, label: "without effect".into(), help: "leave it out".into() };
             reader.warning_at(given.span(), message);
         }
@@ -73,7 +73,7 @@ impl Subject<'_> {
         indices(self.joints(), |joint| joint.actuated)
     }
 
-    /// What `read` makes of the table that the file under `key` holds; its errors are shown at the key.
+    /// Reads the table in the file that `key` names with `read`; errors are reported at the key.
     pub fn table<T>(
         &self,
         reader: &mut Reader<'_, '_>,
@@ -94,7 +94,7 @@ impl Subject<'_> {
     }
 }
 
-/// The value of a field that may be missing; `None` where it is invalid.
+/// The value of a field that may be missing; `None` if it is invalid.
 pub fn given<T>(field: Field<Option<T>>) -> Option<Option<T>> {
     match field {
         Field::Missing => Some(None),

@@ -1,4 +1,4 @@
-//! Tables that a scenario names: motion or forces of joints, without a gap.
+//! Tables that a scenario names: motion or forces of joints, without missing values.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::table::{self, Column};
 /// The largest number, as in a scenario: products of a few of them are finite.
 const LARGEST: f64 = 1e100;
 
-/// A table whose numbers are finite and whose times grow.
+/// A table whose numbers are finite and whose times increase.
 #[derive(Clone, Debug)]
 pub struct Table {
     path: PathBuf,
@@ -24,7 +24,8 @@ impl Table {
     /// Reads a file.
     ///
     /// # Errors
-    /// The first fault, with its line: a gap, what is not a finite number, or times that do not grow.
+    /// The first fault, with its line: a missing value, a number that is not finite or too large, or times that do not
+    /// increase.
     pub fn read(path: &Path) -> Result<Table, Failure> {
         let read = table::Table::read(path).map_err(|fault| match path.is_file() {
             true => fault,
@@ -39,7 +40,7 @@ impl Table {
             let too_large = |column: &&Column| column.values[row].abs() > LARGEST;
             if let Some(column) = read.columns.iter().find(too_large) {
                 let (header, found) = (column.header(), column.values[row]);
-                let fault = read.fault(row, format!("`{header}` is {found:e}, with which nothing can be computed"));
+                let fault = read.fault(row, format!("`{header}` is {found:e}, which is out of range"));
                 return Err(fault.help(format!("a number is at most {LARGEST:e} in size")));
             }
             if row > 0 && read.t[row] <= read.t[row - 1] {
@@ -55,11 +56,11 @@ impl Table {
         }
     }
 
-    /// What stands under `symbol` for each of `components`, by rows; nothing, if no column has that symbol. `per` is
-    /// what the unit of a coordinate is divided by, or a force's `None`.
+    /// The values of `symbol` for each of `components`, by rows; `None` if no column has that symbol. `per` is what
+    /// the unit of a coordinate is divided by; `None` for a force.
     ///
     /// # Errors
-    /// A component that has no column or two, and a unit that is not the quantity's.
+    /// If a component has no column or two, or a column has a unit of another quantity.
     pub fn of_components(
         &self,
         symbol: &str,
@@ -76,17 +77,17 @@ impl Table {
         Ok(Some((0..self.t.len()).map(row).collect()))
     }
 
-    /// The column of a component, and by what it is multiplied.
+    /// The column of a component, and the factor that converts it to SI units.
     fn column(&self, symbol: &str, component: &Component, per: Option<&str>) -> Result<(&Column, f64), Failure> {
         let unit = per.map_or(component.unit_of_force().to_owned(), |per| format!("{}{per}", component.unit()));
         let wanted = format!("{symbol} {} [{unit}]", component.name);
         let mut found =
             self.columns.iter().filter(|column| column.symbol == symbol && column.name == component.name.trim());
         let Some(column) = found.next() else {
-            return Err(self.fault(&format!("there is no column `{wanted}`"), "add it, or name fewer joints"));
+            return Err(self.fault(&format!("the column `{wanted}` is missing"), "add it, or name fewer joints"));
         };
         if let Some(again) = found.next() {
-            return Err(self.fault(&format!("the column `{}` is there twice", again.header()), "keep one of them"));
+            return Err(self.fault(&format!("the column `{}` occurs twice", again.header()), "keep one of them"));
         }
         let degrees = per.filter(|_| component.turns()).map(|per| format!("deg{per}"));
         match &column.unit {
@@ -116,7 +117,7 @@ impl Table {
         Failure::input(format!("{}: {message}", self.path.display())).help(help)
     }
 
-    /// Where it was read from.
+    /// The file that it was read from.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -68,13 +68,13 @@ type ReadLaw = fn(Source<'_, '_, '_>) -> Option<Torque>;
 struct Source<'s, 'a, 'f> {
     reader: Reader<'a, 'f>,
     subject: &'s Subject<'s>,
-    /// The scenario's trajectory, if it has one; `None` where that is faulty.
+    /// The scenario's trajectory, if it has one; `None` if that is invalid.
     trajectory: Option<Option<&'s Prescribed>>,
 }
 
 impl Torque {
-    /// Reads the table `torque`; without one, nothing drives the joints. Where `trajectory` is `None`, what is wrong
-    /// with it has been reported.
+    /// Reads the table `torque`; without one, nothing drives the joints. `trajectory` is `None` if it is invalid, which
+    /// has been reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,

@@ -124,7 +124,7 @@ impl Prescribed {
                     Prescribed { joints: chosen, coordinates: of_q, velocities: of_v, place: 0..0, table, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
-                    // A law reports itself what it needs to follow.
+                    // A law that follows a trajectory checks it by itself.
                     Dynamics::Forward => Ok(()),
                 };
                 match checked {
@@ -254,7 +254,7 @@ impl<'l> Columns<'l> {
     }
 }
 
-/// With velocities and accelerations in the table, its rows are passed as they say; else as smoothly as can be.
+/// A motion through the rows of the table, with its velocities and accelerations; without them, as `smooth` selects.
 fn from_table(
     table: &Table,
     columns: &Columns<'_>,

@@ -1,4 +1,4 @@
-//! Lints: what a model may have, but rarely means, most often by a slip of units.
+//! Lints: what is valid in a model, but rarely meant; most often a slip of units.
 
 use crate::number::{counted, rounded};
 use redysim_model::spatial::Vec3;

@@ -22,7 +22,7 @@ pub struct Robot {
     pub name: String,
     /// All links but the root, in the order of the file's joints.
     pub links: Vec<Link>,
-    /// What the file has and this has not, beside the remarks of the links.
+    /// What is left out or written otherwise, beside the remarks of the links.
     pub notes: Vec<String>,
 }
 

@@ -60,7 +60,7 @@ pub(crate) fn cycle(names: &[&str]) -> Message {
 pub(crate) fn two_placements(item: &str, second: &str) -> Message {
     message(
         format!("{item}: its joint is placed twice, by `dh` and by `{second}`"),
-        "`dh` says this already",
+        "already placed by `dh`",
         "keep either `dh` or `origin` and `axis`",
     )
 }
@@ -188,7 +188,7 @@ pub(crate) fn nothing_moves(item: &str) -> Message {
     message(
         format!("{item}: every joint is fixed, so nothing moves"),
         "the first of the fixed joints",
-        "make at least one joint revolute or prismatic",
+        "make at least one joint revolute, prismatic or helical",
     )
 }
 
@@ -219,7 +219,7 @@ pub(crate) fn loops_stay_open(model: &str, starts: usize, gap: f64) -> Message {
 
 pub(crate) fn loop_without_constraints(name: &str) -> Message {
     message(
-        format!("loop {}: what it asks for holds at every position", quoted(name)),
+        format!("loop {}: its constraints hold at every position", quoted(name)),
         "no constraints",
         "remove it, or check its links and points: the two sides may be held together by the tree already",
     )

@@ -1,4 +1,4 @@
-//! Messages about what is asked of a mechanism.
+//! Messages about the options of the generator, and the ranges that one of them needs.
 
 use super::message;
 use crate::options::AccelerationMethod;
@@ -27,8 +27,8 @@ pub(crate) fn repeated_function(item: &str, function: Function) -> Message {
 pub(crate) fn no_functions(item: &str) -> Message {
     message(
         format!("{item}: `functions` names no function"),
-        "nothing is wanted",
-        format!("without `functions` there are all of them: {}", names_of_functions().join(", ")),
+        "no functions",
+        format!("without `functions`, all of them are generated: {}", names_of_functions().join(", ")),
     )
 }
 
