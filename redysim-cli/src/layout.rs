@@ -4,7 +4,6 @@
 use std::ops::Range;
 
 use redysim_model::Model;
-use redysim_model::joint;
 
 /// The joints that move, with their coordinates and velocities, all in the model's order.
 #[derive(Clone, Debug, Default)]
@@ -100,8 +99,7 @@ impl Layout {
     pub fn of(model: &Model) -> Self {
         let mut layout = Layout::default();
         for link in model.moving_links() {
-            let turns = joint::Joint::of(link).is_some_and(|joint| joint.screw().turn != 0.0);
-            let parts = if turns { ANGLE } else { LENGTH };
+            let parts = if link.joint.turns() { ANGLE } else { LENGTH };
             layout.push(&link.joint_name, link.actuated, [parts, parts]);
         }
         layout
