@@ -6,7 +6,7 @@ use redysim_runtime::TorqueLaw;
 use super::subject::spread;
 use super::table::Table;
 use crate::failure::Failure;
-use crate::layout::{Component, Layout};
+use crate::layout::Layout;
 
 /// Joint forces over time, with straight lines between the rows of a table.
 #[derive(Clone, Debug)]
@@ -21,8 +21,7 @@ impl Forces {
     /// Those of the joints `chosen`.
     pub fn of(table: Table, layout: &Layout, chosen: &[usize]) -> Result<Forces, Failure> {
         let velocities = layout.velocities_of(chosen);
-        let of: Vec<&Component> = velocities.iter().map(|&velocity| &layout.velocities[velocity]).collect();
-        let rows = table.of_components("tau", &of, None)?;
+        let rows = table.of_components("tau", &layout.velocities, &velocities, None)?;
         let rows =
             rows.ok_or_else(|| table.fault("it has no forces", "add a column `tau <joint> [N m]` for each joint"))?;
         let rows = rows.iter().map(|row| spread(&velocities, row, layout.nv())).collect();

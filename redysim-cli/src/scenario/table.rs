@@ -56,22 +56,23 @@ impl Table {
         }
     }
 
-    /// The values of `symbol` for each of `components`, by rows; `None` if no column has that symbol. `per` is what
-    /// the unit of a coordinate is divided by; `None` for a force.
+    /// The values of `symbol` for each of `of`, indices into `components`, by rows; `None` if no column has that symbol.
+    /// `per` is what the unit of a coordinate is divided by; `None` for a force.
     ///
     /// # Errors
     /// If a component has no column or two, or a column has a unit of another quantity.
     pub fn of_components(
         &self,
         symbol: &str,
-        components: &[&Component],
+        components: &[Component],
+        of: &[usize],
         per: Option<&str>,
     ) -> Result<Option<Vec<Vec<f64>>>, Failure> {
         if self.columns.iter().all(|column| column.symbol != symbol) {
             return Ok(None);
         }
         let columns: Result<Vec<_>, Failure> =
-            components.iter().map(|component| self.column(symbol, component, per)).collect();
+            of.iter().map(|&index| self.column(symbol, &components[index], per)).collect();
         let columns = columns?;
         let row = |row: usize| columns.iter().map(|(column, factor)| factor * column.values[row]).collect();
         Ok(Some((0..self.t.len()).map(row).collect()))

@@ -4,13 +4,13 @@ use redysim_model::GenericMechanism;
 use redysim_runtime::{
     ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Proportional, ProportionalDerivative, TrackingPd, ZeroTorque,
 };
-use redysim_toml::{Field, Key, Kind, Message, Reader};
+use redysim_toml::{Key, Kind, Message, Reader};
 
 use super::forces::Forces;
 use super::joints::{Quantity, some, values};
 use super::keys;
 use super::law::Law;
-use super::subject::{Subject, spread};
+use super::subject::{Subject, given, spread};
 use super::trajectory::Prescribed;
 use crate::layout::{Component, Joint, Layout};
 
@@ -81,10 +81,8 @@ impl Torque {
         trajectory: Option<Option<&Prescribed>>,
     ) -> Option<Torque> {
         let read = |reader: Reader<'_, '_>, law: ReadLaw| law(Source { reader, subject, trajectory });
-        match reader.table_of_kind(&keys::TORQUE, &keys::LAW, &LAWS, &LAWS[0], read) {
-            Field::Missing => Some(Torque::Free),
-            field => field.value()?.clone(),
-        }
+        let field = reader.table_of_kind(&keys::TORQUE, &keys::LAW, &LAWS, &LAWS[0], read);
+        given(field)?.or(Some(Torque::Free))
     }
 
     /// The joints that the law drives, given or by default.

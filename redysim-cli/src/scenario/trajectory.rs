@@ -8,10 +8,10 @@ use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 
 use super::joints::{Quantity, points, some, values};
 use super::keys;
-use super::subject::{Dynamics, Subject, spread};
+use super::subject::{Dynamics, Subject, given, spread};
 use super::table::Table;
 use crate::failure::Failure;
-use crate::layout::{Component, Layout};
+use crate::layout::Layout;
 use crate::number::counted;
 
 /// A prescribed motion of some joints; its components are in the order of `coordinates` and `velocities`.
@@ -110,9 +110,8 @@ impl Prescribed {
                     }
                     Tag::Table => {
                         let smooth = reader.choice(&keys::THROUGH, &SMOOTH).value_or(SMOOTH[0].1);
-                        let of = Columns::of(layout, [&of_q, &of_v]);
                         let read = subject.table(&mut reader, &keys::MOTION_FILE, |table| {
-                            let through = from_table(&table, &of, smooth.unwrap_or(SMOOTH[0].1))?;
+                            let through = from_table(&table, layout, [&of_q, &of_v], smooth.unwrap_or(SMOOTH[0].1))?;
                             Ok((table, through))
                         });
                         let (read, through) = read.filter(|_| smooth.is_some())?;
@@ -135,12 +134,8 @@ impl Prescribed {
                     }
                 }
             });
-        if field.is_missing() {
-            return Some(None);
-        }
-        let read = field.spanned()?;
-        let place = place.unwrap_or(read.span());
-        Some(Some(Prescribed { place, ..read.get_ref().clone()? }))
+        let place = place.or(field.spanned().map(Spanned::span)).unwrap_or_default();
+        Some(given(field)?.map(|prescribed| Prescribed { place, ..prescribed }))
     }
 
     /// Fails, with what is wrong and what to do, unless it prescribes how all of a mechanism moves and nothing twice: a
@@ -239,30 +234,17 @@ fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, 
     .ok()
 }
 
-/// The coordinates and velocities that a table has columns for.
-struct Columns<'l> {
-    coordinates: Vec<&'l Component>,
-    velocities: Vec<&'l Component>,
-}
-
-impl<'l> Columns<'l> {
-    fn of(layout: &'l Layout, [q, v]: [&[usize]; 2]) -> Self {
-        Columns {
-            coordinates: q.iter().map(|&index| &layout.coordinates[index]).collect(),
-            velocities: v.iter().map(|&index| &layout.velocities[index]).collect(),
-        }
-    }
-}
-
-/// A motion through the rows of the table, with its velocities and accelerations; without them, as `smooth` selects.
+/// A motion of the given coordinates and velocities through the rows of a table, with its velocities and accelerations;
+/// without them, as `smooth` selects.
 fn from_table(
     table: &Table,
-    columns: &Columns<'_>,
+    layout: &Layout,
+    [of_q, of_v]: [&[usize]; 2],
     smooth: Smooth,
 ) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, Failure> {
-    let q = table.of_components("q", &columns.coordinates, Some(""));
-    let [v, a] =
-        [("v", "/s"), ("a", "/s^2")].map(|(symbol, per)| table.of_components(symbol, &columns.velocities, Some(per)));
+    let q = table.of_components("q", &layout.coordinates, of_q, Some(""));
+    let [v, a] = [("v", "/s"), ("a", "/s^2")]
+        .map(|(symbol, per)| table.of_components(symbol, &layout.velocities, of_v, Some(per)));
     let through = match (q?, v?, a?) {
         (None, ..) => return Err(table.fault("it has no coordinates", "add a column `q <joint> [rad]` for each joint")),
         (Some(q), None, None) => smooth.through(table.t.clone(), q),
