@@ -128,37 +128,37 @@ const METHODS: [Kind<Method>; 14] = [
 impl Integrator {
     /// Reads the table `integrator` of a run that takes `length`, s.
     pub fn read(reader: &mut Reader<'_, '_>, length: f64) -> Option<Integrator> {
-        let max_step = USUAL_MAX_STEP * length;
         let usual = adaptive("Ode45", Adaptive::Ode45);
-        let read =
-            reader.table_of_kind(
-                &keys::INTEGRATOR,
-                &keys::METHOD,
-                &METHODS,
-                &usual,
-                |mut reader, method| match method {
-                    Method::Fixed(method) => {
-                        let step = reader.required(&keys::INTEGRATOR_STEP, Reader::positive);
-                        let spanned = step.spanned()?;
-                        let size = *spanned.get_ref();
-                        if size > length * (1.0 + ROUNDING) {
-                            return reader.error_at(spanned.span(), too_long(reader.item(), size, length));
-                        }
-                        check_count(&mut reader, &keys::INTEGRATOR_STEP, &step, (length, MOST_FIXED))?;
-                        Some(Integrator::Fixed(method, size))
-                    }
-                    Method::Adaptive(method) => {
-                        let rtol = reader.positive(&keys::RTOL).value_or(USUAL_RTOL);
-                        let largest = reader.positive(&keys::MAX_STEP);
-                        let max_step = largest.value_or(max_step);
-                        check_count(&mut reader, &keys::MAX_STEP, &largest, (length, MOST_ADAPTIVE))?;
-                        let atol = Absolute::read(&mut reader);
-                        Some(Integrator::Adaptive(method, Tolerances { rtol: rtol?, atol: atol?, max_step: max_step? }))
-                    }
-                },
-            );
+        let read = reader.table_of_kind(&keys::INTEGRATOR, &keys::METHOD, &METHODS, &usual, |reader, method| {
+            Integrator::of_method(reader, method, length)
+        });
+        let max_step = USUAL_MAX_STEP * length;
         let usual = Tolerances { rtol: USUAL_RTOL, atol: Absolute::uniform(USUAL_ATOL), max_step };
         read.value_or(Some(Integrator::Adaptive(Adaptive::Ode45, usual)))?
+    }
+
+    /// Reads the settings of a method.
+    fn of_method(mut reader: Reader<'_, '_>, method: Method, length: f64) -> Option<Integrator> {
+        match method {
+            Method::Fixed(method) => {
+                let step = reader.required(&keys::INTEGRATOR_STEP, Reader::positive);
+                let spanned = step.spanned()?;
+                let size = *spanned.get_ref();
+                if size > length * (1.0 + ROUNDING) {
+                    return reader.error_at(spanned.span(), too_long(reader.item(), size, length));
+                }
+                check_count(&mut reader, &keys::INTEGRATOR_STEP, &step, (length, MOST_FIXED))?;
+                Some(Integrator::Fixed(method, size))
+            }
+            Method::Adaptive(method) => {
+                let rtol = reader.positive(&keys::RTOL).value_or(USUAL_RTOL);
+                let largest = reader.positive(&keys::MAX_STEP);
+                let max_step = largest.value_or(USUAL_MAX_STEP * length);
+                check_count(&mut reader, &keys::MAX_STEP, &largest, (length, MOST_ADAPTIVE))?;
+                let atol = Absolute::read(&mut reader);
+                Some(Integrator::Adaptive(method, Tolerances { rtol: rtol?, atol: atol?, max_step: max_step? }))
+            }
+        }
     }
 
     /// Its name.

@@ -55,12 +55,11 @@ pub fn check_motion(
             (title, "prescribe a slower motion; times are in s".to_owned())
         });
         let fault = fault.or_else(|| {
-            let moves = coordinates.zip(q.iter().zip(&before));
-            moves.into_iter().find_map(|(coordinate, (&q, &before))| {
-                too_far(item, coordinate, (t, q)).or_else(|| {
-                    let way = (q - before).abs();
-                    (followed && way > MOST_MOVE).then(|| too_fast(item, coordinate, (t, way)))
-                })
+            coordinates.zip(q.iter().zip(&before)).find_map(|(coordinate, (&q, &before))| {
+                let way = (q - before).abs();
+                let leaves_branch = followed && way > MOST_MOVE;
+                too_far(item, coordinate, (t, q))
+                    .or_else(|| leaves_branch.then(|| too_fast(item, coordinate, (t, way))))
             })
         });
         if let Some((title, help)) = fault {
