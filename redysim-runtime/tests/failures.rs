@@ -10,10 +10,10 @@ use redysim_runtime::integrate::algorithm::{Algorithm, EstimatesErrors};
 use redysim_runtime::integrate::{Accepted, Adaptive, FixedStep};
 use redysim_runtime::{Event, Gauss4, Integrator, Ode, Ode45, Solution};
 
-/// Calls after which a method counts as not ending.
+/// A method that evaluates the derivative this often counts as one that does not end.
 const ENDLESS: u32 = 100_000;
 
-/// ẏ = f(t, y), of which the first component is a coordinate, as `SemiImplicitEuler` asks for.
+/// ẏ = f(t, y), of which the first component is a coordinate, as `SemiImplicitEuler` requires.
 struct Equation<F> {
     f: F,
     calls: u32,
@@ -56,7 +56,7 @@ fn still(_t: f64, _y: &[f64; 2]) -> [f64; 2] {
     [0.0, 0.0]
 }
 
-/// No method may evaluate where the error is in the question itself.
+/// Methods check their arguments before they evaluate the derivative.
 fn never(t: f64, _y: &[f64; 2]) -> [f64; 2] {
     panic!("evaluated at {t}");
 }
@@ -193,8 +193,8 @@ fn a_derivative_that_ceases_to_be_finite_is_named_with_its_time() {
     every_fixed!(check_fixed);
 }
 
-/// ẏ = −2√y has the solution (1 − t)², and is not defined further than 10⁻³ from it: a first step over the whole interval
-/// leaves that domain.
+/// ẏ = −2√y has the solution (1 − t)², and is not defined further than 10⁻³ from it: a first step over the whole
+/// interval leaves that domain.
 #[test]
 fn a_trial_beyond_the_domain_only_makes_the_step_smaller() {
     fn check<A: EstimatesErrors>(name: &str) {
@@ -277,7 +277,7 @@ fn an_end_that_overflows_is_not_a_solution() {
     assert_eq!(outcome, Err(NonFiniteState { t: 1.5, component: 0 }));
 }
 
-/// ẏ = 1, of which a function corrects the ends of steps.
+/// ẏ = 1, with a function that corrects the ends of steps.
 struct Corrected<F>(F);
 
 impl<F: FnMut(f64, &mut [f64; 2]) -> Accepted> Ode<f64, [f64; 2]> for Corrected<F> {

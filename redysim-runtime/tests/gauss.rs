@@ -239,7 +239,7 @@ fn rest_is_no_trouble() {
     }
 }
 
-/// As the explicit methods, see `accuracy.rs`.
+/// The bound is that of the explicit methods in `accuracy.rs`.
 #[test]
 fn single_precision_ends_within_25_roundoff_units() {
     let from = exact(0.0).map(|y| y as f32);

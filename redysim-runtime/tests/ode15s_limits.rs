@@ -1,5 +1,5 @@
-//! Numerical differentiation formulas where something is in their way: corrections of the state and wrong
-//! tangents. What all methods must survive stands in `failures.rs`.
+//! Numerical differentiation formulas with corrections of the state and with wrong tangents. `failures.rs` has the
+//! errors that every method reports.
 
 use redysim_runtime::IntegrationError::*;
 use redysim_runtime::integrate::{Accepted, Adaptive, Bdf, FixedStep};

@@ -21,8 +21,8 @@ pub struct ConstrainedMotion<V, R> {
 impl<M, C> ClosedLoop<'_, M, C> {
     /// The accelerations a and the multipliers λ with M a + h = τ + Jᵀ λ and J a = −J̇ q̇, for joint forces `tau`.
     ///
-    /// Redundant rows share the constraint force so that |λ| is least. In a singular position, the rows that
-    /// depend on others there are left out: the answer is finite and the rank is lower.
+    /// Redundant rows share the constraint force so that |λ| is least. In a singular position, the rows that depend on
+    /// others there are left out: the result is finite and the rank is lower.
     ///
     /// M may be singular, as with a rod without mass, if it is positive definite on the velocities that the loops leave
     /// free.

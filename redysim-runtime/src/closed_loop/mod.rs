@@ -7,9 +7,9 @@
 //! moves the mechanism in time with any integrator, and [`ClosedLoopInverse`] finds the joint forces for a trajectory
 //! of the independent coordinates, which [`ClosedLoopComputedTorque`] follows under control.
 //!
-//! Everything stands on one decomposition: the rows of J in the metric of M, split into a part
-//! that is independent and a part that is not. So redundant rows and singular positions are ordinary cases. Where M is
-//! singular, since a rod has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
+//! Everything is based on one decomposition: the rows of J in the metric of M, split into a part that is independent
+//! and a part that is not. So redundant rows and singular positions are ordinary cases. Where M is singular, since a
+//! rod has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
 //!
 //! | folder | what it solves |
 //! |---|---|
@@ -18,7 +18,7 @@
 //! | `dynamics` | accelerations and multipliers |
 //! | `inverse` | forces of the actuators for a motion of the independent coordinates |
 //! | `simulation` | motion in time; the only part that needs the integrators |
-//! | `error` | what can fail, with the names of loops and joints |
+//! | `error` | errors, with the names of loops and joints |
 
 mod constraints;
 mod dynamics;

@@ -1,5 +1,5 @@
-//! What a method of integration is made of. Its formula takes one trial step, its step control, if it has one, chooses
-//! the sizes; times, states, tolerances, corrections and observers belong to the drivers for steps of one size and for
+//! The parts of a method of integration. Its formula takes one trial step; its step control, if it has one, chooses the
+//! sizes. Times, states, tolerances, corrections and observers belong to the drivers for steps of one size and for
 //! steps from tolerances.
 
 use super::integration::{Integration, Progress};
@@ -32,14 +32,14 @@ pub trait EstimatesErrors: Algorithm {
     fn control<S: Real, Y: Vector<S>>() -> Self::Control<S, Y>;
 }
 
-/// The formula of a method with what it keeps from step to step (the cache): takes one trial step of the integration
-/// that a driver owns, and shows it.
+/// The formula of a method with its cache, the data that it keeps from step to step. It takes one trial step of the
+/// integration that a driver owns.
 ///
 /// A driver sets the end of the step in the integration and calls [`attempt`](Self::attempt), with a step control also
 /// [`error`](Self::error), until a step is good; then [`prepare_dense_output`](Self::prepare_dense_output) if the
-/// solution within is asked for, then [`step`](Self::step) to show it, and [`advance`](Self::advance) if it goes on.
+/// solution within is needed, [`step`](Self::step) for the observer, and [`advance`](Self::advance) before the next.
 pub trait Formula<S: Real, Y: Vector<S>> {
-    /// Computes the attempted step. What is solved by iteration is solved well within the tolerances.
+    /// Computes the attempted step. Equations are solved by iteration to well within the tolerances.
     ///
     /// # Errors
     /// If the step cannot be taken. A driver that may choose takes a smaller one.
@@ -51,9 +51,9 @@ pub trait Formula<S: Real, Y: Vector<S>> {
     /// The attempted step.
     fn step<'a>(&'a self, progress: &'a Progress<S, Y>) -> Step<'a, S, Y>;
 
-    /// Makes ready for another step from the state that is reached. `corrected` tells that it is not the one the last
-    /// step arrived at: derivatives, differences and whatever else was kept from that step then belong to another
-    /// state. `y_new` of the progress is the state before the step.
+    /// Prepares for another step from the state that is reached. If `corrected`, the equation has changed that state
+    /// after the last step: derivatives, differences and other data of that step then belong to another state. `y_new`
+    /// of the progress is the state before the step.
     ///
     /// # Errors
     /// If the derivative at the state is infinite or not a number.

@@ -12,8 +12,8 @@ use crate::{Real, Vector};
 
 /// The method of Dormand and Prince of order 8 with steps of one given size.
 ///
-/// Each step costs 12 evaluations, and the first one more; dense output costs three more. Where
-/// the step is halved, the error shrinks about 256 times.
+/// Each step costs 12 evaluations, and the first one more; dense output costs three more. Where the step is halved, the
+/// error shrinks about 256 times.
 ///
 /// ```
 /// use redysim_runtime::{Dop8, Integrator};
@@ -30,10 +30,10 @@ pub type Dop8<S> = FixedStep<S, DormandPrince853>;
 ///
 /// Two embedded formulas of orders 5 and 3 estimate the error together, e² / √(e² + 0.01 ẽ²), which shrinks with the
 /// eighth power of the step; between the ends of a step the solution is a polynomial of degree 7, accurate to order 7.
-/// Each attempted step costs 12 evaluations, dense output three more, and the start one. For
-/// smooth equations and tolerances below about 10⁻⁷ that is less than [`Ode45`](crate::Ode45) takes. The method is that
-/// of E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer (1993),
-/// section II.10; the steps are chosen by the rules of [`Adaptive`], not by those of the book.
+/// Each attempted step costs 12 evaluations, dense output three more, and the start one. For smooth equations and
+/// tolerances below about 10⁻⁷ that is less than [`Ode45`](crate::Ode45) takes. The method is that of E. Hairer, S. P.
+/// Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer (1993), section II.10; the
+/// steps are chosen by the rules of [`Adaptive`], not by those of the book.
 ///
 /// ```
 /// use redysim_runtime::{Dop853, Integrator};

@@ -1,5 +1,5 @@
-//! What steps of one size and steps from tolerances have in common: an integration, the formula that takes its steps,
-//! and the observer that is shown them.
+//! The common part of steps of one size and steps from tolerances: an integration, the formula that takes its steps,
+//! and their observer.
 
 use core::ops::ControlFlow;
 
@@ -27,7 +27,7 @@ where
     F: Formula<S, Y>,
     Ob: Observer<S, Y>,
 {
-    /// Begins at the first time of the interval.
+    /// Starts at the first time of the interval.
     pub fn start<A: Algorithm<Formula<S, Y> = F>>(
         ode: &'a mut O,
         interval: Interval<S>,
@@ -50,8 +50,8 @@ where
         self.formula.attempt(&mut self.integration)
     }
 
-    /// Takes the attempted step as good: lets the equation correct its end, shows it, makes its end the state and, if
-    /// it goes on, ready for another step.
+    /// Accepts the attempted step: the equation may correct its end, the observer sees it, and its end becomes the
+    /// state. Unless the integration ends there, prepares for another step.
     pub fn accept(&mut self) -> Result<ControlFlow<()>, IntegrationError<S>> {
         let Self { integration, formula, observer, interval } = self;
         if observer.needs_dense_output(integration.progress.t, integration.progress.t_new) {
@@ -67,7 +67,7 @@ where
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Where the integration is.
+    /// The time and the state that are reached, and the statistics.
     pub fn solution(self) -> Solution<S, Y> {
         let Progress { t, y, statistics, .. } = self.integration.progress;
         Solution { t, y, statistics }

@@ -54,11 +54,11 @@ pub enum IntegrationError<S> {
         /// The last time of the interval.
         to: S,
     },
-    /// A time at which to save the solution lies before the one before it, seen in the direction of integration.
+    /// A time at which to save the solution precedes the previous one, in the direction of integration.
     SaveTimesOutOfOrder {
         /// That time.
         t: S,
-        /// The one before it.
+        /// The previous one.
         previous: S,
     },
     /// The state is infinite or not a number: the one given as start, or the one a step arrived at.

@@ -37,7 +37,7 @@ impl<Y, const STAGES: usize> Explicit<Y, STAGES> {
         Ok(this)
     }
 
-    /// Evaluates stage `stage`, for which it moves `y_new` to where that is.
+    /// Evaluates stage `stage` and leaves its state in `y_new`.
     fn evaluate<S: Real, O: Ode<S, Y> + ?Sized>(
         &mut self,
         integration: &mut Integration<'_, S, Y, O>,

@@ -1,17 +1,17 @@
-//! An integration under way: what its driver owns, whatever its steps are made of.
+//! An integration in progress: the data of its driver, independent of the formula.
 
 use core::mem::swap;
 
 use super::{Accepted, IntegrationError, Ode, Statistics, Step, Tolerances};
 use crate::{Real, Vector};
 
-/// An integration under way: the equation, the tolerances, and how far it is.
+/// An integration in progress: the equation, the tolerances, and the state that is reached.
 pub struct Integration<'a, S, Y, O: ?Sized> {
     /// The equation.
     pub ode: &'a mut O,
     /// The tolerances.
     pub tolerances: Tolerances<'a, S>,
-    /// How far it is.
+    /// Time, state and statistics.
     pub progress: Progress<S, Y>,
 }
 
@@ -40,7 +40,7 @@ impl<'a, S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized> Integration<'a, S, Y, O> 
         }
     }
 
-    /// Writes the derivative at the state that is reached to `rate`. `y_new` is then the state, too.
+    /// Writes the derivative at the state that is reached to `rate`. `y_new` becomes a copy of that state.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
@@ -49,7 +49,7 @@ impl<'a, S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized> Integration<'a, S, Y, O> 
         self.evaluate(self.progress.t, rate)
     }
 
-    /// Does `work` on a copy of this integration, of which nothing but what it took is kept.
+    /// Does `work` on a copy of this integration. Of the copy, only the statistics are kept.
     pub fn aside<R>(&mut self, work: impl FnOnce(&mut Integration<'_, S, Y, O>) -> R) -> R {
         let mut aside =
             Integration { ode: &mut *self.ode, tolerances: self.tolerances, progress: self.progress.clone() };
@@ -94,7 +94,7 @@ pub struct Progress<S, Y> {
     carry: Y,
     /// What it took so far.
     pub statistics: Statistics,
-    /// How often the step that is attempted was rejected with a larger size.
+    /// How often the attempted step was rejected, each time with a larger size.
     pub rejections: u32,
 }
 
@@ -160,8 +160,8 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         }
     }
 
-    /// Compensated summation (Kahan): keeps what `y + increment` has rounded away. A correction that follows moves the
-    /// rounded state and leaves the difference as it is.
+    /// Compensated summation (Kahan): keeps what `y + increment` has rounded away. A later correction moves the rounded
+    /// state and leaves this difference unchanged.
     fn keep_what_rounding_leaves_out(&mut self) {
         let states = self.y_new.as_ref().iter().zip(self.y.as_ref());
         let increments = self.increment.as_ref().iter().zip(self.carry.as_mut());
@@ -178,7 +178,7 @@ impl<S: Real, Y: Vector<S>> Progress<S, Y> {
         swap(&mut self.y, &mut self.y_new);
     }
 
-    /// Takes the attempted step as not good.
+    /// Rejects the attempted step.
     pub(super) fn reject(&mut self) {
         self.statistics.rejected += 1;
         self.rejections += 1;

@@ -6,15 +6,15 @@
 //! too. What is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism,
 //! or a [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
-//! [`solve_with_events`](Integrator::solve_with_events) finds [`Event`]s on the way, [`stability`] tells before a run
-//! how large steps may be, and explicit methods report where an equation is stiff.
+//! [`solve_with_events`](Integrator::solve_with_events) finds [`Event`]s on the way, [`stability`] computes before a
+//! run how large steps may be, and explicit methods report where an equation is stiff.
 //!
-//! What an integration is made of stands apart, as in OrdinaryDiffEq.jl: a [`Formula`](algorithm::Formula) takes one
-//! trial step and keeps its own cache ([`explicit`], [`collocation`]; coefficients in [`tableau`]), a
+//! The parts of an integration are separate, as in OrdinaryDiffEq.jl: a [`Formula`](algorithm::Formula) takes one trial
+//! step and keeps its own cache ([`explicit`], [`collocation`]; coefficients in [`tableau`]), a
 //! [`StepControl`](step_control::StepControl) chooses sizes from errors, and an
-//! [`Integration`](integration::Integration), owned by the drivers `fixed` and `adaptive`, has equation, tolerances,
-//! time, state and statistics. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau), another
-//! method of any kind another [`Algorithm`](algorithm::Algorithm).
+//! [`Integration`](integration::Integration), owned by the `driver` of `fixed` and `adaptive`, has equation,
+//! tolerances, time, state and statistics. Another explicit Runge-Kutta pair is another [`Tableau`](tableau::Tableau),
+//! another method of any kind another [`Algorithm`](algorithm::Algorithm).
 
 mod adaptive;
 pub mod algorithm;
@@ -292,8 +292,8 @@ pub struct Statistics {
     /// Evaluations of the right-hand side, those after corrections, for differences, for events and for dense output
     /// included; [tangents](Ode::tangent) are not.
     pub evaluations: u64,
-    /// Accepted steps whose end was corrected by [`Ode::accepted`]; a state at which an event ends the integration is
-    /// none.
+    /// Accepted steps whose end was corrected by [`Ode::accepted`]. A state at which an event ends the integration is
+    /// not counted.
     pub corrections: u64,
     /// Evaluations of the Jacobian ∂f/∂y.
     pub jacobians: u64,

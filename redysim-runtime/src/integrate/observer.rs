@@ -20,7 +20,7 @@ pub trait Observer<S, Y> {
     fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()>;
 
     /// Is called for every accepted step; the default calls [`step`](Self::step). An observer that needs states within
-    /// the step more accurately than the dense output has them takes steps to them here, by
+    /// the step more accurately than the dense output provides takes steps to them here, by
     /// [`ObservedStep::write_state_at`].
     ///
     /// # Errors
@@ -37,7 +37,7 @@ pub trait Observer<S, Y> {
     }
 }
 
-/// An accepted step with the formula that took it, so that states within can be steps of their own.
+/// An accepted step with the formula that took it, which also takes steps to times within.
 pub struct ObservedStep<'a, 'i, S, Y, F, O: ?Sized> {
     pub(super) integration: &'a mut Integration<'i, S, Y, O>,
     pub(super) formula: &'a mut F,
@@ -67,7 +67,7 @@ impl<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedSte
     }
 
     /// The state at which a step of the method from the start of this one to `t`, within it, arrives; `None` if it
-    /// cannot be computed or if the dense output is as good.
+    /// cannot be computed or if the dense output is as accurate.
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.

@@ -1,4 +1,4 @@
-//! The solution at the times that a caller asks for.
+//! The solution at given times.
 
 use core::ops::ControlFlow;
 
@@ -8,12 +8,12 @@ use super::observer::ObservedStep;
 use super::{IntegrationError, Observer, Ode, Step};
 use crate::{Real, Vector};
 
-/// The times still to be answered. Each is checked when the iterator yields it.
+/// The remaining times. Each is checked when the iterator yields it.
 pub(super) struct SaveAt<I, S, Y, F> {
     times: I,
     next: Option<S>,
     interval: Interval<S>,
-    /// Room for the answers.
+    /// The state at a time.
     y: Y,
     output: F,
     fault: Option<IntegrationError<S>>,
@@ -26,7 +26,7 @@ impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> SaveAt<I, S,
         Ok(saver)
     }
 
-    /// The time that could not be answered, if there was one.
+    /// The error of the time that is invalid, if there is one.
     pub fn fault(self) -> Option<IntegrationError<S>> {
         self.fault
     }

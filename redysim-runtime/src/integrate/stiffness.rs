@@ -1,4 +1,4 @@
-//! Whether steps are small for stability rather than for accuracy: then an explicit method crawls, and should say so.
+//! Whether steps are small for stability rather than for accuracy: then an explicit method reports a stiff equation.
 
 use super::algorithm::Formula;
 use super::integration::{Integration, Progress};

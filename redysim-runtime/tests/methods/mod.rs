@@ -28,8 +28,8 @@ macro_rules! every_fixed {
     }};
 }
 
-/// Calls `$check(name, &method)` with every method: as it is by default if it chooses its steps from tolerances, else
-/// with steps of size `$step`.
+/// Calls `$check(name, &method)` with every method: those that choose their steps have the default tolerances, the
+/// others steps of size `$step`.
 macro_rules! every_method {
     ($check:ident, $step:literal) => {{
         use redysim_runtime::integrate::algorithm::{Algorithm, EstimatesErrors};

@@ -9,7 +9,7 @@ use crate::{LoopClosure, MassMatrix, Real, Vector};
 impl<M, C> ClosedLoop<'_, M, C> {
     /// M + w JᵀJ at `q`, with w > 0 so that the largest elements of both terms are alike. It is positive definite
     /// exactly if M is so on the velocities that the loops leave free, that is, if
-    /// [`dynamics`](ClosedLoop::dynamics) has an answer.
+    /// [`dynamics`](ClosedLoop::dynamics) has a solution.
     pub fn augmented_mass_matrix<S: Real>(&self, q: &M::Coordinates) -> M::Matrix
     where
         M: MassMatrix<S>,

@@ -137,7 +137,7 @@ impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> Constraints<S, M, 
     }
 
     /// The part of the velocity `v` that violates the constraints: v − part is the velocity nearest to v, in the
-    /// metric of M, that keeps the loops closed. It takes no division by what may be singular.
+    /// metric of M, that keeps the loops closed. Nothing is divided by a number that is zero in singular positions.
     pub fn normal_velocity(&self, v: &M::Velocities) -> M::Velocities {
         let mut scaled = v.clone();
         self.metric.scale_velocity(&mut scaled);

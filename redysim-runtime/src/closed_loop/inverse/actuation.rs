@@ -7,7 +7,7 @@ use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{InverseDynamics, LengthMismatch, LoopClosure, Motion, Real, Vector};
 
-/// What a force may miss, as a part of the largest, before it counts as unactuated; likewise speeds.
+/// The largest force without an actuator that counts as rounding, as a part of the largest force; likewise for speeds.
 const SMALL: f64 = 1e-9;
 
 /// Closed loops, the coordinates that determine all others, and those that have actuators.
@@ -19,7 +19,7 @@ pub(super) struct Actuation<'m, M, C> {
 }
 
 impl<M, C> Actuation<'_, M, C> {
-    /// Fails unless coordinates are there, and independent ones but once.
+    /// Checks that all coordinates exist and that no independent one is repeated.
     pub fn check<S: Real>(&self) -> Result<(), LoopError<S>>
     where
         M: InverseDynamics<S>,
@@ -34,13 +34,13 @@ impl<M, C> Actuation<'_, M, C> {
         }
     }
 
-    /// Fails unless a trajectory has a component for each independent coordinate.
+    /// Checks that a trajectory has a component for each independent coordinate.
     pub fn check_motion<S: Real, I: Vector<S>>(&self, wanted: &Motion<I, I>) -> Result<(), LengthMismatch> {
         let Motion { q, v, a } = wanted;
         self.check_lengths([("trajectory.q", q), ("trajectory.v", v), ("trajectory.a", a)])
     }
 
-    /// Fails unless vectors have a component for each independent coordinate.
+    /// Checks that vectors have a component for each independent coordinate.
     pub fn check_lengths<S: Real, I: Vector<S>, const N: usize>(
         &self,
         vectors: [(&'static str, &I); N],
@@ -120,8 +120,8 @@ impl<M, C> Actuation<'_, M, C> {
         Ok(LoopForces { motion: Motion { q, v, a }, forces, multipliers, rank, redundancy })
     }
 
-    /// The shortest [τ; λ]: λ = λ₀ + y, where λ₀ balances the joints without actuators and y is none of their business,
-    /// (1 + P J_a J_aᵀ P) y = P J_a (τ_a − J_aᵀ λ₀), with P onto what they do not feel.
+    /// The shortest [τ; λ]: λ = λ₀ + y, where λ₀ balances the joints without actuators and y does not act on them,
+    /// (1 + P J_a J_aᵀ P) y = P J_a (τ_a − J_aᵀ λ₀), with P the projection onto the multipliers that do not.
     fn multipliers<S: Real>(
         &self,
         jacobian: &C::Jacobian,
@@ -191,7 +191,7 @@ impl<M, C> Actuation<'_, M, C> {
     }
 }
 
-/// The first number that stands there before.
+/// The first number that is repeated.
 fn repeated(indices: &[usize]) -> Option<&usize> {
     indices.iter().enumerate().find(|(i, a)| indices.iter().take(*i).any(|b| b == *a)).map(|(_, a)| a)
 }

@@ -165,9 +165,9 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         Ok(ForcedMotion { tau, motion })
     }
 
-    /// Where the derivative at a state is evaluated: the state itself, or, with the
-    /// projection near a singular position or with redundant rows, the nearest one that keeps the loops closed: in a
-    /// state that is slightly open rows contradict each other, and the rank may be another.
+    /// Where the derivative at a state is evaluated: the state itself, or, with the projection near a singular position
+    /// or with redundant rows, the nearest one that keeps the loops closed. In a state that is slightly open, rows
+    /// contradict each other, and the rank may be another.
     fn evaluation_point(&self, state: &M::State) -> Result<EvaluationPoint<S, M, C>, LoopError<S>>
     where
         M: MassMatrix<S>,

@@ -12,8 +12,8 @@ const LARGEST_PRODUCT: f64 = 1.3;
 #[non_exhaustive]
 pub enum Stabilisation<S> {
     /// After each accepted step, position and velocity go to the nearest ones that close the loops: at the ends of
-    /// steps the residual stays at rounding size. At times within a step it is as small as the method is
-    /// accurate; where that matters, [`ClosedLoop::project`](crate::ClosedLoop::project) closes a state.
+    /// steps the residual stays at rounding size. At times within a step it is as small as the method is accurate;
+    /// where that matters, [`ClosedLoop::project`](crate::ClosedLoop::project) closes a state.
     #[default]
     Projection,
     /// Baumgarte's feedback, critically damped: J a = −J̇ q̇ − 2 α J q̇ − α² r. It changes no state, and leaves a

@@ -37,7 +37,7 @@ const ROUNDOFF_UNITS: f64 = 1024.0;
 /// methods*, BIT 48 (2008), so that what remains of it is a random walk. The iteration contracts where h ‖∂f/∂y‖ is
 /// below 2; where it does not, [`IntegrationError::NotConverged`] asks for smaller steps, or for
 /// [`Radau5`](crate::Radau5). Between the ends of its steps the solution is a polynomial of degree 7, as accurate as
-/// the ends, for ten evaluations in each step with dense output.
+/// the ends; dense output costs ten evaluations a step.
 ///
 /// ```
 /// use redysim_runtime::{Gauss4, Integrator};
@@ -294,7 +294,7 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Formula<S, Y> for Gauss<S, Y, S
         }
     }
 
-    /// Nothing is kept but where the iteration begins, for which also the state before a correction will do.
+    /// Only the start of the next iteration depends on the last step; the state before a correction is near enough.
     fn advance<O: Ode<S, Y> + ?Sized>(
         &mut self,
         _integration: &mut Integration<'_, S, Y, O>,

@@ -3,8 +3,8 @@
 //! ed., Springer (1993), section II.7). All stages depend on each other and are found by iteration; continued beyond
 //! the end of the step, u is where the iteration of the next step begins.
 //!
-//! Between its ends u is of lower order than at them. For dense output, `bootstrap` makes a more
-//! accurate polynomial for the methods of Gauss, and [`radau`] takes two shorter steps.
+//! Between its ends u is of lower order than at them. For dense output, `bootstrap` makes a more accurate polynomial
+//! for the methods of Gauss, and [`radau`] takes two shorter steps.
 //!
 //! [`gauss`] has the methods for long conservative motion, [`radau`] the one for stiff equations.
 

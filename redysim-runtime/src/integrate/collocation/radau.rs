@@ -17,7 +17,7 @@ use crate::integrate::tolerance::Tolerances;
 use crate::integrate::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
-/// The estimate, made a quantity of the order of the error of the step, goes with this power of its size.
+/// The estimated error, raised to the order of the error of the step, is proportional to this power of the step size.
 const ERROR_EXPONENT: u32 = 6;
 
 /// The method Radau IIA of order 5 with 3 stages and steps chosen from tolerances: for stiff equations, whose fast
@@ -95,8 +95,8 @@ pub struct Radau<S: Real, Y: Vector<S>> {
     last_increments: [Y; 3],
     /// The factor to the size of a step for which the iteration failed.
     retreat: Option<S>,
-    /// What [`WITHIN`] is multiplied by, once dense output is prepared: how far the solution is from
-    /// the start at the [`WITHIN_NODES`] and at the end, and h times its derivatives there.
+    /// What [`WITHIN`] is multiplied by, once dense output is prepared: how far the solution is from the start at the
+    /// [`WITHIN_NODES`] and at the end, and h times its derivatives there.
     within: [Y; 6],
     /// Whether that is known of the attempted step, and whether the polynomial through it meets the tolerance.
     interpolation: Interpolation,

@@ -52,20 +52,20 @@ impl<S: Real, Y: Vector<S>> CorrectionSolver<S, Y> {
         Self { jacobian: None, matrix: None, rate: None, change: zeros(like), correction: zeros(like) }
     }
 
-    /// The Jacobian, if there is one.
+    /// The Jacobian, if it has been evaluated.
     pub fn jacobian(&self) -> Option<&Y::Of<Y>> {
         self.jacobian.as_ref()
     }
 
-    /// Room for another Jacobian, taken from the one there is. Until [`set_jacobian`](Self::set_jacobian) there is
-    /// none.
+    /// The memory of the Jacobian, for another one. The solver has no Jacobian until
+    /// [`set_jacobian`](Self::set_jacobian).
     pub fn take_jacobian(&mut self) -> Y::Of<Y> {
         self.matrix = None;
         let (zero, len) = (&self.change, self.change.as_ref().len());
         self.jacobian.take().unwrap_or_else(|| Y::Of::<Y>::from_fn(len, |_| zero.clone()))
     }
 
-    /// Goes on with another Jacobian.
+    /// Sets the Jacobian.
     pub fn set_jacobian(&mut self, jacobian: Y::Of<Y>) {
         self.jacobian = Some(jacobian);
     }

@@ -65,12 +65,12 @@ impl<S: Real, Y: Vector<S>> Differences<S, Y> {
         &self.columns
     }
 
-    /// ∇^j y; `None` if there is none.
+    /// ∇^j y; `None` if it is not kept.
     pub fn get(&self, j: usize) -> Option<&Y> {
         self.columns.get(j.checked_sub(1)?)
     }
 
-    /// Goes on with another order.
+    /// Sets the order of the next step.
     pub fn set_order(&mut self, order: usize) {
         if order != self.order {
             self.order = order;

@@ -16,6 +16,7 @@ const LARGEST_CORRECTION: f64 = 10.0;
 /// The largest change of h f by a larger correction with which the past is kept, in the same unit: what the iteration
 /// leaves open changes h f by that much.
 const LARGEST_CHANGE_OF_SLOPE: f64 = 2.0;
+
 /// What is evaluated at the state that is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Evaluated {
@@ -37,10 +38,10 @@ pub struct NdfFormula<S, Y: Vector<S>> {
     /// rtol max(|y_i|, |y_new,i|, atol_i / rtol), the error that the last step was allowed.
     allowed: Y,
     scratch: Y,
-    /// rtol over the error that the attempted step would have had with the order below and with the order above; 0 if
-    /// there is none.
+    /// rtol over the error that the attempted step would have had with the order below and with the order above; zero
+    /// for an order that does not exist.
     neighbours: [S; 2],
-    /// Whether the correction of the last step has taken the past away.
+    /// Whether the differences were reset after the correction of the last step.
     restarted: bool,
 }
 
@@ -124,23 +125,23 @@ impl<S: Real, Y: Vector<S>> NdfFormula<S, Y> {
         Ok(integration.tolerances.norm(&self.scratch, &integration.progress.y, &integration.progress.y))
     }
 
-    /// The past, by differences.
+    /// The backward differences of the past.
     pub(in crate::integrate) fn differences(&self) -> &Differences<S, Y> {
         &self.differences
     }
 
-    /// Goes on with another order.
+    /// Sets the order of the next step.
     pub(in crate::integrate) fn set_order(&mut self, order: usize) {
         self.differences.set_order(order);
     }
 
     /// The tolerance over the error that the attempted step would have had with the order below and with the order
-    /// above; 0 if there is none.
+    /// above; zero for an order that does not exist.
     pub(in crate::integrate) fn neighbours(&self) -> [S; 2] {
         self.neighbours
     }
 
-    /// Whether the correction of the last step has taken the past away.
+    /// Whether the differences were reset after the correction of the last step.
     pub(in crate::integrate) fn restarted(&self) -> bool {
         self.restarted
     }

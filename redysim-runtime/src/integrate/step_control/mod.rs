@@ -1,7 +1,7 @@
-//! The choice of step sizes. Every rule that makes a step smaller or larger because of its error stands in this folder;
+//! The choice of step sizes. This folder has every rule that makes a step smaller or larger because of its error;
 //! [`Adaptive`](super::Adaptive) keeps the sizes within the interval and the given limits.
 //!
-//! | control | what it looks at | of |
+//! | control | depends on | used by |
 //! |---|---|---|
 //! | [`Elementary`] | the error of the last step | `Ode45`, `Dop853` |
 //! | [`Predictive`] | the errors of the last two steps, and turns of the iteration | `Radau5` |
@@ -28,7 +28,7 @@ const SHRINKAGE_WITHOUT_ESTIMATE: f64 = 0.5;
 /// A new step aims at an error of 0.8^order of the tolerance, so that it rarely has to be tried again.
 const SAFETY: f64 = 0.8;
 
-/// What a step control learns of an attempted step.
+/// The size and the error of an attempted step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial<S> {
     /// The size, with its sign.
@@ -41,8 +41,8 @@ pub struct Trial<S> {
 
 /// Chooses the sizes of the steps of a formula `F` from their errors.
 pub trait StepControl<S: Real, Y: Vector<S>, F: Formula<S, Y>> {
-    /// The size of a first step that the tolerances will probably allow; `reach`, with its sign, is the largest that
-    /// may be.
+    /// The size of a first step that the tolerances will probably allow. `reach`, with its sign, is the largest that is
+    /// allowed.
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.

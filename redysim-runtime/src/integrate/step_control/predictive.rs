@@ -13,12 +13,12 @@ const SMALLEST_GROWTH: f64 = 0.2;
 const LARGEST_GROWTH: f64 = 8.0;
 /// A step that could be a little longer keeps its size, and with it the decompositions.
 const WORTH_A_CHANGE: f64 = 1.2;
-/// The largest ratio of tolerance to error that a prediction believes in.
+/// The largest ratio of tolerance to error in a prediction; a larger one counts as this.
 const LARGEST_RATIO: f64 = 1000.0;
 
-/// The smaller of what the error of the last step says, and of what the errors of the last two predict if their change
-/// goes on (K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods*, ACM
-/// Trans. Math. Softw. 20 (1994)). A step does not grow after one that had to be tried again.
+/// The smaller of the size that follows from the error of the last step and the size that the errors of the last two
+/// predict if their change continues (K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
+/// Runge-Kutta methods*, ACM Trans. Math. Softw. 20 (1994)). A step does not grow after one that had to be tried again.
 #[derive(Clone, Copy, Debug)]
 pub struct Predictive<S> {
     error_exponent: u32,
@@ -27,7 +27,7 @@ pub struct Predictive<S> {
 }
 
 impl<S> Predictive<S> {
-    /// The control of a method whose estimated error goes with this power of the step size.
+    /// The control of a method whose estimated error is proportional to this power of the step size.
     pub fn new(error_exponent: u32) -> Self {
         Self { error_exponent, last: None }
     }
@@ -43,7 +43,7 @@ impl<S: Real, Y: Vector<S>> StepControl<S, Y, Radau<S, Y>> for Predictive<S> {
         Ok(first_size(formula.rate(), &integration.progress.y, &integration.tolerances, self.error_exponent))
     }
 
-    /// Where the iteration failed, it knows better than the error.
+    /// After an iteration that failed, the factor is the one that its rate of convergence calls for.
     fn shrink(&mut self, formula: &mut Radau<S, Y>, trial: Trial<S>) -> S {
         formula.take_retreat().unwrap_or_else(|| shrinkage(trial, self.error_exponent))
     }

@@ -15,7 +15,7 @@ const LARGEST_GROWTH: f64 = 10.0;
 const SAFETY: [f64; 3] = [1.2, 1.3, 1.4];
 /// A first step aims at an error of 0.8² of the tolerance.
 const SAFETY_OF_START: f64 = 0.8;
-/// The smallest factor by which a step grows after a correction that has taken the past away.
+/// The smallest factor by which a step grows after a correction that has reset the differences.
 const WORTH_AN_EARLY_CHANGE: f64 = 2.0;
 
 /// Takes the order, of three neighbours, that allows the largest step, as MATLAB's `ode15s` does.
@@ -54,7 +54,7 @@ impl<S: Real, Y: Vector<S>> StepControl<S, Y, NdfFormula<S, Y>> for VariableOrde
         let limited = |factor: S| factor.minimum(S::from_f64(LARGEST_GROWTH));
         // Only then are all differences that choose the order those of steps of one size.
         if formula.differences().steps() < formula.differences().order() + 2 {
-            // Where corrections take the past away step after step, there never are so many, and steps would stay as
+            // Where corrections reset the differences step after step, there never are so many, and steps would stay as
             // small as they once became.
             let (_, factor) = best(formula, ratio, 1, limited);
             let grows = formula.restarted() && factor >= S::from_f64(WORTH_AN_EARLY_CHANGE);
