@@ -69,7 +69,7 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(
     result
 }
 
-/// [`forward_dynamics_by_recursion`] in the given room, written to `result`.
+/// [`forward_dynamics_by_recursion`] with the buffers of `work`, written to `result`.
 pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
     tree: &Tree<P>,

@@ -45,7 +45,7 @@ pub(super) fn joint_frames<S: Scalar>(
     frames
 }
 
-/// The same in the given room.
+/// [`joint_frames`] in the given buffers.
 pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     angles: &mut Vec<Option<Angle<S>>>,
     frames: &mut Vec<JointFrame<S>>,

@@ -142,7 +142,7 @@ pub fn inverse_dynamics<S: Scalar>(
     tau
 }
 
-/// The same in the given room, written to `tau`.
+/// [`inverse_dynamics`] with the buffers of `work`, written to `tau`.
 pub fn inverse_dynamics_in<S: Scalar>(
     work: &mut Workspace<S>,
     tree: &Tree<impl ParameterIn<S>>,

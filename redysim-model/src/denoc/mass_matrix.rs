@@ -22,7 +22,7 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Tra
     matrix.chunks(nv.max(1)).map(<[S]>::to_vec).collect()
 }
 
-/// The same in the given room, written to `matrix` by rows, of length NV².
+/// [`mass_matrix`] with the buffers of `work`, written to `matrix` by rows, of length NV².
 pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
     tree: &Tree<P>,

@@ -1,13 +1,13 @@
-//! Who watches a recursion run: nobody for numbers, the code generator for symbols.
+//! Observers of recursions: none for numbers, the code generator for symbols.
 
 use crate::inertia::Sym3;
 use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 
 /// Observes a recursion over scalars `S`: which of its operations belong to which body, and what its values are called.
 ///
-/// Recursions call it; code generation implements it, to find bodies on which the same is done and to name the values
-/// of the generated code. Every function has a default that observes nothing, so that a recursion over numbers costs
-/// what it would without. [`Untraced`] has these defaults.
+/// Recursions call it; code generation implements it, to find uniform bodies and to name the values of the generated
+/// code. Every function has a default that observes nothing, so that a recursion over numbers costs what it would
+/// without. [`Untraced`] has these defaults.
 pub trait Trace<S: Copy> {
     /// Whether the product of the rotations between a body and its parent is computed once for each body. This is
     /// faster for numbers. Expressions take more operations with it: the zeros and ones of each rotation fold, and the

@@ -1,4 +1,4 @@
-//! Room for the recursions.
+//! Buffers of the recursions.
 
 use super::articulated::ArticulatedInertia;
 use super::forward::{BiasAcceleration, Pivot};
@@ -8,8 +8,8 @@ use super::mass_matrix::Composite;
 use crate::spatial::{Twist, Wrench};
 use crate::tree::Tree;
 
-/// What the recursions over a tree write down on the way. One that is kept from call to call is large enough after the
-/// first, so that later calls allocate nothing: see
+/// The buffers of the recursions over a tree. One that is reused is large enough after the first call, so that later
+/// calls allocate nothing: see
 /// [`GenericMechanism::inverse_dynamics_in`](crate::GenericMechanism::inverse_dynamics_in).
 #[derive(Clone, Debug)]
 pub struct Workspace<S> {
@@ -27,7 +27,7 @@ pub struct Workspace<S> {
 }
 
 impl<S> Default for Workspace<S> {
-    /// Nothing yet: the first call makes the room that it needs.
+    /// Empty buffers. The first call allocates those that it needs.
     fn default() -> Self {
         Workspace {
             angles: Vec::new(),
