@@ -5,6 +5,7 @@ mod import_faults;
 mod kinematics;
 
 use common::{Run, call, fail, scratch, succeed};
+use import_faults::BODY;
 use kinematics::{Numbers, positions, tree, urdf};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy};
@@ -62,8 +63,7 @@ fn inertias_are_turned_into_the_links_axes() {
 
 #[test]
 fn what_a_urdf_leaves_out_is_what_urdf_says() {
-    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
-    let (mechanism, _) = import(&pendulum("", inertial), &[]);
+    let (mechanism, _) = import(&pendulum("", BODY), &[]);
     // The axis is x unless given; the origin is the parent's.
     assert_eq!(mechanism.model().links[0].axis.0, [1.0, 0.0, 0.0]);
     assert_eq!(mechanism.model().links[0].placement.position.0, [0.0; 3]);
@@ -245,15 +245,14 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
 fn the_help_of_import_states_what_import_does() {
     let help = succeed(&scratch("import-help"), &["import", "--help"]);
     let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
-    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
     let limit = "<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>";
     let kinds = ["continuous", "floating", "planar", "spherical"];
     let of_kind = |kind: &str| {
         let hand = format!(
-            "<link name=\"hand\">{inertial}</link><joint name=\"wrist\" type=\"revolute\"><parent link=\"rod\"/>\
+            "<link name=\"hand\">{BODY}</link><joint name=\"wrist\" type=\"revolute\"><parent link=\"rod\"/>\
              <child link=\"hand\"/>{limit}</joint></robot>"
         );
-        let urdf = pendulum("", inertial).replace("<robot", "<robot version=\"1.2\"").replace("continuous", kind);
+        let urdf = pendulum("", BODY).replace("<robot", "<robot version=\"1.2\"").replace("continuous", kind);
         import(&urdf.replace("</robot>", &hand), &[])
     };
     let imported = kinds.map(of_kind);
@@ -309,10 +308,7 @@ fn an_inertia_of_roundoff_is_none() {
 
 #[test]
 fn limits_with_an_acceleration_are_a_range() {
-    let urdf = pendulum(
-        "<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>",
-        "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>",
-    );
+    let urdf = pendulum("<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>", BODY);
     let urdf = urdf.replace("<robot", "<robot version=\"1.2\"").replace("continuous", "revolute");
     let (mechanism, _) = import(&urdf, &[]);
     let range = mechanism.model().links[0].range.unwrap();
@@ -323,8 +319,7 @@ fn limits_with_an_acceleration_are_a_range() {
 /// What makes no sense is not dropped either.
 #[test]
 fn limits_that_are_none_are_kept_as_they_are() {
-    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
-    let urdf = pendulum("<limit lower=\"2\" upper=\"1\" effort=\"-10\" velocity=\"3\"/>", inertial);
+    let urdf = pendulum("<limit lower=\"2\" upper=\"1\" effort=\"-10\" velocity=\"3\"/>", BODY);
     let (_, run) = import(&urdf.replace("continuous", "revolute"), &[]);
     let kept = "# limits: position = [2.0, 1.0], velocity = 3.0, force = -10.0; the lower one is not below the upper";
     assert!(run.stdout.contains(kept), "{}", run.stdout);
@@ -332,8 +327,7 @@ fn limits_that_are_none_are_kept_as_they_are() {
 
 #[test]
 fn odd_names_stay_what_they_are() {
-    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
-    let urdf = pendulum("<limit velocity=\"1\"/>", inertial)
+    let urdf = pendulum("<limit velocity=\"1\"/>", BODY)
         .replace("hinge", "a &quot;b&quot; \\ ' # é&#10;x")
         .replace("rod", "&lt;]]&gt;");
     let (mechanism, _) = import(&urdf, &[]);

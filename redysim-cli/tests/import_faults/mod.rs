@@ -1,9 +1,10 @@
-//! What is no robot gets one clear message with its line, and leaves no file behind.
+//! A file that is not a robot is refused with one clear message and its line, and leaves no file behind.
 
 use crate::common::{fail, names};
 use crate::{folder_with, import_from};
 
-const BODY: &str =
+/// The inertial of a link.
+pub const BODY: &str =
     "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
 
 /// Links a, b, c with bodies on lines 2 to 4, then these joints (name, parent, child) from line 5.
