@@ -1,5 +1,5 @@
 //! Accuracy against speed: every integrator on five scenes, every way to compute KR5's dynamics, and every way to keep
-//! a loop closed. Writes pictures and tables; `docs/accuracy.md` says what they mean.
+//! a loop closed. Writes pictures and tables; `docs/accuracy.md` explains them.
 //!
 //! `cargo run --release --example accuracy_vs_speed`
 //!

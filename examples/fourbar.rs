@@ -90,7 +90,7 @@ fn forces(run: &LoopInverseRun, reference: &Reference) -> Figure {
     Figure { columns: 1, panels: panels.collect(), shared_legend: true }
 }
 
-/// Figure 11: the four-bar is let go. The paper does not say from where: at rest, or at the speeds that ship with it.
+/// Figure 11: the four-bar is let go. The paper does not state from where: at rest, or at the speeds that ship with it.
 fn free_fall(outputs: &mut Outputs) -> Result<(), Failure> {
     let text = include_str!("../tests/reference/golden_ref_hoken_rest_consistent.csv");
     let rest = Fall::new("from rest", [0.0; 3], text)?;

@@ -30,7 +30,7 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Figure 4: the fingers close and the arm turns, as the paper's Table 1 tells.
+/// Figure 4: the fingers close and the arm turns, as in the paper's Table 1.
 fn inverse_dynamics(outputs: &mut Outputs) -> Result<(), Failure> {
     let text = include_str!("../tests/reference/golden_octave_ID_Robotic_Gripper.csv");
     let redysim = Reference::joint_forces("ReDySim", text, Gripper::NV)?;
@@ -44,7 +44,7 @@ fn inverse_dynamics(outputs: &mut Outputs) -> Result<(), Failure> {
     outputs.numbers("inverse_dynamics", "motion and torques, each 1 ms", &run.csv())
 }
 
-/// Figure 5: let go with the arm 60° below the horizontal. The paper does not say how the second finger stands at the
+/// Figure 5: let go with the arm 60° below the horizontal. The paper does not state how the second finger stands at the
 /// start: along the arm, or across it as in Table 1. Here are both.
 fn free_fall(outputs: &mut Outputs) -> Result<(), Failure> {
     let text = include_str!("../tests/reference/golden_ref_gripper_paper.csv");

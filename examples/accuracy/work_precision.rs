@@ -32,7 +32,7 @@ fn step_counts(most: u64) -> impl Iterator<Item = u64> {
     (4..).map(|power| 1 << power).take_while(move |&count| count <= most)
 }
 
-/// The runs of a method over its settings. Those that find no error below 1 say nothing, and a method that has failed
+/// The runs of a method over its settings. Those that find no error below 1 are left out, and a method that has failed
 /// at a setting and after one that worked is not tried at the tighter ones.
 fn runs<I: Integrator<f64>>(name: &'static str, scene: &impl Scene, methods: impl Iterator<Item = I>) -> Method {
     let mut method = Method { name, runs: Vec::new(), failure: None };

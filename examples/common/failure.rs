@@ -1,8 +1,8 @@
-//! What went wrong, told to a person.
+//! Failures, reported to a person.
 
 use std::fmt;
 
-/// A message that says what failed, why, and what to do.
+/// A message: what failed, why, and what to do.
 ///
 /// `main` may return it: Rust prints the error of `main` by `Debug`, which is therefore the message itself.
 pub struct Failure(pub String);

@@ -53,7 +53,7 @@ impl Outputs {
         println!();
     }
 
-    /// The folder, as short as it can be told from here.
+    /// The folder, relative to the working directory if it is within.
     fn shown(&self) -> &Path {
         let here = std::env::current_dir().unwrap_or_default();
         self.folder.strip_prefix(here).unwrap_or(&self.folder)

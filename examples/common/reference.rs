@@ -1,5 +1,5 @@
-//! Reference results, which none of this project's code computed. `tests/reference/README.md` tells where they are
-//! from.
+//! Reference results, which none of this project's code computed. Where they are from:
+//! `tests/reference/README.md`.
 
 use super::{Context, Failure, Rows, Series};
 

@@ -63,7 +63,7 @@ where
 pub fn remark_processor() {
     remark(&format!("{}.", processor::described()));
     if cfg!(debug_assertions) {
-        remark("This is a debug build, whose times say nothing: run with --release.");
+        remark("This is a debug build, whose times mean nothing: run with --release.");
     }
 }
 

@@ -4,7 +4,7 @@
 //! Exit codes: 0 all is well; 1 the input is at fault (a model, a scenario, a table); 2 the command line is; 3
 //! something outside is (a file that cannot be read or written, an integration that cannot go on); 130 interrupted.
 
-// They panic where nobody listens; `output` does not.
+// They panic if the pipe is closed; `output` does not.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod animation;

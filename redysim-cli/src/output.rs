@@ -35,7 +35,7 @@ pub fn write_beside(source: &Path, path: &Path, contents: &[u8], force: bool) ->
 /// Fails if [`write_file`] would, as far as that is known before there is something to write.
 ///
 /// # Errors
-/// If the file is there and `force` is not given, or its path leads nowhere.
+/// If the file is there and `force` is not given, or its path cannot be resolved.
 pub fn check_place(path: &Path, force: bool) -> Result<(), Failure> {
     place(path, force).map(drop)
 }

@@ -1,4 +1,4 @@
-//! Nothing that is there is lost, whatever a run is told and whatever happens meanwhile.
+//! Nothing that is there is lost, whatever the options of a run and whatever happens meanwhile.
 
 mod common;
 
@@ -168,7 +168,7 @@ mod meanwhile {
     }
 }
 
-/// A folder is nobody's table, whatever it is called.
+/// A folder is not a table of a run, whatever it is called.
 #[test]
 fn a_folder_within_a_result_is_not_of_a_run() {
     let folder = scratch("folders-within");

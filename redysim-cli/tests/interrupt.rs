@@ -113,13 +113,13 @@ fn two_ctrl_cs_in_a_row_leave_no_half_result() {
     }
 }
 
-/// Who reads the output has stopped: the run waits, and cannot look whether anybody wants it to end.
+/// The reader of the output has stopped: the run waits, and cannot check whether it is to end.
 #[cfg(target_os = "linux")]
 mod waiting {
     use super::*;
     use std::io::{PipeReader, Read, Write};
 
-    /// A run that is about to say how it closes its loops, and cannot; its second instant is hours away.
+    /// A run that is about to report how it closes its loops, and cannot; its second instant is hours away.
     fn stuck(folder: &Path) -> (Running, PipeReader) {
         let rest = LONG.replace("q = [0, 1]", "q = [0, 0.9844, 4.3144]").replace("step = 0.01\n", "step = 1e4\n");
         let path = scenario(folder, "fourbar.toml", &rest);

@@ -1,4 +1,4 @@
-//! That nobody listens is no fault: every subcommand ends as it would otherwise, whoever has closed its pipes.
+//! A closed pipe is not a fault: every subcommand ends as it would otherwise, whichever of its pipes is closed.
 #![cfg(unix)]
 
 mod common;

@@ -90,7 +90,7 @@ fn sliding_joints_and_rows_of_directions_have_units_of_their_own() {
     assert_eq!(headers("lambda.csv"), ["t [s]", "lambda hold 1 [N]", "lambda hold 2 [N m]"]);
 }
 
-/// A pendulum's link is where its angle says.
+/// A pendulum's link is where its angle puts it.
 #[test]
 fn kinematics_are_those_of_the_angles() {
     let folder = scratch("kinematics");

@@ -39,7 +39,7 @@ fn a_motion_whose_energy_comes_from_nowhere_is_called_wrong() {
     assert_eq!(output("steps-right", &with("method = 'Ode4', step = 0.01"), &[]), "");
 }
 
-/// The forces of each instant are right, but what lies between rows that are far apart nobody has looked at.
+/// The forces of each instant are right, but between rows that are far apart nothing is computed.
 #[test]
 fn work_between_rows_that_are_too_far_apart_is_called_wrong() {
     let folder = scratch("steps-work");

@@ -7,7 +7,7 @@
 //! | item | what it is |
 //! |---|---|
 //! | [`Key`], [`Keys`] | the keys of a table: name, example, meaning with unit; also for [`Keys::documentation`] |
-//! | [`Reader`] | reads the values of the keys of one table, and reports unknown keys, missing keys and invalid values |
+//! | [`Reader`] | reads the values of one table, and reports unknown keys, missing keys and invalid values |
 //! | [`Field`] | the value of a key: missing, invalid, or a value with its place |
 //! | [`Findings`] | collects errors and warnings while a file is read and checked |
 //! | [`Diagnostic`] | an error or a warning; its `Display` shows the line of the file with a caret |

@@ -29,8 +29,8 @@ impl Source {
         Source { name: name.into(), text: text.into() }
     }
 
-    /// Where `span` starts. Any range is accepted: one outside the text, or not at character boundaries, is moved to the
-    /// nearest that is inside.
+    /// Where `span` starts. Any range is accepted: one outside the text, or not at character boundaries, is moved to
+    /// the nearest that is inside.
     pub(crate) fn place(&self, span: &Range<usize>) -> Place<'_> {
         let start = floor_boundary(&self.text, span.start);
         let before = &self.text[..start];

@@ -30,7 +30,7 @@ impl Balance {
         drift
     }
 
-    /// The largest drift as a part of what was exchanged, if it is so large a part that it is not a matter of taste.
+    /// The largest drift as a part of what was exchanged, if it is so large that the result is wrong.
     pub fn wrong_part(&self) -> Option<f64> {
         Some(self.part()).filter(|part| *part > MUCH)
     }

@@ -134,8 +134,8 @@ impl Drop for Folder {
 
 impl Draft {
     fn discard(&self) {
-        // A run that is ended at once may be writing into it meanwhile, until it is gone; there is nobody left to tell
-        // if it stays.
+        // A run that is ended at once may be writing into it meanwhile, until it is gone; if it stays, that cannot be
+        // reported any more.
         for _ in 0..TRIES {
             if fs::remove_dir_all(&self.path).is_ok() || !self.path.exists() {
                 break;

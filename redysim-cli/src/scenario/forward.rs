@@ -21,8 +21,8 @@ pub struct Forward {
 }
 
 impl Forward {
-    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None` if it is invalid, which has been
-    /// reported.
+    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None` if it is invalid, which has
+    /// been reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,

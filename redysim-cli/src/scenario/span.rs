@@ -4,7 +4,7 @@ use redysim_toml::{Message, Reader};
 
 use super::keys;
 
-/// Nothing that is written has more rows: nobody reads them, and tens of gigabytes are written by mistake only.
+/// The largest number of rows of a run: more would be tens of gigabytes, most likely by mistake.
 const MOST: f64 = 1e7;
 /// A step is so many roundings of the time at least.
 const LEAST: f64 = 16.0;

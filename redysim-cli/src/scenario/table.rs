@@ -56,8 +56,8 @@ impl Table {
         }
     }
 
-    /// The values of `symbol` for each of `of`, indices into `components`, by rows; `None` if no column has that symbol.
-    /// `per` is what the unit of a coordinate is divided by; `None` for a force.
+    /// The values of `symbol` for each of `of`, indices into `components`, by rows; `None` if no column has that
+    /// symbol. `per` is what the unit of a coordinate is divided by; `None` for a force.
     ///
     /// # Errors
     /// If a component has no column or two, or a column has a unit of another quantity.

@@ -82,7 +82,7 @@ fn inertia(i: Sym3<f64>) -> String {
     format!("{{ {} }}", entries.join(", "))
 }
 
-/// A range wants an acceleration, which most URDFs do not give: then what they give is kept beside it.
+/// A range needs an acceleration, which most URDFs do not give: without one, the limits are kept as a comment.
 fn range(limit: &JointLimit) -> String {
     let JointLimit { lower, upper, effort, velocity, acceleration, .. } = *limit;
     let force = if effort.is_finite() && effort > 0.0 { format!(", force = {effort:?}") } else { String::new() };

@@ -26,7 +26,7 @@ impl Table {
         Table { headers: vec![], rows: text.lines().map(|line| numbers(line.split_whitespace())).collect() }
     }
 
-    /// A reference: its first line says what the columns are.
+    /// A reference: its first line names the columns.
     pub fn reference(name: &str) -> Table {
         Table::csv(&root().join("tests/reference").join(name))
     }

@@ -95,7 +95,7 @@ fn two_digits(value: f64) -> f64 {
 /// Warns that a motion is wrong, if its energy shows it.
 fn warn_of_drift(forward: &Forward, record: &Record<'_>) {
     if matches!(forward.stabilisation, Stabilisation::Baumgarte { .. }) {
-        // While it closes loops, its feedback does work that nobody counts.
+        // While it closes loops, its feedback does work that is not counted.
         return;
     }
     let Balance { drift, .. } = record.balance();
@@ -123,7 +123,7 @@ fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System
         IntegrationError::InvalidRelativeTolerance { .. } | IntegrationError::InvalidStep { .. } => {
             Failure::input(error)
         }
-        // What these say of remedies is for programs.
+        // The remedies in the messages of these are for programs.
         IntegrationError::TooManySteps { t, limit } => {
             let message = format!("the end is not within {limit} steps of t = {t:?} s");
             Failure::input(message).help("take larger steps or tolerances in `integrator`, or an earlier `end`")
