@@ -41,7 +41,7 @@ pub fn refine<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
     let beyond = S::from_f64(4.0) * S::EPSILON * from.abs().maximum(to.abs());
     let beyond = if to > from { beyond } else { -beyond };
     let mut previous: Option<(S, S)> = None;
-    let mut best: Option<Trial<S, Y>> = None;
+    let mut best: Option<Iterate<S, Y>> = None;
     for _ in 0..STEPS {
         if t == to {
             break;
@@ -55,9 +55,9 @@ pub fn refine<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
             slope = (error - previous) / (t - t_previous);
         }
         previous = Some((t, error));
-        let trial = Trial { t, y, error };
-        if best.as_ref().is_none_or(|best| trial.is_better_than(best)) {
-            best = Some(trial);
+        let iterate = Iterate { t, y, error };
+        if best.as_ref().is_none_or(|best| iterate.is_better_than(best)) {
+            best = Some(iterate);
         }
         let correction = -error / slope;
         if !correction.is_finite() || (error <= S::zero() && correction.abs() <= beyond.abs() + beyond.abs()) {
@@ -66,20 +66,20 @@ pub fn refine<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
         t = clamped(t + correction + beyond, from, to);
     }
     Ok(match best {
-        Some(Trial { t, y, error }) if error.abs() <= S::from_f64(REST) * change.abs() => (t, y),
+        Some(Iterate { t, y, error }) if error.abs() <= S::from_f64(REST) * change.abs() => (t, y),
         _ => (crossing.t, observed.step().at(crossing.t)),
     })
 }
 
-/// A step of the method to where the event might be.
-struct Trial<S, Y> {
+/// An iterate of Newton's rule: a step of the method to where the event might be.
+struct Iterate<S, Y> {
     t: S,
     y: Y,
     /// The value of the event, positive before the crossing.
     error: S,
 }
 
-impl<S: Real, Y> Trial<S, Y> {
+impl<S: Real, Y> Iterate<S, Y> {
     /// Whether this one has passed zero and the other has not, or is nearer to zero.
     fn is_better_than(&self, other: &Self) -> bool {
         let passed = self.error <= S::zero();
