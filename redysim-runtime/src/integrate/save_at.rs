@@ -80,7 +80,8 @@ impl<S: Real, Y: Vector<S>, I: Iterator<Item = S>, F: FnMut(S, &Y)> Observer<S, 
         &mut self,
         observed: &mut ObservedStep<'_, '_, S, Y, G, O>,
     ) -> Result<ControlFlow<()>, IntegrationError<S>> {
-        while let Some(t) = self.next_until(observed.step().end().0) {
+        let end = observed.integration.progress.t_new;
+        while let Some(t) = self.next_until(end) {
             observed.write_state_at(t, &mut self.y)?;
             if self.answer(t).is_break() {
                 return Ok(ControlFlow::Break(()));
