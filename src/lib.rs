@@ -64,20 +64,21 @@
 //!
 //! Where to look: [`Mechanism`](trait@Mechanism) and the traits beside it for what a mechanism can do; [`Ode45`] and
 //! [`Ode5`], and for stiff equations [`Ode15s`], with [`ForwardSimulation`] for motion in time; [`TorqueLaw`] and
-//! [`Trajectory`] for what drives it; [`closed_loop`] for mechanisms with loops.
+//! [`Trajectory`] for what drives it; [`ClosedLoop`] for mechanisms with loops.
 //!
 //! # Features
 //!
 //! - `generic` (on by default): [`generic`]; brings `std`.
-//! - `std`: [`batch`], [`dispatch`], and a fused multiply-add that is quicker to compile. Without it the crate is
+//! - `std`: [`batch`], [`Dispatched`], and a fused multiply-add that is quicker to compile. Without it the crate is
 //!   `no_std`.
 //! - `deterministic`: the same bits on every target. Without it products and sums are fused where the target can (see
-//!   [`scalar::FUSED`]), so that a program compiled with `-C target-cpu=native` may differ from one that is not in the
+//!   [`FUSED`]), so that a program compiled with `-C target-cpu=native` may differ from one that is not in the
 //!   last places; within one program, lanes and plain numbers agree to the bit either way, and so do batches and
 //!   [`Dispatched`] mechanisms, which fuse where the processor can.
 #![no_std]
 
-/// The runtime that compiled mechanisms stand on: scalars, traits, integrators, trajectories, torque laws.
+/// The runtime under the path by which generated code finds it. Its items are those of this crate.
+#[doc(hidden)]
 pub use redysim_runtime as runtime;
 
 pub use redysim_macros::{Mechanism, redysim};

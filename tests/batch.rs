@@ -179,7 +179,7 @@ fn the_bits_do_not_depend_on_what_the_program_is_compiled_for() {
         [9774237128821643355, 18092235621764425362, 15153115090575332353],
     ];
     let found = [hashes::<f64>(), hashes::<f32>()];
-    let can_fuse = redysim::scalar::FUSED || Kr5.dispatched().instructions() >= redysim::dispatch::Instructions::Avx2;
+    let can_fuse = redysim::FUSED || Kr5.dispatched().instructions() >= redysim::Instructions::Avx2;
     if can_fuse && cfg!(not(feature = "deterministic")) {
         // Tests of the whole workspace share a runtime with the macro, which asks it for `deterministic`.
         assert!(found == fused || found == unfused, "{found:?}");

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use redysim::generic::JointRange;
 use redysim::generic::{GenericMechanism, Model};
-use redysim::runtime::lanes::{F32x16, F64x8, Lanes};
+use redysim::lanes::{F32x16, F64x8, Lanes};
 use redysim::{ForwardDynamics, InverseDynamics, Real, Vector};
 
 use super::models::{DOF, Kr5, pruned};

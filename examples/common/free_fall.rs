@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use redysim::control::uniform;
+use redysim::uniform;
 use redysim::{Energy, ForwardSimulation, Integrator, Ode5, Ode45, Statistics, TreeDynamics, ZeroTorque};
 
 use super::compare::deviations;

@@ -136,7 +136,7 @@ where
 {
     let loops = ClosedLoop::new(mechanism);
     let mut simulation = ClosedLoopSimulation::new(loops, ZeroTorque).stabilisation(Stabilisation::None);
-    let start = simulation.state(&q, &redysim::control::uniform(mechanism, 0.0));
+    let start = simulation.state(&q, &redysim::uniform(mechanism, 0.0));
     let run = record(name, &mut simulation, &Ode45::new().rtol(3e-14).atol(1e-15), start, &reference.t)?;
     let numbers = [reference.t[reference.t.len() - 1].to_string(), run.statistics.steps.to_string()];
     let deviations = run.deviations(&reference).map(tiny);

@@ -1,6 +1,6 @@
 //! One mechanism in motion, from a start that may be open.
 
-use redysim::closed_loop::Assembly;
+use redysim::Assembly;
 use redysim::{ClosedLoop, ClosedLoopSimulation, Integrator, LoopClosure, TorqueLaw, TreeDynamics};
 
 use crate::common::Failure;

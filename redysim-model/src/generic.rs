@@ -3,10 +3,8 @@
 use crate::denoc::{self, Method, Untraced, Workspace};
 use crate::model::Model;
 use crate::tree::Tree;
-use redysim_runtime::dual;
-use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
-    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
     LengthMismatch, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
     Mechanism, Scalar,
 };
@@ -157,7 +155,7 @@ impl<S: Scalar> InverseDynamics<S> for GenericMechanism {
         denoc::inverse_dynamics(&self.tree, &Untraced, q, v, a)
     }
     fn inverse_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
-        Some(dual::inverse_dynamics_tangent(self, at, slopes))
+        Some(redysim_runtime::inverse_dynamics_tangent(self, at, slopes))
     }
 }
 
@@ -168,7 +166,7 @@ impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
         denoc::forward_dynamics(Method::Recursion, &self.tree, &Untraced, q, v, tau)
     }
     fn forward_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
-        Some(dual::forward_dynamics_tangent(self, at, slopes))
+        Some(redysim_runtime::forward_dynamics_tangent(self, at, slopes))
     }
 }
 

@@ -2,7 +2,7 @@
 //! controllers, learning and identification. Needs the feature `std`.
 //!
 //! Each call finds out what the processor has and runs code for AVX-512, for AVX2 with fused multiply-add, or for what
-//! the program is compiled for, so that no compiler flag is needed ([`dispatch`](crate::dispatch)); [`map`] alone,
+//! the program is compiled for, so that no compiler flag is needed ([`Dispatch`](crate::Dispatch)); [`map`] alone,
 //! whose function has lanes of one kind, takes those that the program is compiled for.
 //!
 //! States and results are slices of arrays that the caller owns. Any number of states will do, and each result is the

@@ -22,15 +22,14 @@
 //! # }
 //! ```
 //!
-//! | module | what it has |
+//! | for | see |
 //! |---|---|
-//! | [`mechanism`] | the traits of a mechanism: [`Mechanism`], [`ConfigurationSpace`], one for each function |
-//! | [`scalar`], [`dual`], [`lanes`] | numbers: [`Scalar`] and [`Real`], derivatives, several numbers side by side |
-//! | [`function`], [`operations`] | the table of functions and what each costs |
-//! | [`integrate`], [`simulate`] | integrators with events and dense output; motion of a mechanism in time |
-//! | [`control`], [`trajectory`] | torque laws and the motions that they follow |
-//! | [`closed_loop`] | constraint forces, assembly, projection and inverse dynamics of closed loops |
-//! | [`batch`], [`dispatch`] | many states on all cores; the instructions that the processor has |
+//! | a mechanism | [`Mechanism`], [`ConfigurationSpace`], a trait for each [`Function`] and what it costs: [`Operations`] |
+//! | numbers | [`Scalar`] and [`Real`]; [`Dual`] for derivatives; [`lanes`], several numbers side by side |
+//! | motion in time | [`Integrator`] and the methods, [`integrate`]; [`ForwardSimulation`] |
+//! | what drives it | [`TorqueLaw`], [`Trajectory`] |
+//! | closed loops | [`ClosedLoop`]: constraint forces, assembly and projection; simulation and inverse dynamics |
+//! | many states | [`batch`], on all cores; [`Dispatched`], by the best instructions that the processor has |
 //!
 //! # Lengths
 //!
@@ -44,7 +43,7 @@
 //!
 //! - `simulation` (default): integrators, trajectories, torque laws, and the closed-loop solves that need them.
 //! - `lanes` (default): [`lanes`], and several angles of one state at a time.
-//! - `alloc`: `Vec` for vectors. `std`: [`batch`] and [`dispatch`].
+//! - `alloc`: `Vec` for vectors. `std`: [`batch`] and [`Dispatched`].
 //! - `deterministic`: products and sums are never fused, so that every target gives the same bits.
 #![no_std]
 // Parts of the constraint solve serve simulation only.
@@ -57,12 +56,12 @@ extern crate std;
 
 #[cfg(feature = "std")]
 pub mod batch;
-pub mod closed_loop;
+mod closed_loop;
 #[cfg(feature = "simulation")]
-pub mod control;
+mod control;
 #[cfg(feature = "std")]
-pub mod dispatch;
-pub mod dual;
+mod dispatch;
+mod dual;
 mod floats;
 pub mod function;
 #[cfg(feature = "simulation")]
@@ -70,17 +69,17 @@ pub mod integrate;
 mod joint_trig;
 #[cfg(feature = "lanes")]
 pub mod lanes;
-pub mod mechanism;
-pub mod operations;
+mod mechanism;
+mod operations;
 #[cfg(feature = "lanes")]
 mod registers;
-pub mod scalar;
+mod scalar;
 #[cfg(feature = "simulation")]
-pub mod simulate;
+mod simulate;
 #[cfg(feature = "simulation")]
-pub mod trajectory;
+mod trajectory;
 mod trigonometry;
-pub mod vector;
+mod vector;
 
 pub use closed_loop::{Assembly, ClosedLoop, ConstrainedMotion, LoopError, NamedLoopError, Projection, RowSet};
 #[cfg(feature = "simulation")]
@@ -88,11 +87,12 @@ pub use closed_loop::{
     ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion, LoopForces, Stabilisation,
 };
 #[cfg(feature = "simulation")]
-pub use control::{ComputedTorque, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque};
+pub use control::{ComputedTorque, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque, uniform};
 #[cfg(feature = "std")]
-pub use dispatch::{Dispatch, Dispatched};
-pub use dual::Dual;
-pub use function::{Function, Functions, Operations};
+pub use dispatch::{Dispatch, Dispatched, Instructions};
+pub use dual::{Dual, forward_dynamics_tangent, inverse_dynamics_tangent};
+pub use function::set::Functions;
+pub use function::table::{Function, Operations};
 #[cfg(feature = "simulation")]
 pub use integrate::{
     Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,
@@ -100,12 +100,12 @@ pub use integrate::{
 };
 pub use joint_trig::JointTrig;
 pub use mechanism::{
-    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
     LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
     TreeDynamics,
 };
 pub use operations::OperationCount;
-pub use scalar::{Real, Scalar};
+pub use scalar::{FUSED, Real, Scalar};
 #[cfg(feature = "simulation")]
 pub use simulate::{ForwardSimulation, SimulationState};
 #[cfg(feature = "simulation")]

@@ -71,7 +71,7 @@ pub trait InverseDynamics<S: Scalar>: ConfigurationSpace<S> {
     fn inverse_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, a: &Self::Velocities) -> Self::Velocities;
 
     /// The derivative of τ along `slopes`, (∂τ/∂q) dq + (∂τ/∂v) dv + (∂τ/∂a) da at `at` = (q, v, a). Compiled types and
-    /// the generic path compute it with [dual numbers](crate::dual); `None`, the default, leaves it to differences.
+    /// the generic path compute it with [dual numbers](crate::Dual); `None`, the default, leaves it to differences.
     fn inverse_dynamics_tangent(
         &self,
         at: Arguments<'_, S, Self>,
@@ -89,7 +89,7 @@ pub trait ForwardDynamics<S: Scalar>: ConfigurationSpace<S> {
     -> Self::Velocities;
 
     /// The derivative of a along `slopes`, (∂a/∂q) dq + (∂a/∂v) dv + (∂a/∂τ) dτ at `at` = (q, v, τ). Compiled types and
-    /// the generic path compute it with [dual numbers](crate::dual); `None`, the default, leaves it to differences.
+    /// the generic path compute it with [dual numbers](crate::Dual); `None`, the default, leaves it to differences.
     fn forward_dynamics_tangent(
         &self,
         at: Arguments<'_, S, Self>,

@@ -5,8 +5,8 @@
 mod mechanisms;
 
 use mechanisms::Arm;
+use redysim_runtime::Arguments;
 use redysim_runtime::integrate::Accepted;
-use redysim_runtime::mechanism::Arguments;
 use redysim_runtime::{
     ComputedTorque, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError, Integrator,
     InverseDynamics, LengthMismatch, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Proportional,

@@ -6,7 +6,7 @@ mod mechanisms;
 use mechanisms::{Arm, GRAVITY, Pendulum, distance};
 use redysim_runtime::{
     ComputedTorque, Cycloid, ForwardSimulation, Integrator, InverseDynamics, Motion, Ode45, Proportional,
-    ProportionalDerivative, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, control::uniform,
+    ProportionalDerivative, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, uniform,
 };
 
 const Q: [f64; 2] = [0.5, -0.25];

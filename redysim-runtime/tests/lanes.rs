@@ -1,7 +1,7 @@
 //! A lane holds the bits that the same operations on plain numbers give.
 
+use redysim_runtime::FUSED;
 use redysim_runtime::lanes::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8, Lanes, pack, unpack};
-use redysim_runtime::scalar::FUSED;
 use redysim_runtime::{Real, Scalar};
 
 /// Numbers of all sizes, angles that every path of the reduction takes, two between quarter turns, of which either may

@@ -1108,11 +1108,11 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::InverseDynamics<S> for Gri
     }
     fn inverse_dynamics_tangent(
         &self,
-        at: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
-        slopes: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
+        at: ::redysim_runtime::Arguments<'_, S, Self>,
+        slopes: ::redysim_runtime::Arguments<'_, S, Self>,
     ) -> ::core::option::Option<Self::Velocities> {
         ::core::option::Option::Some(
-            ::redysim_runtime::dual::inverse_dynamics_tangent(self, at, slopes),
+            ::redysim_runtime::inverse_dynamics_tangent(self, at, slopes),
         )
     }
 }
@@ -1123,11 +1123,11 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::ForwardDynamics<S> for Gri
     }
     fn forward_dynamics_tangent(
         &self,
-        at: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
-        slopes: ::redysim_runtime::mechanism::Arguments<'_, S, Self>,
+        at: ::redysim_runtime::Arguments<'_, S, Self>,
+        slopes: ::redysim_runtime::Arguments<'_, S, Self>,
     ) -> ::core::option::Option<Self::Velocities> {
         ::core::option::Option::Some(
-            ::redysim_runtime::dual::forward_dynamics_tangent(self, at, slopes),
+            ::redysim_runtime::forward_dynamics_tangent(self, at, slopes),
         )
     }
 }

@@ -5,7 +5,7 @@ use super::singular::pivotless;
 use crate::generic::GenericMechanism;
 use crate::mobility::starts;
 use crate::model::Model;
-use redysim_runtime::closed_loop::ClosedLoop;
+use redysim_runtime::ClosedLoop;
 
 /// Whether the mass matrix is positive definite on the velocities that closed loops leave free, at one closed position
 /// at least.

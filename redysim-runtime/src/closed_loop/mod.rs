@@ -1,16 +1,5 @@
 //! Closed loops: cut joints kept together while the mechanism moves.
 //!
-//! The tree of a mechanism is what [`MassMatrix`](crate::MassMatrix) and [`BiasForces`](crate::BiasForces) describe;
-//! [`LoopClosure`](crate::LoopClosure) says how far its cut joints are apart. [`ClosedLoop`] puts both together:
-//! [`assemble`](ClosedLoop::assemble) closes the loops from a guess, [`dynamics`](ClosedLoop::dynamics) gives
-//! accelerations and constraint forces, [`project`](ClosedLoop::project) takes away drift, [`ClosedLoopSimulation`]
-//! moves the mechanism in time with any integrator, and [`ClosedLoopInverse`] finds the joint forces for a trajectory
-//! of the independent coordinates, which [`ClosedLoopComputedTorque`] follows under control.
-//!
-//! Everything is based on one decomposition: the rows of J in the metric of M, split into a part that is independent
-//! and a part that is not. So redundant rows and singular positions are ordinary cases. Where M is singular, since a
-//! rod has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
-//!
 //! | folder | what it solves |
 //! |---|---|
 //! | `constraints` | the constraints at one position: J in the metric of M, its rank and its least-norm solutions |
@@ -38,6 +27,19 @@ pub use position::{Assembly, Projection};
 pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
 
 /// A mechanism and the closure of its loops.
+///
+/// The tree of the mechanism is what [`MassMatrix`](crate::MassMatrix) and [`BiasForces`](crate::BiasForces) describe;
+/// [`LoopClosure`](crate::LoopClosure) measures how far its cut joints are apart. A `ClosedLoop` puts both together:
+///
+/// - [`assemble`](Self::assemble) closes the loops from a guess, [`project`](Self::project) removes drift.
+/// - [`dynamics`](Self::dynamics) gives accelerations and constraint forces, and
+///   [`ClosedLoopSimulation`](crate::ClosedLoopSimulation) moves the mechanism in time with any integrator.
+/// - [`ClosedLoopInverse`](crate::ClosedLoopInverse) finds the joint forces for a trajectory of the independent
+///   coordinates, which [`ClosedLoopComputedTorque`](crate::ClosedLoopComputedTorque) follows under control.
+///
+/// Everything is based on one decomposition: the rows of J in the metric of M, split into a part that is independent and
+/// a part that is not. So redundant rows and singular positions are ordinary cases. Where M is singular, since a rod
+/// has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
 #[derive(Debug)]
 pub struct ClosedLoop<'m, M, C = M> {
     mechanism: &'m M,

@@ -1,9 +1,9 @@
 // Two mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
 
-use redysim_runtime::mechanism::Arguments;
+use redysim_runtime::Arguments;
 use redysim_runtime::{
     ConfigurationSpace, Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar,
-    Vector, dual,
+    Vector,
 };
 
 pub const GRAVITY: f64 = 9.81;
@@ -93,7 +93,7 @@ impl<S: Scalar> InverseDynamics<S> for Pendulum {
         at: Arguments<'_, S, Self>,
         slopes: Arguments<'_, S, Self>,
     ) -> Option<Self::Velocities> {
-        Some(dual::inverse_dynamics_tangent(self, at, slopes))
+        Some(redysim_runtime::inverse_dynamics_tangent(self, at, slopes))
     }
 }
 
@@ -107,7 +107,7 @@ impl<S: Scalar> ForwardDynamics<S> for Pendulum {
         at: Arguments<'_, S, Self>,
         slopes: Arguments<'_, S, Self>,
     ) -> Option<Self::Velocities> {
-        Some(dual::forward_dynamics_tangent(self, at, slopes))
+        Some(redysim_runtime::forward_dynamics_tangent(self, at, slopes))
     }
 }
 
@@ -157,7 +157,7 @@ impl<S: Scalar> InverseDynamics<S> for Arm {
         at: Arguments<'_, S, Self>,
         slopes: Arguments<'_, S, Self>,
     ) -> Option<Self::Velocities> {
-        Some(dual::inverse_dynamics_tangent(self, at, slopes))
+        Some(redysim_runtime::inverse_dynamics_tangent(self, at, slopes))
     }
 }
 
@@ -174,7 +174,7 @@ impl<S: Scalar> ForwardDynamics<S> for Arm {
         at: Arguments<'_, S, Self>,
         slopes: Arguments<'_, S, Self>,
     ) -> Option<Self::Velocities> {
-        Some(dual::forward_dynamics_tangent(self, at, slopes))
+        Some(redysim_runtime::forward_dynamics_tangent(self, at, slopes))
     }
 }
 

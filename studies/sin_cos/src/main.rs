@@ -31,7 +31,7 @@ impl Worst {
 
 fn main() {
     let count = std::env::args().nth(1).map_or(10_000_000, |count| count.parse().expect("a number of arguments"));
-    println!("fused multiply-add: {}", redysim_runtime::scalar::FUSED);
+    println!("fused multiply-add: {}", redysim_runtime::FUSED);
     println!("| f64 arguments | how many | sine, ulp | at | cosine, ulp | at |");
     println!("|---|---|---|---|---|---|");
     for range in Range::ALL {

@@ -30,10 +30,10 @@ fn tangent(function: Function, runtime: &TokenStream) -> TokenStream {
     quote! {
         fn #name(
             &self,
-            at: #runtime::mechanism::Arguments<'_, S, Self>,
-            slopes: #runtime::mechanism::Arguments<'_, S, Self>,
+            at: #runtime::Arguments<'_, S, Self>,
+            slopes: #runtime::Arguments<'_, S, Self>,
         ) -> ::core::option::Option<Self::Velocities> {
-            ::core::option::Option::Some(#runtime::dual::#name(self, at, slopes))
+            ::core::option::Option::Some(#runtime::#name(self, at, slopes))
         }
     }
 }

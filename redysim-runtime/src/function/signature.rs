@@ -1,0 +1,92 @@
+//! What functions take and return.
+
+/// What a function takes and returns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signature {
+    /// The trait that has it.
+    pub interface: Interface,
+    /// Its arguments, in order.
+    pub arguments: &'static [Argument],
+    /// What it returns.
+    pub result: Shape,
+    /// What it computes, with formula and units.
+    pub summary: &'static str,
+}
+
+/// The trait that has a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interface {
+    /// A trait of this name that has the function alone.
+    Own(&'static str),
+    /// A trait of this name that has the function and its tangent, the derivative in a direction.
+    WithTangent(&'static str),
+    /// The trait `LoopClosure`, of mechanisms with closed loops.
+    LoopClosure,
+}
+
+/// An argument: its name, and how long the array is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// Joint coordinates `q`, rad or m.
+    Coordinates,
+    /// Joint velocities `v`, rad/s or m/s.
+    Velocities,
+    /// Joint accelerations `a`, rad/s² or m/s².
+    Accelerations,
+    /// Joint forces `tau`, N m or N.
+    Forces,
+}
+
+impl Argument {
+    /// Its name in generated code.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Argument::Coordinates => "q",
+            Argument::Velocities => "v",
+            Argument::Accelerations => "a",
+            Argument::Forces => "tau",
+        }
+    }
+
+    /// Number of its elements.
+    pub const fn dimension(self) -> Dimension {
+        match self {
+            Argument::Coordinates => Dimension::Coordinates,
+            Argument::Velocities | Argument::Accelerations | Argument::Forces => Dimension::Velocities,
+        }
+    }
+}
+
+/// A size of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// Joint coordinates, NQ.
+    Coordinates,
+    /// Joint velocities, NV.
+    Velocities,
+    /// Links, NL.
+    Links,
+    /// Rows of the loop constraints, NC.
+    LoopRows,
+}
+
+/// What a function returns, and so in what order its values stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Joint forces, `[S; NV]`.
+    Forces,
+    /// Joint accelerations, `[S; NV]`.
+    Accelerations,
+    /// The generalised inertia matrix, `[[S; NV]; NV]`, by rows.
+    MassMatrix,
+    /// `Energy<S>`: kinetic, potential.
+    Energy,
+    /// `CenterOfMass<S>`: position, velocity.
+    CenterOfMass,
+    /// `[LinkState<S>; NL]`: rotation by rows, origin, centre of mass, velocity, angular velocity.
+    Links,
+    /// Rows of the loop constraints, `[S; NC]`.
+    LoopRows,
+    /// The Jacobian of the loop constraints, `[[S; NV]; NC]`, by rows.
+    LoopJacobian,
+}
