@@ -6,9 +6,8 @@
 mod common;
 
 use common::models::generic;
-use redysim::integrate::Ode;
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Dop853, Integrator, LoopRows, Ode4, Ode5, Ode15s, Ode45, Stabilisation,
+    ClosedLoop, ClosedLoopSimulation, Dop853, Integrator, LoopRows, Ode, Ode4, Ode5, Ode15s, Ode45, Stabilisation,
     ZeroTorque, redysim,
 };
 use spatial::FourbarSpatial;

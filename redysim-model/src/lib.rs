@@ -27,7 +27,7 @@
 //! | where | what it is |
 //! |---|---|
 //! | [`Model`], [`Loaded`], [`Faults`] | a model file: its contents, its warnings and its errors |
-//! | [`GenericMechanism`] | the functions of a model that is read at run time; with a [`denoc::Workspace`], without allocation |
+//! | [`GenericMechanism`] | the functions of a model read at run time; without allocation in a [`denoc::Workspace`] |
 //! | [`Tree`], [`joint`], [`parameter`] | the moving bodies, their joints, and numbers that may be given at run time |
 //! | [`denoc`] | the recursions over a tree: RNEA, CRBA, ABA and others in the DeNOC form, for any scalar |
 //! | [`frames`], [`regroup`], [`scaling`] | other descriptions of the same robot, for which the recursions cost less |
@@ -39,14 +39,14 @@ mod check;
 pub mod denoc;
 mod faults;
 pub mod frames;
-pub mod generic;
+mod generic;
 pub mod inertia;
 pub mod joint;
 mod load;
 mod lock;
 mod messages;
 mod mobility;
-pub mod model;
+mod model;
 mod options;
 pub mod parameter;
 pub mod pseudo;
@@ -57,7 +57,7 @@ mod roundoff;
 pub mod scaling;
 mod schema;
 pub mod spatial;
-pub mod tree;
+mod tree;
 
 pub use faults::Faults;
 pub use generic::GenericMechanism;
@@ -70,4 +70,4 @@ pub use public_interface::PublicInterface;
 pub use redysim_runtime::{Function, Functions};
 pub use redysim_toml::{Diagnostic, Diagnostics, Severity};
 pub use schema::key_documentation;
-pub use tree::Tree;
+pub use tree::{Attachment, Body, Cut, CutEnd, Tree};

@@ -24,7 +24,7 @@
 //!
 //! | for | see |
 //! |---|---|
-//! | a mechanism | [`Mechanism`], [`ConfigurationSpace`], a trait for each [`Function`] and what it costs: [`Operations`] |
+//! | a mechanism | [`Mechanism`], [`ConfigurationSpace`], a trait for each [`Function`]; [`Operations`] |
 //! | numbers | [`Scalar`] and [`Real`]; [`Dual`] for derivatives; [`lanes`], several numbers side by side |
 //! | motion in time | [`Integrator`] and the methods, [`integrate`]; [`ForwardSimulation`] |
 //! | what drives it | [`TorqueLaw`], [`Trajectory`] |
@@ -36,8 +36,8 @@
 //! The length of an array is part of its type. The length of a slice or a `Vec` is checked where it enters, and one
 //! that is wrong is named by a [`LengthMismatch`] or an error of the type that is built: when a trajectory is built, a
 //! batch is computed, inverse dynamics of loops are asked for, or an integration begins ([`Ode::check_lengths`],
-//! [`TorqueLaw::check_lengths`]). Functions of a mechanism whose result is a vector cannot return an error: with a `Vec`
-//! of wrong length, they panic with the same words.
+//! [`TorqueLaw::check_lengths`]). Functions of a mechanism whose result is a vector cannot return an error: with a
+//! `Vec` of wrong length, they panic with the same words.
 //!
 //! # Features
 //!
@@ -94,10 +94,7 @@ pub use dual::{Dual, forward_dynamics_tangent, inverse_dynamics_tangent};
 pub use function::set::Functions;
 pub use function::table::{Function, Operations};
 #[cfg(feature = "simulation")]
-pub use integrate::{
-    Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,
-    Radau5, SemiImplicitEuler, Solution, Statistics, Step,
-};
+pub use integrate::root::*;
 pub use joint_trig::JointTrig;
 pub use mechanism::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,

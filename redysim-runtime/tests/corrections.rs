@@ -1,7 +1,7 @@
 //! Corrections of the state after accepted steps.
 
-use redysim_runtime::integrate::{Accepted, Ode};
-use redysim_runtime::{IntegrationError, Integrator, Ode4, Ode5, Ode45};
+use redysim_runtime::integrate::Accepted;
+use redysim_runtime::{IntegrationError, Integrator, Ode, Ode4, Ode5, Ode45};
 
 /// A point on the unit circle, brought back to it after each step; refused from time `until` on.
 struct Circle {

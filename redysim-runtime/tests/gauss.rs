@@ -10,7 +10,7 @@ mod problems;
 use mechanisms::{Arm, Pendulum, distance};
 use order_conditions::{defect, dot, values};
 use problems::{error_at, errors_of_steps, exact, nonlinear};
-use redysim_runtime::integrate::collocation::gauss::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, GaussTableau};
+use redysim_runtime::integrate::collocation::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, GaussTableau};
 use redysim_runtime::{
     ForwardSimulation, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Step, ZeroTorque,
 };

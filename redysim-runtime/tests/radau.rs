@@ -10,7 +10,7 @@ mod problems;
 use mechanisms::{Arm, distance};
 use order_conditions::{defect, dot, values};
 use problems::{error_at, errors_of_steps, exact, nonlinear, prothero_robinson};
-use redysim_runtime::integrate::collocation::radau::RADAU_IIA_5;
+use redysim_runtime::integrate::collocation::RADAU_IIA_5;
 use redysim_runtime::integrate::{Accepted, FixedStep, Ndf, RadauIIA};
 use redysim_runtime::{
     ForwardSimulation, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Statistics, ZeroTorque,

@@ -2,10 +2,10 @@
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::integrate::stability::{StepWarning, largest_stable_step};
-use redysim_runtime::integrate::{self, Observer, Solution};
+use redysim_runtime::integrate::{self, Observer};
 use redysim_runtime::{
     Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator as _, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
-    SemiImplicitEuler,
+    SemiImplicitEuler, Solution,
 };
 use redysim_toml::{Field, Key, Kind, Message, Reader};
 

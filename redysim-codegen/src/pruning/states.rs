@@ -3,8 +3,8 @@
 use super::columns::{Columns, evaluate, live, sign};
 use crate::expressions::Expressions;
 use crate::random::Random;
+use redysim_model::Body;
 use redysim_model::denoc;
-use redysim_model::tree::Body;
 use redysim_model::{JointRange, Tree};
 
 /// The states in which a function is sampled.

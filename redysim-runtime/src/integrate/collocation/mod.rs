@@ -4,15 +4,19 @@
 //! the end of the step, u is where the iteration of the next step begins.
 //!
 //! Between its ends u is of lower order than at them. For dense output, `bootstrap` makes a more accurate polynomial
-//! for the methods of Gauss, and [`radau`] takes two shorter steps.
+//! for the methods of Gauss, and that of Radau takes two shorter steps.
 //!
-//! [`gauss`] has the methods for long conservative motion, [`radau`] the one for stiff equations.
+//! [`Gauss`] is for long conservative motion, [`Radau`] for stiff equations.
 
 mod bootstrap;
-pub mod gauss;
-pub mod radau;
+pub(super) mod gauss;
+pub(super) mod radau;
 mod radau_tableau;
 mod stage_solver;
+
+pub use gauss::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, Gauss, GaussTableau};
+pub use radau::Radau;
+pub use radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
 
 use super::step::{weighted_sum, without_constant};
 use crate::{Real, Vector};

@@ -4,8 +4,8 @@ use core::array::from_fn;
 use core::mem::swap;
 
 use super::extrapolate;
+use super::radau_tableau::RADAU_IIA_5;
 use super::radau_tableau::{CHECKED_NODE, WITHIN, WITHIN_NODES};
-pub use super::radau_tableau::{Eigenspace, RADAU_IIA_5, RadauTableau};
 pub(in crate::integrate) use super::stage_solver::LARGEST_TURN;
 use super::stage_solver::{Outcome, StageSolver};
 use crate::integrate::adaptive::Adaptive;

@@ -1,0 +1,64 @@
+//! The interface of an equation.
+
+use crate::LengthMismatch;
+
+/// The right-hand side of an ordinary differential equation, ẏ = f(t, y).
+///
+/// Every closure `FnMut(S, &Y, &mut Y)` is one. An integrator calls it at points of its own choice, also at points of
+/// steps that it then rejects, and not always in the order of time.
+pub trait Ode<S, Y> {
+    /// Writes f(t, y) to `dydt`, which has the length of `y` and holds anything.
+    fn derivative(&mut self, t: S, y: &Y, dydt: &mut Y);
+
+    /// Checks, before the first derivative, that the state `y` at the first time `t` and the vectors that the equation
+    /// holds have the lengths that it needs. Arrays always have. By default, nothing is checked.
+    ///
+    /// # Errors
+    /// The first vector that has another length.
+    fn check_lengths(&self, t: S, y: &Y) -> Result<(), LengthMismatch> {
+        let _ = (t, y);
+        Ok(())
+    }
+
+    /// Called once for each accepted step, with its end `t`, its size `step` > 0 and the state `y` there, which may be
+    /// corrected in place: brought back to what an invariant of the equation demands. What an integration shows as the
+    /// end of the step is the corrected state, and from there it goes on; within the step the solution is that of the
+    /// method. Where an event ends the integration within a step, it is called once more, for the state there, which is
+    /// earlier. By default, nothing happens.
+    fn accepted(&mut self, t: S, step: S, y: &mut Y) -> Accepted {
+        let _ = (t, step, y);
+        Accepted::Unchanged
+    }
+
+    /// Writes (∂f/∂y) `direction` at (t, y) to `slope` and returns `true`, if it can do that without differences; from
+    /// such products implicit methods have their Jacobians. `false`, the default, leaves them to differences.
+    fn tangent(&mut self, t: S, y: &Y, direction: &Y, slope: &mut Y) -> bool {
+        let _ = (t, y, direction, slope);
+        false
+    }
+
+    /// Writes the rates of the leading components of y that are coordinates of a mechanical system, those whose rates
+    /// depend on the coordinates and velocities alone, and returns how many there are: what a method needs that treats
+    /// coordinates and velocities differently. The default is 0.
+    fn coordinate_rates(&mut self, t: S, y: &Y, rates: &mut Y) -> usize {
+        let _ = (t, y, rates);
+        0
+    }
+}
+
+/// What an [`Ode`] makes of the state at the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accepted {
+    /// It stays.
+    Unchanged,
+    /// It was changed, so that the derivative there must be evaluated again.
+    Corrected,
+    /// It cannot be accepted: the integration ends with [`IntegrationError::Refused`](crate::IntegrationError::Refused).
+    Refused,
+}
+
+impl<S, Y, F: FnMut(S, &Y, &mut Y)> Ode<S, Y> for F {
+    fn derivative(&mut self, t: S, y: &Y, dydt: &mut Y) {
+        self(t, y, dydt);
+    }
+}
