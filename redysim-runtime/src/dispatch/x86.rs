@@ -142,7 +142,10 @@ macro_rules! numbers {
             #[inline(never)]
             #[cold]
             fn one_by_one(self, function: impl Fn(Self) -> (Self, Self)) -> (Self, Self) {
-                Self::with_target_features(|| function(self))
+                Self::with_target_features(
+                    #[inline(always)]
+                    || function(self),
+                )
             }
         }
     )*};
@@ -189,14 +192,17 @@ macro_rules! lanes {
             #[inline(never)]
             #[cold]
             fn negatives_one_by_one(self, function: impl Fn($number) -> ($number, $number)) -> (Self, Self) {
-                Self::with_target_features(|| {
-                    let (mut sin, mut cos) = (self.to_array(), self.to_array());
-                    for (sin, cos) in sin.iter_mut().zip(&mut cos) {
-                        let (one_sin, one_cos) = function($number(-*sin));
-                        (*sin, *cos) = (one_sin.0, one_cos.0);
-                    }
-                    (Self::from(sin), Self::from(cos))
-                })
+                Self::with_target_features(
+                    #[inline(always)]
+                    || {
+                        let (mut sin, mut cos) = (self.to_array(), self.to_array());
+                        for (sin, cos) in sin.iter_mut().zip(&mut cos) {
+                            let (one_sin, one_cos) = function($number(-*sin));
+                            (*sin, *cos) = (one_sin.0, one_cos.0);
+                        }
+                        (Self::from(sin), Self::from(cos))
+                    },
+                )
             }
         }
 
