@@ -247,7 +247,7 @@ fn the_readme_counts_the_published_robots_as_their_table_has_them() {
     let [generic, compiled] = [3, 7].map(|column| robots.iter().filter(|row| !row[column].is_empty()).count());
     let sentence = format!(
         "Of {} published robots, {generic} are imported, and {} more with `--fuse-fixed`; these {compiled} compile and agree \
-         with Pinocchio. The other {} say why they are no mechanism",
+         with Pinocchio. The other {} are refused, and the reason is reported",
         robots.len(),
         compiled - generic,
         robots.len() - compiled
