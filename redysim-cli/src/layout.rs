@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use redysim_model::Model;
+use redysim_model::joint::Joint as Motion;
 
 /// The joints that move, with their coordinates and velocities, all in the model's order.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +39,8 @@ pub struct Component {
     pub joint: usize,
     /// What it measures.
     pub measure: Measure,
+    /// Its value at the joint's neutral position; of a velocity, zero.
+    pub neutral: f64,
 }
 
 /// What a coordinate measures, or the integral of a velocity.
@@ -100,21 +103,30 @@ impl Layout {
         let mut layout = Layout::default();
         for link in model.moving_links() {
             let parts = if link.joint.turns() { ANGLE } else { LENGTH };
-            layout.push(&link.joint_name, link.actuated, [parts, parts]);
+            let mut neutral = vec![0.0; parts.len()];
+            if let Some(joint) = Motion::of(link) {
+                joint.neutral(&mut neutral);
+            }
+            layout.push(&link.joint_name, link.actuated, [parts, parts], &neutral);
         }
         layout
     }
 
-    /// Adds a joint with its coordinates and velocities.
-    fn push(&mut self, name: &str, actuated: bool, [coordinates, velocities]: [Parts; 2]) {
+    /// Adds a joint with its coordinates and velocities, and the coordinates of its neutral position.
+    fn push(&mut self, name: &str, actuated: bool, [coordinates, velocities]: [Parts; 2], neutral: &[f64]) {
         let joint = self.joints.len();
-        let add = |components: &mut Vec<Component>, parts: Parts| {
+        let add = |components: &mut Vec<Component>, parts: Parts, neutral: &[f64]| {
             let first = components.len();
-            let part = |&(part, measure): &(&str, Measure)| Component { name: format!("{name}{part}"), joint, measure };
-            components.extend(parts.iter().map(part));
+            components.extend(parts.iter().zip(neutral).map(|(&(part, measure), &neutral)| Component {
+                name: format!("{name}{part}"),
+                joint,
+                measure,
+                neutral,
+            }));
             first..components.len()
         };
-        let (q, v) = (add(&mut self.coordinates, coordinates), add(&mut self.velocities, velocities));
+        let q = add(&mut self.coordinates, coordinates, neutral);
+        let v = add(&mut self.velocities, velocities, &vec![0.0; velocities.len()]);
         self.joints.push(Joint { name: name.to_owned(), actuated, q, v });
     }
 
@@ -184,8 +196,8 @@ pub mod tests {
     /// A free joint `base` with seven coordinates and six velocities, then a revolute joint `arm`.
     pub fn free_base_with_arm() -> Layout {
         let mut layout = Layout::default();
-        layout.push("base", false, [POSE, TWIST]);
-        layout.push("arm", true, [ANGLE, ANGLE]);
+        layout.push("base", false, [POSE, TWIST], &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        layout.push("arm", true, [ANGLE, ANGLE], &[0.0]);
         layout
     }
 

@@ -24,7 +24,7 @@ impl Forces {
         let rows = table.of_components("tau", &layout.velocities, &velocities, None)?;
         let rows =
             rows.ok_or_else(|| table.fault("it has no forces", "add a column `tau <joint> [N m]` for each joint"))?;
-        let rows = rows.iter().map(|row| spread(&velocities, row, layout.nv())).collect();
+        let rows = rows.iter().map(|row| spread(&velocities, row, &layout.velocities)).collect();
         Ok(Forces { table, rows })
     }
 

@@ -6,7 +6,7 @@ use redysim_toml::{Reader, Spanned};
 
 use super::joints::{Quantity, some, values};
 use super::keys;
-use super::subject::{Subject, given};
+use super::subject::{Subject, given, neutral};
 
 /// A start.
 pub struct Initial {
@@ -21,10 +21,10 @@ pub struct Initial {
 }
 
 impl Initial {
-    /// Reads the table `initial`; without one, all coordinates and velocities are zero.
+    /// Reads the table `initial`; without one, the mechanism rests in its neutral position.
     pub fn read(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Initial> {
         let (layout, actuated) = (subject.layout, subject.actuated());
-        let rest = || (vec![0.0; layout.nq()], vec![0.0; layout.nv()]);
+        let rest = || (neutral(&layout.coordinates), neutral(&layout.velocities));
         let field = reader.table(&keys::INITIAL, |mut reader| {
             let q = values(&mut reader, &keys::Q, Quantity::Coordinate, &layout.coordinates, &all(layout.nq()));
             let q = q.value_or(rest().0);
@@ -49,4 +49,32 @@ impl Initial {
 
 fn all(count: usize) -> Vec<usize> {
     (0..count).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::subject::tests::with_free_base;
+    use super::*;
+
+    /// Reads `initial` of a scenario of a free joint `base` and a revolute joint `arm`.
+    fn read(text: &str) -> Initial {
+        let read = |mut reader: Reader<'_, '_>| with_free_base(|subject| Initial::read(&mut reader, subject));
+        redysim_toml::read(text.to_owned(), "scenario.toml", &keys::SCENARIO, "the scenario", read).unwrap().0
+    }
+
+    #[test]
+    fn a_start_that_is_not_given_is_the_neutral_position_at_rest() {
+        for text in ["", "initial = {}"] {
+            let Initial { q, v, .. } = read(text);
+            assert_eq!(q, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0], "{text:?}");
+            assert_eq!(v, [0.0; 7], "{text:?}");
+        }
+    }
+
+    #[test]
+    fn coordinates_that_are_not_named_are_those_of_the_neutral_position() {
+        let Initial { q, v, .. } = read("initial = { q = { arm = 0.5 }, v = { \"base.wz\" = 2.0 } }");
+        assert_eq!(q, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.5]);
+        assert_eq!(v, [0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
+    }
 }

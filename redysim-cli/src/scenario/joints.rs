@@ -20,7 +20,7 @@ pub enum Quantity {
 }
 
 /// One value for each of `of`, indices into `components`: an array in their order, or a table by their names, in which
-/// missing ones are zero.
+/// missing coordinates are those of the neutral position, and other missing values zero.
 pub fn values(
     reader: &mut Reader<'_, '_>,
     key: &Key,
@@ -109,7 +109,7 @@ fn list(
             read.collect::<Vec<_>>().into_iter().collect()
         }
         DeValue::Table(table) => {
-            let mut values = vec![0.0; of.len()];
+            let mut values: Vec<f64> = of.iter().map(|&index| components[index].neutral).collect();
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
                 let names = components.iter().map(|component| component.name.as_str());
                 let index = index(reader, name.span(), name.get_ref(), names)?;

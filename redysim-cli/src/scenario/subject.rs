@@ -9,7 +9,7 @@ use redysim_toml::{Field, Key, Message, Reader};
 
 use super::table::Table;
 use crate::failure::Failure;
-use crate::layout::{Joint, Layout};
+use crate::layout::{Component, Joint, Layout};
 
 /// What may be computed of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,11 +108,32 @@ pub fn indices(joints: &[Joint], wanted: impl Fn(&Joint) -> bool) -> Vec<usize> 
     joints.iter().enumerate().filter(|(_, joint)| wanted(joint)).map(|(index, _)| index).collect()
 }
 
-/// One entry for each of `count` coordinates: `values` for those `at`, zero for the others.
-pub fn spread(at: &[usize], values: &[f64], count: usize) -> Vec<f64> {
-    let mut all = vec![0.0; count];
+/// The neutral position of coordinates; of velocities, zero.
+pub fn neutral(components: &[Component]) -> Vec<f64> {
+    components.iter().map(|component| component.neutral).collect()
+}
+
+/// One entry for each of `components`: `values` for those `at`, the neutral position or zero for the others.
+pub fn spread(at: &[usize], values: &[f64], components: &[Component]) -> Vec<f64> {
+    let mut all = neutral(components);
     for (&index, &value) in at.iter().zip(values) {
         all[index] = value;
     }
     all
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use crate::layout::tests::free_base_with_arm;
+
+    /// What `read` makes of a forward run of a free joint `base` and a revolute joint `arm`, whose loops have a mobility
+    /// of six. No model has a free joint: layout and mobility are made by hand.
+    pub fn with_free_base<T>(read: impl FnOnce(&Subject<'_>) -> T) -> T {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/fourbar.toml");
+        let model = Model::load(path).unwrap().model;
+        let mobility = OnceCell::from(Mobility { mobility: 6, ..Mobility::default() });
+        let (layout, folder) = (free_base_with_arm(), Path::new(""));
+        read(&Subject { dynamics: Dynamics::Forward, layout: &layout, model: &model, mobility, folder })
+    }
 }

@@ -105,9 +105,11 @@ impl Torque {
     }
 
     /// The law as it acts on `mechanism`.
-    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, layout: &Layout) -> Law<'a> {
-        let positions = |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, layout.nq());
-        let whole = |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, layout.nv());
+    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, layout: &'a Layout) -> Law<'a> {
+        let positions =
+            |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, &layout.coordinates);
+        let whole =
+            |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, &layout.velocities);
         match self {
             Torque::Free => Law::total(ZeroTorque),
             Torque::P { joints, target, kp } => {
@@ -129,7 +131,7 @@ impl Torque {
             }
             Torque::Computed { actuated, trajectory, kp, kd } => {
                 let (loops, gains) = (ClosedLoop::new(mechanism), [kp.clone(), kd.clone()]);
-                let law = ClosedLoopComputedTorque::new(loops, &trajectory.coordinates, trajectory, gains);
+                let law = ClosedLoopComputedTorque::new(loops, trajectory.independent(), trajectory, gains);
                 Law::OfLoops(law.actuated(actuated))
             }
             Torque::Table { forces, .. } => Law::total(forces),

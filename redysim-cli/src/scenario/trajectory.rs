@@ -11,8 +11,7 @@ use super::keys;
 use super::subject::{Dynamics, Subject, given, spread};
 use super::table::Table;
 use crate::failure::Failure;
-use crate::layout::Layout;
-use crate::number::counted;
+use crate::layout::{Component, Layout};
 
 /// A prescribed motion of some joints; its components are in the order of `coordinates` and `velocities`.
 #[derive(Clone, Debug)]
@@ -149,7 +148,7 @@ impl Prescribed {
             return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
         }
         let Mobility { mobility: free, position_residual, .. } = *subject.mobility();
-        let prescribed = self.joints.len();
+        let prescribed = self.velocities.len();
         // Loops that were not closed from anywhere may leave another number free where they are.
         if prescribed == free || position_residual.is_some() {
             return Ok(());
@@ -157,20 +156,26 @@ impl Prescribed {
         let names: Vec<_> = self.joints.iter().map(|&joint| joints[joint].name.as_str()).collect();
         let what = format!(
             "the trajectory prescribes {} ({}), but the loops leave {free} free",
-            counted(prescribed, "joint"),
+            freedoms(prescribed),
             names.join(", ")
         );
         let help = match free {
             0 => "as the model is, nothing moves: `redysim check` reports which constraints do not follow from others"
                 .into(),
-            _ => format!("name {} among its `joints`: the others follow from the loops", counted(free, "joint")),
+            _ => format!("name joints of {} among its `joints`: the others follow from the loops", freedoms(free)),
         };
         Err((what, help))
     }
 
-    /// The motion with all components of `layout`; those that it does not prescribe are zero.
-    pub fn spread(&self, layout: &Layout) -> Spread<'_> {
-        Spread { prescribed: self, nq: layout.nq(), nv: layout.nv() }
+    /// The motion with all components of `layout`; those that it does not prescribe stay in the neutral
+    /// position.
+    pub fn spread<'a>(&'a self, layout: &'a Layout) -> Spread<'a> {
+        Spread { prescribed: self, coordinates: &layout.coordinates, velocities: &layout.velocities }
+    }
+
+    /// The velocities that determine all others of closed loops: the runtime counts independent joints by them.
+    pub fn independent(&self) -> &[usize] {
+        &self.velocities
     }
 }
 
@@ -198,16 +203,16 @@ impl Trajectory<f64, Vec<f64>, Vec<f64>> for &Prescribed {
 #[derive(Clone, Copy, Debug)]
 pub struct Spread<'a> {
     prescribed: &'a Prescribed,
-    nq: usize,
-    nv: usize,
+    coordinates: &'a [Component],
+    velocities: &'a [Component],
 }
 
 impl Trajectory<f64, Vec<f64>, Vec<f64>> for Spread<'_> {
     fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
         let Motion { q, v, a } = self.prescribed.at(t);
         let Prescribed { coordinates, velocities, .. } = self.prescribed;
-        let [v, a] = [v, a].map(|values| spread(velocities, &values, self.nv));
-        Motion { q: spread(coordinates, &q, self.nq), v, a }
+        let [v, a] = [v, a].map(|values| spread(velocities, &values, self.velocities));
+        Motion { q: spread(coordinates, &q, self.coordinates), v, a }
     }
 }
 
@@ -222,6 +227,11 @@ impl Smooth {
             Smooth::Cubic => ViaPoints::cubic(times, points),
         }
     }
+}
+
+/// "1 degree of freedom", "2 degrees of freedom".
+fn freedoms(count: usize) -> String {
+    format!("{count} degree{} of freedom", if count == 1 { "" } else { "s" })
 }
 
 /// What was made of the value at a place, or a fault there.
@@ -259,4 +269,46 @@ fn from_table(
         }
     };
     through.map_err(|error| table.fault(&error.to_string(), "look at the column `t [s]`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::subject::tests::with_free_base;
+    use super::*;
+
+    /// Checks a trajectory of `joints`, one of them a free joint, against loops with a mobility of six.
+    fn checked(joints: &[&str]) -> (Prescribed, Result<(), (String, String)>) {
+        let (from, to) = (["0"; 8], ["1"; 8]);
+        let count = joints.iter().map(|joint| if *joint == "base" { 7 } else { 1 }).sum::<usize>();
+        let [from, to] = [from, to].map(|values| values[..count].join(", "));
+        let text = format!("trajectory = {{ joints = {joints:?}, from = [{from}], to = [{to}], duration = 1.0 }}");
+        let read = |mut reader: Reader<'_, '_>| {
+            with_free_base(|subject| {
+                let prescribed = Prescribed::read(&mut reader, subject)??;
+                let checked = prescribed.check_joints(subject);
+                Some((prescribed, checked))
+            })
+        };
+        redysim_toml::read(text, "scenario.toml", &keys::SCENARIO, "the scenario", read).unwrap().0
+    }
+
+    #[test]
+    fn what_loops_leave_free_is_compared_with_the_velocities_of_a_free_joint() {
+        let (base, checked_base) = checked(&["base"]);
+        assert_eq!((base.independent(), checked_base), (&[0, 1, 2, 3, 4, 5][..], Ok(())));
+        let (arm, checked_arm) = checked(&["arm"]);
+        assert_eq!(arm.independent(), [6]);
+        let (title, help) = checked_arm.unwrap_err();
+        assert_eq!(title, "the trajectory prescribes 1 degree of freedom (arm), but the loops leave 6 free");
+        assert_eq!(help, "name joints of 6 degrees of freedom among its `joints`: the others follow from the loops");
+    }
+
+    #[test]
+    fn coordinates_that_a_trajectory_does_not_prescribe_stay_in_the_neutral_position() {
+        let (arm, _) = checked(&["arm"]);
+        let layout = crate::layout::tests::free_base_with_arm();
+        let Motion { q, v, a } = arm.spread(&layout).at(1.0);
+        assert_eq!(q, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0]);
+        assert_eq!((v.len(), a.len()), (7, 7));
+    }
 }
