@@ -143,7 +143,7 @@ impl Fall {
     fn run(&self) -> Result<LoopMotion, Failure> {
         headline(&format!("Four-bar, free fall of 0.68 s {} (Fig 11)", self.name));
         let Assembly { largest_displacement, position_residual, .. } = self.start;
-        let joint = Fourbar.joint_name(self.start.coordinate).unwrap_or("");
+        let joint = Fourbar.velocity_name(self.start.velocity).unwrap_or("");
         let moved = tiny(largest_displacement.abs());
         remark(&format!(
             "Assembly moves {joint} by {moved} rad, the most of all, and leaves {} m open.",

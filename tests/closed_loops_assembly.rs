@@ -22,7 +22,7 @@ fn the_shipped_start_closes_with_the_crank_held_and_tells_how_far_it_moved() {
     assert!(assembly.position_residual < 1e-14 * 0.2);
     assert!(assembly.q.iter().zip(START).all(|(q, exact)| (q - exact).abs() < 1e-14), "{:?}", assembly.q);
     assert!((assembly.v[1] - 1.40448).abs() < 1e-5 && assembly.v[2].abs() < 1e-12);
-    assert!((assembly.largest_displacement - (4.3144 - START[2]).abs()).abs() < 1e-12 && assembly.coordinate == 2);
+    assert!((assembly.largest_displacement - (4.3144 - START[2]).abs()).abs() < 1e-12 && assembly.velocity == 2);
     assert!(assembly.distance > assembly.largest_displacement && assembly.distance < 1e-4);
     assert_eq!(assembly.rank, 2);
 }
@@ -57,7 +57,7 @@ fn the_starts_that_ship_open_are_mended() {
     let assembly = ClosedLoop::new(&rrr).assemble(&q, &vec![0.0; 7], &[0, 3, 5]).expect("it closes");
     println!(
         "3-RRR: {:e} rad at {}, gap {:e}",
-        assembly.largest_displacement, assembly.coordinate, assembly.position_residual
+        assembly.largest_displacement, assembly.velocity, assembly.position_residual
     );
     assert!(
         assembly.position_residual < 1e-14
@@ -88,7 +88,7 @@ fn held_velocities_that_pull_the_loop_apart_are_refused() {
     assert!(matches!(error, LoopError::InconsistentVelocity { residual, .. } if residual > 1e-3), "{error}");
     assert_eq!(
         loops.assemble(&START, &[0.0; 3], &[7]).unwrap_err(),
-        LoopError::CoordinateOutOfRange { coordinate: 7, count: 3 }
+        LoopError::VelocityOutOfRange { velocity: 7, count: 3 }
     );
     assert_eq!(loops.assemble(&[f64::NAN; 3], &[0.0; 3], &[]).unwrap_err(), LoopError::NotFinite);
     assert_eq!(loops.assemble(&START, &[f64::NAN; 3], &[]).unwrap_err(), LoopError::NotFinite);
@@ -159,7 +159,7 @@ fn the_four_bar_of_the_gui_is_mended_from_its_open_start() {
     let assembly = ClosedLoop::new(&fourbar).assemble(&shipped, &vec![0.0; 3], &[0]).expect("it closes");
     // At the consistent start both angles are the same, 130.54 degrees.
     assert!(assembly.q[1..].iter().all(|angle| (angle - 2.278_380_763_520_252).abs() < 1e-9), "{:?}", assembly.q);
-    assert!((assembly.largest_displacement.to_degrees() - 15.0).abs() < 0.01 && assembly.coordinate == 1);
+    assert!((assembly.largest_displacement.to_degrees() - 15.0).abs() < 0.01 && assembly.velocity == 1);
 }
 
 #[test]

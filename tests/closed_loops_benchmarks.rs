@@ -93,7 +93,7 @@ fn errors_name_the_loop_and_the_joint() {
     assert!(told.contains(&format!("belongs to the loop `{}`", Andrews::LOOP_NAMES[0])), "{told}");
     let error = loops.assemble(&andrews::START, &[0.0; 7], &[9]).expect_err("there are seven");
     assert!(loops.with_names(error).to_string().ends_with("are counted from 0"));
-    let lost = redysim::LoopError::Unactuated { coordinate: 1, force: 2.0 };
+    let lost = redysim::LoopError::Unactuated { velocity: 1, force: 2.0 };
     assert!(loops.with_names(lost).to_string().ends_with(&format!("that of the joint `{}`", Andrews::JOINT_NAMES[1])));
 }
 

@@ -81,5 +81,5 @@ fn the_law_says_why_it_has_no_forces() {
     let error = Dop853::new().integrate(&mut controlled, (0.0, 0.5), state).unwrap_err();
     assert!(matches!(error, IntegrationError::NonFiniteDerivative { .. }), "{error}");
     let reason = controlled.law().last_error().expect("a reason");
-    assert!(matches!(reason, LoopError::Unactuated { coordinate: 0, .. }), "{reason}");
+    assert!(matches!(reason, LoopError::Unactuated { velocity: 0, .. }), "{reason}");
 }

@@ -124,7 +124,7 @@ fn what_cannot_be_followed_or_held_is_said() {
     inverse.at(0.1, &swing).expect("within reach");
     let error = inverse.at(3.0, &swing).unwrap_err();
     assert!(
-        matches!(error, LoopError::Unreachable { t: 3.0, coordinate: 1, position_residual: gap } if gap > 1e-6),
+        matches!(error, LoopError::Unreachable { t: 3.0, velocity: 1, position_residual: gap } if gap > 1e-6),
         "{error}"
     );
 
@@ -135,7 +135,7 @@ fn what_cannot_be_followed_or_held_is_said() {
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).actuated(&[]).at(0.0, &turning);
     assert!(matches!(error, Err(LoopError::Unactuated { .. })), "{error:?}");
     let error = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[3], GUESS).at(0.0, &turning).unwrap_err();
-    assert_eq!(error, LoopError::CoordinateOutOfRange { coordinate: 3, count: 3 });
+    assert_eq!(error, LoopError::VelocityOutOfRange { velocity: 3, count: 3 });
 }
 
 #[test]
@@ -149,17 +149,17 @@ fn accelerations_that_contradict_each_other_are_refused() {
 }
 
 #[test]
-fn each_independent_coordinate_has_one_component_of_the_trajectory() {
+fn each_independent_velocity_has_one_component_of_the_trajectory() {
     let loops = ClosedLoop::new(&Fourbar);
     let rest = |_t: f64| redysim::Motion { q: [0.0; 2], v: [0.0; 2], a: [0.0; 2] };
     let error = ClosedLoopInverse::new(loops, &[0, 0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
-    assert_eq!(error, LoopError::RepeatedCoordinate { coordinate: 0 });
+    assert_eq!(error, LoopError::RepeatedVelocity { velocity: 0 });
     let error = ClosedLoopInverse::new(loops, &[0], [0.3, 1.1, 4.2]).at(0.0, &rest).unwrap_err();
     assert_eq!(error, LoopError::WrongLength(LengthMismatch { vector: "trajectory.q", length: 2, expected: 1 }));
 }
 
 #[test]
-fn each_independent_coordinate_has_one_component_of_the_gains() {
+fn each_independent_velocity_has_one_component_of_the_gains() {
     let fourbar = generic("fourbar");
     let motion = |_t: f64| redysim::Motion { q: vec![0.3], v: vec![0.0], a: vec![0.0] };
     let law = ClosedLoopComputedTorque::new(ClosedLoop::new(&fourbar), &[0], motion, [vec![1.0; 2], vec![1.0]]);

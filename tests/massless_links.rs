@@ -307,7 +307,7 @@ fn a_closure_that_leaves_the_massless_link_free_is_refused_by_the_solve() {
     let free = GenericMechanism::new(model);
     assert_eq!(MassMatrix::<f64>::mass_matrix(&free, &q.to_vec())[2], [0.0; 3]);
     let error = ClosedLoop::new(&free).dynamics(&q.to_vec(), &v.to_vec(), &vec![0.0; 3]).expect_err("nothing holds it");
-    assert_eq!(error, LoopError::SingularInertia { coordinate: 2 });
+    assert_eq!(error, LoopError::SingularInertia { velocity: 2 });
 }
 
 /// What the README documents of the generic path, which has all functions at all times.

@@ -53,7 +53,7 @@ impl Studies {
         let state = simulation.assembled(&start);
         let motion = record(name, &mut simulation, integrator, state, &t)?;
         let gap = residual.iter().fold(0.0, |gap: f64, row| gap.max(row.abs()));
-        let joint = mechanism.joint_name(start.coordinate).unwrap_or("");
+        let joint = mechanism.velocity_name(start.velocity).unwrap_or("");
         if gap > OPEN {
             self.mended.push(mended(name, &residual, &start, joint));
         }

@@ -27,6 +27,15 @@ pub trait Mechanism {
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.joint_name(index)
     }
+    /// The coordinate that belongs to velocity `index` alone: the coordinate of a joint that has one, whose rate is that
+    /// velocity, q̇ᵢ = vⱼ, and which may be set by itself. `None` past the last, and for velocities of joints that have
+    /// several coordinates (an orientation as a quaternion, an angle as cosine and sine).
+    ///
+    /// By default, where NQ = NV, every joint is taken to have one coordinate and the indices are the same; where NQ ≠ NV,
+    /// no velocity has a coordinate. A mechanism with joints of several coordinates beside others overrides it.
+    fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
+        (self.nq() == self.nv() && index < self.nv()).then_some(index)
+    }
 }
 
 /// Coordinates and velocities of a mechanism over the scalar `S`. The types of vectors carry their lengths: arrays for

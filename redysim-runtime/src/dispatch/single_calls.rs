@@ -91,6 +91,9 @@ impl<M: Mechanism> Mechanism for Dispatched<M> {
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.mechanism.velocity_name(index)
     }
+    fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
+        self.mechanism.coordinate_of_velocity(index)
+    }
 }
 
 impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M> {

@@ -32,7 +32,7 @@ impl<A> MassMetric<A> {
             let Some((column, [pivot, ..])) = row.as_mut().split_at_mut_checked(k) else { continue };
             let size = *pivot;
             if !(size > S::zero() && size.is_finite()) {
-                return Err(LoopError::SingularInertia { coordinate: k });
+                return Err(LoopError::SingularInertia { velocity: k });
             }
             regular &= size > S::from_f64(ROUNDINGS) * S::EPSILON * entry(&diagonal, k);
             for (i, other) in above.iter_mut().enumerate() {
@@ -130,10 +130,10 @@ mod tests {
     }
 
     #[test]
-    fn a_matrix_that_is_not_positive_definite_is_refused_by_the_coordinate() {
+    fn a_matrix_that_is_not_positive_definite_is_refused_with_the_velocity() {
         let error = MassMetric::new::<f64, [f64; 2]>([[1.0, 2.0], [2.0, 1.0]]).err();
-        assert_eq!(error, Some(LoopError::SingularInertia { coordinate: 0 }));
+        assert_eq!(error, Some(LoopError::SingularInertia { velocity: 0 }));
         let error = MassMetric::new::<f64, [f64; 2]>([[1.0, 2.0], [2.0, f64::NAN]]).err();
-        assert_eq!(error, Some(LoopError::SingularInertia { coordinate: 1 }));
+        assert_eq!(error, Some(LoopError::SingularInertia { velocity: 1 }));
     }
 }

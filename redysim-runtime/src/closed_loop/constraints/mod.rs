@@ -26,7 +26,7 @@ pub struct Constraints<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> 
 pub enum Metric {
     /// The mass matrix, as dynamics asks for.
     Mass,
-    /// One for every coordinate: the rank does not depend on masses.
+    /// One for every velocity: the rank does not depend on masses.
     Unit,
 }
 
@@ -56,7 +56,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
         self.constraints_in(Metric::Mass, q, &[])
     }
 
-    /// The constraints at `q`, in the given metric; the coordinates `held` do not move in what is solved.
+    /// The constraints at `q`, in the given metric; the velocities `held` are zero in what is solved.
     pub(in crate::closed_loop) fn constraints_in<S: Real>(
         &self,
         metric: Metric,
@@ -91,7 +91,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
         Ok(Constraints { jacobian, metric, augmentation, decomposition })
     }
 
-    /// M(q), or the unit matrix; a coordinate that is held is a block by itself.
+    /// M(q), or the unit matrix; a velocity that is held is a block by itself.
     fn matrix<S: Real>(&self, metric: Metric, q: &M::Coordinates, held: &[usize]) -> M::Matrix
     where
         M: MassMatrix<S>,

@@ -10,7 +10,7 @@ use crate::LengthMismatch;
 pub use named::NamedLoopError;
 pub use row_set::RowSet;
 
-/// What is wrong with a closed loop. Rows are counted from 0 in the order of `loop_residual`, coordinates in the
+/// What is wrong with a closed loop. Rows are counted from 0 in the order of `loop_residual`, velocities in the
 /// model's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -56,29 +56,34 @@ pub enum LoopError<S> {
     Unreachable {
         /// The time, s.
         t: S,
-        /// The independent coordinate that moves farthest in the step that fails.
-        coordinate: usize,
+        /// The independent velocity whose coordinate moves farthest in the step that fails.
+        velocity: usize,
         /// The residual that remains, m (or a sine).
         position_residual: S,
     },
-    /// A coordinate that is to be held, prescribed or actuated does not exist.
-    CoordinateOutOfRange {
+    /// A velocity that is to be held, prescribed or actuated does not exist.
+    VelocityOutOfRange {
         /// The given number.
-        coordinate: usize,
-        /// How many coordinates there are.
+        velocity: usize,
+        /// How many velocities there are.
         count: usize,
     },
-    /// A coordinate is prescribed twice.
-    RepeatedCoordinate {
+    /// A velocity is prescribed twice.
+    RepeatedVelocity {
         /// The number that is given again.
-        coordinate: usize,
+        velocity: usize,
     },
-    /// The trajectory or a gain does not have one component for each independent coordinate.
+    /// A velocity is prescribed whose joint has several coordinates, so that one number is not its position.
+    NoCoordinate {
+        /// The velocity.
+        velocity: usize,
+    },
+    /// The trajectory or a gain does not have one component for each independent velocity.
     WrongLength(LengthMismatch),
     /// A joint needs a force that neither its actuator nor the loops can give.
     Unactuated {
-        /// The joint's coordinate.
-        coordinate: usize,
+        /// The joint's velocity.
+        velocity: usize,
         /// The force that is missing, N m or N.
         force: S,
     },
@@ -96,8 +101,8 @@ pub enum LoopError<S> {
     },
     /// The generalised inertia matrix is not positive definite on the velocities that the loops leave free.
     SingularInertia {
-        /// The coordinate of the first pivot that is not positive.
-        coordinate: usize,
+        /// The velocity of the first pivot that is not positive.
+        velocity: usize,
     },
     /// A position, a velocity, a force, or what the mechanism makes of them is infinite or not a number.
     NotFinite,
@@ -116,14 +121,15 @@ impl<S> LoopError<S> {
         }
     }
 
-    /// The coordinate that the error is about.
-    pub fn coordinate(&self) -> Option<usize> {
+    /// The velocity that the error is about.
+    pub fn velocity(&self) -> Option<usize> {
         match self {
-            Self::Unreachable { coordinate, .. }
-            | Self::CoordinateOutOfRange { coordinate, .. }
-            | Self::RepeatedCoordinate { coordinate }
-            | Self::Unactuated { coordinate, .. }
-            | Self::SingularInertia { coordinate } => Some(*coordinate),
+            Self::Unreachable { velocity, .. }
+            | Self::VelocityOutOfRange { velocity, .. }
+            | Self::RepeatedVelocity { velocity }
+            | Self::NoCoordinate { velocity }
+            | Self::Unactuated { velocity, .. }
+            | Self::SingularInertia { velocity } => Some(*velocity),
             _ => None,
         }
     }
@@ -164,22 +170,27 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
                 }
                 write!(f, ", where these rows of the loop residual depend on the others: {rows}")
             }
-            Self::Unreachable { t, coordinate, position_residual } => write!(
+            Self::Unreachable { t, velocity, position_residual } => write!(
                 f,
-                "the mechanism cannot follow its trajectory to t = {t:?} s: with coordinate {coordinate} moved on, \
-                 a position residual of {position_residual:?} m remains; stay within the reach of the links, or ask \
+                "the mechanism cannot follow its trajectory to t = {t:?} s: with the coordinate of velocity \
+                 {velocity} moved on, a position residual of {position_residual:?} m remains; stay within the reach of the links, or ask \
                  for nearer instants"
             ),
-            Self::CoordinateOutOfRange { coordinate, count } => {
-                write!(f, "there is no coordinate {coordinate}; the mechanism's {count} coordinates are counted from 0")
+            Self::VelocityOutOfRange { velocity, count } => {
+                write!(f, "there is no velocity {velocity}; the mechanism's {count} velocities are counted from 0")
             }
-            Self::RepeatedCoordinate { coordinate } => {
-                write!(f, "coordinate {coordinate} is prescribed twice; name each independent coordinate once")
+            Self::RepeatedVelocity { velocity } => {
+                write!(f, "velocity {velocity} is prescribed twice; name each independent velocity once")
             }
-            Self::WrongLength(mismatch) => write!(f, "{mismatch}; give one for each independent coordinate"),
-            Self::Unactuated { coordinate, force } => write!(
+            Self::NoCoordinate { velocity } => write!(
                 f,
-                "the joint of coordinate {coordinate} needs a force of {force:?} that neither its actuator nor the \
+                "velocity {velocity} cannot be prescribed by a trajectory: its joint has several coordinates; prescribe \
+                 velocities of joints that have one"
+            ),
+            Self::WrongLength(mismatch) => write!(f, "{mismatch}; give one for each independent velocity"),
+            Self::Unactuated { velocity, force } => write!(
+                f,
+                "the joint of velocity {velocity} needs a force of {force:?} that neither its actuator nor the \
                  loops give; actuate it, or keep away from this singular position"
             ),
             Self::UnstableBaumgarte { alpha, step } => write!(
@@ -190,9 +201,9 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             Self::InvalidAlpha { alpha } => {
                 write!(f, "Baumgarte's alpha must be positive and finite, but it is {alpha:?} 1/s")
             }
-            Self::SingularInertia { coordinate } => write!(
+            Self::SingularInertia { velocity } => write!(
                 f,
-                "the generalised inertia matrix is not positive definite at coordinate {coordinate}, and the \
+                "the generalised inertia matrix is not positive definite at velocity {velocity}, and the \
                  loops do not determine how it moves; give the links that its joint moves a mass and an inertia"
             ),
             Self::NotFinite => f.write_str(

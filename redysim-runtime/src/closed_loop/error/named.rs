@@ -13,7 +13,7 @@ pub struct NamedLoopError<'a, S> {
     pub error: LoopError<S>,
     /// The loop that its row belongs to.
     pub loop_name: Option<&'a str>,
-    /// The name of its coordinate, which is that of its joint if the joint has no other.
+    /// The name of its velocity, which is that of its joint if the joint has one velocity.
     pub joint_name: Option<&'a str>,
 }
 
@@ -26,7 +26,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
     {
         NamedLoopError {
             loop_name: error.row().and_then(|row| self.closure.loop_name(row)),
-            joint_name: error.coordinate().and_then(|coordinate| self.mechanism.coordinate_name(coordinate)),
+            joint_name: error.velocity().and_then(|velocity| self.mechanism.velocity_name(velocity)),
             error,
         }
     }
@@ -38,8 +38,8 @@ impl<S: fmt::Debug> fmt::Display for NamedLoopError<'_, S> {
         if let (Some(row), Some(name)) = (self.error.row(), self.loop_name) {
             write!(f, "; row {row} belongs to the loop `{name}`")?;
         }
-        if let (Some(coordinate), Some(name)) = (self.error.coordinate(), self.joint_name) {
-            write!(f, "; coordinate {coordinate} is that of the joint `{name}`")?;
+        if let (Some(velocity), Some(name)) = (self.error.velocity(), self.joint_name) {
+            write!(f, "; velocity {velocity} is that of the joint `{name}`")?;
         }
         Ok(())
     }

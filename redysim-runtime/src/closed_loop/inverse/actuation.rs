@@ -1,16 +1,16 @@
-//! The forces of the actuators for given accelerations of the independent coordinates.
+//! The forces of the actuators for given accelerations of the independent joints.
 
 use super::LoopForces;
 use crate::closed_loop::constraints::linear_algebra::{add_scaled, difference, dot, largest, product, zeros};
 use crate::closed_loop::constraints::{OrthogonalDecomposition, zero_columns};
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
-use crate::{InverseDynamics, LengthMismatch, LoopClosure, Motion, Real, Vector};
+use crate::{InverseDynamics, LengthMismatch, LoopClosure, Mechanism, Motion, Real, Vector};
 
 /// The largest force without an actuator that counts as rounding, as a part of the largest force; likewise for speeds.
 const SMALL: f64 = 1e-9;
 
-/// Closed loops, the coordinates that determine all others, and those that have actuators.
+/// Closed loops, the velocities that determine all others, and those that have actuators.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Actuation<'m, M, C> {
     pub loops: ClosedLoop<'m, M, C>,
@@ -19,28 +19,39 @@ pub(super) struct Actuation<'m, M, C> {
 }
 
 impl<M, C> Actuation<'_, M, C> {
-    /// Checks that all coordinates exist and that no independent one is repeated.
+    /// Checks that all velocities exist, that no independent one is repeated, and that each of these has a coordinate.
     pub fn check<S: Real>(&self) -> Result<(), LoopError<S>>
     where
         M: InverseDynamics<S>,
     {
         let count = self.loops.mechanism.nv();
-        if let Some(&coordinate) = self.independent.iter().chain(self.actuated).find(|&&index| index >= count) {
-            return Err(LoopError::CoordinateOutOfRange { coordinate, count });
+        if let Some(&velocity) = self.independent.iter().chain(self.actuated).find(|&&index| index >= count) {
+            return Err(LoopError::VelocityOutOfRange { velocity, count });
         }
-        match repeated(self.independent) {
-            Some(&coordinate) => Err(LoopError::RepeatedCoordinate { coordinate }),
+        if let Some(&velocity) = repeated(self.independent) {
+            return Err(LoopError::RepeatedVelocity { velocity });
+        }
+        match self.independent.iter().zip(self.coordinates()).find(|(_, coordinate)| coordinate.is_none()) {
+            Some((&velocity, _)) => Err(LoopError::NoCoordinate { velocity }),
             None => Ok(()),
         }
     }
 
-    /// Checks that a trajectory has a component for each independent coordinate.
+    /// The coordinates of the independent velocities, in their order; `None` for one whose joint has several.
+    pub fn coordinates(&self) -> impl Iterator<Item = Option<usize>> + '_
+    where
+        M: Mechanism,
+    {
+        self.independent.iter().map(|&velocity| self.loops.mechanism.coordinate_of_velocity(velocity))
+    }
+
+    /// Checks that a trajectory has a component for each independent velocity.
     pub fn check_motion<S: Real, I: Vector<S>>(&self, wanted: &Motion<I, I>) -> Result<(), LengthMismatch> {
         let Motion { q, v, a } = wanted;
         self.check_lengths([("trajectory.q", q), ("trajectory.v", v), ("trajectory.a", a)])
     }
 
-    /// Checks that vectors have a component for each independent coordinate.
+    /// Checks that vectors have a component for each independent velocity.
     pub fn check_lengths<S: Real, I: Vector<S>, const N: usize>(
         &self,
         vectors: [(&'static str, &I); N],
@@ -49,8 +60,7 @@ impl<M, C> Actuation<'_, M, C> {
         vectors.into_iter().try_for_each(|(name, vector)| LengthMismatch::check(name, vector.as_ref(), expected))
     }
 
-    /// Motion and forces at the closed position `q` for these velocities and accelerations of the independent
-    /// coordinates.
+    /// Motion and forces at the closed position `q` for these velocities and accelerations of the independent joints.
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn forces<S: Real, I: Vector<S>>(
         &self,
@@ -108,10 +118,10 @@ impl<M, C> Actuation<'_, M, C> {
             add_scaled(forces.as_mut(), -multiplier, row.as_ref());
         }
         let (most, _) = largest(of_tree.as_ref().iter().copied());
-        for (coordinate, force) in forces.as_mut().iter_mut().enumerate() {
-            if !self.actuated.contains(&coordinate) {
+        for (velocity, force) in forces.as_mut().iter_mut().enumerate() {
+            if !self.actuated.contains(&velocity) {
                 if force.abs() > small * most {
-                    return Err(LoopError::Unactuated { coordinate, force: *force });
+                    return Err(LoopError::Unactuated { velocity, force: *force });
                 }
                 *force = S::zero();
             }
@@ -165,7 +175,7 @@ impl<M, C> Actuation<'_, M, C> {
         multipliers
     }
 
-    /// The rows of J without the columns of the coordinates `known`.
+    /// The rows of J without the columns of the velocities `known`.
     fn without_columns<S: Real>(
         &self,
         jacobian: &C::Jacobian,

@@ -25,8 +25,9 @@ pub struct ClosedLoopComputedTorque<'m, S, M, T, I, C = M> {
 }
 
 impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I, C> {
-    /// The law that has the coordinates `independent` (and actuated) follow `trajectory`, whose component i belongs to
-    /// coordinate `independent[i]`, as do those of the gains.
+    /// The law that has the joints of the velocities `independent` (and actuated) follow `trajectory`, whose component i
+    /// belongs to velocity `independent[i]` and to its
+    /// [coordinate](crate::Mechanism::coordinate_of_velocity), as do those of the gains.
     pub fn new(loops: ClosedLoop<'m, M, C>, independent: &'m [usize], trajectory: T, [kp, kd]: [I; 2]) -> Self {
         let actuation = Actuation { loops, independent, actuated: independent };
         Self { actuation, trajectory, kp, kd, last_error: None }
@@ -42,7 +43,7 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
         self.last_error
     }
 
-    /// Checks that the desired motion and the gains have a component for each independent coordinate.
+    /// Checks that the desired motion and the gains have a component for each independent velocity.
     fn check(&self, desired: &Motion<I, I>) -> Result<(), LengthMismatch> {
         self.actuation.check_motion(desired)?;
         self.actuation.check_lengths([("kp", &self.kp), ("kd", &self.kd)])
@@ -67,13 +68,16 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
         self.actuation.check()?;
         let desired = self.trajectory.at(t);
         self.check(&desired).map_err(LoopError::WrongLength)?;
-        let of = |i: usize| self.actuation.independent.get(i).copied().unwrap_or(usize::MAX);
+        let nan = || S::from_f64(f64::NAN);
         let count = self.actuation.independent.len();
-        let speeds = I::from_fn(count, |i| entry(v, of(i)));
+        let mut velocities = self.actuation.independent.iter();
+        let speeds = I::from_fn(count, |_| velocities.next().map_or_else(nan, |&velocity| entry(v, velocity)));
+        let mut coordinates = self.actuation.coordinates();
+        let positions = I::from_fn(count, |_| coordinates.next().flatten().map_or_else(nan, |index| entry(q, index)));
         let wanted = I::from_fn(count, |i| {
             entry(&desired.a, i)
                 + entry(&self.kd, i) * (entry(&desired.v, i) - entry(&speeds, i))
-                + entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, of(i)))
+                + entry(&self.kp, i) * (entry(&desired.q, i) - entry(&positions, i))
         });
         self.actuation.forces(q.clone(), &speeds, &wanted)
     }

@@ -44,7 +44,7 @@ pub struct LoopForces<Q, V, R> {
 }
 
 impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
-    /// The inverse dynamics of `loops` with the coordinates `independent` prescribed (and actuated), beginning on the
+    /// The inverse dynamics of `loops` with the velocities `independent` prescribed (and actuated), beginning on the
     /// branch of the guess `q`.
     pub fn new(loops: ClosedLoop<'m, M, C>, independent: &'m [usize], q: Q) -> Self {
         Self { actuation: Actuation { loops, independent, actuated: independent }, q }
@@ -55,14 +55,15 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         Self { actuation: Actuation { actuated, ..self.actuation }, ..self }
     }
 
-    /// The motion and the forces at time `t`. Component i of the trajectory belongs to coordinate `independent[i]`. The
-    /// position found is the guess for the next instant.
+    /// The motion and the forces at time `t`. Component i of the trajectory belongs to velocity `independent[i]` and to
+    /// its [coordinate](crate::Mechanism::coordinate_of_velocity): the joint has one coordinate, or there is an error.
+    /// The position found is the guess for the next instant.
     ///
     /// # Errors
     /// [`LoopError::Unreachable`], [`LoopError::RankDeficient`] if the independent coordinates do not determine the
     /// others, [`LoopError::InconsistentVelocity`] if they contradict each other, [`LoopError::Unactuated`] if there
-    /// are too few actuators, [`LoopError::WrongLength`], [`LoopError::RepeatedCoordinate`],
-    /// [`LoopError::CoordinateOutOfRange`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    /// are too few actuators, [`LoopError::WrongLength`], [`LoopError::RepeatedVelocity`],
+    /// [`LoopError::VelocityOutOfRange`], [`LoopError::NoCoordinate`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn at<S: Real, I: Vector<S>>(
         &mut self,
@@ -91,8 +92,11 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         Q: Vector<S>,
     {
         let mut q = self.q.clone();
-        let ways = self.actuation.independent.iter().enumerate().map(|(i, &index)| entry(wanted, i) - entry(&q, index));
-        let (farthest, at) = largest(ways);
+        let way = |(i, coordinate): (usize, Option<usize>)| match coordinate {
+            Some(coordinate) => entry(wanted, i) - entry(&q, coordinate),
+            None => S::from_f64(f64::NAN),
+        };
+        let (farthest, at) = largest(self.actuation.coordinates().enumerate().map(way));
         if !farthest.is_finite() {
             return Err(LoopError::NotFinite);
         }
@@ -100,17 +104,17 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         let moves = moves.min(MOST_MOVES);
         for left in (0..moves).rev() {
             let part = S::one() / S::from_f64((left + 1) as f64);
-            for (i, &index) in self.actuation.independent.iter().enumerate() {
+            for (i, coordinate) in self.actuation.coordinates().enumerate() {
                 let target = entry(wanted, i);
-                if let Some(element) = q.as_mut().get_mut(index) {
+                if let Some(element) = coordinate.and_then(|coordinate| q.as_mut().get_mut(coordinate)) {
                     *element = if left == 0 { target } else { *element + part * (target - *element) };
                 }
             }
             let solution =
                 self.actuation.loops.solve_position(Metric::Mass, q, self.actuation.independent, ITERATIONS)?;
             if solution.status != NewtonStatus::Converged {
-                let coordinate = self.actuation.independent.get(at).copied().unwrap_or(0);
-                return Err(LoopError::Unreachable { t, coordinate, position_residual: solution.position_residual });
+                let velocity = self.actuation.independent.get(at).copied().unwrap_or(0);
+                return Err(LoopError::Unreachable { t, velocity, position_residual: solution.position_residual });
             }
             q = solution.q;
         }

@@ -18,11 +18,12 @@ pub struct Assembly<S, Q, V> {
     pub q: Q,
     /// Joint velocities.
     pub v: V,
-    /// How far the coordinate moved that moved farthest, rad or m.
+    /// The largest component of the way from the guess to `q`, by
+    /// [`difference`](crate::ConfigurationSpace::difference), rad or m.
     pub largest_displacement: S,
-    /// Which one that is.
-    pub coordinate: usize,
-    /// The length of the whole way, √Σ Δqᵢ².
+    /// The velocity that it belongs to.
+    pub velocity: usize,
+    /// The length of the whole way, √Σ δᵢ²; δ = Δq for joints of one coordinate each.
     pub distance: S,
     /// The largest component of the residual that is left, m (or a sine).
     pub position_residual: S,
@@ -33,15 +34,15 @@ pub struct Assembly<S, Q, V> {
 }
 
 impl<M, C> ClosedLoop<'_, M, C> {
-    /// Closes the loops from the guess `q` and fits the velocities to the guess `v`, with the coordinates `held` (and
-    /// their velocities) as they are; the others move as little as they can, in the metric of M (or, where that does
-    /// not close them, of the coordinates themselves).
+    /// Closes the loops from the guess `q` and fits the velocities to the guess `v`, with the velocities `held`, and the
+    /// positions of their joints, as they are; the others move as little as they can, in the metric of M (or, where that does
+    /// not close them, of the displacements themselves).
     ///
     /// It stays on the branch of the guess: no coordinate moves by more than 0.2 rad (or m) in one iteration, and none
     /// of them enlarges the residual. The result is closed to 10⁻¹⁴ of the mechanism's size.
     ///
     /// # Errors
-    /// [`LoopError::CoordinateOutOfRange`], [`LoopError::CannotClose`], [`LoopError::NoConvergence`],
+    /// [`LoopError::VelocityOutOfRange`], [`LoopError::CannotClose`], [`LoopError::NoConvergence`],
     /// [`LoopError::InconsistentVelocity`] if held velocities cannot be met, [`LoopError::SingularInertia`] and
     /// [`LoopError::NotFinite`].
     pub fn assemble<S: Real>(
@@ -55,8 +56,8 @@ impl<M, C> ClosedLoop<'_, M, C> {
         C: LoopClosure<S, M>,
     {
         let count = self.mechanism.nv();
-        if let Some(&coordinate) = held.iter().find(|&&coordinate| coordinate >= count) {
-            return Err(LoopError::CoordinateOutOfRange { coordinate, count });
+        if let Some(&velocity) = held.iter().find(|&&velocity| velocity >= count) {
+            return Err(LoopError::VelocityOutOfRange { velocity, count });
         }
         let mut solution = self.solve_position(Metric::Mass, q.clone(), held, ITERATIONS)?;
         if solution.status != NewtonStatus::Converged {
@@ -78,8 +79,8 @@ impl<M, C> ClosedLoop<'_, M, C> {
         }
         if largest(v.as_ref().iter().copied()).0 <= S::EPSILON * asked {
             // The loops stop all that was asked for: what is left is roundoff of it.
-            for (coordinate, speed) in v.as_mut().iter_mut().enumerate() {
-                *speed = if held.contains(&coordinate) { *speed } else { S::zero() };
+            for (velocity, speed) in v.as_mut().iter_mut().enumerate() {
+                *speed = if held.contains(&velocity) { *speed } else { S::zero() };
             }
         }
         let rates: C::Rows = product(solution.constraints.jacobian.as_ref(), v.as_ref());
@@ -92,14 +93,14 @@ impl<M, C> ClosedLoop<'_, M, C> {
         if residual > slow * solution.constraints.length_scale() * fastest.maximum(S::EPSILON * asked) {
             return Err(LoopError::InconsistentVelocity { residual, row: at_row });
         }
-        let way = difference(&solution.q, q);
-        let (largest_displacement, coordinate) = largest(way.as_ref().iter().copied());
+        let way = self.mechanism.difference(q, &solution.q);
+        let (largest_displacement, velocity) = largest(way.as_ref().iter().copied());
         let distance = norm(way.as_ref());
         Ok(Assembly {
             q: solution.q,
             v,
             largest_displacement,
-            coordinate,
+            velocity,
             distance,
             position_residual,
             row,

@@ -6,7 +6,7 @@ use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 
-/// The farthest that a coordinate moves in one iteration, rad or m: far below the distance of assembly modes.
+/// The largest component of a step, rad or m: far below the distance of assembly modes.
 const LARGEST_STEP: f64 = 0.2;
 /// How often a step that enlarges the residual is halved.
 const HALVINGS: usize = 20;
