@@ -1,9 +1,10 @@
 //! One function of a mechanism for many states, on all cores, with several states side by side in lanes: for sampling
 //! controllers, learning and identification. Needs the feature `std`.
 //!
-//! Each call finds out what the processor has and runs code for AVX-512, for AVX2 with fused multiply-add, or for what
-//! the program is compiled for, so that no compiler flag is needed ([`Dispatch`](crate::Dispatch)); [`map`] alone,
-//! whose function has lanes of one kind, takes those that the program is compiled for.
+//! Each call finds out what the processor has and runs code for AVX-512, for AVX2 with fused multiply-add, or, where it
+//! has neither, for what the program is compiled for. So no compiler flag is needed: a batch is the same code in a
+//! program compiled for any x86-64 and in one compiled natively. [`map`] alone, whose function has lanes of one kind,
+//! takes those that the program is compiled for.
 //!
 //! States and results are slices of arrays that the caller owns. Any number of states will do, and each result is the
 //! same on however many threads. It has the bits that [`Dispatched`](crate::Dispatched) gives for its state, whatever
@@ -180,7 +181,7 @@ fn in_groups<T: Batched, R: Send>(
     avx2: impl Fn(usize, &mut [R]) + Sync,
     avx512: impl Fn(usize, &mut [R]) + Sync,
 ) {
-    match Instructions::detected() {
+    match Instructions::of_processor() {
         Instructions::Compiled => in_lanes::<T, T::Lanes, R>(results, compiled),
         Instructions::Avx2 => in_lanes::<T, T::Avx2, R>(results, avx2),
         Instructions::Avx512 => in_lanes::<T, T::Avx512, R>(results, avx512),

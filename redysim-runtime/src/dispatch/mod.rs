@@ -27,27 +27,31 @@ pub enum Instructions {
 }
 
 impl Instructions {
-    /// The best that this processor has.
-    #[cfg(target_arch = "x86_64")]
+    /// The best that this processor has, unless the program is compiled for them anyway.
     pub fn detected() -> Self {
-        use std::is_x86_feature_detected as has;
-        if cfg!(target_feature = "avx512f") {
-            // The program's own code has the widest vectors already.
-            return Self::Compiled;
+        match Self::of_processor() {
+            Self::Avx512 if cfg!(target_feature = "avx512f") => Self::Compiled,
+            Self::Avx2 if cfg!(target_feature = "fma") => Self::Compiled,
+            best => best,
         }
+    }
+
+    /// The best that this processor has, whatever the program is compiled for.
+    #[cfg(target_arch = "x86_64")]
+    pub(crate) fn of_processor() -> Self {
+        use std::is_x86_feature_detected as has;
         let avx2 = has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2");
         let avx512 = has!("avx512f") && has!("avx512bw") && has!("avx512cd") && has!("avx512dq") && has!("avx512vl");
         match (avx2, avx512) {
             (true, true) => Self::Avx512,
-            (true, false) if cfg!(target_feature = "fma") => Self::Compiled,
             (true, false) => Self::Avx2,
             (false, _) => Self::Compiled,
         }
     }
 
-    /// The best that this processor has.
+    /// The best that this processor has, whatever the program is compiled for.
     #[cfg(not(target_arch = "x86_64"))]
-    pub fn detected() -> Self {
+    pub(crate) fn of_processor() -> Self {
         Self::Compiled
     }
 }

@@ -7,7 +7,7 @@
 //! private to this crate, and so are the traits through which generic code of this crate reaches them, so that no other
 //! crate can name them, make a value of one, or call a function for one. This crate does so in two places,
 //! [`batch`](crate::batch) and [`Dispatched`](super::Dispatched), both behind
-//! [`Instructions::detected`](super::Instructions::detected), which has found the features. Code of other crates meets
+//! [`Instructions::of_processor`](super::Instructions), which has found the features. Code of other crates meets
 //! these types only as the parameter of a generic function that those two call. Therefore the processor has the
 //! features whenever an operation of these types runs.
 //!

@@ -1,6 +1,6 @@
 //! Every function of a few robots, each under a name by which it is found in the machine code:
 //! `single_<robot>_<scalar>_<function>` for one state, `lanes_…` for the states of a vector, and
-//! `single_sin_cos_all_<scalar>_<number of angles>`.
+//! `single_sin_cos_all_<scalar>_<number of angles>`; `batch_<robot>_<scalar>_<function>` for many states.
 
 use redysim::redysim;
 
@@ -114,6 +114,46 @@ pub mod lanes {
         kr5_eight "kr5" Kr5 F64x8;
         gripper_four "gripper" Gripper F64x4;
         gripper_eight "gripper" Gripper F64x8;
+    }
+}
+
+/// Many states, by the instructions that the processor has.
+#[cfg(feature = "all")]
+pub mod batches {
+    /// One function under the name `batch_robot_scalar_function`.
+    macro_rules! exported {
+        ($name:literal $robot:ident $scalar:ident $function:ident($($argument:ident),*) -> $found:ty) => {
+            #[unsafe(export_name = concat!("batch_", $name, "_", stringify!($scalar), "_", stringify!($function)))]
+            #[inline(never)]
+            pub fn $function($($argument: &[Row],)* found: &mut [$found]) -> Result<(), LengthMismatch> {
+                batch::$function(&$robot, $($argument,)* found)
+            }
+        };
+    }
+
+    macro_rules! batches {
+        ($($module:ident $name:literal $robot:ident $scalar:ident;)*) => {$(
+            #[doc = concat!(stringify!($robot), " in ", stringify!($scalar), ".")]
+            pub mod $module {
+                use crate::$robot;
+                use redysim::{LengthMismatch, batch};
+                /// A number for each joint.
+                pub type Row = [$scalar; $robot::NQ];
+
+                exported!($name $robot $scalar inverse_dynamics(q, v, a) -> Row);
+                exported!($name $robot $scalar forward_dynamics(q, v, tau) -> Row);
+                exported!($name $robot $scalar mass_matrix(q) -> [Row; $robot::NV]);
+            }
+        )*};
+    }
+
+    batches! {
+        kr5_double "kr5" Kr5 f64;
+        kr5_float "kr5" Kr5 f32;
+        gripper_double "gripper" Gripper f64;
+        gripper_float "gripper" Gripper f32;
+        chain10_double "chain10" Chain10 f64;
+        chain10_float "chain10" Chain10 f32;
     }
 }
 
