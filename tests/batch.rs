@@ -6,7 +6,7 @@ use common::models::{Gripper, Kr5};
 use redysim::batch::{self, Batched};
 use redysim::{
     BiasForces, ConfigurationSpace, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics,
-    LengthMismatch, MassMatrix, Real, Scalar,
+    LengthMismatch, MassMatrix, Real, Scalar, TreeDynamics,
 };
 
 /// No state, one, about as many as lanes, enough that a last task and a last group are not full.
@@ -86,6 +86,24 @@ fn a_branching_mechanism_has_its_own_number_of_joints() {
     batch::forward_dynamics(&Gripper, &q, &v, &tau, &mut a).unwrap();
     for (state, a) in a.iter().enumerate() {
         assert_eq!(*a, Gripper.dispatched().forward_dynamics(&q[state], &v[state], &tau[state]));
+    }
+}
+
+/// In `f64` within 16 roundings of numbers below 10 (m, m/s), which is what fused products change.
+#[test]
+fn a_dispatched_mechanism_has_all_functions_of_a_tree() {
+    fn values(mechanism: &impl TreeDynamics<f64, Coordinates = [f64; 6], Velocities = [f64; 6]>) -> Vec<[f64; 8]> {
+        let [q, v]: [Vec<[f64; 6]>; 2] = [1, 2].map(|seed| numbers(seed, 100));
+        let all = q.iter().zip(&v).map(|(q, v)| {
+            let (center, energy) = (mechanism.center_of_mass(q, v), mechanism.energy(q, v));
+            let ([x, y, z], [vx, vy, vz]) = (center.position, center.velocity);
+            [x, y, z, vx, vy, vz, 1e-2 * energy.kinetic, 1e-2 * energy.potential]
+        });
+        all.collect()
+    }
+    let (plain, dispatched) = (values(&Kr5), values(&Kr5.dispatched()));
+    for (plain, dispatched) in plain.iter().flatten().zip(dispatched.iter().flatten()) {
+        assert!(plain.abs() < 10.0 && (plain - dispatched).abs() < 160.0 * f64::EPSILON, "{plain} {dispatched}");
     }
 }
 

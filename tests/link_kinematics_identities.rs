@@ -12,15 +12,15 @@ use common::dual::{Dual, moving};
 use common::models::{Gantry, Gripper, Kr5, generic};
 use common::random::{Random, State};
 use redysim::generic::{GenericMechanism, Model};
-use redysim::{CenterOfMass, LinkState, MassCenter, Scalar, TreeDynamics};
+use redysim::{CenterOfMass, LinkState, Scalar, TreeDynamics};
 
 const STATES: usize = 300;
 
 type Number = DoubleDouble;
 type Vector = [Number; 3];
 
-trait Smooth: TreeDynamics<Number> + MassCenter<Number> + TreeDynamics<Dual<Number>> {}
-impl<M: TreeDynamics<Number> + MassCenter<Number> + TreeDynamics<Dual<Number>>> Smooth for M {}
+trait Smooth: TreeDynamics<Number> + TreeDynamics<Dual<Number>> {}
+impl<M: TreeDynamics<Number> + TreeDynamics<Dual<Number>>> Smooth for M {}
 
 /// A check of a mechanism: its name, its model, and where its links are at a state.
 type Check = fn(&str, &GenericMechanism, &dyn Fn(&State) -> Links);

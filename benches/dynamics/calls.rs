@@ -78,6 +78,9 @@ pub fn other_functions<S: Numbers, M: TreeDynamics<S>>(
     });
     timed::<S, _, _>(criterion, [robot, "gravity_forces", path], &states, |state| mechanism.gravity_forces(&state.q));
     timed::<S, _, _>(criterion, [robot, "energy", path], &states, |state| mechanism.energy(&state.q, &state.v));
+    timed::<S, _, _>(criterion, [robot, "center_of_mass", path], &states, |state| {
+        mechanism.center_of_mass(&state.q, &state.v)
+    });
     timed::<S, _, _>(criterion, [robot, "link_kinematics", path], &states, |state| {
         mechanism.link_kinematics(&state.q, &state.v)
     });

@@ -136,6 +136,9 @@ impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
         self.check(&[("q", q), ("v", v)]);
         denoc::coordinate_rates(&self.tree, q, v)
     }
+    fn coordinate_rates_tangent(&self, q: &Vec<S>, v: &Vec<S>, dq: &Vec<S>) -> Option<Vec<S>> {
+        Some(redysim_runtime::coordinate_rates_tangent(self, q, v, dq))
+    }
     fn integrate(&self, q: &Vec<S>, dv: &Vec<S>) -> Vec<S> {
         self.check(&[("q", q), ("dv", dv)]);
         denoc::integrate(&self.tree, q, dv)

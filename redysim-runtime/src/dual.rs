@@ -125,6 +125,21 @@ fn slopes<S: Scalar, V: Vector<S>, W: Vector<Dual<S>>>(duals: &W) -> V {
     V::from_fn(duals.as_ref().len(), |i| entry(duals, i).slope)
 }
 
+/// The derivative of N(q) v of `mechanism` along `dq` at constant v, by dual numbers: what a mechanism that is generic
+/// over scalars answers to [`ConfigurationSpace::coordinate_rates_tangent`].
+pub fn coordinate_rates_tangent<S: Scalar, M>(
+    mechanism: &M,
+    q: &<M as ConfigurationSpace<S>>::Coordinates,
+    v: &<M as ConfigurationSpace<S>>::Velocities,
+    dq: &<M as ConfigurationSpace<S>>::Coordinates,
+) -> <M as ConfigurationSpace<S>>::Coordinates
+where
+    M: ConfigurationSpace<S> + ConfigurationSpace<Dual<S>>,
+{
+    let v = Vector::from_fn(v.as_ref().len(), |i| Dual { value: entry(v, i), slope: S::zero() });
+    slopes(&ConfigurationSpace::<Dual<S>>::coordinate_rates(mechanism, &dual(q, dq), &v))
+}
+
 /// The derivative of the accelerations of `mechanism` along `(dq, dv, dtau)`, by dual numbers: what a mechanism that is
 /// generic over scalars answers to [`ForwardDynamics::forward_dynamics_tangent`].
 pub fn forward_dynamics_tangent<S: Scalar, M>(

@@ -90,7 +90,7 @@ pub use closed_loop::{
 pub use control::{ComputedTorque, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque, uniform};
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched, Instructions};
-pub use dual::{Dual, forward_dynamics_tangent, inverse_dynamics_tangent};
+pub use dual::{Dual, coordinate_rates_tangent, forward_dynamics_tangent, inverse_dynamics_tangent};
 pub use function::set::Functions;
 pub use function::table::{Function, Operations};
 #[cfg(feature = "simulation")]

@@ -57,6 +57,18 @@ pub trait ConfigurationSpace<S: Scalar>: Mechanism {
 
     /// The time derivative of the coordinates, q̇ = N(q) v; v itself for revolute, prismatic and helical joints.
     fn coordinate_rates(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Coordinates;
+    /// The derivative of q̇ = N(q) v along `dq` at constant v, (∂N/∂q dq) v; zero for revolute, prismatic and helical
+    /// joints. The generic path computes it with [dual numbers](crate::coordinate_rates_tangent); `None`, the default,
+    /// leaves it to differences.
+    fn coordinate_rates_tangent(
+        &self,
+        q: &Self::Coordinates,
+        v: &Self::Velocities,
+        dq: &Self::Coordinates,
+    ) -> Option<Self::Coordinates> {
+        let _ = (q, v, dq);
+        None
+    }
     /// q ⊞ dv, the coordinates that the velocities `dv`, constant over a unit of time, lead to from `q`; q + dv for
     /// revolute, prismatic and helical joints.
     fn integrate(&self, q: &Self::Coordinates, dv: &Self::Velocities) -> Self::Coordinates;
@@ -178,7 +190,8 @@ pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>>: LoopRows {
     fn loop_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> Self::Rows;
 }
 
-/// All functions of a tree-type mechanism at once; every type that has them all has this.
+/// All functions of a tree-type mechanism at once; every type that has them all has this. A compiled type whose model or
+/// macro leaves out one of them, by `functions`, has the traits of the others alone.
 pub trait TreeDynamics<S: Scalar>:
     InverseDynamics<S>
     + ForwardDynamics<S>
@@ -186,6 +199,7 @@ pub trait TreeDynamics<S: Scalar>:
     + BiasForces<S>
     + GravityForces<S>
     + MechanicalEnergy<S>
+    + MassCenter<S>
     + LinkKinematics<S>
 {
 }
@@ -197,6 +211,7 @@ impl<S: Scalar, M> TreeDynamics<S> for M where
         + BiasForces<S>
         + GravityForces<S>
         + MechanicalEnergy<S>
+        + MassCenter<S>
         + LinkKinematics<S>
 {
 }

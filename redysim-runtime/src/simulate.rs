@@ -133,9 +133,12 @@ where
         let Some(da) = self.mechanism.forward_dynamics_tangent((&q, &v, &tau), (&dq, &dv, &dtau)) else {
             return false;
         };
-        // N(q) v is linear in v; what it does with q matters to joints of more than one freedom only, of which there
-        // are none, so that N is constant.
-        let drates = self.mechanism.coordinate_rates(&q, &dv);
+        // The derivative of N(q) v is N(q) dv + (∂N/∂q dq) v.
+        let mut drates = self.mechanism.coordinate_rates(&q, &dv);
+        let by_position = coordinate_rates_tangent(self.mechanism, &q, &v, &dq);
+        for (drate, &by_position) in drates.as_mut().iter_mut().zip(by_position.as_ref()) {
+            *drate += by_position;
+        }
         self.write((&drates, &da, dot(&dtau, &v) + dot(&tau, &dv)), slope);
         true
     }
@@ -179,18 +182,41 @@ fn torque_tangent<S: Real, M: ConfigurationSpace<S>>(
     if let Some(dtau) = law.torque_tangent(t, (q, v), (dq, dv)) {
         return dtau;
     }
-    let largest = |values: &[S]| values.iter().fold(S::zero(), |largest, value| largest.maximum(value.abs()));
     let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref()).maximum(largest(v.as_ref())));
+    central_difference(v.as_ref().len(), state, slope, |step| law.torque(t, &moved(q, dq, step), &moved(v, dv, step)))
+}
+
+/// (∂N/∂q dq) v: what the mechanism computes, or else central differences, which for constant N are zero exactly.
+fn coordinate_rates_tangent<S: Real, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    q: &M::Coordinates,
+    v: &M::Velocities,
+    dq: &M::Coordinates,
+) -> M::Coordinates {
+    mechanism.coordinate_rates_tangent(q, v, dq).unwrap_or_else(|| {
+        let [position, slope] = [q, dq].map(|values| largest(values.as_ref()));
+        central_difference(q.as_ref().len(), position, slope, |step| mechanism.coordinate_rates(&moved(q, dq, step), v))
+    })
+}
+
+/// The derivative of `function`, of `len` components, at 0 of a step along a direction: `size` and `slope` are the
+/// largest components of the point and of the direction.
+fn central_difference<S: Real, V: Vector<S>>(len: usize, size: S, slope: S, mut function: impl FnMut(S) -> V) -> V {
     if slope == S::zero() {
-        return M::Velocities::from_fn(v.as_ref().len(), |_| S::zero());
+        return V::from_fn(len, |_| S::zero());
     }
     // The step at which truncation and rounding of central differences are alike.
-    let step = S::EPSILON.powf(S::from_f64(1.0 / 3.0)) * state.maximum(S::one()) / slope;
-    let mut torque_at = |step: S| {
-        let q = M::Coordinates::from_fn(q.as_ref().len(), |i| entry(q, i) + step * entry(dq, i));
-        let v = M::Velocities::from_fn(v.as_ref().len(), |i| entry(v, i) + step * entry(dv, i));
-        law.torque(t, &q, &v)
-    };
-    let (ahead, behind) = (torque_at(step), torque_at(-step));
-    M::Velocities::from_fn(v.as_ref().len(), |i| (entry(&ahead, i) - entry(&behind, i)) / (step + step))
+    let step = S::EPSILON.powf(S::from_f64(1.0 / 3.0)) * size.maximum(S::one()) / slope;
+    let (ahead, behind) = (function(step), function(-step));
+    V::from_fn(len, |i| (entry(&ahead, i) - entry(&behind, i)) / (step + step))
+}
+
+/// `from` + `step` · `direction`.
+fn moved<S: Real, V: Vector<S>>(from: &V, direction: &V, step: S) -> V {
+    V::from_fn(from.as_ref().len(), |i| entry(from, i) + step * entry(direction, i))
+}
+
+/// The largest magnitude.
+fn largest<S: Real>(values: &[S]) -> S {
+    values.iter().fold(S::zero(), |largest, value| largest.maximum(value.abs()))
 }

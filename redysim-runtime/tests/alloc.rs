@@ -167,7 +167,7 @@ fn a_start_of_the_wrong_length_is_reported() {
 }
 
 #[test]
-fn a_state_without_components_is_no_trouble() {
+fn a_state_without_components_is_integrated_to_the_end() {
     let mut nothing = |_t: f64, _y: &Vec<f64>, _dydt: &mut Vec<f64>| {};
     for end in [
         Ode45::new().integrate(&mut nothing, (0.0, 1.0), vec![]),

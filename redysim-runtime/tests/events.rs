@@ -243,7 +243,7 @@ fn two_roots_in_one_step_are_found_wherever_they_are() {
 }
 
 #[test]
-fn a_zero_at_the_start_is_no_crossing_and_what_follows_is() {
+fn a_zero_at_the_start_is_not_a_crossing_and_a_later_one_is() {
     let line: Value<'_, 1> = &|_, y| y[0];
     let bump: Value<'_, 1> = &|_, y| y[0] * (0.05 - y[0]);
     assert_found(&found(&Ode5::new(1.0), (0.0, 2.0), &[(Direction::Any, line)]), &[]);
@@ -295,7 +295,7 @@ fn a_stop_ends_the_solution_at_the_event_and_a_new_start_goes_on_from_there() {
 }
 
 #[test]
-fn break_on_a_step_ends_after_that_step_and_events_before_it_are_told() {
+fn break_on_a_step_ends_after_that_step_and_events_before_it_are_reported() {
     let line: Value<'_, 1> = &|_, y| y[0] - 0.3;
     let mut told = 0;
     let note = |_: Occurrence<'_, f64, [f64; 1]>| {

@@ -215,7 +215,7 @@ fn the_energy_of_a_planet_oscillates_without_growing() {
 }
 
 #[test]
-fn what_the_iteration_cannot_solve_is_an_error_that_says_what_to_do() {
+fn an_iteration_that_does_not_converge_is_an_error_with_its_time_and_the_remedies() {
     let mut stiff = |t: f64, y: &[f64; 1], dydt: &mut [f64; 1]| dydt[0] = -1e6 * (y[0] - t.cos());
     let error = Gauss4::new(0.1).integrate(&mut stiff, (0.0, 1.0), [0.5]).unwrap_err();
     assert_eq!(error, IntegrationError::NotConverged { t: 0.0, step: 0.1 });
@@ -229,7 +229,7 @@ fn what_the_iteration_cannot_solve_is_an_error_that_says_what_to_do() {
 
 /// At an equilibrium that is one only up to roundoff the iteration has nothing to do but noise.
 #[test]
-fn rest_is_no_trouble() {
+fn a_pendulum_at_rest_moves_by_less_than_1e_minus_13() {
     let pendulum = Pendulum { mass: 2.0, length: 0.5 };
     for q in [0.0, 3e-17, std::f64::consts::PI] {
         let mut simulation = ForwardSimulation::new(&pendulum, ZeroTorque);

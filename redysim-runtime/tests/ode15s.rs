@@ -31,7 +31,7 @@ fn method<'a>(tolerance: f64) -> Ode15s<'a, f64> {
 const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 
 #[test]
-fn errors_are_in_proportion_to_the_tolerance() {
+fn errors_are_between_a_ten_thousandth_of_the_tolerance_and_ten_tolerances() {
     for tolerance in TOLERANCES {
         let end = method(tolerance).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
         let error = error_at(3.0, &end.y);
@@ -43,7 +43,7 @@ fn errors_are_in_proportion_to_the_tolerance() {
 
 /// With error proportional to tolerance and to h^(k+1), the number of steps grows with the tolerance to −1/(k+1).
 #[test]
-fn work_grows_with_the_tolerance_as_the_highest_order_says() {
+fn the_number_of_steps_grows_with_the_power_of_the_highest_order_within_12_percent() {
     fn steps<const ORDER: usize>(tolerance: f64) -> f64 {
         let method = Adaptive::<f64, Ndf<ORDER>>::new().rtol(tolerance).atol(tolerance);
         method.integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap().statistics.steps as f64
@@ -79,7 +79,7 @@ fn prothero_and_robinsons_equation_is_as_accurate_as_its_tolerance_whatever_its_
 
 /// An explicit method is stable for steps up to 3.3/|λ| = 3.3·10⁻⁸: 3·10⁷ of them for one unit of time.
 #[test]
-fn fast_motions_that_have_died_down_cost_nothing() {
+fn fast_motions_that_have_died_down_take_fewer_than_300_evaluations() {
     let lambda = -1e8;
     let end = method(1e-6).integrate(&mut prothero_robinson(lambda), (0.0, 1.0), [2.0]).unwrap();
     println!("{:?}", end.statistics);
@@ -145,7 +145,7 @@ fn van_der_pols_oscillator_is_where_it_is_known_to_be() {
 /// MATLAB reports 591 steps, 1883 evaluations, 45 Jacobians and 289 decompositions for this problem and its defaults
 /// (vdpode with μ = 1000 until 3000). Which of the steps at a jump fail hangs on the last digits.
 #[test]
-fn van_der_pols_oscillator_costs_what_it_costs_in_matlab() {
+fn van_der_pols_oscillator_costs_within_15_percent_of_what_it_costs_in_matlab() {
     let Statistics { steps, evaluations, jacobians, decompositions, .. } =
         Ode15s::new().integrate(&mut van_der_pol, (0.0, 3e3), [2.0, 0.0]).unwrap().statistics;
     for (counted, published) in [(steps, 591.0), (evaluations, 1883.0), (jacobians, 45.0), (decompositions, 289.0)] {

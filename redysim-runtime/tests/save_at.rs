@@ -58,7 +58,7 @@ fn save_times_run_backward_when_integration_does() {
 }
 
 #[test]
-fn nothing_asked_is_nothing_answered() {
+fn without_save_times_there_are_no_answers() {
     assert!(solve(Ode45::new(), (0.0, 2.0), &[]).is_empty());
 }
 

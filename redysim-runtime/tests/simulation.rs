@@ -18,7 +18,7 @@ fn a_state_is_coordinates_velocities_and_actuator_energy() {
 }
 
 #[test]
-fn its_rate_is_velocities_accelerations_and_power() {
+fn the_rate_of_a_state_is_velocities_accelerations_and_power() {
     let mut simulation = ForwardSimulation::new(&Arm, |_t: f64, _q: &[f64; 2], _v: &[f64; 2]| [10.0, -1.0]);
     let mut rate = [f64::NAN; 5];
     simulation.derivative(0.0, &[0.1, 0.2, 3.0, 4.0, 7.0], &mut rate);

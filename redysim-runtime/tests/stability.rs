@@ -89,7 +89,7 @@ fn the_stability_function_is_the_exponential_up_to_the_order() {
 
 /// |R| of order 5 at −3.3066: 1 − z + … + z⁵/120 + z⁶/600.
 #[test]
-fn regions_of_stability_reach_where_books_say() {
+fn regions_of_stability_reach_as_far_as_published() {
     let reach = |ray: (f64, f64)| {
         [
             StabilityFunction::new(&RUNGE_KUTTA_4).reach(ray),
@@ -131,7 +131,7 @@ fn what_neither_swings_nor_is_damped_limits_nothing() {
 /// The fast mode of a system in which another one falls over limits the step as if it were alone, and a swing that
 /// grows by itself limits it as one that does not.
 #[test]
-fn what_grows_by_itself_is_no_fault_of_the_method() {
+fn modes_that_grow_by_themselves_do_not_change_the_largest_step() {
     struct Upright;
     impl Ode<f64, [f64; 4]> for Upright {
         fn derivative(&mut self, _t: f64, y: &[f64; 4], dydt: &mut [f64; 4]) {
@@ -179,7 +179,7 @@ fn the_limiting_velocity_is_found_where_a_joint_has_more_coordinates_than_veloci
 
 /// h² ω² + 4 ζ ω h ≤ 4.
 #[test]
-fn the_semi_implicit_method_is_stable_as_its_map_says() {
+fn the_semi_implicit_method_is_stable_up_to_the_limit_of_its_map() {
     struct Oscillator(f64, f64);
     impl Ode<f64, [f64; 2]> for Oscillator {
         fn derivative(&mut self, _t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {

@@ -121,7 +121,7 @@ fn arms_with_ordinary_gains_are_not_refused() {
 }
 
 #[test]
-fn the_message_says_what_to_do() {
+fn the_message_of_a_stiff_equation_names_its_time_and_the_remedies() {
     let message = Stiff { t: 0.5, step: 1e-5, remaining: 1_000_000 }.to_string();
     for word in ["stiff", "t = 0.5", "1e-5", "1000000", "Ode15s", "Radau5", "stiffness_limit"] {
         assert!(message.contains(word), "{message:?} lacks {word:?}");

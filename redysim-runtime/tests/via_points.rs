@@ -132,7 +132,7 @@ fn a_motion_through_states_has_them_and_their_derivatives() {
 }
 
 #[test]
-fn it_stands_at_its_ends_before_and_after() {
+fn a_motion_stands_at_its_ends_before_and_after() {
     let motion = ViaPoints::cubic(TIMES, POINTS).unwrap();
     for (t, q) in [(-1.0, POINTS[0]), (0.499, POINTS[0]), (3.6, POINTS[3]), (f64::INFINITY, POINTS[3])] {
         assert_eq!(motion.at(t), Motion { q, v: [0.0; 2], a: [0.0; 2] });

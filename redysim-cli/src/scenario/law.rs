@@ -1,7 +1,7 @@
 //! Torque laws as they act on a mechanism.
 
 use redysim_model::GenericMechanism;
-use redysim_runtime::{ClosedLoopComputedTorque, LoopError, TorqueLaw};
+use redysim_runtime::{ClosedLoopComputedTorque, LengthMismatch, LoopError, TorqueLaw};
 
 use super::trajectory::Prescribed;
 
@@ -38,10 +38,46 @@ impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
         }
     }
 
+    fn check_lengths(&self, t: f64, mechanism: &GenericMechanism) -> Result<(), LengthMismatch> {
+        match self {
+            Law::Total(law) => law.check_lengths(t, mechanism),
+            Law::OfLoops(law) => law.check_lengths(t, mechanism),
+        }
+    }
+
     fn torque_tangent(&mut self, t: f64, at: Pair<'_>, slopes: Pair<'_>) -> Option<Vec<f64>> {
         match self {
             Law::Total(law) => law.torque_tangent(t, at, slopes),
             Law::OfLoops(law) => law.torque_tangent(t, at, slopes),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use redysim_model::Model;
+    use redysim_runtime::{Proportional, ZeroTorque};
+
+    const PENDULUM: &str = "
+        name = 'pendulum'
+        gravity = [0, 0, -9.81]
+        [[link]]
+        name = 'rod'
+        parent = 'base'
+        joint = 'revolute'
+        axis = [0, 1, 0]
+        mass = 2.0
+        com = [0.5, 0, 0]
+    ";
+
+    #[test]
+    fn the_lengths_of_a_law_are_checked_through_the_choice_between_laws() {
+        let model = Model::from_toml(PENDULUM, "pendulum.toml").expect("a good model").model;
+        let mechanism = GenericMechanism::new(model);
+        assert_eq!(Law::total(ZeroTorque).check_lengths(0.0, &mechanism), Ok(()));
+        let law = Law::total(Proportional { target: vec![0.0; 2], kp: vec![1.0] });
+        let mismatch = LengthMismatch { vector: "target", length: 2, expected: 1 };
+        assert_eq!(law.check_lengths(0.0, &mechanism), Err(mismatch));
     }
 }

@@ -7,8 +7,8 @@ use super::x86::{Avx2F32, Avx2F64};
 use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
-    BiasForces, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics,
-    LoopClosure, LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
+    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
 };
 
 /// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and
@@ -105,6 +105,14 @@ impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M
 
     fn coordinate_rates(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Coordinates {
         self.mechanism.coordinate_rates(q, v)
+    }
+    fn coordinate_rates_tangent(
+        &self,
+        q: &M::Coordinates,
+        v: &M::Velocities,
+        dq: &M::Coordinates,
+    ) -> Option<M::Coordinates> {
+        self.mechanism.coordinate_rates_tangent(q, v, dq)
     }
     fn integrate(&self, q: &M::Coordinates, dv: &M::Velocities) -> M::Coordinates {
         self.mechanism.integrate(q, dv)
@@ -240,6 +248,32 @@ macro_rules! functions {
                     );
                 }
                 MechanicalEnergy::<$float>::energy(&self.mechanism, q, v)
+            }
+        }
+
+        impl<M: MassCenter<$float> + MassCenter<$number>> MassCenter<$float> for Dispatched<M> {
+            #[inline]
+            fn center_of_mass(
+                &self,
+                q: &<M as ConfigurationSpace<$float>>::Coordinates,
+                v: &<M as ConfigurationSpace<$float>>::Velocities,
+            ) -> CenterOfMass<$float> {
+                #[cfg(target_arch = "x86_64")]
+                if self.chooses_avx2() {
+                    return $number::with_target_features(
+                        #[inline(always)]
+                        || {
+                            let q: <M as ConfigurationSpace<$number>>::Coordinates = each(q, $number);
+                            let v: <M as ConfigurationSpace<$number>>::Velocities = each(v, $number);
+                            let found: CenterOfMass<$number> = MassCenter::center_of_mass(&self.mechanism, &q, &v);
+                            CenterOfMass {
+                                position: each(&found.position, |number: $number| number.0),
+                                velocity: each(&found.velocity, |number: $number| number.0),
+                            }
+                        },
+                    );
+                }
+                MassCenter::<$float>::center_of_mass(&self.mechanism, q, v)
             }
         }
     };

@@ -14,6 +14,8 @@ pub struct Signature {
 }
 
 /// The trait that has a function.
+///
+/// The enumeration is exhaustive, so that the compiler shows where a new kind of trait is to be handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interface {
     /// A trait of this name that has the function alone.
@@ -25,6 +27,8 @@ pub enum Interface {
 }
 
 /// An argument: its name, and how long the array is.
+///
+/// The enumeration is exhaustive, so that the compiler shows where a new argument is to be handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Argument {
     /// Joint coordinates `q`, rad or m.
@@ -58,6 +62,8 @@ impl Argument {
 }
 
 /// A size of a mechanism.
+///
+/// The enumeration is exhaustive, so that the compiler shows where a new dimension is to be handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// Joint coordinates, NQ.
@@ -71,6 +77,8 @@ pub enum Dimension {
 }
 
 /// What a function returns, and so in what order its values stand.
+///
+/// The enumeration is exhaustive, so that the compiler shows where a new shape is to be handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Joint forces, `[S; NV]`.

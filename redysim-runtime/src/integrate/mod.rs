@@ -51,11 +51,11 @@ pub use dormand_prince::DormandPrince;
 pub use dormand_prince_853::DormandPrince853;
 pub use events::Direction;
 pub use fixed::FixedStep;
-pub use ndf::{Bdf, Ndf};
+pub use ndf::{Bdf, Ndf, NdfFormula};
 pub use observer::{ObservedStep, Observer};
 pub use ode::Accepted;
 pub use ode4::RungeKutta4;
-pub use semi_implicit_euler::SymplecticEuler;
+pub use semi_implicit_euler::{SemiImplicit, SymplecticEuler};
 pub use tolerance::Tolerances;
 
 use root::*;

@@ -12,8 +12,8 @@ use crate::{Real, Vector};
 /// both points' coordinates, velocities and accelerations. Before the first point and after the last it stands there.
 ///
 /// [`minimum_jerk`](Self::minimum_jerk) and [`cubic`](Self::cubic) find velocities and accelerations themselves,
-/// [`through`](Self::through) takes them as they are. For joints whose velocities are the rates of their coordinates
-/// (revolute and prismatic ones). `T` holds the times, `[S; N]` or `Vec<S>`, and says how many points there are.
+/// [`through`](Self::through) takes them as they are. For joints of one coordinate, whose velocity is its rate
+/// (revolute, prismatic and helical ones). `T` holds the times, `[S; N]` or `Vec<S>`, and says how many points there are.
 ///
 /// ```
 /// use redysim_runtime::{Trajectory, ViaPoints};
