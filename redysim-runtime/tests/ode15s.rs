@@ -283,15 +283,17 @@ fn a_double_pendulum_falls_as_accurately_as_its_tolerance() {
     }
 }
 
+/// The equation damps the error of a step by h |λ|, which is above 100 where steps are longer than 0.01; y is rounded once
+/// in the correction and once in the sum. An iteration takes two evaluations, and rarely a third.
 #[test]
-fn single_precision_ends_within_ten_tolerances_after_fewer_than_400_evaluations() {
+fn single_precision_ends_within_a_hundredth_of_the_tolerance_with_at_most_three_evaluations_in_a_step() {
     let mut stiff = |t: f32, y: &[f32; 1], dydt: &mut [f32; 1]| dydt[0] = -1e4 * (y[0] - t.cos()) - t.sin();
     for tolerance in [1e-3_f32, 1e-4, 2e-5] {
         let method = Ode15s::new().rtol(tolerance).atol(tolerance);
         let end = method.integrate(&mut stiff, (0.0, 3.0), [1.5]).unwrap();
         println!("tolerance {tolerance:e}: {:e}, {:?}", end.y[0] - 3.0_f32.cos(), end.statistics);
-        assert!((end.y[0] - 3.0_f32.cos()).abs() < 10.0 * tolerance, "{:?}", end.y);
-        assert!(end.statistics.evaluations < 400);
+        assert!((end.y[0] - 3.0_f32.cos()).abs() < 0.01 * tolerance + 2.0 * f32::EPSILON, "{:?}", end.y);
+        assert!(end.statistics.evaluations <= 3 * (end.statistics.steps + end.statistics.rejected));
     }
 }
 

@@ -385,11 +385,15 @@ fn a_singular_matrix_makes_the_step_smaller() {
     assert!((end.y[0] / exact - 1.0).abs() < 1e-4, "{} instead of {exact}", end.y[0]);
 }
 
+/// The bound is that of the explicit methods in `accuracy.rs`.
 #[test]
-fn single_precision_ends_within_two_and_a_half_tolerances() {
+fn single_precision_ends_within_25_roundoff_units_of_the_error_in_double_precision() {
     let from = exact(0.0).map(|y| y as f32);
     let end = Radau5::new().rtol(2e-5_f32).atol(1e-6).integrate(&mut nonlinear, (0.0, 3.0), from).unwrap();
-    assert!(error_at(end.t, &end.y) < 5e-5, "{:?}", end.y);
+    let double = Radau5::new().rtol(2e-5).atol(1e-6).integrate(&mut nonlinear, (0.0, 3.0), exact(0.0)).unwrap();
+    let [single, double] = [error_at(end.t, &end.y), error_at(double.t, &double.y)];
+    println!("{single:e} in single precision, {double:e} in double");
+    assert!(single < double + 25.0 * f64::from(f32::EPSILON), "{:?}", end.y);
 }
 
 #[cfg(feature = "alloc")]
