@@ -69,7 +69,10 @@ pub fn trace_model(
     let tree = Tree::new(model);
     let range = |link: &Link| link.range.ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() });
     let pruning = match options.tolerance {
-        Some(tolerance) => Some((tolerance, model.moving_links().map(range).collect::<Result<Vec<_>, _>>()?)),
+        Some(tolerance) => {
+            let ranges = model.moving_links().map(range).collect::<Result<Vec<_>, _>>()?;
+            Some((tolerance, tree.per_velocity(ranges)))
+        }
         None => None,
     };
     let pipeline = Pipeline { tree: &tree, options, passes, reference: &Reference::new(&tree), pruning };

@@ -179,4 +179,36 @@ impl<P> Tree<P> {
         order.sort_by_key(|&body| self.bodies[body].v.start);
         order
     }
+
+    /// For each velocity what belongs to its joint, from one value for each moving joint in the model's order.
+    pub fn per_velocity<T: Clone>(&self, of_joints: impl IntoIterator<Item = T>) -> Vec<T> {
+        let joints = self.bodies_by_joint().into_iter().zip(of_joints);
+        joints.flat_map(|(body, value)| std::iter::repeat_n(value, self.bodies[body].v.len())).collect()
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::model::Model;
+
+    /// An upper arm on the ground and a forearm on it. The forearm stands first in the file, so that its joint has the
+    /// first coordinate and the first velocity.
+    pub fn arm() -> Tree {
+        let text = "name = 'arm'\ngravity = [0, 0, -9.81]\n\n\
+            [[link]]\nname = 'fore'\nparent = 'upper'\njoint = 'revolute'\norigin = { xyz = [1, 0, 0] }\n\
+            axis = [0, 1, 0]\nmass = 1.0\ncom = [0.5, 0, 0]\n\n\
+            [[link]]\nname = 'upper'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 1, 0]\nmass = 2.0\n\
+            com = [0.5, 0, 0]\n";
+        let arm = Model::from_toml(text, "arm.toml").unwrap_or_else(|faults| panic!("{faults}"));
+        Tree::new(&arm.model)
+    }
+
+    #[test]
+    fn each_velocity_has_what_belongs_to_its_joint() {
+        let mut tree = arm();
+        let [upper, fore] = &mut tree.bodies[..] else { panic!("two bodies") };
+        (fore.v, upper.v) = (0..3, 3..5);
+        assert_eq!(tree.per_velocity(["fore", "upper"]), ["fore", "fore", "fore", "upper", "upper"]);
+    }
 }

@@ -84,7 +84,7 @@ struct AsGenerated;
 impl Trace<f64> for AsGenerated {}
 
 impl<'a> Reference<'a> {
-    /// The robot `tree`, at coordinates within ±π rad or ±1 m.
+    /// The robot `tree`, at positions within ±π rad or ±1 m of the zero position.
     pub fn new(tree: &'a Tree) -> Self {
         Reference::at(tree, 0)
     }
@@ -157,36 +157,37 @@ impl<'a> Reference<'a> {
 impl State {
     /// State number `index` of a motion; `None` if a value is not finite there.
     fn new(tree: &Tree, seed: u64, index: usize, motion: Motion) -> Option<Self> {
-        let joints = tree.nv();
+        let nv = tree.nv();
         let mut random = Random::new(1000 * seed + 10 * index as u64 + motion as u64 + 1);
-        let mut shares = || (0..joints).map(|_| random.share(false)).collect::<Vec<f64>>();
-        let [mut q, mut v, mut a] = [shares(), shares(), shares()];
+        let mut shares = || (0..nv).map(|_| random.share(false)).collect::<Vec<f64>>();
+        let [mut displacement, mut v, mut a] = [shares(), shares(), shares()];
         for body in &tree.bodies {
             let range = if body.joint.screw().turn == 0.0 { 1.0 } else { PI };
-            q[body.q.clone()].iter_mut().for_each(|q| *q *= range);
+            displacement[body.v.clone()].iter_mut().for_each(|displacement| *displacement *= range);
         }
-        let diagonal = denoc::mass_matrix(tree, &Untraced, &q).into_iter().enumerate().map(|(joint, row)| row[joint]);
+        let q = denoc::integrate(tree, &denoc::neutral::<f64>(tree), &displacement);
+        let diagonal = denoc::mass_matrix(tree, &Untraced, &q).into_iter().enumerate().map(|(i, row)| row[i]);
         let weights: Vec<f64> = diagonal.map(f64::sqrt).collect();
-        for joint in 0..joints {
+        for (i, weight) in weights.iter().enumerate() {
             let speed = match motion {
                 Motion::LikeSpeeds => 1.0,
-                Motion::LikeEnergies => 1.0 / weights[joint],
+                Motion::LikeEnergies => 1.0 / weight,
                 Motion::Rest => 0.0,
             };
-            v[joint] *= 3.0 * speed;
-            a[joint] *= 10.0 * speed;
+            v[i] *= 3.0 * speed;
+            a[i] *= 10.0 * speed;
         }
         let exactly = |function: Function, state: &State| {
             let arguments: Vec<Vec<DoubleDouble>> = state.arguments(function).into_iter().map(exact).collect();
             let arguments: Vec<&[DoubleDouble]> = arguments.iter().map(Vec::as_slice).collect();
             rounded(denoc::evaluate(function, tree, &Untraced, &arguments))
         };
-        let mut state = State { motion, q, v, a, tau: vec![0.0; joints], weights, exact: Vec::new() };
+        let mut state = State { motion, q, v, a, tau: vec![0.0; nv], weights, exact: Vec::new() };
         if motion != Motion::Rest {
             state.tau = exactly(Function::InverseDynamics, &state);
         }
         for function in MEASURED {
-            if function != Function::MassMatrix || joints <= LARGEST_MATRIX {
+            if function != Function::MassMatrix || nv <= LARGEST_MATRIX {
                 state.exact.push((function, exactly(function, &state)));
             }
         }
@@ -253,4 +254,28 @@ fn perturb(random: &mut Random, numbers: &mut [f64]) {
 /// The larger of two errors; NaN counts as infinite.
 fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use redysim_model::Model;
+
+    /// A joint of two coordinates and one velocity: what moves it stands in the first coordinate.
+    #[test]
+    fn a_joint_may_have_more_coordinates_than_velocities() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/gripper.toml");
+        let tree = Tree::new(&Model::load(path).unwrap().model);
+        let mut wider = tree.clone();
+        for (index, body) in wider.bodies.iter_mut().enumerate() {
+            body.q = 2 * index..2 * index + 2;
+        }
+        let known = State::new(&tree, 0, 0, Motion::LikeSpeeds).unwrap();
+        let state = State::new(&wider, 0, 0, Motion::LikeSpeeds).unwrap();
+        assert_eq!((state.q.len(), state.v.len()), (2 * tree.nv(), tree.nv()));
+        for (narrow, body) in tree.bodies.iter().zip(&wider.bodies) {
+            assert_eq!(state.q[body.q.clone()], [known.q[narrow.q.start], 0.0]);
+        }
+        assert_eq!(state.exact, known.exact);
+    }
 }

@@ -3,7 +3,6 @@
 use super::columns::{Columns, evaluate, live, sign};
 use crate::expressions::Expressions;
 use crate::random::Random;
-use redysim_model::Body;
 use redysim_model::denoc;
 use redysim_model::{JointRange, Tree};
 
@@ -44,7 +43,7 @@ impl States<'_> {
         let [mut v, mut a] = [0; 2].map(|_| Columns::new(self.ranges.len(), states));
         let mut q = Columns::new(self.tree.nq(), states);
         let neutral: Vec<f64> = denoc::neutral(self.tree);
-        let (mut displacement, mut moved) = (vec![0.0; self.ranges.len()], neutral.clone());
+        let mut displacement = vec![0.0; self.ranges.len()];
         for state in 0..states {
             let corners = random.bits();
             for (index, JointRange { position: [least, largest], velocity, acceleration, .. }) in
@@ -55,10 +54,8 @@ impl States<'_> {
                 v.column_mut(index)[state] = velocity * random.share(corners & 8 == 0);
                 a.column_mut(index)[state] = acceleration * random.share(corners & 16 == 0);
             }
-            for Body { joint, q, v, .. } in &self.tree.bodies {
-                joint.integrate(&neutral[q.clone()], &displacement[v.clone()], &mut moved[q.clone()]);
-            }
-            for (index, &moved) in moved.iter().enumerate() {
+            let moved = denoc::integrate(self.tree, &neutral, &displacement);
+            for (index, moved) in moved.into_iter().enumerate() {
                 q.column_mut(index)[state] = moved;
             }
         }

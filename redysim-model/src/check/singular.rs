@@ -15,38 +15,45 @@ const ROUNDOFF: f64 = 1e-12;
 /// The links whose joints make the mass matrix singular, each with its message. Called for a model without errors.
 pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
     let tree = Tree::new(model);
+    let moving = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0);
+    let link_of_velocity = tree.per_velocity(moving);
+    let report = |body: usize| {
+        let Body { joint, ref v, .. } = tree.bodies[body];
+        let link = link_of_velocity[v.start];
+        (link, messages::singular_mass_matrix(&model.links[link].name, &model.links[link].joint_name, joint))
+    };
+    without_inertia(&tree).into_iter().map(report).collect()
+}
+
+/// The bodies whose joints are met by no inertia at any position.
+fn without_inertia(tree: &Tree) -> Vec<usize> {
     // A joint meets at least the inertia of its own body, so only bodies without any about their axis are in question.
-    let mut suspects: Vec<usize> = (0..tree.nv()).filter(|&body| !meets_own_inertia(&tree.bodies[body])).collect();
+    let mut suspects: Vec<usize> = tree.outward().filter(|&body| !meets_own_inertia(&tree.bodies[body])).collect();
     for position in 0..POSITIONS {
         if suspects.is_empty() {
             return Vec::new();
         }
-        let free = pivotless(&tree, &mass_matrix(&tree, &Untraced, &tree.sample(position)));
+        let free = pivotless(tree, &mass_matrix(tree, &Untraced, &tree.sample(position)));
         suspects.retain(|body| free.contains(body));
     }
-    let moving: Vec<usize> = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0).collect();
-    let report = |body: usize| {
-        let link = moving[tree.bodies[body].v.start];
-        let Body { joint, .. } = tree.bodies[body];
-        (link, messages::singular_mass_matrix(&model.links[link].name, &model.links[link].joint_name, joint))
-    };
-    suspects.into_iter().map(report).collect()
+    suspects
 }
 
 fn meets_own_inertia(body: &Body) -> bool {
     body.joint.meets(body.inertia) > ROUNDOFF
 }
 
-/// The bodies whose pivot in the elimination of a symmetric `matrix` over the coordinates, from the tips to the ground,
-/// is nothing but roundoff.
+/// The bodies of which a velocity has a pivot that is nothing but roundoff, in the elimination of a symmetric `matrix`
+/// over the velocities, from the tips to the ground.
 pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>]) -> Vec<usize> {
-    let at: Vec<usize> = tree.bodies.iter().map(|body| body.v.start).collect();
+    let of_body = |body: usize| tree.bodies[body].v.clone().map(move |velocity| (body, velocity));
+    let (body_of, at): (Vec<usize>, Vec<usize>) = tree.outward().flat_map(of_body).unzip();
     let mut reduced: Vec<Vec<f64>> = at.iter().map(|&i| at.iter().map(|&j| matrix[i][j]).collect()).collect();
     let mut without = Vec::new();
-    for k in (0..tree.nv()).rev() {
+    for k in (0..at.len()).rev() {
         let pivot = reduced[k][k];
         if pivot <= ROUNDOFF * matrix[at[k]][at[k]] {
-            without.push(k);
+            without.push(body_of[k]);
             continue;
         }
         let column: Vec<f64> = reduced.iter().map(|row| row[k]).collect();
@@ -56,5 +63,34 @@ pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>]) -> Vec<usize> {
             }
         }
     }
+    without.dedup();
     without
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{pivotless, without_inertia};
+    use crate::pseudo::PseudoInertia;
+    use crate::tree::tests::arm;
+
+    /// The forearm has the velocity 0, the upper arm 1 and 2; 2 alone is met by no inertia.
+    #[test]
+    fn a_body_of_two_velocities_is_pivotless_where_one_of_them_is() {
+        let mut tree = arm();
+        tree.bodies[0].v = 1..3;
+        let mut matrix = [[2.0, 1.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 0.0]].map(Vec::from);
+        assert_eq!(pivotless(&tree, &matrix), [0]);
+        matrix[2][2] = 1.0;
+        assert_eq!(pivotless(&tree, &matrix), [0_usize; 0]);
+        matrix[0][0] = 0.0;
+        assert_eq!(pivotless(&tree, &matrix), [1]);
+    }
+
+    #[test]
+    fn a_joint_without_inertia_is_found_behind_a_joint_of_two_velocities() {
+        let mut tree = arm();
+        tree.bodies[0].v = 1..3;
+        tree.bodies[1].inertia = PseudoInertia::zero();
+        assert_eq!(without_inertia(&tree), [1]);
+    }
 }
