@@ -88,10 +88,14 @@ pub use redysim_runtime::*;
 #[cfg(feature = "generic")]
 pub mod generic {
     pub use redysim_model::denoc::Workspace;
+    pub use redysim_model::inertia::Sym3;
+    pub use redysim_model::joint::Joint;
+    pub use redysim_model::pseudo::PseudoInertia;
     pub use redysim_model::spatial::{Mat3, Pose, Vec3};
     pub use redysim_model::{
-        CutKind, CutSide, Diagnostic, Diagnostics, Faults, GenericMechanism, Inertia, JointKind, JointRange, Link,
-        Loaded, LockError, Loop, Mobility, Model, Severity,
+        AccelerationMethod, Attachment, Body, CodegenOptions, Cut, CutEnd, CutKind, CutSide, Diagnostic, Diagnostics,
+        Faults, GenericMechanism, Inertia, JointKind, JointRange, Link, Loaded, LockError, Loop, Mobility, Model,
+        PublicInterface, Severity, Tree,
     };
 }
 

@@ -1,7 +1,7 @@
 //! On random trees the recursions, the base parameters and the traced expressions agree with Kane's equations.
 //!
-//! Two hundred trees of up to twelve joints: revolute, prismatic and fixed, branching, oblique, links in scrambled
-//! order.
+//! Two hundred trees of up to twelve joints: revolute, prismatic, helical and fixed, branching, oblique, links in
+//! scrambled order.
 
 mod common;
 

@@ -1,8 +1,10 @@
 //! The generic path: the recursions at `f64` (or any other scalar), driven by a model that is read at run time.
 
 use crate::denoc::{self, Method, Untraced, Workspace};
+use crate::joint::Joint;
 use crate::model::Model;
 use crate::tree::Tree;
+use redysim_runtime::function::Dimension::{self, Coordinates, Velocities};
 use redysim_runtime::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
     LengthMismatch, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
@@ -19,13 +21,21 @@ use redysim_runtime::{
 pub struct GenericMechanism {
     model: Model,
     tree: Tree,
+    coordinate_names: Vec<String>,
+    velocity_names: Vec<String>,
 }
 
 impl GenericMechanism {
     /// The mechanism of a checked model.
     pub fn new(model: Model) -> Self {
         let tree = Tree::new(&model);
-        GenericMechanism { model, tree }
+        let joints: Vec<(&str, Joint)> =
+            model.moving_links().filter_map(|link| Some((link.joint_name.as_str(), Joint::of(link)?))).collect();
+        let names = |components: fn(Joint) -> &'static [&'static str]| {
+            joints.iter().flat_map(|&(name, joint)| component_names(name, components(joint))).collect()
+        };
+        let (coordinate_names, velocity_names) = (names(Joint::coordinate_names), names(Joint::velocity_names));
+        GenericMechanism { model, tree, coordinate_names, velocity_names }
     }
 
     /// The model.
@@ -38,8 +48,8 @@ impl GenericMechanism {
         &self.tree
     }
 
-    /// [`InverseDynamics::inverse_dynamics`], written to `tau`. A `workspace` that is kept from call to call is all the
-    /// memory that is needed: later calls allocate nothing.
+    /// [`InverseDynamics::inverse_dynamics`], written to `tau`. The `workspace` is all the memory that is needed: with one
+    /// [for this tree](Workspace::for_tree) no call allocates.
     ///
     /// ```
     /// use redysim_model::denoc::Workspace;
@@ -48,7 +58,7 @@ impl GenericMechanism {
     /// # let pendulum = "name = 'pendulum'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
     /// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 2.0\ncom = [0.5, 0, 0]";
     /// let pendulum = GenericMechanism::new(Model::from_toml(pendulum, "pendulum.toml")?.model);
-    /// let (mut workspace, mut tau) = (Workspace::default(), [0.0]);
+    /// let (mut workspace, mut tau) = (Workspace::for_tree(pendulum.tree()), [0.0]);
     /// for step in 0..1000 {
     ///     let q = 0.001 * f64::from(step);
     ///     pendulum.inverse_dynamics_in(&mut workspace, &[q], &[0.0], &[0.0], &mut tau);
@@ -64,7 +74,7 @@ impl GenericMechanism {
         a: &[S],
         tau: &mut [S],
     ) {
-        self.check(&[("q", q), ("v", v), ("a", a), ("tau", tau)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v), ("a", Velocities, a), ("tau", Velocities, tau)]);
         denoc::inverse_dynamics_in(workspace, &self.tree, &Untraced, q, v, a, tau);
     }
 
@@ -77,28 +87,36 @@ impl GenericMechanism {
         tau: &[S],
         a: &mut [S],
     ) {
-        self.check(&[("q", q), ("v", v), ("tau", tau), ("a", a)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v), ("tau", Velocities, tau), ("a", Velocities, a)]);
         denoc::forward_dynamics_in(workspace, &self.tree, &Untraced, q, v, tau, a);
     }
 
     /// [`MassMatrix::mass_matrix`], written by rows to `matrix` of length NV², in the room of `workspace`.
     pub fn mass_matrix_in<S: Scalar>(&self, workspace: &mut Workspace<S>, q: &[S], matrix: &mut [S]) {
-        self.check(&[("q", q)]);
-        self.check_length("matrix", matrix, self.tree.nv().pow(2));
+        self.check(&[("q", Coordinates, q)]);
+        self.check_length("matrix", matrix, self.size(Velocities).pow(2));
         denoc::mass_matrix_in(workspace, &self.tree, &Untraced, q, matrix);
     }
 
-    /// Panics with the first vector of wrong length: coordinates are those whose names begin with q.
-    fn check<S>(&self, vectors: &[(&'static str, &[S])]) {
-        let (nq, nv) = (self.tree.nq(), self.tree.nv());
-        for (name, vector) in vectors {
-            self.check_length(name, vector, if name.starts_with('q') { nq } else { nv });
+    /// Panics with the first vector whose length is not its dimension.
+    fn check<S>(&self, vectors: &[(&'static str, Dimension, &[S])]) {
+        for (name, dimension, vector) in vectors {
+            self.check_length(name, vector, self.size(*dimension));
+        }
+    }
+
+    fn size(&self, dimension: Dimension) -> usize {
+        match dimension {
+            Coordinates => self.coordinate_names.len(),
+            Velocities => self.velocity_names.len(),
+            Dimension::Links => self.tree.links.len(),
+            Dimension::LoopRows => self.tree.loops_of_rows().count(),
         }
     }
 
     fn check_length<S>(&self, name: &'static str, vector: &[S], expected: usize) {
         if let Err(mismatch) = LengthMismatch::check(name, vector, expected) {
-            let (nq, nv) = (self.tree.nq(), self.tree.nv());
+            let (nq, nv) = (self.size(Coordinates), self.size(Velocities));
             panic!("{mismatch}: `{}` has {nq} coordinates and {nv} velocities", self.model.name);
         }
     }
@@ -109,13 +127,13 @@ impl Mechanism for GenericMechanism {
         &self.model.name
     }
     fn nq(&self) -> usize {
-        self.tree.nq()
+        self.size(Coordinates)
     }
     fn nv(&self) -> usize {
-        self.tree.nv()
+        self.size(Velocities)
     }
     fn nl(&self) -> usize {
-        self.model.links.len()
+        self.size(Dimension::Links)
     }
     fn link_name(&self, index: usize) -> Option<&str> {
         self.model.links.get(index).map(|link| link.name.as_str())
@@ -123,6 +141,21 @@ impl Mechanism for GenericMechanism {
     fn joint_name(&self, index: usize) -> Option<&str> {
         self.model.moving_links().nth(index).map(|link| link.joint_name.as_str())
     }
+    fn coordinate_name(&self, index: usize) -> Option<&str> {
+        self.coordinate_names.get(index).map(String::as_str)
+    }
+    fn velocity_name(&self, index: usize) -> Option<&str> {
+        self.velocity_names.get(index).map(String::as_str)
+    }
+}
+
+/// The names of the coordinates or velocities of the joint `name`: its own, if it has one only.
+fn component_names<'a>(name: &'a str, components: &'a [&str]) -> impl Iterator<Item = String> + 'a {
+    let of = move |component: &&str| match components.len() {
+        1 => name.to_owned(),
+        _ => format!("{name}.{component}"),
+    };
+    components.iter().map(of)
 }
 
 impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
@@ -133,18 +166,18 @@ impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
     type Links = Vec<LinkState<S>>;
 
     fn coordinate_rates(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q), ("v", v)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::coordinate_rates(&self.tree, q, v)
     }
     fn coordinate_rates_tangent(&self, q: &Vec<S>, v: &Vec<S>, dq: &Vec<S>) -> Option<Vec<S>> {
         Some(redysim_runtime::coordinate_rates_tangent(self, q, v, dq))
     }
     fn integrate(&self, q: &Vec<S>, dv: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q), ("dv", dv)]);
+        self.check(&[("q", Coordinates, q), ("dv", Velocities, dv)]);
         denoc::integrate(&self.tree, q, dv)
     }
     fn difference(&self, q0: &Vec<S>, q1: &Vec<S>) -> Vec<S> {
-        self.check(&[("q0", q0), ("q1", q1)]);
+        self.check(&[("q0", Coordinates, q0), ("q1", Coordinates, q1)]);
         denoc::difference(&self.tree, q0, q1)
     }
     fn neutral(&self) -> Vec<S> {
@@ -154,7 +187,7 @@ impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
 
 impl<S: Scalar> InverseDynamics<S> for GenericMechanism {
     fn inverse_dynamics(&self, q: &Vec<S>, v: &Vec<S>, a: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q), ("v", v), ("a", a)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v), ("a", Velocities, a)]);
         denoc::inverse_dynamics(&self.tree, &Untraced, q, v, a)
     }
     fn inverse_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
@@ -165,7 +198,7 @@ impl<S: Scalar> InverseDynamics<S> for GenericMechanism {
 impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
     /// By the O(n) recursion, which stays accurate for chains of any length.
     fn forward_dynamics(&self, q: &Vec<S>, v: &Vec<S>, tau: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q), ("v", v), ("tau", tau)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v), ("tau", Velocities, tau)]);
         denoc::forward_dynamics(Method::Recursion, &self.tree, &Untraced, q, v, tau)
     }
     fn forward_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Vec<S>> {
@@ -175,49 +208,49 @@ impl<S: Scalar> ForwardDynamics<S> for GenericMechanism {
 
 impl<S: Scalar> MassMatrix<S> for GenericMechanism {
     fn mass_matrix(&self, q: &Vec<S>) -> Vec<Vec<S>> {
-        self.check(&[("q", q)]);
+        self.check(&[("q", Coordinates, q)]);
         denoc::mass_matrix(&self.tree, &Untraced, q)
     }
 }
 
 impl<S: Scalar> BiasForces<S> for GenericMechanism {
     fn bias_forces(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q), ("v", v)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::bias_forces(&self.tree, &Untraced, q, v)
     }
 }
 
 impl<S: Scalar> GravityForces<S> for GenericMechanism {
     fn gravity_forces(&self, q: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q)]);
+        self.check(&[("q", Coordinates, q)]);
         denoc::gravity_forces(&self.tree, &Untraced, q)
     }
 }
 
 impl<S: Scalar> MechanicalEnergy<S> for GenericMechanism {
     fn energy(&self, q: &Vec<S>, v: &Vec<S>) -> Energy<S> {
-        self.check(&[("q", q), ("v", v)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::energy(&self.tree, &Untraced, q, v)
     }
 }
 
 impl<S: Scalar> MassCenter<S> for GenericMechanism {
     fn center_of_mass(&self, q: &Vec<S>, v: &Vec<S>) -> CenterOfMass<S> {
-        self.check(&[("q", q), ("v", v)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::center_of_mass(&self.tree, &Untraced, q, v)
     }
 }
 
 impl<S: Scalar> LinkKinematics<S> for GenericMechanism {
     fn link_kinematics(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<LinkState<S>> {
-        self.check(&[("q", q), ("v", v)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::link_kinematics(&self.tree, &Untraced, q, v)
     }
 }
 
 impl LoopRows for GenericMechanism {
     fn nc(&self) -> usize {
-        self.tree.loops_of_rows().count()
+        self.size(Dimension::LoopRows)
     }
     fn loop_name(&self, row: usize) -> Option<&str> {
         self.tree.loops_of_rows().nth(row).map(|index| self.model.loops[index].name.as_str())
@@ -230,15 +263,27 @@ impl<S: Scalar> LoopClosure<S, GenericMechanism> for GenericMechanism {
     type Gram = Vec<Vec<S>>;
 
     fn loop_residual(&self, q: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q)]);
+        self.check(&[("q", Coordinates, q)]);
         denoc::loop_residual(&self.tree, &Untraced, q)
     }
     fn loop_jacobian(&self, q: &Vec<S>) -> Vec<Vec<S>> {
-        self.check(&[("q", q)]);
+        self.check(&[("q", Coordinates, q)]);
         denoc::loop_jacobian(&self.tree, &Untraced, q)
     }
     fn loop_bias(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
-        self.check(&[("q", q), ("v", v)]);
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::loop_bias(&self.tree, &Untraced, q, v)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::component_names;
+
+    #[test]
+    fn a_joint_of_one_coordinate_gives_it_its_own_name() {
+        let names = |components| component_names("base", components).collect::<Vec<_>>();
+        assert_eq!(names(&["q"]), ["base"]);
+        assert_eq!(names(&["x", "y", "qw"]), ["base.x", "base.y", "base.qw"]);
     }
 }

@@ -93,10 +93,9 @@ fn a_file_that_cannot_be_read_is_a_diagnostic() {
     };
     assert!(shown(models().join("nowhere.toml")).starts_with("cannot read the model file: "));
     assert_eq!(shown(models()), "cannot read the model file: it is a directory");
-    let binary = std::env::temp_dir().join(format!("redysim-not-utf8-{}.toml", std::process::id()));
+    let binary = tempfile::NamedTempFile::new().unwrap();
     fs::write(&binary, b"name = \"\xff\"").unwrap();
-    assert_eq!(shown(binary.clone()), "the model file is not UTF-8 (byte 9)");
-    fs::remove_file(binary).unwrap();
+    assert_eq!(shown(binary.path().to_owned()), "the model file is not UTF-8 (byte 9)");
 }
 
 #[test]

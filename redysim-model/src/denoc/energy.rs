@@ -18,7 +18,7 @@ pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S
         let Twist { angular, linear } = body.parent.map_or(Twist::zero(), |parent| velocities[parent]);
         let linear = frame.to_body(linear + angular.cross(frame.position));
         let carried = Twist { angular: frame.to_body(angular), linear };
-        let velocity = body.joint.screw().added(carried, v[body.v.start]);
+        let velocity = body.joint.added(carried, &v[body.v.clone()]);
         trace.name_twist(velocity, ["w", "vel"], index);
         twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), velocity);
         velocities.push(velocity);

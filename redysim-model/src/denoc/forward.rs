@@ -6,7 +6,7 @@ use super::frame::{JointFrame, joint_frames_in};
 use super::inverse::bias_forces;
 use super::mass_matrix::mass_matrix;
 use super::trace::Trace;
-use super::workspace::Workspace;
+use super::workspace::{BiasAcceleration, Pivot, Workspace};
 use crate::inertia::RigidInertia;
 use crate::joint::Screw;
 use crate::parameter::ParameterIn;
@@ -109,7 +109,7 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         if let Some(parent) = body.parent {
             let felt = inertia.project_through_joint(screw, column, ratio);
             let wrench = bias + felt.apply(biases[index].acceleration) + ratio.scale(drive);
-            let wrench = screw.with_force(wrench, tau[body.v.start]);
+            let wrench = body.joint.with_forces(wrench, &tau[body.v.clone()]);
             wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
         }
@@ -149,23 +149,6 @@ fn power<S: Scalar>(screw: Screw, mut ratio: Wrench<S>, acceleration: Twist<S>) 
     }
 }
 
-/// One step of the elimination: 1/D, U/D and the force left to accelerate the joint.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pivot<S> {
-    inverse: S,
-    ratio: Wrench<S>,
-    drive: S,
-}
-
-/// What velocities alone do to a body.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BiasAcceleration<S> {
-    /// Angular velocity ω, in the body's frame.
-    angular: Vec3<S>,
-    /// Acceleration against the parent at zero joint acceleration.
-    acceleration: Twist<S>,
-}
-
 fn bias_accelerations<S: Scalar>(
     biases: &mut Vec<BiasAcceleration<S>>,
     tree: &Tree<impl ParameterIn<S>>,
@@ -177,15 +160,13 @@ fn bias_accelerations<S: Scalar>(
     biases.reserve(tree.bodies.len());
     trace.sweep("velocities", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let (screw, rate) = (body.joint.screw(), v[body.v.start]);
+        let v = &v[body.v.clone()];
         let parent = body.parent.map_or(Vec3::zero(), |parent| biases[parent].angular);
         let centripetal = frame.to_body(parent.cross(parent.cross(frame.position)));
-        let mut angular = frame.to_body(parent);
-        let across = screw.bias(angular, rate);
+        let carried = frame.to_body(parent);
+        let across = body.joint.bias(carried, v);
         let acceleration = Twist { angular: across.angular, linear: centripetal + across.linear };
-        if let Some(turn) = screw.turn(rate) {
-            angular[2] += turn;
-        }
+        let Twist { angular, .. } = body.joint.added(Twist { angular: carried, linear: Vec3::zero() }, v);
         trace.name_vector(angular, "w", index);
         trace.name_twist(acceleration, ["drift_n", "drift_f"], index);
         biases.push(BiasAcceleration { angular, acceleration });

@@ -71,8 +71,8 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         let fixed = Mat3::constant(rotation);
         let mut position = rotated(parent, Vec3::constant(position));
         let parent_rotation = parent.filter(|_| !body.is_parallel());
-        if let Some(slide) = body.joint.screw().slide(q[body.q.start]) {
-            position = position + rotated(parent_rotation, fixed.column(2)).scale(slide);
+        if let Some(displacement) = body.joint.position(&q[body.q.clone()]).displacement {
+            position = position + rotated(parent_rotation, fixed.column(2)).scale(displacement);
         }
         let along_axis = parent_rotation.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (rotation_about_z, body_rotation) =
@@ -107,15 +107,12 @@ fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree<impl C
     angles.clear();
     angles.reserve(tree.bodies.len());
     for body in &tree.bodies {
-        let q = q[body.q.start];
         let merged_parent = body.parent.filter(|&parent| tree.bodies[parent].merged_parallel && body.is_parallel());
-        let [near] = if body.merged_parallel || merged_parent.is_some() || body.offset != 0.0 {
-            S::without_turns([q])
-        } else {
-            [q]
-        };
-        let offset = |turn: S| if body.offset == 0.0 { turn } else { turn + S::from_f64(body.offset) };
-        let own = body.joint.screw().turn(near).map(offset);
+        let is_term = body.merged_parallel || merged_parent.is_some() || body.offset != 0.0;
+        let own = body.joint.position(&q[body.q.clone()]).angle.map(|angle| {
+            let [near] = if is_term { S::without_turns([angle]) } else { [angle] };
+            if body.offset == 0.0 { near } else { near + S::from_f64(body.offset) }
+        });
         let carried = merged_parent.and_then(|parent| angles[parent]).map(|angle| {
             let opposite = body.placement.rotation.0[2][2] < 0.0;
             if opposite { -angle.value } else { angle.value }

@@ -2,7 +2,7 @@
 
 use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
-use super::workspace::Workspace;
+use super::workspace::{BodyMotion, Workspace};
 use crate::inertia::Sym3;
 use crate::joint::Screw;
 use crate::parameter::ParameterIn;
@@ -10,19 +10,6 @@ use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Vec3, Wrench};
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
-
-/// Motion of a body in its own frame. Gravity is an acceleration of the ground, so it needs no forces of its own.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BodyMotion<S> {
-    /// Angular velocity ω.
-    angular: Vec3<S>,
-    /// Angular acceleration ω̇.
-    angular_acceleration: Vec3<S>,
-    /// U = ω̇× + (ω×)², which takes a point fixed to the body to its acceleration against the origin.
-    angular_acceleration_tensor: Mat3<S>,
-    /// Acceleration of the origin, less gravity.
-    acceleration: Vec3<S>,
-}
 
 impl<S: Scalar> BodyMotion<S> {
     fn new(angular: Vec3<S>, angular_acceleration: Vec3<S>, acceleration: Vec3<S>) -> Self {
@@ -175,7 +162,7 @@ pub fn inverse_dynamics_in<S: Scalar>(
         let wrench = loads.fold(wrenches[index], |sum, load| sum + load);
         trace.name_wrench(wrench, ["moment", "force"], index);
         wrenches[index] = wrench;
-        tau[body.v.start] = body.joint.screw().project(wrench);
+        body.joint.project(wrench, &mut tau[body.v.clone()]);
         trace.name(tau[body.v.start], "tau", index, "");
     });
 }

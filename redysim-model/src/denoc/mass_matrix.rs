@@ -2,7 +2,7 @@
 
 use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
-use super::workspace::Workspace;
+use super::workspace::{Composite, Workspace};
 use crate::inertia::Sym3;
 use crate::joint::Screw;
 use crate::parameter::ParameterIn;
@@ -68,14 +68,6 @@ fn find_planar(planar: &mut Vec<bool>, tree: &Tree<impl Copy>) {
     for body in &tree.bodies {
         planar.push(body.parent.is_none_or(|parent| body.is_parallel() && planar[parent]));
     }
-}
-
-/// A body and all it carries, as one rigid body.
-#[derive(Clone, Debug)]
-pub(super) struct Composite<S> {
-    inertia: PseudoInertia<S>,
-    /// The moment of inertia about z, Σ_xx + Σ_yy. A body that turns about z only has no other use for these two.
-    polar: S,
 }
 
 impl<S: Scalar> Composite<S> {

@@ -1,16 +1,13 @@
 //! Buffers of the recursions.
 
 use super::articulated::ArticulatedInertia;
-use super::forward::{BiasAcceleration, Pivot};
 use super::frame::{Angle, JointFrame};
-use super::inverse::BodyMotion;
-use super::mass_matrix::Composite;
-use crate::spatial::{Twist, Wrench};
+use crate::pseudo::PseudoInertia;
+use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use crate::tree::Tree;
 
-/// The buffers of the recursions over a tree. One that is reused is large enough after the first call, so that later
-/// calls allocate nothing: see
-/// [`GenericMechanism::inverse_dynamics_in`](crate::GenericMechanism::inverse_dynamics_in).
+/// The buffers of the recursions over a tree. With one [for the tree](Workspace::for_tree) no call of
+/// [`GenericMechanism::inverse_dynamics_in`](crate::GenericMechanism::inverse_dynamics_in) and its like allocates.
 #[derive(Clone, Debug)]
 pub struct Workspace<S> {
     pub(super) angles: Vec<Option<Angle<S>>>,
@@ -27,27 +24,76 @@ pub struct Workspace<S> {
 }
 
 impl<S> Default for Workspace<S> {
-    /// Empty buffers. The first call allocates those that it needs.
+    /// Empty buffers. A call allocates what its tree needs beyond those before.
     fn default() -> Self {
+        Workspace::for_bodies(0)
+    }
+}
+
+impl<S> Workspace<S> {
+    /// Buffers of the size that the recursions over `tree` need.
+    pub fn for_tree<P>(tree: &Tree<P>) -> Self {
+        Workspace::for_bodies(tree.bodies.len())
+    }
+
+    fn for_bodies(count: usize) -> Self {
         Workspace {
-            angles: Vec::new(),
-            frames: Vec::new(),
-            children: Children::default(),
-            motions: Vec::new(),
-            wrenches: Vec::new(),
-            biases: Vec::new(),
-            inertias: Vec::new(),
-            pivots: Vec::new(),
-            accelerations: Vec::new(),
-            planar: Vec::new(),
-            composites: Vec::new(),
+            angles: Vec::with_capacity(count),
+            frames: Vec::with_capacity(count),
+            children: Children(Vec::with_capacity(count)),
+            motions: Vec::with_capacity(count),
+            wrenches: Vec::with_capacity(count),
+            biases: Vec::with_capacity(count),
+            inertias: Vec::with_capacity(count),
+            pivots: Vec::with_capacity(count),
+            accelerations: Vec::with_capacity(count),
+            planar: Vec::with_capacity(count),
+            composites: Vec::with_capacity(count),
         }
     }
 }
 
+/// Motion of a body in its own frame. Gravity is an acceleration of the ground, so it needs no forces of its own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BodyMotion<S> {
+    /// Angular velocity ω.
+    pub angular: Vec3<S>,
+    /// Angular acceleration ω̇.
+    pub angular_acceleration: Vec3<S>,
+    /// U = ω̇× + (ω×)², which takes a point fixed to the body to its acceleration against the origin.
+    pub angular_acceleration_tensor: Mat3<S>,
+    /// Acceleration of the origin, less gravity.
+    pub acceleration: Vec3<S>,
+}
+
+/// What velocities alone do to a body.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BiasAcceleration<S> {
+    /// Angular velocity ω, in the body's frame.
+    pub angular: Vec3<S>,
+    /// Acceleration against the parent at zero joint acceleration.
+    pub acceleration: Twist<S>,
+}
+
+/// One step of the elimination: 1/D, U/D and the force left to accelerate the joint.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pivot<S> {
+    pub inverse: S,
+    pub ratio: Wrench<S>,
+    pub drive: S,
+}
+
+/// A body and all it carries, as one rigid body.
+#[derive(Clone, Debug)]
+pub(super) struct Composite<S> {
+    pub inertia: PseudoInertia<S>,
+    /// The moment of inertia about z, Σ_xx + Σ_yy. A body that turns about z only has no other use for these two.
+    pub polar: S,
+}
+
 /// For each body its first child, and the next child of its parent: found in a time that grows with the number of
 /// bodies.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Children(Vec<[Option<usize>; 2]>);
 
 impl Children {

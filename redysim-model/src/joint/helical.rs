@@ -1,13 +1,20 @@
 //! A joint that turns its body about z and moves it along in proportion, as a screw does.
 
-use super::{AxisMass, Screw, Vanishing};
+use super::{AxisMass, JointPosition, Screw, Vanishing};
 use crate::inertia::Sym3;
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
+use redysim_runtime::Scalar;
 
 #[inline]
 pub fn screw(pitch: f64) -> Screw {
     Screw { turn: 1.0, slide: pitch }
+}
+
+/// The coordinate is the angle.
+#[inline]
+pub fn position<S: Scalar>(pitch: f64, q: S) -> JointPosition<S> {
+    JointPosition { angle: Some(q), displacement: Some(S::from_f64(pitch) * q) }
 }
 
 /// Mass on the axis moves along it, so of what a revolute joint shares the second moment alone is left.

@@ -2,9 +2,19 @@
 
 use redysim_runtime::Scalar;
 
+/// The coordinates of a joint of one freedom.
+pub const COORDINATE_NAMES: &[&str] = &["q"];
+/// The velocities of a joint of one freedom.
+pub const VELOCITY_NAMES: &[&str] = &["v"];
+
 /// N(q) v = v.
 pub fn coordinate_rates<S: Scalar>(v: &[S], rates: &mut [S]) {
     rates.copy_from_slice(v);
+}
+
+/// The inverse of N(q) v = v.
+pub fn velocities<S: Scalar>(rates: &[S], v: &mut [S]) {
+    v.copy_from_slice(rates);
 }
 
 /// q + dv.

@@ -4,17 +4,19 @@
 //!
 //! | item | what it is |
 //! |---|---|
+//! | `position` | where the body is at given coordinates, a [`JointPosition`] |
 //! | `SCREW`, or a function of the joint's parameters | the motion subspace S in the body's frame: velocity across the joint is S v |
 //! | `split` | which inertia of the body its parent may carry as well, with the same joint forces |
 //! | `meets` | which inertia alone makes the joint's diagonal element of the mass matrix positive |
 //!
-//! and [`Joint`] has a variant that names them and the functions by which its coordinates move, `coordinate_rates`,
-//! `integrate`, `difference` and `neutral`; those of coordinates that add up are in `linear`. From S follow the
-//! transform (a rotation about z by the turn of q, a displacement along z by its slide), the bias acceleration, and the
-//! joint force Sᵀ w of a wrench. The recursions do not depend on the kind of a joint.
+//! and [`Joint`] has a variant that names them and the functions by which its coordinates move, `coordinate_rates` and
+//! its inverse `velocities`, `integrate`, `difference` and `neutral`, with the names of coordinates and velocities; those
+//! of coordinates that add up are in `linear`. From S follow the bias acceleration and the joint force Sᵀ w of a wrench.
+//! The recursions do not depend on the kind of a joint.
 
 mod helical;
 mod linear;
+mod position;
 mod prismatic;
 mod revolute;
 mod screw;
@@ -23,6 +25,8 @@ mod shared;
 use crate::model::{JointKind, Link};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
+use crate::spatial::{Pose, Twist, Vec3, Wrench};
+pub use position::JointPosition;
 use redysim_runtime::Scalar;
 pub use screw::Screw;
 pub use shared::{AxisMass, Vanishing};
@@ -56,13 +60,29 @@ impl Joint {
     /// Number of coordinates.
     #[inline]
     pub fn nq(self) -> usize {
-        1
+        self.coordinate_names().len()
     }
 
     /// Number of velocities.
     #[inline]
     pub fn nv(self) -> usize {
-        1
+        self.velocity_names().len()
+    }
+
+    /// What its coordinates are called among themselves.
+    #[inline]
+    pub fn coordinate_names(self) -> &'static [&'static str] {
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::COORDINATE_NAMES,
+        }
+    }
+
+    /// What its velocities are called among themselves.
+    #[inline]
+    pub fn velocity_names(self) -> &'static [&'static str] {
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::VELOCITY_NAMES,
+        }
     }
 
     /// The rates of its coordinates, q̇ = N(q) v.
@@ -70,6 +90,15 @@ impl Joint {
         let _ = q;
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::coordinate_rates(v, rates),
+        }
+    }
+
+    /// The velocities at which its coordinates have these rates: the inverse of
+    /// [`coordinate_rates`](Joint::coordinate_rates).
+    pub fn velocities<S: Scalar>(self, q: &[S], rates: &[S], v: &mut [S]) {
+        let _ = q;
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::velocities(rates, v),
         }
     }
 
@@ -92,6 +121,46 @@ impl Joint {
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::neutral(q),
         }
+    }
+
+    /// Where the body is.
+    #[inline]
+    pub fn position<S: Scalar>(self, q: &[S]) -> JointPosition<S> {
+        match self {
+            Joint::Revolute => revolute::position(q[0]),
+            Joint::Prismatic => prismatic::position(q[0]),
+            Joint::Helical { pitch } => helical::position(pitch, q[0]),
+        }
+    }
+
+    /// The body's frame in that in which the joint stands.
+    pub fn transform<S: Scalar>(self, q: &[S]) -> Pose<S> {
+        self.position(q).pose()
+    }
+
+    /// `twist` + S v.
+    #[inline]
+    pub fn added<S: Scalar>(self, twist: Twist<S>, v: &[S]) -> Twist<S> {
+        self.screw().added(twist, v[0])
+    }
+
+    /// The acceleration of the body against its parent at zero joint acceleration, where the parent's angular velocity
+    /// is `angular` in the body's axes.
+    #[inline]
+    pub fn bias<S: Scalar>(self, angular: Vec3<S>, v: &[S]) -> Twist<S> {
+        self.screw().bias(angular, v[0])
+    }
+
+    /// Sᵀ w, the joint forces of a wrench.
+    #[inline]
+    pub fn project<S: Scalar>(self, wrench: Wrench<S>, tau: &mut [S]) {
+        tau[0] = self.screw().project(wrench);
+    }
+
+    /// The wrench, of which the joint forces are known to be `tau`, with exactly those.
+    #[inline]
+    pub fn with_forces<S: Scalar>(self, wrench: Wrench<S>, tau: &[S]) -> Wrench<S> {
+        self.screw().with_force(wrench, tau[0])
     }
 
     /// The motion subspace S.
@@ -145,158 +214,4 @@ impl Link {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rotation::about_z;
-    use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
-
-    /// Every joint; a new one is added here.
-    const JOINTS: [Joint; 4] =
-        [Joint::Revolute, Joint::Prismatic, Joint::Helical { pitch: 0.3 }, Joint::Helical { pitch: -0.7 }];
-    /// Step of the differences, whose error is a sixth of its square.
-    const STEP: f64 = 1e-4;
-
-    /// The body's frame in the frame in which the joint stands.
-    fn transform(joint: Joint, q: f64) -> Pose<f64> {
-        let screw = joint.screw();
-        Pose {
-            rotation: screw.turn(q).map_or(Mat3::identity(), about_z),
-            position: Vec3([0.0, 0.0, screw.slide(q).unwrap_or(0.0)]),
-        }
-    }
-
-    /// The twist of a moving pose in its own axes, by differences.
-    fn twist(at: impl Fn(f64) -> Pose<f64>) -> Twist<f64> {
-        let (pose, [before, after]) = (at(0.0), [-STEP, STEP].map(&at));
-        let rates = (after.rotation - before.rotation).0.map(|row| row.map(|x| x / (2.0 * STEP)));
-        let spin = pose.rotation.transpose() * Mat3(rates);
-        let velocity = (after.position - before.position).scale(1.0 / (2.0 * STEP));
-        Twist {
-            angular: Vec3([spin.0[2][1], spin.0[0][2], spin.0[1][0]]),
-            linear: pose.rotation.transpose() * velocity,
-        }
-    }
-
-    fn assert_near(joint: Joint, found: Twist<f64>, expected: Twist<f64>) {
-        for axis in 0..6 {
-            let (found, expected) = (found.component(axis), expected.component(axis));
-            assert!((found - expected).abs() < 1e-7, "{joint:?}, component {axis}: {found} instead of {expected}");
-        }
-    }
-
-    #[test]
-    fn the_velocity_across_a_joint_is_the_derivative_of_its_transform() {
-        for joint in JOINTS {
-            for (q, v) in [(0.0, 1.0), (0.4, -2.0), (-2.5, 0.7)] {
-                let found = joint.screw().added(Twist::zero(), v);
-                assert_near(joint, found, twist(|t| transform(joint, q + v * t)));
-            }
-        }
-    }
-
-    /// On a parent that turns at a constant rate about its origin, which the joint's axis passes.
-    #[test]
-    fn the_bias_acceleration_is_the_derivative_of_the_velocity_at_a_constant_rate() {
-        let parent = Vec3([0.3, -0.5, 0.8]);
-        for joint in JOINTS {
-            let (q, v) = (0.6, 1.4);
-            let velocity = |t: f64| {
-                let pose = transform(joint, q + v * t);
-                let angular = pose.rotation.transpose() * parent;
-                let carried = Twist { angular, linear: pose.rotation.transpose() * parent.cross(pose.position) };
-                (pose, angular, joint.screw().added(carried, v))
-            };
-            let (pose, angular, now) = velocity(0.0);
-            let [(_, _, before), (_, _, after)] = [-STEP, STEP].map(velocity);
-            let change = |after: Vec3<f64>, before: Vec3<f64>| (after - before).scale(1.0 / (2.0 * STEP));
-            // Seen from the base: the derivative in the body's axes and what their rotation adds.
-            let angular_acceleration = change(after.angular, before.angular);
-            let acceleration = change(after.linear, before.linear) + now.angular.cross(now.linear);
-            let centripetal = pose.rotation.transpose() * parent.cross(parent.cross(pose.position));
-            let found = joint.screw().bias(angular, v);
-            let found = Twist { linear: found.linear + centripetal, ..found };
-            assert_near(joint, found, Twist { angular: angular_acceleration, linear: acceleration });
-        }
-    }
-
-    #[test]
-    fn the_joint_force_of_a_wrench_is_its_power_at_a_unit_velocity() {
-        let wrench: Wrench<f64> = Wrench { moment: Vec3([0.2, -0.4, 1.1]), force: Vec3([0.7, 0.9, -0.6]) };
-        for joint in JOINTS {
-            let power = wrench.dot(joint.screw().added(Twist::zero(), 1.0));
-            assert!((joint.screw().project(wrench) - power).abs() < 1e-15, "{joint:?}");
-            let held = joint.screw().with_force(wrench, 2.5);
-            assert!((joint.screw().project(held) - 2.5).abs() < 1e-15, "{joint:?}");
-        }
-    }
-
-    /// Coordinates in general position, and a velocity.
-    fn position_and_velocity(joint: Joint) -> (Vec<f64>, Vec<f64>) {
-        let (mut q, mut neutral) = (vec![0.0; joint.nq()], vec![0.0; joint.nq()]);
-        joint.neutral(&mut neutral);
-        let to: Vec<f64> = (0..joint.nv()).map(|i| 0.4 + 0.3 * i as f64).collect();
-        joint.integrate(&neutral, &to, &mut q);
-        (q, (0..joint.nv()).map(|i| 0.7 - 0.5 * i as f64).collect())
-    }
-
-    #[test]
-    fn the_rates_of_coordinates_are_the_derivative_of_their_motion() {
-        for joint in JOINTS {
-            let (q, v) = position_and_velocity(joint);
-            let at = |time: f64| {
-                let mut moved = vec![0.0; joint.nq()];
-                joint.integrate(&q, &v.iter().map(|v| v * time).collect::<Vec<_>>(), &mut moved);
-                moved
-            };
-            let mut rates = vec![0.0; joint.nq()];
-            joint.coordinate_rates(&q, &v, &mut rates);
-            for ((rate, before), after) in rates.iter().zip(at(-STEP)).zip(at(STEP)) {
-                let difference = (after - before) / (2.0 * STEP);
-                assert!((rate - difference).abs() < 1e-7, "{joint:?}: {rate} instead of {difference}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_difference_of_two_positions_leads_from_one_to_the_other() {
-        for joint in JOINTS {
-            let (q, v) = position_and_velocity(joint);
-            let (mut moved, mut back) = (vec![0.0; joint.nq()], vec![0.0; joint.nv()]);
-            joint.integrate(&q, &v, &mut moved);
-            joint.difference(&q, &moved, &mut back);
-            for (back, v) in back.iter().zip(&v) {
-                assert!((back - v).abs() < 1e-15, "{joint:?}: {back} instead of {v}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_neutral_position_is_the_zero_of_the_transform() {
-        for joint in JOINTS {
-            let mut q = vec![f64::NAN; joint.nq()];
-            joint.neutral(&mut q);
-            assert_eq!(transform(joint, q[0]), Pose::identity(), "{joint:?}");
-        }
-    }
-
-    /// What the parent may carry is the same in its axes wherever the joint stands, and resists no motion of the joint.
-    #[test]
-    fn shared_inertia_does_not_depend_on_the_joint() {
-        let inertia = PseudoInertia::from_central(
-            2.0,
-            Vec3([0.3, -0.2, 0.5]),
-            crate::inertia::Sym3 { xx: 0.9, yy: 0.8, zz: 0.7, xy: 0.1, yz: -0.05, xz: 0.02 },
-        );
-        for joint in JOINTS {
-            for vanishing in [Vanishing::TensorYy, Vanishing::SecondMomentZz] {
-                let (own, shared) = joint.split(inertia, vanishing);
-                assert!(own.second.full() + shared.second.full() == inertia.second.full(), "{joint:?}");
-                let [near, far] = [0.0, 1.3].map(|q| shared.transformed(transform(joint, q)));
-                let (second, first) = (near.second.full() - far.second.full(), near.moment - far.moment);
-                let differences = second.0.as_flattened().iter().chain(&first.0);
-                assert!(differences.fold(0.0_f64, |most, x| most.max(x.abs())) < 1e-15, "{joint:?}");
-                assert!(joint.meets(shared) == 0.0, "{joint:?}");
-            }
-        }
-    }
-}
+mod tests;

@@ -1,12 +1,19 @@
 //! A joint that moves its body along z.
 
-use super::Screw;
+use super::{JointPosition, Screw};
 use crate::inertia::Sym3;
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
+use redysim_runtime::Scalar;
 
 pub const SCREW: Screw = Screw { turn: 0.0, slide: 1.0 };
+
+/// The coordinate is the displacement.
+#[inline]
+pub fn position<S: Scalar>(q: S) -> JointPosition<S> {
+    JointPosition { angle: None, displacement: Some(q) }
+}
 
 /// The body turns with its parent, so its second moments do not depend on the joint.
 pub fn split<P: Parameter>(inertia: PseudoInertia<P>) -> (PseudoInertia<P>, PseudoInertia<P>) {

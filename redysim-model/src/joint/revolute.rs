@@ -1,12 +1,19 @@
 //! A joint that turns its body about z.
 
-use super::{AxisMass, Screw, Vanishing};
+use super::{AxisMass, JointPosition, Screw, Vanishing};
 use crate::inertia::Sym3;
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
+use redysim_runtime::Scalar;
 
 pub const SCREW: Screw = Screw { turn: 1.0, slide: 0.0 };
+
+/// The coordinate is the angle.
+#[inline]
+pub fn position<S: Scalar>(q: S) -> JointPosition<S> {
+    JointPosition { angle: Some(q), displacement: None }
+}
 
 /// Mass on the axis belongs to both bodies.
 pub fn split<P: Parameter>(inertia: PseudoInertia<P>, vanishing: Vanishing) -> (PseudoInertia<P>, PseudoInertia<P>) {
