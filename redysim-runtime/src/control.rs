@@ -1,10 +1,10 @@
 //! Torque laws: what the actuators do.
 //!
 //! The given laws treat each joint by itself, with one gain for each, and subtract coordinates from coordinates: they
-//! are for joints of one coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint), proportional gains N m/rad (N/m),
-//! derivative gains N m s/rad (N s/m), unless said otherwise. One gain for all joints is written `[50.0; Kr5::NV]`, or
-//! for any mechanism [`uniform`]. A simulation does not begin with gains or targets of wrong length, which a `Vec` can have
-//! ([`TorqueLaw::check_lengths`]).
+//! are for joints of one coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint),
+//! proportional gains N m/rad (N/m), derivative gains N m s/rad (N s/m), unless said otherwise. One gain for all joints
+//! is written `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation does not begin with gains or targets of
+//! wrong length, which a `Vec` can have ([`TorqueLaw::check_lengths`]).
 
 use crate::vector::entry;
 use crate::{ConfigurationSpace, InverseDynamics, LengthMismatch, Mechanism, Motion, Real, Scalar, Trajectory, Vector};

@@ -27,12 +27,12 @@ pub trait Mechanism {
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.joint_name(index)
     }
-    /// The coordinate that belongs to velocity `index` alone: the coordinate of a joint that has one, whose rate is that
-    /// velocity, q̇ᵢ = vⱼ, and which may be set by itself. `None` past the last, and for velocities of joints that have
-    /// several coordinates (an orientation as a quaternion, an angle as cosine and sine).
+    /// The coordinate that belongs to velocity `index` alone: the coordinate of a joint that has one, whose rate is
+    /// that velocity, q̇ᵢ = vⱼ, and which may be set by itself. `None` past the last, and for velocities of joints that
+    /// have several coordinates (an orientation as a quaternion, an angle as cosine and sine).
     ///
-    /// By default, where NQ = NV, every joint is taken to have one coordinate and the indices are the same; where NQ ≠ NV,
-    /// no velocity has a coordinate. A mechanism with joints of several coordinates beside others overrides it.
+    /// By default, every joint is taken to have one coordinate where NQ = NV, and the indices are the same; no velocity
+    /// has a coordinate where NQ ≠ NV. A mechanism with joints of several coordinates beside others overrides it.
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         (self.nq() == self.nv() && index < self.nv()).then_some(index)
     }
@@ -190,8 +190,8 @@ pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>>: LoopRows {
     fn loop_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> Self::Rows;
 }
 
-/// All functions of a tree-type mechanism at once; every type that has them all has this. A compiled type whose model or
-/// macro leaves out one of them, by `functions`, has the traits of the others alone.
+/// All functions of a tree-type mechanism at once; every type that has them all has this. A compiled type whose model
+/// or macro leaves out one of them, by `functions`, has the traits of the others alone.
 pub trait TreeDynamics<S: Scalar>:
     InverseDynamics<S>
     + ForwardDynamics<S>

@@ -283,8 +283,8 @@ fn a_double_pendulum_falls_as_accurately_as_its_tolerance() {
     }
 }
 
-/// The equation damps the error of a step by h |λ|, which is above 100 where steps are longer than 0.01; y is rounded once
-/// in the correction and once in the sum. An iteration takes two evaluations, and rarely a third.
+/// The equation damps the error of a step by h |λ|, which is above 100 where steps are longer than 0.01; y is rounded
+/// once in the correction and once in the sum. An iteration takes two evaluations, and rarely a third.
 #[test]
 fn single_precision_ends_within_a_hundredth_of_the_tolerance_with_at_most_three_evaluations_in_a_step() {
     let mut stiff = |t: f32, y: &[f32; 1], dydt: &mut [f32; 1]| dydt[0] = -1e4 * (y[0] - t.cos()) - t.sin();

@@ -48,15 +48,16 @@ pub trait Ode<S, Y> {
 
 /// What an [`Ode`] makes of the state at the end of a step.
 ///
-/// The enumeration is exhaustive, so that whoever drives an [`Ode`] by a method of their own handles every case: to take
-/// an unknown one for `Unchanged` would be wrong.
+/// The enumeration is exhaustive, so that whoever drives an [`Ode`] by a method of their own handles every case: to
+/// take an unknown one for `Unchanged` would be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accepted {
     /// It stays.
     Unchanged,
     /// It was changed, so that the derivative there must be evaluated again.
     Corrected,
-    /// It cannot be accepted: the integration ends with [`IntegrationError::Refused`](crate::IntegrationError::Refused).
+    /// It cannot be accepted: the integration ends with
+    /// [`IntegrationError::Refused`](crate::IntegrationError::Refused).
     Refused,
 }
 

@@ -11,8 +11,8 @@ use crate::{Real, Vector};
 /// θ(t) = θ₀ + (θ₁ − θ₀)/T · (t − T/(2π) sin(2πt/T)), 0 ≤ t ≤ T,
 ///
 /// with vanishing velocity and acceleration at both ends, and rest before and after. For joints of one
-/// coordinate, whose velocity is its rate (revolute, prismatic and helical ones). Source: eq. (1) of S. V. Shah, P. V. Nandihal and S.
-/// K. Saha, *Recursive dynamics simulator (ReDySim)*, Theor. Appl. Mech. Lett. 2, 063011 (2012).
+/// coordinate, whose velocity is its rate (revolute, prismatic and helical ones). Source: eq. (1) of S. V. Shah, P. V.
+/// Nandihal and S. K. Saha, *Recursive dynamics simulator (ReDySim)*, Theor. Appl. Mech. Lett. 2, 063011 (2012).
 ///
 /// ```
 /// use redysim_runtime::{Cycloid, Trajectory};

@@ -13,7 +13,8 @@ use crate::{Real, Vector};
 ///
 /// [`minimum_jerk`](Self::minimum_jerk) and [`cubic`](Self::cubic) find velocities and accelerations themselves,
 /// [`through`](Self::through) takes them as they are. For joints of one coordinate, whose velocity is its rate
-/// (revolute, prismatic and helical ones). `T` holds the times, `[S; N]` or `Vec<S>`, and says how many points there are.
+/// (revolute, prismatic and helical ones). `T` holds the times, `[S; N]` or `Vec<S>`, and says how many points there
+/// are.
 ///
 /// ```
 /// use redysim_runtime::{Trajectory, ViaPoints};
@@ -45,8 +46,8 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
 
     /// The motion of least jerk, ∫ q⃛² dt, from rest at the first point to rest at the last, through those between
     /// without a stop: its fourth derivative is continuous. Between two points alone it is
-    /// q₀ + (q₁ − q₀)(10 s³ − 15 s⁴ + 6 s⁵) with s = (t − t₀)/(t₁ − t₀). T. Flash and N. Hogan, *The coordination of arm movements*, J. Neurosci. 5
-    /// (1985).
+    /// q₀ + (q₁ − q₀)(10 s³ − 15 s⁴ + 6 s⁵) with s = (t − t₀)/(t₁ − t₀). T. Flash and N. Hogan, *The coordination of
+    /// arm movements*, J. Neurosci. 5 (1985).
     ///
     /// # Errors
     /// As [`through`](Self::through).

@@ -173,8 +173,8 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             Self::Unreachable { t, velocity, position_residual } => write!(
                 f,
                 "the mechanism cannot follow its trajectory to t = {t:?} s: with the coordinate of velocity \
-                 {velocity} moved on, a position residual of {position_residual:?} m remains; stay within the reach of the links, or ask \
-                 for nearer instants"
+                 {velocity} moved on, a position residual of {position_residual:?} m remains; stay within the reach of \
+                 the links, or ask for nearer instants"
             ),
             Self::VelocityOutOfRange { velocity, count } => {
                 write!(f, "there is no velocity {velocity}; the mechanism's {count} velocities are counted from 0")
@@ -184,8 +184,8 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             }
             Self::NoCoordinate { velocity } => write!(
                 f,
-                "velocity {velocity} cannot be prescribed by a trajectory: its joint has several coordinates; prescribe \
-                 velocities of joints that have one"
+                "velocity {velocity} cannot be prescribed by a trajectory: its joint has several coordinates; \
+                 prescribe velocities of joints that have one"
             ),
             Self::WrongLength(mismatch) => write!(f, "{mismatch}; give one for each independent velocity"),
             Self::Unactuated { velocity, force } => write!(

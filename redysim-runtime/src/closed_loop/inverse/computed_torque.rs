@@ -25,8 +25,8 @@ pub struct ClosedLoopComputedTorque<'m, S, M, T, I, C = M> {
 }
 
 impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I, C> {
-    /// The law that has the joints of the velocities `independent` (and actuated) follow `trajectory`, whose component i
-    /// belongs to velocity `independent[i]` and to its
+    /// The law that has the joints of the velocities `independent` (and actuated) follow `trajectory`, whose component
+    /// i belongs to velocity `independent[i]` and to its
     /// [coordinate](crate::Mechanism::coordinate_of_velocity), as do those of the gains.
     pub fn new(loops: ClosedLoop<'m, M, C>, independent: &'m [usize], trajectory: T, [kp, kd]: [I; 2]) -> Self {
         let actuation = Actuation { loops, independent, actuated: independent };

@@ -63,7 +63,8 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     /// [`LoopError::Unreachable`], [`LoopError::RankDeficient`] if the independent coordinates do not determine the
     /// others, [`LoopError::InconsistentVelocity`] if they contradict each other, [`LoopError::Unactuated`] if there
     /// are too few actuators, [`LoopError::WrongLength`], [`LoopError::RepeatedVelocity`],
-    /// [`LoopError::VelocityOutOfRange`], [`LoopError::NoCoordinate`], [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
+    /// [`LoopError::VelocityOutOfRange`], [`LoopError::NoCoordinate`], [`LoopError::SingularInertia`] and
+    /// [`LoopError::NotFinite`].
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
     pub fn at<S: Real, I: Vector<S>>(
         &mut self,

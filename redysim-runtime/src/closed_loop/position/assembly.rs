@@ -34,12 +34,12 @@ pub struct Assembly<S, Q, V> {
 }
 
 impl<M, C> ClosedLoop<'_, M, C> {
-    /// Closes the loops from the guess `q` and fits the velocities to the guess `v`, with the velocities `held`, and the
-    /// positions of their joints, as they are; the others move as little as they can, in the metric of M (or, where that does
-    /// not close them, of the displacements themselves).
+    /// Closes the loops from the guess `q` and fits the velocities to the guess `v`, with the velocities `held`, and
+    /// the positions of their joints, as they are; the others move as little as they can, in the metric of M (or, where
+    /// that does not close them, of the displacements themselves).
     ///
-    /// It stays on the branch of the guess: no coordinate moves by more than 0.2 rad (or m) in one iteration, and none
-    /// of them enlarges the residual. The result is closed to 10⁻¹⁴ of the mechanism's size.
+    /// It stays on the branch of the guess: no joint moves by more than 0.2 rad (or m) in one iteration, and none
+    /// of these enlarges the residual. The result is closed to 10⁻¹⁴ of the mechanism's size.
     ///
     /// # Errors
     /// [`LoopError::VelocityOutOfRange`], [`LoopError::CannotClose`], [`LoopError::NoConvergence`],
