@@ -169,9 +169,9 @@ pub trait LoopRows {
     }
 }
 
-/// The closure of the loops of a mechanism `M`: conditions on its coordinates that the cut joints set.
+/// The closure of the loops of a mechanism `M`: constraints on its coordinates that the cut joints set.
 ///
-/// A compiled type is its own closure; who knows a better one (a closed form, or conditions that no cut joint
+/// A compiled type is its own closure; who knows a better one (a closed form, or constraints that no cut joint
 /// describes) implements this for a type of their own.
 pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>>: LoopRows {
     /// One value for each row: `[S; NC]`.

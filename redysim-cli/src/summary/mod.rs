@@ -49,7 +49,7 @@ pub struct LinkSummary {
     pub parent: String,
     /// Name of the joint.
     pub joint: String,
-    /// "revolute", "prismatic" or "fixed".
+    /// The name of its [`JointKind`](redysim_model::JointKind): "revolute", "prismatic", "helical" or "fixed".
     pub kind: &'static str,
     /// Whether the joint has an actuator; null where it does not move.
     pub actuated: Option<bool>,
