@@ -1,5 +1,5 @@
-//! Accuracy against speed: every integrator on five scenes, every way to compute KR5's dynamics, and every way to keep
-//! a loop closed. Writes pictures and tables; `docs/accuracy.md` explains them.
+//! Accuracy against speed: every integrator on five problems, every way to compute KR5's dynamics, and every way to
+//! keep a loop closed. Writes pictures and tables; `docs/accuracy.md` explains them.
 //!
 //! `cargo run --release --example accuracy_vs_speed`
 //!
@@ -26,12 +26,12 @@ mod accuracy {
     pub mod drift;
     pub mod evaluation;
     pub mod models;
-    pub mod scene;
+    pub mod problem;
     pub mod work_precision;
 }
 
 #[allow(dead_code, reason = "tests use more of it")]
-use accuracy::{benchmarks, digits, drift, evaluation, scene, work_precision};
+use accuracy::{benchmarks, digits, drift, evaluation, problem, work_precision};
 use common::{Failure, Outputs};
 
 fn main() -> Result<(), Failure> {
@@ -45,19 +45,19 @@ fn main() -> Result<(), Failure> {
     let asked = |part: &str| arguments.is_empty() || arguments.iter().any(|argument| argument == part);
     let mut outputs = Outputs::of("accuracy")?;
     if asked("kr5") {
-        work_precision::report(&scene::kr5()?, &mut outputs)?;
+        work_precision::report(&problem::kr5()?, &mut outputs)?;
     }
     if asked("gripper") {
-        work_precision::report(&scene::gripper()?, &mut outputs)?;
+        work_precision::report(&problem::gripper()?, &mut outputs)?;
     }
     if asked("fourbar") {
-        work_precision::report(&scene::fourbar()?, &mut outputs)?;
+        work_precision::report(&problem::fourbar()?, &mut outputs)?;
     }
     if asked("stiff") {
-        work_precision::report(&scene::stiff()?, &mut outputs)?;
+        work_precision::report(&problem::stiff()?, &mut outputs)?;
     }
     if asked("swing") {
-        work_precision::report(&scene::LongSwing, &mut outputs)?;
+        work_precision::report(&problem::LongSwing, &mut outputs)?;
     }
     if asked("iftomm") {
         benchmarks::report(&mut outputs)?;

@@ -66,7 +66,11 @@ fn inverse_dynamics(outputs: &mut Outputs) -> Result<(), Failure> {
     }
     table.print();
     remark(&format!("Largest deviation: {} of the force's peak.", tiny(run.worst(&redysim))));
-    remark(&format!("The loop is closed to {} m, and its {} rows are independent all along.", tiny(run.gap), run.rank));
+    remark(&format!(
+        "The loop is closed to {} m, and its {} rows are independent all along.",
+        tiny(run.position_residual),
+        run.rank
+    ));
     outputs.picture("fig10_joint_motion", "what the crank makes the others do", &joint_motion(&run, &redysim))?;
     outputs.picture("fig10_crank_torque", "the crank's torque and λ, and ReDySim's", &forces(&run, &redysim))?;
     outputs.numbers("inverse_dynamics", "motion, torque and λ, each 1 ms", &run.csv())
@@ -185,7 +189,7 @@ impl Fall {
         let run = record(method, &mut simulation, integrator, start, &instants(0.68, 680))?;
         let deviations = run.deviations(&self.reference);
         let time = format!("{:.2}", 1e3 * run.seconds);
-        let numbers = deviations.into_iter().chain([run.worst_gap(), run.worst_drift()]).map(tiny);
+        let numbers = deviations.into_iter().chain([run.worst_position_residual(), run.worst_drift()]).map(tiny);
         table.row([method.to_owned(), run.statistics.steps.to_string(), time].into_iter().chain(numbers));
         Ok(run)
     }
@@ -196,7 +200,7 @@ fn long_fall(outputs: &mut Outputs) -> Result<(), Failure> {
     headline("Four-bar, free motion of 10 s from rest: Ode4, steps of 0.1 ms");
     let start = ClosedLoop::new(&Fourbar).assemble(&SHIPPED, &[0.0; 3], &CRANK)?;
     let mut table = Table::new(&["", "steps\n", "time\ns", "open\nm", "energy drift\nJ"]);
-    let mut open = Panel::new("Gap of the loop", "gap", "m").logarithmic();
+    let mut open = Panel::new("Position residual of the loop", "position residual", "m").logarithmic();
     let mut drift = Panel::new("Drift of the energy", "drift", "J").logarithmic();
     let kinds = [("projection", Stabilisation::Projection), ("plain index 1", Stabilisation::None)];
     for (colour, (name, stabilisation)) in (1..).zip(kinds) {
@@ -205,9 +209,9 @@ fn long_fall(outputs: &mut Outputs) -> Result<(), Failure> {
         let start = simulation.assembled(&start);
         let run = record(name, &mut simulation, &Ode4::new(1e-4), start, &instants(10.0, 1000))?;
         let (steps, time) = (run.statistics.steps.to_string(), format!("{:.2}", run.seconds));
-        table.row([name.to_owned(), steps, time, tiny(run.worst_gap()), tiny(run.worst_drift())]);
-        let (t, gap) = peaks(&run.steps.t, &run.steps.gap);
-        open = open.line(name, colour, &t, &gap);
+        table.row([name.to_owned(), steps, time, tiny(run.worst_position_residual()), tiny(run.worst_drift())]);
+        let (t, residual) = peaks(&run.steps.t, &run.steps.position_residual);
+        open = open.line(name, colour, &t, &residual);
         let (t, energy) = peaks(&run.steps.t, &run.steps.drift());
         drift = drift.line(name, colour, &t, &energy);
     }

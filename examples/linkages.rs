@@ -29,7 +29,9 @@ fn main() -> Result<(), Failure> {
     n_fourbar::move_both(&mut studies)?;
     headline("Closed loops in motion");
     studies.table().print();
-    remark("Gap, moved: of the start as it is given, and by how much assembly moved the joint that moved farthest.");
+    remark(
+        "Residual, moved: of the start as it is given, and by how much assembly moved the joint that moved farthest.",
+    );
     remark("Open, and drift: the worst at the end of any step. The time includes recording.");
     for line in studies.mended() {
         remark(line);
@@ -46,12 +48,12 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The gaps of some of them over time; a panel for each.
+/// The position residuals of some of them over time; a panel for each.
 fn closure(studies: &Studies) -> Figure {
     let shown = ["slider_crank", "three_rrr", "leg", "andrews", "n_fourbar_2", "n_fourbar_40"];
     let panel = |study: &Study| {
-        let (t, gap) = peaks(&study.motion.steps.t, &study.motion.steps.gap);
-        Panel::new(study.name, "gap", "m").logarithmic().line("", 1, &t, &gap)
+        let (t, residual) = peaks(&study.motion.steps.t, &study.motion.steps.position_residual);
+        Panel::new(study.name, "position residual", "m").logarithmic().line("", 1, &t, &residual)
     };
     let panels = studies.all.iter().filter(|study| shown.contains(&study.name)).map(panel);
     Figure { columns: 2, panels: panels.collect(), shared_legend: false }

@@ -14,7 +14,7 @@ redysim! { struct Windows("models/n_fourbar_2.toml"); }
 const START: [f64; 3] = [0.0, 0.984_373_060_839_76, 4.314_439_185_500_066];
 
 #[test]
-fn the_shipped_start_closes_with_the_crank_held_and_tells_how_far_it_moved() {
+fn the_shipped_start_closes_with_the_crank_held_and_reports_how_far_it_moved() {
     let assembly = ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &[4.7124, 1.4045, 0.0], &[0]);
     let assembly = assembly.expect("it closes");
     println!("{assembly:?}");
@@ -67,7 +67,7 @@ fn the_starts_that_ship_open_are_mended() {
 }
 
 #[test]
-fn a_loop_that_cannot_close_is_refused_with_its_gap() {
+fn a_loop_that_cannot_close_is_refused_with_the_position_residual() {
     // The rocker held where the crank and the coupler do not reach its tip.
     let error = ClosedLoop::new(&Fourbar).assemble(&[0.0, 3.0, 4.0], &[0.0; 3], &[1]).unwrap_err();
     println!("{error}");
@@ -82,7 +82,7 @@ fn a_loop_that_cannot_close_is_refused_with_its_gap() {
 }
 
 #[test]
-fn held_velocities_that_pull_the_loop_apart_are_refused() {
+fn held_velocities_that_are_inconsistent_with_the_loop_are_refused() {
     let loops = ClosedLoop::new(&Fourbar);
     let error = loops.assemble(&START, &[1.0, -1.0, 0.0], &[0, 1]).unwrap_err();
     assert!(matches!(error, LoopError::InconsistentVelocity { residual, .. } if residual > 1e-3), "{error}");
@@ -107,7 +107,7 @@ fn a_guess_with_all_links_in_line_ends_in_an_answer() {
 }
 
 #[test]
-fn a_start_that_is_open_or_pulls_apart_is_refused() {
+fn a_start_that_is_not_closed_or_has_inconsistent_velocities_is_refused() {
     let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let error = simulation.start(&[0.0, 0.9844, 4.3144], &[0.0; 3]).unwrap_err();
     assert!(

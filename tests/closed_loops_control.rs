@@ -71,7 +71,7 @@ fn errors_of_three_cranks_that_carry_one_platform_die_away_alike() {
 }
 
 #[test]
-fn the_law_says_why_it_has_no_forces() {
+fn the_law_reports_why_it_has_no_forces() {
     let loops = ClosedLoop::new(&Fourbar);
     let rest = |_: f64| Motion { q: [0.0; 1], v: [0.0; 1], a: [0.0; 1] };
     let start = loops.assemble(&[0.0, 0.9844, 4.3144], &[0.0; 3], &[0]).expect("it closes");

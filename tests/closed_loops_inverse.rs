@@ -86,7 +86,7 @@ fn the_three_legs_need_the_torques_of_redysim() {
 }
 
 #[test]
-fn redundant_actuators_share_the_load_by_the_least_norm_and_it_is_said() {
+fn redundant_actuators_share_the_load_by_the_least_norm_and_are_counted() {
     let one = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).at(0.2, &turning).expect("it closes");
     let mut both = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).actuated(&[0, 1]);
     let found = both.at(0.2, &turning).expect("it closes");
@@ -107,7 +107,7 @@ fn redundant_actuators_share_the_load_by_the_least_norm_and_it_is_said() {
 }
 
 #[test]
-fn redundant_rows_are_no_redundant_actuators() {
+fn redundant_rows_do_not_count_as_redundant_actuators() {
     let planar = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[0], GUESS).at(0.3, &turning).expect("it closes");
     let mut spatial = ClosedLoopInverse::new(ClosedLoop::new(&FourbarSpatial), &[0], GUESS);
     let found = spatial.at(0.3, &turning).expect("it closes");
@@ -117,7 +117,7 @@ fn redundant_rows_are_no_redundant_actuators() {
 }
 
 #[test]
-fn what_cannot_be_followed_or_held_is_said() {
+fn unreachable_undetermined_and_unactuated_motions_are_refused() {
     // The rocker swings, it does not turn: coordinate 1 cannot go round.
     let swing = |t: f64| Motion { q: [GUESS[1] + t], v: [1.0], a: [0.0] };
     let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(&Fourbar), &[1], GUESS);
@@ -174,7 +174,7 @@ fn each_independent_velocity_has_one_component_of_the_gains() {
 redysim! { struct SliderCrank("models/slider_crank.toml"); }
 
 #[test]
-fn lost_rank_names_the_rows_that_say_nothing_new() {
+fn a_deficient_rank_is_reported_with_the_dependent_rows() {
     let loops = ClosedLoop::new(&SliderCrank);
     // Crank and coupler point opposite ways: the slider is at the crank's pivot, and the crank turns freely about it.
     let closed = loops.assemble(&[0.0, core::f64::consts::PI, 0.0], &[0.0; 3], &[0, 2]).expect("it closes");

@@ -147,7 +147,7 @@ fn the_projection_keeps_the_loop_closed_and_the_energy() {
 }
 
 #[test]
-fn without_it_the_loop_drifts_apart_and_baumgarte_holds_it_less_closely() {
+fn without_projection_the_loop_drifts_apart_and_baumgarte_holds_it_less_closely() {
     let steps = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
     let plain = drift(Stabilisation::None, steps).0;
     let baumgarte = drift(Stabilisation::Baumgarte { alpha: 100.0 }, steps).0;
@@ -294,7 +294,7 @@ fn constraint_forces_balance_the_motion_and_do_no_work() {
 }
 
 #[test]
-fn single_precision_works_too() {
+fn a_four_bar_stays_closed_to_1e_6_in_single_precision() {
     let mut spin = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let (q, v) = (START.map(|q| q as f32), SPIN.map(|v| v as f32));
     let start = spin.start(&q, &v).expect("closed to single precision");
@@ -343,7 +343,7 @@ fn single_precision_passes_singular_positions() {
 }
 
 #[test]
-fn a_torque_law_of_the_wrong_length_is_no_motion() {
+fn a_torque_law_of_the_wrong_length_is_refused() {
     let fourbar = generic("fourbar");
     let law = |_t: f64, _q: &Vec<f64>, _v: &Vec<f64>| vec![0.0];
     let mut fall = ClosedLoopSimulation::new(ClosedLoop::new(&fourbar), law);

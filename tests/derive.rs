@@ -35,7 +35,7 @@ fn traits_that_the_declaration_derives_are_left_to_it() {
 }
 
 #[test]
-fn constants_say_what_the_model_says() {
+fn constants_are_those_of_the_model() {
     assert_eq!(ByMacro::NAME, "gripper");
     assert_eq!((ByMacro::NQ, ByMacro::NV, ByMacro::NL, ByMacro::NC), (4, 4, 4, 0));
     assert_eq!(ByMacro::ACTUATED, [true; 4]);

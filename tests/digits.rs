@@ -80,7 +80,7 @@ fn no_pass_costs_forces_or_the_mass_matrix_a_factor_of_four() {
 /// Of accelerations the largest error has a wide spread itself: it belongs to the one state whose mass matrix has the
 /// worst condition. So the typical tree keeps the factor of four, and none loses a digit more than that.
 #[test]
-fn passes_cost_the_recursion_for_accelerations_no_digits() {
+fn passes_cost_accelerations_by_the_recursion_a_factor_of_four_in_nine_of_ten_trees_and_of_20_at_most() {
     for style in Style::ALL {
         let mut factors: Vec<f64> = random_trees(style)
             .map(|tree| {

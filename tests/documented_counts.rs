@@ -14,7 +14,7 @@ const ROBOTS: [&str; 5] = ["peers/kr5", "peers/gripper", "peers/humanoid30", "pe
 fn snapshot() -> BTreeMap<(String, &'static str), String> {
     let mut counts = BTreeMap::new();
     let mut robot = ROBOTS[0];
-    for line in read("tests/snapshots/passes__gains_of_the_passes.snap").lines() {
+    for line in read("tests/snapshots/passes__the_operations_with_each_pass_are_those_of_the_snapshot.snap").lines() {
         let found = ROBOTS.into_iter().find(|robot| line.split_whitespace().next() == Some(robot));
         if let Some(found) = found {
             robot = found;

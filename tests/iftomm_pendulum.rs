@@ -57,7 +57,7 @@ fn nine_passages_are_found_at_every_tolerance() {
 }
 
 #[test]
-fn implicit_and_fixed_steps_find_them_too() {
+fn implicit_methods_and_fixed_steps_find_the_nine_passages() {
     for (name, (times, statistics)) in [
         ("Ode5", passages(&Ode5::new(0.005))),
         ("Ode15s", passages(&Ode15s::new().rtol(1e-8).atol(1e-10))),
@@ -85,7 +85,7 @@ fn the_ends_of_steps_alone_miss_passages() {
 }
 
 #[test]
-fn the_pendulum_is_where_elliptic_functions_say() {
+fn the_pendulum_moves_as_elliptic_functions() {
     let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[START], &[0.0]);
     let rows = numbers(include_str!("reference/exact_pendulum.csv"));

@@ -117,7 +117,7 @@ fn angular_velocity_is_that_of_the_rotation() {
 }
 
 #[test]
-fn centre_of_mass_is_where_the_model_says() {
+fn the_centre_of_mass_of_a_link_is_where_the_model_has_it() {
     on_every_mechanism(|name, generic, links_at| {
         let mut centres = Comparison::new(format!("{name}: com = origin + R com"));
         for links in states(generic.model()).map(|state| links_at(&state)) {

@@ -88,7 +88,7 @@ fn shipped_starts_close_to_their_printed_digits() {
 
 /// The numbers are from the loops' vectors, summed in the plane with complex numbers by another program.
 #[test]
-fn where_a_shipped_start_is_open_the_residual_says_so() {
+fn the_residual_of_a_shipped_start_is_how_far_it_is_open() {
     let q = [1.0467, 5.4206, -2.5357, 4.1883, -2.0939, 5.7637, -0.9869];
     let gaps = [8.667854701798317e-3, -1.2887062751045786e-3, 9.48910764392863e-3, 1.5710720137542822e-3];
     let residual = loop_residual(&generic("three_rrr"), &q);

@@ -89,7 +89,7 @@ fn with_coupler_of(mass: f64) -> GenericMechanism {
 }
 
 #[test]
-fn a_four_bar_with_a_massless_coupler_moves_as_lagrange_says() {
+fn a_four_bar_with_a_massless_coupler_moves_as_lagrange_derived_it() {
     let general = generic("test/fourbar_massless_coupler");
     for (q, v) in states() {
         assert_eq!(Massless::mass_matrix(&q)[2], [0.0; 3], "the tree does not know how the coupler moves");
@@ -146,7 +146,7 @@ fn a_coupler_whose_mass_goes_to_zero_moves_ever_more_like_one_without() {
 }
 
 #[test]
-fn its_motion_keeps_the_energy_and_that_of_lagrange() {
+fn a_four_bar_with_a_massless_coupler_keeps_its_energy_and_that_of_lagrange() {
     let loops = ClosedLoop::new(&Massless);
     let closed = loops.assemble(&[0.0, 0.9844, 4.3144], &[4.7, 0.0, 0.0], &[0]).expect("it closes");
     let energy = |q: &[f64; 3], v: &[f64; 3]| Massless::energy(q, v).total();
@@ -197,7 +197,7 @@ fn lagrange_nearby([phi, mut psi]: [f64; 2], rates: [f64; 2]) -> Expected {
 }
 
 #[test]
-fn inverse_dynamics_finds_the_force_that_moved_it() {
+fn inverse_dynamics_of_a_massless_coupler_finds_the_force_that_moved_the_four_bar() {
     for (q, v) in states() {
         let motion = ClosedLoop::new(&Massless).dynamics(&q, &v, &[0.7, 0.0, 0.0]).expect("regular");
         let wanted = |_t: f64| Motion { q: [q[0]], v: [v[0]], a: [motion.accelerations[0]] };
@@ -209,7 +209,7 @@ fn inverse_dynamics_finds_the_force_that_moved_it() {
 }
 
 #[test]
-fn single_precision_solves_it_too() {
+fn a_massless_coupler_is_solved_to_1e_3_in_single_precision() {
     for (q, v) in states() {
         let exact = ClosedLoop::new(&Massless).dynamics(&q, &v, &[0.7, -0.2, 0.0]).expect("regular");
         let (q, v) = (q.map(|q| q as f32), v.map(|v| v as f32));

@@ -87,7 +87,7 @@ fn integrators_allocate_nothing() {
 
 #[cfg(feature = "generic")]
 #[test]
-fn the_run_time_path_allocates_nothing_after_construction() {
+fn inverse_and_forward_dynamics_and_mass_matrix_of_the_run_time_path_allocate_nothing_after_construction() {
     use redysim::generic::Workspace;
 
     for name in ["kr5", "gripper", "test/gantry", "peers/humanoid30"] {

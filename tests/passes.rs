@@ -136,7 +136,7 @@ fn calibrated(error: f64) -> Model {
 /// cost the digits of all else. What is left is that elements of rotations below 64 roundings count as roundoff, also
 /// where they are products of two tilts.
 #[test]
-fn small_tilts_and_offsets_cost_no_digits() {
+fn small_tilts_and_offsets_cost_at_most_2e_13() {
     for exponent in 2..=12 {
         let error = 10.0_f64.powi(-exponent);
         let tree = Tree::new(&calibrated(error));
@@ -161,7 +161,7 @@ fn a_robot_far_from_the_origin_keeps_its_inertias() {
 }
 
 #[test]
-fn gains_of_the_passes() {
+fn the_operations_with_each_pass_are_those_of_the_snapshot() {
     let functions = ["inverse_dynamics", "forward_dynamics", "mass_matrix", "bias_forces", "gravity_forces", "energy"];
     let mut table = String::new();
     for name in ["peers/kr5", "peers/gripper", "peers/humanoid30", "peers/chain10", "test/kr5_origin_axis"] {

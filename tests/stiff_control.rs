@@ -87,7 +87,7 @@ fn stiff(method: &impl Integrator<f64>, to: f64) -> Result<Solution<f64, State>,
 }
 
 #[test]
-fn explicit_methods_say_that_a_stiff_controller_is_stiff() {
+fn explicit_methods_report_that_a_stiff_controller_is_stiff() {
     for outcome in [stiff(&Ode45::new().rtol(1e-6), 1.0), stiff(&Dop853::new().rtol(1e-6), 1.0)] {
         let Err(IntegrationError::Stiff { t, step, remaining }) = outcome else { panic!("{outcome:?}") };
         println!("at {t:e} s, with steps of {step:e} s: {remaining} steps to go");

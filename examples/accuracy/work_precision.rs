@@ -1,10 +1,10 @@
-//! Error against work, for every method on every scene.
+//! Error against work, for every method on every problem.
 
 use redysim::{
     Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator, Ode4, Ode5, Ode15s, Ode45, Radau5, SemiImplicitEuler,
 };
 
-use super::scene::{Run, Scene};
+use super::problem::{Problem, Run};
 use crate::common::csv::Csv;
 use crate::common::figure::{Figure, Panel};
 use crate::common::progress::Progress;
@@ -12,7 +12,7 @@ use crate::common::table::{Table, headline, remark};
 use crate::common::{Failure, Outputs};
 
 /// A method, and its runs from loose to tight.
-struct Method {
+struct MethodRuns {
     name: &'static str,
     runs: Vec<Run>,
     /// Why its last run failed, if one did.
@@ -34,10 +34,14 @@ fn step_counts(most: u64) -> impl Iterator<Item = u64> {
 
 /// The runs of a method over its settings. Those that find no error below 1 are left out, and a method that has failed
 /// at a setting and after one that worked is not tried at the tighter ones.
-fn runs<I: Integrator<f64>>(name: &'static str, scene: &impl Scene, methods: impl Iterator<Item = I>) -> Method {
-    let mut method = Method { name, runs: Vec::new(), failure: None };
+fn runs<I: Integrator<f64>>(
+    name: &'static str,
+    problem: &impl Problem,
+    methods: impl Iterator<Item = I>,
+) -> MethodRuns {
+    let mut method = MethodRuns { name, runs: Vec::new(), failure: None };
     for integrator in methods {
-        match scene.run(&integrator) {
+        match problem.run(&integrator) {
             Ok(run) if run.error < 1.0 => {
                 method.failure = None;
                 method.runs.push(run);
@@ -54,35 +58,35 @@ fn runs<I: Integrator<f64>>(name: &'static str, scene: &impl Scene, methods: imp
     method
 }
 
-/// Tries every method on `scene` and shows what comes out.
-pub fn report(scene: &impl Scene, outputs: &mut Outputs) -> Result<(), Failure> {
-    let size = |count: u64| scene.duration() / count as f64;
-    let counts = || step_counts(scene.most_steps());
-    let mut progress = Progress::new(scene.name(), 10);
+/// Tries every method on `problem` and shows what comes out.
+pub fn report(problem: &impl Problem, outputs: &mut Outputs) -> Result<(), Failure> {
+    let size = |count: u64| problem.duration() / count as f64;
+    let counts = || step_counts(problem.most_steps());
+    let mut progress = Progress::new(problem.name(), 10);
     let mut methods = Vec::new();
     let mut add = |method| {
         methods.push(method);
         progress.advance();
     };
-    add(runs("Euler", scene, counts().map(|count| SemiImplicitEuler::new(size(count)))));
-    add(runs("Ode4", scene, counts().map(|count| Ode4::new(size(count)))));
-    add(runs("Ode5", scene, counts().map(|count| Ode5::new(size(count)))));
-    add(runs("Dop8", scene, counts().map(|count| Dop8::new(size(count)))));
-    add(runs("Gauss4", scene, counts().map(|count| Gauss4::new(size(count)))));
-    add(runs("Gauss6", scene, counts().map(|count| Gauss6::new(size(count)))));
-    add(runs("Ode45", scene, tolerances().map(|rtol| Ode45::new().rtol(rtol).atol(rtol / 100.0))));
-    add(runs("Dop853", scene, tolerances().map(|rtol| Dop853::new().rtol(rtol).atol(rtol / 100.0))));
-    add(runs("Ode15s", scene, tolerances().map(|rtol| Ode15s::new().rtol(rtol).atol(rtol / 100.0))));
-    add(runs("Radau5", scene, tolerances().map(|rtol| Radau5::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Euler", problem, counts().map(|count| SemiImplicitEuler::new(size(count)))));
+    add(runs("Ode4", problem, counts().map(|count| Ode4::new(size(count)))));
+    add(runs("Ode5", problem, counts().map(|count| Ode5::new(size(count)))));
+    add(runs("Dop8", problem, counts().map(|count| Dop8::new(size(count)))));
+    add(runs("Gauss4", problem, counts().map(|count| Gauss4::new(size(count)))));
+    add(runs("Gauss6", problem, counts().map(|count| Gauss6::new(size(count)))));
+    add(runs("Ode45", problem, tolerances().map(|rtol| Ode45::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Dop853", problem, tolerances().map(|rtol| Dop853::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Ode15s", problem, tolerances().map(|rtol| Ode15s::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Radau5", problem, tolerances().map(|rtol| Radau5::new().rtol(rtol).atol(rtol / 100.0))));
     drop(progress);
-    print(scene, &methods);
-    let figure = figure(scene, &methods);
-    outputs.picture(scene.name(), scene.title(), &figure)?;
-    outputs.numbers(scene.name(), "the same in numbers", &csv(&methods))
+    print(problem, &methods);
+    let figure = figure(problem, &methods);
+    outputs.picture(problem.name(), problem.title(), &figure)?;
+    outputs.numbers(problem.name(), "the same in numbers", &csv(&methods))
 }
 
-fn print(scene: &impl Scene, methods: &[Method]) {
-    headline(scene.title());
+fn print(problem: &impl Problem, methods: &[MethodRuns]) {
+    headline(problem.title());
     let heads: Vec<String> = TARGETS.iter().map(|target| format!("error ≤ {target:.0e}\nevaluations, ms")).collect();
     let mut headers = vec![""];
     headers.extend(heads.iter().map(String::as_str));
@@ -99,16 +103,16 @@ fn print(scene: &impl Scene, methods: &[Method]) {
         table.row(std::iter::once(method.name.to_owned()).chain(TARGETS.map(cheapest)).chain([best]));
     }
     table.print();
-    remark(&format!("Error: {}. The quickest run that keeps it; a Jacobian counts", scene.quantity()));
+    remark(&format!("Error: {}. The quickest run that keeps it; a Jacobian counts", problem.quantity()));
     remark("as one evaluation for each component of the state.");
-    for Method { name, failure, .. } in methods {
+    for MethodRuns { name, failure, .. } in methods {
         if let Some(error) = failure {
             remark(&format!("{name}: {error}."));
         }
     }
 }
 
-fn figure(scene: &impl Scene, methods: &[Method]) -> Figure {
+fn figure(problem: &impl Problem, methods: &[MethodRuns]) -> Figure {
     let panel = |title: &str, across: &str, work: fn(&Run) -> f64| {
         let start = Panel::new(title, "error", "1").logarithmic().over(across);
         methods.iter().enumerate().fold(start, |panel, (index, method)| {
@@ -117,13 +121,13 @@ fn figure(scene: &impl Scene, methods: &[Method]) -> Figure {
         })
     };
     let panels = vec![
-        panel(scene.title(), "evaluations", |run| run.evaluations),
+        panel(problem.title(), "evaluations", |run| run.evaluations),
         panel("", "time [ms]", |run| run.milliseconds),
     ];
     Figure { columns: 2, panels, shared_legend: true }
 }
 
-fn csv(methods: &[Method]) -> Csv {
+fn csv(methods: &[MethodRuns]) -> Csv {
     let mut csv = Csv::new(&["method", "error", "evaluations", "time [ms]"].map(String::from));
     for method in methods {
         for Run { error, evaluations, milliseconds } in &method.runs {

@@ -4,7 +4,7 @@ use redysim::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopClosure, MassM
 
 use super::compare::deviations;
 use super::csv::{Csv, headers};
-use super::loop_motion::gap;
+use super::loop_motion::position_residual;
 use super::reference::Reference;
 use super::{Context, Failure, Rows, Series, peak};
 
@@ -20,8 +20,8 @@ pub struct LoopInverseRun {
     pub tau: Rows,
     /// λ, N.
     pub lambda: Rows,
-    /// The largest gap, m.
-    pub gap: f64,
+    /// The largest position residual, m.
+    pub position_residual: f64,
     /// The smallest rank.
     pub rank: usize,
 }
@@ -39,20 +39,20 @@ where
     I: Vector<f64>,
 {
     let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(mechanism), actuated, q);
-    let (empty, gap_at) = (Vec::new, |q: &M::Coordinates| gap(mechanism, q));
+    let (empty, residual_at) = (Vec::new, |q: &M::Coordinates| position_residual(mechanism, q));
     let mut run = LoopInverseRun {
         q: empty(),
         v: empty(),
         a: empty(),
         tau: empty(),
         lambda: empty(),
-        gap: 0.0,
+        position_residual: 0.0,
         rank: usize::MAX,
         t: Vec::new(),
     };
     for &t in &t {
         let forces = inverse.at(t, trajectory).context(|| format!("inverse dynamics of the loops at {t} s"))?;
-        run.gap = run.gap.max(gap_at(&forces.motion.q));
+        run.position_residual = run.position_residual.max(residual_at(&forces.motion.q));
         run.rank = run.rank.min(forces.rank);
         run.q.push(forces.motion.q.as_ref().to_vec());
         run.v.push(forces.motion.v.as_ref().to_vec());

@@ -34,7 +34,7 @@ pub struct Watch {
     /// The ends of the steps, s.
     pub t: Vec<f64>,
     /// The largest component of the loops' residual, m.
-    pub gap: Vec<f64>,
+    pub position_residual: Vec<f64>,
     /// Kinetic and potential energy, less the work of the joint forces, J.
     pub energy: Vec<f64>,
 }
@@ -95,7 +95,7 @@ impl Watch {
         let parts = ForwardSimulation::new(mechanism, ()).split(state);
         let energy = mechanism.energy(&parts.q, &parts.v).total() - parts.actuator_energy;
         self.t.push(t);
-        self.gap.push(gap(mechanism, &parts.q));
+        self.position_residual.push(position_residual(mechanism, &parts.q));
         self.energy.push(energy);
     }
 
@@ -106,7 +106,7 @@ impl Watch {
 }
 
 /// The largest component of the loops' residual, m.
-pub fn gap<M>(mechanism: &M, q: &M::Coordinates) -> f64
+pub fn position_residual<M>(mechanism: &M, q: &M::Coordinates) -> f64
 where
     M: ConfigurationSpace<f64> + LoopClosure<f64, M>,
 {
@@ -125,9 +125,9 @@ impl LoopMotion {
         blocks.map(|(ours, theirs)| peak(deviations(self.series("", ours), reference.series(theirs)).0))
     }
 
-    /// The largest gap at the end of any step, m.
-    pub fn worst_gap(&self) -> f64 {
-        peak(self.steps.gap.iter().copied())
+    /// The largest position residual at the end of any step, m.
+    pub fn worst_position_residual(&self) -> f64 {
+        peak(self.steps.position_residual.iter().copied())
     }
 
     /// The largest drift of the energy at the end of any step, J.

@@ -89,7 +89,7 @@ fn row(table: &mut Table, name: &str, run: &LoopMotion, exact: &Exact) -> Vec<f6
         run.q.iter().zip(&exact.alpha).map(|(q, &alpha)| distance(tip(-q[0]), tip(alpha))).collect();
     let (steps, time) = (run.statistics.steps.to_string(), format!("{:.3}", run.seconds));
     let last = distances[distances.len() - 1];
-    let numbers = [last, peak(distances.iter().copied()), run.worst_gap(), run.worst_drift()].map(tiny);
+    let numbers = [last, peak(distances.iter().copied()), run.worst_position_residual(), run.worst_drift()].map(tiny);
     table.row([name.to_owned(), steps, time].into_iter().chain(numbers));
     distances
 }

@@ -76,7 +76,9 @@ pub fn compare(studies: &Studies) -> Result<(), Failure> {
     let text = include_str!("../../tests/reference/golden_ref_rrr3.csv");
     free(&mut table, "three_rrr", &ThreeRrr, RRR_START, Reference::loop_motion("quad", text, 7, 4)?)?;
     table.print();
-    remark("The references leave the gap of the start as it is: their multipliers hold accelerations alone.");
+    remark(
+        "The references leave the position residual of the start as it is: their multipliers hold accelerations alone.",
+    );
     Ok(())
 }
 

@@ -52,9 +52,9 @@ impl Studies {
         let mut simulation = ClosedLoopSimulation::new(loops, law);
         let state = simulation.assembled(&start);
         let motion = record(name, &mut simulation, integrator, state, &t)?;
-        let gap = residual.iter().fold(0.0, |gap: f64, row| gap.max(row.abs()));
+        let largest = residual.iter().fold(0.0, |largest: f64, row| largest.max(row.abs()));
         let joint = mechanism.velocity_name(start.velocity).unwrap_or("");
-        if gap > OPEN {
+        if largest > OPEN {
             self.mended.push(mended(name, &residual, &start, joint));
         }
         let cells = vec![
@@ -63,11 +63,11 @@ impl Studies {
             mechanism.nc().to_string(),
             start.rank.to_string(),
             (mechanism.nv() - start.rank).to_string(),
-            tiny(gap),
+            tiny(largest),
             tiny(start.largest_displacement.abs()),
             t[t.len() - 1].to_string(),
             motion.statistics.steps.to_string(),
-            tiny(motion.worst_gap()),
+            tiny(motion.worst_position_residual()),
             tiny(motion.worst_drift()),
             format!("{:.3}", motion.seconds),
         ];
@@ -89,7 +89,7 @@ impl Studies {
             "rows\n",
             "rank\n",
             "mobility\n",
-            "gap\nm",
+            "residual\nm",
             "moved\nrad, m",
             "run\ns",
             "steps\n",

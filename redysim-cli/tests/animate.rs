@@ -99,12 +99,13 @@ fn a_joint_too_fast_for_its_instants_is_named() {
 /// A pinned four-bar some 0.3 m across, whose crank turns by 3.6 deg from one instant to the next.
 #[test]
 fn how_far_loops_open_between_instants_is_reported_and_not_to_be_seen() {
-    let folder = scratch("animate-gap");
+    let folder = scratch("animate-open");
     let data = data(&page(&turn(&folder, 100)));
     let note = data["notes"][0].as_str().unwrap();
-    let gap = note.strip_prefix("between instants the loops open by at most ").unwrap().strip_suffix(" m").unwrap();
-    let gap: f64 = gap.parse().unwrap();
-    assert!(0.0 < gap && gap < 1e-5, "{note}");
+    let residual =
+        note.strip_prefix("between instants the loops open by at most ").unwrap().strip_suffix(" m").unwrap();
+    let residual: f64 = residual.parse().unwrap();
+    assert!(0.0 < residual && residual < 1e-5, "{note}");
 }
 
 #[test]

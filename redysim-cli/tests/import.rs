@@ -62,7 +62,7 @@ fn inertias_are_turned_into_the_links_axes() {
 }
 
 #[test]
-fn what_a_urdf_leaves_out_is_what_urdf_says() {
+fn what_a_urdf_leaves_out_has_the_defaults_of_urdf() {
     let (mechanism, _) = import(&pendulum("", BODY), &[]);
     // The axis is x unless given; the origin is the parent's.
     assert_eq!(mechanism.model().links[0].axis.0, [1.0, 0.0, 0.0]);
@@ -297,7 +297,7 @@ fn rounded_quarter_turns_are_exact_where_asked_for() {
 
 /// As a program writes zero: no body has products of inertia without moments, but this one is meant to have none.
 #[test]
-fn an_inertia_of_roundoff_is_none() {
+fn an_inertia_of_roundoff_is_left_out() {
     let inertial = "<inertial><origin xyz=\"0 0.2 0\"/><mass value=\"1.5\"/><inertia ixx=\"0\" iyy=\"0\" izz=\"0\" ixy=\"0\" \
                     ixz=\"1.4e-20\" iyz=\"0\"/></inertial>";
     let (mechanism, run) = import(&pendulum("", inertial), &[]);
@@ -318,7 +318,7 @@ fn limits_with_an_acceleration_are_a_range() {
 
 /// What makes no sense is not dropped either.
 #[test]
-fn limits_that_are_none_are_kept_as_they_are() {
+fn limits_whose_lower_one_is_not_below_the_upper_are_kept_as_they_are() {
     let urdf = pendulum("<limit lower=\"2\" upper=\"1\" effort=\"-10\" velocity=\"3\"/>", BODY);
     let (_, run) = import(&urdf.replace("continuous", "revolute"), &[]);
     let kept = "# limits: position = [2.0, 1.0], velocity = 3.0, force = -10.0; the lower one is not below the upper";

@@ -133,7 +133,7 @@ fn a_motion_through_points_too_close_in_time_is_refused() {
 }
 
 #[test]
-fn steps_of_integration_that_nobody_can_wait_for_are_refused() {
+fn more_steps_of_integration_than_the_limit_are_refused() {
     for (name, settings, most) in [
         ("fixed", "method = 'Ode4', step = 1e-10", "at most 1e9"),
         ("adaptive", "method = 'Ode45', max_step = 1e-9", "at most 1e8"),

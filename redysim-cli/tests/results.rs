@@ -139,7 +139,7 @@ fn the_scenario_of_a_run_has_what_was_left_open_and_how_it_went() {
         "steps = ",
         "energy_drift = ",
         "energy_exchanged = ",
-        "worst_gap = ",
+        "worst_position_residual = ",
     ];
     for word in words {
         assert!(run.contains(word), "no `{word}` in: {run}");
@@ -151,7 +151,7 @@ fn the_scenario_of_a_run_has_what_was_left_open_and_how_it_went() {
         "s of computing and writing",
         "energy drift",
         "were exchanged",
-        "worst gap",
+        "worst position residual",
         "written to run",
     ];
     for word in words {

@@ -26,25 +26,25 @@ fn folder(name: &str) -> PathBuf {
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
-fn a_robot_moves_as_its_kinematics_say() {
+fn the_page_moves_a_robot_as_its_kinematics() {
     plays(&swing(&folder("kr5"), "kr5.toml", 6, 4.0, 400), None);
 }
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
-fn a_closed_loop_moves_as_its_kinematics_say() {
+fn the_page_moves_a_closed_loop_as_its_kinematics() {
     plays(&turn(&folder("fourbar"), 100), Some(&turn(&folder("fourbar_finer"), 700)));
 }
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
-fn a_slider_moves_as_its_kinematics_say() {
+fn the_page_moves_a_slider_as_its_kinematics() {
     plays(&slide(&folder("slider_crank"), 400), None);
 }
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
-fn a_long_chain_moves_as_its_kinematics_say() {
+fn the_page_moves_a_long_chain_as_its_kinematics() {
     plays(&swing(&folder("chain40"), "peers/chain40.toml", 40, 4.0, 400), None);
 }
 

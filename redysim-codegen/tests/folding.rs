@@ -53,7 +53,7 @@ fn a_sum_that_is_used_twice_is_not_taken_apart() {
 }
 
 #[test]
-fn what_is_only_roundoff_is_no_term() {
+fn terms_that_are_only_roundoff_are_left_out() {
     assert_eq!(counts(|x| vec![k(0.1) * x[0] + k(0.2) * x[0] - k(0.3) * x[0]]), [0; 4]);
     assert_eq!(counts(|x| vec![k(0.1) * x[0] + x[1] + k(0.2) * x[0] - k(0.3) * x[0]]), [0; 4]);
 }

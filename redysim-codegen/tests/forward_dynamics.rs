@@ -43,7 +43,7 @@ fn chains_longer_than_25_joints_go_by_the_recursion_whatever_the_count() {
 }
 
 #[test]
-fn many_short_arms_are_no_long_chain() {
+fn many_short_arms_do_not_count_as_a_long_chain() {
     assert!(remark(&rods(14, 2)).starts_with(BY_FACTORISATION));
 }
 

@@ -124,7 +124,7 @@ fn a_stated_force_is_what_the_tolerance_is_a_share_of() {
 /// The published model at 1 % took 305 operations, a fifth of the explicit one. Here most of that is saved without any
 /// tolerance.
 #[test]
-fn the_puma_at_one_percent() {
+fn the_puma_takes_no_more_operations_than_recorded_at_a_tolerance_of_one_percent() {
     let model = model("test/puma560");
     let functions = traced(&model, &["inverse_dynamics", "forward_dynamics", "mass_matrix", "bias_forces"], 0.01);
     let counts: Vec<[u32; 2]> = functions

@@ -61,7 +61,7 @@ fn sine_is_odd_and_cosine_even() {
 }
 
 #[test]
-fn roots() {
+fn roots_keep_their_values() {
     fn roots<S: Scalar>(x: S, y: S) -> Vec<S> {
         vec![(x * x).sqrt(), (x * x + y * y).sqrt(), ((x - y) * (x - y)).sqrt(), k::<S>(2.0).sqrt()]
     }

@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_that_nobody_could_tell_apart_are_one_that_names_them_all() {
+    fn curves_that_cannot_be_distinguished_are_one_that_names_them_all() {
         let apart = panel(&[&[0.0, 1.0], &[0.0, 1.1]]).merged();
         assert_eq!(names(&apart), ["a", "b"]);
         let close = panel(&[&[0.0, 100.0], &[1e-6, 0.0], &[0.0, 0.0], &[0.0, 99.99], &[0.0, 1e-3], &[f64::NAN; 2]]);
@@ -254,7 +254,7 @@ mod tests {
 
     /// The axis goes from 50.00 to 50.05.
     #[test]
-    fn curves_far_from_zero_are_told_apart_by_what_their_axis_shows() {
+    fn curves_far_from_zero_are_distinguished_by_what_their_axis_shows() {
         let crossing = panel(&[&[50.0, 50.05], &[50.05, 50.0], &[50.0, 50.049_99]]).merged();
         assert_eq!(names(&crossing), ["a, c", "b"]);
         let constant = panel(&[&[50.0, 50.0], &[50.0, 50.0 + 1e-13]]).merged();

@@ -94,11 +94,10 @@ impl Parse for Pair {
 }
 
 fn unexpected(span: Span) -> syn::Error {
-    syn::Error::new(
-        span,
-        "after the path of the model only `functions = [..]`, `locked = { .. }`, `tolerance = ..` and `forward_dynamics = ..` \
-         can stand",
-    )
+    let names: Vec<_> = redysim_model::option_names().map(|name| format!("`{name} = ..`")).collect();
+    let (last, others) = names.split_last().expect("a declaration has options");
+    let message = format!("after the path of the model only {} and {last} can stand", others.join(", "));
+    syn::Error::new(span, message)
 }
 
 /// A TOML value. A Rust name is a string.

@@ -69,5 +69,5 @@ pub use options::{AccelerationMethod, CodegenOptions};
 pub use public_interface::PublicInterface;
 pub use redysim_runtime::{Function, Functions};
 pub use redysim_toml::{Diagnostic, Diagnostics, Severity};
-pub use schema::key_documentation;
+pub use schema::{key_documentation, option_names};
 pub use tree::{Attachment, Body, Cut, CutEnd, Tree};

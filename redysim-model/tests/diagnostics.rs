@@ -56,7 +56,7 @@ fn warnings_let_a_model_pass() {
 }
 
 #[test]
-fn good_models_load_without_a_word() {
+fn good_models_load_without_warnings() {
     for name in ["kr5", "gripper"] {
         let Loaded { model, warnings, .. } = Model::load(models().join(format!("{name}.toml"))).unwrap();
         assert_eq!(all(&warnings), "");

@@ -75,7 +75,7 @@ fn a_locked_joint_needs_no_range() {
 }
 
 #[test]
-fn what_cannot_be_locked_is_said() {
+fn locks_of_unknown_repeated_fixed_or_all_joints_are_reported() {
     let kr5 = loaded(&text("kr5"), "");
     let gantry = loaded(&text("test/gantry"), "");
     let refused = |joints: &[(&str, f64)]| kr5.locked(joints).unwrap_err().to_string();

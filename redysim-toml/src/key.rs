@@ -43,6 +43,11 @@ impl Key {
         Key { name, value: None, meaning, tables }
     }
 
+    /// The example of its value; empty for an array of tables.
+    pub fn value(&self) -> &'static str {
+        self.value.unwrap_or_default()
+    }
+
     /// An example line, to be copied.
     pub fn example(&self) -> String {
         match self.value {

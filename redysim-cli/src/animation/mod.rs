@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::layout::Layout;
 use crate::recorded::{Chart, Recorded};
 use bodies::{Body, Cut};
-use motion::Motion;
+use motion::Keyframes;
 
 /// The page, made by `viewer/build.mjs`, with a place for the data.
 const PAGE: &str = include_str!("../../viewer/dist/viewer.html");
@@ -52,7 +52,7 @@ struct Animation<'a> {
     gravity: [f64; 3],
     bodies: Vec<Body<'a>>,
     cuts: Vec<Cut<'a>>,
-    motion: Motion,
+    motion: Keyframes,
     notes: &'a [String],
     charts: Vec<Curves<'a>>,
     /// The names of the coordinates.

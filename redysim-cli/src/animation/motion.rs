@@ -20,7 +20,7 @@ const QUARTER_TURN: f64 = FRAC_PI_2;
 
 /// All coordinates over time. Between two instants each is the cubic that has both coordinates and both rates.
 #[derive(Serialize)]
-pub struct Motion {
+pub struct Keyframes {
     /// The instants, s.
     t: Vec<f64>,
     /// A list for each coordinate: rad, m or 1.
@@ -33,7 +33,7 @@ pub struct Motion {
 ///
 /// # Errors
 /// If it is not there, or not that of the model.
-pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Motion, Vec<String>), Failure> {
+pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Keyframes, Vec<String>), Failure> {
     let Some(table) = recorded.motion()? else {
         return Err(recorded.lacks("no motion, neither statevar.csv nor traj.csv"));
     };
@@ -45,15 +45,15 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Motion
     }
     notes.extend(layout.coordinates.iter().zip(&motion.q).filter_map(|(coordinate, q)| fast(coordinate, q)));
     if !model.loops.is_empty() {
-        let gap = rounded(motion.gap_between(&GenericMechanism::new(model.clone())));
-        notes.push(format!("between instants the loops open by at most {gap} m"));
+        let residual = rounded(motion.residual_between(&GenericMechanism::new(model.clone())));
+        notes.push(format!("between instants the loops open by at most {residual} m"));
     }
     Ok((motion, notes))
 }
 
 /// The coordinates in a table, and their rates: the velocity of the same name, or the mean rate between the
 /// neighbouring instants if there is none.
-fn recorded_motion(table: &Table, layout: &Layout) -> Result<Motion, Failure> {
+fn recorded_motion(table: &Table, layout: &Layout) -> Result<Keyframes, Failure> {
     let rows = evenly(table.t.len(), NUMBERS / (2 * layout.nq()).max(1));
     let pick = |symbol: &str, component: &Component| -> Result<Vec<f64>, Failure> {
         let column = column(table, symbol, &component.name)?;
@@ -69,7 +69,7 @@ fn recorded_motion(table: &Table, layout: &Layout) -> Result<Motion, Failure> {
         });
         q.push(values);
     }
-    Ok(Motion { t, q, v })
+    Ok(Keyframes { t, q, v })
 }
 
 fn column<'t>(table: &'t Table, symbol: &str, name: &str) -> Result<&'t Column, Failure> {
@@ -125,17 +125,17 @@ fn fast(coordinate: &Component, q: &[f64]) -> Option<String> {
     })
 }
 
-impl Motion {
+impl Keyframes {
     /// How far loops open between instants: as far as in the middle, where cubics are furthest from the truth.
-    fn gap_between(&self, mechanism: &GenericMechanism) -> f64 {
+    fn residual_between(&self, mechanism: &GenericMechanism) -> f64 {
         let middle = |k: usize| {
             let time = self.t[k + 1] - self.t[k];
             let of_coordinate =
                 |(q, v): (&Vec<f64>, &Vec<f64>)| 0.5 * (q[k] + q[k + 1]) + 0.125 * time * (v[k] - v[k + 1]);
             self.q.iter().zip(&self.v).map(of_coordinate).collect::<Vec<f64>>()
         };
-        let gaps = (1..self.t.len()).map(|k| mechanism.loop_residual(&middle(k - 1)));
-        gaps.flatten().fold(0.0, |most: f64, gap: f64| most.max(gap.abs()))
+        let residuals = (1..self.t.len()).map(|k| mechanism.loop_residual(&middle(k - 1)));
+        residuals.flatten().fold(0.0, |most: f64, residual: f64| most.max(residual.abs()))
     }
 }
 

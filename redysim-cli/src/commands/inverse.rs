@@ -1,13 +1,14 @@
 //! `redysim inverse SCENARIO`.
 
 use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopForces, Motion, Trajectory};
+use redysim_toml::Key;
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::rounded;
 use crate::output::to_stdout;
 use crate::results::{self, Ended, Outcome, Record, Sample};
-use crate::scenario::{Dynamics, Prescribed, Scenario, Span};
+use crate::scenario::{Dynamics, Prescribed, Scenario, Span, keys};
 
 /// Compute the forces that a prescribed motion takes, and write them into a folder.
 #[derive(clap::Args)]
@@ -21,18 +22,13 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
     let scenario = Scenario::load(&results.scenario, Dynamics::Inverse, quiet)?;
-    let missing = |what: &str, help: &str| {
-        Failure::input(format!("{} does not state {what}", results.scenario.display())).help(help)
+    let missing = |what: &str, key: &Key| {
+        let message = format!("{} does not state {what}", results.scenario.display());
+        Failure::input(message).help(format!("add a table, as in: {}", key.example()))
     };
-    let span = scenario.inverse.ok_or_else(|| {
-        missing("at which instants forces are wanted", "add a table, as in: inverse = { end = 1.0, step = 0.01 }")
-    })?;
-    let trajectory = scenario.trajectory.as_ref().ok_or_else(|| {
-        missing(
-            "which motion is prescribed",
-            "add a table, as in: trajectory = { from = [0], to = [\"60 deg\"], duration = 1.0 }",
-        )
-    })?;
+    let span = scenario.inverse.ok_or_else(|| missing("at which instants forces are wanted", &keys::INVERSE))?;
+    let trajectory =
+        scenario.trajectory.as_ref().ok_or_else(|| missing("which motion is prescribed", &keys::TRAJECTORY))?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Inverse, span, quiet)?;
     let (outcome, most) = along(&scenario, trajectory, &mut record);
@@ -88,7 +84,7 @@ struct Required {
     forces: Vec<f64>,
     multipliers: Vec<f64>,
     /// The largest component of the loops' residual, m.
-    gap: f64,
+    position_residual: f64,
 }
 
 /// The forces at every instant, as far as there are, and the largest of each joint.
@@ -103,20 +99,21 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
         if !scenario.loops() {
             let motion = whole.at(t);
             let forces = mechanism.inverse_dynamics(&motion.q, &motion.v, &motion.a);
-            return Ok(Required { motion, forces, multipliers: vec![], gap: 0.0 });
+            return Ok(Required { motion, forces, multipliers: vec![], position_residual: 0.0 });
         }
         let failed = |reason| Failure::outside(format!("at t = {t:?} s: {}", loops.with_names(reason)));
         let LoopForces { motion, forces, multipliers, .. } = of_loops.at(t, trajectory).map_err(failed)?;
-        let gap = scenario.gap(&motion.q);
-        Ok(Required { motion, forces, multipliers, gap })
+        let position_residual = scenario.position_residual(&motion.q);
+        Ok(Required { motion, forces, multipliers, position_residual })
     };
     let (mut worst, mut work, mut before) = (0.0, 0.0, None);
     let mut most = vec![0.0; scenario.layout.nv()];
     let mut compute = |t: f64, record: &mut Record<'_>| -> Result<(), Failure> {
         work += before.map_or(Ok(0.0), |before| work_between(&mut required_at, before, t))?;
-        let Required { motion: Motion { q, v, a }, forces: tau, multipliers: lambda, gap } = required_at(t)?;
+        let Required { motion: Motion { q, v, a }, forces: tau, multipliers: lambda, position_residual } =
+            required_at(t)?;
         before = Some(t);
-        worst = f64::max(worst, gap);
+        worst = f64::max(worst, position_residual);
         most.iter_mut().zip(&tau).for_each(|(most, force)| *most = f64::max(*most, force.abs()));
         record.add(&Sample { t, q, v, a, tau, lambda, work })
     };
@@ -129,8 +126,13 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
             break Ended::Failed(reason);
         }
     };
-    let outcome =
-        Outcome { ended, integrator: None, steps: None, statistics: None, gap: scenario.loops().then_some(worst) };
+    let outcome = Outcome {
+        ended,
+        integrator: None,
+        steps: None,
+        statistics: None,
+        position_residual: scenario.loops().then_some(worst),
+    };
     (outcome, most)
 }
 

@@ -182,7 +182,7 @@ mod tests {
 
     /// As of a run that was killed, whose process had the same number.
     #[test]
-    fn a_draft_that_is_left_is_in_nobodys_way() {
+    fn a_draft_that_is_left_does_not_hinder_another_run() {
         let folder = tempfile::tempdir().unwrap();
         let drafts = [1, 2].map(|_| Folder::draft(folder.path().join("run"), false).unwrap());
         assert_ne!(drafts[0].draft.path, drafts[1].draft.path);

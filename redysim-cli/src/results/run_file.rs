@@ -115,7 +115,7 @@ fn how_it_went(summary: &Summary) -> Table {
     let mut table = Table::new();
     table.decor_mut().set_prefix("\n# How it went.\n");
     let Summary { dynamics, instants: (from, until, count), seconds, balance, start, outcome, .. } = summary;
-    let Outcome { ended, steps, statistics, gap, .. } = outcome;
+    let Outcome { ended, steps, statistics, position_residual, .. } = outcome;
     table["command"] = value(dynamics.to_string());
     table["redysim"] = value(env!("CARGO_PKG_VERSION"));
     table["ended"] = value(ended.to_string());
@@ -138,8 +138,8 @@ fn how_it_went(summary: &Summary) -> Table {
     }
     table["energy_drift"] = number(balance.drift);
     table["energy_exchanged"] = number(balance.exchanged);
-    if let Some(gap) = gap {
-        table["worst_gap"] = number(*gap);
+    if let Some(residual) = position_residual {
+        table["worst_position_residual"] = number(*residual);
     }
     let [q, v] = start;
     table["start_q"] = numbers(q);

@@ -17,8 +17,8 @@ pub struct Outcome {
     pub steps: Option<u64>,
     /// What else it took: an integration that fails does not report it.
     pub statistics: Option<Statistics>,
-    /// The largest gap of a loop, m (or a sine), if there are loops.
-    pub gap: Option<f64>,
+    /// The largest position residual of a loop, m (or a sine), if there are loops.
+    pub position_residual: Option<f64>,
 }
 
 /// How a run ended.
@@ -58,7 +58,7 @@ impl fmt::Display for Ended {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Outcome { integrator, steps, statistics, gap, .. } = &self.outcome;
+        let Outcome { integrator, steps, statistics, position_residual, .. } = &self.outcome;
         let (from, to, count) = self.instants;
         write!(f, "{}: {} dynamics", self.name, self.dynamics)?;
         integrator.as_ref().map_or(Ok(()), |name| write!(f, " by {name}"))?;
@@ -72,6 +72,6 @@ impl fmt::Display for Summary {
         write!(f, "\n  {:.3} s of computing and writing", self.seconds)?;
         let Balance { drift, exchanged, .. } = self.balance;
         write!(f, "\n  energy drift {drift:.1e} J, while up to {exchanged:.1e} J were exchanged")?;
-        gap.map_or(Ok(()), |gap| write!(f, "\n  worst gap {gap:.1e} m"))
+        position_residual.map_or(Ok(()), |residual| write!(f, "\n  worst position residual {residual:.1e} m"))
     }
 }

@@ -31,8 +31,8 @@ pub struct Row<'a> {
 
 type Make = fn(&Row<'_>) -> Vec<f64>;
 
-/// A table: its name, what is above the columns, and how a row is made.
-struct Table {
+/// A file with a table: its name, what is above the columns, and how a row is made.
+struct TableFile {
     name: &'static str,
     headers: Vec<String>,
     make: Make,
@@ -40,7 +40,7 @@ struct Table {
 
 /// All tables of a run, as far as they are written.
 pub struct Tables {
-    tables: Vec<(Table, csv::Writer<File>)>,
+    tables: Vec<(TableFile, csv::Writer<File>)>,
     rows: usize,
 }
 
@@ -98,7 +98,7 @@ impl Tables {
     }
 }
 
-impl Table {
+impl TableFile {
     fn checked(&self, row: Vec<f64>, above: usize) -> Result<Vec<f64>, Failure> {
         let Some(column) = row.iter().position(|value| !value.is_finite()) else { return Ok(row) };
         let name = self.headers.get(column).map_or(format!("column {}", column + 1), |name| format!("`{name}`"));
@@ -132,12 +132,12 @@ impl Row<'_> {
 }
 
 /// The tables with names and units, each with the time first.
-fn named(scenario: &Scenario) -> Vec<Table> {
+fn named(scenario: &Scenario) -> Vec<TableFile> {
     let Headers { q, v, a, forces } = Headers::of(&scenario.layout);
     let energies = ["kinetic", "potential", "total", "work", "drift"].map(|name| format!("{name} [J]"));
     let timed = |name, headers: &[&[String]], make: Make| {
         let headers = [&["t [s]".to_owned()], headers.concat().as_slice()].concat();
-        Table { name, headers, make }
+        TableFile { name, headers, make }
     };
     let mut tables = vec![
         timed(names::TIMEVAR, &[], |at| at.timed(&[])),
@@ -185,8 +185,8 @@ impl Headers {
 /// actuators, of inverse dynamics q̈; with closed loops its joint forces are those of the actuated joints and then λ;
 /// its energies are potential, kinetic, of the actuators, and the sum of these. What it does not write, kinematics and
 /// the λ of forward dynamics, is written as in the tables with names.
-fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<Table> {
-    let plain = |name, make: Make| Table { name, headers: vec![], make };
+fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<TableFile> {
+    let plain = |name, make: Make| TableFile { name, headers: vec![], make };
     let mut tables = vec![
         plain(names::TIMEVAR, |at| vec![at.sample.t]),
         plain(names::ENVAR, |at| {

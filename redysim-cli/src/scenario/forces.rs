@@ -4,7 +4,7 @@ use redysim_model::GenericMechanism;
 use redysim_runtime::TorqueLaw;
 
 use super::subject::spread;
-use super::table::Table;
+use super::table::InputTable;
 use crate::failure::Failure;
 use crate::layout::Layout;
 
@@ -12,14 +12,14 @@ use crate::layout::Layout;
 #[derive(Clone, Debug)]
 pub struct Forces {
     /// The table that they were read from.
-    pub table: Table,
+    pub table: InputTable,
     /// By rows, a force for each velocity; zero for a velocity without a column.
     rows: Vec<Vec<f64>>,
 }
 
 impl Forces {
     /// Those of the joints `chosen`.
-    pub fn of(table: Table, layout: &Layout, chosen: &[usize]) -> Result<Forces, Failure> {
+    pub fn of(table: InputTable, layout: &Layout, chosen: &[usize]) -> Result<Forces, Failure> {
         let velocities = layout.velocities_of(chosen);
         let rows = table.of_components("tau", &layout.velocities, &velocities, None)?;
         let rows =

@@ -94,21 +94,21 @@ const MOST_ADAPTIVE: f64 = 1e8;
 const ROUNDING: f64 = 1e-6;
 
 #[derive(Clone, Copy)]
-enum Method {
+enum IntegrationMethod {
     Fixed(Fixed),
     Adaptive(Adaptive),
 }
 
-const fn fixed(name: &'static str, method: Fixed) -> Kind<Method> {
-    Kind { name, kind: Method::Fixed(method), keys: &keys::FIXED_STEP }
+const fn fixed(name: &'static str, method: Fixed) -> Kind<IntegrationMethod> {
+    Kind { name, kind: IntegrationMethod::Fixed(method), keys: &keys::FIXED_STEP }
 }
 
-const fn adaptive(name: &'static str, method: Adaptive) -> Kind<Method> {
-    Kind { name, kind: Method::Adaptive(method), keys: &keys::ADAPTIVE_STEP }
+const fn adaptive(name: &'static str, method: Adaptive) -> Kind<IntegrationMethod> {
+    Kind { name, kind: IntegrationMethod::Adaptive(method), keys: &keys::ADAPTIVE_STEP }
 }
 
 /// The names, and behind them other names of the same: the numbers are those of ReDySim's `int_type`.
-const METHODS: [Kind<Method>; 14] = [
+const METHODS: [Kind<IntegrationMethod>; 14] = [
     fixed("SemiImplicitEuler", Fixed::SemiImplicitEuler),
     fixed("Ode4", Fixed::Ode4),
     fixed("Ode5", Fixed::Ode5),
@@ -138,9 +138,9 @@ impl Integrator {
     }
 
     /// Reads the settings of a method.
-    fn of_method(mut reader: Reader<'_, '_>, method: Method, length: f64) -> Option<Integrator> {
+    fn of_method(mut reader: Reader<'_, '_>, method: IntegrationMethod, length: f64) -> Option<Integrator> {
         match method {
-            Method::Fixed(method) => {
+            IntegrationMethod::Fixed(method) => {
                 let step = reader.required(&keys::INTEGRATOR_STEP, Reader::positive);
                 let spanned = step.spanned()?;
                 let size = *spanned.get_ref();
@@ -150,7 +150,7 @@ impl Integrator {
                 check_count(&mut reader, &keys::INTEGRATOR_STEP, &step, (length, MOST_FIXED))?;
                 Some(Integrator::Fixed(method, size))
             }
-            Method::Adaptive(method) => {
+            IntegrationMethod::Adaptive(method) => {
                 let rtol = reader.positive(&keys::RTOL).value_or(USUAL_RTOL);
                 let largest = reader.positive(&keys::MAX_STEP);
                 let max_step = largest.value_or(USUAL_MAX_STEP * length);

@@ -70,9 +70,9 @@ pub const TORQUE: Key = Key::of_table(
     "torque",
     "{ law = \"pd\", target = [0, 0], kp = 49.0, kd = 14.0 }",
     "",
-    &[&FREE, &P, &PD, &TRACKING_PD, &COMPUTED_TORQUE, &FORCE_TABLE],
+    &[&ZERO_TORQUE, &P, &PD, &TRACKING_PD, &COMPUTED_TORQUE, &FORCE_TABLE],
 );
-pub const FREE: Keys = Keys::new("The law `free`", &[LAW]);
+pub const ZERO_TORQUE: Keys = Keys::new("The law `free`", &[LAW]);
 pub const P: Keys = Keys::new("The law `p`", &[LAW, DRIVEN, TARGET, KP]);
 pub const PD: Keys = Keys::new("The law `pd`", &[LAW, DRIVEN, TARGET, KP, KD]);
 pub const TRACKING_PD: Keys = Keys::new("The law `tracking-pd`", &[LAW, DRIVEN, KP, KD]);

@@ -5,7 +5,7 @@ mod forward;
 mod initial;
 mod integrator;
 mod joints;
-mod keys;
+pub mod keys;
 mod law;
 mod limits;
 mod resolution;
@@ -34,7 +34,7 @@ pub use law::Law;
 pub use span::Span;
 pub use subject::{Dynamics, Subject};
 use subject::{given, indices};
-use table::Table;
+use table::InputTable;
 pub use torque::Torque;
 pub use trajectory::{Prescribed, USUAL_THROUGH};
 
@@ -104,14 +104,15 @@ impl Scenario {
     }
 
     /// The largest component of the loops' residual at `q`, m (or a sine).
-    pub fn gap(&self, q: &Vec<f64>) -> f64 {
+    pub fn position_residual(&self, q: &Vec<f64>) -> f64 {
         let residual: Vec<f64> = self.mechanism.loop_residual(q);
-        residual.iter().fold(0.0, |gap, value| gap.max(value.abs()))
+        residual.iter().fold(0.0, |largest, value| largest.max(value.abs()))
     }
 
     /// Fails unless the tables that are used go as far as the runs that use them.
     fn check_tables(&self) -> Result<(), Failure> {
-        let cover = |table: Option<&Table>, span: Span| table.map_or(Ok(()), |table| table.cover(span.start, span.end));
+        let cover =
+            |table: Option<&InputTable>, span: Span| table.map_or(Ok(()), |table| table.cover(span.start, span.end));
         if let (Some(span), Some(trajectory)) = (self.inverse, &self.trajectory) {
             cover(trajectory.table.as_ref(), span)?;
         }

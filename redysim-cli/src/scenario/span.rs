@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_that_are_no_decimals_are_multiples() {
+    fn steps_that_are_not_decimals_are_multiples() {
         for (start, step) in [(0.0, 1.0 / 3.0), (0.1 + 0.2, 0.1), (1e15, 0.7), (0.0, f64::MIN_POSITIVE)] {
             let span = span(start, start + 300.0 * step, step);
             assert!((0..=300).all(|k| span.instant(k) == start + k as f64 * step), "{start} {step}");

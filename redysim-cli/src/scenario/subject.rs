@@ -7,7 +7,7 @@ use std::path::Path;
 use redysim_model::{Mobility, Model};
 use redysim_toml::{Field, Key, Message, Reader};
 
-use super::table::Table;
+use super::table::InputTable;
 use crate::failure::Failure;
 use crate::layout::{Component, Joint, Layout};
 
@@ -78,11 +78,11 @@ impl Subject<'_> {
         &self,
         reader: &mut Reader<'_, '_>,
         key: &Key,
-        read: impl FnOnce(Table) -> Result<T, Failure>,
+        read: impl FnOnce(InputTable) -> Result<T, Failure>,
     ) -> Option<T> {
         let file = reader.required(key, Reader::text);
         let named = file.spanned()?;
-        match Table::read(&self.folder.join(named.get_ref())).and_then(read) {
+        match InputTable::read(&self.folder.join(named.get_ref())).and_then(read) {
             Ok(read) => Some(read),
             Err(fault) => {
                 let help = Some(fault.advice()).filter(|help| !help.is_empty());
@@ -127,8 +127,8 @@ pub mod tests {
     use super::*;
     use crate::layout::tests::free_base_with_arm;
 
-    /// What `read` makes of a forward run of a free joint `base` and a revolute joint `arm`, whose loops have a mobility
-    /// of six. No model has a free joint: layout and mobility are made by hand.
+    /// What `read` makes of a forward run of a free joint `base` and a revolute joint `arm`, whose loops have a
+    /// mobility of six. No model has a free joint: layout and mobility are made by hand.
     pub fn with_free_base<T>(read: impl FnOnce(&Subject<'_>) -> T) -> T {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/fourbar.toml");
         let model = Model::load(path).unwrap().model;

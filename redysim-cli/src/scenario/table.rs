@@ -11,7 +11,7 @@ const LARGEST: f64 = 1e100;
 
 /// A table whose numbers are finite and whose times increase.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct InputTable {
     path: PathBuf,
     /// The text that was read.
     pub text: String,
@@ -20,13 +20,13 @@ pub struct Table {
     columns: Vec<Column>,
 }
 
-impl Table {
+impl InputTable {
     /// Reads a file.
     ///
     /// # Errors
     /// The first fault, with its line: a missing value, a number that is not finite or too large, or times that do not
     /// increase.
-    pub fn read(path: &Path) -> Result<Table, Failure> {
+    pub fn read(path: &Path) -> Result<InputTable, Failure> {
         let read = table::Table::read(path).map_err(|fault| match path.is_file() {
             true => fault,
             false => fault.help("the path of a table is taken from the folder of the scenario"),
@@ -49,7 +49,7 @@ impl Table {
             }
         }
         let table::Table { path, text, t, columns, .. } = read;
-        let table = Table { path, text, t, columns };
+        let table = InputTable { path, text, t, columns };
         match table.t.len() {
             0 | 1 => Err(table.fault("it has 1 row, and no time lies between", "a table has at least two rows")),
             _ => Ok(table),

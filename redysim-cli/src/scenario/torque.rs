@@ -17,7 +17,7 @@ use crate::layout::{Component, Joint, Layout};
 /// A torque law, as the scenario has it: its values are those of the joints that it drives.
 #[derive(Clone, Debug)]
 pub enum Torque {
-    Free,
+    Zero,
     P {
         joints: Vec<usize>,
         target: Vec<f64>,
@@ -53,7 +53,7 @@ pub enum Torque {
 }
 
 const LAWS: [Kind<ReadLaw>; 6] = [
-    Kind { name: "free", kind: |_| Some(Torque::Free), keys: &keys::FREE },
+    Kind { name: "free", kind: |_| Some(Torque::Zero), keys: &keys::ZERO_TORQUE },
     Kind { name: "p", kind: |law| law.p(), keys: &keys::P },
     Kind { name: "pd", kind: |law| law.pd(), keys: &keys::PD },
     Kind { name: "tracking-pd", kind: |law| law.tracking_pd(), keys: &keys::TRACKING_PD },
@@ -82,13 +82,13 @@ impl Torque {
     ) -> Option<Torque> {
         let read = |reader: Reader<'_, '_>, law: ReadLaw| law(Source { reader, subject, trajectory });
         let field = reader.table_of_kind(&keys::TORQUE, &keys::LAW, &LAWS, &LAWS[0], read);
-        given(field)?.or(Some(Torque::Free))
+        given(field)?.or(Some(Torque::Zero))
     }
 
     /// The joints that the law drives, given or by default.
     pub fn joints(&self) -> Option<&[usize]> {
         match self {
-            Torque::Free | Torque::Computed { .. } => None,
+            Torque::Zero | Torque::Computed { .. } => None,
             Torque::P { joints, .. }
             | Torque::Pd { joints, .. }
             | Torque::TrackingPd { joints, .. }
@@ -111,7 +111,7 @@ impl Torque {
         let whole =
             |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, &layout.velocities);
         match self {
-            Torque::Free => Law::total(ZeroTorque),
+            Torque::Zero => Law::total(ZeroTorque),
             Torque::P { joints, target, kp } => {
                 let (target, kp) = (positions(joints, target), whole(joints, kp));
                 Law::total(Proportional { target, kp })

@@ -9,7 +9,7 @@ use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 use super::joints::{Quantity, points, some, values};
 use super::keys;
 use super::subject::{Dynamics, Subject, given, spread};
-use super::table::Table;
+use super::table::InputTable;
 use crate::failure::Failure;
 use crate::layout::{Component, Layout};
 
@@ -25,7 +25,7 @@ pub struct Prescribed {
     /// The place of its speed, or of the whole table.
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
-    pub table: Option<Table>,
+    pub table: Option<InputTable>,
     motion: Path,
 }
 
@@ -247,7 +247,7 @@ fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, 
 /// A motion of the given coordinates and velocities through the rows of a table, with its velocities and accelerations;
 /// without them, as `smooth` selects.
 fn from_table(
-    table: &Table,
+    table: &InputTable,
     layout: &Layout,
     [of_q, of_v]: [&[usize]; 2],
     smooth: Smooth,

@@ -88,7 +88,7 @@ fn what_is_not_a_number_is_refused_where_a_number_is_due() {
 }
 
 #[test]
-fn what_is_not_a_number_is_refused_in_limits_and_mimics_too() {
+fn what_is_not_a_number_is_refused_in_limits_and_mimics() {
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     // Joint k is on line 6; what is added to it stands on the next.
     let with = |inside: &str| good.replace("<child link=\"c\"/>", &format!("<child link=\"c\"/>\n{inside}"));

@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn extreme_sizes_are_no_trouble() {
+    fn principal_moments_of_extreme_sizes_do_not_overflow() {
         for scale in [1e-300, 1e300] {
             let [a, _, c] = moments(2.0 * scale, 2.0 * scale, 2.0 * scale, scale, 0.0, 0.0);
             assert!((a / scale - 1.0).abs() < 1e-15 && (c / scale - 3.0).abs() < 1e-14);

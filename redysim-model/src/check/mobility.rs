@@ -20,8 +20,8 @@ pub(super) fn check(model: &Model) -> Vec<(Option<usize>, Message)> {
         empty.map(|cut| (Some(cut), messages::loop_without_constraints(&model.loops[cut].name))).collect();
     let (found, closed) = Mobility::found(&mechanism);
     let Mobility { constraints, rank, ref added, mobility, position_residual } = found;
-    if let Some(gap) = position_residual {
-        findings.push((None, messages::loops_stay_open(&model.name, STARTS, gap)));
+    if let Some(residual) = position_residual {
+        findings.push((None, messages::loops_stay_open(&model.name, STARTS, residual)));
     }
     if let Some(q) = closed.filter(|_| rank < constraints) {
         let structural = structural_rank(&mechanism.loop_jacobian(&q));

@@ -77,12 +77,12 @@ pub(super) fn bodies<S: Scalar>(
         placed.pose.rotation = Mat3(parent.pose.rotation.0.map(|row| joint.to_body(Vec3(row)).0));
         if order >= Order::Velocities {
             let axis = placed.pose.rotation.column(2);
-            let (screw, rate) = (body.joint.screw(), v[body.v.start]);
-            if let Some(turn) = screw.turn(rate).map(|turn| axis.scale(turn)) {
+            let (screw, qd) = (body.joint.screw(), v[body.v.start]);
+            if let Some(turn) = screw.turn(qd).map(|turn| axis.scale(turn)) {
                 placed.angular_acceleration = parent.angular_acceleration + parent.derivative(turn);
                 placed.angular = parent.angular + turn;
             }
-            if let Some(slide) = screw.slide(rate).map(|slide| axis.scale(slide)) {
+            if let Some(slide) = screw.slide(qd).map(|slide| axis.scale(slide)) {
                 let across = parent.derivative(slide);
                 placed.acceleration = placed.acceleration + across + across;
                 placed.velocity = placed.velocity + slide;

@@ -29,12 +29,12 @@ pub fn center_of_mass<S: Scalar, P: ParameterIn<S>>(
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let own = moments[index];
         trace.name_vector(own, "h", index);
-        let (screw, rate) = (body.joint.screw(), v[body.v.start]);
+        let (screw, qd) = (body.joint.screw(), v[body.v.start]);
         let mut own_momentum = momenta[index];
-        if let Some(turn) = screw.turn(rate) {
+        if let Some(turn) = screw.turn(qd) {
             own_momentum = own_momentum + Vec3([-own[1], own[0], S::zero()]).scale(turn);
         }
-        if let Some(slide) = screw.slide(rate) {
+        if let Some(slide) = screw.slide(qd) {
             own_momentum[2] += masses[index].value() * slide;
         }
         trace.name_vector(own_momentum, "p", index);

@@ -129,10 +129,10 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         } + biases[index].acceleration;
         let screw = body.joint.screw();
         let Pivot { inverse, ratio, drive } = &pivots[index];
-        let joint = *inverse * *drive - power(screw, *ratio, acceleration);
-        let acceleration = screw.added(acceleration, joint);
-        trace.name(joint, "acc", index, "");
-        result[body.v.start] = joint;
+        let qdd = *inverse * *drive - power(screw, *ratio, acceleration);
+        let acceleration = screw.added(acceleration, qdd);
+        trace.name(qdd, "acc", index, "");
+        result[body.v.start] = qdd;
         trace.name_twist(acceleration, ["dw", "acc"], index);
         accelerations.push(acceleration);
     });

@@ -29,16 +29,16 @@ impl<S: Scalar> BodyMotion<S> {
         Self::new(Vec3::zero(), Vec3::zero(), (-gravity).map(ParameterIn::value))
     }
 
-    /// The motion across a joint of velocity `rate` and acceleration `joint`.
-    fn across(self, frame: &JointFrame<S>, screw: Screw, rate: S, joint: S) -> Self {
+    /// The motion across a joint of velocity `qd` and acceleration `qdd`.
+    fn across(self, frame: &JointFrame<S>, screw: Screw, qd: S, qdd: S) -> Self {
         let mut acceleration = frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position);
         let mut w = frame.to_body(self.angular);
-        if let (Some(slide), Some(along)) = (screw.slide(rate), screw.slide(joint)) {
+        if let (Some(slide), Some(along)) = (screw.slide(qd), screw.slide(qdd)) {
             let twice = slide + slide;
             acceleration = acceleration + Vec3([w[1] * twice, -(w[0] * twice), along]);
         }
         let before = frame.to_body(self.angular_acceleration);
-        let (Some(turn), Some(about)) = (screw.turn(rate), screw.turn(joint)) else {
+        let (Some(turn), Some(about)) = (screw.turn(qd), screw.turn(qdd)) else {
             return Self::new(w, before, acceleration);
         };
         let Some(image) = frame.axis_image(self.angular_acceleration_tensor) else {

@@ -55,27 +55,27 @@ impl Screw {
         }
     }
 
-    /// `twist` + S `rate`.
+    /// `twist` + S `x`, for a velocity or an acceleration `x` of the joint.
     #[inline]
-    pub fn added<S: Scalar>(self, mut twist: Twist<S>, rate: S) -> Twist<S> {
-        if let Some(turn) = self.turn(rate) {
+    pub fn added<S: Scalar>(self, mut twist: Twist<S>, x: S) -> Twist<S> {
+        if let Some(turn) = self.turn(x) {
             twist.angular[2] += turn;
         }
-        if let Some(slide) = self.slide(rate) {
+        if let Some(slide) = self.slide(x) {
             twist.linear[2] += slide;
         }
         twist
     }
 
-    /// The bias acceleration of the joint, (ω × turn; 2 ω × slide) for the velocity `rate`, where the parent's angular
+    /// The bias acceleration of the joint, (ω × turn; 2 ω × slide) for the velocity `qd`, where the parent's angular
     /// velocity is `angular` in the body's axes.
     #[inline]
-    pub fn bias<S: Scalar>(self, angular: Vec3<S>, rate: S) -> Twist<S> {
+    pub fn bias<S: Scalar>(self, angular: Vec3<S>, qd: S) -> Twist<S> {
         let [x, y, _] = angular.0;
         let across = |along: S| Vec3([y * along, -(x * along), S::zero()]);
         Twist {
-            angular: self.turn(rate).map_or(Vec3::zero(), across),
-            linear: self.slide(rate).map_or(Vec3::zero(), |slide| across(slide + slide)),
+            angular: self.turn(qd).map_or(Vec3::zero(), across),
+            linear: self.slide(qd).map_or(Vec3::zero(), |slide| across(slide + slide)),
         }
     }
 

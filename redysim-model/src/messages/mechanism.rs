@@ -2,6 +2,7 @@
 
 use super::{message, with_locks};
 use crate::joint::Joint;
+use crate::schema::keys;
 use redysim_runtime::Function;
 use redysim_toml::Message;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
@@ -69,8 +70,13 @@ pub(crate) fn no_placement(item: &str) -> Message {
     message(
         format!("{item}: its joint has no place"),
         "no `dh`, `origin` or `axis`",
-        "give `dh = { a = .., alpha = .., b = .., theta = .. }`, or `origin = { xyz = [..], rpy = [..] }` and \
-         `axis = [..]`; `origin = {}` is the parent's frame",
+        format!(
+            "give for example `{}`, or `{}` and `{}`; `{} = {{}}` is the parent's frame",
+            keys::DH.example(),
+            keys::ORIGIN.example(),
+            keys::AXIS.example(),
+            keys::ORIGIN.name
+        ),
     )
 }
 
@@ -204,12 +210,12 @@ pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str, locks: Ve
 }
 
 /// Newton's method did not close the loops from any start.
-pub(crate) fn loops_stay_open(model: &str, starts: usize, gap: f64) -> Message {
+pub(crate) fn loops_stay_open(model: &str, starts: usize, position_residual: f64) -> Message {
     message(
         format!(
-            "model {}: its loops could not be closed from any of {starts} starts; a gap of {} m was left",
+            "model {}: its loops could not be closed from any of {starts} starts; a position residual of {} m was left",
             quoted(model),
-            rounded(gap)
+            rounded(position_residual)
         ),
         "the loops stay open",
         "check lengths, points and axes at the cuts; if the mechanism closes only near one position, close it from \

@@ -2,6 +2,7 @@
 
 use super::message;
 use crate::options::AccelerationMethod;
+use crate::schema::keys;
 use redysim_runtime::Function;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
 use redysim_toml::{KeyPath, Message};
@@ -105,7 +106,7 @@ pub(crate) fn no_range(item: &str, joints: &[&str]) -> Message {
     message(
         format!("{item}: `tolerance` is given, but joint{s} {} {have} no range", shortened(&names)),
         "holds within ranges only",
-        "give each link whose joint moves `range = { position = [.., ..], velocity = .., acceleration = .. }`",
+        format!("give each link whose joint moves its range, as in `{}`", keys::RANGE.example()),
     )
 }
 

@@ -24,6 +24,11 @@ pub fn key_documentation() -> String {
     keys::MODEL.documentation()
 }
 
+/// The names of the options that may stand beside a model file, in a declaration.
+pub fn option_names() -> impl Iterator<Item = &'static str> {
+    keys::OPTIONS.names()
+}
+
 /// The whole file.
 #[derive(Debug)]
 pub(crate) struct Document {

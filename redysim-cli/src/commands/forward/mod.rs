@@ -1,16 +1,16 @@
 //! `redysim forward SCENARIO`.
 
+mod observer;
 mod system;
-mod watch;
 
 use redysim_runtime::{IntegrationError, Stabilisation};
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::results::{self, Balance, Ended, Outcome, Record};
-use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances};
+use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances, keys};
+use observer::RunObserver;
 use system::System;
-use watch::Watch;
 
 /// Compute how a mechanism moves, and write it into a folder.
 #[derive(clap::Args)]
@@ -26,7 +26,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let scenario = Scenario::load(&results.scenario, Dynamics::Forward, quiet)?;
     let forward = scenario.forward.as_ref().ok_or_else(|| {
         let message = format!("{} does not state which motion is to be computed", results.scenario.display());
-        Failure::input(message).help("add a table, as in: forward = { end = 1.0, step = 0.01 }")
+        Failure::input(message).help(format!("add a table, as in: {}", keys::FORWARD.example()))
     })?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Forward, forward.span, quiet)?;
@@ -45,10 +45,10 @@ fn move_on<'a>(
     let mut system = System::new(scenario, forward);
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
-    let mut watch = Watch::new(scenario, forward, record, &start)?;
+    let mut observer = RunObserver::new(scenario, forward, record, &start)?;
     let integrator = &forward.integrator;
-    let solution = integrator.run(&scenario.mechanism, system.ode(), forward.span.interval(), start, &mut watch);
-    let Watch { steps, gap, failed, .. } = watch;
+    let solution = integrator.run(&scenario.mechanism, system.ode(), forward.span.interval(), start, &mut observer);
+    let RunObserver { steps, position_residual, failed, .. } = observer;
     let ended = match (&solution, failed) {
         (Err(error), _) => Ended::Failed(explained(error, scenario, &system)),
         (Ok(_), Some(reason)) => Ended::Failed(reason),
@@ -60,7 +60,7 @@ fn move_on<'a>(
         integrator: Some(forward.integrator.name()),
         steps: Some(steps),
         statistics: solution.ok().map(|solution| solution.statistics),
-        gap: scenario.loops().then_some(gap),
+        position_residual: scenario.loops().then_some(position_residual),
     })
 }
 
@@ -81,7 +81,8 @@ fn warn_of_step(
     let warning = format!("with steps of {step:?} s {method} is not stable near the start: errors{whose} grow");
     let help = format!(
         "take integrator = {{ method = \"{method}\", step = {most:.1e} }} or less, lower gains or dampings, or an \
-         implicit method, as in: {IMPLICIT}"
+         implicit method, as in: {}",
+        implicit()
     );
     record.warn(&warning, &help);
 }
@@ -114,8 +115,10 @@ fn warn_of_drift(forward: &Forward, record: &Record<'_>) {
     }
 }
 
-/// An integrator for stiff equations.
-const IMPLICIT: &str = "integrator = { method = \"Ode15s\", rtol = 1e-6, atol = 1e-8 }";
+/// An integrator for stiff equations, as a scenario has it.
+fn implicit() -> String {
+    keys::INTEGRATOR.example().replace(keys::METHOD.value(), "\"Ode15s\"")
+}
 
 /// Why the integration ended, in terms of scenarios.
 fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System<'_>) -> Failure {
@@ -134,7 +137,7 @@ fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System
                  the rest would take about {remaining} of them"
             );
             Failure::outside(message)
-                .help(format!("take an implicit method, as in: {IMPLICIT}, or lower gains or dampings"))
+                .help(format!("take an implicit method, as in: {}, or lower gains or dampings", implicit()))
         }
         // The loops know better than the integrator what went wrong.
         _ => Failure::outside(system.last_error().unwrap_or_else(|| named(scenario, error))),

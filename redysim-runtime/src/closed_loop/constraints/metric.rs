@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pivot_of_roundoff_is_told_from_a_small_one() {
+    fn a_pivot_of_roundoff_is_distinguished_from_a_small_one() {
         let near =
             |gap: f64| MassMetric::new::<f64, [f64; 2]>([[1.0 + gap, 1.0], [1.0, 1.0]]).map(|metric| metric.regular);
         assert_eq!(near(2.0 * f64::EPSILON), Ok(false));

@@ -24,7 +24,7 @@ pub struct Run {
 }
 
 /// A motion that any method can be tried on.
-pub trait Scene {
+pub trait Problem {
     /// Its name, as files have it.
     fn name(&self) -> &'static str;
     /// What it is.
@@ -71,7 +71,7 @@ fn largest_difference(found: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// A tree that is let go or driven, judged by where its joints are at the end.
-pub struct Motion<M: ConfigurationSpace<f64> + 'static, L> {
+pub struct MotionProblem<M: ConfigurationSpace<f64> + 'static, L> {
     name: &'static str,
     title: &'static str,
     mechanism: &'static M,
@@ -82,7 +82,7 @@ pub struct Motion<M: ConfigurationSpace<f64> + 'static, L> {
     end: Vec<f64>,
 }
 
-impl<M: TreeDynamics<f64>, L: TorqueLaw<f64, M> + Clone> Scene for Motion<M, L> {
+impl<M: TreeDynamics<f64>, L: TorqueLaw<f64, M> + Clone> Problem for MotionProblem<M, L> {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -109,9 +109,9 @@ fn end_of(text: &str, joints: usize, duration: f64) -> Result<Vec<f64>, Failure>
 }
 
 /// KR5 let go at q = 0, for a second.
-pub fn kr5() -> Result<impl Scene, Failure> {
+pub fn kr5() -> Result<impl Problem, Failure> {
     let text = include_str!("../../tests/reference/golden_ref_kuka.csv");
-    Ok(Motion {
+    Ok(MotionProblem {
         name: "kr5_free_fall",
         title: "KR5, free fall of 1 s",
         mechanism: &Kr5,
@@ -124,9 +124,9 @@ pub fn kr5() -> Result<impl Scene, Failure> {
 }
 
 /// The gripper let go 60° below the horizontal, for a second.
-pub fn gripper() -> Result<impl Scene, Failure> {
+pub fn gripper() -> Result<impl Problem, Failure> {
     let text = include_str!("../../tests/reference/golden_ref_gripper_paper.csv");
-    Ok(Motion {
+    Ok(MotionProblem {
         name: "gripper_free_fall",
         title: "Gripper, free fall of 1 s",
         mechanism: &Gripper,
@@ -138,15 +138,15 @@ pub fn gripper() -> Result<impl Scene, Failure> {
     })
 }
 
-/// The law of the stiff scene: the same gains on all joints, far too many for the hand of 8 g.
+/// The law of the stiff problem: the same gains on all joints, far too many for the hand of 8 g.
 pub type Pd = ProportionalDerivative<[f64; DOF], [f64; DOF]>;
 
 /// kp = 1000 N m/rad and kd = 100 N m s/rad towards 0.5 rad.
 pub const STIFF: Pd = ProportionalDerivative { target: [0.5; DOF], kp: [1e3; DOF], kd: [1e2; DOF] };
 
 /// KR5 under a stiff PD control, for a second. As exact counts what two methods of different kinds agree on.
-pub fn stiff() -> Result<impl Scene, Failure> {
-    let mut scene = Motion {
+pub fn stiff() -> Result<impl Problem, Failure> {
+    let mut problem = MotionProblem {
         name: "kr5_stiff_pd",
         title: "KR5 under PD control, kp = 1000, kd = 100, 1 s",
         mechanism: &Kr5,
@@ -156,17 +156,17 @@ pub fn stiff() -> Result<impl Scene, Failure> {
         most_steps: 20_000,
         end: vec![0.0; DOF],
     };
-    let mut simulation = ForwardSimulation::new(scene.mechanism, scene.law);
-    let start = simulation.state(&scene.start.0, &scene.start.1);
-    let span = (0.0, scene.duration);
+    let mut simulation = ForwardSimulation::new(problem.mechanism, problem.law);
+    let start = simulation.state(&problem.start.0, &problem.start.1);
+    let span = (0.0, problem.duration);
     let judge = Radau5::new().rtol(3e-14).atol(1e-16).integrate(&mut simulation, span, start)?;
     let other = Ode15s::new().rtol(1e-11).atol(1e-13).integrate(&mut simulation, span, start)?;
-    scene.end = judge.y[..DOF].to_vec();
-    let apart = largest_difference(&other.y[..DOF], &scene.end);
+    problem.end = judge.y[..DOF].to_vec();
+    let apart = largest_difference(&other.y[..DOF], &problem.end);
     if apart > 1e-8 {
-        return Err(Failure(format!("Radau5 and Ode15s differ by {apart:.1e} rad at the end of the stiff scene")));
+        return Err(Failure(format!("Radau5 and Ode15s differ by {apart:.1e} rad at the end of the stiff problem")));
     }
-    Ok(scene)
+    Ok(problem)
 }
 
 /// The paper's four-bar let go from rest, its loop held by projection, for 0.68 s.
@@ -183,7 +183,7 @@ pub fn fourbar() -> Result<FourbarFall, Failure> {
     Ok(FourbarFall { start, end: rows.q.last().cloned().unwrap_or_default() })
 }
 
-impl Scene for FourbarFall {
+impl Problem for FourbarFall {
     fn name(&self) -> &'static str {
         "fourbar_free_fall"
     }
@@ -229,7 +229,7 @@ impl Observer<f64, [f64; 5]> for Energies {
     }
 }
 
-impl Scene for LongSwing {
+impl Problem for LongSwing {
     fn name(&self) -> &'static str {
         "double_pendulum_swing"
     }

@@ -12,8 +12,8 @@ use crate::interrupt;
 use crate::results::Record;
 use crate::scenario::{Forward, Scenario};
 
-/// Writes the asked instants, and watches energy and gaps.
-pub struct Watch<'a, 'r> {
+/// Writes the asked instants, and follows energy and position residuals.
+pub struct RunObserver<'a, 'r> {
     scenario: &'a Scenario,
     forward: &'a Forward,
     record: &'r mut Record<'a>,
@@ -22,12 +22,12 @@ pub struct Watch<'a, 'r> {
     /// Accepted steps so far.
     pub steps: u64,
     /// The largest component of the loops' residual so far, m.
-    pub gap: f64,
+    pub position_residual: f64,
     /// Why an instant could not be written.
     pub failed: Option<Failure>,
 }
 
-impl<'a, 'r> Watch<'a, 'r> {
+impl<'a, 'r> RunObserver<'a, 'r> {
     /// Begins with the start.
     ///
     /// # Errors
@@ -39,10 +39,11 @@ impl<'a, 'r> Watch<'a, 'r> {
         start: &Vec<f64>,
     ) -> Result<Self, Failure> {
         let system = System::new(scenario, forward);
-        let mut watch = Watch { scenario, forward, record, system, steps: 0, gap: 0.0, failed: None };
-        watch.write(forward.span.start, start)?;
-        watch.see(start);
-        Ok(watch)
+        let mut observer =
+            RunObserver { scenario, forward, record, system, steps: 0, position_residual: 0.0, failed: None };
+        observer.write(forward.span.start, start)?;
+        observer.see(start);
+        Ok(observer)
     }
 
     fn write(&mut self, t: f64, state: &Vec<f64>) -> Result<(), Failure> {
@@ -52,11 +53,11 @@ impl<'a, 'r> Watch<'a, 'r> {
     fn see(&mut self, state: &Vec<f64>) {
         let SimulationState { q, v, actuator_energy } = self.system.split(state);
         self.record.see(&q, &v, actuator_energy);
-        self.gap = self.gap.max(self.scenario.gap(&q));
+        self.position_residual = self.position_residual.max(self.scenario.position_residual(&q));
     }
 }
 
-impl Observer<f64, Vec<f64>> for Watch<'_, '_> {
+impl Observer<f64, Vec<f64>> for RunObserver<'_, '_> {
     fn needs_dense_output(&self, _from: f64, to: f64) -> bool {
         self.record.next().is_some_and(|t| t < to)
     }
