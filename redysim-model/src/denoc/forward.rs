@@ -79,8 +79,8 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     tau: &[S],
     result: &mut [S],
 ) {
-    let Workspace { angles, frames, biases, inertias, wrenches, pivots, accelerations, .. } = work;
-    joint_frames_in(angles, frames, tree, trace, q);
+    let Workspace { positions, frames, biases, inertias, wrenches, pivots, accelerations, .. } = work;
+    joint_frames_in(positions, frames, tree, trace, q);
     bias_accelerations(biases, tree, trace, frames, v);
     let rigid = |(body, frame): (&Body<P>, &JointFrame<S>)| {
         ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid())

@@ -2,6 +2,7 @@
 
 use super::trace::Trace;
 use crate::inertia::Sym3;
+use crate::joint::JointPosition;
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3, Wrench};
@@ -47,18 +48,18 @@ pub(super) fn joint_frames<S: Scalar>(
 
 /// [`joint_frames`] in the given buffers.
 pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
-    angles: &mut Vec<Option<Angle<S>>>,
+    positions: &mut Vec<AxisPosition<S>>,
     frames: &mut Vec<JointFrame<S>>,
     tree: &Tree<impl ParameterIn<S>>,
     trace: &T,
     q: &[S],
 ) {
     // All angles first, so that compiled code can take their sines and cosines together.
-    find_angles(angles, tree, q);
+    find_positions(positions, tree, q);
     frames.clear();
     frames.reserve(tree.bodies.len());
     trace.sweep("frames", tree.outward(), |index| {
-        let (body, angle) = (&tree.bodies[index], angles[index]);
+        let (body, AxisPosition { angle, displacement }) = (&tree.bodies[index], positions[index]);
         let parent = body.parent.and_then(|parent| frames[parent].body_rotation);
         let joint_rotation = angle.map(|Angle { value, is_sum }| {
             let (sin, cos) = value.sin_cos();
@@ -71,7 +72,7 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         let fixed = Mat3::constant(rotation);
         let mut position = rotated(parent, Vec3::constant(position));
         let parent_rotation = parent.filter(|_| !body.is_parallel());
-        if let Some(displacement) = body.joint.position(&q[body.q.clone()]).displacement {
+        if let Some(displacement) = displacement {
             position = position + rotated(parent_rotation, fixed.column(2)).scale(displacement);
         }
         let along_axis = parent_rotation.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
@@ -101,26 +102,37 @@ pub(super) struct Angle<S> {
     is_sum: bool,
 }
 
-/// The angle of each body about its z axis: against its parent or, if the joint axes are parallel and the parent's axes
-/// do not rotate with its joint, against the parent's axes.
-fn find_angles<S: Scalar>(angles: &mut Vec<Option<Angle<S>>>, tree: &Tree<impl Copy>, q: &[S]) {
-    angles.clear();
-    angles.reserve(tree.bodies.len());
+/// Where a body is on its axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AxisPosition<S> {
+    /// Its angle about z: against its parent or, if the joint axes are parallel and the parent's axes do not rotate with
+    /// its joint, against the parent's axes.
+    angle: Option<Angle<S>>,
+    /// Its displacement along z against its parent.
+    displacement: Option<S>,
+}
+
+/// The position of each body on its axis.
+fn find_positions<S: Scalar>(positions: &mut Vec<AxisPosition<S>>, tree: &Tree<impl Copy>, q: &[S]) {
+    positions.clear();
+    positions.reserve(tree.bodies.len());
     for body in &tree.bodies {
         let merged_parent = body.parent.filter(|&parent| tree.bodies[parent].merged_parallel && body.is_parallel());
         let is_term = body.merged_parallel || merged_parent.is_some() || body.offset != 0.0;
-        let own = body.joint.position(&q[body.q.clone()]).angle.map(|angle| {
+        let JointPosition { angle, displacement } = body.joint.position(&q[body.q.clone()]);
+        let own = angle.map(|angle| {
             let [near] = if is_term { S::without_turns([angle]) } else { [angle] };
             if body.offset == 0.0 { near } else { near + S::from_f64(body.offset) }
         });
-        let carried = merged_parent.and_then(|parent| angles[parent]).map(|angle| {
+        let carried = merged_parent.and_then(|parent| positions[parent].angle).map(|angle| {
             let opposite = body.placement.rotation.0[2][2] < 0.0;
             if opposite { -angle.value } else { angle.value }
         });
-        angles.push(match (carried, own) {
+        let angle = match (carried, own) {
             (Some(carried), Some(own)) => Some(Angle { value: carried + own, is_sum: true }),
             (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some() }),
-        });
+        };
+        positions.push(AxisPosition { angle, displacement });
     }
 }
 

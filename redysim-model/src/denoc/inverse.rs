@@ -139,8 +139,8 @@ pub fn inverse_dynamics_in<S: Scalar>(
     a: &[S],
     tau: &mut [S],
 ) {
-    let Workspace { angles, frames, children, motions, wrenches, .. } = work;
-    joint_frames_in(angles, frames, tree, trace, q);
+    let Workspace { positions, frames, children, motions, wrenches, .. } = work;
+    joint_frames_in(positions, frames, tree, trace, q);
     children.find(tree);
     let ground = BodyMotion::ground(tree.gravity);
     motions.clear();

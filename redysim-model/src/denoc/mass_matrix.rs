@@ -31,8 +31,8 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     matrix: &mut [S],
 ) {
     let nv = tree.nv();
-    let Workspace { angles, frames, planar, composites, .. } = work;
-    joint_frames_in(angles, frames, tree, trace, q);
+    let Workspace { positions, frames, planar, composites, .. } = work;
+    joint_frames_in(positions, frames, tree, trace, q);
     find_planar(planar, tree);
     composites.clear();
     composites.reserve(tree.bodies.len());

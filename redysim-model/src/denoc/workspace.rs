@@ -1,7 +1,7 @@
 //! Buffers of the recursions.
 
 use super::articulated::ArticulatedInertia;
-use super::frame::{Angle, JointFrame};
+use super::frame::{AxisPosition, JointFrame};
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use crate::tree::Tree;
@@ -10,7 +10,7 @@ use crate::tree::Tree;
 /// [`GenericMechanism::inverse_dynamics_in`](crate::GenericMechanism::inverse_dynamics_in) and its like allocates.
 #[derive(Clone, Debug)]
 pub struct Workspace<S> {
-    pub(super) angles: Vec<Option<Angle<S>>>,
+    pub(super) positions: Vec<AxisPosition<S>>,
     pub(super) frames: Vec<JointFrame<S>>,
     pub(super) children: Children,
     pub(super) motions: Vec<BodyMotion<S>>,
@@ -38,7 +38,7 @@ impl<S> Workspace<S> {
 
     fn for_bodies(count: usize) -> Self {
         Workspace {
-            angles: Vec::with_capacity(count),
+            positions: Vec::with_capacity(count),
             frames: Vec::with_capacity(count),
             children: Children(Vec::with_capacity(count)),
             motions: Vec::with_capacity(count),
