@@ -1,7 +1,7 @@
 //! The generated code as people see it: the same every time, whole, and readable.
 
 use redysim_codegen::{implementation, source_file, source_file_with, stub};
-use redysim_model::{CodegenOptions, Function, Functions, Model, PublicInterface};
+use redysim_model::{CodegenOptions, Function, Functions, Model, MovingJoint, PublicInterface};
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -91,6 +91,32 @@ fn a_stub_has_the_selected_functions_only() {
             && stub.contains("MechanicalEnergy < S >")
     );
     assert!(!stub.contains("mass_matrix") && !stub.contains("MassMatrix") && !stub.contains("LoopClosure"));
+}
+
+/// A base with the sizes of a free joint, and an arm on it.
+#[test]
+fn sizes_and_actuators_follow_the_joints_own_numbers_of_coordinates_and_velocities() {
+    let joint = |name: &str, nq, nv, actuated| MovingJoint { name: name.to_string(), nq, nv, actuated };
+    let interface = PublicInterface {
+        joints: vec![joint("base", 7, 6, false), joint("arm", 1, 1, true)],
+        functions: Functions::named(["mass_matrix", "inverse_dynamics"]).unwrap(),
+        ..PublicInterface::default()
+    };
+    let text = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
+    let text: String = text.split_whitespace().collect();
+    for part in [
+        "constNQ:usize=8;",
+        "constNV:usize=7;",
+        "JOINT_NAMES:[&'staticstr;2]=[\"base\",\"arm\"];",
+        "ACTUATED:[bool;7]=[false,false,false,false,false,false,true];",
+        "fnmass_matrix<S:::redysim_runtime::Scalar>(q:&[S;8])->[[S;7];7]",
+        "(q:&[S;8],v:&[S;7],a:&[S;7])->[S;7]",
+        "typeCoordinates=[S;8];typeVelocities=[S;7];typeState=[S;16];typeMatrix=[[S;7];7];",
+        "fnintegrate(&self,q:&[S;8],dv:&[S;7])->[S;8]",
+        "fndifference(&self,q0:&[S;8],q1:&[S;8])->[S;7]",
+    ] {
+        assert!(text.contains(part), "{part} is not in {text}");
+    }
 }
 
 #[test]

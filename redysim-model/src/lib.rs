@@ -66,7 +66,7 @@ pub use lock::LockError;
 pub use mobility::Mobility;
 pub use model::{CutKind, CutSide, Inertia, JointKind, JointRange, Link, Loop, Model};
 pub use options::{AccelerationMethod, CodegenOptions};
-pub use public_interface::PublicInterface;
+pub use public_interface::{MovingJoint, PublicInterface};
 pub use redysim_runtime::{Function, Functions};
 pub use redysim_toml::{Diagnostic, Diagnostics, Severity};
 pub use schema::{key_documentation, option_names};

@@ -1,5 +1,6 @@
 //! The public interface of a generated type: its names, sizes and functions.
 
+use crate::joint::Joint;
 use crate::model::Model;
 use crate::options::CodegenOptions;
 use crate::tree::Tree;
@@ -14,10 +15,8 @@ pub struct PublicInterface {
     pub name: String,
     /// Names of the links; "link #2" stands for one that cannot be read.
     pub links: Vec<String>,
-    /// Names of the joints that move, among them joints whose kind cannot be read.
-    pub joints: Vec<String>,
-    /// Whether each of these has an actuator.
-    pub actuated: Vec<bool>,
+    /// The joints that move, among them joints whose kind cannot be read.
+    pub joints: Vec<MovingJoint>,
     /// For each row of the loops, the name of its loop.
     pub loop_rows: Vec<String>,
     /// Mass of all links, kg; zero if it cannot be read.
@@ -26,23 +25,51 @@ pub struct PublicInterface {
     pub functions: Functions,
 }
 
+/// A joint that moves, as users of a generated type see it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovingJoint {
+    /// Its name.
+    pub name: String,
+    /// Number of its coordinates.
+    pub nq: usize,
+    /// Number of its velocities.
+    pub nv: usize,
+    /// Whether it has an actuator.
+    pub actuated: bool,
+}
+
+impl MovingJoint {
+    /// The joint `name` that does what `joint` does; `None` is a joint whose kind cannot be read, of one coordinate.
+    pub(crate) fn new(name: String, joint: Option<Joint>, actuated: bool) -> Self {
+        let [nq, nv] = joint.map_or([1, 1], |joint| [joint.nq(), joint.nv()]);
+        MovingJoint { name, nq, nv, actuated }
+    }
+}
+
 impl PublicInterface {
     /// A size of the mechanism.
     pub fn size(&self, dimension: Dimension) -> usize {
         match dimension {
-            Dimension::Coordinates | Dimension::Velocities => self.joints.len(),
+            Dimension::Coordinates => self.joints.iter().map(|joint| joint.nq).sum(),
+            Dimension::Velocities => self.joints.iter().map(|joint| joint.nv).sum(),
             Dimension::Links => self.links.len(),
             Dimension::LoopRows => self.loop_rows.len(),
         }
     }
 
+    /// Whether each velocity has an actuator: that of its joint.
+    pub fn actuated(&self) -> impl Iterator<Item = bool> {
+        self.joints.iter().flat_map(|joint| std::iter::repeat_n(joint.actuated, joint.nv))
+    }
+
     /// The interface of the type that is generated from a checked model with the given options.
     pub fn new(model: &Model, options: &CodegenOptions) -> Self {
+        let joints =
+            model.moving_links().map(|link| MovingJoint::new(link.joint_name.clone(), Joint::of(link), link.actuated));
         PublicInterface {
             name: model.name.clone(),
             links: model.links.iter().map(|link| link.name.clone()).collect(),
-            joints: model.moving_links().map(|link| link.joint_name.clone()).collect(),
-            actuated: model.moving_links().map(|link| link.actuated).collect(),
+            joints: joints.collect(),
             loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
             mass: model.mass(),
             functions: options.functions,

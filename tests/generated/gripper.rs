@@ -35,7 +35,7 @@ impl Gripper {
     pub const JOINT_NAMES: [&'static str; 4] = ["joint1", "joint2", "joint3", "joint4"];
     /// Name of the loop to which each row of the loop constraints belongs.
     pub const LOOP_NAMES: [&'static str; 0] = [];
-    /// Whether each moving joint has an actuator.
+    /// Whether each joint velocity has an actuator.
     pub const ACTUATED: [bool; 4] = [true, true, true, true];
     /// Operations of each function.
     pub const OPS: ::redysim_runtime::Operations = ::redysim_runtime::Operations {

@@ -49,10 +49,15 @@ pub enum Joint {
 impl Joint {
     /// What the joint of a link does; `None` if it is fixed.
     pub fn of(link: &Link) -> Option<Joint> {
-        match link.joint {
+        Joint::of_kind(link.joint, link.pitch)
+    }
+
+    /// What a joint of the given kind does, if it has a pitch of `pitch` m/rad; `None` if it is fixed.
+    pub(crate) fn of_kind(kind: JointKind, pitch: f64) -> Option<Joint> {
+        match kind {
             JointKind::Revolute => Some(Joint::Revolute),
             JointKind::Prismatic => Some(Joint::Prismatic),
-            JointKind::Helical => Some(Joint::Helical { pitch: link.pitch }),
+            JointKind::Helical => Some(Joint::Helical { pitch }),
             JointKind::Fixed => None,
         }
     }

@@ -13,7 +13,8 @@ pub(crate) use cut::{CutSideTable, LoopTable};
 pub(crate) use link::{Dh, LinkTable, Origin};
 pub(crate) use options::{Entry, OptionsTable};
 
-use crate::public_interface::PublicInterface;
+use crate::joint::Joint;
+use crate::public_interface::{MovingJoint, PublicInterface};
 use redysim_runtime::Functions;
 use redysim_toml::words::quoted;
 use redysim_toml::{Field, Findings, Parsed, Reader, Spanned, TableAt};
@@ -80,12 +81,15 @@ impl Document {
         let name = |name: Option<&Spanned<String>>, link: &LinkTable| {
             name.map_or(link.item.clone(), |name| name.get_ref().clone())
         };
-        let moving: Vec<&LinkTable> = self.links.iter().filter(|link| !link.is_rigid()).collect();
+        let joint = |link: &LinkTable| {
+            let pitch = link.pitch.value().copied().unwrap_or_default();
+            let joint = link.joint.value().and_then(|&kind| Joint::of_kind(kind, pitch));
+            MovingJoint::new(name(link.joint_name(), link), joint, link.actuated.value_or(true).unwrap_or(true))
+        };
         PublicInterface {
             name: self.name.value().cloned().unwrap_or_default(),
             links: self.links.iter().map(|link| name(link.name.spanned(), link)).collect(),
-            joints: moving.iter().map(|link| name(link.joint_name(), link)).collect(),
-            actuated: moving.iter().map(|link| link.actuated.value_or(true).unwrap_or(true)).collect(),
+            joints: self.links.iter().filter(|link| !link.is_rigid()).map(joint).collect(),
             loop_rows: Vec::new(),
             mass: self.links.iter().filter_map(|link| link.mass.value()).sum(),
             functions: self.options.functions.value.value().map_or(Functions::ALL, |given| given.set()),

@@ -27,14 +27,24 @@ pub fn mechanism(
     name: &Ident,
     runtime: &TokenStream,
 ) -> TokenStream {
-    let (tree, moving) = (Tree::new(model), model.moving_links().map(|link| link.name.as_str()).collect::<Vec<_>>());
-    let bodies: Vec<String> = tree.bodies.iter().map(|body| moving[body.v.start].to_string()).collect();
+    let tree = Tree::new(model);
+    let bodies = body_names(model, &tree);
     let angles = Angles::of(functions.iter().map(|function| &function.expressions));
     let writer = Writer { model, bodies: &bodies, angles: &angles, interface, runtime };
     let definitions =
         std::iter::once(writer.joint_trig()).chain(functions.iter().map(|function| writer.function(function)));
     let operations: Vec<_> = functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect();
     type_impls(interface, Some(&tree), name, runtime, &operations, definitions.collect())
+}
+
+/// The names of the bodies of `tree`: each is that of its moving link. Velocities are in the order of the joints, and a
+/// joint may have several.
+fn body_names(model: &Model, tree: &Tree) -> Vec<String> {
+    let mut names = vec![String::new(); tree.bodies.len()];
+    for (link, body) in model.moving_links().zip(tree.bodies_by_joint()) {
+        names[body].clone_from(&link.name);
+    }
+    names
 }
 
 /// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
@@ -84,7 +94,9 @@ fn constants(
     operations: &[(Function, OperationCount)],
     runtime: &TokenStream,
 ) -> TokenStream {
-    let PublicInterface { name, links, joints, actuated, loop_rows, mass, .. } = interface;
+    let PublicInterface { name, links, joints, loop_rows, mass, .. } = interface;
+    let (nj, joints) = (Literal::usize_unsuffixed(joints.len()), joints.iter().map(|joint| &joint.name));
+    let actuated = interface.actuated();
     let sizes = [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows];
     let [nq, nv, nl, nc] = sizes.map(|dimension| length(interface, dimension));
     let counts = operations.iter().map(|(function, count)| {
@@ -111,12 +123,32 @@ fn constants(
         /// Names of the links, in the model's order.
         pub const LINK_NAMES: [&'static str; #nl] = [#(#links),*];
         /// Names of the joints that move, in the model's order.
-        pub const JOINT_NAMES: [&'static str; #nv] = [#(#joints),*];
+        pub const JOINT_NAMES: [&'static str; #nj] = [#(#joints),*];
         /// Name of the loop to which each row of the loop constraints belongs.
         pub const LOOP_NAMES: [&'static str; #nc] = [#(#loop_rows),*];
-        /// Whether each moving joint has an actuator.
+        /// Whether each joint velocity has an actuator.
         pub const ACTUATED: [bool; #nv] = [#(#actuated),*];
         /// Operations of each function.
         pub const OPS: #runtime::Operations = #runtime::Operations { #(#counts,)* ..#runtime::Operations::NONE };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tool stands before the arm that carries it, and its joint has as many coordinates and velocities as a free
+    /// one.
+    #[test]
+    fn bodies_have_the_names_of_their_links_however_many_velocities_joints_have() {
+        let text = "name = 'r'\ngravity = [0, 0, -10]\n[[link]]\nname = 'tool'\nparent = 'arm'\njoint = 'revolute'\n\
+                    dh = {}\nmass = 1\ncom = [1, 0, 0]\n[[link]]\nname = 'arm'\nparent = 'base'\njoint = 'revolute'\n\
+                    dh = {}\nmass = 1\ncom = [1, 0, 0]";
+        let model = Model::from_toml(text, "r.toml").expect("a good model").model;
+        let mut tree = Tree::new(&model);
+        let [arm, tool] = tree.bodies.as_mut_slice() else { panic!("two bodies") };
+        (tool.q, tool.v) = (0..7, 0..6);
+        (arm.q, arm.v) = (7..8, 6..7);
+        assert_eq!(body_names(&model, &tree), ["arm", "tool"]);
     }
 }
