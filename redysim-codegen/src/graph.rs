@@ -93,6 +93,8 @@ pub struct Name {
     pub component: &'static str,
     /// Whether the name is that of the node's negative.
     pub negative: bool,
+    /// How often the quantity is differentiated along a direction; 0 for the quantity itself.
+    pub order: u8,
 }
 
 /// Where in a recursion a value arises: at body `body` of the sweep `sweep` over all bodies.

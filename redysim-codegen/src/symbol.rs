@@ -3,7 +3,7 @@
 use crate::graph::{Edge, Graph, Name, Step};
 use redysim_model::denoc::Trace;
 use redysim_model::parameter::{Parameter, ParameterIn};
-use redysim_runtime::Scalar;
+use redysim_runtime::{Dual, Scalar};
 use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -37,7 +37,28 @@ impl Tracer {
     }
 }
 
-impl Trace<Symbol<'_>> for Tracer {
+/// A scalar made of symbols: one that a [`Tracer`] observes in a recursion.
+pub trait Traced: Copy {
+    /// Gives the name to the value, and to its derivatives the names that follow from it.
+    fn set_name(self, tracer: &Tracer, name: Name);
+}
+
+impl Traced for Symbol<'_> {
+    fn set_name(self, tracer: &Tracer, name: Name) {
+        if let Symbol::Value(_, edge) = self {
+            tracer.0.borrow_mut().set_name(edge, name);
+        }
+    }
+}
+
+impl<S: Traced> Traced for Dual<S> {
+    fn set_name(self, tracer: &Tracer, name: Name) {
+        self.value.set_name(tracer, name);
+        self.slope.set_name(tracer, Name { order: name.order + 1, ..name });
+    }
+}
+
+impl<S: Traced> Trace<S> for Tracer {
     fn step<R>(&self, sweep: &'static str, body: usize, work: impl FnOnce() -> R) -> R {
         self.0.borrow_mut().enter_step(Some(Step { sweep, body }));
         let result = work();
@@ -45,10 +66,8 @@ impl Trace<Symbol<'_>> for Tracer {
         result
     }
 
-    fn name(&self, value: Symbol<'_>, quantity: &'static str, body: usize, component: &'static str) {
-        if let Symbol::Value(_, edge) = value {
-            self.0.borrow_mut().set_name(edge, Name { quantity, body, component, negative: false });
-        }
+    fn name(&self, value: S, quantity: &'static str, body: usize, component: &'static str) {
+        value.set_name(self, Name { quantity, body, component, negative: false, order: 0 });
     }
 }
 

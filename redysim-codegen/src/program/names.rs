@@ -52,11 +52,12 @@ impl<'a> Identifiers<'a> {
     }
 }
 
-/// Sign, quantity, body and component.
+/// Sign, a `d` for each derivative, quantity, body and component.
 fn spelled(name: Name, body: &str, flipped: bool) -> String {
     let sign = if name.negative == flipped { "" } else { "minus_" };
     let component = if name.component.is_empty() { String::new() } else { format!("_{}", name.component) };
-    format!("{sign}{}_{body}{component}", name.quantity)
+    let derivative = if name.order == 0 { String::new() } else { "d".repeat(name.order.into()) + "_" };
+    format!("{sign}{derivative}{}_{body}{component}", name.quantity)
 }
 
 /// A name of the model as part of an identifier.

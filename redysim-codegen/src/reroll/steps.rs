@@ -132,3 +132,49 @@ fn operation(node: Node) -> Operation {
         _ => Operation::Root,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::angles::Angles;
+    use crate::expressions::Expressions;
+    use crate::reroll::operations;
+    use crate::symbol::{Symbol, Tracer};
+    use redysim_model::{Function, Model, Tree, denoc};
+    use redysim_runtime::Dual;
+
+    /// The uniform bodies in what `computed` computes from the arguments of a function of the chain and their slopes.
+    fn uniform_bodies(
+        tree: &Tree,
+        computed: impl for<'g> Fn(&'g Tracer, [Vec<Dual<Symbol<'g>>>; 3]) -> Vec<Symbol<'g>>,
+    ) -> Option<Range<usize>> {
+        let tracer = Tracer::default();
+        let outputs = {
+            let arguments = [0, 1, 2].map(|index| {
+                let [values, slopes] = [index, index + 3].map(|index| tracer.argument(index, tree.nv()));
+                values.into_iter().zip(slopes).map(|(value, slope)| Dual { value, slope }).collect()
+            });
+            tracer.edges(&computed(&tracer, arguments))
+        };
+        let expressions = Expressions { graph: tracer.into_graph(), outputs };
+        let positions = Angles::of([&expressions]).positions(&expressions);
+        Steps::of(&expressions.graph, &operations(&expressions), &positions).longest_run(1)
+    }
+
+    #[test]
+    fn the_bodies_that_are_uniform_in_a_function_are_uniform_in_its_derivative() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/peers/chain40.toml");
+        let tree = &Tree::new(&Model::load(path).expect("a valid model").model);
+        let function = Function::InverseDynamics;
+        let plain = uniform_bodies(tree, |tracer, x| {
+            let x = x.map(|duals| duals.iter().map(|dual| dual.value).collect::<Vec<_>>());
+            denoc::evaluate(function, tree, tracer, &x.each_ref().map(Vec::as_slice))
+        });
+        let derivative = uniform_bodies(tree, |tracer, x| {
+            let forces = denoc::evaluate(function, tree, tracer, &x.each_ref().map(Vec::as_slice));
+            forces.into_iter().map(|force| force.slope).collect()
+        });
+        assert!(plain.as_ref().is_some_and(|bodies| bodies.len() > 30), "{plain:?}");
+        assert_eq!(derivative, plain);
+    }
+}
