@@ -7,8 +7,9 @@ use common::chains::{self, Rod};
 use common::random::Random;
 use common::styles::Style;
 use redysim_codegen::accuracy::{MEASURED, Reference};
-use redysim_codegen::functions::{TracedFunction, trace_of};
+use redysim_codegen::functions::{MethodChoice, MethodFigures, TracedFunction, trace_of};
 use redysim_codegen::passes::Passes;
+use redysim_model::denoc::Method;
 use redysim_model::{AccelerationMethod, CodegenOptions, Function, Functions, Model, Tree};
 
 /// Of each style. Unoptimised, a tree takes a second.
@@ -136,13 +137,13 @@ fn a_heavy_tip_and_a_palm_with_fingers_keep_the_digits_of_the_recursion() {
         let ways = [AccelerationMethod::Auto, AccelerationMethod::Recursion, AccelerationMethod::Factorisation];
         let ways = ways.map(|method| traced(&tree, &Passes::all(), method));
         let [chosen, recursion, factorisation] = ways.each_ref().map(|way| losses(&states, way));
-        println!("{name}: {chosen:?}, recursion {recursion:?}, factorisation {factorisation:?}; {}", remark(&ways[0]));
+        println!("{name}: {chosen:?}, recursion {recursion:?}, factorisation {factorisation:?}; {}", choice(&ways[0]));
         assert_kept(name, chosen, recursion);
     }
 }
 
-fn remark(functions: &[TracedFunction]) -> &str {
-    computed(functions, Function::ForwardDynamics).remark.as_deref().expect("forward dynamics states its way")
+fn choice(functions: &[TracedFunction]) -> MethodChoice {
+    computed(functions, Function::ForwardDynamics).method.expect("forward dynamics states its method")
 }
 
 fn model(name: &str) -> Model {
@@ -154,7 +155,7 @@ fn kr5_and_the_gripper_are_computed_by_the_factorisation() {
     for name in ["kr5", "gripper", "peers/kr5", "peers/gripper"] {
         let tree = Tree::new(&model(name));
         let functions = traced(&tree, &Passes::all(), AccelerationMethod::Auto);
-        assert!(remark(&functions).starts_with("By the factorisation"), "{name}: {}", remark(&functions));
+        assert_eq!(choice(&functions).used.method, Method::Factorisation, "{name}");
     }
 }
 
@@ -165,11 +166,14 @@ fn the_key_forward_dynamics_decides_and_the_documentation_states_both_ways() {
     let (recursion, factorisation) = (of(AccelerationMethod::Recursion), of(AccelerationMethod::Factorisation));
     let flops =
         |functions: &[TracedFunction]| computed(functions, Function::ForwardDynamics).expressions.count().flops();
-    assert!(remark(&recursion).starts_with("By the O(n) recursion over articulated bodies (ABA)"));
-    assert!(remark(&factorisation).starts_with("By the factorisation M = U D Uᵀ"));
-    for functions in [&recursion, &factorisation] {
-        for flops in [flops(&recursion), flops(&factorisation)] {
-            assert!(remark(functions).contains(&flops.to_string()), "{}", remark(functions));
+    let expected = [(Method::Recursion, flops(&recursion)), (Method::Factorisation, flops(&factorisation))];
+    for (functions, [used, other]) in [(&recursion, expected), (&factorisation, [expected[1], expected[0]])] {
+        let choice = choice(functions);
+        let figures = |figures: MethodFigures| (figures.method, figures.flops);
+        assert_eq!((figures(choice.used), choice.other.map(figures)), (used, Some(other)));
+        let documentation = choice.to_string();
+        for (_, flops) in expected {
+            assert!(documentation.contains(&flops.to_string()), "{documentation}");
         }
     }
 }

@@ -2,8 +2,9 @@
 //! the one or the other costs digits.
 
 use redysim_codegen::accuracy::Reference;
-use redysim_codegen::functions::trace_of;
+use redysim_codegen::functions::{MethodChoice, trace_of};
 use redysim_codegen::passes::Passes;
+use redysim_model::denoc::Method;
 use redysim_model::{AccelerationMethod, CodegenOptions, Function, Functions, Model, Tree};
 
 use crate::chains::{Rod, chain, oblique, palm};
@@ -71,12 +72,12 @@ fn panel(name: &'static str, tree: &Tree, csv: &mut Csv) -> Result<Panel, Failur
     for (left_out, switch) in LEFT_OUT {
         let mut passes = Passes::all();
         switch(&mut passes);
-        let of = |forward_dynamics| -> Result<(String, f64, f64), Failure> {
+        let of = |forward_dynamics| -> Result<(Option<MethodChoice>, f64, f64), Failure> {
             let options = CodegenOptions { functions: only, forward_dynamics, ..CodegenOptions::default() };
             let function = trace_of(tree, &options, &passes)?.swap_remove(0);
             let flops = f64::from(function.expressions.count().flops());
             let [lost, ..] = reference.losses_by(Function::ForwardDynamics, |x| function.expressions.evaluate(x));
-            Ok((function.remark.unwrap_or_default(), flops, lost))
+            Ok((function.method, flops, lost))
         };
         let mut cells = vec![format!("without {left_out}")];
         for (way, method) in [AccelerationMethod::Recursion, AccelerationMethod::Factorisation].into_iter().enumerate()
@@ -88,7 +89,11 @@ fn panel(name: &'static str, tree: &Tree, csv: &mut Csv) -> Result<Panel, Failur
             cells.extend([format!("{flops}"), tiny(lost)]);
         }
         let (taken, ..) = of(AccelerationMethod::Auto)?;
-        cells.push(if taken.starts_with("By the O(n)") { "recursion" } else { "factorisation" }.to_owned());
+        cells.push(match taken.map(|choice| choice.used.method) {
+            Some(Method::Recursion) => "recursion".to_owned(),
+            Some(Method::Factorisation) => "factorisation".to_owned(),
+            None => String::new(),
+        });
         table.row(cells);
     }
     table.print();

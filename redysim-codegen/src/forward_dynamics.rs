@@ -18,29 +18,39 @@ struct Candidate {
     losses: [f64; 3],
 }
 
-/// The algorithm that is used, and its alternative.
-pub struct Choice {
-    /// The accelerations.
-    pub expressions: Expressions,
-    used: Summary,
-    other: Option<Summary>,
+/// The algorithm by which forward dynamics is computed, and its alternative. Displayed, it is a paragraph of the
+/// documentation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MethodChoice {
+    /// The algorithm that is used.
+    pub used: MethodFigures,
+    /// The other one, if it was considered.
+    pub other: Option<MethodFigures>,
 }
 
-/// The figures of an algorithm in the documentation.
-struct Summary {
-    method: Method,
-    flops: u32,
-    loss: f64,
+/// An algorithm for forward dynamics and what it costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MethodFigures {
+    /// The algorithm.
+    pub method: Method,
+    /// Its operations.
+    pub flops: u32,
+    /// Its largest error √M_ii |Δa_i| at sampled states, as a share of the largest √M_jj |a_j|.
+    pub loss: f64,
 }
 
-/// Forward dynamics by `method`. `Auto` is the factorisation if it takes fewer operations and keeps the digits that the
+/// Forward dynamics by `method`, and what was chosen. `Auto` is the factorisation if it takes fewer operations and keeps the digits that the
 /// recursion keeps, else the recursion.
-pub fn choose(trees: &Trees, method: AccelerationMethod, passes: &Passes) -> Result<Choice, PassError> {
+pub fn choose(
+    trees: &Trees,
+    method: AccelerationMethod,
+    passes: &Passes,
+) -> Result<(Expressions, MethodChoice), PassError> {
     let recursion = recursion(trees)?;
     let is_long_chain = trees.plain().depth() > LONGEST_CHAIN_BY_FACTORISATION;
     if is_long_chain && method != AccelerationMethod::Factorisation {
-        let used = recursion.summary(0);
-        return Ok(Choice { expressions: recursion.expressions, used, other: None });
+        let used = recursion.figures(0);
+        return Ok((recursion.expressions, MethodChoice { used, other: None }));
     }
     let factorisation = factorisation(trees, passes)?;
     let factorise = match method {
@@ -56,8 +66,8 @@ pub fn choose(trees: &Trees, method: AccelerationMethod, passes: &Passes) -> Res
     let factor = |motion: &usize| factorisation.losses[*motion] / recursion.losses[*motion].max(f64::EPSILON);
     let most_different = (0..3).max_by(|a, b| factor(a).total_cmp(&factor(b))).unwrap_or_default();
     let (used, other) = if factorise { (factorisation, recursion) } else { (recursion, factorisation) };
-    let [summary, other] = [&used, &other].map(|candidate| candidate.summary(most_different));
-    Ok(Choice { expressions: used.expressions, used: summary, other: Some(other) })
+    let [figures, other] = [&used, &other].map(|candidate| candidate.figures(most_different));
+    Ok((used.expressions, MethodChoice { used: figures, other: Some(other) }))
 }
 
 fn recursion(trees: &Trees) -> Result<Candidate, PassError> {
@@ -87,12 +97,12 @@ impl Candidate {
         self.expressions.count().flops()
     }
 
-    fn summary(&self, motion: usize) -> Summary {
-        Summary { method: self.method, flops: self.flops(), loss: self.losses[motion] }
+    fn figures(&self, motion: usize) -> MethodFigures {
+        MethodFigures { method: self.method, flops: self.flops(), loss: self.losses[motion] }
     }
 }
 
-impl Summary {
+impl MethodFigures {
     fn name(&self) -> &'static str {
         match self.method {
             Method::Factorisation => "factorisation M = U D Uᵀ of the generalised inertia matrix (CRBA)",
@@ -101,9 +111,9 @@ impl Summary {
     }
 }
 
-impl std::fmt::Display for Choice {
+impl std::fmt::Display for MethodChoice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Choice { used, other, .. } = self;
+        let MethodChoice { used, other } = self;
         write!(f, "By the {}: {} flops, errors of {:.0e}", used.name(), used.flops, used.loss)?;
         match other {
             Some(other) => write!(f, "; the {} takes {}, errors of {:.0e}.", other.name(), other.flops, other.loss)?,

@@ -3,6 +3,7 @@
 use crate::accuracy::Reference;
 use crate::expressions::Expressions;
 use crate::forward_dynamics;
+pub use crate::forward_dynamics::{MethodChoice, MethodFigures};
 use crate::passes::{PassError, Passes};
 use crate::pruning::{Pruning, States, pruned};
 use crate::reroll;
@@ -18,7 +19,7 @@ pub struct TracedFunction {
     /// Which function of a mechanism it is.
     pub function: Function,
     /// By which algorithm it is computed, if there are several.
-    pub remark: Option<String>,
+    pub method: Option<MethodChoice>,
     /// Its expressions.
     pub expressions: Expressions,
     /// The result of pruning, if it was pruned.
@@ -143,11 +144,10 @@ impl Pipeline<'_> {
 
     /// The function on the description of the robot on which it is best computed.
     fn simplified(&self, function: Function, trees: &Trees, passes: &Passes) -> Result<TracedFunction, PassError> {
-        let (expressions, remark) = match function {
+        let (expressions, method) = match function {
             Function::ForwardDynamics => {
-                let choice = forward_dynamics::choose(trees, self.options.forward_dynamics, passes)?;
-                let remark = choice.to_string();
-                (choice.expressions, Some(remark))
+                let (expressions, choice) = forward_dynamics::choose(trees, self.options.forward_dynamics, passes)?;
+                (expressions, Some(choice))
             }
             Function::InverseDynamics | Function::BiasForces | Function::GravityForces | Function::MassMatrix => {
                 (trees.keeping_digits(function)?, None)
@@ -158,7 +158,7 @@ impl Pipeline<'_> {
                 (cheapest(&trees.kinematics(), function, passes)?, None)
             }
         };
-        Ok(TracedFunction { function, remark, expressions, pruning: None })
+        Ok(TracedFunction { function, method, expressions, pruning: None })
     }
 }
 

@@ -1,9 +1,9 @@
 //! Which of the two ways to accelerations the generator takes.
 
-use redysim_codegen::functions::trace;
+use redysim_codegen::functions::{MethodChoice, trace};
 use redysim_codegen::source_file;
 use redysim_model::denoc::{Method, Untraced, forward_dynamics};
-use redysim_model::{Model, Tree};
+use redysim_model::{Function, Model, Tree};
 use std::fmt::Write;
 
 const BY_RECURSION: &str = "By the O(n) recursion over articulated bodies (ABA)";
@@ -24,27 +24,34 @@ fn rods(arms: usize, links: usize) -> Model {
     Model::from_toml(text, "rods.toml").unwrap_or_else(|faults| panic!("{faults}")).model
 }
 
-fn remark(model: &Model) -> String {
+fn choice(model: &Model) -> MethodChoice {
     let functions = trace(&Tree::new(model)).expect("no pass changes a value");
-    let forward = functions.iter().find(|function| function.function.name() == "forward_dynamics");
-    forward.and_then(|function| function.remark.clone()).expect("forward dynamics says how")
+    let forward = functions.iter().find(|function| function.function == Function::ForwardDynamics);
+    forward.and_then(|function| function.method).expect("forward dynamics states its method")
 }
 
 #[test]
 fn a_few_joints_go_by_the_factorisation_since_it_is_cheaper() {
-    assert!(remark(&rods(1, 3)).starts_with(BY_FACTORISATION));
+    let choice = choice(&rods(1, 3));
+    assert_eq!(choice.used.method, Method::Factorisation);
+    let other = choice.other.expect("the recursion was considered");
+    assert!(other.method == Method::Recursion && choice.used.flops <= other.flops);
+    assert!(choice.to_string().starts_with(BY_FACTORISATION));
     assert!(source_file(&rods(1, 3), "Rods").unwrap().contains(BY_FACTORISATION));
 }
 
 #[test]
 fn chains_longer_than_25_joints_go_by_the_recursion_whatever_the_count() {
-    assert!(remark(&rods(1, 26)).starts_with(BY_RECURSION));
-    assert!(remark(&rods(2, 26)).starts_with(BY_RECURSION));
+    for arms in [1, 2] {
+        let choice = choice(&rods(arms, 26));
+        assert_eq!((choice.used.method, choice.other), (Method::Recursion, None));
+        assert!(choice.to_string().starts_with(BY_RECURSION));
+    }
 }
 
 #[test]
 fn many_short_arms_do_not_count_as_a_long_chain() {
-    assert!(remark(&rods(14, 2)).starts_with(BY_FACTORISATION));
+    assert_eq!(choice(&rods(14, 2)).used.method, Method::Factorisation);
 }
 
 #[test]

@@ -8,9 +8,9 @@ use redysim_runtime::function::Shape;
 
 /// The paragraphs of a function.
 pub fn paragraphs(traced: &TracedFunction, model: &Model) -> Vec<String> {
-    let TracedFunction { function, remark, expressions, pruning } = traced;
+    let TracedFunction { function, method, expressions, pruning } = traced;
     let mut paragraphs = vec![function.signature().summary.to_string()];
-    paragraphs.extend(remark.clone());
+    paragraphs.extend(method.map(|choice| choice.to_string()));
     paragraphs.push(cost(&expressions.count()));
     if let Some(pruning) = pruning {
         paragraphs.push(pruned(pruning, *function));
