@@ -7,7 +7,7 @@
 use super::neighbourhood::neighbourhood;
 use super::{Cost, KeepsDigits};
 use redysim_model::Tree;
-use redysim_model::joint::{AxisMass, Joint};
+use redysim_model::joint::AxisMass;
 use redysim_model::parameter::Parameter;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::take_from_parent;
@@ -16,7 +16,7 @@ use redysim_model::regroup::take_from_parent;
 pub fn placed<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
-        if tree.bodies[body].parent.is_none() || tree.bodies[body].joint != Joint::Revolute {
+        if tree.bodies[body].parent.is_none() || !tree.bodies[body].joint.shares_axis_mass() {
             continue;
         }
         for order in [MomentOrder::Zeroth, MomentOrder::First, MomentOrder::Second] {

@@ -192,6 +192,13 @@ impl Joint {
         }
     }
 
+    /// Whether any mass on the joint's axis may belong to the body or to its parent: [`split`](Self::split) leaves none
+    /// of it.
+    pub fn shares_axis_mass(self) -> bool {
+        let mass = AxisMass { mass: 1.0, first: 1.0, second: 1.0 }.inertia();
+        self.split(mass, Vanishing::SecondMomentZz).0 == PseudoInertia::zero()
+    }
+
     /// How much of the body's own inertia resists the joint's motion, Sᵀ I S, as a share of what could.
     pub fn meets(self, inertia: PseudoInertia<f64>) -> f64 {
         match self {

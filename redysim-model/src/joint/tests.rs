@@ -200,6 +200,14 @@ fn the_neutral_position_is_the_zero_of_the_transform() {
     }
 }
 
+#[test]
+fn mass_on_the_axis_belongs_to_both_bodies_of_a_joint_that_turns_about_it_alone() {
+    for joint in JOINTS {
+        let screw = joint.screw();
+        assert_eq!(joint.shares_axis_mass(), screw.slide == 0.0 && screw.turn != 0.0, "{joint:?}");
+    }
+}
+
 /// What the parent may carry is the same in its axes wherever the joint stands, and resists no motion of the joint.
 #[test]
 fn shared_inertia_does_not_depend_on_the_joint() {
