@@ -20,6 +20,9 @@ pub struct Term {
     pub coordinate: u32,
     /// What it is multiplied by.
     pub factor: f64,
+    /// Whether whole turns are taken off it before it is added: in a sum, where this leaves the angle's sine and
+    /// cosine.
+    pub without_turns: bool,
 }
 
 impl Angle {
@@ -28,13 +31,19 @@ impl Angle {
         let mut angle = Angle { terms: Vec::new(), constant: 0.0 };
         angle.add(graph, edge, 1.0);
         angle.terms.sort_unstable_by_key(|term| term.coordinate);
+        let is_sum = angle.is_sum();
+        for term in &mut angle.terms {
+            term.without_turns = is_sum && term.factor.fract() == 0.0;
+        }
         angle
     }
 
     fn add(&mut self, graph: &Graph, edge: Edge, factor: f64) {
         let factor = if edge.is_negative() { -factor } else { factor };
         match graph.node(edge.node()) {
-            Node::Input { index, .. } => self.terms.push(Term { coordinate: index, factor }),
+            Node::Input { index: coordinate, .. } => {
+                self.terms.push(Term { coordinate, factor, without_turns: false });
+            }
             Node::Constant(bits) => self.constant += factor * f64::from_bits(bits),
             Node::Add(a, b) => {
                 self.add(graph, a, factor);
@@ -52,13 +61,8 @@ impl Angle {
     }
 
     /// Whether it is more than one coordinate.
-    pub fn is_sum(&self) -> bool {
+    fn is_sum(&self) -> bool {
         !matches!(self.terms.as_slice(), [Term { factor: 1.0 | -1.0, .. }] if self.constant == 0.0)
-    }
-
-    /// Whether whole turns of a coordinate may be taken off before it is added.
-    pub fn is_of_whole_turns(&self, term: &Term) -> bool {
-        self.is_sum() && term.factor.fract() == 0.0
     }
 
     /// The coordinates it depends on, in order.
@@ -119,9 +123,8 @@ impl Angles {
 
     /// The coordinates whose whole turns are taken off for the sums among the angles at the given positions, in order.
     pub fn summed(&self, positions: impl IntoIterator<Item = usize>) -> Vec<u32> {
-        let terms = self.at(positions).flat_map(|angle| angle.terms.iter().map(move |term| (angle, term)));
-        let whole = terms.filter(|(angle, term)| angle.is_of_whole_turns(term));
-        let mut coordinates: Vec<u32> = whole.map(|(_, term)| term.coordinate).collect();
+        let terms = self.at(positions).flat_map(|angle| &angle.terms).filter(|term| term.without_turns);
+        let mut coordinates: Vec<u32> = terms.map(|term| term.coordinate).collect();
         coordinates.sort_unstable();
         coordinates.dedup();
         coordinates

@@ -1,7 +1,9 @@
 //! From a model to the code of a mechanism.
 
-use crate::backend::rust::{self, documentation};
+use crate::backend::rust;
+use crate::documentation;
 use crate::functions::{TraceError, TracedFunction, trace_model, trace_of};
+use crate::mechanism::MechanismProgram;
 use crate::passes::{PassError, Passes};
 use proc_macro2::{Ident, TokenStream};
 use redysim_model::{CodegenOptions, Function, Model, PublicInterface, Tree};
@@ -49,7 +51,9 @@ pub fn implementation_with(
     passes: &Passes,
 ) -> Result<Generated, PassError> {
     let (functions, warnings) = functions(model, options, passes)?;
-    let tokens = rust::mechanism(model, &PublicInterface::new(model, options), &functions, name, runtime);
+    let interface = PublicInterface::new(model, options);
+    let mechanism = MechanismProgram::new(model, &interface, &functions, &rust::RESERVED);
+    let tokens = rust::mechanism(&mechanism, name, runtime);
     Ok(Generated { tokens, operations: operations_of(&functions), warnings })
 }
 

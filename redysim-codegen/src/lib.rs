@@ -7,8 +7,8 @@
 //!    folded, and equal values are one node.
 //! 3. [Passes](passes) over the graph simplify it. With a tolerance, terms that do not matter within the ranges of the
 //!    joints are [pruned](Pruning).
-//! 4. The graph becomes a program of statements, with loops over uniform bodies where it is long, which is printed as
-//!    Rust over `S: Scalar`.
+//! 4. The graph becomes a program of statements, with loops over uniform bodies where it is long. A backend prints the
+//!    programs of a mechanism: as Rust over `S: Scalar`.
 //!
 //! [Options](redysim_model::CodegenOptions) select functions, a tolerance, and the algorithm for forward dynamics.
 //!
@@ -52,8 +52,11 @@ pub mod passes;
 pub mod symbol;
 
 mod backend;
+mod configuration;
+mod documentation;
 mod forward_dynamics;
 mod generate;
+mod mechanism;
 mod policies;
 mod program;
 mod pruning;

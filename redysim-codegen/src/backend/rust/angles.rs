@@ -14,8 +14,8 @@ pub fn without_turns(coordinate: u32) -> Ident {
 pub fn angle(angle: &Angle) -> TokenStream {
     let Angle { terms, constant: offset } = angle;
     let mut sum = TokenStream::new();
-    for (place, term @ Term { coordinate, factor }) in terms.iter().enumerate() {
-        let value = if angle.is_of_whole_turns(term) {
+    for (place, Term { coordinate, factor, without_turns: near }) in terms.iter().enumerate() {
+        let value = if *near {
             let near = without_turns(*coordinate);
             quote!(#near)
         } else {

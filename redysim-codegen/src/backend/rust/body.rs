@@ -1,8 +1,6 @@
 //! The body of a function as Rust: its program, printed as statements and expressions over `S: Scalar`.
 
-use crate::angles::Angles;
-use crate::expressions::Expressions;
-use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, NamingContext, Statement, Trig, Value, program};
+use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, Program, Statement, Trig, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -17,7 +15,7 @@ const GROUP: &str = "group";
 const ROW: &str = "constants";
 
 /// Names that variables must not have, beside those of arguments.
-const RESERVED: [&str; 5] = [FROM_F64, SIN, COS, GROUP, ROW];
+pub const RESERVED: [&str; 5] = [FROM_F64, SIN, COS, GROUP, ROW];
 
 /// The name of an argument or a local value.
 pub fn local(name: &str) -> Ident {
@@ -35,15 +33,7 @@ pub fn constant(value: f64) -> TokenStream {
 }
 
 /// The body of a function of the given arguments: statements, then the result that `result` makes of the outputs.
-pub fn body(
-    expressions: &Expressions,
-    arguments: &[&str],
-    bodies: &[String],
-    angles: &Angles,
-    result: impl FnOnce(&[TokenStream]) -> TokenStream,
-) -> TokenStream {
-    let reserved = [arguments, &RESERVED].concat();
-    let program = program(expressions, &NamingContext { reserved: &reserved, bodies, angles });
+pub fn body(program: &Program, arguments: &[&str], result: impl FnOnce(&[TokenStream]) -> TokenStream) -> TokenStream {
     let (printer, k) = (Printer { arguments }, local(FROM_F64));
     let statements = program.statements.iter().map(|statement| printer.statement(statement));
     let outputs: Vec<TokenStream> =

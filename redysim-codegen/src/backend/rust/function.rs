@@ -2,36 +2,33 @@
 
 use super::angles::{angle, without_turns};
 use super::body::{COS, SIN, body, local};
-use super::{documentation, length, results};
-use crate::angles::Angles;
-use crate::expressions::Expressions;
-use crate::functions::TracedFunction;
+use super::{length, results};
+use crate::mechanism::{FunctionProgram, TrigProgram};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Function, Model, PublicInterface};
+use redysim_model::{Function, PublicInterface};
 use redysim_runtime::function::{Argument, Dimension};
 
 /// The name of the argument that has the coordinates with the sines and cosines.
 const TRIG: &str = "trig";
 
 /// Writes the inherent functions of one type.
+#[derive(Clone, Copy)]
 pub struct Writer<'a> {
-    pub model: &'a Model,
-    pub bodies: &'a [String],
-    pub angles: &'a Angles,
     pub interface: &'a PublicInterface,
+    /// The sines and cosines of all angles.
+    pub trig: &'a TrigProgram,
     pub runtime: &'a TokenStream,
 }
 
 impl Writer<'_> {
     /// The function that computes the sines and cosines of all angles.
     pub fn joint_trig(&self) -> TokenStream {
-        let head = joint_trig_head(self.interface, self.angles.len(), self.runtime);
+        let head = joint_trig_head(self.interface, self.angles(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
-        let (terms, angles) =
-            (self.terms_of_sums(0..self.angles.len()), self.angles.at(0..self.angles.len()).map(angle));
+        let (turns_taken_off, angles) = (turns_taken_off(self.trig), self.trig.angles.iter().map(angle));
         let body = with_target_features(&quote! {
-            #terms
+            #turns_taken_off
             let (sin, cos) = S::sin_cos_all([#(#angles),*]);
             #runtime::JointTrig::new(#q, &sin, &cos)
         });
@@ -45,40 +42,36 @@ impl Writer<'_> {
         }
     }
 
-    /// The statement that takes whole turns off the coordinates whose sums are among the angles at `positions`.
-    fn terms_of_sums(&self, positions: impl IntoIterator<Item = usize>) -> Option<TokenStream> {
-        let coordinates = self.angles.summed(positions);
-        let (q, names) = (local("q"), coordinates.iter().map(|&coordinate| without_turns(coordinate)));
-        let places = coordinates.iter().map(|&coordinate| Literal::u32_unsuffixed(coordinate));
-        (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
+    /// Number of angles of the mechanism.
+    fn angles(&self) -> usize {
+        self.trig.angles.len()
     }
 
     /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
     /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
-    pub fn function(&self, traced: &TracedFunction) -> TokenStream {
-        let TracedFunction { function, ref expressions, .. } = *traced;
+    pub fn function(&self, program: &FunctionProgram) -> TokenStream {
+        let FunctionProgram { function, ref documentation, ref trig, ref program, .. } = *program;
         let signature = function.signature();
-        let Writer { model, bodies, angles, interface, runtime } = *self;
+        let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
-            (head(function, interface, runtime), head_with_trig(function, interface, angles.len(), runtime));
-        let head_inlined = head_inlined(function, interface, angles.len(), runtime);
+            (head(function, interface, runtime), head_with_trig(function, interface, angles, runtime));
+        let head_inlined = head_inlined(function, interface, angles, runtime);
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let result = |outputs: &[TokenStream]| results::value(signature.result, interface, outputs, runtime);
-        let body = body(expressions, &arguments, bodies, angles, result);
-        let paragraphs = documentation::paragraphs(traced, model);
-        let lines = paragraphs.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
+        let body = body(program, &arguments, result);
+        let lines = documentation.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
         let docs_with_trig =
             format!(" [`{0}`](Self::{0}) with sines and cosines that are already computed.", function.name());
-        let (inlined, q, trig) = (inlined(function), local("q"), local(TRIG));
+        let (inlined, q, argument) = (inlined(function), local("q"), local(TRIG));
         let others: Vec<Ident> = others(function).collect();
-        let (computed, sin, cos) = self.needed_angles(expressions);
+        let (computed, sin, cos) = trig_statement(trig);
         let of_coordinates = with_target_features(&quote! {
             #computed
             Self::#inlined(#q, #sin, #cos #(, #others)*)
         });
         let of_joint_trig =
-            with_target_features(&quote!(Self::#inlined(&#trig.#q, &#trig.sin, &#trig.cos #(, #others)*)));
+            with_target_features(&quote!(Self::#inlined(&#argument.#q, &#argument.sin, &#argument.cos #(, #others)*)));
         quote! {
             #(#[doc = #docs])*
             pub #head {
@@ -94,30 +87,33 @@ impl Writer<'_> {
             }
         }
     }
+}
 
-    /// The statement that computes the sines and cosines that one function needs, and the arrays of those of all
-    /// angles, with zeros for the others.
-    fn needed_angles(&self, expressions: &Expressions) -> (Option<TokenStream>, TokenStream, TokenStream) {
-        let needed = self.angles.needed_by(expressions);
-        let values: Vec<TokenStream> = self.angles.at(needed.iter().copied()).map(angle).collect();
-        let terms = self.terms_of_sums(needed.iter().copied());
-        let computed = (!values.is_empty()).then(|| quote!(#terms let (sin, cos) = S::sin_cos_all([#(#values),*]);));
-        if needed.len() == self.angles.len() && !needed.is_empty() {
-            return (computed, quote!(&sin), quote!(&cos));
-        }
-        let [sin, cos] = [SIN, COS].map(|function| {
-            let elements = (0..self.angles.len()).map(|position| match needed.binary_search(&position) {
-                Ok(place) => {
-                    let (array, place) = (local(function), Literal::usize_unsuffixed(place));
-                    quote!(#array[#place])
-                }
-                Err(_) => quote!(S::zero()),
-            });
-            let elements: Vec<TokenStream> = elements.collect();
-            quote!(&[#(#elements),*])
-        });
-        (computed, sin, cos)
+/// The statement that takes whole turns off coordinates.
+fn turns_taken_off(TrigProgram { without_turns: coordinates, .. }: &TrigProgram) -> Option<TokenStream> {
+    let (q, names) = (local("q"), coordinates.iter().map(|&coordinate| without_turns(coordinate)));
+    let places = coordinates.iter().map(|&coordinate| Literal::u32_unsuffixed(coordinate));
+    (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
+}
+
+/// The statement that computes the sines and cosines that one function needs, and the arrays of those of all angles,
+/// with zeros for the others.
+fn trig_statement(trig: &TrigProgram) -> (Option<TokenStream>, TokenStream, TokenStream) {
+    let (turns_taken_off, angles) = (turns_taken_off(trig), trig.angles.iter().map(angle));
+    let computed =
+        (!trig.angles.is_empty()).then(|| quote!(#turns_taken_off let (sin, cos) = S::sin_cos_all([#(#angles),*]);));
+    if trig.is_complete() && !trig.angles.is_empty() {
+        return (computed, quote!(&sin), quote!(&cos));
     }
+    let [sin, cos] = [SIN, COS].map(|array| {
+        let array = local(array);
+        let elements = trig.places.iter().map(|place| match place.map(Literal::usize_unsuffixed) {
+            Some(place) => quote!(#array[#place]),
+            None => quote!(S::zero()),
+        });
+        quote!(&[#(#elements),*])
+    });
+    (computed, sin, cos)
 }
 
 /// `body`, compiled for the target features that the scalar needs.

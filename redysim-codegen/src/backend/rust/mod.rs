@@ -3,48 +3,30 @@
 mod angles;
 mod body;
 mod configuration;
-pub mod documentation;
 mod function;
 mod results;
 #[cfg(feature = "source")]
 pub mod source;
 mod traits;
 
-use crate::angles::Angles;
-use crate::functions::TracedFunction;
+use crate::mechanism::MechanismProgram;
+use crate::program::Program;
+pub use body::RESERVED;
 use function::{Writer, head, head_with_trig, joint_trig_head};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Function, Model, PublicInterface, Tree};
+use redysim_model::{Function, PublicInterface};
 use redysim_runtime::OperationCount;
 use redysim_runtime::function::Dimension;
 
-/// The `impl`s of the type `name` with the given functions.
-pub fn mechanism(
-    model: &Model,
-    interface: &PublicInterface,
-    functions: &[TracedFunction],
-    name: &Ident,
-    runtime: &TokenStream,
-) -> TokenStream {
-    let tree = Tree::new(model);
-    let bodies = body_names(model, &tree);
-    let angles = Angles::of(functions.iter().map(|function| &function.expressions));
-    let writer = Writer { model, bodies: &bodies, angles: &angles, interface, runtime };
+/// Prints `mechanism` as the `impl`s of the type `name`.
+pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let MechanismProgram { interface, ref trig, ref functions, ref configuration } = *mechanism;
+    let writer = Writer { interface, trig, runtime };
     let definitions =
         std::iter::once(writer.joint_trig()).chain(functions.iter().map(|function| writer.function(function)));
-    let operations: Vec<_> = functions.iter().map(|traced| (traced.function, traced.expressions.count())).collect();
-    type_impls(interface, Some(&tree), name, runtime, &operations, definitions.collect())
-}
-
-/// The names of the bodies of `tree`: each is that of its moving link. Velocities are in the order of the joints, and a
-/// joint may have several.
-fn body_names(model: &Model, tree: &Tree) -> Vec<String> {
-    let mut names = vec![String::new(); tree.bodies.len()];
-    for (link, body) in model.moving_links().zip(tree.bodies_by_joint()) {
-        names[body].clone_from(&link.name);
-    }
-    names
+    let operations: Vec<_> = functions.iter().map(|program| (program.function, program.operations)).collect();
+    type_impls(interface, Some(configuration), name, runtime, &operations, definitions.collect())
 }
 
 /// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
@@ -62,14 +44,14 @@ pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) ->
 
 fn type_impls(
     interface: &PublicInterface,
-    tree: Option<&Tree>,
+    configuration: Option<&[Program]>,
     name: &Ident,
     runtime: &TokenStream,
     operations: &[(Function, OperationCount)],
     definitions: Vec<TokenStream>,
 ) -> TokenStream {
     let constants = constants(interface, operations, runtime);
-    let mechanism = traits::mechanism(interface, tree, name, runtime);
+    let mechanism = traits::mechanism(interface, configuration, name, runtime);
     let closure = traits::closure(interface, name, runtime);
     let traits = interface.functions.iter().map(|function| traits::own(function, interface, name, runtime));
     quote! {
@@ -130,25 +112,5 @@ fn constants(
         pub const ACTUATED: [bool; #nv] = [#(#actuated),*];
         /// Operations of each function.
         pub const OPS: #runtime::Operations = #runtime::Operations { #(#counts,)* ..#runtime::Operations::NONE };
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The tool stands before the arm that carries it, and its joint has as many coordinates and velocities as a free
-    /// one.
-    #[test]
-    fn bodies_have_the_names_of_their_links_however_many_velocities_joints_have() {
-        let text = "name = 'r'\ngravity = [0, 0, -10]\n[[link]]\nname = 'tool'\nparent = 'arm'\njoint = 'revolute'\n\
-                    dh = {}\nmass = 1\ncom = [1, 0, 0]\n[[link]]\nname = 'arm'\nparent = 'base'\njoint = 'revolute'\n\
-                    dh = {}\nmass = 1\ncom = [1, 0, 0]";
-        let model = Model::from_toml(text, "r.toml").expect("a good model").model;
-        let mut tree = Tree::new(&model);
-        let [arm, tool] = tree.bodies.as_mut_slice() else { panic!("two bodies") };
-        (tool.q, tool.v) = (0..7, 0..6);
-        (arm.q, arm.v) = (7..8, 6..7);
-        assert_eq!(body_names(&model, &tree), ["arm", "tool"]);
     }
 }

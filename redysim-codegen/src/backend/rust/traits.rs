@@ -2,9 +2,10 @@
 
 use super::function::{arguments, parameters};
 use super::{configuration, length, results};
+use crate::program::Program;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use redysim_model::{Function, PublicInterface, Tree};
+use redysim_model::{Function, PublicInterface};
 use redysim_runtime::function::{Dimension, Interface};
 
 /// The trait that has the function alone; nothing for a function of a trait that has several.
@@ -78,13 +79,18 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
 }
 
 /// Sizes, names, and the space of positions.
-pub fn mechanism(interface: &PublicInterface, tree: Option<&Tree>, name: &Ident, runtime: &TokenStream) -> TokenStream {
+pub fn mechanism(
+    interface: &PublicInterface,
+    configuration: Option<&[Program]>,
+    name: &Ident,
+    runtime: &TokenStream,
+) -> TokenStream {
     let [nq, nv, nl] =
         [Dimension::Coordinates, Dimension::Velocities, Dimension::Links].map(|dimension| length(interface, dimension));
     // Coordinates, velocities, and the energy of the actuators.
     let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
     let state = Literal::usize_unsuffixed(state);
-    let methods = configuration::methods(tree, interface);
+    let methods = configuration::methods(configuration, interface);
     quote! {
         impl #runtime::Mechanism for #name {
             fn name(&self) -> &str {

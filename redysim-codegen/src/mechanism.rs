@@ -1,0 +1,130 @@
+//! A mechanism as programs and data: what a backend prints.
+
+use crate::angles::{Angle, Angles};
+use crate::configuration::CONFIGURATION_FUNCTIONS;
+use crate::documentation;
+use crate::functions::TracedFunction;
+use crate::program::{NamingContext, Program, program};
+use redysim_model::{Function, Model, PublicInterface, Tree};
+use redysim_runtime::OperationCount;
+
+/// A mechanism for a backend, which decides nothing more.
+#[derive(Clone, Debug)]
+pub struct MechanismProgram<'a> {
+    /// Names and sizes.
+    pub interface: &'a PublicInterface,
+    /// The sines and cosines of all angles, which functions share.
+    pub trig: TrigProgram,
+    /// The functions, in the order of [`Function::ALL`].
+    pub functions: Vec<FunctionProgram>,
+    /// A program for each of [`CONFIGURATION_FUNCTIONS`].
+    pub configuration: [Program; CONFIGURATION_FUNCTIONS.len()],
+}
+
+/// A function of a mechanism.
+#[derive(Clone, Debug)]
+pub struct FunctionProgram {
+    /// Which one it is.
+    pub function: Function,
+    /// The paragraphs of its documentation, in Markdown.
+    pub documentation: Vec<String>,
+    /// What it costs.
+    pub operations: OperationCount,
+    /// The sines and cosines that it needs.
+    pub trig: TrigProgram,
+    /// What it computes from the sines and cosines of all angles, of which it reads those that it needs.
+    pub program: Program,
+}
+
+/// How sines and cosines are computed: of some coordinates whole turns are taken off, angles are summed from these and
+/// from other coordinates, and the sines and cosines of all angles are computed together.
+#[derive(Clone, Debug)]
+pub struct TrigProgram {
+    /// The coordinates of which whole turns are taken off, in order.
+    pub without_turns: Vec<u32>,
+    /// The angles.
+    pub angles: Vec<Angle>,
+    /// For each angle of the mechanism, which of `angles` it is; `None` is not needed.
+    pub places: Vec<Option<usize>>,
+}
+
+impl<'a> MechanismProgram<'a> {
+    /// The programs of a mechanism with the given functions. Variables have none of the names in `reserved`, which the
+    /// backend defines.
+    pub fn new(
+        model: &Model,
+        interface: &'a PublicInterface,
+        functions: &[TracedFunction],
+        reserved: &[&str],
+    ) -> MechanismProgram<'a> {
+        let tree = Tree::new(model);
+        let bodies = body_names(model, &tree);
+        let angles = Angles::of(functions.iter().map(|traced| &traced.expressions));
+        let function = |traced: &TracedFunction| {
+            let arguments = traced.function.signature().arguments.iter().map(|argument| argument.name());
+            let reserved: Vec<&str> = arguments.chain(reserved.iter().copied()).collect();
+            FunctionProgram {
+                function: traced.function,
+                documentation: documentation::paragraphs(traced, model),
+                operations: traced.expressions.count(),
+                trig: TrigProgram::new(&angles, &angles.needed_by(&traced.expressions)),
+                program: program(
+                    &traced.expressions,
+                    &NamingContext { reserved: &reserved, bodies: &bodies, angles: &angles },
+                ),
+            }
+        };
+        MechanismProgram {
+            interface,
+            trig: TrigProgram::new(&angles, &Vec::from_iter(0..angles.len())),
+            functions: functions.iter().map(function).collect(),
+            configuration: CONFIGURATION_FUNCTIONS.map(|function| function.program(&tree, interface, reserved)),
+        }
+    }
+}
+
+impl TrigProgram {
+    /// Computes the angles at the positions `needed`, which are in order.
+    fn new(angles: &Angles, needed: &[usize]) -> TrigProgram {
+        TrigProgram {
+            without_turns: angles.summed(needed.iter().copied()),
+            angles: angles.at(needed.iter().copied()).cloned().collect(),
+            places: (0..angles.len()).map(|position| needed.binary_search(&position).ok()).collect(),
+        }
+    }
+
+    /// Whether it has every angle of the mechanism.
+    pub fn is_complete(&self) -> bool {
+        self.angles.len() == self.places.len()
+    }
+}
+
+/// The names of the bodies of `tree`: each is that of its moving link. Velocities are in the order of the joints, and a
+/// joint may have several.
+fn body_names(model: &Model, tree: &Tree) -> Vec<String> {
+    let mut names = vec![String::new(); tree.bodies.len()];
+    for (link, body) in model.moving_links().zip(tree.bodies_by_joint()) {
+        names[body].clone_from(&link.name);
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tool stands before the arm that carries it, and its joint has as many coordinates and velocities as a free
+    /// one.
+    #[test]
+    fn bodies_have_the_names_of_their_links_however_many_velocities_joints_have() {
+        let text = "name = 'r'\ngravity = [0, 0, -10]\n[[link]]\nname = 'tool'\nparent = 'arm'\njoint = 'revolute'\n\
+                    dh = {}\nmass = 1\ncom = [1, 0, 0]\n[[link]]\nname = 'arm'\nparent = 'base'\njoint = 'revolute'\n\
+                    dh = {}\nmass = 1\ncom = [1, 0, 0]";
+        let model = Model::from_toml(text, "r.toml").expect("a good model").model;
+        let mut tree = Tree::new(&model);
+        let [arm, tool] = tree.bodies.as_mut_slice() else { panic!("two bodies") };
+        (tool.q, tool.v) = (0..7, 0..6);
+        (arm.q, arm.v) = (7..8, 6..7);
+        assert_eq!(body_names(&model, &tree), ["arm", "tool"]);
+    }
+}
