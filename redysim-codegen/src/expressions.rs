@@ -1,7 +1,7 @@
 //! The body of one function: a graph and the values it returns.
 
 use crate::graph::{Edge, Graph, Name, Node};
-use crate::policies::{LONGEST_UNROLLED, PRICE_PER_PAIR};
+use crate::policies::{LONGEST_UNROLLED, PRICE_PER_DIVISION, PRICE_PER_PAIR};
 use redysim_runtime::{OperationCount, Scalar};
 use std::collections::HashSet;
 
@@ -103,7 +103,7 @@ impl Expressions {
     /// compared.
     pub fn price(&self) -> u32 {
         let count = self.count();
-        count.flops() + PRICE_PER_PAIR * count.trig
+        count.additions + count.multiplications + PRICE_PER_DIVISION * count.divisions + PRICE_PER_PAIR * count.trig
     }
 
     /// The outputs for the given arguments, computed with any scalar.

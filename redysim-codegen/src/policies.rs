@@ -1,4 +1,11 @@
-//! The weights of the generator's choices: every number that is a judgement, with its reason.
+//! The weights of the choices between pipelines: which description of a robot, which algorithm, loops or unrolled code.
+//!
+//! What bounds the effort within one pass, or shapes its text alone, stands in the file of the pass.
+
+/// A division or a square root counts as one operation, as in the flops that the documentation states. It takes several
+/// times as long, but that decides little: of the functions that are compared, forward dynamics alone has divisions,
+/// and in either algorithm about one for each joint.
+pub const PRICE_PER_DIVISION: u32 = 1;
 
 /// A sine-cosine pair takes about the time of this many multiplications, where the pairs of several angles are computed
 /// together.
@@ -7,6 +14,14 @@ pub const PRICE_PER_PAIR: u32 = 20;
 /// With more operations, unrolled code does not fit an instruction cache of 32 KB, and every operation takes about
 /// twice as long: loops are tried.
 pub const LONGEST_UNROLLED: u32 = 3000;
+
+/// The fewest groups of uniform bodies that become a loop. With fewer, a loop saves little code: the bodies at either
+/// end of a run stay unrolled.
+pub const FEWEST_GROUPS: usize = 4;
+
+/// The most bodies in a group. Links that are mounted in turns, such as mirrored ones, repeat after two or three; every
+/// period that is tried takes another search through the function.
+pub const LONGEST_PERIOD: usize = 3;
 
 /// The longest chain for which the explicit mass matrix is considered at all: it takes O(n³) operations there, and the
 /// condition of the matrix costs digits.

@@ -16,6 +16,7 @@ mod table;
 use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
+use crate::policies::{FEWEST_GROUPS, LONGEST_PERIOD};
 use signs::Signs;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use steps::Steps;
@@ -23,10 +24,6 @@ pub use table::Constant;
 
 /// The group of bodies that the others are compared with. It has a neighbour on either side.
 pub const TEMPLATE: usize = 1;
-/// The fewest groups that are worth a loop.
-const FEWEST_GROUPS: usize = 4;
-/// The most bodies in a group.
-const LONGEST_PERIOD: usize = 3;
 
 /// Part of a function as loops, one for each sweep, over the same bodies.
 #[derive(Clone, Debug)]

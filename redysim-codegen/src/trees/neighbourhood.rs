@@ -38,7 +38,7 @@ impl<P: Parameter> Neighbourhood<P> {
     }
 }
 
-/// The body `body` with its parent, its parent's parent, its children and theirs.
+/// The body `body` with its parent, its parent's parent and its children.
 ///
 /// Where the tree continues towards the ground, two oblique joints give the part a motion without zeros; where it
 /// continues outwards, the last body gets an inertia without zeros.
