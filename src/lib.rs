@@ -95,7 +95,7 @@ pub mod generic {
     pub use redysim_model::{
         AccelerationMethod, Attachment, Body, CodegenOptions, Cut, CutEnd, CutKind, CutSide, Diagnostic, Diagnostics,
         Faults, GenericMechanism, Inertia, JointKind, JointRange, Link, Loaded, LockError, Loop, Mobility, Model,
-        PublicInterface, Severity, Tree,
+        MovingJoint, PublicInterface, Severity, Tree,
     };
 }
 
