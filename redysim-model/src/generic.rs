@@ -48,8 +48,8 @@ impl GenericMechanism {
         &self.tree
     }
 
-    /// [`InverseDynamics::inverse_dynamics`], written to `tau`. The `workspace` is all the memory that is needed: with one
-    /// [for this tree](Workspace::for_tree) no call allocates.
+    /// [`InverseDynamics::inverse_dynamics`], written to `tau`. The `workspace` is all the memory that is needed: with
+    /// one [for this tree](Workspace::for_tree) no call allocates.
     ///
     /// ```
     /// use redysim_model::denoc::Workspace;

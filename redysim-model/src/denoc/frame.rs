@@ -105,8 +105,8 @@ pub(super) struct Angle<S> {
 /// Where a body is on its axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AxisPosition<S> {
-    /// Its angle about z: against its parent or, if the joint axes are parallel and the parent's axes do not rotate with
-    /// its joint, against the parent's axes.
+    /// Its angle about z: against its parent or, if the joint axes are parallel and the parent's axes do not rotate
+    /// with its joint, against the parent's axes.
     angle: Option<Angle<S>>,
     /// Its displacement along z against its parent.
     displacement: Option<S>,

@@ -5,14 +5,14 @@
 //! | item | what it is |
 //! |---|---|
 //! | `position` | where the body is at given coordinates, a [`JointPosition`] |
-//! | `SCREW`, or a function of the joint's parameters | the motion subspace S in the body's frame: velocity across the joint is S v |
+//! | `SCREW`, or a function of the joint's parameters | the motion subspace S in the body's frame |
 //! | `split` | which inertia of the body its parent may carry as well, with the same joint forces |
 //! | `meets` | which inertia alone makes the joint's diagonal element of the mass matrix positive |
 //!
 //! and [`Joint`] has a variant that names them and the functions by which its coordinates move, `coordinate_rates` and
-//! its inverse `velocities`, `integrate`, `difference` and `neutral`, with the names of coordinates and velocities; those
-//! of coordinates that add up are in `linear`. From S follow the bias acceleration and the joint force Sᵀ w of a wrench.
-//! The recursions do not depend on the kind of a joint.
+//! its inverse `velocities`, `integrate`, `difference` and `neutral`, with the names of coordinates and velocities;
+//! those of coordinates that add up are in `linear`. From S follow the velocity S v across the joint, the bias
+//! acceleration, and the joint force Sᵀ w of a wrench. The recursions do not depend on the kind of a joint.
 
 mod helical;
 mod linear;

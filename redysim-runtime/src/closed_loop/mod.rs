@@ -37,9 +37,9 @@ pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
 /// - [`ClosedLoopInverse`](crate::ClosedLoopInverse) finds the joint forces for a trajectory of the independent
 ///   coordinates, which [`ClosedLoopComputedTorque`](crate::ClosedLoopComputedTorque) follows under control.
 ///
-/// Everything is based on one decomposition: the rows of J in the metric of M, split into a part that is independent and
-/// a part that is not. So redundant rows and singular positions are ordinary cases. Where M is singular, since a rod
-/// has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
+/// Everything is based on one decomposition: the rows of J in the metric of M, split into a part that is independent
+/// and a part that is not. So redundant rows and singular positions are ordinary cases. Where M is singular, since a
+/// rod has no mass, the metric is that of M + w JᵀJ, in which the closed mechanism is the same.
 #[derive(Debug)]
 pub struct ClosedLoop<'m, M, C = M> {
     mechanism: &'m M,

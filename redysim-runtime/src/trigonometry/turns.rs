@@ -13,8 +13,8 @@ const LARGEST: f64 = 7.0;
 #[inline(always)]
 pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
     let limit = A::from_f64(LARGEST);
-    // One branch for all angles, which nearly always are small. A loop and not `fold`, which the compiler may leave as a
-    // function of its own: that is not compiled for the instructions of lanes chosen at run time.
+    // One branch for all angles, which nearly always are small. A loop and not `fold`, which the compiler may leave as
+    // a function of its own: that is not compiled for the instructions of lanes chosen at run time.
     let mut small = true;
     for angle in &angles {
         small &= angle.all_within(limit);
