@@ -155,11 +155,12 @@ impl<S: Scalar> JointFrame<S> {
         }
     }
 
-    /// What the matrix of the parent's axes makes of the joint's axis, in the body's axes; `None` where the joint's
-    /// axis is none of the parent's axes and the product would cost.
+    /// What the matrix of the parent's axes makes of the joint's axis, in the body's axes; `None` where the product
+    /// would cost: for numbers, and where the joint's axis is none of the parent's axes.
     #[inline(always)]
     pub fn axis_image(&self, matrix: Mat3<S>) -> Option<Vec3<S>> {
-        self.along_axis.then(|| self.to_body(matrix * self.fixed.column(2)))
+        let selects = self.along_axis && self.columns.is_none();
+        selects.then(|| self.to_body(matrix * self.fixed.column(2)))
     }
 
     /// A vector fixed to the body, in its axes.
