@@ -1,10 +1,11 @@
 //! Torque laws: what the actuators do.
 //!
-//! The given laws treat each joint by itself, with one gain for each, and subtract coordinates from coordinates: they
-//! are for joints of one coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint),
-//! proportional gains N m/rad (N/m), derivative gains N m s/rad (N s/m), unless said otherwise. One gain for all joints
-//! is written `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation does not begin with gains or targets of
-//! wrong length, which a `Vec` can have ([`TorqueLaw::check_lengths`]).
+//! The given laws treat each joint by itself, with one gain for each velocity. [`ComputedTorque`] takes position errors
+//! from the mechanism's `difference`; the others subtract coordinates from coordinates, and are for joints of one
+//! coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint), proportional gains
+//! N m/rad (N/m) and derivative gains N m s/rad (N s/m) by default. One gain for all joints is written
+//! `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation does not begin with gains or targets of wrong
+//! length, nor with a law that the mechanism has too many coordinates for ([`TorqueLaw::check_lengths`]).
 
 use crate::vector::entry;
 use crate::{ConfigurationSpace, InverseDynamics, LengthMismatch, Mechanism, Motion, Real, Scalar, Trajectory, Vector};
@@ -90,7 +91,7 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Proportional<M::Coor
     }
 
     fn check_lengths(&self, _t: S, mechanism: &M) -> Result<(), LengthMismatch> {
-        LengthMismatch::check("target", self.target.as_ref(), mechanism.nq())?;
+        check_coordinates(mechanism, "target", &self.target)?;
         LengthMismatch::check("kp", self.kp.as_ref(), mechanism.nv())
     }
 
@@ -123,7 +124,7 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivati
     }
 
     fn check_lengths(&self, _t: S, mechanism: &M) -> Result<(), LengthMismatch> {
-        LengthMismatch::check("target", self.target.as_ref(), mechanism.nq())?;
+        check_coordinates(mechanism, "target", &self.target)?;
         check_gains(mechanism, &self.kp, &self.kd)
     }
 
@@ -141,6 +142,16 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivati
 fn check_gains<S: Scalar, V: Vector<S>>(mechanism: &impl Mechanism, kp: &V, kd: &V) -> Result<(), LengthMismatch> {
     LengthMismatch::check("kp", kp.as_ref(), mechanism.nv())?;
     LengthMismatch::check("kd", kd.as_ref(), mechanism.nv())
+}
+
+/// Checks that there is a coordinate for each velocity and that a vector has an element for each.
+fn check_coordinates<S: Scalar, Q: Vector<S>>(
+    mechanism: &impl Mechanism,
+    name: &'static str,
+    q: &Q,
+) -> Result<(), LengthMismatch> {
+    LengthMismatch::check(name, q.as_ref(), mechanism.nq())?;
+    LengthMismatch::check(name, q.as_ref(), mechanism.nv())
 }
 
 /// Checks that a motion moves all coordinates.
@@ -184,7 +195,9 @@ where
     }
 
     fn check_lengths(&self, t: S, mechanism: &M) -> Result<(), LengthMismatch> {
-        check_motion(mechanism, &self.trajectory.at(t))?;
+        let desired = self.trajectory.at(t);
+        check_coordinates(mechanism, "trajectory.q", &desired.q)?;
+        check_motion(mechanism, &desired)?;
         check_gains(mechanism, &self.kp, &self.kd)
     }
 
@@ -198,7 +211,8 @@ where
     }
 }
 
-/// Computed torque: τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), with the error e = q_d(t) − q.
+/// Computed torque: τ = M(q) (q̈_d + Kd ė + Kp e) + C(q, q̇) q̇ + g(q), with the error e = q_d(t) ⊟ q, the mechanism's
+/// [`difference`](ConfigurationSpace::difference).
 ///
 /// For a model that is right it leaves the linear error dynamics ë + Kd ė + Kp e = 0, the same for every joint and
 /// every pose. It takes one inverse dynamics; no matrix is formed. The gains multiply accelerations: Kp 1/s², Kd 1/s.
@@ -217,16 +231,18 @@ pub struct ComputedTorque<'m, M, T, V> {
 
 impl<N, T, V> ComputedTorque<'_, N, T, V> {
     /// q̈_d + Kd ė + Kp e.
-    fn acceleration<S: Real, Q: Vector<S>>(&self, t: S, q: &Q, v: &V) -> V
+    fn acceleration<S: Real>(&self, t: S, q: &N::Coordinates, v: &V) -> V
     where
-        T: Trajectory<S, Q, V>,
+        N: ConfigurationSpace<S, Velocities = V>,
+        T: Trajectory<S, N::Coordinates, V>,
         V: Vector<S>,
     {
         let desired = self.trajectory.at(t);
+        let error = self.mechanism.difference(q, &desired.q);
         V::from_fn(v.as_ref().len(), |i| {
             entry(&desired.a, i)
                 + entry(&self.kd, i) * (entry(&desired.v, i) - entry(v, i))
-                + entry(&self.kp, i) * (entry(&desired.q, i) - entry(q, i))
+                + entry(&self.kp, i) * entry(&error, i)
         })
     }
 }
@@ -253,6 +269,10 @@ where
         (q, v): (&M::Coordinates, &M::Velocities),
         (dq, dv): (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
+        if self.mechanism.nq() != self.mechanism.nv() {
+            // The derivative of the difference is not that of the coordinates.
+            return None;
+        }
         let a = self.acceleration(t, q, v);
         let da = spring_and_damper(&self.kp, &self.kd, dq, dv);
         self.mechanism.inverse_dynamics_tangent((q, v, &a), (dq, dv, &da))

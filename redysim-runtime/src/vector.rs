@@ -66,8 +66,8 @@ impl fmt::Display for LengthMismatch {
 
 impl core::error::Error for LengthMismatch {}
 
-/// Element `index`; NaN if the vector is too short, which only a `Vec` can be whose length nobody has checked. NaN does
-/// not go unnoticed: integrators report it, where a panic would take a controller down and a zero would hide the error.
+/// Element `index`, or NaN past the end. Only a `Vec` whose length has not been checked can be too short. Integrators
+/// report NaN, where a panic would stop a controller and a zero would hide the error.
 pub(crate) fn entry<T: crate::Scalar, V: Vector<T>>(vector: &V, index: usize) -> T {
     vector.as_ref().get(index).copied().unwrap_or_else(|| T::from_f64(f64::NAN))
 }

@@ -4,10 +4,12 @@
 mod slider_crank;
 
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConfigurationSpace, Integrator,
-    LoopClosure, LoopError, Mechanism, Motion, Ode45,
+    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ComputedTorque, ConfigurationSpace,
+    IntegrationError, Integrator, LengthMismatch, LoopClosure, LoopError, Mechanism, Motion, Ode45, Proportional,
+    ProportionalDerivative, TorqueLaw, TrackingPd,
 };
 use slider_crank::{ByAngle, ByCosine, CRANK, ROD, by_cosine};
+use std::f64::consts::TAU;
 
 /// What roundings in two orders leave of numbers below 100, through a few products and one solve of two rows: measured,
 /// 2e-14 at most.
@@ -135,6 +137,49 @@ fn computed_torque_does_not_depend_on_the_coordinates() {
         let a = wanted.a[0] + 12.0 * (wanted.v[0] - state.v[2]) + 40.0 * error;
         close("slider", &[found.motion.a[2]], &[a], TOLERANCE);
     }
+}
+
+/// Follows the open chain, all joints at once, by [`ComputedTorque`] of the tree.
+#[test]
+fn computed_torque_of_a_tree_takes_position_errors_on_the_tangent() {
+    let motion = |t: f64| Motion { q: [3.0 + t, -0.4 * t, 0.7], v: [1.0, -0.4, 0.0], a: [0.2, 0.0, -0.1] };
+    let (kp, kd) = ([40.0, 30.0, 20.0], [12.0, 11.0, 10.0]);
+    let mut angle = ComputedTorque { mechanism: &ByAngle, trajectory: motion, kp, kd };
+    let trajectory = |t: f64| {
+        let Motion { q, v, a } = motion(t);
+        Motion { q: by_cosine(&q), v, a }
+    };
+    let mut cosine = ComputedTorque { mechanism: &ByCosine, trajectory, kp, kd };
+    for t in [0.0, 0.1, 0.3] {
+        // The crank's error stays below π, where its angle and the shortest way agree.
+        let q = [2.5, 0.3, 0.8];
+        let expected = TorqueLaw::<f64, ByAngle>::torque(&mut angle, t, &q, &V);
+        let found = TorqueLaw::<f64, ByCosine>::torque(&mut cosine, t, &by_cosine(&q), &V);
+        close("torque", &found, &expected, TOLERANCE);
+    }
+    // Beyond π the shortest way is the other one.
+    let far = TorqueLaw::<f64, ByCosine>::torque(&mut cosine, 0.0, &by_cosine(&[-3.2, 0.3, 0.8]), &V);
+    let near = TorqueLaw::<f64, ByCosine>::torque(&mut cosine, 0.0, &by_cosine(&[-3.2 + TAU, 0.3, 0.8]), &V);
+    close("torque", &far, &near, TOLERANCE);
+}
+
+#[test]
+fn laws_that_subtract_coordinates_are_refused_where_these_outnumber_the_velocities() {
+    let mismatch = Err(LengthMismatch { vector: "target", length: 4, expected: 3 });
+    let law = ProportionalDerivative { target: [1.0, 0.0, 0.0, 0.0], kp: [1.0; 3], kd: [1.0; 3] };
+    assert_eq!(law.check_lengths(0.0, &ByCosine), mismatch);
+    let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&ByCosine), law);
+    let start = simulation.state(&by_cosine(&closed(0.5)), &V);
+    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
+    assert_eq!(Err(error), mismatch.map_err(IntegrationError::WrongLength));
+    let law = Proportional { target: [1.0, 0.0, 0.0, 0.0], kp: [1.0; 3] };
+    assert_eq!(law.check_lengths(0.0, &ByCosine), mismatch);
+    let trajectory = |_: f64| Motion { q: [1.0, 0.0, 0.0, 0.0], v: [0.0; 3], a: [0.0; 3] };
+    let law = TrackingPd { trajectory, kp: [1.0; 3], kd: [1.0; 3] };
+    let mismatch = Err(LengthMismatch { vector: "trajectory.q", length: 4, expected: 3 });
+    assert_eq!(law.check_lengths(0.0, &ByCosine), mismatch);
+    let law = ComputedTorque { mechanism: &ByCosine, trajectory, kp: [1.0; 3], kd: [1.0; 3] };
+    assert_eq!(law.check_lengths(0.0, &ByCosine), Ok(()));
 }
 
 #[test]
