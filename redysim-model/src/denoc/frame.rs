@@ -29,8 +29,9 @@ pub(super) struct JointFrame<S> {
     rotation_about_z: Option<RotationAboutZ<S>>,
     /// The rotation of the body against its axes; `None` where they are fixed to it.
     body_rotation: Option<RotationAboutZ<S>>,
-    /// Whether the joint's axis is one of the parent's axes.
-    along_axis: bool,
+    /// Whether a product with the joint's axis is a column of the matrix: for symbols, if the joint's axis is one of the
+    /// parent's axes. For numbers it is a product like any other.
+    selects_column: bool,
     /// The body's origin in the parent's axes.
     pub position: Vec3<S>,
 }
@@ -75,7 +76,9 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         if let Some(displacement) = displacement {
             position = position + rotated(parent_rotation, fixed.column(2)).scale(displacement);
         }
-        let along_axis = parent_rotation.is_none() && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
+        let selects_column = !T::WHOLE_ROTATIONS
+            && parent_rotation.is_none()
+            && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (rotation_about_z, body_rotation) =
             if body.merged_parallel { (None, joint_rotation) } else { (joint_rotation, None) };
         let columns = T::WHOLE_ROTATIONS.then(|| {
@@ -88,7 +91,7 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
             columns,
             rotation_about_z,
             body_rotation,
-            along_axis,
+            selects_column,
             position,
         });
     });
@@ -155,12 +158,11 @@ impl<S: Scalar> JointFrame<S> {
         }
     }
 
-    /// What the matrix of the parent's axes makes of the joint's axis, in the body's axes; `None` where the product
-    /// would cost: for numbers, and where the joint's axis is none of the parent's axes.
+    /// The product of a matrix of the parent's axes and the joint's axis, in the body's axes; `None` where it costs more
+    /// than to select a column.
     #[inline(always)]
     pub fn axis_image(&self, matrix: Mat3<S>) -> Option<Vec3<S>> {
-        let selects = self.along_axis && self.columns.is_none();
-        selects.then(|| self.to_body(matrix * self.fixed.column(2)))
+        self.selects_column.then(|| self.to_body(matrix * self.fixed.column(2)))
     }
 
     /// A vector fixed to the body, in its axes.
