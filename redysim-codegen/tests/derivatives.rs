@@ -22,11 +22,6 @@ fn lengths(function: Function, tree: &Tree) -> Vec<usize> {
     [tree.nq(), tree.nv(), tree.nv()][..arguments].to_vec()
 }
 
-/// Pairs each value with its slope.
-fn dual<S: Copy>(values: &[S], slopes: &[S]) -> Vec<Dual<S>> {
-    values.iter().zip(slopes).map(|(&value, &slope)| Dual { value, slope }).collect()
-}
-
 /// Values, then slopes.
 fn parts<S: Copy>(duals: &[Dual<S>]) -> Vec<S> {
     duals.iter().map(|dual| dual.value).chain(duals.iter().map(|dual| dual.slope)).collect()
@@ -36,26 +31,36 @@ fn slices<T>(vectors: &[Vec<T>]) -> Vec<&[T]> {
     vectors.iter().map(Vec::as_slice).collect()
 }
 
-/// The function and its derivative along a direction. The arguments are followed by those of the direction.
-fn traced_with_derivative(function: Function, tree: &Tree) -> Expressions {
-    let (tracer, lengths) = (Tracer::default(), lengths(function, tree));
+/// The arguments of a function, each with its direction. In `numbers` the directions follow the arguments.
+fn duals<S: Copy>(numbers: &[Vec<S>]) -> Vec<Vec<Dual<S>>> {
+    let (values, slopes) = numbers.split_at(numbers.len() / 2);
+    let dual = |(&value, &slope): (&S, &S)| Dual { value, slope };
+    values.iter().zip(slopes).map(|(values, slopes)| values.iter().zip(slopes).map(dual).collect()).collect()
+}
+
+/// The expressions of `computed`, a function of vectors of the given lengths.
+fn traced_of(
+    lengths: &[usize],
+    computed: impl for<'g> Fn(&'g Tracer, &[Vec<Symbol<'g>>]) -> Vec<Symbol<'g>>,
+) -> Expressions {
+    let tracer = Tracer::default();
     let outputs = {
-        let symbols = |first: u8| (first..).zip(&lengths).map(|(index, &length)| tracer.argument(index, length));
-        let arguments = symbols(0).zip(symbols(lengths.len() as u8));
-        let arguments: Vec<Vec<Dual<Symbol>>> = arguments.map(|(values, slopes)| dual(&values, &slopes)).collect();
-        tracer.edges(&parts(&evaluate(function, tree, &tracer, &slices(&arguments))))
+        let arguments: Vec<Vec<Symbol>> =
+            (0..).zip(lengths).map(|(index, &length)| tracer.argument(index, length)).collect();
+        tracer.edges(&computed(&tracer, &arguments))
     };
     Expressions { graph: tracer.into_graph(), outputs }
 }
 
 fn traced(function: Function, tree: &Tree) -> Expressions {
-    let (tracer, lengths) = (Tracer::default(), lengths(function, tree));
-    let outputs = {
-        let arguments: Vec<Vec<Symbol>> =
-            (0..).zip(&lengths).map(|(index, &length)| tracer.argument(index, length)).collect();
-        tracer.edges(&evaluate(function, tree, &tracer, &slices(&arguments)))
-    };
-    Expressions { graph: tracer.into_graph(), outputs }
+    traced_of(&lengths(function, tree), |tracer, x| evaluate(function, tree, tracer, &slices(x)))
+}
+
+/// The function and its derivative along a direction.
+fn traced_with_derivative(function: Function, tree: &Tree) -> Expressions {
+    traced_of(&lengths(function, tree).repeat(2), |tracer, x| {
+        parts(&evaluate(function, tree, tracer, &slices(&duals(x))))
+    })
 }
 
 /// Arguments and direction in general position.
@@ -74,9 +79,7 @@ fn traced_derivatives_are_those_of_dual_numbers() {
             let (expressions, lengths) = (traced_with_derivative(function, &tree), lengths(function, &tree));
             for point in 0..3 {
                 let numbers = arguments(&lengths, point);
-                let (values, slopes) = numbers.split_at(lengths.len());
-                let duals: Vec<Vec<Dual<f64>>> = values.iter().zip(slopes).map(|(x, dx)| dual(x, dx)).collect();
-                let expected = parts(&evaluate(function, &tree, &Untraced, &slices(&duals)));
+                let expected = parts(&evaluate(function, &tree, &Untraced, &slices(&duals(&numbers))));
                 let found = expressions.evaluate(&slices(&numbers));
                 assert_eq!(found.len(), expected.len());
                 for half in [0..expected.len() / 2, expected.len() / 2..expected.len()] {

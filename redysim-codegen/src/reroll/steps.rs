@@ -137,9 +137,9 @@ fn operation(node: Node) -> Operation {
 mod tests {
     use super::*;
     use crate::angles::Angles;
-    use crate::expressions::Expressions;
     use crate::reroll::operations;
     use crate::symbol::{Symbol, Tracer};
+    use crate::tracing::traced_of;
     use redysim_model::{Function, Model, Tree, denoc};
     use redysim_runtime::Dual;
 
@@ -148,15 +148,10 @@ mod tests {
         tree: &Tree,
         computed: impl for<'g> Fn(&'g Tracer, [Vec<Dual<Symbol<'g>>>; 3]) -> Vec<Symbol<'g>>,
     ) -> Option<Range<usize>> {
-        let tracer = Tracer::default();
-        let outputs = {
-            let arguments = [0, 1, 2].map(|index| {
-                let [values, slopes] = [index, index + 3].map(|index| tracer.argument(index, tree.nv()));
-                values.into_iter().zip(slopes).map(|(value, slope)| Dual { value, slope }).collect()
-            });
-            tracer.edges(&computed(&tracer, arguments))
-        };
-        let expressions = Expressions { graph: tracer.into_graph(), outputs };
+        let expressions = traced_of([tree.nv(); 6], |tracer, x| {
+            let dual = |(&value, &slope)| Dual { value, slope };
+            computed(tracer, [0, 1, 2].map(|index| x[index].iter().zip(x[index + 3]).map(dual).collect()))
+        });
         let positions = Angles::of([&expressions]).positions(&expressions);
         Steps::of(&expressions.graph, &operations(&expressions), &positions).longest_run(1)
     }
