@@ -99,14 +99,10 @@ impl TrigProgram {
     }
 }
 
-/// The names of the bodies of `tree`: each is that of its moving link. Velocities are in the order of the joints, and a
-/// joint may have several.
+/// The names of the bodies of `tree`: each is that of its moving link.
 fn body_names(model: &Model, tree: &Tree) -> Vec<String> {
-    let mut names = vec![String::new(); tree.bodies.len()];
-    for (link, body) in model.moving_links().zip(tree.bodies_by_joint()) {
-        names[body].clone_from(&link.name);
-    }
-    names
+    let links = tree.per_velocity(model.moving_links());
+    tree.bodies.iter().map(|body| links[body.v.start].name.clone()).collect()
 }
 
 #[cfg(test)]
