@@ -4,8 +4,7 @@ use crate::denoc;
 use crate::generic::GenericMechanism;
 use crate::model::Model;
 use crate::tree::Tree;
-use redysim_runtime::{ClosedLoop, LoopError};
-use redysim_runtime::{LoopClosure, LoopRows};
+use redysim_runtime::{ClosedLoop, LoopClosure, LoopError, LoopRows};
 
 /// Positions from which the loops are closed, and how many of them have to succeed.
 pub(crate) const STARTS: usize = 6;

@@ -3,8 +3,7 @@
 use super::columns::{Columns, evaluate, live, sign};
 use crate::expressions::Expressions;
 use crate::random::Random;
-use redysim_model::denoc;
-use redysim_model::{JointRange, Tree};
+use redysim_model::{JointRange, Tree, denoc};
 
 /// The states in which a function is sampled.
 pub struct States<'a> {

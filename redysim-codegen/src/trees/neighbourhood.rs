@@ -1,12 +1,11 @@
 //! A body with its neighbours, as a small tree of its own.
 
-use redysim_model::Body;
-use redysim_model::Tree;
 use redysim_model::inertia::Sym3;
 use redysim_model::joint::Joint;
 use redysim_model::parameter::Parameter;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::spatial::{Pose, Vec3};
+use redysim_model::{Body, Tree};
 use std::ops::Range;
 
 /// Bodies towards the ground that are kept, the parent among them.
