@@ -52,7 +52,7 @@ impl ConfigurationFunction {
         self.arguments.iter().map(|&(argument, _)| argument).collect()
     }
 
-    /// Its program; variables have none of the names in `reserved`.
+    /// Its program. No variable has a name in `reserved`.
     pub fn program(&self, tree: &Tree, interface: &PublicInterface, reserved: &[&str]) -> Program {
         let lengths = self.arguments.iter().map(|&(_, dimension)| interface.size(dimension));
         let expressions = traced_of(lengths, |_, x| (self.computed)(tree, x));

@@ -46,8 +46,9 @@ impl Expressions {
         uses
     }
 
-    /// The outputs in a new graph. For each node that is `kept`, in order and in its step, `make` returns the new value
-    /// and its name; it is given the node's index and the new values of the kept nodes before. Outputs must be kept.
+    /// The outputs in a new graph. `make` is called for each node that is `kept`, in order and in the node's step, with
+    /// the node's index and a map from edges of earlier kept nodes to their new values; it returns the new value and
+    /// its name. Outputs must be kept.
     pub(crate) fn rebuilt(
         &self,
         kept: impl Fn(usize) -> bool,

@@ -39,8 +39,8 @@ pub struct MethodFigures {
     pub loss: f64,
 }
 
-/// Forward dynamics by `method`, and what was chosen. `Auto` is the factorisation if it takes fewer operations and keeps
-/// the digits that the recursion keeps, else the recursion.
+/// Forward dynamics by `method`, with the choice. `Auto` is the factorisation if it takes fewer operations and keeps the
+/// digits that the recursion keeps, else the recursion.
 pub fn choose(
     trees: &Trees,
     method: AccelerationMethod,

@@ -1,4 +1,4 @@
-//! A mechanism as programs and data: what a backend prints.
+//! A mechanism as programs and data, the input of a backend.
 
 use crate::angles::{Angle, Angles};
 use crate::configuration::CONFIGURATION_FUNCTIONS;
@@ -8,7 +8,7 @@ use crate::program::{NamingContext, Program, program};
 use redysim_model::{Function, Model, PublicInterface, Tree};
 use redysim_runtime::OperationCount;
 
-/// A mechanism for a backend, which decides nothing more.
+/// A mechanism for a backend. Every choice is made: a backend only prints it.
 #[derive(Clone, Debug)]
 pub struct MechanismProgram<'a> {
     /// Names and sizes.
@@ -28,11 +28,11 @@ pub struct FunctionProgram {
     pub function: Function,
     /// The paragraphs of its documentation, in Markdown.
     pub documentation: Vec<String>,
-    /// What it costs.
+    /// Its operations.
     pub operations: OperationCount,
     /// The sines and cosines that it needs.
     pub trig: TrigProgram,
-    /// What it computes from the sines and cosines of all angles, of which it reads those that it needs.
+    /// The computation after the sines and cosines. Its input has those of all angles, of which it reads some.
     pub program: Program,
 }
 
@@ -44,13 +44,13 @@ pub struct TrigProgram {
     pub without_turns: Vec<u32>,
     /// The angles.
     pub angles: Vec<Angle>,
-    /// For each angle of the mechanism, which of `angles` it is; `None` is not needed.
+    /// For each angle of the mechanism, its index in `angles`; `None` if it is not needed.
     pub places: Vec<Option<usize>>,
 }
 
 impl<'a> MechanismProgram<'a> {
-    /// The programs of a mechanism with the given functions. Variables have none of the names in `reserved`, which the
-    /// backend defines.
+    /// The programs of a mechanism with the given functions. No variable has a name in `reserved`, which the backend
+    /// defines.
     pub fn new(
         model: &Model,
         interface: &'a PublicInterface,
@@ -109,8 +109,7 @@ fn body_names(model: &Model, tree: &Tree) -> Vec<String> {
 mod tests {
     use super::*;
 
-    /// The tool stands before the arm that carries it, and its joint has as many coordinates and velocities as a free
-    /// one.
+    /// In the file, the tool precedes the arm that carries it. Its joint has the sizes of a free joint.
     #[test]
     fn bodies_have_the_names_of_their_links_however_many_velocities_joints_have() {
         let text = "name = 'r'\ngravity = [0, 0, -10]\n[[link]]\nname = 'tool'\nparent = 'arm'\njoint = 'revolute'\n\

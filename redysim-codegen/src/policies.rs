@@ -1,10 +1,11 @@
 //! The weights of the choices between pipelines: which description of a robot, which algorithm, loops or unrolled code.
 //!
-//! What bounds the effort within one pass, or shapes its text alone, stands in the file of the pass.
+//! Constants that limit the effort of a single pass, or affect only the layout of the code, are in the files that use
+//! them.
 
 /// A division or a square root counts as one operation, as in the flops that the documentation states. It takes several
-/// times as long, but that decides little: of the functions that are compared, forward dynamics alone has divisions,
-/// and in either algorithm about one for each joint.
+/// times as long, but this affects few choices: of the functions that are compared, only forward dynamics has
+/// divisions, and either algorithm has about one for each joint.
 pub const PRICE_PER_DIVISION: u32 = 1;
 
 /// A sine-cosine pair takes about the time of this many multiplications, where the pairs of several angles are computed

@@ -1,5 +1,5 @@
-//! A recursion over dual numbers of symbols leaves the expressions of its derivatives, with the steps and the names of
-//! the recursion itself.
+//! A recursion over dual numbers of symbols traces its derivatives, with the steps and the names of the recursion
+//! itself.
 
 use redysim_codegen::expressions::Expressions;
 use redysim_codegen::graph::Name;

@@ -48,8 +48,8 @@ impl GenericMechanism {
         &self.tree
     }
 
-    /// [`InverseDynamics::inverse_dynamics`], written to `tau`. The `workspace` is all the memory that is needed: with
-    /// one [for this tree](Workspace::for_tree) no call allocates.
+    /// [`InverseDynamics::inverse_dynamics`], written to `tau`. With a `workspace` [for this
+    /// tree](Workspace::for_tree), no call allocates.
     ///
     /// ```
     /// use redysim_model::denoc::Workspace;
@@ -98,7 +98,7 @@ impl GenericMechanism {
         denoc::mass_matrix_in(workspace, &self.tree, &Untraced, q, matrix);
     }
 
-    /// Panics with the first vector whose length is not its dimension.
+    /// Panics if the length of a vector is not the size of its dimension, and names the first such vector.
     fn check<S>(&self, vectors: &[(&'static str, Dimension, &[S])]) {
         for (name, dimension, vector) in vectors {
             self.check_length(name, vector, self.size(*dimension));
@@ -149,7 +149,7 @@ impl Mechanism for GenericMechanism {
     }
 }
 
-/// The names of the coordinates or velocities of the joint `name`: its own, if it has one only.
+/// The names of the coordinates or velocities of the joint `name`. A single one has the joint's name.
 fn component_names<'a>(name: &'a str, components: &'a [&str]) -> impl Iterator<Item = String> + 'a {
     let of = move |component: &&str| match components.len() {
         1 => name.to_owned(),

@@ -86,7 +86,7 @@ impl Sym3<f64> {
     /// The eigenvalues, from smallest to largest, by cyclic Jacobi rotations (Golub, Van Loan, Matrix Computations,
     /// section 8.5). Errors are a few roundings of the largest eigenvalue.
     pub fn eigenvalues(self) -> [f64; 3] {
-        /// Convergence is quadratic: off the diagonal, five sweeps leave nothing but roundoff.
+        /// Convergence is quadratic: after five sweeps, elements off the diagonal are only roundoff.
         const SWEEPS: usize = 10;
         let Mat3(mut a) = self.full();
         for (p, q) in [(0, 1), (0, 2), (1, 2)].into_iter().cycle().take(3 * SWEEPS) {

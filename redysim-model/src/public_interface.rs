@@ -39,7 +39,7 @@ pub struct MovingJoint {
 }
 
 impl MovingJoint {
-    /// The joint `name` that does what `joint` does; `None` is a joint whose kind cannot be read, of one coordinate.
+    /// The joint `name` with the sizes of `joint`. A joint whose kind cannot be read is `None` and has one coordinate.
     pub(crate) fn new(name: String, joint: Option<Joint>, actuated: bool) -> Self {
         let [nq, nv] = joint.map_or([1, 1], |joint| [joint.nq(), joint.nv()]);
         MovingJoint { name, nq, nv, actuated }

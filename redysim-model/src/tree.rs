@@ -180,7 +180,7 @@ impl<P> Tree<P> {
         order
     }
 
-    /// For each velocity what belongs to its joint, from one value for each moving joint in the model's order.
+    /// For each velocity, the value of its joint. `of_joints` has one for each moving joint, in the model's order.
     pub fn per_velocity<T: Clone>(&self, of_joints: impl IntoIterator<Item = T>) -> Vec<T> {
         let joints = self.bodies_by_joint().into_iter().zip(of_joints);
         joints.flat_map(|(body, value)| std::iter::repeat_n(value, self.bodies[body].v.len())).collect()
@@ -192,7 +192,7 @@ pub(crate) mod tests {
     use super::*;
     use crate::model::Model;
 
-    /// An upper arm on the ground and a forearm on it. The forearm stands first in the file, so that its joint has the
+    /// An upper arm on the ground and a forearm on it. The forearm is first in the file, so that its joint has the
     /// first coordinate and the first velocity.
     pub fn arm() -> Tree {
         let text = "name = 'arm'\ngravity = [0, 0, -9.81]\n\n\

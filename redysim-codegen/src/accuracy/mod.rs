@@ -261,7 +261,7 @@ mod tests {
     use super::*;
     use redysim_model::Model;
 
-    /// A joint of two coordinates and one velocity: what moves it stands in the first coordinate.
+    /// Joints of two coordinates and one velocity, of which only the first coordinate moves.
     #[test]
     fn a_joint_may_have_more_coordinates_than_velocities() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/gripper.toml");

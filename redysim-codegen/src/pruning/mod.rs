@@ -106,8 +106,7 @@ pub fn pruned(
     Ok(cheapest.unwrap_or((whole.clone(), last)))
 }
 
-/// The sample on which replacements are judged. The allowed error of each output is its scale, that of a tolerance of
-/// 1.
+/// The sample on which replacements are judged. The allowed error of each output is its scale, as for a tolerance of 1.
 fn sample(whole: &Expressions, shape: Shape, states: &States) -> Sample {
     let mut outputs: Vec<usize> = Vec::new();
     for (index, output) in whole.outputs.iter().enumerate() {

@@ -25,7 +25,7 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
     without_inertia(&tree).into_iter().map(report).collect()
 }
 
-/// The bodies whose joints are met by no inertia at any position.
+/// The bodies whose joints meet no inertia at any sampled position.
 fn without_inertia(tree: &Tree) -> Vec<usize> {
     // A joint meets at least the inertia of its own body, so only bodies without any about their axis are in question.
     let mut suspects: Vec<usize> = tree.outward().filter(|&body| !meets_own_inertia(&tree.bodies[body])).collect();
@@ -43,8 +43,8 @@ fn meets_own_inertia(body: &Body) -> bool {
     body.joint.meets(body.inertia) > ROUNDOFF
 }
 
-/// The bodies of which a velocity has a pivot that is nothing but roundoff, in the elimination of a symmetric `matrix`
-/// over the velocities, from the tips to the ground.
+/// The bodies with a velocity whose pivot is only roundoff, in the elimination of a symmetric `matrix` over the
+/// velocities, from the tips to the ground.
 pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>]) -> Vec<usize> {
     let of_body = |body: usize| tree.bodies[body].v.clone().map(move |velocity| (body, velocity));
     let (body_of, at): (Vec<usize>, Vec<usize>) = tree.outward().flat_map(of_body).unzip();
@@ -73,7 +73,7 @@ mod tests {
     use crate::pseudo::PseudoInertia;
     use crate::tree::tests::arm;
 
-    /// The forearm has the velocity 0, the upper arm 1 and 2; 2 alone is met by no inertia.
+    /// The forearm has the velocity 0, the upper arm 1 and 2. Only velocity 2 meets no inertia.
     #[test]
     fn a_body_of_two_velocities_is_pivotless_where_one_of_them_is() {
         let mut tree = arm();

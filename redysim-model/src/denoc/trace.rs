@@ -10,8 +10,8 @@ use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 /// without. [`Untraced`] has these defaults.
 pub trait Trace<S: Copy> {
     /// Whether the product of the rotations between a body and its parent is computed once for each body. This is
-    /// faster for numbers. Expressions take more operations with it: the zeros and ones of each rotation fold, and the
-    /// product has none.
+    /// faster for numbers. Expressions take fewer operations without it: the zeros and ones of each rotation fold, but
+    /// its product with the others has no zeros or ones.
     const WHOLE_ROTATIONS: bool = false;
 
     /// Does the `work` of body `body` in the sweep `sweep` over all bodies.

@@ -6,8 +6,11 @@ use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use crate::tree::Tree;
 
-/// The buffers of the recursions over a tree. With one [for the tree](Workspace::for_tree) no call of
-/// [`GenericMechanism::inverse_dynamics_in`](crate::GenericMechanism::inverse_dynamics_in) and its like allocates.
+/// The buffers of the recursions over a tree.
+///
+/// With a workspace [for the tree](Workspace::for_tree),
+/// [`GenericMechanism::inverse_dynamics_in`](crate::GenericMechanism::inverse_dynamics_in) and the other methods that
+/// take a workspace do not allocate.
 #[derive(Clone, Debug)]
 pub struct Workspace<S> {
     pub(super) positions: Vec<AxisPosition<S>>,
@@ -24,7 +27,7 @@ pub struct Workspace<S> {
 }
 
 impl<S> Default for Workspace<S> {
-    /// Empty buffers. A call allocates what its tree needs beyond those before.
+    /// Empty buffers. A call allocates if its tree or its method needs more than those before.
     fn default() -> Self {
         Workspace::for_bodies(0)
     }
@@ -66,7 +69,7 @@ pub(super) struct BodyMotion<S> {
     pub acceleration: Vec3<S>,
 }
 
-/// What velocities alone do to a body.
+/// The motion of a body that its velocities determine.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BiasAcceleration<S> {
     /// Angular velocity ω, in the body's frame.

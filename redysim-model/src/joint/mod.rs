@@ -52,7 +52,7 @@ impl Joint {
         Joint::of_kind(link.joint, link.pitch)
     }
 
-    /// What a joint of the given kind does, if it has a pitch of `pitch` m/rad; `None` if it is fixed.
+    /// The joint of the given kind, `None` if it is fixed. A helical joint has the pitch `pitch`, m/rad.
     pub(crate) fn of_kind(kind: JointKind, pitch: f64) -> Option<Joint> {
         match kind {
             JointKind::Revolute => Some(Joint::Revolute),
@@ -74,7 +74,7 @@ impl Joint {
         self.velocity_names().len()
     }
 
-    /// What its coordinates are called among themselves.
+    /// Names of its coordinates, each unique within the joint.
     #[inline]
     pub fn coordinate_names(self) -> &'static [&'static str] {
         match self {
@@ -82,7 +82,7 @@ impl Joint {
         }
     }
 
-    /// What its velocities are called among themselves.
+    /// Names of its velocities, each unique within the joint.
     #[inline]
     pub fn velocity_names(self) -> &'static [&'static str] {
         match self {
@@ -128,7 +128,7 @@ impl Joint {
         }
     }
 
-    /// Where the body is.
+    /// The position of the body at the coordinates `q`.
     #[inline]
     pub fn position<S: Scalar>(self, q: &[S]) -> JointPosition<S> {
         match self {
@@ -138,7 +138,7 @@ impl Joint {
         }
     }
 
-    /// The body's frame in that in which the joint stands.
+    /// The body's frame at the coordinates `q`, in the frame of the joint on the parent.
     pub fn transform<S: Scalar>(self, q: &[S]) -> Pose<S> {
         self.position(q).pose()
     }
@@ -162,7 +162,7 @@ impl Joint {
         tau[0] = self.screw().project(wrench);
     }
 
-    /// The wrench, of which the joint forces are known to be `tau`, with exactly those.
+    /// `wrench` with the joint forces set to `tau`, their exact values.
     #[inline]
     pub fn with_forces<S: Scalar>(self, wrench: Wrench<S>, tau: &[S]) -> Wrench<S> {
         self.screw().with_force(wrench, tau[0])
@@ -192,8 +192,7 @@ impl Joint {
         }
     }
 
-    /// Whether any mass on the joint's axis may belong to the body or to its parent: [`split`](Self::split) leaves none
-    /// of it.
+    /// Whether all mass on the joint's axis may move to the parent: [`split`](Self::split) leaves none with the body.
     pub fn shares_axis_mass(self) -> bool {
         let mass = AxisMass { mass: 1.0, first: 1.0, second: 1.0 }.inertia();
         self.split(mass, Vanishing::SecondMomentZz).0 == PseudoInertia::zero()

@@ -1,9 +1,9 @@
-//! Where a joint has taken its body.
+//! The position of a body on its joint.
 
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_runtime::Scalar;
 
-/// The position of a body against the frame in which its joint stands.
+/// The position of a body relative to the frame of its joint on the parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointPosition<S> {
     /// Its rotation about z, rad; `None` if the joint does not turn.

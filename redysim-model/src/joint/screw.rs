@@ -79,7 +79,7 @@ impl Screw {
         }
     }
 
-    /// The wrench, of which the joint force is known to be `force`, with exactly that.
+    /// `wrench` with the joint force set to `force`, its exact value.
     #[inline]
     pub fn with_force<S: Scalar>(self, mut wrench: Wrench<S>, force: S) -> Wrench<S> {
         match self.unit_axis() {

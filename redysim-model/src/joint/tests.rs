@@ -118,7 +118,7 @@ fn the_velocity_across_a_joint_is_added_to_what_carries_it() {
     }
 }
 
-/// On a parent that turns at a constant rate about its origin, in which the joint stands.
+/// On a parent that turns at a constant rate about its origin, which is also the origin of the joint.
 #[test]
 fn the_bias_acceleration_is_the_derivative_of_the_velocity_at_a_constant_rate() {
     let parent = Vec3([0.3, -0.5, 0.8]);
@@ -208,7 +208,7 @@ fn mass_on_the_axis_belongs_to_both_bodies_of_a_joint_that_turns_about_it_alone(
     }
 }
 
-/// What the parent may carry is the same in its axes wherever the joint stands, and resists no motion of the joint.
+/// The shared inertia is the same in the parent's axes at every position of the joint, and resists no motion of it.
 #[test]
 fn shared_inertia_does_not_depend_on_the_joint() {
     let inertia = PseudoInertia::from_central(

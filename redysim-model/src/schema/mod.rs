@@ -25,7 +25,7 @@ pub fn key_documentation() -> String {
     keys::MODEL.documentation()
 }
 
-/// The names of the options that may stand beside a model file, in a declaration.
+/// The names of the options that a declaration may have beside the path of its model file.
 pub fn option_names() -> impl Iterator<Item = &'static str> {
     keys::OPTIONS.names()
 }

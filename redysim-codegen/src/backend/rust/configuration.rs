@@ -9,7 +9,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use redysim_model::PublicInterface;
 
-/// The methods with the given programs; without any, of a model that has faults, they have types alone.
+/// The methods with the given programs. `None` is for an invalid model: the methods have signatures and no code.
 pub fn methods(programs: Option<&[Program]>, interface: &PublicInterface) -> TokenStream {
     let program = |index: usize| programs.map(|programs| &programs[index]);
     let functions = CONFIGURATION_FUNCTIONS.iter().enumerate();
