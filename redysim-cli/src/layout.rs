@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use redysim_model::Model;
-use redysim_model::joint::Joint as Motion;
+use redysim_model::joint;
 
 /// The joints that move, with their coordinates and velocities, all in the model's order.
 #[derive(Clone, Debug, Default)]
@@ -104,7 +104,7 @@ impl Layout {
         for link in model.moving_links() {
             let parts = if link.joint.turns() { ANGLE } else { LENGTH };
             let mut neutral = vec![0.0; parts.len()];
-            if let Some(joint) = Motion::of(link) {
+            if let Some(joint) = joint::Joint::of(link) {
                 joint.neutral(&mut neutral);
             }
             layout.push(&link.joint_name, link.actuated, [parts, parts], &neutral);

@@ -92,7 +92,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
     let mechanism = &scenario.mechanism;
     let loops = ClosedLoop::new(mechanism);
     let whole = trajectory.spread(&scenario.layout);
-    let mut of_loops = ClosedLoopInverse::new(loops, trajectory.independent(), scenario.initial.q.clone());
+    let mut of_loops = ClosedLoopInverse::new(loops, &trajectory.velocities, scenario.initial.q.clone());
     let actuated = scenario.actuated_velocities();
     of_loops = of_loops.actuated(&actuated);
     let mut required_at = |t: f64| -> Result<Required, Failure> {

@@ -131,7 +131,7 @@ impl Torque {
             }
             Torque::Computed { actuated, trajectory, kp, kd } => {
                 let (loops, gains) = (ClosedLoop::new(mechanism), [kp.clone(), kd.clone()]);
-                let law = ClosedLoopComputedTorque::new(loops, trajectory.independent(), trajectory, gains);
+                let law = ClosedLoopComputedTorque::new(loops, &trajectory.velocities, trajectory, gains);
                 Law::OfLoops(law.actuated(actuated))
             }
             Torque::Table { forces, .. } => Law::total(forces),

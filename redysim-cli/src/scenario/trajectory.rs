@@ -12,6 +12,7 @@ use super::subject::{Dynamics, Subject, given, spread};
 use super::table::InputTable;
 use crate::failure::Failure;
 use crate::layout::{Component, Layout};
+use crate::number::counted;
 
 /// A prescribed motion of some joints; its components are in the order of `coordinates` and `velocities`.
 #[derive(Clone, Debug)]
@@ -20,7 +21,7 @@ pub struct Prescribed {
     pub joints: Vec<usize>,
     /// Their coordinates.
     pub coordinates: Vec<usize>,
-    /// Their velocities.
+    /// Their velocities, which determine all others of closed loops.
     pub velocities: Vec<usize>,
     /// The place of its speed, or of the whole table.
     pub place: Range<usize>,
@@ -172,11 +173,6 @@ impl Prescribed {
     pub fn spread<'a>(&'a self, layout: &'a Layout) -> Spread<'a> {
         Spread { prescribed: self, coordinates: &layout.coordinates, velocities: &layout.velocities }
     }
-
-    /// The velocities that determine all others of closed loops: the runtime counts independent joints by them.
-    pub fn independent(&self) -> &[usize] {
-        &self.velocities
-    }
 }
 
 impl Trajectory<f64, Vec<f64>, Vec<f64>> for Prescribed {
@@ -231,7 +227,7 @@ impl Smooth {
 
 /// "1 degree of freedom", "2 degrees of freedom".
 fn freedoms(count: usize) -> String {
-    format!("{count} degree{} of freedom", if count == 1 { "" } else { "s" })
+    format!("{} of freedom", counted(count, "degree"))
 }
 
 /// What was made of the value at a place, or a fault there.
@@ -295,9 +291,9 @@ mod tests {
     #[test]
     fn what_loops_leave_free_is_compared_with_the_velocities_of_a_free_joint() {
         let (base, checked_base) = checked(&["base"]);
-        assert_eq!((base.independent(), checked_base), (&[0, 1, 2, 3, 4, 5][..], Ok(())));
+        assert_eq!((base.velocities, checked_base), (vec![0, 1, 2, 3, 4, 5], Ok(())));
         let (arm, checked_arm) = checked(&["arm"]);
-        assert_eq!(arm.independent(), [6]);
+        assert_eq!(arm.velocities, [6]);
         let (title, help) = checked_arm.unwrap_err();
         assert_eq!(title, "the trajectory prescribes 1 degree of freedom (arm), but the loops leave 6 free");
         assert_eq!(help, "name joints of 6 degrees of freedom among its `joints`: the others follow from the loops");
