@@ -59,21 +59,10 @@ mod tests {
     use redysim_model::Model;
     use redysim_runtime::{Proportional, ZeroTorque};
 
-    const PENDULUM: &str = "
-        name = 'pendulum'
-        gravity = [0, 0, -9.81]
-        [[link]]
-        name = 'rod'
-        parent = 'base'
-        joint = 'revolute'
-        axis = [0, 1, 0]
-        mass = 2.0
-        com = [0.5, 0, 0]
-    ";
-
     #[test]
     fn the_lengths_of_a_law_are_checked_through_the_choice_between_laws() {
-        let model = Model::from_toml(PENDULUM, "pendulum.toml").expect("a good model").model;
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/simple_pendulum.toml");
+        let model = Model::load(path).expect("a good model").model;
         let mechanism = GenericMechanism::new(model);
         assert_eq!(Law::total(ZeroTorque).check_lengths(0.0, &mechanism), Ok(()));
         let law = Law::total(Proportional { target: vec![0.0; 2], kp: vec![1.0] });
