@@ -1,14 +1,13 @@
 //! `redysim inverse SCENARIO`.
 
 use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopForces, Motion, Trajectory};
-use redysim_toml::Key;
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::rounded;
 use crate::output::to_stdout;
 use crate::results::{self, Ended, Outcome, Record, Sample};
-use crate::scenario::{Dynamics, Prescribed, Scenario, Span, keys};
+use crate::scenario::{Dynamics, Prescribed, Scenario, Span, keys, missing};
 
 /// Compute the forces that a prescribed motion takes, and write them into a folder.
 #[derive(clap::Args)]
@@ -22,13 +21,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
     let scenario = Scenario::load(&results.scenario, Dynamics::Inverse, quiet)?;
-    let missing = |what: &str, key: &Key| {
-        let message = format!("{} does not state {what}", results.scenario.display());
-        Failure::input(message).help(format!("add a table, as in: {}", key.example()))
-    };
-    let span = scenario.inverse.ok_or_else(|| missing("at which instants forces are wanted", &keys::INVERSE))?;
+    let path = &results.scenario;
+    let span = scenario.inverse.ok_or_else(|| missing(path, "at which instants forces are wanted", &keys::INVERSE))?;
     let trajectory =
-        scenario.trajectory.as_ref().ok_or_else(|| missing("which motion is prescribed", &keys::TRAJECTORY))?;
+        scenario.trajectory.as_ref().ok_or_else(|| missing(path, "which motion is prescribed", &keys::TRAJECTORY))?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Inverse, span, quiet)?;
     let (outcome, most) = along(&scenario, trajectory, &mut record);

@@ -20,7 +20,7 @@ use std::path::Path;
 
 use redysim_model::{Diagnostic, GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
-use redysim_toml::{DeValue, Field, Message, Reader};
+use redysim_toml::{DeValue, Field, Key, Message, Reader};
 use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
@@ -58,6 +58,12 @@ pub struct Scenario {
     pub inverse: Option<Span>,
     /// What motion is asked for, if that is the run.
     pub forward: Option<Forward>,
+}
+
+/// The failure of the scenario at `path` without the table `key`, which states `what`.
+pub fn missing(path: &Path, what: &str, key: &Key) -> Failure {
+    let message = format!("{} does not state {what}", path.display());
+    Failure::input(message).help(format!("add a table, as in: {}", key.example()))
 }
 
 impl Scenario {

@@ -8,7 +8,7 @@ use redysim_runtime::{IntegrationError, Stabilisation};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::results::{self, Balance, Ended, Outcome, Record};
-use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances, keys};
+use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances, keys, missing};
 use observer::RunObserver;
 use system::System;
 
@@ -24,10 +24,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
     let scenario = Scenario::load(&results.scenario, Dynamics::Forward, quiet)?;
-    let forward = scenario.forward.as_ref().ok_or_else(|| {
-        let message = format!("{} does not state which motion is to be computed", results.scenario.display());
-        Failure::input(message).help(format!("add a table, as in: {}", keys::FORWARD.example()))
-    })?;
+    let forward = scenario
+        .forward
+        .as_ref()
+        .ok_or_else(|| missing(&results.scenario, "which motion is to be computed", &keys::FORWARD))?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Forward, forward.span, quiet)?;
     let outcome = move_on(&scenario, forward, &mut record, quiet)?;
