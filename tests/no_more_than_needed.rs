@@ -1,5 +1,5 @@
-//! What a robot does not have costs nothing: space around a planar mechanism, the extent of a point mass, gravity where
-//! there is none, a joint that is locked.
+//! Generated code has no operations for what a model lacks: motion out of the plane, the extent of a point mass, gravity
+//! of zero, the motion of a locked joint.
 
 use redysim::OperationCount;
 use redysim_codegen::functions::trace;

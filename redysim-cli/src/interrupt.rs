@@ -41,7 +41,7 @@ pub fn undisturbed<T>(work: impl FnOnce() -> T) -> T {
 }
 
 fn end() {
-    // Held until the end, so that no failure is reported of what is no longer there.
+    // The lock is held until the process exits: the run then cannot report that files which `undo` deletes are missing.
     let mut undo = lock();
     // Without anything to undo nothing was begun, or what was is whole, and reported.
     if let Some(undo) = undo.take() {

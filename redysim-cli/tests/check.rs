@@ -190,7 +190,6 @@ fn slips_of_units_have_lints() {
     }
 }
 
-/// What is suspicious is a matter of taste; that the shipped models are not is none.
 #[test]
 fn shipped_models_have_no_lints() {
     for name in ["kr5.toml", "gripper.toml", "fourbar.toml", "three_rrr.toml", "leg.toml", "slider_crank.toml"] {

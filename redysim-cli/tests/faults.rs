@@ -150,7 +150,8 @@ fn an_unknown_law_is_refused_and_so_is_one_without_its_trajectory() {
     refuses("law", "forward", &swing("law = 'pid'"), 1, &["cannot be `pid`", "did you mean `pd`?"]);
     refuses("gain", "forward", &swing("law = 'p', target = [0, 0]"), 1, &["`forward.torque.kp` is missing"]);
     let law = "law = 'tracking-pd', kp = 1, kd = 1";
-    refuses("untracked", "forward", &swing(law), 1, &["follows a trajectory", "add a table `[trajectory]`"]);
+    let words = ["follows a trajectory, but the scenario does not define one", "add a table `[trajectory]`"];
+    refuses("untracked", "forward", &swing(law), 1, &words);
 }
 
 #[test]
@@ -239,7 +240,7 @@ fn every_fault_is_reported_at_once_and_none_that_follows_from_another() {
     let misspelt = format!("[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduratoin = 1.0\n{SWING}{law}");
     let folder = scratch("faults-misspelt");
     let output = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &misspelt)], 1);
-    assert!(output.contains("`duration`?") && !output.contains("there is none"), "{output}");
+    assert!(output.contains("`duration`?") && !output.contains("does not define one"), "{output}");
 }
 
 /// What a run would write may be what the other run reads.

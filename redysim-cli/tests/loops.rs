@@ -31,7 +31,8 @@ fn computed_torque_leaves_the_crank_the_error_of_a_damped_spring() {
     assert!(worst < 1e-9, "off by {worst:e}");
 }
 
-/// The rocker cannot go further than where crank and coupler are in line: there its speed no longer determines the crank's.
+/// The rocker cannot go further than where crank and coupler are in line: there its speed no longer determines the
+/// crank's.
 #[test]
 fn computed_torque_reports_where_the_prescribed_joint_determines_nothing() {
     let folder = scratch("loops-dead-point");

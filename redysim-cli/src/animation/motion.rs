@@ -51,8 +51,8 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Keyfra
     Ok((motion, notes))
 }
 
-/// The coordinates in a table, and their rates: the velocity of the same name, or the mean rate between the
-/// neighbouring instants if there is none.
+/// The coordinates in a table, and their rates: the velocity of the same name if the joint has one, otherwise the mean
+/// rate between the neighbouring instants.
 fn recorded_motion(table: &Table, layout: &Layout) -> Result<Keyframes, Failure> {
     let rows = evenly(table.t.len(), NUMBERS / (2 * layout.nq()).max(1));
     let pick = |symbol: &str, component: &Component| -> Result<Vec<f64>, Failure> {

@@ -59,8 +59,8 @@ fn report_start(scenario: &Scenario, trajectory: &Prescribed, record: &Record<'_
     }
 }
 
-/// Without loops nothing but its actuator moves a joint: where there is none, the motion cannot be. `most` has the
-/// largest force along each velocity.
+/// Warns of forces at joints without an actuator: in a mechanism without loops, such a motion is impossible. `most` has
+/// the largest force along each velocity.
 fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
     let layout = &scenario.layout;
     for (velocity, &most) in layout.velocities.iter().zip(most) {

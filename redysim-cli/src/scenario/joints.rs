@@ -13,7 +13,7 @@ use crate::layout::{Component, Joint};
 pub enum Quantity {
     /// Coordinates: angles may have a unit.
     Coordinate,
-    /// Rates of coordinates: likewise, and more than a turn is not warned of.
+    /// Rates of coordinates: likewise, without a warning about more than a turn.
     Rate,
     /// Gains: plain numbers, and one number is that of all joints.
     Gain,

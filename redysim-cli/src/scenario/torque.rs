@@ -232,8 +232,8 @@ impl<'s> Source<'s, '_, '_> {
 
 fn unfollowed<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
     reader.error_of_table(Message {
-        title: format!("{}: the torque law follows a trajectory, and there is none", reader.item()),
-        label: "follows what?".into(),
+        title: format!("{}: the torque law follows a trajectory, but the scenario does not define one", reader.item()),
+        label: "needs a trajectory".into(),
         help: "add a table `[trajectory]`".into(),
     })
 }
@@ -253,7 +253,7 @@ fn astray<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
             reader.item(),
             joint.name
         ),
-        label: "follows what?".into(),
+        label: "drives a joint without a prescribed motion".into(),
         help: "name it among the `joints` of `[trajectory]`, or drive fewer".into(),
     })
 }

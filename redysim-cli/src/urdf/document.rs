@@ -63,7 +63,7 @@ impl<'a> Document<'a> {
         self.xml.text_pos_at(node.range().start).row
     }
 
-    /// The line of the last link or joint of this name; the first line if there is none.
+    /// The line of the last link or joint with this name, or 1 if no element has it.
     pub fn line_of(&self, tag: &str, name: &str) -> u32 {
         let named = children(self.xml.root_element(), tag).filter(|node| node.attribute("name") == Some(name));
         named.last().map_or(1, |node| self.line(node))
