@@ -14,11 +14,10 @@ use common::loop_speed::{self, Turn};
 use common::reference::Reference;
 use common::table::{Table, digits, headline, remark, tiny};
 use common::{Context, Failure, Outputs, column, instants};
-use redysim::Assembly;
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, Integrator, Mechanism, Motion, Ode4, Ode5, Ode45, Stabilisation, ZeroTorque,
-    redysim,
+    Assembly, ClosedLoop, ClosedLoopSimulation, Integrator, Mechanism, Motion, Ode4, Ode5, Ode45, Stabilisation,
+    ZeroTorque, redysim,
 };
 
 redysim! {

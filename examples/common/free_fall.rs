@@ -2,8 +2,7 @@
 
 use std::time::Instant;
 
-use redysim::uniform;
-use redysim::{Energy, ForwardSimulation, Integrator, Ode5, Ode45, Statistics, TreeDynamics, ZeroTorque};
+use redysim::{Energy, ForwardSimulation, Integrator, Ode5, Ode45, Statistics, TreeDynamics, ZeroTorque, uniform};
 
 use super::compare::deviations;
 use super::csv::{Csv, headers};

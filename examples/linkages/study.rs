@@ -1,11 +1,10 @@
 //! One mechanism in motion, from a start that may be open.
 
-use redysim::Assembly;
-use redysim::{ClosedLoop, ClosedLoopSimulation, Integrator, LoopClosure, TorqueLaw, TreeDynamics};
+use redysim::{Assembly, ClosedLoop, ClosedLoopSimulation, Integrator, LoopClosure, TorqueLaw, TreeDynamics};
 
-use crate::common::Failure;
 use crate::common::loop_motion::{LoopMotion, record};
 use crate::common::table::{Table, tiny};
+use crate::common::{Failure, peak};
 
 /// What to do with a mechanism.
 pub struct Plan<'a, M: TreeDynamics<f64>, L> {
@@ -52,7 +51,7 @@ impl Studies {
         let mut simulation = ClosedLoopSimulation::new(loops, law);
         let state = simulation.assembled(&start);
         let motion = record(name, &mut simulation, integrator, state, &t)?;
-        let largest = residual.iter().fold(0.0, |largest: f64, row| largest.max(row.abs()));
+        let largest = peak(residual.iter().copied());
         let joint = mechanism.velocity_name(start.velocity).unwrap_or("");
         if largest > OPEN {
             self.mended.push(mended(name, &residual, &start, joint));
