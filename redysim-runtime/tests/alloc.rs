@@ -1,15 +1,15 @@
 //! `Vec` in place of arrays: the same bits, and no panic where lengths are wrong.
 #![cfg(feature = "alloc")]
 
+#[macro_use]
 #[allow(dead_code)]
 mod mechanisms;
 
 use mechanisms::Arm;
-use redysim_runtime::Arguments;
 use redysim_runtime::integrate::Accepted;
 use redysim_runtime::{
-    ComputedTorque, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError, Integrator,
-    InverseDynamics, LengthMismatch, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Proportional,
+    Arguments, ComputedTorque, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError,
+    Integrator, InverseDynamics, LengthMismatch, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Proportional,
     ProportionalDerivative, Radau5, Solution, TorqueLaw, TrackingPd, ZeroTorque,
 };
 
@@ -17,24 +17,7 @@ use redysim_runtime::{
 struct DynamicArm(usize);
 
 impl Mechanism for DynamicArm {
-    fn name(&self) -> &str {
-        "arm"
-    }
-    fn nq(&self) -> usize {
-        2
-    }
-    fn nv(&self) -> usize {
-        2
-    }
-    fn nl(&self) -> usize {
-        2
-    }
-    fn link_name(&self, _: usize) -> Option<&str> {
-        None
-    }
-    fn joint_name(&self, _: usize) -> Option<&str> {
-        None
-    }
+    without_names!("arm", 2, 2);
 }
 
 impl ConfigurationSpace<f64> for DynamicArm {

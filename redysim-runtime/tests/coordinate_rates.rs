@@ -1,6 +1,7 @@
 //! Tangents of simulations whose coordinates' rates depend on the position: a pendulum whose hinge has cosine and sine
 //! for coordinates.
 
+#[macro_use]
 #[allow(dead_code)]
 mod mechanisms;
 
@@ -37,28 +38,12 @@ struct Pendulum<const DUAL: bool>;
 const LENGTH: f64 = 0.5;
 
 impl<const DUAL: bool> Mechanism for Pendulum<DUAL> {
-    fn name(&self) -> &str {
-        "pendulum"
-    }
-    fn nq(&self) -> usize {
-        2
-    }
-    fn nv(&self) -> usize {
-        1
-    }
-    fn nl(&self) -> usize {
-        1
-    }
-    fn link_name(&self, _: usize) -> Option<&str> {
-        None
-    }
-    fn joint_name(&self, _: usize) -> Option<&str> {
-        None
-    }
+    without_names!("pendulum", 2, 1);
 }
 
-macro_rules! configuration_space {
-    ($scalar:ty, $($tangent:item)?) => {
+/// The pendulum over `$scalar`, with the tangents that it has there.
+macro_rules! pendulum {
+    ($scalar:ty, $($rates_tangent:item $forward_tangent:item)?) => {
         impl<const DUAL: bool> ConfigurationSpace<$scalar> for Pendulum<DUAL> {
             type Coordinates = [$scalar; 2];
             type Velocities = [$scalar; 1];
@@ -71,7 +56,7 @@ macro_rules! configuration_space {
                 let toward = (<$scalar>::from_f64(3.0) - c * c - s * s) * <$scalar>::from_f64(0.5) * v[0];
                 [-(s * toward), c * toward]
             }
-            $($tangent)?
+            $($rates_tangent)?
             fn integrate(&self, q: &[$scalar; 2], dv: &[$scalar; 1]) -> [$scalar; 2] {
                 let (s, c) = Scalar::sin_cos(dv[0]);
                 [q[0] * c - q[1] * s, q[1] * c + q[0] * s]
@@ -83,45 +68,30 @@ macro_rules! configuration_space {
                 [1.0, 0.0].map(<$scalar>::from_f64)
             }
         }
+
+        impl<const DUAL: bool> ForwardDynamics<$scalar> for Pendulum<DUAL> {
+            fn forward_dynamics(&self, q: &[$scalar; 2], _: &[$scalar; 1], tau: &[$scalar; 1]) -> [$scalar; 1] {
+                let sin = q[1] / Scalar::sqrt(q[0] * q[0] + q[1] * q[1]);
+                let of_tau = tau[0] * <$scalar>::from_f64(1.0 / (LENGTH * LENGTH));
+                [of_tau - sin * <$scalar>::from_f64(GRAVITY / LENGTH)]
+            }
+            $($forward_tangent)?
+        }
     };
 }
 
-configuration_space! { Dual<f64>, }
-configuration_space! {
+pendulum! { Dual<f64>, }
+pendulum! {
     f64,
     fn coordinate_rates_tangent(&self, q: &[f64; 2], v: &[f64; 1], dq: &[f64; 2]) -> Option<[f64; 2]> {
         DUAL.then(|| coordinate_rates_tangent(self, q, v, dq))
     }
-}
-
-impl<S: Angle, const DUAL: bool> ForwardDynamics<S> for Pendulum<DUAL>
-where
-    Self: ConfigurationSpace<S, Coordinates = [S; 2], Velocities = [S; 1]>,
-    Self: ForwardTangent<S>,
-{
-    fn forward_dynamics(&self, q: &[S; 2], _: &[S; 1], tau: &[S; 1]) -> [S; 1] {
-        let sin = q[1] / (q[0] * q[0] + q[1] * q[1]).sqrt();
-        [tau[0] * S::from_f64(1.0 / (LENGTH * LENGTH)) - sin * S::from_f64(GRAVITY / LENGTH)]
-    }
-    fn forward_dynamics_tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<[S; 1]> {
-        self.tangent(at, slopes)
-    }
-}
-
-/// Derivatives are those of `f64` alone.
-trait ForwardTangent<S: Scalar>: ConfigurationSpace<S> {
-    fn tangent(&self, at: Arguments<'_, S, Self>, slopes: Arguments<'_, S, Self>) -> Option<Self::Velocities>;
-}
-
-impl<const DUAL: bool> ForwardTangent<f64> for Pendulum<DUAL> {
-    fn tangent(&self, at: Arguments<'_, f64, Self>, slopes: Arguments<'_, f64, Self>) -> Option<[f64; 1]> {
+    fn forward_dynamics_tangent(
+        &self,
+        at: Arguments<'_, f64, Self>,
+        slopes: Arguments<'_, f64, Self>,
+    ) -> Option<[f64; 1]> {
         Some(forward_dynamics_tangent(self, at, slopes))
-    }
-}
-
-impl<const DUAL: bool> ForwardTangent<Dual<f64>> for Pendulum<DUAL> {
-    fn tangent(&self, _: Arguments<'_, Dual<f64>, Self>, _: Arguments<'_, Dual<f64>, Self>) -> Option<[Dual<f64>; 1]> {
-        None
     }
 }
 

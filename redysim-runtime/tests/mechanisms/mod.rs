@@ -1,35 +1,41 @@
 // Two mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
 
-use redysim_runtime::Arguments;
 use redysim_runtime::{
-    ConfigurationSpace, Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar,
-    Vector,
+    Arguments, ConfigurationSpace, Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism,
+    Real, Scalar, Vector,
 };
 
 pub const GRAVITY: f64 = 9.81;
+
+/// What [`Mechanism`] requires, for a mechanism whose joints and links have no names, with as many links as velocities.
+macro_rules! without_names {
+    ($name:literal, $nq:literal, $nv:literal) => {
+        fn name(&self) -> &str {
+            $name
+        }
+        fn nq(&self) -> usize {
+            $nq
+        }
+        fn nv(&self) -> usize {
+            $nv
+        }
+        fn nl(&self) -> usize {
+            $nv
+        }
+        fn link_name(&self, _: usize) -> Option<&str> {
+            None
+        }
+        fn joint_name(&self, _: usize) -> Option<&str> {
+            None
+        }
+    };
+}
 
 /// A mechanism of `$n` revolute joints and links without names.
 macro_rules! mechanism {
     ($type:ident, $name:literal, $n:literal) => {
         impl Mechanism for $type {
-            fn name(&self) -> &str {
-                $name
-            }
-            fn nq(&self) -> usize {
-                $n
-            }
-            fn nv(&self) -> usize {
-                $n
-            }
-            fn nl(&self) -> usize {
-                $n
-            }
-            fn link_name(&self, _: usize) -> Option<&str> {
-                None
-            }
-            fn joint_name(&self, _: usize) -> Option<&str> {
-                None
-            }
+            without_names!($name, $n, $n);
         }
 
         impl<S: Scalar> ConfigurationSpace<S> for $type {
