@@ -156,23 +156,24 @@ impl<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>> LoopClosure<S, Dis
     }
 }
 
-/// A function of vectors whose result is one, and its derivative where the trait has one.
-macro_rules! vector_function {
-    ($float:ident, $number:ident: $trait:ident $function:ident($($argument:ident: $kind:ident),*) $($tangent:ident)?) => {
+/// A function of one state: as compiled, or, for AVX2, over `$number`, with the result `$found`, which `$plain` brings
+/// back to `$float`. The derivative, where the trait has one, is as compiled.
+macro_rules! function {
+    (
+        $float:ident, $number:ident: $trait:ident $function:ident($($argument:ident: $kind:ident),*) -> $result:ty
+        $(, $tangent:ident)? => |$found:ident| $plain:expr
+    ) => {
         impl<M: $trait<$float> + $trait<$number>> $trait<$float> for Dispatched<M> {
             #[inline]
-            fn $function(
-                &self,
-                $($argument: &<M as ConfigurationSpace<$float>>::$kind),*
-            ) -> <M as ConfigurationSpace<$float>>::Velocities {
+            fn $function(&self, $($argument: &<M as ConfigurationSpace<$float>>::$kind),*) -> $result {
                 #[cfg(target_arch = "x86_64")]
                 if self.chooses_avx2() {
                     return $number::with_target_features(
                         #[inline(always)]
                         || {
                             $(let $argument: <M as ConfigurationSpace<$number>>::$kind = each($argument, $number);)*
-                            let found = $trait::<$number>::$function(&self.mechanism, $(&$argument),*);
-                            each(&found, |number: $number| number.0)
+                            let $found = $trait::<$number>::$function(&self.mechanism, $(&$argument),*);
+                            $plain
                         },
                     );
                 }
@@ -190,6 +191,16 @@ macro_rules! vector_function {
     };
 }
 
+/// A function whose result is a vector.
+macro_rules! vector_function {
+    ($float:ident, $number:ident: $trait:ident $function:ident $arguments:tt $($tangent:ident)?) => {
+        function! { $float, $number:
+            $trait $function $arguments -> <M as ConfigurationSpace<$float>>::Velocities $(, $tangent)?
+            => |found| each(&found, |number: $number| number.0)
+        }
+    };
+}
+
 /// All functions of one state for numbers `$float`: as compiled, or, for AVX2, as numbers `$number`.
 macro_rules! functions {
     ($float:ident, $number:ident) => {
@@ -201,79 +212,25 @@ macro_rules! functions {
         }
         vector_function! { $float, $number: BiasForces bias_forces(q: Coordinates, v: Velocities) }
         vector_function! { $float, $number: GravityForces gravity_forces(q: Coordinates) }
-
-        impl<M: MassMatrix<$float> + MassMatrix<$number>> MassMatrix<$float> for Dispatched<M> {
-            #[inline]
-            fn mass_matrix(
-                &self,
-                q: &<M as ConfigurationSpace<$float>>::Coordinates,
-            ) -> <M as ConfigurationSpace<$float>>::Matrix {
-                #[cfg(target_arch = "x86_64")]
-                if self.chooses_avx2() {
-                    return $number::with_target_features(
-                        #[inline(always)]
-                        || {
-                            let q: <M as ConfigurationSpace<$number>>::Coordinates = each(q, $number);
-                            let found = MassMatrix::<$number>::mass_matrix(&self.mechanism, &q);
-                            let mut rows = found.as_ref().iter();
-                            let size = rows.len();
-                            Vector::from_fn(size, |_| match rows.next() {
-                                Some(row) => each(row, |number: $number| number.0),
-                                None => Vector::from_fn(size, |_| $float::NAN),
-                            })
-                        },
-                    );
-                }
-                MassMatrix::<$float>::mass_matrix(&self.mechanism, q)
+        function! { $float, $number:
+            MassMatrix mass_matrix(q: Coordinates) -> <M as ConfigurationSpace<$float>>::Matrix => |found| {
+                let mut rows = found.as_ref().iter();
+                let size = rows.len();
+                Vector::from_fn(size, |_| match rows.next() {
+                    Some(row) => each(row, |number: $number| number.0),
+                    None => Vector::from_fn(size, |_| $float::NAN),
+                })
             }
         }
-
-        impl<M: MechanicalEnergy<$float> + MechanicalEnergy<$number>> MechanicalEnergy<$float> for Dispatched<M> {
-            #[inline]
-            fn energy(
-                &self,
-                q: &<M as ConfigurationSpace<$float>>::Coordinates,
-                v: &<M as ConfigurationSpace<$float>>::Velocities,
-            ) -> Energy<$float> {
-                #[cfg(target_arch = "x86_64")]
-                if self.chooses_avx2() {
-                    return $number::with_target_features(
-                        #[inline(always)]
-                        || {
-                            let q: <M as ConfigurationSpace<$number>>::Coordinates = each(q, $number);
-                            let v: <M as ConfigurationSpace<$number>>::Velocities = each(v, $number);
-                            let found: Energy<$number> = MechanicalEnergy::energy(&self.mechanism, &q, &v);
-                            Energy { kinetic: found.kinetic.0, potential: found.potential.0 }
-                        },
-                    );
-                }
-                MechanicalEnergy::<$float>::energy(&self.mechanism, q, v)
-            }
+        function! { $float, $number:
+            MechanicalEnergy energy(q: Coordinates, v: Velocities) -> Energy<$float>
+            => |found| Energy { kinetic: found.kinetic.0, potential: found.potential.0 }
         }
-
-        impl<M: MassCenter<$float> + MassCenter<$number>> MassCenter<$float> for Dispatched<M> {
-            #[inline]
-            fn center_of_mass(
-                &self,
-                q: &<M as ConfigurationSpace<$float>>::Coordinates,
-                v: &<M as ConfigurationSpace<$float>>::Velocities,
-            ) -> CenterOfMass<$float> {
-                #[cfg(target_arch = "x86_64")]
-                if self.chooses_avx2() {
-                    return $number::with_target_features(
-                        #[inline(always)]
-                        || {
-                            let q: <M as ConfigurationSpace<$number>>::Coordinates = each(q, $number);
-                            let v: <M as ConfigurationSpace<$number>>::Velocities = each(v, $number);
-                            let found: CenterOfMass<$number> = MassCenter::center_of_mass(&self.mechanism, &q, &v);
-                            CenterOfMass {
-                                position: each(&found.position, |number: $number| number.0),
-                                velocity: each(&found.velocity, |number: $number| number.0),
-                            }
-                        },
-                    );
-                }
-                MassCenter::<$float>::center_of_mass(&self.mechanism, q, v)
+        function! { $float, $number:
+            MassCenter center_of_mass(q: Coordinates, v: Velocities) -> CenterOfMass<$float>
+            => |found| CenterOfMass {
+                position: found.position.map(|number| number.0),
+                velocity: found.velocity.map(|number| number.0),
             }
         }
     };
