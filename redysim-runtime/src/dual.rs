@@ -125,8 +125,8 @@ fn slopes<S: Scalar, V: Vector<S>, W: Vector<Dual<S>>>(duals: &W) -> V {
     V::from_fn(duals.as_ref().len(), |i| entry(duals, i).slope)
 }
 
-/// The derivative of N(q) v of `mechanism` along `dq` at constant v, by dual numbers: what a mechanism that is generic
-/// over scalars answers to [`ConfigurationSpace::coordinate_rates_tangent`].
+/// The derivative of N(q) v of `mechanism` along `dq` at constant v, by dual numbers: an implementation of
+/// [`ConfigurationSpace::coordinate_rates_tangent`] for mechanisms that are generic over scalars.
 pub fn coordinate_rates_tangent<S: Scalar, M>(
     mechanism: &M,
     q: &<M as ConfigurationSpace<S>>::Coordinates,
@@ -140,8 +140,8 @@ where
     slopes(&ConfigurationSpace::<Dual<S>>::coordinate_rates(mechanism, &dual(q, dq), &v))
 }
 
-/// The derivative of the accelerations of `mechanism` along `(dq, dv, dtau)`, by dual numbers: what a mechanism that is
-/// generic over scalars answers to [`ForwardDynamics::forward_dynamics_tangent`].
+/// The derivative of the accelerations of `mechanism` along `(dq, dv, dtau)`, by dual numbers: an
+/// implementation of [`ForwardDynamics::forward_dynamics_tangent`] for mechanisms that are generic over scalars.
 pub fn forward_dynamics_tangent<S: Scalar, M>(
     mechanism: &M,
     (q, v, tau): Arguments<'_, S, M>,
@@ -153,8 +153,8 @@ where
     slopes(&ForwardDynamics::<Dual<S>>::forward_dynamics(mechanism, &dual(q, dq), &dual(v, dv), &dual(tau, dtau)))
 }
 
-/// The derivative of the joint forces of `mechanism` along `(dq, dv, da)`, by dual numbers: what a mechanism that is
-/// generic over scalars answers to [`InverseDynamics::inverse_dynamics_tangent`].
+/// The derivative of the joint forces of `mechanism` along `(dq, dv, da)`, by dual numbers: an
+/// implementation of [`InverseDynamics::inverse_dynamics_tangent`] for mechanisms that are generic over scalars.
 pub fn inverse_dynamics_tangent<S: Scalar, M>(
     mechanism: &M,
     (q, v, a): Arguments<'_, S, M>,

@@ -35,7 +35,7 @@
 //!
 //! The length of an array is part of its type. The length of a slice or a `Vec` is checked where it enters, and one
 //! that is wrong is named by a [`LengthMismatch`] or an error of the type that is built: when a trajectory is built, a
-//! batch is computed, inverse dynamics of loops are asked for, or an integration begins ([`Ode::check_lengths`],
+//! batch is computed, inverse dynamics of loops are computed, or an integration begins ([`Ode::check_lengths`],
 //! [`TorqueLaw::check_lengths`]). Functions of a mechanism whose result is a vector cannot return an error: with a
 //! `Vec` of wrong length, they panic with the same words.
 //!

@@ -31,8 +31,8 @@ pub trait Mechanism {
     /// that velocity, q̇ᵢ = vⱼ, and which may be set by itself. `None` past the last, and for velocities of joints that
     /// have several coordinates (an orientation as a quaternion, an angle as cosine and sine).
     ///
-    /// By default, every joint is taken to have one coordinate where NQ = NV, and the indices are the same; no velocity
-    /// has a coordinate where NQ ≠ NV. A mechanism with joints of several coordinates beside others overrides it.
+    /// The default is `index` itself if NQ = NV, for joints of one coordinate each, and `None` if NQ ≠ NV. A mechanism
+    /// that has joints of several coordinates and joints of one overrides it.
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         (self.nq() == self.nv() && index < self.nv()).then_some(index)
     }
@@ -171,8 +171,8 @@ pub trait LoopRows {
 
 /// The closure of the loops of a mechanism `M`: constraints on its coordinates that the cut joints set.
 ///
-/// A compiled type is its own closure; who knows a better one (a closed form, or constraints that no cut joint
-/// describes) implements this for a type of their own.
+/// A compiled type is its own closure. Another closure, such as a closed form or constraints that no cut joint
+/// describes, is a type of its own that implements this trait.
 pub trait LoopClosure<S: Scalar, M: ConfigurationSpace<S>>: LoopRows {
     /// One value for each row: `[S; NC]`.
     type Rows: Vector<S>;

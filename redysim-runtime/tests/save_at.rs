@@ -58,7 +58,7 @@ fn save_times_run_backward_when_integration_does() {
 }
 
 #[test]
-fn without_save_times_there_are_no_answers() {
+fn without_save_times_there_is_no_output() {
     assert!(solve(Ode45::new(), (0.0, 2.0), &[]).is_empty());
 }
 

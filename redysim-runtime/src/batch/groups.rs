@@ -6,11 +6,12 @@ use crate::Real;
 use crate::dispatch::Instructions;
 use rayon::prelude::*;
 
-/// States that one thread takes at a time: enough to make up for taking them, few enough that cores finish together.
+/// The number of states in one task of a thread: so many that the overhead is small, so few that all cores finish at
+/// about the same time.
 const TASK: usize = 256;
 
-/// Calls the form of `group` for the best instructions that the processor has, for each group of up to as many results
-/// as its lanes hold, with the index of the first.
+/// Calls the function for the best instructions of the processor, `compiled`, `avx2` or `avx512`, for each group of up
+/// to as many results as its lanes hold, with the index of the first.
 pub fn in_groups<T: Batched, R: Send>(
     results: &mut [R],
     compiled: impl Fn(usize, &mut [R]) + Sync,

@@ -6,11 +6,11 @@
 //! program compiled for any x86-64 and in one compiled natively. [`map`] alone, whose function has lanes of one kind,
 //! takes those that the program is compiled for.
 //!
-//! States and results are slices of arrays that the caller owns. Any number of states will do, and each result is the
-//! same on however many threads. It has the bits that [`Dispatched`](crate::Dispatched) gives for its state, whatever
-//! the program is compiled for. Those of the mechanism itself differ in the last places where the processor can fuse
-//! products and sums and the program is compiled for one that cannot; with the feature `deterministic` nothing is
-//! fused, and all are the same. Nothing is allocated beyond what the thread pool of `rayon` does when it is handed
+//! States and results are slices of arrays that the caller owns. The number of states is arbitrary, and each result is
+//! the same on however many threads. It has the bits that [`Dispatched`](crate::Dispatched) gives for its state,
+//! whatever the program is compiled for. Those of the mechanism itself differ in the last places where the processor
+//! can fuse products and sums and the program is compiled for one that cannot; with the feature `deterministic` nothing
+//! is fused, and all are the same. Nothing is allocated beyond what the thread pool of `rayon` does when it is handed
 //! work; up to [`SERIAL`] states stay on the caller's thread. To choose the number of threads, call these functions
 //! within `rayon::ThreadPool::install`.
 //!
@@ -29,7 +29,7 @@ pub use packed::{Batched, Packed};
 use crate::{BiasForces, ForwardDynamics, GravityForces, InverseDynamics, LengthMismatch, MassMatrix, Real, Scalar};
 use groups::{in_groups, in_lanes, part};
 
-/// As many states as are not worth a second thread.
+/// The largest number of states that the caller's thread computes alone.
 pub const SERIAL: usize = 512;
 
 /// `results[i] = function(inputs[i])`, for every `i`.

@@ -1,14 +1,13 @@
 //! States in lanes, and back.
 
-use crate::Real;
-use crate::Scalar;
 use crate::lanes::{self, Lanes};
+use crate::{Real, Scalar};
 
 /// A plain number with lanes to work on several at once: `f64` and `f32`, and no other.
 pub trait Batched: Real + Send + Sync + Wider {
-    /// As many numbers as a vector holds of the target that the program is compiled for.
+    /// The lanes of one vector of the target that the program is compiled for.
     type Lanes: Packed<Self>;
-    /// How many those are.
+    /// The number of these lanes.
     const WIDTH: usize = <Self::Lanes as Packed<Self>>::WIDTH;
 }
 
@@ -22,10 +21,10 @@ pub(crate) trait Wider: Real {
 
 /// Lanes to which states are brought, and from which results are.
 pub trait Packed<T: Real>: Scalar + sealed::Sealed {
-    /// How many there are.
+    /// The number of lanes.
     const WIDTH: usize;
 
-    /// Up to [`WIDTH`](Self::WIDTH) states in lanes; what is missing is filled with the last.
+    /// Up to [`WIDTH`](Self::WIDTH) states in lanes; lanes without a state repeat the last one.
     fn pack<const N: usize>(states: &[[T; N]]) -> [Self; N];
 
     /// Writes as many states as `states` has.

@@ -27,7 +27,7 @@ pub enum Instructions {
 }
 
 impl Instructions {
-    /// The best that this processor has, unless the program is compiled for them anyway.
+    /// The best instructions of this processor; [`Compiled`](Self::Compiled) if the program is compiled for them.
     pub fn detected() -> Self {
         match Self::of_processor() {
             Self::Avx512 if cfg!(target_feature = "avx512f") => Self::Compiled,
@@ -36,7 +36,7 @@ impl Instructions {
         }
     }
 
-    /// The best that this processor has, whatever the program is compiled for.
+    /// The best instructions of this processor, independent of the program's target.
     #[cfg(target_arch = "x86_64")]
     pub(crate) fn of_processor() -> Self {
         use std::is_x86_feature_detected as has;
@@ -49,7 +49,7 @@ impl Instructions {
         }
     }
 
-    /// The best that this processor has, whatever the program is compiled for.
+    /// The best instructions of this processor, independent of the program's target.
     #[cfg(not(target_arch = "x86_64"))]
     pub(crate) fn of_processor() -> Self {
         Self::Compiled

@@ -11,7 +11,7 @@ use crate::{Real, Vector};
 
 /// A method that solves initial value problems.
 ///
-/// The ways to receive a solution differ only in what they report on the way; the steps are the same.
+/// The ways to receive a solution differ only in what they report during the integration; the steps are the same.
 ///
 /// ```
 /// use redysim_runtime::{Integrator, Ode45};
@@ -29,7 +29,7 @@ use crate::{Real, Vector};
 /// ```
 pub trait Integrator<S: Real> {
     /// Integrates from `start` at the first time of `interval` to the second, earlier or later, and shows every
-    /// accepted step to `observer`, who may end the integration after it. All other functions are this one with an
+    /// accepted step to `observer`, which may end the integration after it. All other functions are this one with an
     /// observer.
     ///
     /// # Errors
@@ -157,7 +157,7 @@ pub trait Integrator<S: Real> {
 /// Where an integration ended, and what it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution<S, Y> {
-    /// The end of the interval, or of the step after which the integration was told to break.
+    /// The end of the interval, or the time at which the observer ended the integration.
     pub t: S,
     /// The state at `t`.
     pub y: Y,

@@ -6,8 +6,8 @@
 //! too. What is integrated is an [`Ode`]: a closure, a [`ForwardSimulation`](crate::ForwardSimulation) of a mechanism,
 //! or a [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), which corrects the end of each step.
 //!
-//! [`solve_with_events`](Integrator::solve_with_events) finds [`Event`]s on the way, [`stability`] computes before a
-//! run how large steps may be, and explicit methods report where an equation is stiff.
+//! [`solve_with_events`](Integrator::solve_with_events) finds [`Event`]s during the integration, [`stability`] computes
+//! before a run how large steps may be, and explicit methods report where an equation is stiff.
 //!
 //! The parts of an integration are separate, as in OrdinaryDiffEq.jl: a [`Formula`](algorithm::Formula) takes one trial
 //! step and keeps its own cache ([`explicit`], [`collocation`]; coefficients in [`tableau`]), a

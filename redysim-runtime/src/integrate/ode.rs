@@ -4,10 +4,10 @@ use crate::LengthMismatch;
 
 /// The right-hand side of an ordinary differential equation, ẏ = f(t, y).
 ///
-/// Every closure `FnMut(S, &Y, &mut Y)` is one. An integrator calls it at points of its own choice, also at points of
-/// steps that it then rejects, and not always in the order of time.
+/// Every closure `FnMut(S, &Y, &mut Y)` is one. Integrators choose the points at which they call it, which
+/// include those of rejected steps and are not always in the order of time.
 pub trait Ode<S, Y> {
-    /// Writes f(t, y) to `dydt`, which has the length of `y` and holds anything.
+    /// Writes f(t, y) to `dydt`, which has the length of `y` and arbitrary elements.
     fn derivative(&mut self, t: S, y: &Y, dydt: &mut Y);
 
     /// Checks, before the first derivative, that the state `y` at the first time `t` and the vectors that the equation
@@ -21,7 +21,7 @@ pub trait Ode<S, Y> {
     }
 
     /// Called once for each accepted step, with its end `t`, its size `step` > 0 and the state `y` there, which may be
-    /// corrected in place: brought back to what an invariant of the equation demands. What an integration shows as the
+    /// corrected in place: for example, so that an invariant of the equation holds. What an integration shows as the
     /// end of the step is the corrected state, and from there it goes on; within the step the solution is that of the
     /// method. Where an event ends the integration within a step, it is called once more, for the state there, which is
     /// earlier. By default, nothing happens.
@@ -46,17 +46,17 @@ pub trait Ode<S, Y> {
     }
 }
 
-/// What an [`Ode`] makes of the state at the end of a step.
+/// The result of [`Ode::accepted`].
 ///
-/// The enumeration is exhaustive, so that whoever drives an [`Ode`] by a method of their own handles every case: to
-/// take an unknown one for `Unchanged` would be wrong.
+/// The enumeration is exhaustive, so that every method outside this crate handles all cases: to take an unknown one for
+/// `Unchanged` would be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accepted {
-    /// It stays.
+    /// The state is unchanged.
     Unchanged,
-    /// It was changed, so that the derivative there must be evaluated again.
+    /// The state was changed, so that the derivative there must be evaluated again.
     Corrected,
-    /// It cannot be accepted: the integration ends with
+    /// The state cannot be accepted: the integration ends with
     /// [`IntegrationError::Refused`](crate::IntegrationError::Refused).
     Refused,
 }

@@ -13,8 +13,7 @@ use crate::{Real, Vector};
 ///
 /// [`minimum_jerk`](Self::minimum_jerk) and [`cubic`](Self::cubic) find velocities and accelerations themselves,
 /// [`through`](Self::through) takes them as they are. For joints of one coordinate, whose velocity is its rate
-/// (revolute, prismatic and helical ones). `T` holds the times, `[S; N]` or `Vec<S>`, and says how many points there
-/// are.
+/// (revolute, prismatic and helical ones). `T` holds the times, `[S; N]` or `Vec<S>`, one for each point.
 ///
 /// ```
 /// use redysim_runtime::{Trajectory, ViaPoints};

@@ -177,7 +177,7 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
                  the links, or ask for nearer instants"
             ),
             Self::VelocityOutOfRange { velocity, count } => {
-                write!(f, "there is no velocity {velocity}; the mechanism's {count} velocities are counted from 0")
+                write!(f, "velocity {velocity} does not exist; the mechanism's {count} velocities are counted from 0")
             }
             Self::RepeatedVelocity { velocity } => {
                 write!(f, "velocity {velocity} is prescribed twice; name each independent velocity once")

@@ -93,11 +93,11 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         Q: Vector<S>,
     {
         let mut q = self.q.clone();
-        let way = |(i, coordinate): (usize, Option<usize>)| match coordinate {
+        let displacement = |(i, coordinate): (usize, Option<usize>)| match coordinate {
             Some(coordinate) => entry(wanted, i) - entry(&q, coordinate),
             None => S::from_f64(f64::NAN),
         };
-        let (farthest, at) = largest(self.actuation.coordinates().enumerate().map(way));
+        let (farthest, at) = largest(self.actuation.coordinates().enumerate().map(displacement));
         if !farthest.is_finite() {
             return Err(LoopError::NotFinite);
         }

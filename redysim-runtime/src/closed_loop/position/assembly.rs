@@ -18,12 +18,12 @@ pub struct Assembly<S, Q, V> {
     pub q: Q,
     /// Joint velocities.
     pub v: V,
-    /// The largest component of the way from the guess to `q`, by
+    /// The largest component of the displacement from the guess to `q`, by
     /// [`difference`](crate::ConfigurationSpace::difference), rad or m.
     pub largest_displacement: S,
     /// The velocity that it belongs to.
     pub velocity: usize,
-    /// The length of the whole way, √Σ δᵢ²; δ = Δq for joints of one coordinate each.
+    /// The length of the displacement, √Σ δᵢ²; δ = Δq for joints of one coordinate each.
     pub distance: S,
     /// The largest component of the residual that is left, m (or a sine).
     pub position_residual: S,
@@ -93,9 +93,9 @@ impl<M, C> ClosedLoop<'_, M, C> {
         if residual > slow * solution.constraints.length_scale() * fastest.maximum(S::EPSILON * asked) {
             return Err(LoopError::InconsistentVelocity { residual, row: at_row });
         }
-        let way = self.mechanism.difference(q, &solution.q);
-        let (largest_displacement, velocity) = largest(way.as_ref().iter().copied());
-        let distance = norm(way.as_ref());
+        let displacement = self.mechanism.difference(q, &solution.q);
+        let (largest_displacement, velocity) = largest(displacement.as_ref().iter().copied());
+        let distance = norm(displacement.as_ref());
         Ok(Assembly {
             q: solution.q,
             v,

@@ -4,8 +4,7 @@ use core::array::from_fn;
 use core::mem::swap;
 
 use super::extrapolate;
-use super::radau_tableau::RADAU_IIA_5;
-use super::radau_tableau::{CHECKED_NODE, WITHIN, WITHIN_NODES};
+use super::radau_tableau::{CHECKED_NODE, RADAU_IIA_5, WITHIN, WITHIN_NODES};
 pub(in crate::integrate) use super::stage_solver::LARGEST_TURN;
 use super::stage_solver::{Outcome, StageSolver};
 use crate::integrate::adaptive::Adaptive;
@@ -222,9 +221,9 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
         }
     }
 
-    /// Estimates the error of the step whose end is `y_new`, from the derivative `rate` or, if there is none, at the
-    /// state: the difference from an embedded formula of order 3, filtered so that it stays small where the equation is
-    /// stiff.
+    /// Estimates the error of the step whose end is `y_new`, from the derivative `rate`, or from that at the state if
+    /// `rate` is `None`: the difference from an embedded formula of order 3, filtered so that it stays small where the
+    /// equation is stiff.
     fn estimate(&mut self, rate: Option<&Y>) {
         let h = self.size;
         weighted_sum(RADAU_IIA_5.error.iter().map(|&e| S::from_f64(e) / h), &self.increments, &mut self.estimate);
@@ -234,7 +233,7 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
         self.newton.filter(&mut self.estimate);
     }
 
-    /// The estimate as the tolerances measure it, and made a quantity that goes with h⁶.
+    /// The norm of the estimate by the tolerances, raised to a power that is proportional to h⁶.
     fn measure(&self, Progress { y, y_new, .. }: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
         let error = S::from_f64(10.0) * tolerances.norm(&self.estimate, y, y_new);
         error * error.sqrt()
