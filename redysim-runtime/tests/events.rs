@@ -350,6 +350,7 @@ fn the_state_at_a_stop_is_corrected_like_the_end_of_a_step() {
 }
 
 /// Events need no array and no allocation of their own: also with a state whose length is known at run time.
+#[cfg(feature = "alloc")]
 #[test]
 fn a_state_of_any_length_can_be_watched() {
     let mut turn = |_t: f64, y: &Vec<f64>, dydt: &mut Vec<f64>| {

@@ -56,16 +56,17 @@ fn the_predicted_limit_of_a_held_arm_is_the_observed_one() {
 }
 
 #[test]
-fn the_warning_names_the_joint_whose_gain_is_large() {
-    for (joint, kd) in [(0, [2000.0, 1.0]), (1, [1.0, 300.0])] {
+fn the_warning_names_the_velocity_whose_gain_is_large() {
+    for (velocity, kd) in [(0, [2000.0, 1.0]), (1, [1.0, 300.0])] {
         let mut simulation = held([100.0, 100.0], kd);
         let state = simulation.state(&[0.3, 1.5], &[0.1, 0.2]);
         let warning = simulation.step_warning(&Ode5::new(0.1), 0.0, &state).unwrap().unwrap();
         println!("{warning}");
-        assert_eq!(warning.stable.velocity, Some(joint));
-        assert_eq!(warning.stable.component, Some(joint + 2));
+        assert_eq!(warning.stable.velocity, Some(velocity));
+        assert_eq!(warning.stable.component, Some(velocity + 2));
         let message = warning.to_string();
-        for word in ["0.1 s", &format!("joint {joint}"), &format!("{:?}", warning.stable.step), "lower the gain"] {
+        let [name, step] = [format!("velocity {velocity}"), format!("{:?}", warning.stable.step)];
+        for word in ["0.1 s", &name, &step, "lower the gain"] {
             assert!(message.contains(word), "{message:?} lacks {word:?}");
         }
         let h = 0.99 * warning.stable.step;
@@ -106,6 +107,7 @@ fn regions_of_stability_reach_as_far_as_published() {
 }
 
 /// Without a tangent of its own, and of a dimension that only the state knows.
+#[cfg(feature = "alloc")]
 #[test]
 fn differences_serve_where_there_is_no_tangent() {
     let mut chain = |_t: f64, y: &Vec<f64>, dydt: &mut Vec<f64>| {

@@ -6,10 +6,10 @@ use super::{LinearStability, StableStep, largest_stable_step};
 use crate::integrate::{FixedStep, IntegrationError};
 use crate::{ConfigurationSpace, ForwardDynamics, ForwardSimulation, Real, TorqueLaw};
 
-/// Says that a step is too large to be stable, which joint asks for smaller ones, and what to do.
+/// A step that is too large to be stable, with the joint that requires smaller ones; the message names the remedies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepWarning<'m, S> {
-    /// The step that was meant, s.
+    /// The given step, s.
     pub step: S,
     /// The largest stable one, and what limits it.
     pub stable: StableStep<S>,
@@ -23,7 +23,7 @@ impl<S: fmt::Debug + Copy> fmt::Display for StepWarning<'_, S> {
         write!(f, "the step of {step:?} s is not stable")?;
         match (joint, stable.velocity) {
             (Some(name), _) => write!(f, " for joint `{name}`")?,
-            (None, Some(index)) => write!(f, " for joint {index}")?,
+            (None, Some(velocity)) => write!(f, " for velocity {velocity}")?,
             (None, None) => {}
         }
         let (re, im) = stable.eigenvalue;
@@ -46,7 +46,7 @@ impl<S: Real> StableStep<S> {
 
 impl<'m, M, L> ForwardSimulation<'m, M, L> {
     /// Whether the steps of `method` are stable near `state`, before the simulation runs: a warning if not, which names
-    /// the joint that asks for smaller ones. See [`largest_stable_step`].
+    /// the joint that requires smaller ones. See [`largest_stable_step`].
     ///
     /// # Errors
     /// As [`largest_stable_step`].
