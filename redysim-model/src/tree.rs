@@ -56,6 +56,13 @@ impl<P> Body<P> {
         let [x, y, _] = self.placement.rotation.column(2).0;
         x == 0.0 && y == 0.0
     }
+
+    /// An angle or a rate about the z axis of the parent's frame as one about the joint's axis, if these are parallel:
+    /// the negative where they point in opposite directions.
+    #[inline]
+    pub(crate) fn about_parallel_axis<S: Scalar>(&self, turn: S) -> S {
+        if self.placement.rotation.0[2][2] < 0.0 { -turn } else { turn }
+    }
 }
 
 /// Where a link stands on a body.

@@ -4,7 +4,7 @@ use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
 use crate::parameter::ParameterIn;
 use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::Tree;
+use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
 
 /// How many derivatives of positions are computed; the others are zero.
@@ -60,6 +60,23 @@ impl<S: Scalar> Placed<S> {
     }
 }
 
+/// Bodies one behind another whose joint axes are parallel: their angular velocities differ along the axes only, by the
+/// sum of the joints' rates, and no rate is multiplied by an axis twice.
+#[derive(Clone, Copy)]
+struct ParallelRun<S> {
+    /// The parent of the first body.
+    base: Placed<S>,
+    /// The rate of the last body against it, about its own axis.
+    rate: S,
+}
+
+impl<S: Scalar> ParallelRun<S> {
+    /// The run continued to a body whose joint does not move yet.
+    fn behind<P>(self, body: &Body<P>) -> Self {
+        ParallelRun { rate: body.about_parallel_axis(self.rate), ..self }
+    }
+}
+
 /// All bodies at the coordinates `q` and velocities `v`, and their joints' frames.
 pub(super) fn bodies<S: Scalar>(
     tree: &Tree<impl ParameterIn<S>>,
@@ -70,6 +87,7 @@ pub(super) fn bodies<S: Scalar>(
 ) -> (Vec<Placed<S>>, Vec<JointFrame<S>>) {
     let joints = joint_frames(tree, trace, q);
     let mut bodies: Vec<Placed<S>> = Vec::with_capacity(tree.bodies.len());
+    let mut runs: Vec<ParallelRun<S>> = Vec::with_capacity(tree.bodies.len());
     trace.sweep("outward", tree.outward(), |index| {
         let (body, joint) = (&tree.bodies[index], &joints[index]);
         let parent = body.parent.map_or(Placed::ground(), |parent| bodies[parent]);
@@ -78,10 +96,17 @@ pub(super) fn bodies<S: Scalar>(
         if order >= Order::Velocities {
             let axis = placed.pose.rotation.column(2);
             let (screw, qd) = (body.joint.screw(), v[body.v.start]);
-            if let Some(turn) = screw.turn(qd).map(|turn| axis.scale(turn)) {
-                placed.angular_acceleration = parent.angular_acceleration + parent.derivative(turn);
-                placed.angular = parent.angular + turn;
+            let mut run = match body.parent {
+                Some(parent) if body.is_parallel() => runs[parent].behind(body),
+                _ => ParallelRun { base: parent, rate: S::zero() },
+            };
+            if let Some(turn) = screw.turn(qd) {
+                run.rate += turn;
+                let turn = axis.scale(run.rate);
+                placed.angular_acceleration = run.base.angular_acceleration + run.base.derivative(turn);
+                placed.angular = run.base.angular + turn;
             }
+            runs.push(run);
             if let Some(slide) = screw.slide(qd).map(|slide| axis.scale(slide)) {
                 let across = parent.derivative(slide);
                 placed.acceleration = placed.acceleration + across + across;

@@ -127,10 +127,8 @@ fn find_positions<S: Scalar>(positions: &mut Vec<AxisPosition<S>>, tree: &Tree<i
             let [near] = if is_term { S::without_turns([angle]) } else { [angle] };
             if body.offset == 0.0 { near } else { near + S::from_f64(body.offset) }
         });
-        let carried = merged_parent.and_then(|parent| positions[parent].angle).map(|angle| {
-            let opposite = body.placement.rotation.0[2][2] < 0.0;
-            if opposite { -angle.value } else { angle.value }
-        });
+        let carried = merged_parent.and_then(|parent| positions[parent].angle);
+        let carried = carried.map(|angle| body.about_parallel_axis(angle.value));
         let angle = match (carried, own) {
             (Some(carried), Some(own)) => Some(Angle { value: carried + own, is_sum: true }),
             (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some() }),
