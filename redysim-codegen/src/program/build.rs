@@ -86,9 +86,10 @@ impl<'a> Builder<'a> {
         for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
             let node = graph.node(index);
             let place = self.rerolled.as_ref().and_then(|rerolled| rerolled.place(index));
-            if place.is_some() {
+            if let Some(place) = place {
                 self.flipped[index] = false;
-                self.fused[index] &= !lasting[index];
+                // What another step reads is a variable in every group, as it is in the template.
+                self.fused[index] &= !lasting[place.template];
             }
             if matches!(node, Node::Sin(_) | Node::Cos(_)) {
                 // Among loops, sines and cosines are read where they are used.
