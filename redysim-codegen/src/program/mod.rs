@@ -8,6 +8,8 @@ mod blocks;
 mod build;
 mod loops;
 mod names;
+#[cfg(test)]
+mod tests;
 mod values;
 
 pub use build::{NamingContext, program};

@@ -1,0 +1,166 @@
+//! A program computes what its graph does. Its statements are carried out one by one here, without any backend.
+
+use super::{Index, Loop, NamingContext, Program, Statement, Trig, Value, program};
+use crate::angles::Angles;
+use crate::expressions::Expressions;
+use crate::passes::{Passes, simplified};
+use crate::symbol::Tracer;
+use crate::tracing::{traced_of, traced_on};
+use redysim_model::{Function, Model, Tree, denoc};
+use redysim_runtime::{Dual, Scalar};
+use std::collections::HashMap;
+
+/// The state of a program that runs.
+struct Run<'a> {
+    arguments: &'a [&'a [f64]],
+    sines: Vec<f64>,
+    cosines: Vec<f64>,
+    variables: HashMap<String, f64>,
+    /// The live-out values of loops, by group and column.
+    arrays: HashMap<String, Vec<Vec<f64>>>,
+    /// In a loop: the group and its constants.
+    group: Option<(usize, Vec<f64>)>,
+}
+
+impl Run<'_> {
+    fn trig(&self, array: Trig) -> &[f64] {
+        match array {
+            Trig::Sines => &self.sines,
+            Trig::Cosines => &self.cosines,
+        }
+    }
+
+    fn place(&self, index: Index) -> usize {
+        match (index, &self.group) {
+            (Index::At(place), _) => place,
+            (Index::OfGroup { first, period }, Some((group, _))) => first + period * group,
+            (Index::OfGroup { .. }, None) => panic!("an index of a group outside of a loop"),
+        }
+    }
+
+    fn value(&self, value: &Value) -> f64 {
+        match value {
+            Value::Constant(value) => *value,
+            Value::GroupConstant(column) => self.group.as_ref().expect("a loop").1[*column],
+            Value::Variable(name) => *self.variables.get(name).unwrap_or_else(|| panic!("{name} is not defined")),
+            Value::Argument(argument, index) => self.arguments[*argument][self.place(*index)],
+            Value::Trig(array, index) => self.trig(*array)[self.place(*index)],
+            Value::LiveOut(array, group, column) => self.arrays[array][*group][*column],
+            Value::Negative(a) => -self.value(a),
+            Value::Sum(a, b) => self.value(a) + self.value(b),
+            Value::Difference(a, b) => self.value(a) - self.value(b),
+            Value::Product(a, b) => self.value(a) * self.value(b),
+            Value::Quotient(a, b) => self.value(a) / self.value(b),
+            // Rounded twice, as in the graph.
+            Value::MultiplyAdd(a, b, c) => self.value(a) * self.value(b) + self.value(c),
+            Value::SquareRoot(a) => self.value(a).sqrt(),
+        }
+    }
+
+    fn define(&mut self, name: &str, value: f64) {
+        self.variables.insert(name.to_string(), value);
+    }
+
+    fn execute(&mut self, statements: &[Statement]) {
+        for statement in statements {
+            match statement {
+                Statement::Destructure { array, names } => {
+                    for (element, name) in self.trig(*array).to_vec().into_iter().zip(names) {
+                        name.iter().for_each(|name| self.define(name, element));
+                    }
+                }
+                Statement::Let { name, value } => self.define(name, self.value(value)),
+                Statement::Block { statements, live_out } => {
+                    let before = self.variables.clone();
+                    self.execute(statements);
+                    let within = std::mem::replace(&mut self.variables, before);
+                    live_out.iter().for_each(|name| self.define(name, within[name]));
+                }
+                Statement::Loop(each) => self.repeat(each),
+            }
+        }
+    }
+
+    fn repeat(&mut self, each: &Loop) {
+        for carried in &each.carried {
+            self.define(&carried.name, self.value(&carried.start));
+        }
+        let mut live_out = vec![Vec::new(); each.groups];
+        for count in 0..each.groups {
+            let group = if each.ascending { count } else { each.groups - 1 - count };
+            self.group = Some((group, each.constants.get(group).cloned().unwrap_or_default()));
+            let before = self.variables.clone();
+            for read in &each.reads {
+                for (name, value) in read.names.iter().zip(self.arrays[&read.array][group].clone()) {
+                    name.iter().for_each(|name| self.define(name, value));
+                }
+            }
+            self.execute(&each.body);
+            let within = std::mem::replace(&mut self.variables, before);
+            each.carried.iter().for_each(|carried| self.define(&carried.name, within[&carried.next]));
+            let columns = each.live_out.iter().flat_map(|array| &array.columns);
+            live_out[group] = columns.map(|column| within[column]).collect();
+        }
+        self.group = None;
+        if let Some(array) = &each.live_out {
+            self.arrays.insert(array.name.clone(), live_out);
+        }
+    }
+}
+
+/// What the program returns.
+fn run(program: &Program, angles: &Angles, arguments: &[&[f64]]) -> Vec<f64> {
+    let sines_and_cosines = angles.at(0..angles.len()).map(|angle| {
+        let terms = angle.terms.iter().map(|term| term.factor * arguments[0][term.coordinate as usize]);
+        Scalar::sin_cos(terms.sum::<f64>() + angle.constant)
+    });
+    let (sines, cosines) = sines_and_cosines.unzip();
+    let (variables, arrays) = Default::default();
+    let mut run = Run { arguments, sines, cosines, variables, arrays, group: None };
+    run.execute(&program.statements);
+    program.outputs.iter().map(|output| run.value(output)).collect()
+}
+
+/// The slopes of a function of coordinates, velocities, and accelerations or forces, along a direction: the last three
+/// of six arguments.
+fn derivative_on(tree: &Tree, function: Function) -> Expressions {
+    traced_of([tree.nv(); 6], |tracer: &Tracer, x| {
+        let dual = |(&value, &slope)| Dual { value, slope };
+        let duals = [0, 1, 2].map(|index| x[index].iter().zip(x[index + 3]).map(dual).collect::<Vec<_>>());
+        let arguments = function.signature().arguments.len();
+        let results = denoc::evaluate(function, tree, tracer, &duals.each_ref().map(Vec::as_slice)[..arguments]);
+        results.into_iter().map(|result| result.slope).collect()
+    })
+}
+
+/// The groups of each loop of the program.
+fn groups(program: &Program) -> Vec<usize> {
+    let groups = program.statements.iter().filter_map(|statement| match statement {
+        Statement::Loop(each) => Some(each.groups),
+        _ => None,
+    });
+    groups.collect()
+}
+
+/// All 40 bodies but a few at the ends are in the loops: one by one, or, where passes make neighbours differ, by twos.
+#[test]
+fn loops_over_the_bodies_of_a_chain_compute_the_bits_of_the_graph_and_so_do_those_of_derivatives() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/peers/chain40.toml");
+    let tree = Tree::new(&Model::load(path).expect("a valid model").model);
+    let bodies: Vec<String> = (0..tree.bodies.len()).map(|body| format!("body{body}")).collect();
+    let element = |argument: usize, i: usize| (0.9 * argument as f64 + 2.3 * i as f64).sin();
+    let arguments: Vec<Vec<f64>> = (0..6).map(|k| (0..tree.nv()).map(|i| element(k, i)).collect()).collect();
+    let arguments: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
+    for function in [Function::InverseDynamics, Function::BiasForces, Function::ForwardDynamics] {
+        for traced in [traced_on(&tree, function), derivative_on(&tree, function)] {
+            for passes in [Passes { loops: true, ..Passes::none() }, Passes::all()] {
+                let expressions = simplified(traced.clone(), &passes).expect("no pass changes a value");
+                let angles = Angles::of([&expressions]);
+                let program = program(&expressions, &NamingContext { reserved: &[], bodies: &bodies, angles: &angles });
+                let groups = groups(&program);
+                assert!(groups.len() >= 2 && groups.iter().all(|&groups| groups >= 16), "{function}: {groups:?}");
+                assert_eq!(run(&program, &angles, &arguments), expressions.evaluate(&arguments), "{function}");
+            }
+        }
+    }
+}
