@@ -55,15 +55,20 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     trace: &T,
     q: &[S],
 ) {
-    // All angles first, so that compiled code can take their sines and cosines together.
     find_positions(positions, tree, q);
+    if T::WHOLE_ROTATIONS {
+        take_rotations(positions);
+    }
     frames.clear();
     frames.reserve(tree.bodies.len());
     trace.sweep("frames", tree.outward(), |index| {
         let (body, AxisPosition { angle, displacement }) = (&tree.bodies[index], positions[index]);
         let parent = body.parent.and_then(|parent| frames[parent].body_rotation);
-        let joint_rotation = angle.map(|Angle { value, is_sum }| {
-            let (sin, cos) = value.sin_cos();
+        let joint_rotation = angle.map(|Angle { value, is_sum, rotation }| {
+            let (cos, sin) = rotation.unwrap_or_else(|| {
+                let (sin, cos) = value.sin_cos();
+                (cos, sin)
+            });
             let [cosine, sine] = if is_sum { ["cos_sum", "sin_sum"] } else { ["cos", "sin"] };
             trace.name(cos, cosine, index, "");
             trace.name(sin, sine, index, "");
@@ -103,6 +108,8 @@ pub(super) struct Angle<S> {
     value: S,
     /// Whether it is the sum of several joint angles.
     is_sum: bool,
+    /// Its cosine and sine, for numbers.
+    rotation: Option<RotationAboutZ<S>>,
 }
 
 /// Where a body is on its axis.
@@ -130,10 +137,25 @@ fn find_positions<S: Scalar>(positions: &mut Vec<AxisPosition<S>>, tree: &Tree<i
         let carried = merged_parent.and_then(|parent| positions[parent].angle);
         let carried = carried.map(|angle| body.about_parallel_axis(angle.value));
         let angle = match (carried, own) {
-            (Some(carried), Some(own)) => Some(Angle { value: carried + own, is_sum: true }),
-            (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some() }),
+            (Some(carried), Some(own)) => Some(Angle { value: carried + own, is_sum: true, rotation: None }),
+            (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some(), rotation: None }),
         };
         positions.push(AxisPosition { angle, displacement });
+    }
+}
+
+/// Takes the sines and cosines of all angles, several at once: for numbers. Each symbol's belongs to its body's step.
+fn take_rotations<S: Scalar>(positions: &mut [AxisPosition<S>]) {
+    /// As many as a vector of 256 bits holds in double precision.
+    const AT_ONCE: usize = 4;
+    for group in positions.chunks_mut(AT_ONCE) {
+        let value = |i: usize| group.get(i).and_then(|position| position.angle).map_or(S::zero(), |angle| angle.value);
+        let (sines, cosines) = S::sin_cos_all::<AT_ONCE>(std::array::from_fn(value));
+        for (position, rotation) in group.iter_mut().zip(cosines.into_iter().zip(sines)) {
+            if let Some(angle) = &mut position.angle {
+                angle.rotation = Some(rotation);
+            }
+        }
     }
 }
 
