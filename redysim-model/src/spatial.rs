@@ -44,13 +44,14 @@ impl<S: Scalar> Vec3<S> {
 
     /// aᵀ b.
     pub fn dot(self, b: Self) -> S {
-        self[0] * b[0] + self[1] * b[1] + self[2] * b[2]
+        self[2].mul_add(b[2], self[1].mul_add(b[1], self[0] * b[0]))
     }
 
     /// a × b.
     pub fn cross(self, b: Self) -> Self {
         let a = self;
-        Vec3([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+        let element = |i: usize, j: usize| (-a[j]).mul_add(b[i], a[i] * b[j]);
+        Vec3([element(1, 2), element(2, 0), element(0, 1)])
     }
 
     /// The vector times a scalar.

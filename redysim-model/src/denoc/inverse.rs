@@ -12,6 +12,7 @@ use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
 impl<S: Scalar> BodyMotion<S> {
+    #[inline(always)]
     fn new(angular: Vec3<S>, angular_acceleration: Vec3<S>, acceleration: Vec3<S>) -> Self {
         let w = angular;
         let products = Mat3::from_fn(|i, j| {
@@ -30,6 +31,7 @@ impl<S: Scalar> BodyMotion<S> {
     }
 
     /// The motion across a joint of velocity `qd` and acceleration `qdd`.
+    #[inline(always)]
     fn across(self, frame: &JointFrame<S>, screw: Screw, qd: S, qdd: S) -> Self {
         let mut acceleration = frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position);
         let mut w = frame.to_body(self.angular);
@@ -65,6 +67,7 @@ impl<S: Scalar> BodyMotion<S> {
 
     /// Force and moment about the origin that give a body of these moments of mass this motion: f = m a + U h, and n
     /// such that n× = U Σ − (U Σ)ᵀ, plus h × a.
+    #[inline(always)]
     fn wrench(&self, inertia: &PseudoInertia<S>, moments: SecondMoments<S>) -> Wrench<S> {
         let PseudoInertia { mass, moment, second: s } = *inertia;
         let force = self.acceleration.scale(mass) + self.angular_acceleration_tensor * moment;
@@ -103,6 +106,7 @@ struct SecondMoments<S> {
 }
 
 impl<S: Scalar> SecondMoments<S> {
+    #[inline(always)]
     fn new<P: ParameterIn<S>>(inertia: &PseudoInertia<P>, frame: &JointFrame<S>) -> Self {
         let Sym3 { xx, yy, zz, xy, .. } = inertia.second;
         let merged_parallel = frame.merged_parallel();
