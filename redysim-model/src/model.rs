@@ -59,8 +59,7 @@ pub struct JointRange {
     pub velocity: f64,
     /// The largest acceleration in either direction.
     pub acceleration: f64,
-    /// The force of which a tolerance is a share, N m or N; if there is none, the largest that occurs within these
-    /// ranges.
+    /// The force of which a tolerance is a share, N m or N; `None` for the largest that occurs within these ranges.
     pub force: Option<f64>,
 }
 

@@ -7,16 +7,16 @@ use super::trajectory::Prescribed;
 
 /// A law on a mechanism.
 pub enum Law<'a> {
-    /// One that has forces in every state.
+    /// A law that is defined in every state.
     Total(Box<dyn TorqueLaw<f64, GenericMechanism> + 'a>),
-    /// One that has none where the loops do not let the mechanism move as is wanted.
+    /// A law that is undefined where the loops do not permit the prescribed motion.
     OfLoops(ClosedLoopComputedTorque<'a, f64, GenericMechanism, &'a Prescribed, Vec<f64>>),
 }
 
 type Pair<'a> = (&'a Vec<f64>, &'a Vec<f64>);
 
 impl<'a> Law<'a> {
-    /// A law that has forces in every state.
+    /// A law that is defined in every state.
     pub fn total(law: impl TorqueLaw<f64, GenericMechanism> + 'a) -> Self {
         Law::Total(Box::new(law))
     }

@@ -8,7 +8,7 @@ use crate::schema::{CutSideTable, Document, LoopTable};
 use crate::spatial::Vec3;
 use redysim_toml::Findings;
 
-/// The loops, if none has a fault. `parents` is there if the tree has none.
+/// The loops; `None` if one of them has a fault. `parents` has the parent of each link, if the tree has no fault.
 pub(super) fn loops(
     document: &Document,
     parents: Option<&[Option<usize>]>,

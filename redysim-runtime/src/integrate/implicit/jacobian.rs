@@ -6,7 +6,7 @@ use crate::vector::entry;
 use crate::{Real, Vector};
 
 /// Evaluates ∂f/∂y at the state that is reached, where the derivative is `rate`, by rows: from the tangents of the
-/// equation, or from forward differences where it has none. `y_new` of the progress is used up.
+/// equation, or from forward differences where it does not define them. `y_new` of the progress is used up.
 ///
 /// # Errors
 /// If an element is infinite or not a number.

@@ -95,7 +95,7 @@ impl<S: Real, Y: Vector<S>> Linearised<S, Y> {
 ///
 /// # Errors
 /// If the state, its derivative or the Jacobian is infinite or not a number, if the method needs coordinates and the
-/// equation has none, or if no eigenvalues are found.
+/// equation does not define them, or if no eigenvalues are found.
 ///
 /// ```
 /// use redysim_runtime::Ode4;
