@@ -48,7 +48,7 @@ pub struct Sweep {
     pub name: &'static str,
     /// Whether it starts at the first group; else at the last.
     pub ascending: bool,
-    /// The least index of its nodes: it runs before this one.
+    /// The node before which it runs: the first of its own, or the one behind the last that it reads.
     pub start: usize,
     /// The nodes of the template, in order.
     pub template: Vec<usize>,
@@ -170,9 +170,24 @@ impl Rerolled {
         }
         let template_body = first + TEMPLATE * period;
         let mut rerolled = Rerolled { groups, period, template_body, sweeps, places, constants: HashMap::new() };
+        rerolled.schedule(graph, live)?;
         rerolled.connect(expressions, live, &signs)?;
         rerolled.tabulate(graph, &signs, &members);
         Some(rerolled)
+    }
+
+    /// Lets each loop run after what it reads from outside; `None` if the loops do not keep their order.
+    fn schedule(&mut self, graph: &Graph, live: &[bool]) -> Option<()> {
+        for node in (0..graph.len()).filter(|&node| live[node]) {
+            let Some(user) = self.place(node) else { continue };
+            for read in graph.node(node).operands().map(Edge::node) {
+                if live[read] && self.place(read).is_none() {
+                    let start = &mut self.sweeps[user.sweep].start;
+                    *start = (*start).max(read + 1);
+                }
+            }
+        }
+        self.sweeps.is_sorted_by_key(|sweep| sweep.start).then_some(())
     }
 
     /// Finds the carried and the live-out values of each loop; `None` where the loops cannot run one after the other.
@@ -194,7 +209,12 @@ impl Rerolled {
             let user = self.place(node);
             for (operand, edge) in graph.node(node).operands().enumerate() {
                 match (user, self.place(edge.node())) {
-                    (None, Some(read)) => read_outside(self, &mut carried, read),
+                    (None, Some(read)) => {
+                        if node < self.sweeps[read.sweep].start {
+                            return None;
+                        }
+                        read_outside(self, &mut carried, read);
+                    }
                     (Some(user), Some(read)) if user.sweep == read.sweep => {
                         let sweep = &self.sweeps[user.sweep];
                         let before = if sweep.ascending { user.group.checked_sub(1) } else { Some(user.group + 1) };
@@ -203,17 +223,12 @@ impl Rerolled {
                         }
                     }
                     (Some(user), Some(read)) => {
-                        let runs_before = self.sweeps[read.sweep].start < self.sweeps[user.sweep].start;
-                        if read.group != user.group || !runs_before {
+                        if read.group != user.group || read.sweep > user.sweep {
                             return None;
                         }
                         read_outside(self, &mut carried, Place { group: TEMPLATE, ..read });
                     }
                     (Some(user), None) if live[edge.node()] => {
-                        let sweep = &self.sweeps[user.sweep];
-                        if edge.node() > sweep.start {
-                            return None;
-                        }
                         // In the first group, what the loop carries comes from before it.
                         let same = graph.node(user.template).operands().nth(operand)?;
                         if let Some(template) = self.place(same.node()) {

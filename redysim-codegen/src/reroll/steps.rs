@@ -1,7 +1,7 @@
 //! The steps of a recursion, and which of them are uniform.
 
 use super::is_operation;
-use crate::graph::{Edge, Graph, Node};
+use crate::graph::{Edge, Graph, Node, Step};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -56,8 +56,9 @@ impl Steps {
     pub fn of(graph: &Graph, live: &[bool], positions: &HashMap<usize, usize>) -> Steps {
         let mut steps = Steps { sweeps: Vec::new(), nodes: HashMap::new(), forms: HashMap::new(), bodies: 0 };
         let mut places = vec![0; graph.len()];
+        let step_of = at_the_bodies_that_they_read(graph, live);
         for node in (0..graph.len()).filter(|&node| live[node]) {
-            let Some(step) = graph.step(node) else { continue };
+            let Some(step) = step_of[node] else { continue };
             if !steps.sweeps.contains(&step.sweep) {
                 steps.sweeps.push(step.sweep);
             }
@@ -72,7 +73,7 @@ impl Steps {
                 Node::Input { argument, index } => Operand::Input { argument, index: index as isize - body as isize },
                 Node::Sin(_) => Operand::Sin(positions[&edge.node()] as isize - body as isize),
                 Node::Cos(_) => Operand::Cos(positions[&edge.node()] as isize - body as isize),
-                _ => match graph.step(edge.node()) {
+                _ => match step_of[edge.node()] {
                     None => Operand::Outside(edge.node()),
                     Some(step) => Operand::Step {
                         sweep: step.sweep,
@@ -121,6 +122,25 @@ impl Steps {
         }
         (!longest.is_empty()).then_some(longest)
     }
+}
+
+/// The step of each live operation. One that reads of other sweeps and of its own what belongs to another body only is a
+/// step of that body: the derivative of a child's rotation times the child's wrench, say. So a loop reads of other loops
+/// what they have computed for the same group.
+fn at_the_bodies_that_they_read(graph: &Graph, live: &[bool]) -> Vec<Option<Step>> {
+    let mut steps: Vec<Option<Step>> = vec![None; graph.len()];
+    for node in (0..graph.len()).filter(|&node| live[node]) {
+        let Some(own) = graph.step(node) else { continue };
+        let mut read = graph.node(node).operands().filter_map(|operand| steps[operand.node()]).peekable();
+        let body = read.peek().map_or(own.body, |step| step.body);
+        let mut other_sweeps = false;
+        let one_body = read.all(|step| {
+            other_sweeps |= step.sweep != own.sweep;
+            step.body == body
+        });
+        steps[node] = Some(if one_body && other_sweeps { Step { body, ..own } } else { own });
+    }
+    steps
 }
 
 fn operation(node: Node) -> Operation {

@@ -219,20 +219,9 @@ impl<S: Scalar> JointFrame<S> {
 
     /// A wrench on the body, in the parent's axes and about the parent's origin.
     #[inline(always)]
-    pub fn wrench_to_parent(&self, wrench: Wrench<S>) -> Wrench<S> {
-        self.wrench_about_parent(self.wrench_in_parent_axes(wrench))
-    }
-
-    /// A wrench on the body about its origin, in the parent's axes.
-    #[inline(always)]
-    pub fn wrench_in_parent_axes(&self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
-        Wrench { moment: self.to_parent(moment), force: self.to_parent(force) }
-    }
-
-    /// A wrench in the parent's axes about the body's origin, about the parent's.
-    #[inline(always)]
-    pub fn wrench_about_parent(&self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
-        Wrench { moment: moment + self.position.cross(force), force }
+    pub fn wrench_to_parent(&self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
+        let force = self.to_parent(force);
+        Wrench { moment: self.to_parent(moment) + self.position.cross(force), force }
     }
 
     /// A symmetric tensor of the body's axes, in the parent's.

@@ -161,16 +161,13 @@ pub fn inverse_dynamics_in<S: Scalar>(
     });
     trace.sweep("inward", tree.inward(), |index| {
         let body = &tree.bodies[index];
-        // Taken from the children, not handed to the parent: so the sum for one body is one sum. They are in this
-        // body's axes already: no step reads the rotation of another body's joint, nor its derivative.
-        let loads = children.of(index).map(|child| frames[child].wrench_about_parent(wrenches[child]));
+        // Taken from the children, not handed to the parent: so the sum for one body is one sum.
+        let loads = children.of(index).map(|child| frames[child].wrench_to_parent(wrenches[child]));
         let wrench = loads.fold(wrenches[index], |sum, load| sum + load);
         trace.name_wrench(wrench, ["moment", "force"], index);
+        wrenches[index] = wrench;
         body.joint.project(wrench, &mut tau[body.v.clone()]);
         trace.name(tau[body.v.start], "tau", index, "");
-        if body.parent.is_some() {
-            wrenches[index] = frames[index].wrench_in_parent_axes(wrench);
-        }
     });
 }
 
