@@ -2,7 +2,7 @@
 
 use crate::denoc;
 use crate::inertia::Sym3;
-use crate::joint::Joint;
+use crate::joint::{Joint, JointPosition};
 use crate::model::{CutKind, CutSide, Link, Model};
 use crate::pseudo::PseudoInertia;
 use crate::rotation::{self, align_z};
@@ -85,8 +85,8 @@ impl Tree {
         let aligned = align_z(link.axis);
         let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
         let mut offset = 0.0;
-        let screw = joint.screw();
-        if let Some(angle) = screw.turn(link.offset) {
+        let JointPosition { angle, displacement } = joint.position(&[link.offset]);
+        if let Some(angle) = angle {
             let (sin, cos) = rotation::sin_cos(angle);
             if sin == 0.0 || cos == 0.0 {
                 placement.rotation = placement.rotation * rotation::about_z(angle);
@@ -94,7 +94,7 @@ impl Tree {
                 offset = angle;
             }
         }
-        if let Some(slide) = screw.slide(link.offset) {
+        if let Some(slide) = displacement {
             placement.position = placement.position + placement.rotation.column(2).scale(slide);
         }
         self.bodies.push(Body {

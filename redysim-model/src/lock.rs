@@ -1,6 +1,6 @@
 //! Joints held at a value: as if the file had them fixed there.
 
-use crate::joint::Joint;
+use crate::joint::{Joint, JointPosition};
 use crate::model::{JointKind, Link, Model};
 use crate::rotation;
 use crate::rotation::align_z;
@@ -61,12 +61,13 @@ impl Link {
     /// Fixes the joint where its coordinate is `value`.
     pub(crate) fn lock(&mut self, value: f64) {
         let travel = self.offset + value;
-        if let Some(screw) = Joint::of(self).map(Joint::screw) {
-            let turn = screw.turn(travel).map_or(Mat3::identity(), |angle| {
+        if let Some(joint) = Joint::of(self) {
+            let JointPosition { angle, displacement } = joint.position(&[travel]);
+            let turn = angle.map_or(Mat3::identity(), |angle| {
                 let aligned = align_z(self.axis);
                 aligned * rotation::about_z(angle) * aligned.transpose()
             });
-            let slide = screw.slide(travel).map_or(Vec3::zero(), |slide| self.axis.scale(slide));
+            let slide = displacement.map_or(Vec3::zero(), |slide| self.axis.scale(slide));
             self.placement = (self.placement * Pose { rotation: turn, position: slide }).without_negative_zeros();
         }
         self.joint = JointKind::Fixed;

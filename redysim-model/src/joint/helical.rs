@@ -14,7 +14,7 @@ pub fn screw(pitch: f64) -> Screw {
 /// The coordinate is the angle.
 #[inline]
 pub fn position<S: Scalar>(pitch: f64, q: S) -> JointPosition<S> {
-    JointPosition { angle: Some(q), displacement: Some(S::from_f64(pitch) * q) }
+    JointPosition { angle: Some(q), displacement: screw(pitch).slide(q) }
 }
 
 /// Mass on the axis moves along it, so of what a revolute joint shares the second moment alone is left.

@@ -220,7 +220,7 @@ impl Joint {
 impl Link {
     /// The displacement of the link along its axis where the joint variable is zero, m.
     pub fn offset_along_axis(&self) -> f64 {
-        Joint::of(self).and_then(|joint| joint.screw().slide(self.offset)).unwrap_or(0.0)
+        Joint::of(self).and_then(|joint| joint.position(&[self.offset]).displacement).unwrap_or(0.0)
     }
 }
 
