@@ -64,14 +64,14 @@ impl<S: Scalar> Placed<S> {
 /// sum of the joints' rates, and no rate is multiplied by an axis twice.
 #[derive(Clone, Copy)]
 struct ParallelRun<S> {
-    /// The parent of the first body.
-    base: Placed<S>,
+    /// The parent of the first body; `None` is the ground.
+    base: Option<usize>,
     /// The rate of the last body against it, about its own axis.
     rate: S,
 }
 
 impl<S: Scalar> ParallelRun<S> {
-    /// The run continued to a body whose joint does not move yet.
+    /// The run up to the body behind its last one, before the rate of that body's own joint is added.
     fn behind<P>(self, body: &Body<P>) -> Self {
         ParallelRun { rate: body.about_parallel_axis(self.rate), ..self }
     }
@@ -87,7 +87,7 @@ pub(super) fn bodies<S: Scalar>(
 ) -> (Vec<Placed<S>>, Vec<JointFrame<S>>) {
     let joints = joint_frames(tree, trace, q);
     let mut bodies: Vec<Placed<S>> = Vec::with_capacity(tree.bodies.len());
-    let mut runs: Vec<ParallelRun<S>> = Vec::with_capacity(tree.bodies.len());
+    let mut runs: Vec<ParallelRun<S>> = Vec::new();
     trace.sweep("outward", tree.outward(), |index| {
         let (body, joint) = (&tree.bodies[index], &joints[index]);
         let parent = body.parent.map_or(Placed::ground(), |parent| bodies[parent]);
@@ -98,13 +98,14 @@ pub(super) fn bodies<S: Scalar>(
             let (screw, qd) = (body.joint.screw(), v[body.v.start]);
             let mut run = match body.parent {
                 Some(parent) if body.is_parallel() => runs[parent].behind(body),
-                _ => ParallelRun { base: parent, rate: S::zero() },
+                _ => ParallelRun { base: body.parent, rate: S::zero() },
             };
             if let Some(turn) = screw.turn(qd) {
+                let base = run.base.map_or(Placed::ground(), |base| bodies[base]);
                 run.rate += turn;
                 let turn = axis.scale(run.rate);
-                placed.angular_acceleration = run.base.angular_acceleration + run.base.derivative(turn);
-                placed.angular = run.base.angular + turn;
+                placed.angular_acceleration = base.angular_acceleration + base.derivative(turn);
+                placed.angular = base.angular + turn;
             }
             runs.push(run);
             if let Some(slide) = screw.slide(qd).map(|slide| axis.scale(slide)) {
