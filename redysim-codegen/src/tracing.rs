@@ -4,7 +4,7 @@ use crate::expressions::Expressions;
 use crate::passes::{PassError, Passes, simplified};
 use crate::symbol::{Symbol, Tracer};
 use redysim_model::{Function, Tree, denoc};
-use redysim_runtime::function::{Argument, Dimension};
+use redysim_runtime::function::Argument;
 
 /// The expressions of `function` on `tree`, forward dynamics by the recursion, simplified.
 pub fn simplified_on(tree: &Tree, function: Function, passes: &Passes) -> Result<Expressions, PassError> {
@@ -22,12 +22,7 @@ pub fn traced(
     function: Function,
     computed: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 ) -> Expressions {
-    let length = |argument: &Argument| match argument.dimension() {
-        Dimension::Coordinates => tree.nq(),
-        Dimension::Velocities => tree.nv(),
-        Dimension::Links => tree.links.len(),
-        Dimension::LoopRows => tree.loops_of_rows().count(),
-    };
+    let length = |argument: &Argument| tree.size(argument.dimension());
     traced_of(function.signature().arguments.iter().map(length), computed)
 }
 
@@ -44,4 +39,29 @@ pub fn traced_of(
         tracer.edges(&computed(&tracer, &symbols))
     };
     Expressions { graph: tracer.into_graph(), outputs }
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use redysim_model::Model;
+    use redysim_runtime::Dual;
+
+    /// A chain of 40 uniform bodies.
+    pub fn chain_of_40() -> Tree {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/peers/chain40.toml");
+        Tree::new(&Model::load(path).expect("a valid model").model)
+    }
+
+    /// The slopes of a function of coordinates, velocities, and accelerations or forces, along a direction: the last
+    /// three of six arguments.
+    pub fn derivative_on(tree: &Tree, function: Function) -> Expressions {
+        traced_of([tree.nv(); 6], |tracer, x| {
+            let dual = |(&value, &slope)| Dual { value, slope };
+            let duals = [0, 1, 2].map(|index| x[index].iter().zip(x[index + 3]).map(dual).collect::<Vec<_>>());
+            let arguments = function.signature().arguments.len();
+            let results = denoc::evaluate(function, tree, tracer, &duals.each_ref().map(Vec::as_slice)[..arguments]);
+            results.into_iter().map(|result| result.slope).collect()
+        })
+    }
 }

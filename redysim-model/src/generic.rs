@@ -107,10 +107,10 @@ impl GenericMechanism {
 
     fn size(&self, dimension: Dimension) -> usize {
         match dimension {
+            // The tree adds up the joints' coordinates, and every call of a function checks its vectors.
             Coordinates => self.coordinate_names.len(),
             Velocities => self.velocity_names.len(),
-            Dimension::Links => self.tree.links.len(),
-            Dimension::LoopRows => self.tree.loops_of_rows().count(),
+            other => self.tree.size(other),
         }
     }
 

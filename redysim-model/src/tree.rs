@@ -8,6 +8,7 @@ use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_runtime::Scalar;
+use redysim_runtime::function::Dimension;
 use std::ops::Range;
 
 /// Moving bodies, parents first, and where the model's links stand on them.
@@ -180,8 +181,18 @@ impl<P> Tree<P> {
         (0..nq).map(|k| (golden * (position * nq + k + 1) as f64).fract() * 6.0 - 3.0).collect()
     }
 
+    /// The number of elements that a vector of this dimension has.
+    pub fn size(&self, dimension: Dimension) -> usize {
+        match dimension {
+            Dimension::Coordinates => self.nq(),
+            Dimension::Velocities => self.nv(),
+            Dimension::Links => self.links.len(),
+            Dimension::LoopRows => self.loops_of_rows().count(),
+        }
+    }
+
     /// The bodies in the model's order of joints.
-    pub fn bodies_by_joint(&self) -> Vec<usize> {
+    fn bodies_by_joint(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.bodies.len()).collect();
         order.sort_by_key(|&body| self.bodies[body].v.start);
         order

@@ -1,13 +1,12 @@
-//! A program computes what its graph does. Its statements are carried out one by one here, without any backend.
+//! A program computes what its graph does. Its statements are executed one by one here, without a backend.
 
 use super::{Index, Loop, NamingContext, Program, Statement, Trig, Value, program};
 use crate::angles::Angles;
-use crate::expressions::Expressions;
 use crate::passes::{Passes, simplified};
-use crate::symbol::Tracer;
-use crate::tracing::{traced_of, traced_on};
-use redysim_model::{Function, Model, Tree, denoc};
-use redysim_runtime::{Dual, Scalar};
+use crate::tracing::tests::{chain_of_40, derivative_on};
+use crate::tracing::traced_on;
+use redysim_model::Function;
+use redysim_runtime::Scalar;
 use std::collections::HashMap;
 
 /// The state of a program that runs.
@@ -121,18 +120,6 @@ fn run(program: &Program, angles: &Angles, arguments: &[&[f64]]) -> Vec<f64> {
     program.outputs.iter().map(|output| run.value(output)).collect()
 }
 
-/// The slopes of a function of coordinates, velocities, and accelerations or forces, along a direction: the last three
-/// of six arguments.
-fn derivative_on(tree: &Tree, function: Function) -> Expressions {
-    traced_of([tree.nv(); 6], |tracer: &Tracer, x| {
-        let dual = |(&value, &slope)| Dual { value, slope };
-        let duals = [0, 1, 2].map(|index| x[index].iter().zip(x[index + 3]).map(dual).collect::<Vec<_>>());
-        let arguments = function.signature().arguments.len();
-        let results = denoc::evaluate(function, tree, tracer, &duals.each_ref().map(Vec::as_slice)[..arguments]);
-        results.into_iter().map(|result| result.slope).collect()
-    })
-}
-
 /// The groups of each loop of the program.
 fn groups(program: &Program) -> Vec<usize> {
     let groups = program.statements.iter().filter_map(|statement| match statement {
@@ -145,8 +132,7 @@ fn groups(program: &Program) -> Vec<usize> {
 /// All 40 bodies but a few at the ends are in the loops: one by one, or, where passes make neighbours differ, by twos.
 #[test]
 fn loops_over_the_bodies_of_a_chain_compute_the_bits_of_the_graph_and_so_do_those_of_derivatives() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/peers/chain40.toml");
-    let tree = Tree::new(&Model::load(path).expect("a valid model").model);
+    let tree = chain_of_40();
     let bodies: Vec<String> = (0..tree.bodies.len()).map(|body| format!("body{body}")).collect();
     let element = |argument: usize, i: usize| (0.9 * argument as f64 + 2.3 * i as f64).sin();
     let arguments: Vec<Vec<f64>> = (0..6).map(|k| (0..tree.nv()).map(|i| element(k, i)).collect()).collect();

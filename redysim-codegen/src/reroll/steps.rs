@@ -124,21 +124,17 @@ impl Steps {
     }
 }
 
-/// The step of each live operation. One that reads of other sweeps and of its own what belongs to another body only is a
-/// step of that body: the derivative of a child's rotation times the child's wrench, say. So a loop reads of other loops
-/// what they have computed for the same group.
+/// The step of each live operation. An operation is moved to another body if all steps that it reads are of that body
+/// and at least one of them is of another sweep, as for the derivative of a child's rotation times the child's wrench. A
+/// loop then reads from other loops only values of its own group.
 fn at_the_bodies_that_they_read(graph: &Graph, live: &[bool]) -> Vec<Option<Step>> {
     let mut steps: Vec<Option<Step>> = vec![None; graph.len()];
     for node in (0..graph.len()).filter(|&node| live[node]) {
         let Some(own) = graph.step(node) else { continue };
-        let mut read = graph.node(node).operands().filter_map(|operand| steps[operand.node()]).peekable();
-        let body = read.peek().map_or(own.body, |step| step.body);
-        let mut other_sweeps = false;
-        let one_body = read.all(|step| {
-            other_sweeps |= step.sweep != own.sweep;
-            step.body == body
-        });
-        steps[node] = Some(if one_body && other_sweeps { Step { body, ..own } } else { own });
+        let read = || graph.node(node).operands().filter_map(|operand| steps[operand.node()]);
+        let of_another_sweep = read().find(|step| step.sweep != own.sweep);
+        let moved = of_another_sweep.filter(|moved| read().all(|step| step.body == moved.body));
+        steps[node] = Some(moved.map_or(own, |Step { body, .. }| Step { body, ..own }));
     }
     steps
 }
@@ -157,38 +153,22 @@ fn operation(node: Node) -> Operation {
 mod tests {
     use super::*;
     use crate::angles::Angles;
+    use crate::expressions::Expressions;
     use crate::reroll::operations;
-    use crate::symbol::{Symbol, Tracer};
-    use crate::tracing::traced_of;
-    use redysim_model::{Function, Model, Tree, denoc};
-    use redysim_runtime::Dual;
+    use crate::tracing::tests::{chain_of_40, derivative_on};
+    use crate::tracing::traced_on;
+    use redysim_model::Function;
 
-    /// The uniform bodies in what `computed` computes from the arguments of a function of the chain and their slopes.
-    fn uniform_bodies(
-        tree: &Tree,
-        computed: impl for<'g> Fn(&'g Tracer, [Vec<Dual<Symbol<'g>>>; 3]) -> Vec<Symbol<'g>>,
-    ) -> Option<Range<usize>> {
-        let expressions = traced_of([tree.nv(); 6], |tracer, x| {
-            let dual = |(&value, &slope)| Dual { value, slope };
-            computed(tracer, [0, 1, 2].map(|index| x[index].iter().zip(x[index + 3]).map(dual).collect()))
-        });
-        let positions = Angles::of([&expressions]).positions(&expressions);
-        Steps::of(&expressions.graph, &operations(&expressions), &positions).longest_run(1)
+    fn uniform_bodies(expressions: &Expressions) -> Option<Range<usize>> {
+        let positions = Angles::of([expressions]).positions(expressions);
+        Steps::of(&expressions.graph, &operations(expressions), &positions).longest_run(1)
     }
 
     #[test]
     fn the_bodies_that_are_uniform_in_a_function_are_uniform_in_its_derivative() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/peers/chain40.toml");
-        let tree = &Tree::new(&Model::load(path).expect("a valid model").model);
-        let function = Function::InverseDynamics;
-        let plain = uniform_bodies(tree, |tracer, x| {
-            let x = x.map(|duals| duals.iter().map(|dual| dual.value).collect::<Vec<_>>());
-            denoc::evaluate(function, tree, tracer, &x.each_ref().map(Vec::as_slice))
-        });
-        let derivative = uniform_bodies(tree, |tracer, x| {
-            let forces = denoc::evaluate(function, tree, tracer, &x.each_ref().map(Vec::as_slice));
-            forces.into_iter().map(|force| force.slope).collect()
-        });
+        let (tree, function) = (chain_of_40(), Function::InverseDynamics);
+        let plain = uniform_bodies(&traced_on(&tree, function));
+        let derivative = uniform_bodies(&derivative_on(&tree, function));
         assert!(plain.as_ref().is_some_and(|bodies| bodies.len() > 30), "{plain:?}");
         assert_eq!(derivative, plain);
     }

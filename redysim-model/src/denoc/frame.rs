@@ -136,15 +136,17 @@ fn find_positions<S: Scalar>(positions: &mut Vec<AxisPosition<S>>, tree: &Tree<i
         });
         let carried = merged_parent.and_then(|parent| positions[parent].angle);
         let carried = carried.map(|angle| body.about_parallel_axis(angle.value));
-        let angle = match (carried, own) {
-            (Some(carried), Some(own)) => Some(Angle { value: carried + own, is_sum: true, rotation: None }),
-            (carried, own) => carried.or(own).map(|value| Angle { value, is_sum: carried.is_some(), rotation: None }),
+        let value = match (carried, own) {
+            (Some(carried), Some(own)) => Some(carried + own),
+            _ => carried.or(own),
         };
+        let angle = value.map(|value| Angle { value, is_sum: carried.is_some(), rotation: None });
         positions.push(AxisPosition { angle, displacement });
     }
 }
 
-/// Takes the sines and cosines of all angles, several at once: for numbers. Each symbol's belongs to its body's step.
+/// Computes the sines and cosines of all angles, several at once; for numbers only. In a traced function, those of a body
+/// are computed in its step.
 fn take_rotations<S: Scalar>(positions: &mut [AxisPosition<S>]) {
     /// As many as a vector of 256 bits holds in double precision.
     const AT_ONCE: usize = 4;
