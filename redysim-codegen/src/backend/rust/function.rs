@@ -26,10 +26,9 @@ impl Writer<'_> {
     pub fn joint_trig(&self) -> TokenStream {
         let head = joint_trig_head(self.interface, self.angles(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
-        let (turns_taken_off, angles) = (turns_taken_off(self.trig), self.trig.angles.iter().map(angle));
+        let sines_and_cosines = sines_and_cosines(self.trig);
         let body = with_target_features(&quote! {
-            #turns_taken_off
-            let (sin, cos) = S::sin_cos_all([#(#angles),*]);
+            #sines_and_cosines
             #runtime::JointTrig::new(#q, &sin, &cos)
         });
         quote! {
@@ -96,12 +95,16 @@ fn turns_taken_off(TrigProgram { without_turns: coordinates, .. }: &TrigProgram)
     (!coordinates.is_empty()).then(|| quote!(let [#(#names),*] = S::without_turns([#(#q[#places]),*]);))
 }
 
+/// The statements that compute the sines and cosines of the angles.
+fn sines_and_cosines(trig: &TrigProgram) -> TokenStream {
+    let (turns_taken_off, angles) = (turns_taken_off(trig), trig.angles.iter().map(angle));
+    quote!(#turns_taken_off let (sin, cos) = S::sin_cos_all([#(#angles),*]);)
+}
+
 /// The statement that computes the sines and cosines that one function needs, and the arrays of those of all angles,
 /// with zeros for the others.
 fn trig_statement(trig: &TrigProgram) -> (Option<TokenStream>, TokenStream, TokenStream) {
-    let (turns_taken_off, angles) = (turns_taken_off(trig), trig.angles.iter().map(angle));
-    let computed =
-        (!trig.angles.is_empty()).then(|| quote!(#turns_taken_off let (sin, cos) = S::sin_cos_all([#(#angles),*]);));
+    let computed = (!trig.angles.is_empty()).then(|| sines_and_cosines(trig));
     if trig.is_complete() && !trig.angles.is_empty() {
         return (computed, quote!(&sin), quote!(&cos));
     }
