@@ -125,24 +125,24 @@ fn drift(stabilisation: Stabilisation<f64>, steps: u32) -> (f64, f64, [f64; 7]) 
     let copy = ClosedLoopSimulation::<f64, _, _>::new(ClosedLoop::new(&Fourbar), ZeroTorque);
     let start = spin.start(&START, &SPIN).expect("a closed start");
     let energy = Fourbar::energy(&START, &SPIN).total();
-    let (mut gap, mut change) = (0.0_f64, 0.0_f64);
+    let (mut residual, mut change) = (0.0_f64, 0.0_f64);
     let end = Ode4::new(1e-4)
         .each_step(&mut spin, (0.0, 1e-4 * f64::from(steps)), start, |step| {
             let now = copy.split(step.end().1);
-            gap = gap.max(largest(&Fourbar::loop_residual(&now.q)));
+            residual = residual.max(largest(&Fourbar::loop_residual(&now.q)));
             change = change.max((Fourbar::energy(&now.q, &now.v).total() - energy).abs());
         })
         .expect("it moves");
-    (gap, change, end.y)
+    (residual, change, end.y)
 }
 
 #[test]
 fn the_projection_keeps_the_loop_closed_and_the_energy() {
     // 10 s in optimised builds.
     let steps = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
-    let (gap, change, _) = drift(Stabilisation::Projection, steps);
-    println!("{gap:e} m, {change:e} J");
-    assert!(gap <= 1e-12, "{gap:e} m");
+    let (residual, change, _) = drift(Stabilisation::Projection, steps);
+    println!("{residual:e} m, {change:e} J");
+    assert!(residual <= 1e-12, "{residual:e} m");
     assert!(change <= 1e-8, "{change:e} J");
 }
 
@@ -159,14 +159,14 @@ fn without_projection_the_loop_drifts_apart_and_baumgarte_holds_it_less_closely(
 #[test]
 fn every_integrator_keeps_the_loop_closed_and_counts_what_it_costs() {
     let loops = ClosedLoop::new(&Fourbar);
-    let gap = |state: &[f64; 7]| largest(&Fourbar::loop_residual(&[state[0], state[1], state[2]]));
+    let residual = |state: &[f64; 7]| largest(&Fourbar::loop_residual(&[state[0], state[1], state[2]]));
     let mut spin = ClosedLoopSimulation::new(loops, ZeroTorque);
     let start = spin.start(&START, &SPIN).expect("a closed start");
     let classical = Ode4::new(1e-3).integrate(&mut spin, (0.0, 0.1), start).expect("it moves");
     let fixed = Ode5::new(1e-3).integrate(&mut spin, (0.0, 0.1), start).expect("it moves");
     let adaptive = Ode45::new().rtol(1e-8).atol(1e-8).integrate(&mut spin, (0.0, 0.1), start).expect("it moves");
     for (end, stages) in [(classical, 4), (fixed, 6), (adaptive, 6)] {
-        assert!(gap(&end.y) < 1e-14, "{:e}", gap(&end.y));
+        assert!(residual(&end.y) < 1e-14, "{:e}", residual(&end.y));
         let took = end.statistics;
         assert_eq!(took.corrections, took.steps);
         // One evaluation at the start of each step but the first, which has that of the start of all.
@@ -189,18 +189,18 @@ fn the_windows_pass_through_their_singular_positions_with_steps_of_every_size() 
     for &(size, allowed) in sizes {
         let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), ZeroTorque);
         let start = turn.start(&[0.0; 5], &WINDOWS_START).expect("a closed start");
-        let mut gap = 0.0_f64;
+        let mut residual = 0.0_f64;
         let end = Ode4::new(size)
             .each_step(&mut turn, (0.0, 10.0), start, |step| {
                 let y = step.end().1;
-                gap = gap.max(largest(&Windows::loop_residual(&[y[0], y[1], y[2], y[3], y[4]])));
+                residual = residual.max(largest(&Windows::loop_residual(&[y[0], y[1], y[2], y[3], y[4]])));
             })
             .expect("it passes");
         let tip = [-end.y[0].sin(), end.y[0].cos()];
         let error = difference(&tip, &TIP);
-        println!("steps of {size:e} s: {error:.1e} m, gap {gap:.1e} m");
+        println!("steps of {size:e} s: {error:.1e} m, residual {residual:.1e} m");
         assert!(error <= allowed, "steps of {size:e} s: {error:e} m");
-        assert!(gap <= 1e-13, "{gap:e} m");
+        assert!(residual <= 1e-13, "{residual:e} m");
         assert!(difference(&end.y[..5], &[1.0, -1.0, 1.0, -1.0, 1.0].map(|sign| sign * end.y[0])) < 1e-5, "parallel");
     }
 }
@@ -299,7 +299,7 @@ fn a_four_bar_stays_closed_to_1e_6_in_single_precision() {
     let (q, v) = (START.map(|q| q as f32), SPIN.map(|v| v as f32));
     let start = spin.start(&q, &v).expect("closed to single precision");
     let end = Ode4::new(1e-3_f32).integrate(&mut spin, (0.0, 0.1), start).expect("it moves").y;
-    assert!(Fourbar::loop_residual(&[end[0], end[1], end[2]]).iter().all(|gap| gap.abs() < 1e-6), "{end:?}");
+    assert!(Fourbar::loop_residual(&[end[0], end[1], end[2]]).iter().all(|residual| residual.abs() < 1e-6), "{end:?}");
     let mut rate = end;
     spin.derivative(0.0, &end, &mut rate);
     assert!(rate.iter().all(|rate| rate.is_finite()));

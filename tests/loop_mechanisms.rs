@@ -90,14 +90,14 @@ fn shipped_starts_close_to_their_printed_digits() {
 #[test]
 fn the_residual_of_a_shipped_start_is_how_far_it_is_open() {
     let q = [1.0467, 5.4206, -2.5357, 4.1883, -2.0939, 5.7637, -0.9869];
-    let gaps = [8.667854701798317e-3, -1.2887062751045786e-3, 9.48910764392863e-3, 1.5710720137542822e-3];
+    let expected = [8.667854701798317e-3, -1.2887062751045786e-3, 9.48910764392863e-3, 1.5710720137542822e-3];
     let residual = loop_residual(&generic("three_rrr"), &q);
-    assert!((vector(&residual) - vector(&gaps)).amax() < 1e-15, "{residual:?}");
+    assert!((vector(&residual) - vector(&expected)).amax() < 1e-15, "{residual:?}");
 
     let gui = generic("fourbar_gui");
     let residual = loop_residual(&gui, &[0.0, 145.54_f64.to_radians(), 130.54_f64.to_radians()]);
-    let gap = [3.4039137372914377e-3, -2.587950012910506e-2];
-    assert!((vector(&residual) - vector(&gap)).amax() < 1e-15, "{residual:?}");
+    let expected = [3.4039137372914377e-3, -2.587950012910506e-2];
+    assert!((vector(&residual) - vector(&expected)).amax() < 1e-15, "{residual:?}");
     let closed = loop_residual(&gui, &[0.0, 2.278380763520252, 2.278380763520252]);
     assert!(largest(&closed) < 1e-15, "{closed:?}");
 }
@@ -133,12 +133,12 @@ fn reference_forces_at_the_cuts_balance_the_joint_forces() {
 /// the multipliers are the reference's.
 #[test]
 fn multipliers_along_free_motions_are_the_references() {
-    fn check<const NV: usize, const NC: usize>(name: &str, gap: f64, text: &str) {
+    fn check<const NV: usize, const NC: usize>(name: &str, expected: f64, text: &str) {
         let mechanism = generic(name);
         let mut multipliers = Comparison::new(format!("{name} multipliers"));
         let rows = reference(text, [1, NV, NV, 3, NC]);
         let at_start = vector(&loop_residual(&mechanism, &rows[0][1]));
-        assert!((at_start.amax() - gap).abs() < 1e-6, "{name}: open by {:e} m", at_start.amax());
+        assert!((at_start.amax() - expected).abs() < 1e-6, "{name}: open by {:e} m", at_start.amax());
         let (mut drift, mut rate) = (0.0_f64, 0.0_f64);
         for [_, q, v, _, expected] in &rows {
             drift = drift.max((vector(&loop_residual(&mechanism, q)) - &at_start).amax());

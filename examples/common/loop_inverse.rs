@@ -39,7 +39,7 @@ where
     I: Vector<f64>,
 {
     let mut inverse = ClosedLoopInverse::new(ClosedLoop::new(mechanism), actuated, q);
-    let (empty, residual_at) = (Vec::new, |q: &M::Coordinates| position_residual(mechanism, q));
+    let empty = Vec::new;
     let mut run = LoopInverseRun {
         q: empty(),
         v: empty(),
@@ -52,7 +52,7 @@ where
     };
     for &t in &t {
         let forces = inverse.at(t, trajectory).context(|| format!("inverse dynamics of the loops at {t} s"))?;
-        run.position_residual = run.position_residual.max(residual_at(&forces.motion.q));
+        run.position_residual = run.position_residual.max(position_residual(mechanism, &forces.motion.q));
         run.rank = run.rank.min(forces.rank);
         run.q.push(forces.motion.q.as_ref().to_vec());
         run.v.push(forces.motion.v.as_ref().to_vec());

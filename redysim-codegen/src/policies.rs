@@ -4,8 +4,9 @@
 //! them.
 
 /// A division or a square root counts as one operation, as in the flops that the documentation states. It takes several
-/// times as long, but this affects few choices: of the functions that are compared, only forward dynamics has
-/// divisions, and either algorithm has about one for each joint.
+/// times as long, but this affects few choices: prices are compared before and after a pass and in pruning, which keep
+/// the number of divisions; the algorithms for forward dynamics, which have about one for each joint, are compared by
+/// flops.
 pub const PRICE_PER_DIVISION: u32 = 1;
 
 /// A sine-cosine pair takes about the time of this many multiplications, where the pairs of several angles are computed
@@ -20,7 +21,7 @@ pub const LONGEST_UNROLLED: u32 = 3000;
 /// end of a run stay unrolled.
 pub const FEWEST_GROUPS: usize = 4;
 
-/// The most bodies in a group. Links that are mounted in turns, such as mirrored ones, repeat after two or three; every
+/// The most bodies in a group. Links that alternate, such as mirrored ones, repeat after two or three; every
 /// period that is tried takes another search through the function.
 pub const LONGEST_PERIOD: usize = 3;
 

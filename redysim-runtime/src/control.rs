@@ -81,7 +81,7 @@ impl<S: Scalar, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ZeroTorque {
 pub struct Proportional<Q, V> {
     /// The set point q_d.
     pub target: Q,
-    /// Kp, one for each joint.
+    /// Kp, one for each velocity.
     pub kp: V,
 }
 
@@ -110,9 +110,9 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Proportional<M::Coor
 pub struct ProportionalDerivative<Q, V> {
     /// The set point q_d.
     pub target: Q,
-    /// Kp, one for each joint.
+    /// Kp, one for each velocity.
     pub kp: V,
-    /// Kd, one for each joint.
+    /// Kd, one for each velocity.
     pub kd: V,
 }
 
@@ -174,9 +174,9 @@ fn spring_and_damper<S: Real, Q: Vector<S>, V: Vector<S>>(kp: &V, kd: &V, dq: &Q
 pub struct TrackingPd<T, V> {
     /// The motion to follow.
     pub trajectory: T,
-    /// Kp, one for each joint.
+    /// Kp, one for each velocity.
     pub kp: V,
-    /// Kd, one for each joint.
+    /// Kd, one for each velocity.
     pub kd: V,
 }
 
@@ -223,9 +223,9 @@ pub struct ComputedTorque<'m, M, T, V> {
     pub mechanism: &'m M,
     /// The motion to follow.
     pub trajectory: T,
-    /// Kp, one for each joint, 1/s².
+    /// Kp, one for each velocity, 1/s².
     pub kp: V,
-    /// Kd, one for each joint, 1/s.
+    /// Kd, one for each velocity, 1/s.
     pub kd: V,
 }
 

@@ -36,7 +36,8 @@ pub trait Scalar:
     /// Sines and cosines of several angles, at once where that is faster.
     #[inline(always)]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-        // Not begun as copies of the angles: a copy by wider vectors than those just written waits for their stores.
+        // Starts from zeros, not from copies of `angles`: loading these as wider vectors than they were stored as stalls
+        // the processor (store forwarding fails).
         let (mut sines, mut cosines) = ([Self::from_f64(0.0); N], [Self::from_f64(0.0); N]);
         for ((sin, cos), angle) in sines.iter_mut().zip(&mut cosines).zip(&angles) {
             (*sin, *cos) = angle.sin_cos();

@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Write to this file instead of printing.
     #[arg(long, short)]
     output: Option<PathBuf>,
-    /// Keep fixed links as links of their own (this is what happens anyway).
+    /// Keep fixed links as links of their own (the default).
     #[arg(long, conflicts_with = "fuse_fixed")]
     keep_fixed: bool,
     /// Make fixed links parts of the links that carry them; their frames are lost.

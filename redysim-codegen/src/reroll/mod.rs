@@ -48,7 +48,8 @@ pub struct Sweep {
     pub name: &'static str,
     /// Whether it starts at the first group; else at the last.
     pub ascending: bool,
-    /// The node before which it runs: the first of its own, or the one behind the last that it reads.
+    /// The node before which it runs: the first of its own or, if later, the one after the last that it reads from
+    /// outside the loops.
     pub start: usize,
     /// The nodes of the template, in order.
     pub template: Vec<usize>,

@@ -1,4 +1,4 @@
-//! Who looks at every step: what is written, and what must stay.
+//! The observer of a run: writes the requested instants, and follows energy and position residuals at every step.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use crate::interrupt;
 use crate::results::Record;
 use crate::scenario::{Forward, Scenario};
 
-/// Writes the asked instants, and follows energy and position residuals.
+/// Writes the requested instants, and follows energy and position residuals.
 pub struct RunObserver<'a, 'r> {
     scenario: &'a Scenario,
     forward: &'a Forward,
