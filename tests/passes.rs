@@ -13,14 +13,13 @@ use std::fmt::Write;
 /// The passes with one switched.
 type Switch = fn(&mut Passes) -> &mut bool;
 
-const SWITCHES: [(&str, Switch); 9] = [
+const SWITCHES: [(&str, Switch); 8] = [
     ("frames", |passes| &mut passes.frames),
     ("base_parameters", |passes| &mut passes.base_parameters),
     ("axis_masses", |passes| &mut passes.axis_masses),
     ("parallel_axes", |passes| &mut passes.parallel_axes),
     ("units", |passes| &mut passes.units),
     ("sums", |passes| &mut passes.sums),
-    ("squares", |passes| &mut passes.squares),
     ("factors", |passes| &mut passes.factors),
     ("loops", |passes| &mut passes.loops),
 ];

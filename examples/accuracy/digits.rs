@@ -26,7 +26,7 @@ const LEFT_OUT: [(&str, Switch); 8] = [
     ("masses on axes", |passes| passes.axis_masses = false),
     ("parallel axes", |passes| passes.parallel_axes = false),
     ("units", |passes| passes.units = false),
-    ("sums and factors", |passes| (passes.sums, passes.squares, passes.factors) = (false, false, false)),
+    ("sums and factors", |passes| (passes.sums, passes.factors) = (false, false)),
     ("all passes", |passes| *passes = Passes::none()),
 ];
 

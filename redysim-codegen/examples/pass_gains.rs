@@ -16,7 +16,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("no parallel_axes", Passes { parallel_axes: false, ..all }),
         ("no units", Passes { units: false, ..all }),
         ("no sums", Passes { sums: false, ..all }),
-        ("no squares", Passes { squares: false, ..all }),
         ("no factors", Passes { factors: false, ..all }),
         ("no loops", Passes { loops: false, ..all }),
     ];

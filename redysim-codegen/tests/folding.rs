@@ -82,31 +82,6 @@ fn products_that_are_used_twice_keep_their_factor() {
 }
 
 #[test]
-fn squares_of_a_sine_and_a_cosine_are_one() {
-    assert_eq!(
-        counts(|x| {
-            let (sin, cos) = x[0].sin_cos();
-            vec![cos * (cos * x[1]) + x[2] + sin * (sin * x[1])]
-        }),
-        [1, 0, 0, 0]
-    );
-    let of_products = traced(|x| {
-        let (sin, cos) = x[0].sin_cos();
-        let (a, b) = (sin * x[1], cos * x[1]);
-        vec![x[2] - (a * a + x[3]) - b * b]
-    });
-    assert_eq!(of_products.count().flops(), 3);
-    assert_eq!(of_products.evaluate(&[&[0.7, 0.5, 2.0, 4.0]]), [-2.25]);
-    let with_coefficients = traced(|x| {
-        let (sin, cos) = x[0].sin_cos();
-        vec![k(5.0) * (sin * sin) - k(3.0) * (cos * cos)]
-    });
-    assert_eq!(with_coefficients.count().flops(), 3);
-    let expected = 5.0 * 0.7_f64.sin().powi(2) - 3.0 * 0.7_f64.cos().powi(2);
-    assert!((with_coefficients.evaluate(&[&[0.7, 0.0, 0.0, 0.0]])[0] - expected).abs() <= 1e-15);
-}
-
-#[test]
 fn a_product_is_never_multiplied_out() {
     assert_eq!(counts(|x| vec![x[0] * (x[1] + x[2]), k(2.0) * (x[1] + x[2])]), [1, 2, 0, 0]);
 }

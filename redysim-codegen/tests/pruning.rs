@@ -1,5 +1,10 @@
 //! Terms that do not matter are left out, and nothing else is.
 
+#[path = "../../tests/common/random.rs"]
+#[allow(dead_code)]
+mod random;
+
+use random::Random;
 use redysim_codegen::functions::{TracedFunction, trace_model, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, source_file_with};
@@ -26,24 +31,19 @@ fn traced(model: &Model, functions: &[&str], tolerance: f64) -> Vec<TracedFuncti
     .unwrap()
 }
 
-/// Evenly spread numbers within ±1, by the golden ratio.
-fn spread(number: usize) -> f64 {
-    2.0 * (0.618_033_988_749_895 * number as f64).fract() - 1.0
-}
-
 /// The worst error of a function at other states than those it was pruned at, as a share of the largest value.
 fn worst(whole: &TracedFunction, pruned: &TracedFunction, range: JointRange, joints: usize) -> f64 {
     let JointRange { position: [least, largest], velocity, acceleration, .. } = range;
     let (mut sizes, mut errors) = (vec![0.0_f64; joints], vec![0.0_f64; joints]);
-    for state in 0..4000 {
+    let mut random = Random::new(1);
+    for state in 0..20_000 {
         // In every other state rates are at their limits, where joint forces are largest.
-        let vector = |argument: usize, size: f64| -> Vec<f64> {
-            let share = |joint: usize| spread(7 * state + 131 * argument + 1009 * joint);
-            let at_limit = argument > 0 && state % 2 == 0;
-            (0..joints).map(|joint| size * if at_limit { share(joint).signum() } else { share(joint) }).collect()
+        let mut vector = |bound: f64, at_limit: bool| -> Vec<f64> {
+            let values = random.vector(joints, bound);
+            if at_limit { values.iter().map(|value| bound.copysign(*value)).collect() } else { values }
         };
-        let q: Vec<f64> = vector(0, 0.5 * (largest - least)).iter().map(|x| x + 0.5 * (least + largest)).collect();
-        let (v, a) = (vector(1, velocity), vector(2, acceleration));
+        let q = vector(0.5 * (largest - least), false).iter().map(|x| x + 0.5 * (least + largest)).collect::<Vec<_>>();
+        let (v, a) = (vector(velocity, state % 2 == 0), vector(acceleration, state % 2 == 0));
         let [whole, pruned] = [whole, pruned].map(|function| function.expressions.evaluate::<f64>(&[&q, &v, &a]));
         for joint in 0..joints {
             sizes[joint] = sizes[joint].max(whole[joint].abs());
@@ -100,15 +100,15 @@ fn a_stated_force_is_what_the_tolerance_is_a_share_of() {
         own.flops()
     );
     assert!(count.flops() + 30 <= own.flops());
-    for state in 0..2000 {
+    let mut random = Random::new(2);
+    for _ in 0..2000 {
         let vector = |argument: usize| -> Vec<f64> {
-            let share = |joint: usize| spread(7 * state + 131 * argument + 1009 * joint);
-            let ranges = model.links.iter().map(|link| link.range.unwrap()).enumerate();
+            let ranges = model.links.iter().map(|link| link.range.unwrap());
             ranges
-                .map(|(joint, JointRange { position: [a, b], velocity, acceleration, .. })| match argument {
-                    0 => 0.5 * (a + b) + 0.5 * (b - a) * share(joint),
-                    1 => velocity * share(joint),
-                    _ => acceleration * share(joint),
+                .map(|JointRange { position: [a, b], velocity, acceleration, .. }| match argument {
+                    0 => 0.5 * (a + b) + random.within(0.5 * (b - a)),
+                    1 => random.within(velocity),
+                    _ => random.within(acceleration),
                 })
                 .collect()
         };

@@ -23,8 +23,7 @@ pub fn shared(expressions: &Expressions) -> Expressions {
             sum.push(graph.multiply(mapped(factor), cofactors));
             open = without;
         }
-        // In the order of the terms, so that a sum without common factors stays what it was.
-        open.into_iter().map(mapped).chain(sum).fold(graph.constant(0.0), |sum, term| graph.add(sum, term))
+        sum.into_iter().chain(open.into_iter().map(mapped)).fold(graph.constant(0.0), |sum, term| graph.add(sum, term))
     })
 }
 

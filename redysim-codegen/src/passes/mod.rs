@@ -1,7 +1,6 @@
 //! Passes over expressions: each takes a graph and returns one of equal value.
 
 mod factors;
-mod squares;
 mod structure;
 mod sums;
 mod terms;
@@ -26,8 +25,6 @@ pub struct Passes {
     pub units: bool,
     /// Like terms of sums are collected.
     pub sums: bool,
-    /// sin² + cos² = 1.
-    pub squares: bool,
     /// Common factors are taken out of sums.
     pub factors: bool,
     /// Loops over uniform bodies, where the code is long.
@@ -44,7 +41,6 @@ impl Passes {
             parallel_axes: false,
             units: false,
             sums: false,
-            squares: false,
             factors: false,
             loops: false,
         }
@@ -59,7 +55,6 @@ impl Passes {
             parallel_axes: true,
             units: true,
             sums: true,
-            squares: true,
             factors: true,
             loops: true,
         }
@@ -93,11 +88,9 @@ pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expre
     }
     let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
     let collected = sums(expressions)?;
-    let price = collected.price();
-    let merged = applied("squares", passes.squares, squares::merged, collected)?;
-    let shared = applied("factors", passes.factors, factors::shared, merged)?;
-    // Factors that were taken out leave new like terms.
-    if shared.price() < price { sums(shared) } else { Ok(shared) }
+    let shared = applied("factors", passes.factors, factors::shared, collected.clone())?;
+    // Factors that were taken out leave new like terms; without any, the sums stay balanced.
+    if shared.price() < collected.price() { sums(shared) } else { Ok(collected) }
 }
 
 /// The expressions after a pass, if it is on and does not raise the price.
