@@ -1,7 +1,7 @@
 //! On random trees the recursions, the base parameters and the traced expressions agree with Kane's equations.
 //!
 //! Two hundred trees of up to twelve joints: revolute, prismatic, helical and fixed, branching, oblique, links in
-//! scrambled order.
+//! scrambled order; in half of them with rotors, damping, friction and springs.
 
 mod common;
 
@@ -13,7 +13,7 @@ use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
 
 use redysim_model::denoc::{self, Method, Untraced};
-use redysim_model::joint::Vanishing;
+use redysim_model::joint::{JointPhysics, Vanishing};
 use redysim_model::regroup::base_parameters;
 use redysim_model::spatial::Vec3;
 use redysim_model::{Function, JointKind, Link, Model, Tree};
@@ -84,11 +84,28 @@ fn random_model(random: &mut Random) -> Model {
     Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops: Vec::new() }
 }
 
+/// What acts in a joint: each of its parts in half of the joints.
+fn joint_physics(random: &mut Random) -> JointPhysics {
+    let mut some = |largest: f64| if random.below(2) == 0 { 0.0 } else { 0.5 * largest + random.within(0.5 * largest) };
+    JointPhysics {
+        armature: some(0.5),
+        damping: some(2.0),
+        friction: some(4.0),
+        friction_velocity: 0.05 + some(0.2),
+        stiffness: some(20.0),
+        rest: some(1.0),
+    }
+}
+
 /// Calls `check` with each tree and Kane's answer at a few states.
 fn on_random_trees(mut check: impl FnMut(&Model, &Tree, &State, &Kane)) {
     for seed in 0..TREES {
         let mut random = Random::new(seed);
-        let model = random_model(&mut random);
+        let mut model = random_model(&mut random);
+        if seed % 2 == 1 {
+            let moving = model.links.iter_mut().filter(|link| link.joint != JointKind::Fixed);
+            moving.for_each(|link| link.physics = joint_physics(&mut random));
+        }
         let tree = Tree::new(&model);
         for _ in 0..STATES {
             let state = random.state(model.dof());

@@ -106,6 +106,7 @@ impl Tree {
             q: q..q + joint.nq(),
             v: v..v + joint.nv(),
             inertia: PseudoInertia::zero(),
+            physics: link.physics,
         });
         let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)

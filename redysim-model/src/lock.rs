@@ -1,6 +1,6 @@
 //! Joints held at a value: as if the file had them fixed there.
 
-use crate::joint::{Joint, JointPosition};
+use crate::joint::{Joint, JointPhysics, JointPosition};
 use crate::model::{JointKind, Link, Model};
 use crate::rotation;
 use crate::rotation::align_z;
@@ -73,6 +73,7 @@ impl Link {
         self.joint = JointKind::Fixed;
         self.axis = Vec3([0.0, 0.0, 1.0]);
         (self.offset, self.pitch) = (0.0, 0.0);
+        self.physics = JointPhysics::default();
     }
 }
 

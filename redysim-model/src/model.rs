@@ -1,5 +1,6 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
+use crate::joint::JointPhysics;
 use crate::spatial::{Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links and loops stand in the file's order.
@@ -43,6 +44,8 @@ pub struct Link {
     pub com: Vec3<f64>,
     /// Inertia about the centre of mass, in the link's axes.
     pub inertia: Inertia,
+    /// What acts in the joint itself.
+    pub physics: JointPhysics,
     /// Whether the joint has an actuator.
     pub actuated: bool,
     /// Within what the joint moves; not every file says.

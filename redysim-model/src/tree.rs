@@ -3,7 +3,7 @@
 //! Links joined rigidly become one body, parents stand before their children, and each body's frame is turned so that
 //! its joint axis is z. All of this happens in numbers, before any recursion runs, so it costs the recursions nothing.
 
-use crate::joint::Joint;
+use crate::joint::{Joint, JointPhysics};
 use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -47,6 +47,8 @@ pub struct Body<P = f64> {
     pub v: Range<usize>,
     /// Moments of its mass about the origin of its frame.
     pub inertia: PseudoInertia<P>,
+    /// What acts in the joint itself.
+    pub physics: JointPhysics<P>,
 }
 
 impl<P> Body<P> {
@@ -121,7 +123,7 @@ impl<P> Tree<P> {
         self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
     }
 
-    /// The tree with `f` applied to gravity and to each inertial parameter.
+    /// The tree with `f` applied to gravity, to each inertial parameter and to the physics of each joint.
     pub fn map<Q>(&self, f: impl Fn(P) -> Q) -> Tree<Q>
     where
         P: Scalar,
@@ -135,6 +137,7 @@ impl<P> Tree<P> {
             q: body.q.clone(),
             v: body.v.clone(),
             inertia: body.inertia.map(&f),
+            physics: body.physics.map(&f),
         };
         let link = |link: &Attachment<P>| Attachment { body: link.body, pose: link.pose, com: link.com.map(&f) };
         Tree {

@@ -1,5 +1,6 @@
 //! What a good file says arrives in the model.
 
+use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Vec3};
 use redysim_model::{CutKind, Inertia, JointKind, Link, Model};
 use std::f64::consts::FRAC_PI_2;
@@ -157,4 +158,34 @@ fn loops_know_their_links() {
     assert_eq!((rail.a.point, rail.b.point), (Vec3([0.0; 3]), Vec3([1.0, 0.0, 0.0])));
     assert_eq!((rail.a.axis, rail.b.axis), (Vec3([0.0, 0.0, 1.0]), Vec3([0.0, 0.0, 1.0])));
     assert!(!model.links[0].actuated);
+}
+
+#[test]
+fn what_acts_in_a_joint_is_read_in_the_units_of_the_joint() {
+    let placed = "joint = 'revolute'\naxis = [0, 0, 1]\n";
+    let turning = one_link(&format!(
+        "{placed}armature = 0.3\ndamping = 0.5\nfriction = 2\nfriction_velocity = '1 deg'\nstiffness = 20\nrest = '90 deg'"
+    ));
+    let expected = JointPhysics {
+        armature: 0.3,
+        damping: 0.5,
+        friction: 2.0,
+        friction_velocity: 1_f64.to_radians(),
+        stiffness: 20.0,
+        rest: FRAC_PI_2,
+    };
+    assert_eq!(turning.physics, expected);
+    let sliding = one_link("joint = 'prismatic'\naxis = [0, 0, 1]\nfriction = 2.0\nstiffness = 7\nrest = 0.1");
+    assert_eq!(sliding.physics, JointPhysics { friction: 2.0, stiffness: 7.0, rest: 0.1, ..JointPhysics::default() });
+    assert_eq!(sliding.physics.friction_velocity, 0.01);
+    assert_eq!(one_link(placed).physics, JointPhysics::default());
+}
+
+/// Its row of the mass matrix is the armature.
+#[test]
+fn a_link_without_mass_may_move_on_a_joint_with_an_armature() {
+    let text = "name = 'test'\ngravity = [0, 0, 0]\n[[link]]\nname = 'rotor'\nparent = 'base'\nmass = 0\n\
+                joint = 'revolute'\naxis = [0, 0, 1]\n";
+    assert!(Model::from_toml(text, "test.toml").is_err());
+    assert_eq!(read(&format!("{text}armature = 0.01")).dof(), 1);
 }

@@ -102,3 +102,12 @@ fn unreadable_links_give_no_echoes() {
     assert_eq!(faults.errors().count(), 1, "{faults}");
     assert_eq!(faults.interface.joints.len(), 6);
 }
+
+#[test]
+fn nothing_acts_in_a_locked_joint() {
+    let loose = text("kr5").replace("\r\n", "\n");
+    let driven = loose.replace("joint = \"revolute\"", "joint = \"revolute\"\narmature = 0.2\nfriction = 3.0");
+    let [loose, driven] = [loose, driven].map(|text| loaded(&text, "locked = { joint3 = 0.4 }"));
+    assert_eq!(driven.links[2], loose.links[2]);
+    assert_eq!(driven.links[3].physics.armature, 0.2);
+}

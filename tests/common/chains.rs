@@ -1,5 +1,6 @@
 //! Chains of rods, in numbers and proportions that make dynamics ill-conditioned.
 
+use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_model::{Inertia, JointKind, Link, Model, Tree};
 
@@ -39,6 +40,7 @@ fn link(index: usize, parent: Option<usize>, start: [f64; 3], Rod { axis, mass, 
         axis: Vec3(axis),
         offset: 0.0,
         pitch: 0.0,
+        physics: JointPhysics::default(),
         mass,
         com: Vec3([length / 2.0, 0.0, 0.0]),
         inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },

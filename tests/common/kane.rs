@@ -9,6 +9,7 @@
 //! Applications*, McGraw-Hill 1985.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
+use redysim_model::joint::JointPhysics;
 use redysim_model::{JointKind, Link, Model};
 
 /// Everything the tests compare, at one state.
@@ -16,6 +17,8 @@ pub struct Kane {
     pub matrix: DMatrix<f64>,
     pub bias: DVector<f64>,
     pub gravity: DVector<f64>,
+    /// Of damping, friction and springs in the joints, part of the bias.
+    pub passive: DVector<f64>,
     pub kinetic: f64,
     pub potential: f64,
     /// In the model's order.
@@ -137,10 +140,22 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         matrix: DMatrix::zeros(dof, dof),
         bias: DVector::zeros(dof),
         gravity: DVector::zeros(dof),
+        passive: DVector::zeros(dof),
         kinetic: 0.0,
         potential: 0.0,
         links: Vec::new(),
     };
+    let moving = model.links.iter().filter(|link| link.joint != JointKind::Fixed).enumerate();
+    for (joint, link) in moving {
+        let JointPhysics { armature, damping, friction, friction_velocity, stiffness, rest } = link.physics;
+        let stretch = q[joint] - rest;
+        sums.matrix[(joint, joint)] += armature;
+        sums.passive[joint] +=
+            damping * v[joint] + friction * v[joint] / v[joint].hypot(friction_velocity) + stiffness * stretch;
+        sums.kinetic += 0.5 * armature * v[joint].powi(2);
+        sums.potential += 0.5 * stiffness * stretch.powi(2);
+    }
+    sums.bias += &sums.passive;
     for (link, body) in model.links.iter().zip(&links) {
         let i = link.inertia;
         let central = Matrix3::new(i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz);

@@ -2,6 +2,7 @@
 
 use super::random::Random;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_model::{Inertia, JointKind, Link, Model};
 
@@ -137,6 +138,7 @@ pub fn link(number: usize, parent: Option<usize>, joint: JointKind, placement: P
         axis: Vec3([0.0, 0.0, 1.0]),
         offset: 0.0,
         pitch: 0.0,
+        physics: JointPhysics::default(),
         mass: 0.0,
         com: Vec3([0.0; 3]),
         inertia: Inertia::default(),

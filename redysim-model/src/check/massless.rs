@@ -6,8 +6,8 @@ use crate::model::Inertia;
 use crate::schema::{Document, LinkTable};
 use redysim_toml::Message;
 
-/// Each moving link that has neither mass nor inertia and carries none, with its message: its row of the mass matrix is
-/// zero.
+/// Each moving link that has neither mass nor inertia and carries none, and whose joint does not have an armature, with
+/// its message: its row of the mass matrix is zero.
 pub(super) fn check(document: &Document, parents: &[Option<usize>]) -> Vec<(usize, Message)> {
     let mut carries = vec![false; document.links.len()];
     for (i, link) in document.links.iter().enumerate() {
@@ -19,6 +19,7 @@ pub(super) fn check(document: &Document, parents: &[Option<usize>]) -> Vec<(usiz
     }
     let weightless = document.links.iter().enumerate().zip(carries).filter(|(_, carries)| !carries);
     let moving = weightless.map(|(link, _)| link).filter(|(_, link)| link.joint.value().is_some() && !link.is_rigid());
+    let moving = moving.filter(|(_, link)| matches!(link.physics.armature.value_or(0.0), Some(0.0)));
     moving
         .filter_map(|(index, link)| Some((index, messages::massless(&link.item, link.joint_name()?.get_ref()))))
         .collect()

@@ -7,6 +7,7 @@ mod massless;
 mod mobility;
 mod names;
 mod options;
+mod physics;
 mod placement;
 mod singular;
 mod tree;
@@ -77,6 +78,7 @@ fn report(document: &Document, links: &[(usize, Message)], findings: &mut Findin
 fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
     inertia::check(table, findings);
     let placed = placement::place(table, findings);
+    let physics = physics::check(table, findings);
     let (placement, axis, offset) = placed?;
     Some(Link {
         name: table.name.value()?.clone(),
@@ -90,6 +92,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
         mass: *table.mass.value()?,
         com: Vec3(table.com.value_or([0.0; 3])?),
         inertia: table.inertia.value_or(Default::default())?,
+        physics: physics?,
         actuated: table.actuated.value_or(true)?,
         range: if table.range.is_missing() { None } else { Some(*table.range.value()?) },
     })

@@ -51,12 +51,26 @@ impl<S: Scalar> ArticulatedInertia<S> {
         screw.combined(turn, slide)
     }
 
-    /// I − U Uᵀ / D: what is felt through a free joint, where U = I S is `column` and `ratio` = U / D. Where S is an
-    /// axis of six, its row and column of the result vanish identically, so they are set, not computed.
-    pub fn project_through_joint(&self, screw: Screw, column: Wrench<S>, ratio: Wrench<S>) -> Self {
+    /// I − U Uᵀ / D: what is felt through a free joint, where U = I S is `column`, D is Sᵀ U and the armature, and
+    /// `ratio` = U / D. Where S is an axis of six, its row and column of the result are those of U times the share of D
+    /// that is armature, so they are not computed as differences; without armature they vanish.
+    pub fn project_through_joint(
+        &self,
+        screw: Screw,
+        column: Wrench<S>,
+        ratio: Wrench<S>,
+        rotor_share: Option<S>,
+    ) -> Self {
         let free = screw.unit_axis().unwrap_or(6);
+        let along = |i: usize| rotor_share.map_or(S::zero(), |share| share * column.component(i));
         let element = |value: S, i: usize, j: usize| {
-            if i == free || j == free { S::zero() } else { value - ratio.component(i) * column.component(j) }
+            if i == free {
+                along(j)
+            } else if j == free {
+                along(i)
+            } else {
+                value - ratio.component(i) * column.component(j)
+            }
         };
         let (tensor, mass) = (self.tensor.full().0, self.mass.full().0);
         ArticulatedInertia {

@@ -8,11 +8,13 @@ use crate::spatial::{Twist, Vec3};
 use crate::tree::{Body, Tree};
 use redysim_runtime::{Energy, Scalar};
 
-/// Kinetic energy ½ Σ (m v² + 2 v·(ω × h) + ωᵀ J ω) and potential energy −Σ m g·c, zero at the base frame's origin, J.
+/// Kinetic energy ½ Σ (m v² + 2 v·(ω × h) + ωᵀ J ω), with that of the rotors, and potential energy −Σ m g·c, zero at
+/// the base frame's origin, with that of the springs, J.
 pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Energy<S> {
     let frames = joint_frames(tree, trace, q);
     let mut velocities: Vec<Twist<S>> = Vec::with_capacity(tree.bodies.len());
     let mut twice_kinetic = S::zero();
+    let mut twice_springs: Option<S> = None;
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let Twist { angular, linear } = body.parent.map_or(Twist::zero(), |parent| velocities[parent]);
@@ -21,6 +23,13 @@ pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S
         let velocity = body.joint.added(carried, &v[body.v.clone()]);
         trace.name_twist(velocity, ["w", "vel"], index);
         twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), velocity);
+        let (q, v) = (q[body.q.start], v[body.v.start]);
+        if let Some(armature) = body.physics.armature() {
+            twice_kinetic += armature * (v * v);
+        }
+        if let Some(energy) = body.physics.twice_spring_energy(q) {
+            twice_springs = Some(twice_springs.map_or(energy, |sum| sum + energy));
+        }
         velocities.push(velocity);
     });
     let of_body =
@@ -39,7 +48,10 @@ pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S
             None => total = total + moment,
         }
     });
-    Energy { kinetic: S::from_f64(0.5) * twice_kinetic, potential: -tree.gravity.map(ParameterIn::value).dot(total) }
+    let half = S::from_f64(0.5);
+    let lifted = tree.gravity.map(ParameterIn::value).dot(total);
+    let potential = twice_springs.map_or(-lifted, |springs| half * springs - lifted);
+    Energy { kinetic: half * twice_kinetic, potential }
 }
 
 fn twice_kinetic_energy<S: Scalar>(inertia: &RigidInertia<S>, Twist { angular, linear }: Twist<S>) -> S {

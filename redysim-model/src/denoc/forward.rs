@@ -100,16 +100,27 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         let bias = wrenches[index] + centrifugal_wrench(own, biases[index].angular);
         trace.name_wrench(bias, ["bias_n", "bias_f"], index);
         let column = inertia.column(screw);
-        let inverse = S::one() / screw.project(column);
+        let armature: Option<S> = body.physics.armature();
+        let pivot = screw.project(column);
+        let inverse = S::one() / armature.map_or(pivot, |armature| pivot + armature);
         trace.name(inverse, "inv_D", index, "");
         let ratio = column.scale(inverse);
         trace.name_wrench(ratio, ["ratio_n", "ratio_f"], index);
-        let drive = tau[body.v.start] - screw.project(bias);
+        let tau = tau[body.v.start];
+        let passive = body.physics.passive_force(q[body.q.start], v[body.v.start]);
+        let tau = passive.map_or(tau, |passive: S| tau - passive);
+        let drive = tau - screw.project(bias);
         trace.name(drive, "drive", index, "");
         if let Some(parent) = body.parent {
-            let felt = inertia.project_through_joint(screw, column, ratio);
+            // The part of the pivot that the rotor has, which the parent meets through the joint as well.
+            let rotor_share = armature.map(|armature| armature * inverse);
+            let felt = inertia.project_through_joint(screw, column, ratio, rotor_share);
             let wrench = bias + felt.apply(biases[index].acceleration) + ratio.scale(drive);
-            let wrench = body.joint.with_forces(wrench, &tau[body.v.clone()]);
+            // What the joint transmits along S is its force, less what accelerates the rotor.
+            let wrench = match rotor_share {
+                None => body.joint.with_forces(wrench, &[tau]),
+                Some(_) => wrench,
+            };
             wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
         }
@@ -129,7 +140,8 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         } + biases[index].acceleration;
         let screw = body.joint.screw();
         let Pivot { inverse, ratio, drive } = &pivots[index];
-        let qdd = *inverse * *drive - power(screw, *ratio, acceleration);
+        let has_rotor = body.physics.armature::<S>().is_some();
+        let qdd = *inverse * *drive - power(screw, *ratio, acceleration, has_rotor);
         let acceleration = screw.added(acceleration, qdd);
         trace.name(qdd, "acc", index, "");
         result[body.v.start] = qdd;
@@ -138,14 +150,15 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     });
 }
 
-/// `ratio` · `acceleration`, where Sᵀ `ratio` is one: where S is an axis of six, that component is not multiplied.
-fn power<S: Scalar>(screw: Screw, mut ratio: Wrench<S>, acceleration: Twist<S>) -> S {
+/// `ratio` · `acceleration`. Without a rotor Sᵀ `ratio` is one: where S is an axis of six, that component is not
+/// multiplied.
+fn power<S: Scalar>(screw: Screw, mut ratio: Wrench<S>, acceleration: Twist<S>, has_rotor: bool) -> S {
     match screw.unit_axis() {
-        Some(axis) => {
+        Some(axis) if !has_rotor => {
             *ratio.component_mut(axis) = S::zero();
             ratio.dot(acceleration) + acceleration.component(axis)
         }
-        None => ratio.dot(acceleration),
+        _ => ratio.dot(acceleration),
     }
 }
 

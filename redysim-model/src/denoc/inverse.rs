@@ -8,7 +8,7 @@ use crate::joint::Screw;
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Vec3, Wrench};
-use crate::tree::Tree;
+use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
 
 impl<S: Scalar> BodyMotion<S> {
@@ -143,6 +143,23 @@ pub fn inverse_dynamics_in<S: Scalar>(
     a: &[S],
     tau: &mut [S],
 ) {
+    newton_euler_in(work, tree, trace, q, v, a, tau, |body| {
+        body.physics.force(q[body.q.start], v[body.v.start], a[body.v.start])
+    });
+}
+
+/// The forces of the bodies' motion, with what acts in each joint itself, written to `tau`.
+#[allow(clippy::too_many_arguments, reason = "the arguments of `inverse_dynamics_in` and one more")]
+fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
+    work: &mut Workspace<S>,
+    tree: &Tree<P>,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    a: &[S],
+    tau: &mut [S],
+    in_joint: impl Fn(&Body<P>) -> Option<S>,
+) {
     let Workspace { positions, frames, children, motions, wrenches, .. } = work;
     joint_frames_in(positions, frames, tree, trace, q);
     children.find(tree);
@@ -167,6 +184,9 @@ pub fn inverse_dynamics_in<S: Scalar>(
         trace.name_wrench(wrench, ["moment", "force"], index);
         wrenches[index] = wrench;
         body.joint.project(wrench, &mut tau[body.v.clone()]);
+        if let Some(force) = in_joint(body) {
+            tau[body.v.start] += force;
+        }
         trace.name(tau[body.v.start], "tau", index, "");
     });
 }
@@ -176,7 +196,10 @@ pub fn bias_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Tra
     inverse_dynamics(tree, trace, q, v, &vec![S::zero(); tree.nv()])
 }
 
-/// g(q): the joint forces at rest.
+/// g(q): the joint forces of gravity alone, at rest.
 pub fn gravity_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
-    bias_forces(tree, trace, q, &vec![S::zero(); tree.nv()])
+    let rest = vec![S::zero(); tree.nv()];
+    let mut tau = rest.clone();
+    newton_euler_in(&mut Workspace::default(), tree, trace, q, &rest, &rest, &mut tau, |_| None);
+    tau
 }

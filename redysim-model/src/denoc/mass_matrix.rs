@@ -51,7 +51,10 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
         let mut at = index;
         loop {
             let joint = &tree.bodies[at];
-            let element = joint.joint.screw().project(wrench);
+            let mut element = joint.joint.screw().project(wrench);
+            if let (true, Some(armature)) = (at == index, body.physics.armature()) {
+                element += armature;
+            }
             matrix[body.v.start * nv + joint.v.start] = element;
             matrix[joint.v.start * nv + body.v.start] = element;
             let Some(parent) = joint.parent else { break };

@@ -16,6 +16,7 @@
 
 mod helical;
 mod linear;
+mod physics;
 mod position;
 mod prismatic;
 mod revolute;
@@ -26,6 +27,8 @@ use crate::model::{JointKind, Link};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
+pub(crate) use physics::FRICTION_VELOCITY;
+pub use physics::JointPhysics;
 pub use position::JointPosition;
 use redysim_runtime::Scalar;
 pub use screw::Screw;

@@ -47,6 +47,44 @@ pub(crate) fn own_parent(item: &str) -> Message {
     )
 }
 
+pub(crate) fn physics_of_fixed(item: &str, key: &str) -> Message {
+    message(
+        format!("{item}: `{key}` belongs to a joint that moves, but this one is fixed"),
+        "the joint is fixed",
+        format!("delete `{key}`, or choose another `{}`", keys::JOINT.name),
+    )
+}
+
+pub(crate) fn negative_physics(item: &str, key: &str, value: f64) -> Message {
+    let energy = match key {
+        _ if key == keys::ARMATURE.name => "the mass matrix would not be positive definite",
+        _ if key == keys::STIFFNESS.name => "the spring would push away from its rest",
+        _ => "the joint would drive itself",
+    };
+    message(
+        format!("{item}: `{key}` is negative: {value:?}; {energy}"),
+        "negative",
+        "give zero or a positive number; zero is the default",
+    )
+}
+
+pub(crate) fn friction_velocity_not_positive(item: &str, value: f64) -> Message {
+    let key = keys::FRICTION_VELOCITY.name;
+    message(
+        format!("{item}: `{key}` must be positive, but is {value:?}: friction would jump where the joint stands still"),
+        "not positive",
+        format!("give the speed below which friction is to fade, such as `{}`", keys::FRICTION_VELOCITY.example()),
+    )
+}
+
+pub(crate) fn physics_without(item: &str, key: &str, missing: &str) -> Message {
+    message(
+        format!("{item}: `{key}` has no effect without `{missing}`"),
+        format!("needs `{missing}`"),
+        format!("add `{missing}`, or delete `{key}`"),
+    )
+}
+
 /// `names` are the links of the cycle, each the child of the next, the last the child of the first.
 pub(crate) fn cycle(names: &[&str]) -> Message {
     let first = names.first().copied().unwrap_or_default();

@@ -22,7 +22,27 @@ pub(crate) const FORWARD_DYNAMICS: Key =
 
 pub(crate) const LINK: Keys = Keys::new(
     "A link",
-    &[NAME, JOINT_NAME, PARENT, JOINT, DH, ORIGIN, AXIS, PITCH, MASS, COM, INERTIA, ACTUATED, RANGE],
+    &[
+        NAME,
+        JOINT_NAME,
+        PARENT,
+        JOINT,
+        DH,
+        ORIGIN,
+        AXIS,
+        PITCH,
+        MASS,
+        COM,
+        INERTIA,
+        ARMATURE,
+        DAMPING,
+        FRICTION,
+        FRICTION_VELOCITY,
+        STIFFNESS,
+        REST,
+        ACTUATED,
+        RANGE,
+    ],
 );
 pub(crate) const JOINT_NAME: Key = Key::new("joint_name", "\"elbow\"", "default: the name of the link");
 pub(crate) const PARENT: Key = Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground");
@@ -31,6 +51,19 @@ pub(crate) const AXIS: Key = Key::new("axis", "[0.0, 0.0, 1.0]", "in the link's 
 pub(crate) const PITCH: Key = Key::new("pitch", "0.005", "m/rad: the translation for a unit of rotation");
 pub(crate) const MASS: Key = Key::new("mass", "1.5", "kg");
 pub(crate) const COM: Key = Key::new("com", "[0.0, 0.0, 0.1]", "m, in the link's frame");
+pub(crate) const ARMATURE: Key = Key::new(
+    "armature",
+    "0.3",
+    "kg m² or kg: inertia of the rotor times the square of the gear ratio, on the diagonal of the mass matrix; default: 0",
+);
+pub(crate) const DAMPING: Key = Key::new("damping", "0.5", "N m s/rad or N s/m; default: 0");
+pub(crate) const FRICTION: Key =
+    Key::new("friction", "2.0", "N m or N: f v/√(v² + ε²), which approaches f and does not stick; default: 0");
+pub(crate) const FRICTION_VELOCITY: Key =
+    Key::new("friction_velocity", "0.02", "ε of the friction; without a unit rad/s or m/s; default: 0.01");
+pub(crate) const STIFFNESS: Key = Key::new("stiffness", "20.0", "N m/rad or N/m, of a spring in the joint; default: 0");
+pub(crate) const REST: Key =
+    Key::new("rest", "0.5", "where the spring is relaxed; without a unit rad or m; default: 0");
 pub(crate) const ACTUATED: Key = Key::new("actuated", "false", "default: true");
 
 pub(crate) const DH: Key = Key::of_table(

@@ -25,10 +25,53 @@ pub(crate) struct LinkTable {
     pub(crate) mass: Field<f64>,
     pub(crate) com: Field<[f64; 3]>,
     pub(crate) inertia: Field<Inertia>,
+    pub(crate) physics: PhysicsKeys,
     pub(crate) actuated: Field<bool>,
     pub(crate) range: Field<JointRange>,
     /// The value at which the options hold the joint.
     pub(crate) locked: Option<f64>,
+}
+
+/// The keys of what acts in the joint itself.
+#[derive(Debug)]
+pub(crate) struct PhysicsKeys {
+    pub(crate) armature: Field<f64>,
+    pub(crate) damping: Field<f64>,
+    pub(crate) friction: Field<f64>,
+    pub(crate) friction_velocity: Field<f64>,
+    pub(crate) stiffness: Field<f64>,
+    pub(crate) rest: Field<f64>,
+}
+
+impl PhysicsKeys {
+    /// Of a joint that turns, in radians.
+    fn read(reader: &mut Reader<'_, '_>, turns: bool) -> PhysicsKeys {
+        PhysicsKeys {
+            armature: reader.number(&keys::ARMATURE),
+            damping: reader.number(&keys::DAMPING),
+            friction: reader.number(&keys::FRICTION),
+            friction_velocity: displacement(reader, &keys::FRICTION_VELOCITY, turns, "/s"),
+            stiffness: reader.number(&keys::STIFFNESS),
+            rest: displacement(reader, &keys::REST, turns, ""),
+        }
+    }
+
+    /// Every key with what is given for it.
+    pub(crate) fn fields(&self) -> [(&'static Key, &Field<f64>); 6] {
+        [
+            (&keys::ARMATURE, &self.armature),
+            (&keys::DAMPING, &self.damping),
+            (&keys::FRICTION, &self.friction),
+            (&keys::FRICTION_VELOCITY, &self.friction_velocity),
+            (&keys::STIFFNESS, &self.stiffness),
+            (&keys::REST, &self.rest),
+        ]
+    }
+}
+
+/// A coordinate, or its rate `per` something: of a joint that turns, in radians.
+fn displacement(reader: &mut Reader<'_, '_>, key: &Key, turns: bool, per: &str) -> Field<f64> {
+    reader.field(key, |reader, path, value| reader.parse_displacement(path, value, turns, per))
 }
 
 /// Khalil-Kleinfinger parameters: the link's frame stands in its parent's at Rx(alpha) Tx(a) Rz(theta) Tz(b).
@@ -75,6 +118,7 @@ impl LinkTable {
             mass: reader.required(&keys::MASS, Reader::number),
             com: reader.vector(&keys::COM),
             inertia: reader.table(&keys::INERTIA, inertia),
+            physics: PhysicsKeys::read(&mut reader, turns),
             actuated: reader.flag(&keys::ACTUATED),
             range: reader.table(&keys::RANGE, |reader| range(reader, turns)),
             locked: None,

@@ -1,0 +1,117 @@
+//! What acts in a joint itself: the inertia of its rotor, damping, friction and a spring.
+
+use crate::parameter::{Parameter, ParameterIn};
+use redysim_runtime::Scalar;
+
+/// The physics of a joint beside the bodies that it connects. Each of its numbers holds for every velocity of the
+/// joint; with all of them zero, nothing acts.
+///
+/// The force that a motion takes in the joint is J a + d v + f v/√(v² + ε²) + k (q − q₀), with the armature J, the
+/// damping d, the friction f, the friction velocity ε, the stiffness k and the rest q₀. It is part of the joint force
+/// τ = M a + bias: the armature of M, the others of the bias.
+///
+/// Friction is smooth: at speeds far above ε it is Coulomb's, and it does not stick. A joint at rest under a load below
+/// f creeps, at about ε times the load's share of f.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointPhysics<P = f64> {
+    /// Reflected inertia of rotor and gears, kg m² or kg: that of the rotor times the square of the gear ratio.
+    pub armature: P,
+    /// Viscous damping, N m s/rad or N s/m.
+    pub damping: P,
+    /// Coulomb friction, N m or N.
+    pub friction: P,
+    /// The speed at which friction is 1/√2 of its limit, rad/s or m/s; positive.
+    pub friction_velocity: P,
+    /// Stiffness of the spring, N m/rad or N/m.
+    pub stiffness: P,
+    /// The coordinate at which the spring is relaxed, rad or m.
+    pub rest: P,
+}
+
+/// The friction velocity of a joint whose model does not give it, rad/s or m/s.
+pub(crate) const FRICTION_VELOCITY: f64 = 0.01;
+
+impl<P: Scalar> Default for JointPhysics<P> {
+    /// Nothing acts.
+    fn default() -> Self {
+        let zero = P::zero();
+        JointPhysics {
+            armature: zero,
+            damping: zero,
+            friction: zero,
+            friction_velocity: P::from_f64(FRICTION_VELOCITY),
+            stiffness: zero,
+            rest: zero,
+        }
+    }
+}
+
+impl<P: Scalar> JointPhysics<P> {
+    /// Applies `f` to each number.
+    #[inline]
+    pub fn map<Q>(self, f: impl Fn(P) -> Q) -> JointPhysics<Q> {
+        let JointPhysics { armature, damping, friction, friction_velocity, stiffness, rest } = self;
+        JointPhysics {
+            armature: f(armature),
+            damping: f(damping),
+            friction: f(friction),
+            friction_velocity: f(friction_velocity),
+            stiffness: f(stiffness),
+            rest: f(rest),
+        }
+    }
+}
+
+impl<P: Parameter> JointPhysics<P> {
+    /// The armature; `None` if it is known to be zero.
+    #[inline]
+    pub fn armature<S: Scalar>(&self) -> Option<S>
+    where
+        P: ParameterIn<S>,
+    {
+        acting(self.armature)
+    }
+
+    /// d v + f v/√(v² + ε²) + k (q − q₀); `None` if it is known to be zero.
+    #[inline]
+    pub fn passive_force<S: Scalar>(&self, q: S, v: S) -> Option<S>
+    where
+        P: ParameterIn<S>,
+    {
+        let damping = acting(self.damping).map(|damping: S| damping * v);
+        let friction = acting(self.friction).map(|friction: S| {
+            let smoothing: S = self.friction_velocity.value();
+            friction * v / (v * v + smoothing * smoothing).sqrt()
+        });
+        let spring = acting(self.stiffness).map(|stiffness: S| stiffness * (q - self.rest.value()));
+        [damping, friction, spring].into_iter().flatten().reduce(|sum, force| sum + force)
+    }
+
+    /// J a + d v + f v/√(v² + ε²) + k (q − q₀); `None` if it is known to be zero.
+    #[inline]
+    pub fn force<S: Scalar>(&self, q: S, v: S, a: S) -> Option<S>
+    where
+        P: ParameterIn<S>,
+    {
+        let rotor = self.armature().map(|armature: S| armature * a);
+        rotor.into_iter().chain(self.passive_force(q, v)).reduce(|sum, force| sum + force)
+    }
+
+    /// Twice the energy of the spring, k (q − q₀)², J; `None` if it is known to be zero.
+    #[inline]
+    pub fn twice_spring_energy<S: Scalar>(&self, q: S) -> Option<S>
+    where
+        P: ParameterIn<S>,
+    {
+        acting(self.stiffness).map(|stiffness: S| {
+            let stretch = q - self.rest.value();
+            stiffness * (stretch * stretch)
+        })
+    }
+}
+
+/// A parameter that may not be zero.
+#[inline]
+fn acting<S: Scalar, P: ParameterIn<S>>(parameter: P) -> Option<S> {
+    (parameter.number() != Some(0.0)).then(|| parameter.value())
+}
