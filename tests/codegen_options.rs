@@ -3,7 +3,7 @@
 mod common;
 
 use common::random::{Random, State};
-use redysim::{InverseDynamics, Mechanism, OperationCount, Operations, redysim};
+use redysim::{ConfigurationSpace, InverseDynamics, Mechanism, OperationCount, Operations, redysim};
 
 redysim! {
     /// Six joints in a row, with everything.
@@ -33,6 +33,11 @@ struct ByRecursionByDerive;
 redysim! {
     /// A function that needs fewer sines and cosines than the others together.
     struct Weight("models/kr5.toml", functions = [gravity_forces]);
+}
+
+redysim! {
+    /// What every mechanism has, and nothing else.
+    struct Positions("models/kr5.toml", functions = [integrate]);
 }
 
 redysim! {
@@ -81,10 +86,29 @@ fn a_declaration_decides_how_accelerations_are_computed() {
 
 #[test]
 fn operations_are_counted_for_what_is_there() {
-    let Operations { inverse_dynamics, mass_matrix, .. } = Kr5::OPS;
-    assert_eq!(Few::OPS, Operations { inverse_dynamics, mass_matrix, ..Operations::NONE });
+    let Operations { inverse_dynamics, mass_matrix, coordinate_rates, integrate, difference, neutral, .. } = Kr5::OPS;
+    let always = Operations { coordinate_rates, integrate, difference, neutral, ..Operations::NONE };
+    assert_eq!(Few::OPS, Operations { inverse_dynamics, mass_matrix, ..always });
+    assert_eq!(Positions::OPS, always);
+    assert_eq!([integrate.additions, integrate.flops()], [6, 6]);
     assert_eq!(FromFile::OPS.energy, OperationCount::NONE);
     assert_ne!(FromFile::OPS.mass_matrix, OperationCount::NONE);
+}
+
+#[test]
+fn every_mechanism_has_the_functions_of_its_coordinates_whatever_is_selected() {
+    fn check(mechanism: &impl ConfigurationSpace<f64, Coordinates = [f64; 6], Velocities = [f64; 6]>) {
+        let (q, dv) = ([0.5, -1.0, 0.25, 2.0, -0.75, 1.5], [1.0, 0.5, -0.25, 0.125, 2.0, -1.0]);
+        // All of these sums are exact.
+        let moved = [1.5, -0.5, 0.0, 2.125, 1.25, 0.5];
+        assert_eq!(mechanism.coordinate_rates(&q, &dv), dv);
+        assert_eq!(mechanism.integrate(&q, &dv), moved);
+        assert_eq!(mechanism.difference(&q, &moved), dv);
+        assert_eq!(mechanism.neutral(), [0.0; 6]);
+    }
+    check(&Kr5);
+    check(&Few);
+    check(&Positions);
 }
 
 #[test]

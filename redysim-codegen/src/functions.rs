@@ -57,7 +57,7 @@ pub fn trace_of(tree: &Tree, options: &CodegenOptions, passes: &Passes) -> Resul
 /// Traces and simplifies the functions that `options` select. With a tolerance, joint forces, accelerations and the
 /// mass matrix are pruned.
 ///
-/// Energies, link kinematics and loops are always exact, and so are functions that are too long to be unrolled.
+/// All other functions are always exact, and so are those that are too long to be unrolled.
 ///
 /// # Errors
 ///
@@ -156,6 +156,9 @@ impl Pipeline<'_> {
             Function::CenterOfMass => (cheapest(&trees.moments(), function, passes)?, None),
             Function::LinkKinematics | Function::LoopResidual | Function::LoopJacobian | Function::LoopBias => {
                 (cheapest(&trees.kinematics(), function, passes)?, None)
+            }
+            Function::CoordinateRates | Function::Integrate | Function::Difference | Function::Neutral => {
+                (simplified_on(self.tree, function, passes)?, None)
             }
         };
         Ok(TracedFunction { function, method, expressions, pruning: None })

@@ -6,7 +6,7 @@ use crate::functions::{TraceError, TracedFunction, trace_model, trace_of};
 use crate::mechanism::MechanismProgram;
 use crate::passes::{PassError, Passes};
 use proc_macro2::{Ident, TokenStream};
-use redysim_model::{CodegenOptions, Function, Model, PublicInterface, Tree};
+use redysim_model::{CodegenOptions, Function, Functions, Model, PublicInterface, Tree};
 use redysim_runtime::OperationCount;
 
 /// The code of a mechanism, and its operations.
@@ -67,12 +67,15 @@ pub fn operations(model: &Model, options: &CodegenOptions) -> Result<Counted, Pa
     Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
-/// The functions that `options` select, and warnings.
+/// The functions that `options` select and those that every mechanism has, and warnings.
 fn functions(
     model: &Model,
     options: &CodegenOptions,
     passes: &Passes,
 ) -> Result<(Vec<TracedFunction>, Vec<String>), PassError> {
+    let always_present = Function::ALL.iter().copied().filter(|function| function.is_always_present());
+    let functions = Functions::of(options.functions.iter().chain(always_present));
+    let options = &CodegenOptions { functions, ..*options };
     let (functions, unpruned) = match trace_model(model, options, passes) {
         Ok(functions) => (functions, None),
         Err(TraceError::Pass(error)) => return Err(error),

@@ -52,7 +52,6 @@ pub mod passes;
 pub mod symbol;
 
 mod backend;
-mod configuration;
 mod documentation;
 mod forward_dynamics;
 mod generate;

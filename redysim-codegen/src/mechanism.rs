@@ -1,7 +1,6 @@
 //! A mechanism as programs and data, the input of a backend.
 
 use crate::angles::{Angle, Angles};
-use crate::configuration::CONFIGURATION_FUNCTIONS;
 use crate::documentation;
 use crate::functions::TracedFunction;
 use crate::program::{NamingContext, Program, program};
@@ -17,8 +16,6 @@ pub struct MechanismProgram<'a> {
     pub trig: TrigProgram,
     /// The functions, in the order of [`Function::ALL`].
     pub functions: Vec<FunctionProgram>,
-    /// A program for each of [`CONFIGURATION_FUNCTIONS`].
-    pub configuration: [Program; CONFIGURATION_FUNCTIONS.len()],
 }
 
 /// A function of a mechanism.
@@ -78,7 +75,6 @@ impl<'a> MechanismProgram<'a> {
             interface,
             trig: TrigProgram::new(&angles, &Vec::from_iter(0..angles.len())),
             functions: functions.iter().map(function).collect(),
-            configuration: CONFIGURATION_FUNCTIONS.map(|function| function.program(&tree, interface, reserved)),
         }
     }
 }

@@ -6,7 +6,8 @@ use redysim_codegen::passes::Passes;
 use redysim_codegen::{Generated, implementation_with};
 use redysim_model::{CodegenOptions, Model};
 
-/// The code of a model, without spaces, function by function: name and body.
+/// The code of a model, without spaces, function by function: name and body. Those that every mechanism has are methods
+/// of a trait, and left out.
 fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
     let Generated { tokens, operations, .. } = implementation_with(
         model,
@@ -21,7 +22,8 @@ fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
         text.find(&format!("pubfn{name}_with_trig<")).expect("every function takes joint trigonometry, too")
     };
     let body = |name: &str| text[start(name)..].split("pubfn").nth(1).unwrap_or_default().to_string();
-    operations.into_iter().map(|(function, _)| (function.to_string(), body(function.name()))).collect()
+    let own = operations.into_iter().filter(|(function, _)| !function.is_always_present());
+    own.map(|(function, _)| (function.to_string(), body(function.name()))).collect()
 }
 
 fn without_spaces(tokens: TokenStream) -> String {

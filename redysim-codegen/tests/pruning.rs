@@ -139,10 +139,12 @@ fn the_puma_takes_no_more_operations_than_recorded_at_a_tolerance_of_one_percent
 }
 
 #[test]
-fn energies_places_and_loops_are_exact() {
+fn energies_places_coordinates_and_loops_are_exact() {
     let range = JointRange { position: [-1.0, 1.0], velocity: 1.0, acceleration: 1.0, force: None };
     let model = with_range(model("fourbar"), range);
+    let of_coordinates = ["coordinate_rates", "integrate", "difference", "neutral"];
     let exact = ["energy", "link_kinematics", "loop_residual", "loop_jacobian", "loop_bias"];
+    let exact = [exact.as_slice(), &of_coordinates].concat();
     let whole = trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value");
     for function in traced(&model, &exact, 0.1) {
         let whole = whole.iter().find(|whole| whole.function == function.function).unwrap();

@@ -34,7 +34,8 @@ use proc_macro::TokenStream;
 /// ```
 ///
 /// - `functions = [..]`: only these, with their forms `…_with_trig` and the angles they need in `joint_trig`, and only
-///   the traits that they make up; `OPS` has no operations for the others.
+///   the traits that they make up; `OPS` has no operations for the others. Every mechanism has the functions of
+///   `ConfigurationSpace`.
 /// - `locked = { joint6 = "0 deg", slide = 0.3 }`: joints, by their names or those of their links, are held at these
 ///   coordinates, as if they were fixed there.
 /// - `tolerance = 1e-3`: joint forces, accelerations and the mass matrix may have errors of this share of each joint's

@@ -18,7 +18,7 @@ use redysim_runtime::Functions;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CodegenOptions {
-    /// The functions that are generated.
+    /// The functions that are generated, beside those of `ConfigurationSpace`, which every mechanism has.
     pub functions: Functions,
     /// The share of each joint's largest force by which joint forces, and of the largest of each of their results by
     /// which the mass matrix and accelerations, may be wrong within the ranges of the joints. `None` prunes nothing.

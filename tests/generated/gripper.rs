@@ -11,6 +11,10 @@
 // loop_residual          0 flops,   0 sine-cosine pairs
 // loop_jacobian          0 flops,   0 sine-cosine pairs
 // loop_bias              0 flops,   0 sine-cosine pairs
+// coordinate_rates       0 flops,   0 sine-cosine pairs
+// integrate              4 flops,   0 sine-cosine pairs
+// difference             4 flops,   0 sine-cosine pairs
+// neutral                0 flops,   0 sine-cosine pairs
 
 /// The mechanism `gripper`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -100,6 +104,30 @@ impl Gripper {
             trig: 0,
         },
         loop_bias: ::redysim_runtime::OperationCount {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
+        coordinate_rates: ::redysim_runtime::OperationCount {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
+        integrate: ::redysim_runtime::OperationCount {
+            additions: 4,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
+        difference: ::redysim_runtime::OperationCount {
+            additions: 4,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
+        neutral: ::redysim_runtime::OperationCount {
             additions: 0,
             multiplications: 0,
             divisions: 0,

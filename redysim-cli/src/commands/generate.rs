@@ -30,7 +30,8 @@ pub struct Arguments {
     /// The name of the Rust type [default: the model's name, as Rust writes types].
     #[arg(long)]
     name: Option<String>,
-    /// Only these functions [default: those that the model file asks for, or all].
+    /// Only these functions, beside those that every mechanism has [default: those that the model file asks for, or
+    /// all].
     #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(names_of_functions()))]
     functions: Vec<String>,
     /// Overwrite a file that is there already.

@@ -135,7 +135,13 @@ impl<'a> Reference<'a> {
                 Shape::Forces => 1.0 / weights[k],
                 Shape::Accelerations => weights[k],
                 Shape::MassMatrix => 1.0 / (weights[k / weights.len()] * weights[k % weights.len()]),
-                Shape::Energy | Shape::CenterOfMass | Shape::Links | Shape::LoopRows | Shape::LoopJacobian => 1.0,
+                Shape::Energy
+                | Shape::CenterOfMass
+                | Shape::Links
+                | Shape::LoopRows
+                | Shape::LoopJacobian
+                | Shape::Coordinates
+                | Shape::Displacement => 1.0,
             };
             extremes(&computed(&state.arguments(function)), exact, weight)
         })
@@ -204,8 +210,8 @@ impl State {
     /// The arguments of a function.
     fn arguments(&self, function: Function) -> Vec<&[f64]> {
         let of = |argument: &Argument| match argument {
-            Argument::Coordinates => self.q.as_slice(),
-            Argument::Velocities => &self.v,
+            Argument::Coordinates | Argument::Start | Argument::End => self.q.as_slice(),
+            Argument::Velocities | Argument::Displacement => &self.v,
             Argument::Accelerations => &self.a,
             Argument::Forces => &self.tau,
         };

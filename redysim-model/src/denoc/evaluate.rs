@@ -2,8 +2,8 @@
 
 use super::trace::Trace;
 use super::{
-    Method, bias_forces, center_of_mass, energy, forward_dynamics, gravity_forces, inverse_dynamics, link_kinematics,
-    loop_bias, loop_jacobian, loop_residual, mass_matrix,
+    Method, bias_forces, center_of_mass, coordinate_rates, difference, energy, forward_dynamics, gravity_forces,
+    integrate, inverse_dynamics, link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix, neutral,
 };
 use crate::parameter::ParameterIn;
 use crate::tree::Tree;
@@ -40,5 +40,9 @@ pub fn evaluate<S: Scalar>(
         Function::LoopResidual => loop_residual(tree, trace, x[0]),
         Function::LoopJacobian => loop_jacobian(tree, trace, x[0]).concat(),
         Function::LoopBias => loop_bias(tree, trace, x[0], x[1]),
+        Function::CoordinateRates => coordinate_rates(tree, x[0], x[1]),
+        Function::Integrate => integrate(tree, x[0], x[1]),
+        Function::Difference => difference(tree, x[0], x[1]),
+        Function::Neutral => neutral(tree),
     }
 }

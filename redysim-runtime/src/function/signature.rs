@@ -24,6 +24,8 @@ pub enum Interface {
     WithTangent(&'static str),
     /// The trait `LoopClosure`, of mechanisms with closed loops.
     LoopClosure,
+    /// The trait `ConfigurationSpace`, which every mechanism has, whatever functions are selected.
+    ConfigurationSpace,
 }
 
 /// An argument: its name, and how long the array is.
@@ -33,8 +35,14 @@ pub enum Interface {
 pub enum Argument {
     /// Joint coordinates `q`, rad or m.
     Coordinates,
+    /// Joint coordinates `q0` from which a displacement leads, rad or m.
+    Start,
+    /// Joint coordinates `q1` to which a displacement leads, rad or m.
+    End,
     /// Joint velocities `v`, rad/s or m/s.
     Velocities,
+    /// A displacement `dv`: joint velocities, constant over a unit of time, rad or m.
+    Displacement,
     /// Joint accelerations `a`, rad/s² or m/s².
     Accelerations,
     /// Joint forces `tau`, N m or N.
@@ -46,7 +54,10 @@ impl Argument {
     pub const fn name(self) -> &'static str {
         match self {
             Argument::Coordinates => "q",
+            Argument::Start => "q0",
+            Argument::End => "q1",
             Argument::Velocities => "v",
+            Argument::Displacement => "dv",
             Argument::Accelerations => "a",
             Argument::Forces => "tau",
         }
@@ -55,8 +66,10 @@ impl Argument {
     /// Number of its elements.
     pub const fn dimension(self) -> Dimension {
         match self {
-            Argument::Coordinates => Dimension::Coordinates,
-            Argument::Velocities | Argument::Accelerations | Argument::Forces => Dimension::Velocities,
+            Argument::Coordinates | Argument::Start | Argument::End => Dimension::Coordinates,
+            Argument::Velocities | Argument::Displacement | Argument::Accelerations | Argument::Forces => {
+                Dimension::Velocities
+            }
         }
     }
 }
@@ -97,4 +110,8 @@ pub enum Shape {
     LoopRows,
     /// The Jacobian of the loop constraints, `[[S; NV]; NC]`, by rows.
     LoopJacobian,
+    /// Joint coordinates, rad or m, or their rates, rad/s or m/s: `[S; NQ]`.
+    Coordinates,
+    /// A displacement: joint velocities, constant over a unit of time, rad or m: `[S; NV]`.
+    Displacement,
 }

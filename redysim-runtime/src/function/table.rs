@@ -105,12 +105,29 @@ functions! {
     LoopBias loop_bias, Interface::LoopClosure,
         (Coordinates, Velocities) -> LoopRows,
         "J̇ v: the second derivative of the residual of the loops at zero joint accelerations.";
+    CoordinateRates coordinate_rates, Interface::ConfigurationSpace,
+        (Coordinates, Velocities) -> Coordinates,
+        "q̇ = N(q) v, rad/s or m/s: the rates of the coordinates.";
+    Integrate integrate, Interface::ConfigurationSpace,
+        (Coordinates, Displacement) -> Coordinates,
+        "q ⊞ dv, rad or m: the coordinates that the velocities dv, constant over a unit of time, lead to from q.";
+    Difference difference, Interface::ConfigurationSpace,
+        (Start, End) -> Displacement,
+        "q₁ ⊟ q₀, rad or m: the velocities that lead from q0 to q1 in a unit of time, the inverse of `integrate`.";
+    Neutral neutral, Interface::ConfigurationSpace,
+        () -> Coordinates,
+        "The coordinates at which every joint is at its zero position, rad or m.";
 }
 
 impl Function {
     /// Whether only a mechanism with closed loops has it.
     pub const fn needs_loops(self) -> bool {
         matches!(self.signature().interface, Interface::LoopClosure)
+    }
+
+    /// Whether every mechanism has it, whatever functions are selected.
+    pub const fn is_always_present(self) -> bool {
+        matches!(self.signature().interface, Interface::ConfigurationSpace)
     }
 }
 

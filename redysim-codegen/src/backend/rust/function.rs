@@ -46,18 +46,22 @@ impl Writer<'_> {
         self.trig.angles.len()
     }
 
+    /// The code of a function after the sines and cosines.
+    pub fn body(&self, FunctionProgram { function, program, .. }: &FunctionProgram) -> TokenStream {
+        let signature = function.signature();
+        let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
+        body(program, &arguments, |outputs| results::value(signature.result, self.interface, outputs, self.runtime))
+    }
+
     /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
     /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, program: &FunctionProgram) -> TokenStream {
-        let FunctionProgram { function, ref documentation, ref trig, ref program, .. } = *program;
-        let signature = function.signature();
+        let body = self.body(program);
+        let FunctionProgram { function, ref documentation, ref trig, .. } = *program;
         let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
             (head(function, interface, runtime), head_with_trig(function, interface, angles, runtime));
         let head_inlined = head_inlined(function, interface, angles, runtime);
-        let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
-        let result = |outputs: &[TokenStream]| results::value(signature.result, interface, outputs, runtime);
-        let body = body(program, &arguments, result);
         let lines = documentation.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
         let docs_with_trig =

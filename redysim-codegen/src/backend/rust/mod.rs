@@ -2,7 +2,6 @@
 
 mod angles;
 mod body;
-mod configuration;
 mod function;
 mod results;
 #[cfg(feature = "source")]
@@ -10,7 +9,6 @@ pub mod source;
 mod traits;
 
 use crate::mechanism::MechanismProgram;
-use crate::program::Program;
 pub use body::RESERVED;
 use function::{Writer, head, head_with_trig, joint_trig_head};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -21,12 +19,15 @@ use redysim_runtime::function::Dimension;
 
 /// Prints `mechanism` as the `impl`s of the type `name`.
 pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStream) -> TokenStream {
-    let MechanismProgram { interface, ref trig, ref functions, ref configuration } = *mechanism;
+    let MechanismProgram { interface, ref trig, ref functions } = *mechanism;
     let writer = Writer { interface, trig, runtime };
+    let (configuration, own): (Vec<_>, Vec<_>) =
+        functions.iter().partition(|program| program.function.is_always_present());
     let definitions =
-        std::iter::once(writer.joint_trig()).chain(functions.iter().map(|function| writer.function(function)));
+        std::iter::once(writer.joint_trig()).chain(own.into_iter().map(|program| writer.function(program)));
+    let configuration = configuration.into_iter().map(|program| (program.function, writer.body(program)));
     let operations: Vec<_> = functions.iter().map(|program| (program.function, program.operations)).collect();
-    type_impls(interface, Some(configuration), name, runtime, &operations, definitions.collect())
+    type_impls(interface, configuration.collect(), name, runtime, &operations, definitions.collect())
 }
 
 /// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
@@ -34,17 +35,20 @@ pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStre
 pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let angles = interface.size(Dimension::Coordinates);
     let joint_trig = joint_trig_head(interface, angles, runtime);
-    let functions = interface.functions.iter();
-    let heads = functions.flat_map(|function| {
+    let own = interface.functions.iter().filter(|function| !function.is_always_present());
+    let heads = own.flat_map(|function| {
         [head(function, interface, runtime), head_with_trig(function, interface, angles, runtime)]
     });
-    let definitions = std::iter::once(joint_trig).chain(heads).map(|head| quote!(pub #head { ::core::unreachable!() }));
-    type_impls(interface, None, name, runtime, &[], definitions.collect())
+    let body = quote!(::core::unreachable!());
+    let definitions = std::iter::once(joint_trig).chain(heads).map(|head| quote!(pub #head { #body }));
+    let configuration = Function::ALL.iter().copied().filter(|function| function.is_always_present());
+    let configuration = configuration.map(|function| (function, body.clone()));
+    type_impls(interface, configuration.collect(), name, runtime, &[], definitions.collect())
 }
 
 fn type_impls(
     interface: &PublicInterface,
-    configuration: Option<&[Program]>,
+    configuration: Vec<(Function, TokenStream)>,
     name: &Ident,
     runtime: &TokenStream,
     operations: &[(Function, OperationCount)],

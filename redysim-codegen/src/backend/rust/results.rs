@@ -8,10 +8,11 @@ use redysim_runtime::function::{Dimension, Shape};
 
 /// The return type.
 pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
-    let [nv, nl, nc] =
-        [Dimension::Velocities, Dimension::Links, Dimension::LoopRows].map(|dimension| length(interface, dimension));
+    let sizes = [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows];
+    let [nq, nv, nl, nc] = sizes.map(|dimension| length(interface, dimension));
     match shape {
-        Shape::Forces | Shape::Accelerations => quote!([S; #nv]),
+        Shape::Coordinates => quote!([S; #nq]),
+        Shape::Forces | Shape::Accelerations | Shape::Displacement => quote!([S; #nv]),
         Shape::MassMatrix => quote!([[S; #nv]; #nv]),
         Shape::Energy => quote!(#runtime::Energy<S>),
         Shape::CenterOfMass => quote!(#runtime::CenterOfMass<S>),
@@ -24,7 +25,9 @@ pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStr
 /// The value returned, made of the outputs in the order in which they were traced.
 pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     match shape {
-        Shape::Forces | Shape::Accelerations | Shape::LoopRows => array(outputs),
+        Shape::Forces | Shape::Accelerations | Shape::LoopRows | Shape::Coordinates | Shape::Displacement => {
+            array(outputs)
+        }
         Shape::MassMatrix | Shape::LoopJacobian => array(&rows(outputs, interface.size(Dimension::Velocities))),
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
@@ -61,6 +64,6 @@ fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
 }
 
 /// An array of values.
-pub fn array(elements: &[TokenStream]) -> TokenStream {
+fn array(elements: &[TokenStream]) -> TokenStream {
     quote!([#(#elements),*])
 }

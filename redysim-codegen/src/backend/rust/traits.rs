@@ -1,8 +1,7 @@
 //! The runtime's traits, for a type that has their functions.
 
 use super::function::{arguments, parameters};
-use super::{configuration, length, results};
-use crate::program::Program;
+use super::{length, results};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, PublicInterface};
@@ -13,10 +12,10 @@ pub fn own(function: Function, interface: &PublicInterface, name: &Ident, runtim
     let (trait_name, tangent) = match function.signature().interface {
         Interface::Own(trait_name) => (trait_name, None),
         Interface::WithTangent(trait_name) => (trait_name, Some(tangent(function, runtime))),
-        Interface::LoopClosure => return TokenStream::new(),
+        Interface::LoopClosure | Interface::ConfigurationSpace => return TokenStream::new(),
     };
     let trait_name = format_ident!("{trait_name}");
-    let method = method(function, interface, runtime);
+    let method = own_method(function, interface, runtime);
     quote! {
         impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
             #method
@@ -40,14 +39,19 @@ fn tangent(function: Function, runtime: &TokenStream) -> TokenStream {
 }
 
 /// The method of a trait that is one of the type's own functions.
-fn method(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
-    let name = format_ident!("{}", function.name());
-    let (arguments, parameters) = (arguments(function), parameters(function, interface));
+fn own_method(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
+    let (name, arguments) = (format_ident!("{}", function.name()), arguments(function));
+    method(function, interface, runtime, &quote!(Self::#name(#(#arguments),*)))
+}
+
+/// The method of a trait with the given body.
+fn method(function: Function, interface: &PublicInterface, runtime: &TokenStream, body: &TokenStream) -> TokenStream {
+    let (name, parameters) = (format_ident!("{}", function.name()), parameters(function, interface));
     let output = results::output_type(function.signature().result, interface, runtime);
     quote! {
         #[inline]
         fn #name(&self, #(#parameters),*) -> #output {
-            Self::#name(#(#arguments),*)
+            #body
         }
     }
 }
@@ -59,7 +63,7 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
         return TokenStream::new();
     }
     let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| length(interface, dimension));
-    let methods = own.map(|function| method(function, interface, runtime));
+    let methods = own.map(|function| own_method(function, interface, runtime));
     quote! {
         impl #runtime::LoopRows for #name {
             fn nc(&self) -> usize {
@@ -78,10 +82,10 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
     }
 }
 
-/// Sizes, names, and the space of positions.
+/// Sizes, names, and the space of positions with its functions, each with its code.
 pub fn mechanism(
     interface: &PublicInterface,
-    configuration: Option<&[Program]>,
+    configuration: Vec<(Function, TokenStream)>,
     name: &Ident,
     runtime: &TokenStream,
 ) -> TokenStream {
@@ -90,7 +94,10 @@ pub fn mechanism(
     // Coordinates, velocities, and the energy of the actuators.
     let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
     let state = Literal::usize_unsuffixed(state);
-    let methods = configuration::methods(configuration, interface);
+    let methods = configuration.into_iter().map(|(function, body)| {
+        let method = method(function, interface, runtime, &body);
+        quote!(#[allow(unused_variables, clippy::all, clippy::pedantic)] #method)
+    });
     quote! {
         impl #runtime::Mechanism for #name {
             fn name(&self) -> &str {
@@ -118,7 +125,7 @@ pub fn mechanism(
             type State = [S; #state];
             type Matrix = [[S; #nv]; #nv];
             type Links = [#runtime::LinkState<S>; #nl];
-            #methods
+            #(#methods)*
         }
     }
 }
