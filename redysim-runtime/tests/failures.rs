@@ -6,7 +6,8 @@ mod methods;
 use std::ops::ControlFlow::{Break, Continue};
 
 use redysim_runtime::IntegrationError::{self, *};
-use redysim_runtime::integrate::algorithm::{Algorithm, EstimatesErrors};
+use redysim_runtime::integrate::algorithm::Algorithm;
+use redysim_runtime::integrate::step_control::EstimatesErrors;
 use redysim_runtime::integrate::{Accepted, Adaptive, FixedStep};
 use redysim_runtime::{Event, Gauss4, Integrator, Ode, Ode45, Solution};
 

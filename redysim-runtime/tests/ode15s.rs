@@ -7,7 +7,7 @@ mod problems;
 
 use mechanisms::{Arm, distance};
 use problems::{error_at, exact, nonlinear, prothero_robinson};
-use redysim_runtime::integrate::algorithm::EstimatesErrors;
+use redysim_runtime::integrate::step_control::EstimatesErrors;
 use redysim_runtime::integrate::{Adaptive, Bdf, Ndf};
 use redysim_runtime::{
     ForwardSimulation, Integrator, Ode, Ode15s, Ode45, ProportionalDerivative, Statistics, Step, ZeroTorque,

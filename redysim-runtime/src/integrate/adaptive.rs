@@ -3,10 +3,10 @@
 
 use core::marker::PhantomData;
 
-use super::algorithm::{EstimatesErrors, Formula};
+use super::algorithm::Formula;
 use super::driver::Driver;
 use super::interval::Interval;
-use super::step_control::{StepControl, Trial};
+use super::step_control::{EstimatesErrors, StepControl, Trial};
 use super::stiffness::StiffnessTest;
 use super::tolerance::{Absolute, Tolerances};
 use super::{IntegrationError, Integrator, Observer, Ode, Solution};

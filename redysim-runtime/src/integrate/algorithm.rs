@@ -1,15 +1,15 @@
-//! The parts of a method of integration. Its formula takes one trial step; its step control, if it has one, chooses the
-//! sizes. Times, states, tolerances, corrections and observers belong to the drivers for steps of one size and for
-//! steps from tolerances.
+//! A method of integration. Its formula takes one trial step; a [step control](super::step_control), if it has one,
+//! chooses the sizes. Times, states, tolerances, corrections and observers belong to the drivers for steps of one size
+//! and for steps from tolerances.
 
 use super::integration::{Integration, Progress};
-use super::step_control::StepControl;
 use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode, Step};
 use crate::{Real, Vector};
 
 /// A method of integration: how it begins. With [`FixedStep`](super::FixedStep) it is an integrator with steps of one
-/// size, with [`Adaptive`](super::Adaptive), if it [`EstimatesErrors`], one that chooses them.
+/// size, with [`Adaptive`](super::Adaptive), if it [estimates errors](super::step_control::EstimatesErrors), one that
+/// chooses them.
 pub trait Algorithm {
     /// What takes its steps.
     type Formula<S: Real, Y: Vector<S>>: Formula<S, Y>;
@@ -21,15 +21,6 @@ pub trait Algorithm {
     fn start<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
         integration: &mut Integration<'_, S, Y, O>,
     ) -> Result<Self::Formula<S, Y>, IntegrationError<S>>;
-}
-
-/// A method that estimates the errors of its steps, so that [`Adaptive`](super::Adaptive) can choose them.
-pub trait EstimatesErrors: Algorithm {
-    /// What chooses the sizes of its steps.
-    type Control<S: Real, Y: Vector<S>>: StepControl<S, Y, Self::Formula<S, Y>>;
-
-    /// The step control at the start.
-    fn control<S: Real, Y: Vector<S>>() -> Self::Control<S, Y>;
 }
 
 /// The formula of a method with its cache, the data that it keeps from step to step. It takes one trial step of the

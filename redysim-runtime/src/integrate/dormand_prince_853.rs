@@ -1,11 +1,11 @@
 //! The pair of Dormand and Prince of order 8, with steps of one size and with steps from tolerances.
 
 use super::adaptive::Adaptive;
-use super::algorithm::{Algorithm, EstimatesErrors};
+use super::algorithm::Algorithm;
 use super::explicit::Explicit;
 use super::fixed::FixedStep;
 use super::integration::Integration;
-use super::step_control::Elementary;
+use super::step_control::{Elementary, EstimatesErrors};
 use super::tableau::DORMAND_PRINCE_853;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};

@@ -32,7 +32,8 @@ macro_rules! every_fixed {
 /// others steps of size `$step`.
 macro_rules! every_method {
     ($check:ident, $step:literal) => {{
-        use redysim_runtime::integrate::algorithm::{Algorithm, EstimatesErrors};
+        use redysim_runtime::integrate::algorithm::Algorithm;
+        use redysim_runtime::integrate::step_control::EstimatesErrors;
         use redysim_runtime::integrate::{Adaptive, FixedStep};
         fn check_adaptive<A: EstimatesErrors>(name: &str) {
             $check(name, &Adaptive::<f64, A>::new());

@@ -11,9 +11,9 @@ mod differences;
 mod formula;
 
 use super::adaptive::Adaptive;
-use super::algorithm::{Algorithm, EstimatesErrors};
+use super::algorithm::Algorithm;
 use super::integration::Integration;
-use super::step_control::VariableOrder;
+use super::step_control::{EstimatesErrors, VariableOrder};
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
 use coefficients::{BACKWARD_DIFFERENTIATION, HIGHEST_ORDER, NUMERICAL_DIFFERENTIATION};

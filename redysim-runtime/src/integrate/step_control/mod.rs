@@ -13,7 +13,7 @@ mod variable_order;
 pub use predictive::Predictive;
 pub use variable_order::VariableOrder;
 
-use super::algorithm::Formula;
+use super::algorithm::{Algorithm, Formula};
 use super::integration::Integration;
 use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode};
@@ -37,6 +37,15 @@ pub struct Trial<S> {
     pub ratio: S,
     /// How often the same step was rejected before, with larger sizes.
     pub rejections: u32,
+}
+
+/// A method that estimates the errors of its steps, so that [`Adaptive`](super::Adaptive) can choose them.
+pub trait EstimatesErrors: Algorithm {
+    /// What chooses the sizes of its steps.
+    type Control<S: Real, Y: Vector<S>>: StepControl<S, Y, Self::Formula<S, Y>>;
+
+    /// The step control at the start.
+    fn control<S: Real, Y: Vector<S>>() -> Self::Control<S, Y>;
 }
 
 /// Chooses the sizes of the steps of a formula `F` from their errors.
