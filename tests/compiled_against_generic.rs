@@ -11,7 +11,7 @@ mod common;
 use common::call::*;
 use common::comparison::Comparison;
 use common::double_double::{DoubleDouble, exact, rounded};
-use common::models::{Gantry, Gripper, Kr5, generic};
+use common::models::{Gantry, Gripper, Kr5, Kr5Drives, generic};
 use common::random::{Random, State};
 use redysim::{LinkState, TreeDynamics};
 
@@ -26,8 +26,8 @@ fn states(dof: usize) -> impl Iterator<Item = State> {
 fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &impl TreeDynamics<DoubleDouble>) {
     let name = generic.name().to_string();
     let new = |function: &str| Comparison::new(format!("{name} {function}"));
-    let [mut inverse, mut forward, mut matrix, mut bias, mut gravity, mut kinetic, mut potential] =
-        ["inverse", "forward", "mass matrix", "bias", "gravity", "kinetic", "potential"].map(new);
+    let [mut inverse, mut forward, mut matrix, mut bias, mut gravity, mut passive, mut kinetic, mut potential] =
+        ["inverse", "forward", "mass matrix", "bias", "gravity", "passive", "kinetic", "potential"].map(new);
     for State { q, v, a } in states(generic.nv()) {
         let (q, v, a) = (exact(&q), exact(&v), exact(&a));
         let tau = inverse_dynamics(generic, &q, &v, &a);
@@ -37,13 +37,14 @@ fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &i
         matrix.add(&rounded(mass_matrix(compiled, &q).concat()), &rounded(mass_matrix(generic, &q).concat()));
         bias.add(&rounded(bias_forces(compiled, &q, &v)), &rounded(bias_forces(generic, &q, &v)));
         gravity.add(&rounded(gravity_forces(compiled, &q)), &rounded(gravity_forces(generic, &q)));
+        passive.add(&rounded(passive_forces(compiled, &q, &v)), &rounded(passive_forces(generic, &q, &v)));
         let (ours, theirs) = (energy(compiled, &q, &v), energy(generic, &q, &v));
         kinetic.add(&rounded([ours.kinetic]), &rounded([theirs.kinetic]));
         potential.add(&rounded([ours.potential]), &rounded([theirs.potential]));
     }
     // The roundoff of constants is that of the largest terms, 1e-16 of them; the smallest components that count are
     // 1e-6.
-    let all = [inverse, matrix, gravity, kinetic, potential];
+    let all = [inverse, matrix, gravity, passive, kinetic, potential];
     all.iter().for_each(|comparison| comparison.assert_within(1e-12));
     // A few components of the bias are smaller than what its terms cancel to.
     bias.assert_within(4e-12);
@@ -117,6 +118,12 @@ fn kr5_compiled_is_kr5_generic() {
     assert_same_functions(&Kr5, &generic("kr5"));
     assert_same_kinematics(&Kr5, &generic("kr5"));
     assert_same_dynamics_in_f64(&Kr5, &generic("kr5"));
+}
+
+#[test]
+fn kr5_with_drives_compiled_is_kr5_with_drives_generic() {
+    assert_same_outside(&Kr5Drives, &generic("kr5_drives"));
+    assert_same_functions(&Kr5Drives, &generic("kr5_drives"));
 }
 
 #[test]

@@ -139,6 +139,8 @@ fn recursions_agree_with_kanes_equations() {
             add("matrix", &denoc::mass_matrix(tree, &Untraced, q).concat(), expected.matrix.as_slice(), 1e-12);
             add("bias", &denoc::bias_forces(tree, &Untraced, q, v), expected.bias.as_slice(), 1e-12);
             add("gravity", &denoc::gravity_forces(tree, &Untraced, q), expected.gravity.as_slice(), 1e-12);
+            add("passive", &denoc::passive_forces(tree, q, v), expected.passive.as_slice(), 1e-15);
+            add("dissipated", &[denoc::dissipated_power(tree, v)], &[expected.dissipated], 1e-14);
             let energy = denoc::energy(tree, &Untraced, q, v);
             add("kinetic", &[energy.kinetic], &[expected.kinetic], 1e-12);
             add("potential", &[energy.potential - expected.potential + 1.0], &[1.0], 1e-12);
@@ -195,6 +197,8 @@ fn traced_expressions_agree_with_kanes_equations() {
         add("mass_matrix", &[q], expected.matrix.as_slice(), 1e-12);
         add("bias_forces", &[q, v], expected.bias.as_slice(), 1e-12);
         add("gravity_forces", &[q], expected.gravity.as_slice(), 1e-12);
+        add("passive_forces", &[q, v], expected.passive.as_slice(), 1e-15);
+        add("dissipated_power", &[q, v], &[expected.dissipated], 1e-14);
         let (wanted, condition) = accelerations(expected, &tau);
         add("forward_dynamics", &[q, v, tau.as_slice()], wanted.as_slice(), 1e-15 * condition.max(1e3));
         let energies = evaluated(functions, "energy", &[q, v]);

@@ -22,7 +22,10 @@ fn name_and_functions_are_those_asked_for() {
     assert!(!run.stdout.contains("pub fn inverse_dynamics<"));
     let report = run.stdout.lines().filter(|line| line.contains(" flops, "));
     let listed: Vec<&str> = report.filter_map(|line| line.split_whitespace().nth(1)).collect();
-    assert_eq!(listed, ["mass_matrix", "energy", "coordinate_rates", "integrate", "difference", "neutral"]);
+    assert_eq!(
+        listed,
+        ["mass_matrix", "energy", "coordinate_rates", "integrate", "difference", "dissipated_power", "neutral"]
+    );
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod kinematics;
 use common::{Run, call, fail, scratch, succeed};
 use import_faults::BODY;
 use kinematics::{Numbers, positions, tree, urdf};
+use redysim_model::joint::JointPhysics;
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy};
 use std::fs;
@@ -186,7 +187,7 @@ const LOSSY: &str = r#"<?xml version="1.0"?>
   <link name="puck"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="waist" type="prismatic"><parent link="torso"/><child link="base"/><axis xyz="0 0 1"/>
     <origin rpy="0 1.5708 0"/>
-    <limit lower="-1" upper="1" effort="40" velocity="2"/><dynamics damping="0.1"/></joint>
+    <limit lower="-1" upper="1" effort="40" velocity="2"/><dynamics damping="0.1" friction="0.25"/></joint>
   <joint name="knuckle" type="revolute"><parent link="base"/><child link="finger"/><mimic joint="waist" multiplier="2"/>
     <limit lower="-1" upper="1" effort="40"/></joint>
   <joint name="spin" type="continuous"><parent link="finger"/><child link="tool"/></joint>
@@ -207,7 +208,6 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
         "joint `spin` moves no mass",
         "joint `loose` is floating in the URDF: it is fixed at zero here",
         "the limits of 1 joint limit nothing",
-        "left out: <dynamics>: the joints have no damping and no friction here, on line 14",
         "left out: <gazebo>, on line 21",
         "left out: <limit> without a velocity, on line 16",
         "left out: <material>, on line 3",
@@ -276,8 +276,11 @@ fn the_help_of_import_states_what_import_does() {
     assert!(help.contains("Limits with an acceleration become a `range`; others stay as comments."));
     assert_eq!(imported[0].0.model().links[1].range.unwrap().acceleration, 7.0);
     assert!(link("waist").range.is_none() && run.stdout.contains("# limits: position = [-1.0, 1.0]"));
-    assert!(help.contains("Visuals, collisions, transmissions, damping and friction are left out."));
-    for left_out in ["<visual>", "<transmission>", "<dynamics>"] {
+    assert!(help.contains("Damping and friction are kept."));
+    let expected = JointPhysics { damping: 0.1, friction: 0.25, ..JointPhysics::default() };
+    assert_eq!((link("waist").physics, link("spin").physics), (expected, JointPhysics::default()));
+    assert!(help.contains("Visuals, collisions and transmissions are left out."));
+    for left_out in ["<visual>", "<transmission>"] {
         let head = run.stdout.split("[[link]]").next().unwrap();
         assert!(head.contains(left_out) && run.stderr.contains(left_out), "{left_out}: {head}");
     }

@@ -157,9 +157,12 @@ impl Pipeline<'_> {
             Function::LinkKinematics | Function::LoopResidual | Function::LoopJacobian | Function::LoopBias => {
                 (cheapest(&trees.kinematics(), function, passes)?, None)
             }
-            Function::CoordinateRates | Function::Integrate | Function::Difference | Function::Neutral => {
-                (simplified_on(self.tree, function, passes)?, None)
-            }
+            Function::PassiveForces
+            | Function::DissipatedPower
+            | Function::CoordinateRates
+            | Function::Integrate
+            | Function::Difference
+            | Function::Neutral => (simplified_on(self.tree, function, passes)?, None),
         };
         Ok(TracedFunction { function, method, expressions, pruning: None })
     }

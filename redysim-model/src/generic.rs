@@ -8,7 +8,7 @@ use redysim_runtime::function::Dimension::{self, Coordinates, Velocities};
 use redysim_runtime::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
     LengthMismatch, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
-    Mechanism, Scalar,
+    Mechanism, PassiveForces, Scalar,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -183,6 +183,10 @@ impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
     fn neutral(&self) -> Vec<S> {
         denoc::neutral(&self.tree)
     }
+    fn dissipated_power(&self, q: &Vec<S>, v: &Vec<S>) -> S {
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
+        denoc::dissipated_power(&self.tree, v)
+    }
 }
 
 impl<S: Scalar> InverseDynamics<S> for GenericMechanism {
@@ -231,6 +235,13 @@ impl<S: Scalar> MechanicalEnergy<S> for GenericMechanism {
     fn energy(&self, q: &Vec<S>, v: &Vec<S>) -> Energy<S> {
         self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::energy(&self.tree, &Untraced, q, v)
+    }
+}
+
+impl<S: Scalar> PassiveForces<S> for GenericMechanism {
+    fn passive_forces(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
+        denoc::passive_forces(&self.tree, q, v)
     }
 }
 

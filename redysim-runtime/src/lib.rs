@@ -99,7 +99,7 @@ pub use joint_trig::JointTrig;
 pub use mechanism::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
     LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
-    TreeDynamics,
+    PassiveForces, TreeDynamics,
 };
 pub use operations::OperationCount;
 pub use scalar::{FUSED, Real, Scalar};

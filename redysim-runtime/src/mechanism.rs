@@ -77,6 +77,12 @@ pub trait ConfigurationSpace<S: Scalar>: Mechanism {
     fn difference(&self, q0: &Self::Coordinates, q1: &Self::Coordinates) -> Self::Velocities;
     /// The coordinates at which every joint is at its zero position.
     fn neutral(&self) -> Self::Coordinates;
+    /// The power that damping and friction take, W, by which the energy of the mechanism grows less than by the work of
+    /// its actuators; zero by default.
+    fn dissipated_power(&self, q: &Self::Coordinates, v: &Self::Velocities) -> S {
+        let _ = (q, v);
+        S::zero()
+    }
 }
 
 /// Coordinates, velocities, and accelerations or joint forces of the mechanism `M`, or derivatives of them.
@@ -130,7 +136,7 @@ pub trait MassMatrix<S: Scalar>: ConfigurationSpace<S> {
 
 /// Forces that do not depend on accelerations.
 pub trait BiasForces<S: Scalar>: ConfigurationSpace<S> {
-    /// C(q, v) v + g(q), N m or N.
+    /// C(q, v) v + g(q) and the [passive forces](PassiveForces), N m or N.
     fn bias_forces(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Velocities;
 }
 
@@ -138,6 +144,13 @@ pub trait BiasForces<S: Scalar>: ConfigurationSpace<S> {
 pub trait GravityForces<S: Scalar>: ConfigurationSpace<S> {
     /// g(q), N m or N.
     fn gravity_forces(&self, q: &Self::Coordinates) -> Self::Velocities;
+}
+
+/// Forces of what acts in the joints without an actuator.
+pub trait PassiveForces<S: Scalar>: ConfigurationSpace<S> {
+    /// The part of the bias that damping, friction and springs take, N m or N: d v + f v/√(v² + ε²) + k (q − q₀) in each
+    /// joint. The force that acts on the joint is its negative.
+    fn passive_forces(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Velocities;
 }
 
 /// Kinetic and potential energy.
@@ -198,6 +211,7 @@ pub trait TreeDynamics<S: Scalar>:
     + MassMatrix<S>
     + BiasForces<S>
     + GravityForces<S>
+    + PassiveForces<S>
     + MechanicalEnergy<S>
     + MassCenter<S>
     + LinkKinematics<S>
@@ -210,6 +224,7 @@ impl<S: Scalar, M> TreeDynamics<S> for M where
         + MassMatrix<S>
         + BiasForces<S>
         + GravityForces<S>
+        + PassiveForces<S>
         + MechanicalEnergy<S>
         + MassCenter<S>
         + LinkKinematics<S>
@@ -221,7 +236,7 @@ impl<S: Scalar, M> TreeDynamics<S> for M where
 pub struct Energy<S> {
     /// ½ q̇ᵀ M q̇.
     pub kinetic: S,
-    /// −Σ m g·c, zero at the origin of the base frame.
+    /// −Σ m g·c, zero at the origin of the base frame, and ½ k (q − q₀)² of each spring.
     pub potential: S,
 }
 

@@ -5,10 +5,11 @@ use crate::{ConfigurationSpace, ForwardDynamics, LengthMismatch, Ode, Real, Torq
 
 /// A mechanism moved by a torque law, as an [`Ode`] in the state y = [q, q̇, E_act]:
 ///
-/// dq/dt = N(q) q̇, dq̇/dt = M(q)⁻¹ (τ − C(q, q̇) q̇ − g(q)), dE_act/dt = τ·q̇.
+/// dq/dt = N(q) q̇, dq̇/dt = M(q)⁻¹ (τ − bias(q, q̇)), dE_act/dt = τ·q̇ − P(q, q̇).
 ///
-/// E_act, J, is the work that the actuators have done; with no other forces at work it is the change of kinetic plus
-/// potential energy, a check of the whole simulation.
+/// E_act, J, is the work that the actuators have done, less what damping and friction have taken with the
+/// [power](ConfigurationSpace::dissipated_power) P. It is the change of kinetic plus potential energy, a check of the
+/// whole simulation.
 ///
 /// ```
 /// # #[allow(dead_code)]
@@ -38,7 +39,7 @@ pub struct SimulationState<S, Q, V> {
     pub q: Q,
     /// Joint velocities, rad/s or m/s.
     pub v: V,
-    /// Work done by the actuators since the start, J.
+    /// Work done by the actuators since the start, less what damping and friction have taken, J.
     pub actuator_energy: S,
 }
 
@@ -117,7 +118,8 @@ where
         let tau = self.law.torque(t, &q, &v);
         let rates = self.mechanism.coordinate_rates(&q, &v);
         let accelerations = self.mechanism.forward_dynamics(&q, &v, &tau);
-        self.write((&rates, &accelerations, dot(&tau, &v)), rate);
+        let power = dot(&tau, &v) - self.mechanism.dissipated_power(&q, &v);
+        self.write((&rates, &accelerations, power), rate);
     }
 
     fn check_lengths(&self, t: S, state: &M::State) -> Result<(), LengthMismatch> {
@@ -139,7 +141,8 @@ where
         for (drate, &by_position) in drates.as_mut().iter_mut().zip(by_position.as_ref()) {
             *drate += by_position;
         }
-        self.write((&drates, &da, dot(&dtau, &v) + dot(&tau, &dv)), slope);
+        let dissipated = dissipated_power_tangent(self.mechanism, (&q, &v), (&dq, &dv));
+        self.write((&drates, &da, dot(&dtau, &v) + dot(&tau, &dv) - dissipated), slope);
         true
     }
 
@@ -197,6 +200,18 @@ fn coordinate_rates_tangent<S: Real, M: ConfigurationSpace<S>>(
         let [position, slope] = [q, dq].map(|values| largest(values.as_ref()));
         central_difference(q.as_ref().len(), position, slope, |step| mechanism.coordinate_rates(&moved(q, dq, step), v))
     })
+}
+
+/// The derivative of the dissipated power along `(dq, dv)`, by central differences.
+fn dissipated_power_tangent<S: Real, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    (q, v): (&M::Coordinates, &M::Velocities),
+    (dq, dv): (&M::Coordinates, &M::Velocities),
+) -> S {
+    let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref()).maximum(largest(v.as_ref())));
+    let power = |step: S| [mechanism.dissipated_power(&moved(q, dq, step), &moved(v, dv, step))];
+    let [slope] = central_difference(1, state, slope, power);
+    slope
 }
 
 /// The derivative of `function`, of `len` components, at 0 of a step along a direction: `size` and `slope` are the

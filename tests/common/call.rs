@@ -2,7 +2,8 @@
 
 use redysim::{
     BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar, Vector,
+    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, PassiveForces, Scalar,
+    Vector,
 };
 
 fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
@@ -33,6 +34,10 @@ pub fn bias_forces<S: Scalar>(m: &impl BiasForces<S>, q: &[S], v: &[S]) -> Vec<S
 
 pub fn gravity_forces<S: Scalar>(m: &impl GravityForces<S>, q: &[S]) -> Vec<S> {
     m.gravity_forces(&vector(q)).as_ref().to_vec()
+}
+
+pub fn passive_forces<S: Scalar>(m: &impl PassiveForces<S>, q: &[S], v: &[S]) -> Vec<S> {
+    m.passive_forces(&vector(q), &vector(v)).as_ref().to_vec()
 }
 
 pub fn energy<S: Scalar>(m: &impl MechanicalEnergy<S>, q: &[S], v: &[S]) -> Energy<S> {

@@ -19,6 +19,8 @@ pub struct Kane {
     pub gravity: DVector<f64>,
     /// Of damping, friction and springs in the joints, part of the bias.
     pub passive: DVector<f64>,
+    /// Power of damping and friction.
+    pub dissipated: f64,
     pub kinetic: f64,
     pub potential: f64,
     /// In the model's order.
@@ -141,6 +143,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         bias: DVector::zeros(dof),
         gravity: DVector::zeros(dof),
         passive: DVector::zeros(dof),
+        dissipated: 0.0,
         kinetic: 0.0,
         potential: 0.0,
         links: Vec::new(),
@@ -150,8 +153,9 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         let JointPhysics { armature, damping, friction, friction_velocity, stiffness, rest } = link.physics;
         let stretch = q[joint] - rest;
         sums.matrix[(joint, joint)] += armature;
-        sums.passive[joint] +=
-            damping * v[joint] + friction * v[joint] / v[joint].hypot(friction_velocity) + stiffness * stretch;
+        let dissipative = damping * v[joint] + friction * v[joint] / v[joint].hypot(friction_velocity);
+        sums.passive[joint] += dissipative + stiffness * stretch;
+        sums.dissipated += dissipative * v[joint];
         sums.kinetic += 0.5 * armature * v[joint].powi(2);
         sums.potential += 0.5 * stiffness * stretch.powi(2);
     }

@@ -14,6 +14,11 @@ redysim! {
 }
 
 redysim! {
+    /// KR5 with rotors, damping, friction and a spring.
+    pub struct Kr5Drives("models/kr5_drives.toml");
+}
+
+redysim! {
     /// Two fingers in the plane.
     pub struct Gripper("models/gripper.toml");
 }

@@ -5,6 +5,7 @@
 // mass_matrix           20 flops,   3 sine-cosine pairs
 // bias_forces           46 flops,   4 sine-cosine pairs
 // gravity_forces        21 flops,   4 sine-cosine pairs
+// passive_forces         0 flops,   0 sine-cosine pairs
 // energy                51 flops,   4 sine-cosine pairs
 // center_of_mass        31 flops,   4 sine-cosine pairs
 // link_kinematics       34 flops,   4 sine-cosine pairs
@@ -14,6 +15,7 @@
 // coordinate_rates       0 flops,   0 sine-cosine pairs
 // integrate              4 flops,   0 sine-cosine pairs
 // difference             4 flops,   0 sine-cosine pairs
+// dissipated_power       0 flops,   0 sine-cosine pairs
 // neutral                0 flops,   0 sine-cosine pairs
 
 /// The mechanism `gripper`.
@@ -73,6 +75,12 @@ impl Gripper {
             divisions: 0,
             trig: 4,
         },
+        passive_forces: ::redysim_runtime::OperationCount {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
         energy: ::redysim_runtime::OperationCount {
             additions: 18,
             multiplications: 33,
@@ -123,6 +131,12 @@ impl Gripper {
         },
         difference: ::redysim_runtime::OperationCount {
             additions: 4,
+            multiplications: 0,
+            divisions: 0,
+            trig: 0,
+        },
+        dissipated_power: ::redysim_runtime::OperationCount {
+            additions: 0,
             multiplications: 0,
             divisions: 0,
             trig: 0,
@@ -618,6 +632,61 @@ impl Gripper {
             -minus_moment_link3_z,
             -minus_moment_link4_z,
         ]
+    }
+    /// The part of the bias that damping, friction and springs take, N m or N.
+    ///
+    /// 0 flops: 0 additions, 0 multiplications, 0 divisions; 0 sine-cosine pairs.
+    pub fn passive_forces<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        v: &[S; 4],
+    ) -> [S; 4] {
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                Self::passive_forces_inlined(
+                    q,
+                    &[
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    &[
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    v,
+                )
+            },
+        )
+    }
+    /// [`passive_forces`](Self::passive_forces) with sines and cosines that are already computed.
+    pub fn passive_forces_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
+        v: &[S; 4],
+    ) -> [S; 4] {
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::passive_forces_inlined(&trig.q, &trig.sin, &trig.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn passive_forces_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> [S; 4] {
+        let k = S::from_f64;
+        [k(0.0), k(0.0), k(0.0), k(0.0)]
     }
     /// Kinetic and potential energy, J; the potential is zero at the base frame's origin.
     ///
@@ -1121,6 +1190,12 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::ConfigurationSpace<S> for 
     }
     #[allow(unused_variables, clippy::all, clippy::pedantic)]
     #[inline]
+    fn dissipated_power(&self, q: &[S; 4], v: &[S; 4]) -> S {
+        let k = S::from_f64;
+        k(0.0)
+    }
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    #[inline]
     fn neutral(&self) -> [S; 4] {
         let k = S::from_f64;
         [k(0.0), k(0.0), k(0.0), k(0.0)]
@@ -1172,6 +1247,12 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::GravityForces<S> for Gripp
     #[inline]
     fn gravity_forces(&self, q: &[S; 4]) -> [S; 4] {
         Self::gravity_forces(q)
+    }
+}
+impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::PassiveForces<S> for Gripper {
+    #[inline]
+    fn passive_forces(&self, q: &[S; 4], v: &[S; 4]) -> [S; 4] {
+        Self::passive_forces(q, v)
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::MechanicalEnergy<S> for Gripper {

@@ -1,6 +1,9 @@
 //! `redysim inverse SCENARIO`.
 
-use redysim_runtime::{ClosedLoop, ClosedLoopInverse, InverseDynamics, LoopForces, Motion, Trajectory};
+use redysim_model::GenericMechanism;
+use redysim_runtime::{
+    ClosedLoop, ClosedLoopInverse, ConfigurationSpace, InverseDynamics, LoopForces, Motion, Trajectory,
+};
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -105,7 +108,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
     let (mut worst, mut work, mut before) = (0.0, 0.0, None);
     let mut most = vec![0.0; scenario.layout.nv()];
     let mut compute = |t: f64, record: &mut Record<'_>| -> Result<(), Failure> {
-        work += before.map_or(Ok(0.0), |before| work_between(&mut required_at, before, t))?;
+        work += before.map_or(Ok(0.0), |before| work_between(mechanism, &mut required_at, before, t))?;
         let Required { motion: Motion { q, v, a }, forces: tau, multipliers: lambda, position_residual } =
             required_at(t)?;
         before = Some(t);
@@ -136,8 +139,10 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.774_596_669_241_483_4, 5.0 / 18.0)];
 
-/// The work of the joint forces from one time to another, ∫ τ·q̇ dt, J. It is what the energy is checked against.
+/// The work of the joint forces from one time to another, less what damping and friction take, ∫ τ·q̇ − P dt, J. It is
+/// what the energy is checked against.
 fn work_between(
+    mechanism: &GenericMechanism,
     required_at: &mut impl FnMut(f64) -> Result<Required, Failure>,
     from: f64,
     to: f64,
@@ -146,6 +151,7 @@ fn work_between(
     GAUSS.iter().try_fold(0.0, |work, (node, weight)| {
         let Required { motion, forces, .. } = required_at(from + half + node * half)?;
         let power: f64 = forces.iter().zip(&motion.v).map(|(force, speed)| force * speed).sum();
-        Ok(work + weight * (to - from) * power)
+        let dissipated: f64 = mechanism.dissipated_power(&motion.q, &motion.v);
+        Ok(work + weight * (to - from) * (power - dissipated))
     })
 }

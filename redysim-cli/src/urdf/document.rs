@@ -18,7 +18,7 @@ const READ: [(&str, &[&str]); 4] = [
     ("robot", &["link", "joint"]),
     ("link", &["inertial"]),
     ("inertial", &["origin", "mass", "inertia"]),
-    ("joint", &["origin", "parent", "child", "axis", "limit", "mimic"]),
+    ("joint", &["origin", "parent", "child", "axis", "limit", "mimic", "dynamics"]),
 ];
 
 /// What limits a joint.
@@ -102,6 +102,7 @@ impl<'a> Document<'a> {
         self.check_origin(&item, joint)?;
         child(joint, "axis").map_or(Ok(()), |axis| self.numbers(&item, axis, "xyz", 3, true))?;
         child(joint, "limit").map_or(Ok(()), |limit| self.check_limit(&item, limit))?;
+        child(joint, "dynamics").map_or(Ok(()), |dynamics| self.check_dynamics(&item, dynamics))?;
         child(joint, "mimic").map_or(Ok(()), |mimic| self.check_mimic(&item, mimic))
     }
 
@@ -113,6 +114,10 @@ impl<'a> Document<'a> {
             None => Ok(()),
             Some(wrong) => Err(self.wrong(item, limit, wrong.name(), "a number", wrong.value())),
         }
+    }
+
+    fn check_dynamics(&self, item: &str, dynamics: Node) -> Result<(), Failure> {
+        ["damping", "friction"].iter().try_for_each(|name| self.numbers(item, dynamics, name, 1, false))
     }
 
     fn check_mimic(&self, item: &str, mimic: Node) -> Result<(), Failure> {
@@ -214,11 +219,9 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Damping and friction are not part of a model, and worth more words than a picture.
 fn described(node: Node) -> String {
     let (tag, owner) = (node.tag_name().name(), node.parent().map_or("", |owner| owner.tag_name().name()));
     match (owner, tag) {
-        ("joint", "dynamics") => "<dynamics>: the joints have no damping and no friction here".into(),
         ("joint", "limit") => "<limit> without a velocity".into(),
         ("robot", _) => format!("<{tag}>"),
         _ => format!("<{tag}> in a <{owner}>"),

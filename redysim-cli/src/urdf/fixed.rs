@@ -23,7 +23,7 @@ impl Robot {
                 "joint `{joint_name}` moves no mass, for neither `{name}` nor a link further out has any: it is fixed \
                  at zero here"
             );
-            (link.kind, link.limit) = (JointKind::Fixed, None);
+            (link.kind, link.limit, link.resistance) = (JointKind::Fixed, None, [0.0; 2]);
             link.remarks.push(remark);
         }
         self

@@ -49,6 +49,11 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
     if let Some(limit) = &link.limit {
         writeln!(text, "{}", range(limit))?;
     }
+    for (key, value) in ["damping", "friction"].into_iter().zip(link.resistance) {
+        if value != 0.0 {
+            writeln!(text, "{key} = {value:?}")?;
+        }
+    }
     writeln!(text, "mass = {:?}", link.inertial.mass + 0.0)?;
     if link.inertial.com.0 != [0.0; 3] {
         writeln!(text, "com = {}", vector(link.inertial.com.0))?;

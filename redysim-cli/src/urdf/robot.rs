@@ -39,6 +39,8 @@ pub struct Link {
     pub inertial: Inertial,
     /// Of a joint that moves and has limits.
     pub limit: Option<JointLimit>,
+    /// Viscous damping, N m s/rad or N s/m, and friction, N m or N, of a joint that moves.
+    pub resistance: [f64; 2],
     /// Of which joint, and how, this one is a multiple in the URDF.
     pub mimics: Option<String>,
     /// What a reader of the model should know.
@@ -104,6 +106,7 @@ impl Robot {
             axis: joint.axis.xyz.0,
             inertial: inertial_of(&joint.child.link),
             limit: limit(joint),
+            resistance: resistance(joint),
             mimics: mimics(joint),
             remarks: not_here(joint).into_iter().collect(),
         };
@@ -185,6 +188,12 @@ fn mimics(joint: &urdf_rs::Joint) -> Option<String> {
     let mimic = joint.mimic.as_ref()?;
     let (factor, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
     Some(format!("mimics `{}` in the URDF ({factor} times its value, plus {offset})", mimic.joint))
+}
+
+/// Damping and friction.
+fn resistance(joint: &urdf_rs::Joint) -> [f64; 2] {
+    let given = joint.dynamics.as_ref().filter(|_| kind(joint) != JointKind::Fixed);
+    given.map_or([0.0; 2], |dynamics| [dynamics.damping, dynamics.friction])
 }
 
 /// The limits, of which a continuous joint has no positions.

@@ -136,6 +136,7 @@ impl<'a> Reference<'a> {
                 Shape::Accelerations => weights[k],
                 Shape::MassMatrix => 1.0 / (weights[k / weights.len()] * weights[k % weights.len()]),
                 Shape::Energy
+                | Shape::Power
                 | Shape::CenterOfMass
                 | Shape::Links
                 | Shape::LoopRows

@@ -2,8 +2,9 @@
 
 use super::trace::Trace;
 use super::{
-    Method, bias_forces, center_of_mass, coordinate_rates, difference, energy, forward_dynamics, gravity_forces,
-    integrate, inverse_dynamics, link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix, neutral,
+    Method, bias_forces, center_of_mass, coordinate_rates, difference, dissipated_power, energy, forward_dynamics,
+    gravity_forces, integrate, inverse_dynamics, link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix,
+    neutral, passive_forces,
 };
 use crate::parameter::ParameterIn;
 use crate::tree::Tree;
@@ -23,6 +24,7 @@ pub fn evaluate<S: Scalar>(
         Function::MassMatrix => mass_matrix(tree, trace, x[0]).concat(),
         Function::BiasForces => bias_forces(tree, trace, x[0], x[1]),
         Function::GravityForces => gravity_forces(tree, trace, x[0]),
+        Function::PassiveForces => passive_forces(tree, x[0], x[1]),
         Function::Energy => {
             let Energy { kinetic, potential } = energy(tree, trace, x[0], x[1]);
             vec![kinetic, potential]
@@ -44,5 +46,6 @@ pub fn evaluate<S: Scalar>(
         Function::Integrate => integrate(tree, x[0], x[1]),
         Function::Difference => difference(tree, x[0], x[1]),
         Function::Neutral => neutral(tree),
+        Function::DissipatedPower => vec![dissipated_power(tree, x[1])],
     }
 }

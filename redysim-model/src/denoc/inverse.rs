@@ -191,7 +191,7 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
     });
 }
 
-/// C(q, v) v + g(q): the joint forces at zero acceleration.
+/// C(q, v) v + g(q) and the passive forces: the joint forces at zero acceleration.
 pub fn bias_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
     inverse_dynamics(tree, trace, q, v, &vec![S::zero(); tree.nv()])
 }

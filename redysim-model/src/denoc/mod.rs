@@ -25,6 +25,7 @@ mod inverse;
 mod kinematics;
 mod loops;
 mod mass_matrix;
+mod passive;
 mod trace;
 mod workspace;
 
@@ -41,5 +42,6 @@ pub use kinematics::link_kinematics;
 pub(crate) use loops::rows_that_vary;
 pub use loops::{loop_bias, loop_jacobian, loop_residual};
 pub use mass_matrix::{mass_matrix, mass_matrix_in};
+pub use passive::{dissipated_power, passive_forces};
 pub use trace::{Trace, Untraced};
 pub use workspace::Workspace;

@@ -72,9 +72,9 @@ impl<P: Parameter> JointPhysics<P> {
         acting(self.armature)
     }
 
-    /// d v + f v/√(v² + ε²) + k (q − q₀); `None` if it is known to be zero.
+    /// d v + f v/√(v² + ε²), which takes energy from the mechanism; `None` if it is known to be zero.
     #[inline]
-    pub fn passive_force<S: Scalar>(&self, q: S, v: S) -> Option<S>
+    pub fn dissipative_force<S: Scalar>(&self, v: S) -> Option<S>
     where
         P: ParameterIn<S>,
     {
@@ -83,8 +83,17 @@ impl<P: Parameter> JointPhysics<P> {
             let smoothing: S = self.friction_velocity.value();
             friction * v / (v * v + smoothing * smoothing).sqrt()
         });
+        sum([damping, friction])
+    }
+
+    /// d v + f v/√(v² + ε²) + k (q − q₀); `None` if it is known to be zero.
+    #[inline]
+    pub fn passive_force<S: Scalar>(&self, q: S, v: S) -> Option<S>
+    where
+        P: ParameterIn<S>,
+    {
         let spring = acting(self.stiffness).map(|stiffness: S| stiffness * (q - self.rest.value()));
-        [damping, friction, spring].into_iter().flatten().reduce(|sum, force| sum + force)
+        sum([self.dissipative_force(v), spring])
     }
 
     /// J a + d v + f v/√(v² + ε²) + k (q − q₀); `None` if it is known to be zero.
@@ -93,8 +102,7 @@ impl<P: Parameter> JointPhysics<P> {
     where
         P: ParameterIn<S>,
     {
-        let rotor = self.armature().map(|armature: S| armature * a);
-        rotor.into_iter().chain(self.passive_force(q, v)).reduce(|sum, force| sum + force)
+        sum([self.armature().map(|armature: S| armature * a), self.passive_force(q, v)])
     }
 
     /// Twice the energy of the spring, k (q − q₀)², J; `None` if it is known to be zero.
@@ -107,6 +115,15 @@ impl<P: Parameter> JointPhysics<P> {
             let stretch = q - self.rest.value();
             stiffness * (stretch * stretch)
         })
+    }
+}
+
+/// The sum of forces of which some may not act.
+#[inline]
+fn sum<S: Scalar>([a, b]: [Option<S>; 2]) -> Option<S> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a + b),
+        (one, None) | (None, one) => one,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
     BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, Scalar,
+    LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, PassiveForces, Scalar,
 };
 
 /// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and
@@ -123,6 +123,9 @@ impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M
     fn neutral(&self) -> M::Coordinates {
         self.mechanism.neutral()
     }
+    fn dissipated_power(&self, q: &M::Coordinates, v: &M::Velocities) -> S {
+        self.mechanism.dissipated_power(q, v)
+    }
 }
 
 impl<S: Scalar, M: LinkKinematics<S>> LinkKinematics<S> for Dispatched<M> {
@@ -212,6 +215,7 @@ macro_rules! functions {
         }
         vector_function! { $float, $number: BiasForces bias_forces(q: Coordinates, v: Velocities) }
         vector_function! { $float, $number: GravityForces gravity_forces(q: Coordinates) }
+        vector_function! { $float, $number: PassiveForces passive_forces(q: Coordinates, v: Velocities) }
         function! { $float, $number:
             MassMatrix mass_matrix(q: Coordinates) -> <M as ConfigurationSpace<$float>>::Matrix => |found| {
                 let mut rows = found.as_ref().iter();

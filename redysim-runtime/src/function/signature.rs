@@ -102,6 +102,8 @@ pub enum Shape {
     MassMatrix,
     /// `Energy<S>`: kinetic, potential.
     Energy,
+    /// Power, `S`.
+    Power,
     /// `CenterOfMass<S>`: position, velocity.
     CenterOfMass,
     /// `[LinkState<S>; NL]`: rotation by rows, origin, centre of mass, velocity, angular velocity.

@@ -85,6 +85,9 @@ functions! {
     GravityForces gravity_forces, Interface::Own("GravityForces"),
         (Coordinates) -> Forces,
         "g(q), N m or N: the joint forces at rest.";
+    PassiveForces passive_forces, Interface::Own("PassiveForces"),
+        (Coordinates, Velocities) -> Forces,
+        "The part of the bias that damping, friction and springs take, N m or N.";
     Energy energy, Interface::Own("MechanicalEnergy"),
         (Coordinates, Velocities) -> Energy,
         "Kinetic and potential energy, J; the potential is zero at the base frame's origin.";
@@ -114,6 +117,9 @@ functions! {
     Difference difference, Interface::ConfigurationSpace,
         (Start, End) -> Displacement,
         "q₁ ⊟ q₀, rad or m: the velocities that lead from q0 to q1 in a unit of time, the inverse of `integrate`.";
+    DissipatedPower dissipated_power, Interface::ConfigurationSpace,
+        (Coordinates, Velocities) -> Power,
+        "The power that damping and friction take, W; never negative.";
     Neutral neutral, Interface::ConfigurationSpace,
         () -> Coordinates,
         "The coordinates at which every joint is at its zero position, rad or m.";

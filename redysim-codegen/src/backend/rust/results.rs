@@ -15,6 +15,7 @@ pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStr
         Shape::Forces | Shape::Accelerations | Shape::Displacement => quote!([S; #nv]),
         Shape::MassMatrix => quote!([[S; #nv]; #nv]),
         Shape::Energy => quote!(#runtime::Energy<S>),
+        Shape::Power => quote!(S),
         Shape::CenterOfMass => quote!(#runtime::CenterOfMass<S>),
         Shape::Links => quote!([#runtime::LinkState<S>; #nl]),
         Shape::LoopRows => quote!([S; #nc]),
@@ -33,6 +34,7 @@ pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream],
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
             quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })
         }
+        Shape::Power => outputs[0].clone(),
         Shape::CenterOfMass => {
             let vectors = rows(outputs, 3);
             let [position, velocity] = [&vectors[0], &vectors[1]];

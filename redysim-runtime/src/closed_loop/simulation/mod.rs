@@ -225,7 +225,9 @@ where
         let taken = self.evaluation_point(state).and_then(|EvaluationPoint { q, v, constraints }| {
             let tau = self.law.torque(t, &q, &v);
             let motion = self.constrained(&constraints, &q, &v, &tau)?;
-            Ok((self.loops.mechanism.coordinate_rates(&q, &v), motion.accelerations, dot(tau.as_ref(), v.as_ref())))
+            let mechanism = self.loops.mechanism;
+            let power = dot(tau.as_ref(), v.as_ref()) - mechanism.dissipated_power(&q, &v);
+            Ok((mechanism.coordinate_rates(&q, &v), motion.accelerations, power))
         });
         match taken {
             Err(error) => {
