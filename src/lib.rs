@@ -71,6 +71,7 @@
 //! - `generic` (on by default): [`generic`]; brings `std`.
 //! - `std`: [`batch`], [`Dispatched`], and a fused multiply-add that is quicker to compile. Without it the crate is
 //!   `no_std`.
+//! - `nalgebra`: [`nalgebra`](mod@nalgebra), the functions over its vectors, matrices and isometries; without `std` too.
 //! - `deterministic`: the same bits on every target. Without it products and sums are fused where the target can (see
 //!   [`FUSED`]), so that a program compiled with `-C target-cpu=native` may differ from one that is not in the
 //!   last places; within one program, lanes and plain numbers agree to the bit either way, and so do batches and
@@ -89,7 +90,7 @@ pub use redysim_runtime::*;
 pub mod generic {
     pub use redysim_model::denoc::Workspace;
     pub use redysim_model::inertia::Sym3;
-    pub use redysim_model::joint::Joint;
+    pub use redysim_model::joint::{Joint, JointPhysics};
     pub use redysim_model::pseudo::PseudoInertia;
     pub use redysim_model::spatial::{Mat3, Pose, Vec3};
     pub use redysim_model::{
@@ -98,6 +99,9 @@ pub mod generic {
         MovingJoint, PublicInterface, Severity, Tree,
     };
 }
+
+#[cfg(feature = "nalgebra")]
+pub mod nalgebra;
 
 /// The README's program, so that it is known to run.
 #[cfg(doctest)]

@@ -40,6 +40,7 @@ extern "C" fn main() -> i32 {
     let kept = keeps_its_energy_when_it_falls().is_some_and(|kept| kept);
     i32::from(
         !(is_held_by_gravity_forces()
+            && is_held_in_the_vectors_of_nalgebra()
             && kept
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
@@ -52,6 +53,16 @@ fn is_held_by_gravity_forces() -> bool {
     let torques: [f64; 6] = Kr5::gravity_forces(&q);
     let accelerations = Kr5::forward_dynamics(&q, &[0.0; 6], &torques);
     accelerations.iter().all(|a| -1e-9 < *a && *a < 1e-9) && torques.iter().any(|torque| *torque > 1.0)
+}
+
+/// The same with nalgebra's vectors.
+fn is_held_in_the_vectors_of_nalgebra() -> bool {
+    let q = nalgebra::Vector6::new(0.1, 0.7, -0.4, 0.3, 0.9, -0.2);
+    let torques = redysim::nalgebra::gravity_forces(&Kr5, &q);
+    let at_rest = nalgebra::Vector6::zeros();
+    let accelerations = redysim::nalgebra::forward_dynamics(&Kr5, &q, &at_rest, &torques);
+    let [.., hand] = redysim::nalgebra::link_kinematics(&Kr5, &q, &at_rest);
+    accelerations.norm_squared() < 1e-18 && hand.pose.translation.vector.norm() > 0.1
 }
 
 fn keeps_its_energy_when_it_falls() -> Option<bool> {
