@@ -1,4 +1,4 @@
-//! The functions of compiled mechanisms over [nalgebra](::nalgebra)'s vectors, matrices and isometries.
+//! The functions of compiled mechanisms over the vectors, matrices and isometries of [`::nalgebra`].
 //!
 //! Each function has the name of the one that it calls. Vectors are passed on as the arrays that they hold, and results
 //! are moved into vectors and matrices, so that nothing is copied by hand. Neither `std` nor an allocator is needed.
@@ -18,7 +18,7 @@
 //! assert!((tau - same).norm() < 1e-12 * tau.norm());
 //!
 //! let tool = dynamics::link_kinematics(&Kr5, &q, &v)[5];
-//! println!("the tool's frame is at {}, its tip at {}", tool.pose, tool.pose * nalgebra::point![0.0, 0.0, 0.1]);
+//! println!("the tool's frame is at {}, its tip at {}", tool.pose, tool.pose * nalgebra::Point3::new(0.0, 0.0, 0.1));
 //! ```
 
 use crate::{
