@@ -71,7 +71,8 @@ fn place<S: Scalar>(model: &Model, link: Option<usize>, q: &[S]) -> Transform<S>
     let variable = q.get(coordinate).map_or(S::zero(), |&q| q + S::from_f64(link.offset));
     let placement = constant(&link.placement.rotation.0, link.placement.position.0);
     let parent = place(model, link.parent, q);
-    product(&product(&parent, &placement), &joint(link.joint, link.pitch, link.axis.0, variable))
+    let moved = product(&product(&parent, &placement), &joint(link.joint, link.pitch, link.axis.0, variable));
+    product(&moved, &constant(&link.frame.rotation.0, link.frame.position.0))
 }
 
 /// All rows of all loops, whether they vanish or not. `frames` are the axes of side a, as columns in its link's frame.
@@ -127,8 +128,10 @@ fn random_model(random: &mut Random) -> Model {
         let kinds = [JointKind::Revolute, JointKind::Helical, JointKind::Prismatic, JointKind::Fixed];
         let joint = kinds[random.below(4)];
         let at = Vec3::from_fn(|_| random.within(0.5));
+        let tilt = Rotation3::from_axis_angle(&axis, random.within(3.0));
         Link {
             axis: Vec3(unit_vector(random).into()),
+            frame: placed(tilt.matrix(), Vec3::from_fn(|_| random.within(0.3))),
             offset: offset(random),
             pitch: 0.2,
             mass: 1.0,

@@ -15,7 +15,7 @@ use redysim_codegen::functions::{TracedFunction, trace};
 use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::joint::{JointPhysics, Vanishing};
 use redysim_model::regroup::base_parameters;
-use redysim_model::spatial::Vec3;
+use redysim_model::spatial::{Pose, Vec3};
 use redysim_model::{Function, JointKind, Link, Model, Tree};
 use std::collections::BTreeMap;
 
@@ -67,9 +67,15 @@ fn random_model(random: &mut Random) -> Model {
         };
         let turned = rotation(random);
         let at = Vec3::from_fn(|_| random.within(0.5));
+        let frame = if random.below(2) == 0 {
+            Pose::identity()
+        } else {
+            placed(&rotation(random), Vec3::from_fn(|_| random.within(0.3)))
+        };
         // A body of a few kilogrammes and decimetres.
         Link {
             axis: Vec3(axis(random).into()),
+            frame,
             offset: offset(random),
             pitch: if joint == JointKind::Helical { 0.4 - 0.1 * grown as f64 } else { 0.0 },
             mass: 1.5 + random.within(1.0),

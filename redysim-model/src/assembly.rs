@@ -31,11 +31,11 @@ impl Tree {
                 None => (None, Pose::identity()),
             };
             let placement = reference * link.placement;
-            let (body, pose) = match Joint::of(link) {
+            let (body, moved) = match Joint::of(link) {
                 None => (parent, placement),
                 Some(joint) => tree.add_body(parent, placement, link, joint, first[index]),
             };
-            let pose = pose.without_roundoff();
+            let pose = (moved * link.frame).without_roundoff();
             tree.links[index].body = body;
             tree.links[index].pose = pose;
             let inertia = link_inertia(link).transformed(pose).without_roundoff();
@@ -73,7 +73,7 @@ impl Tree {
         CutEnd { body, point: end.position, axes: end.rotation }
     }
 
-    /// Adds a body for a moving link; returns its index and the link's frame on it.
+    /// Adds a body for a moving link; returns its index and the frame that the joint moves, on it.
     fn add_body(
         &mut self,
         parent: Option<usize>,

@@ -70,8 +70,9 @@ impl Model {
     /// Checks the text of a model file. Messages call the file `file_name`.
     ///
     /// What the file may leave out: `joint_name` is the link's name; `com`, `point_a`, `point_b` and the entries of
-    /// `dh`, `origin` and `inertia` are zero; `actuated` is true; of `origin` and `axis` (used where there is no `dh`)
-    /// one may be missing, and is then the parent's frame or z; `axis_a` and `axis_b` of a revolute cut are z.
+    /// `dh`, `dh_standard`, `origin` and `inertia` are zero; `actuated` is true; of `origin` and `axis` (used where there
+    /// is neither `dh` nor `dh_standard`) one may be missing, and is then the parent's frame or z; `axis_a` and `axis_b`
+    /// of a revolute cut are z.
     ///
     /// # Errors
     ///

@@ -68,7 +68,9 @@ impl Link {
                 aligned * rotation::about_z(angle) * aligned.transpose()
             });
             let slide = displacement.map_or(Vec3::zero(), |slide| self.axis.scale(slide));
-            self.placement = (self.placement * Pose { rotation: turn, position: slide }).without_negative_zeros();
+            let motion = Pose { rotation: turn, position: slide };
+            self.placement = (self.placement * motion * self.frame).without_negative_zeros();
+            self.frame = Pose::identity();
         }
         self.joint = JointKind::Fixed;
         self.axis = Vec3([0.0, 0.0, 1.0]);

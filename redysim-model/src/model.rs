@@ -18,8 +18,8 @@ pub struct Model {
 
 /// One rigid body and the joint that carries it.
 ///
-/// A joint variable q moves the link's frame to `placement · motion(offset + q)`, where the motion is a rotation about
-/// `axis` (revolute), a translation along it (prismatic), both in proportion (helical), or nothing (fixed).
+/// A joint variable q moves the link's frame to `placement · motion(offset + q) · frame`, where the motion is a rotation
+/// about `axis` (revolute), a translation along it (prismatic), both in proportion (helical), or nothing (fixed).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name of the link.
@@ -30,10 +30,14 @@ pub struct Link {
     pub parent: Option<usize>,
     /// What the joint lets the link do.
     pub joint: JointKind,
-    /// The link's frame in the parent's where the joint's motion is zero.
+    /// The frame that the joint moves, in the parent's where the joint's motion is zero. The joint axis passes through
+    /// its origin.
     pub placement: Pose<f64>,
-    /// Unit vector of the joint axis, in the link's frame.
+    /// Unit vector of the joint axis, in the frame that the joint moves.
     pub axis: Vec3<f64>,
+    /// The link's frame in the one that the joint moves: the identity, or the Tx(a) Rx(alpha) of standard
+    /// Denavit-Hartenberg parameters, which have a link's frame at its far end.
+    pub frame: Pose<f64>,
     /// What is added to the joint variable: rad, or m (prismatic).
     pub offset: f64,
     /// Translation along the axis for a unit of rotation, m/rad, of a helical joint; zero for others.

@@ -111,15 +111,27 @@ impl Body {
             JointKind::Fixed => {}
             other => panic!("Kane's equations are not written for {other:?} joints"),
         }
+        let on_axis = body.origin;
+        body.stand_on(Matrix3::from_fn(|i, j| link.frame.rotation.0[i][j]), Vector3::from(link.frame.position.0));
         body.com = body.origin + body.rotation * Vector3::from(link.com.0);
         if link.joint != JointKind::Fixed {
             let (turn, slide) = match link.joint {
                 JointKind::Prismatic => (0.0, 1.0),
                 _ => (1.0, link.pitch),
             };
-            body.joints.push((coordinate, Screw { axis: z, point: body.origin, turn, slide }));
+            body.joints.push((coordinate, Screw { axis: z, point: on_axis, turn, slide }));
         }
         body
+    }
+
+    /// Takes a frame fixed to this one, at `position` in it with the axes `rotation`, instead.
+    fn stand_on(&mut self, rotation: Matrix3<f64>, position: Vector3<f64>) {
+        let arm = self.rotation * position;
+        let (w, dw) = (self.angular_velocity, self.angular_acceleration);
+        self.acceleration += dw.cross(&arm) + w.cross(&w.cross(&arm));
+        self.velocity += w.cross(&arm);
+        self.origin += arm;
+        self.rotation *= rotation;
     }
 
     /// Jacobians of the centre of mass and of the axes, a column for each of `dof` velocities.

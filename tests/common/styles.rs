@@ -136,6 +136,7 @@ pub fn link(number: usize, parent: Option<usize>, joint: JointKind, placement: P
         joint,
         placement,
         axis: Vec3([0.0, 0.0, 1.0]),
+        frame: Pose::identity(),
         offset: 0.0,
         pitch: 0.0,
         physics: JointPhysics::default(),

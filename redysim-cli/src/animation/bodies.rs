@@ -2,13 +2,13 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use redysim_model::joint::{self, Screw};
-use redysim_model::spatial::{Mat3, Vec3};
-use redysim_model::{JointKind, Link, Model};
+use redysim_model::spatial::{Mat3, Pose};
+use redysim_model::{CutSide, JointKind, Link, Model};
 use serde::Serialize;
 
 use crate::layout::Layout;
 
-/// A link in its own frame, or the ground (the first body) in the base frame.
+/// A link in the frame that its joint moves, or the ground (the first body) in the base frame.
 #[derive(Serialize)]
 pub struct Body<'a> {
     name: &'a str,
@@ -26,11 +26,11 @@ pub struct Body<'a> {
 struct Joint<'a> {
     name: &'a str,
     kind: &'a str,
-    /// Unit vector, in the link's frame.
+    /// Unit vector, in the body's frame.
     axis: [f64; 3],
     /// The body that carries it.
     parent: usize,
-    /// The link's frame in that body's where the joint's motion is zero: origin, m, and quaternion x, y, z, w.
+    /// The body's frame in that body's where the joint's motion is zero: origin, m, and quaternion x, y, z, w.
     position: [f64; 3],
     rotation: [f64; 4],
     /// Rotation about the axis and displacement along it for a unit of its coordinate.
@@ -70,24 +70,28 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let screw = joint::Joint::of(link).map_or(Screw { turn: 0.0, slide: 0.0 }, joint::Joint::screw);
+        let placement = frame(model, link.parent) * link.placement;
         let joint = Joint {
             name: &link.joint_name,
             kind: link.joint.name(),
             axis: link.axis.0,
             parent: number(link.parent),
-            position: link.placement.position.0,
-            rotation: quaternion(link.placement.rotation),
+            position: placement.position.0,
+            rotation: quaternion(placement.rotation),
             turn: screw.turn,
             slide: screw.slide,
             offset: link.offset,
             coordinate: if link.joint.dof() > 0 { moving.next().map(|joint| joint.q.start) } else { None },
-            rail: (link.joint == JointKind::Prismatic).then(|| Place { body: number(link.parent), point: foot(link) }),
+            rail: (link.joint == JointKind::Prismatic)
+                .then(|| Place { body: number(link.parent), point: foot(model, link) }),
         };
-        let com = link.com.0;
+        let com = link.frame.transform(link.com).0;
         let mut ends = ends(model, Some(index));
         if ends.is_empty() {
-            // No joint marks where it ends: a uniform rod with this centre of mass ends at twice its distance.
-            ends.push(com.map(|x| 2.0 * x));
+            // No joint marks where it ends: its frame may stand there, or a uniform rod with this centre of mass ends
+            // at twice its distance.
+            let far_end = link.frame.position.0;
+            ends.push(if far_end == [0.0; 3] { com.map(|x| 2.0 * x) } else { far_end });
         }
         let tip = model.links.iter().all(|other| other.parent != Some(index));
         Body { name: &link.name, joint: Some(joint), ends, tip, com: (link.mass > 0.0).then_some(com) }
@@ -98,10 +102,21 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
 /// The cut joints, each where its side a holds it.
 pub fn cuts(model: &Model) -> Vec<Cut<'_>> {
     let cuts = model.loops.iter().map(|cut| {
-        let at = Place { body: number(cut.a.link), point: cut.a.point.0 };
-        Cut { name: &cut.name, kind: cut.joint.name(), at, axis: cut.a.axis.0 }
+        let at = Place { body: number(cut.a.link), point: point(model, &cut.a) };
+        let axis = (frame(model, cut.a.link).rotation * cut.a.axis).0;
+        Cut { name: &cut.name, kind: cut.joint.name(), at, axis }
     });
     cuts.collect()
+}
+
+/// The frame of a link, or of the base, in the body's.
+fn frame(model: &Model, link: Option<usize>) -> Pose<f64> {
+    link.map_or(Pose::identity(), |link| model.links[link].frame)
+}
+
+/// The point of a cut on one side, in the body's frame.
+fn point(model: &Model, side: &CutSide) -> [f64; 3] {
+    frame(model, side.link).transform(side.point).0
 }
 
 /// Number of a body among those that the page knows: the ground is 0.
@@ -114,15 +129,69 @@ fn quaternion(rotation: Mat3<f64>) -> [f64; 4] {
     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)).coords.into()
 }
 
-/// Where the joints of a link's children, and the cut joints on it, stand: in the link's frame.
+/// Where the joints of a link's children, and the cut joints on it, stand: in the body's frame.
 fn ends(model: &Model, link: Option<usize>) -> Vec<[f64; 3]> {
-    let children = model.links.iter().filter(|child| child.parent == link).map(foot);
+    let children = model.links.iter().filter(|child| child.parent == link).map(|child| foot(model, child));
     let sides = model.loops.iter().flat_map(|cut| [&cut.a, &cut.b]);
-    children.chain(sides.filter(|side| side.link == link).map(|side| side.point.0)).collect()
+    children.chain(sides.filter(|side| side.link == link).map(|side| point(model, side))).collect()
 }
 
 /// Where a link's joint stands on its parent: for a prismatic one, where the joint variable is zero.
-fn foot(link: &Link) -> [f64; 3] {
-    let slid = link.offset_along_axis();
-    (link.placement.position + link.placement.rotation * Vec3(link.axis.0.map(|x| x * slid))).0
+fn foot(model: &Model, link: &Link) -> [f64; 3] {
+    let slid = link.axis.scale(link.offset_along_axis());
+    (frame(model, link.parent) * link.placement).transform(slid).0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::Value;
+
+    /// A swinging arm that carries a slide, to which a loop is cut.
+    fn drawn(arm: &str, slide: &str) -> (Value, Value) {
+        let text = format!(
+            "name = 'crane'\ngravity = [0, 0, -9.81]\n\
+             [[link]]\nname = 'arm'\nparent = 'base'\njoint = 'revolute'\n{arm}\nmass = 1\n\
+             [[link]]\nname = 'slide'\nparent = 'arm'\njoint = 'prismatic'\n{slide}\nmass = 1\nactuated = false\n\
+             [[loop]]\nname = 'pin'\njoint = 'revolute'\nlink_a = 'slide'\nlink_b = 'base'\npoint_b = [0.5, 0.1, 0.7]\n"
+        );
+        let text = text.replace("\nlink_b", if arm.contains("standard") { FAR_PIN } else { NEAR_PIN });
+        let model =
+            redysim_model::Model::from_toml(text, "crane.toml").unwrap_or_else(|faults| panic!("{faults}")).model;
+        let json = |value: serde_json::Result<Value>| value.expect("numbers and texts");
+        let bodies = json(serde_json::to_value(of(&model, &Layout::of(&model))));
+        (bodies, json(serde_json::to_value(cuts(&model))))
+    }
+
+    /// The point (0.3, 0.2, 0.1) and the axis x of the slide, in the frame at its joint and in the one at its far end.
+    const NEAR_PIN: &str = "\npoint_a = [0.3, 0.2, 0.1]\naxis_a = [0, 1, 0]\nlink_b";
+    const FAR_PIN: &str = "\npoint_a = [0.1, 0.1, -0.2]\naxis_a = [0, 0, -1]\nlink_b";
+
+    fn numbers(value: &Value, found: &mut Vec<f64>) {
+        match value {
+            Value::Number(number) => found.extend(number.as_f64()),
+            Value::Array(values) => values.iter().for_each(|value| numbers(value, found)),
+            Value::Object(entries) => entries.values().for_each(|value| numbers(value, found)),
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn a_robot_by_standard_parameters_looks_as_it_does_by_khalil_kleinfinger_parameters() {
+        let (bodies, cuts) = drawn(
+            "dh_standard = { a = 0.4, alpha = '-90 deg', d = 0.2, theta = 0.3 }\ncom = [-0.1, 0.02, 0.03]",
+            "dh_standard = { a = 0.2, alpha = '90 deg', d = 0.25, theta = 0.7 }\ncom = [-0.1, 0, 0.05]",
+        );
+        let (expected_bodies, expected_cuts) = drawn(
+            "dh = { b = 0.2, theta = 0.3 }\ncom = [0.3, 0.03, -0.02]",
+            "dh = { a = 0.4, alpha = '-90 deg', b = 0.25, theta = 0.7 }\ncom = [0.1, -0.05, 0]",
+        );
+        for (found, expected) in [(&bodies, &expected_bodies), (&cuts, &expected_cuts)] {
+            let [mut ours, mut theirs] = [Vec::new(), Vec::new()];
+            numbers(found, &mut ours);
+            numbers(expected, &mut theirs);
+            assert!(ours.len() > 5 && ours.len() == theirs.len(), "{found} instead of {expected}");
+            assert!(ours.iter().zip(&theirs).all(|(a, b)| (a - b).abs() < 1e-15), "{found} instead of {expected}");
+        }
+    }
 }

@@ -132,7 +132,7 @@ fn size(model: &Model) -> f64 {
 }
 
 fn own_length(link: &Link) -> f64 {
-    length(link.placement.position) + link.offset_along_axis().abs()
+    length(link.placement.position) + link.offset_along_axis().abs() + length(link.frame.position)
 }
 
 fn length(vector: Vec3<f64>) -> f64 {

@@ -17,6 +17,7 @@ use crate::model::{JointKind, Link, Model};
 use crate::options::CodegenOptions;
 use crate::schema::{Document, LinkTable};
 use crate::spatial::Vec3;
+use placement::Placed;
 use redysim_toml::{Findings, Message, Spanned};
 
 /// The model and what is asked of it, unless an error is found, or was found while reading.
@@ -79,7 +80,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
     inertia::check(table, findings);
     let placed = placement::place(table, findings);
     let physics = physics::check(table, findings);
-    let (placement, axis, offset) = placed?;
+    let Placed { placement, axis, offset, frame } = placed?;
     Some(Link {
         name: table.name.value()?.clone(),
         joint_name: table.joint_name()?.get_ref().clone(),
@@ -87,6 +88,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
         joint: *table.joint.value()?,
         placement,
         axis,
+        frame,
         offset,
         pitch: table.pitch.value_or(0.0)?,
         mass: *table.mass.value()?,

@@ -1,11 +1,12 @@
-//! Where a joint stands and about what it moves, given in one of two ways.
+//! Where a joint stands and about what it moves, given in one of three ways.
 
 use crate::messages;
 use crate::model::JointKind;
 use crate::rotation::{about_x, about_z, roll_pitch_yaw};
-use crate::schema::{Dh, LinkTable, Origin};
+use crate::schema::{Dh, DhStandard, LinkTable, Origin};
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_toml::{Field, Findings, Spanned};
+use std::ops::Range;
 
 /// The z axis: of every Denavit-Hartenberg joint, and of others unless the file says otherwise.
 const Z: Vec3<f64> = Vec3([0.0, 0.0, 1.0]);
@@ -13,8 +14,16 @@ const Z: Vec3<f64> = Vec3([0.0, 0.0, 1.0]);
 /// Shorter vectors are taken for a zero that roundoff has blurred.
 const SHORTEST_AXIS: f64 = 1e-9;
 
-/// Placement, axis and offset of the link's joint (see [`crate::Link`]).
-pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<(Pose<f64>, Vec3<f64>, f64)> {
+/// Placement, axis, offset and frame of a link (see [`crate::Link`]).
+pub(super) struct Placed {
+    pub(super) placement: Pose<f64>,
+    pub(super) axis: Vec3<f64>,
+    pub(super) offset: f64,
+    pub(super) frame: Pose<f64>,
+}
+
+/// Where the link's joint stands, and the link's frame on it.
+pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed> {
     placed_once(link, findings);
     let axis_allowed = axis_allowed(link, findings);
     let axis = unit_axis(&link.item, "axis", &link.axis, axis_allowed, findings);
@@ -24,22 +33,28 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<(Pose<f
     }
     let pitch = link.pitch.value_or(0.0)?;
     if let Some(dh) = link.dh.value() {
-        let (placement, offset) = from_dh(joint, pitch, *dh);
-        return Some((placement, Z, offset));
+        return Some(from_dh(joint, pitch, *dh));
+    }
+    if let Some(dh) = link.dh_standard.value() {
+        return Some(from_dh_standard(joint, pitch, *dh));
     }
     let Origin { xyz, rpy } = link.origin.value_or(Origin::default())?;
     let placement = Pose { rotation: roll_pitch_yaw(rpy), position: Vec3(xyz) };
-    Some((placement.without_negative_zeros(), axis?, 0.0))
+    Some(Placed { placement: placement.without_negative_zeros(), axis: axis?, offset: 0.0, frame: Pose::identity() })
 }
 
-/// Either `dh`, or `origin` and `axis` or one of them.
+/// By `dh`, by `dh_standard`, or by `origin` and `axis` or one of them.
 fn placed_once(link: &LinkTable, findings: &mut Findings) {
-    let origin = link.origin.spanned().map(|origin| ("origin", origin.span()));
-    let axis = link.axis.spanned().map(|axis| ("axis", axis.span()));
-    let nothing_given = link.origin.is_missing() && link.axis.is_missing();
-    match (!link.dh.is_missing(), origin.or(axis)) {
-        (true, Some((key, span))) => findings.error(span, messages::two_placements(&link.item, key)),
-        (false, None) if nothing_given => findings.error(link.place(), messages::no_placement(&link.item)),
+    fn given<T>(name: &'static str, field: &Field<T>) -> Option<(&'static str, Option<Range<usize>>)> {
+        (!field.is_missing()).then(|| (name, field.spanned().map(Spanned::span)))
+    }
+    let by_origin = given("origin", &link.origin).or(given("axis", &link.axis));
+    let mut ways = [given("dh", &link.dh), given("dh_standard", &link.dh_standard), by_origin].into_iter().flatten();
+    match (ways.next(), ways.next()) {
+        (None, _) => findings.error(link.place(), messages::no_placement(&link.item)),
+        (Some((first, _)), Some((second, Some(span)))) => {
+            findings.error(span, messages::two_placements(&link.item, first, second));
+        }
         _ => {}
     }
 }
@@ -77,21 +92,45 @@ pub(super) fn unit_axis(
     Some(Vec3::from_fn(|i| scaled[i] / length + 0.0))
 }
 
-/// Rx(alpha) Tx(a) Rz(theta) Tz(b), with the joint variable added to theta (revolute), to b (prismatic), or to theta
-/// and `pitch` times to b (helical). As Rz and Tz commute, the variable's factor can stand last, where the joint's
-/// motion is.
-fn from_dh(joint: JointKind, pitch: f64, dh: Dh) -> (Pose<f64>, f64) {
-    let turned = |rotation| Pose { rotation, position: Vec3::zero() };
-    let moved = |x, z| Pose { rotation: Mat3::identity(), position: Vec3([x, 0.0, z]) };
-    let before = turned(about_x(dh.alpha));
-    let (placement, offset) = match joint {
-        JointKind::Revolute => (before * moved(dh.a, dh.b), dh.theta),
-        // The motion of the offset slides, too.
-        JointKind::Helical => (before * moved(dh.a, dh.b - pitch * dh.theta), dh.theta),
-        JointKind::Prismatic => (before * moved(dh.a, 0.0) * turned(about_z(dh.theta)), dh.b),
-        JointKind::Fixed => (before * moved(dh.a, dh.b) * turned(about_z(dh.theta)), 0.0),
+/// Rx(alpha) Tx(a) Rz(theta) Tz(b): the link's frame is the one that the joint moves.
+fn from_dh(joint: JointKind, pitch: f64, Dh { a, alpha, b, theta }: Dh) -> Placed {
+    let (screw, offset) = about_and_along_z(joint, pitch, theta, b);
+    let placement = turned(about_x(alpha)) * moved(a, 0.0) * screw;
+    Placed { placement: placement.without_negative_zeros(), axis: Z, offset, frame: Pose::identity() }
+}
+
+/// Rz(theta) Tz(d) Tx(a) Rx(alpha): the joint moves along or about the z axis of the parent's frame, and the link's
+/// frame stands at the far end. That of a fixed link is its placement.
+fn from_dh_standard(joint: JointKind, pitch: f64, DhStandard { a, alpha, d, theta }: DhStandard) -> Placed {
+    let (screw, offset) = about_and_along_z(joint, pitch, theta, d);
+    let far_end = moved(a, 0.0) * turned(about_x(alpha));
+    let (placement, frame) = match joint {
+        JointKind::Fixed => (screw * far_end, Pose::identity()),
+        _ => (screw, far_end),
     };
-    (placement.without_negative_zeros(), offset)
+    let [placement, frame] = [placement, frame].map(Pose::without_negative_zeros);
+    Placed { placement, axis: Z, offset, frame }
+}
+
+/// Rz(angle) Tz(distance) before the motion of the joint, and the offset of its variable: this is added to the angle
+/// (revolute), to the distance (prismatic), or to the angle and `pitch` times to the distance (helical). As Rz and Tz
+/// commute, the variable's factor can stand last, where the joint's motion is.
+fn about_and_along_z(joint: JointKind, pitch: f64, angle: f64, distance: f64) -> (Pose<f64>, f64) {
+    match joint {
+        JointKind::Revolute => (moved(0.0, distance), angle),
+        // The motion of the offset slides, too.
+        JointKind::Helical => (moved(0.0, distance - pitch * angle), angle),
+        JointKind::Prismatic => (turned(about_z(angle)), distance),
+        JointKind::Fixed => (moved(0.0, distance) * turned(about_z(angle)), 0.0),
+    }
+}
+
+fn turned(rotation: Mat3<f64>) -> Pose<f64> {
+    Pose { rotation, position: Vec3::zero() }
+}
+
+fn moved(x: f64, z: f64) -> Pose<f64> {
+    Pose { rotation: Mat3::identity(), position: Vec3([x, 0.0, z]) }
 }
 
 #[cfg(test)]
@@ -101,9 +140,18 @@ mod tests {
 
     /// Rx(alpha) Tx(a) Rz(theta) Tz(b), as the field writes it.
     fn khalil_kleinfinger(dh: Dh) -> Pose<f64> {
-        let turned = |rotation| Pose { rotation, position: Vec3::zero() };
-        let moved = |position| Pose { rotation: Mat3::identity(), position: Vec3(position) };
-        turned(about_x(dh.alpha)) * moved([dh.a, 0.0, 0.0]) * turned(about_z(dh.theta)) * moved([0.0, 0.0, dh.b])
+        turned(about_x(dh.alpha)) * moved(dh.a, 0.0) * turned(about_z(dh.theta)) * moved(0.0, dh.b)
+    }
+
+    /// Where the link's frame stands for the joint variable `q`.
+    fn at(joint: JointKind, pitch: f64, placed: &Placed, q: f64) -> Pose<f64> {
+        let motion = match joint {
+            JointKind::Revolute => turned(about_z(placed.offset + q)),
+            JointKind::Prismatic => moved(0.0, placed.offset + q),
+            JointKind::Helical => turned(about_z(placed.offset + q)) * moved(0.0, pitch * (placed.offset + q)),
+            JointKind::Fixed => Pose::identity(),
+        };
+        placed.placement * motion * placed.frame
     }
 
     fn distance(a: Pose<f64>, b: Pose<f64>) -> f64 {
@@ -113,24 +161,44 @@ mod tests {
         entries.into_iter().fold(0.0, f64::max)
     }
 
+    /// Each kind of joint with its pitch, and how much of its variable is rotation and translation.
+    const JOINTS: [(JointKind, f64, f64, f64); 4] = [
+        (JointKind::Revolute, 0.0, 1.0, 0.0),
+        (JointKind::Prismatic, 0.0, 0.0, 1.0),
+        (JointKind::Helical, 0.3, 1.0, 0.3),
+        (JointKind::Fixed, 0.0, 0.0, 0.0),
+    ];
+
     #[test]
-    fn the_joint_motion_stands_last() {
+    fn the_variable_of_a_khalil_kleinfinger_joint_adds_to_theta_and_b() {
         let dh = Dh { a: 0.3, alpha: 0.7, b: -0.2, theta: 1.1 };
-        let expected = khalil_kleinfinger(dh);
-        let (placement, offset) = from_dh(JointKind::Revolute, 0.0, dh);
-        let motion = Pose { rotation: about_z(offset), position: Vec3::zero() };
-        assert!(distance(placement * motion, expected) < 1e-15);
-        let (placement, offset) = from_dh(JointKind::Prismatic, 0.0, dh);
-        let motion = Pose { rotation: Mat3::identity(), position: Vec3([0.0, 0.0, offset]) };
-        assert!(distance(placement * motion, expected) < 1e-15);
-        let (placement, offset) = from_dh(JointKind::Fixed, 0.0, dh);
-        assert!(distance(placement, expected) < 1e-15 && offset == 0.0);
+        for (joint, pitch, turn, slide) in JOINTS {
+            let q = 0.4;
+            let expected = khalil_kleinfinger(Dh { b: dh.b + slide * q, theta: dh.theta + turn * q, ..dh });
+            assert!(distance(at(joint, pitch, &from_dh(joint, pitch, dh), q), expected) < 1e-15, "{joint:?}");
+        }
+    }
+
+    /// The matrix as textbooks print it (Spong, Hutchinson, Vidyasagar, Robot Modeling and Control, section 3.2).
+    #[test]
+    fn the_variable_of_a_standard_joint_adds_to_theta_and_d() {
+        let dh = DhStandard { a: 0.3, alpha: 0.7, d: -0.2, theta: 1.1 };
+        for (joint, pitch, turn, slide) in JOINTS {
+            let q = 0.4;
+            let (st, ct) = (dh.theta + turn * q).sin_cos();
+            let (sa, ca) = dh.alpha.sin_cos();
+            let expected = Pose {
+                rotation: Mat3([[ct, -st * ca, st * sa], [st, ct * ca, -ct * sa], [0.0, sa, ca]]),
+                position: Vec3([dh.a * ct, dh.a * st, dh.d + slide * q]),
+            };
+            assert!(distance(at(joint, pitch, &from_dh_standard(joint, pitch, dh), q), expected) < 1e-15, "{joint:?}");
+        }
     }
 
     #[test]
     fn quarter_turns_stay_exact() {
         let dh = Dh { a: 0.12, alpha: FRAC_PI_2, b: 0.62, theta: -FRAC_PI_2 };
-        let (placement, _) = from_dh(JointKind::Fixed, 0.0, dh);
+        let Placed { placement, .. } = from_dh(JointKind::Fixed, 0.0, dh);
         assert_eq!(placement.rotation, Mat3([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]]));
         assert_eq!(placement.position, Vec3([0.12, -0.62, 0.0]));
     }
@@ -139,7 +207,7 @@ mod tests {
     fn no_coordinate_is_a_negative_zero() {
         for theta in [0.0, 1.0, 2.0, 4.0, 5.0] {
             let dh = Dh { alpha: FRAC_PI_2, theta, ..Dh::default() };
-            let (placement, _) = from_dh(JointKind::Fixed, 0.0, dh);
+            let Placed { placement, .. } = from_dh(JointKind::Fixed, 0.0, dh);
             let mut numbers = placement.rotation.0.as_flattened().iter().chain(&placement.position.0);
             assert!(numbers.all(|x| *x != 0.0 || x.is_sign_positive()), "{placement:?}");
         }

@@ -96,18 +96,18 @@ pub(crate) fn cycle(names: &[&str]) -> Message {
     )
 }
 
-pub(crate) fn two_placements(item: &str, second: &str) -> Message {
+pub(crate) fn two_placements(item: &str, first: &str, second: &str) -> Message {
     message(
-        format!("{item}: its joint is placed twice, by `dh` and by `{second}`"),
-        "already placed by `dh`",
-        "keep either `dh` or `origin` and `axis`",
+        format!("{item}: its joint is placed twice, by `{first}` and by `{second}`"),
+        format!("already placed by `{first}`"),
+        "keep one: `dh`, `dh_standard`, or `origin` and `axis`",
     )
 }
 
 pub(crate) fn no_placement(item: &str) -> Message {
     message(
         format!("{item}: its joint has no place"),
-        "no `dh`, `origin` or `axis`",
+        "no `dh`, `dh_standard`, `origin` or `axis`",
         format!(
             "give for example `{}`, or `{}` and `{}`; `{} = {{}}` is the parent's frame",
             keys::DH.example(),

@@ -28,6 +28,7 @@ pub(crate) const LINK: Keys = Keys::new(
         PARENT,
         JOINT,
         DH,
+        DH_STANDARD,
         ORIGIN,
         AXIS,
         PITCH,
@@ -69,7 +70,7 @@ pub(crate) const ACTUATED: Key = Key::new("actuated", "false", "default: true");
 pub(crate) const DH: Key = Key::of_table(
     "dh",
     "{ a = 0.18, alpha = \"90 deg\", b = 0.4, theta = \"0 deg\" }",
-    "m and angles; missing = 0",
+    "m and angles; missing = 0; Khalil-Kleinfinger (modified): Rx(alpha) Tx(a) Rz(theta) Tz(b)",
     &[&DH_KEYS],
 );
 const DH_KEYS: Keys = Keys::new("`dh`", &[DH_A, DH_ALPHA, DH_B, DH_THETA]);
@@ -77,6 +78,15 @@ pub(crate) const DH_A: Key = Key::new("a", "0.18", "m");
 pub(crate) const DH_ALPHA: Key = Key::new("alpha", "\"90 deg\"", "without a unit in rad");
 pub(crate) const DH_B: Key = Key::new("b", "0.4", "m");
 pub(crate) const DH_THETA: Key = Key::new("theta", "\"90 deg\"", "without a unit in rad");
+
+pub(crate) const DH_STANDARD: Key = Key::of_table(
+    "dh_standard",
+    "{ a = 0.18, alpha = \"90 deg\", d = 0.4, theta = \"0 deg\" }",
+    "m and angles; missing = 0; standard (distal): Rz(theta) Tz(d) Tx(a) Rx(alpha), the link's frame at its far end",
+    &[&DH_STANDARD_KEYS],
+);
+const DH_STANDARD_KEYS: Keys = Keys::new("`dh_standard`", &[DH_A, DH_ALPHA, DH_D, DH_THETA]);
+pub(crate) const DH_D: Key = Key::new("d", "0.4", "m");
 
 pub(crate) const ORIGIN: Key = Key::of_table(
     "origin",
@@ -91,7 +101,7 @@ pub(crate) const RPY: Key = Key::new("rpy", "[\"90 deg\", 0, 0]", "roll, pitch, 
 pub(crate) const INERTIA: Key = Key::of_table(
     "inertia",
     "{ xx = 0.1, yy = 0.1, zz = 0.02 }",
-    "kg m², about the centre of mass; missing = 0",
+    "kg m², about the centre of mass, in the link's axes; missing = 0",
     &[&INERTIA_KEYS],
 );
 const INERTIA_KEYS: Keys = Keys::new("`inertia`", &[XX, YY, ZZ, XY, YZ, XZ]);

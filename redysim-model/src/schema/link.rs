@@ -19,6 +19,7 @@ pub(crate) struct LinkTable {
     pub(crate) parent: Field<String>,
     pub(crate) joint: Field<JointKind>,
     pub(crate) dh: Field<Dh>,
+    pub(crate) dh_standard: Field<DhStandard>,
     pub(crate) origin: Field<Origin>,
     pub(crate) axis: Field<[f64; 3]>,
     pub(crate) pitch: Field<f64>,
@@ -83,6 +84,15 @@ pub(crate) struct Dh {
     pub(crate) theta: f64,
 }
 
+/// Standard (distal) parameters: the link's frame stands in its parent's at Rz(theta) Tz(d) Tx(a) Rx(alpha).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct DhStandard {
+    pub(crate) a: f64,
+    pub(crate) alpha: f64,
+    pub(crate) d: f64,
+    pub(crate) theta: f64,
+}
+
 /// Place of the link's frame in its parent's, as URDF has it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Origin {
@@ -112,6 +122,7 @@ impl LinkTable {
             parent,
             joint,
             dh: reader.table(&keys::DH, dh),
+            dh_standard: reader.table(&keys::DH_STANDARD, dh_standard),
             origin: reader.table(&keys::ORIGIN, origin),
             axis: reader.vector(&keys::AXIS),
             pitch,
@@ -161,6 +172,15 @@ fn dh(mut reader: Reader<'_, '_>) -> Dh {
         a: reader.number(&keys::DH_A).value_or(0.0).unwrap_or_default(),
         alpha: reader.angle(&keys::DH_ALPHA).value_or(0.0).unwrap_or_default(),
         b: reader.number(&keys::DH_B).value_or(0.0).unwrap_or_default(),
+        theta: reader.angle(&keys::DH_THETA).value_or(0.0).unwrap_or_default(),
+    }
+}
+
+fn dh_standard(mut reader: Reader<'_, '_>) -> DhStandard {
+    DhStandard {
+        a: reader.number(&keys::DH_A).value_or(0.0).unwrap_or_default(),
+        alpha: reader.angle(&keys::DH_ALPHA).value_or(0.0).unwrap_or_default(),
+        d: reader.number(&keys::DH_D).value_or(0.0).unwrap_or_default(),
         theta: reader.angle(&keys::DH_THETA).value_or(0.0).unwrap_or_default(),
     }
 }

@@ -10,7 +10,7 @@ mod link;
 mod options;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
-pub(crate) use link::{Dh, LinkTable, Origin, PhysicsKeys};
+pub(crate) use link::{Dh, DhStandard, LinkTable, Origin, PhysicsKeys};
 pub(crate) use options::{Entry, OptionsTable};
 
 use crate::joint::Joint;
