@@ -70,9 +70,8 @@ impl Model {
     /// Checks the text of a model file. Messages call the file `file_name`.
     ///
     /// What the file may leave out: `joint_name` is the link's name; `com`, `point_a`, `point_b` and the entries of
-    /// `dh`, `dh_standard`, `origin` and `inertia` are zero; `actuated` is true; of `origin` and `axis` (used where there
-    /// is neither `dh` nor `dh_standard`) one may be missing, and is then the parent's frame or z; `axis_a` and `axis_b`
-    /// of a revolute cut are z.
+    /// `dh`, `dh_standard`, `origin` and `inertia` are zero; `actuated` is true; without `dh`, `dh_standard` and `origin`,
+    /// a joint with an `axis` stands in the parent's frame; `axis_a` and `axis_b` of a revolute cut are z.
     ///
     /// # Errors
     ///

@@ -88,11 +88,12 @@ fn denavit_hartenberg_and_origin_place_alike() {
         ("alpha = '-90 deg', b = 2", "xyz = [0, 2, 0], rpy = ['-1.5707963267948966 rad', 0, 0]"),
     ] {
         let by_dh = one_link(&format!("joint = 'revolute'\ndh = {{ {dh} }}"));
-        let by_origin = one_link(&format!("joint = 'revolute'\norigin = {{ {origin} }}"));
+        let by_origin = one_link(&format!("joint = 'revolute'\norigin = {{ {origin} }}\naxis = [0, 0, 1]"));
         assert_eq!(by_dh, by_origin);
     }
     let by_dh = one_link("joint = 'prismatic'\ndh = { a = 0.3, theta = '90 deg', b = 0.2 }");
-    let by_origin = one_link("joint = 'prismatic'\norigin = { xyz = [0.3, 0, 0], rpy = [0, 0, '90 deg'] }");
+    let by_origin =
+        one_link("joint = 'prismatic'\norigin = { xyz = [0.3, 0, 0], rpy = [0, 0, '90 deg'] }\naxis = [0, 0, 1]");
     assert_eq!(by_dh, Link { offset: 0.2, ..by_origin });
 }
 
@@ -108,7 +109,7 @@ fn axes_have_unit_length() {
     assert_eq!(one_link("joint = 'revolute'\naxis = [0, -2, 0]").axis, Vec3([0.0, -1.0, 0.0]));
     assert_eq!(one_link("joint = 'revolute'\naxis = [3, 0, 4]").axis, Vec3([0.6, 0.0, 0.8]));
     assert_eq!(one_link("joint = 'revolute'\naxis = [1e100, 0, 0]").axis, Vec3([1.0, 0.0, 0.0]));
-    assert_eq!(one_link("joint = 'prismatic'\norigin = {}").axis, Vec3([0.0, 0.0, 1.0]));
+    assert_eq!(one_link("joint = 'prismatic'\naxis = [0, 0, 0.1]").axis, Vec3([0.0, 0.0, 1.0]));
 }
 
 /// The warnings about one link with this inertia.

@@ -64,12 +64,60 @@ pub struct Keys {
     pub owner: &'static str,
     /// The keys.
     pub keys: &'static [Key],
+    /// What to write instead of names that are not among the keys.
+    pub hints: &'static [Hint],
+}
+
+/// What to write instead of a name that is not among the keys, but that people know from elsewhere or expect there.
+///
+/// ```
+/// use redysim_toml::{Hint, Key, Keys};
+///
+/// const HINTS: &[Hint] = &[Hint::key(&["arms"], "hands"), Hint::new(&["date"], "a date goes into a calendar")];
+/// const CLOCK: Keys = Keys::new("A clock", &[Key::new("hands", "2", "how many")]).with_hints(HINTS);
+/// assert_eq!(CLOCK.hint("arms").unwrap().key, Some("hands"));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Hint {
+    /// The names.
+    pub names: &'static [&'static str],
+    /// The key of the same table that is meant, if there is one.
+    pub key: Option<&'static str>,
+    /// What to do; empty if the key is enough.
+    pub help: &'static str,
+}
+
+impl Hint {
+    /// A hint that a name belongs elsewhere, or nowhere.
+    pub const fn new(names: &'static [&'static str], help: &'static str) -> Self {
+        Hint { names, key: None, help }
+    }
+
+    /// A hint at a key of the same table.
+    pub const fn key(names: &'static [&'static str], key: &'static str) -> Self {
+        Hint { names, key: Some(key), help: "" }
+    }
+
+    /// The hint with what else there is to know.
+    pub const fn with_help(self, help: &'static str) -> Self {
+        Hint { help, ..self }
+    }
 }
 
 impl Keys {
     /// The keys of `owner`, a noun with its article.
     pub const fn new(owner: &'static str, keys: &'static [Key]) -> Self {
-        Keys { owner, keys }
+        Keys { owner, keys, hints: &[] }
+    }
+
+    /// The keys with hints about names that are not among them.
+    pub const fn with_hints(self, hints: &'static [Hint]) -> Self {
+        Keys { hints, ..self }
+    }
+
+    /// The hint about the name `found`.
+    pub fn hint(&self, found: &str) -> Option<&Hint> {
+        self.hints.iter().find(|hint| hint.names.contains(&found))
     }
 
     /// Their names.

@@ -7,6 +7,7 @@
 //! | item | what it is |
 //! |---|---|
 //! | [`Key`], [`Keys`] | the keys of a table: name, example, meaning with unit; also for [`Keys::documentation`] |
+//! | [`Hint`] | what to write instead of a name that is not among the keys |
 //! | [`Reader`] | reads the values of one table, and reports unknown keys, missing keys and invalid values |
 //! | [`Field`] | the value of a key: missing, invalid, or a value with its place |
 //! | [`Findings`] | collects errors and warnings while a file is read and checked |
@@ -56,7 +57,7 @@ pub use diagnostic::{Diagnostic, Diagnostics, Message, Severity, Text};
 pub use field::Field;
 pub use file::{Parsed, parse, read};
 pub use findings::Findings;
-pub use key::{Key, KeyPath, Keys};
+pub use key::{Hint, Key, KeyPath, Keys};
 pub use reader::{Kind, Reader, TableAt, name_of};
 pub use source::Source;
 pub use value::{Array, Table, Value};

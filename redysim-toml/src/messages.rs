@@ -6,7 +6,7 @@
 use std::ops::RangeInclusive;
 
 use crate::diagnostic::Message;
-use crate::key::{Key, KeyPath, Keys};
+use crate::key::{KeyPath, Keys};
 use crate::words::{did_you_mean, nearest, quoted};
 
 fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> Message {
@@ -33,10 +33,12 @@ pub(crate) fn xml() -> Message {
     )
 }
 
-/// A table with the keys `keys` has another one; `meant` is the one that was probably meant.
-pub(crate) fn unknown_key(item: &str, path: &str, meant: Option<&Key>, keys: &Keys) -> Message {
+/// A table with the keys `keys` has another one; `meant` is the one that was probably meant, and `help` is what else is
+/// known about the name, or empty.
+pub(crate) fn unknown_key(item: &str, path: &str, meant: Option<&str>, help: &str, keys: &Keys) -> Message {
     let names: Vec<_> = keys.names().collect();
-    let help = format!("{}{} has: {}", did_you_mean(meant.map(|key| key.name)), keys.owner, names.join(", "));
+    let all = format!("{} has: {}", keys.owner, names.join(", "));
+    let help = format!("{}{}", did_you_mean(meant), if help.is_empty() { &all } else { help });
     message(format!("{item}: unknown key {}", quoted(path)), "unknown key", help)
 }
 

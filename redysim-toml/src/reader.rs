@@ -77,12 +77,13 @@ impl<'a, 'f> Reader<'a, 'f> {
     /// Reports the keys that tables of this kind do not have.
     fn without_unknown_keys(mut self, keys: &Keys) -> Self {
         for found in self.table.keys().filter(|found| keys.names().all(|name| name != found.get_ref())) {
-            let absent = keys.keys.iter().filter(|key| !self.table.contains_key(key.name));
-            let meant = nearest(found.get_ref(), absent.map(|key| key.name));
-            let meant = keys.keys.iter().find(|key| Some(key.name) == meant);
+            let absent = keys.names().filter(|name| !self.table.contains_key(*name));
+            let hint = keys.hint(found.get_ref());
+            let meant = hint.map_or_else(|| nearest(found.get_ref(), absent), |hint| hint.key);
             let path = format!("{}{}", self.prefix, found.get_ref());
-            self.findings.error(found.span(), messages::unknown_key(self.item, &path, meant, keys));
-            self.misspelt.extend(meant.map(|key| key.name));
+            let help = hint.map_or("", |hint| hint.help);
+            self.findings.error(found.span(), messages::unknown_key(self.item, &path, meant, help, keys));
+            self.misspelt.extend(meant);
         }
         self
     }

@@ -8,7 +8,7 @@ use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_toml::{Field, Findings, Spanned};
 use std::ops::Range;
 
-/// The z axis: of every Denavit-Hartenberg joint, and of others unless the file says otherwise.
+/// The z axis: of every Denavit-Hartenberg joint, and of revolute cuts unless the file says otherwise.
 const Z: Vec3<f64> = Vec3([0.0, 0.0, 1.0]);
 
 /// Shorter vectors are taken for a zero that roundoff has blurred.
@@ -25,6 +25,7 @@ pub(super) struct Placed {
 /// Where the link's joint stands, and the link's frame on it.
 pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed> {
     placed_once(link, findings);
+    axis_beside_origin(link, findings);
     let axis_allowed = axis_allowed(link, findings);
     let axis = unit_axis(&link.item, "axis", &link.axis, axis_allowed, findings);
     let joint = *link.joint.value()?;
@@ -43,7 +44,8 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
     Some(Placed { placement: placement.without_negative_zeros(), axis: axis?, offset: 0.0, frame: Pose::identity() })
 }
 
-/// By `dh`, by `dh_standard`, or by `origin` and `axis` or one of them.
+/// By `dh`, by `dh_standard`, or by `origin` and `axis`, of which fixed joints have the first alone, and others may have
+/// the second alone.
 fn placed_once(link: &LinkTable, findings: &mut Findings) {
     fn given<T>(name: &'static str, field: &Field<T>) -> Option<(&'static str, Option<Range<usize>>)> {
         (!field.is_missing()).then(|| (name, field.spanned().map(Spanned::span)))
@@ -56,6 +58,15 @@ fn placed_once(link: &LinkTable, findings: &mut Findings) {
             findings.error(span, messages::two_placements(&link.item, first, second));
         }
         _ => {}
+    }
+}
+
+/// A joint that moves has an axis beside its origin: what a missing one means differs from format to format.
+fn axis_beside_origin(link: &LinkTable, findings: &mut Findings) {
+    let without_dh = link.dh.is_missing() && link.dh_standard.is_missing();
+    let moving = link.joint.value().filter(|joint| joint.dof() > 0 && without_dh);
+    if let (Some(joint), Some(origin), true) = (moving, link.origin.spanned(), link.axis.is_missing()) {
+        findings.error(origin.span(), messages::origin_without_axis(&link.item, joint.name()));
     }
 }
 

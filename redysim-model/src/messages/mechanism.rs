@@ -109,11 +109,25 @@ pub(crate) fn no_placement(item: &str) -> Message {
         format!("{item}: its joint has no place"),
         "no `dh`, `dh_standard`, `origin` or `axis`",
         format!(
-            "give for example `{}`, or `{}` and `{}`; `{} = {{}}` is the parent's frame",
+            "give for example `{}`, `{}`, or `{}` and `{}`; `{} = {{}}` is the parent's frame",
             keys::DH.example(),
+            keys::DH_STANDARD.example(),
             keys::ORIGIN.example(),
             keys::AXIS.example(),
             keys::ORIGIN.name
+        ),
+    )
+}
+
+/// `kind` is that of a joint that moves.
+pub(crate) fn origin_without_axis(item: &str, kind: &str) -> Message {
+    message(
+        format!("{item}: `origin` places its {kind} joint, but `axis` is missing"),
+        "no `axis` beside it",
+        format!(
+            "write for example `{}` ({}); there is no default, and that of URDF is x",
+            keys::AXIS.example(),
+            keys::AXIS.meaning
         ),
     )
 }

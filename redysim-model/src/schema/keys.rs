@@ -1,10 +1,12 @@
 //! The keys of a model file. Each is defined once, for the reader, the messages and the key documentation
 //! (`docs/model_keys.md`).
 
+use super::hints;
 use redysim_toml::{Key, Keys};
 
 pub(crate) const MODEL: Keys =
-    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS]);
+    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS])
+        .with_hints(hints::MODEL);
 pub(crate) const NAME: Key = Key::new("name", "\"arm\"", "");
 pub(crate) const GRAVITY: Key = Key::new("gravity", "[0.0, 0.0, -9.81]", "m/s², in the base frame");
 pub(crate) const LINKS: Key = Key::of_tables("link", "one such table for each link", &[&LINK]);
@@ -44,7 +46,8 @@ pub(crate) const LINK: Keys = Keys::new(
         ACTUATED,
         RANGE,
     ],
-);
+)
+.with_hints(hints::LINK);
 pub(crate) const JOINT_NAME: Key = Key::new("joint_name", "\"elbow\"", "default: the name of the link");
 pub(crate) const PARENT: Key = Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground");
 pub(crate) const JOINT: Key = Key::new("joint", "\"revolute\"", "");
@@ -73,7 +76,7 @@ pub(crate) const DH: Key = Key::of_table(
     "m and angles; missing = 0; Khalil-Kleinfinger (modified): Rx(alpha) Tx(a) Rz(theta) Tz(b)",
     &[&DH_KEYS],
 );
-const DH_KEYS: Keys = Keys::new("`dh`", &[DH_A, DH_ALPHA, DH_B, DH_THETA]);
+const DH_KEYS: Keys = Keys::new("`dh`", &[DH_A, DH_ALPHA, DH_B, DH_THETA]).with_hints(hints::DH_TABLE);
 pub(crate) const DH_A: Key = Key::new("a", "0.18", "m");
 pub(crate) const DH_ALPHA: Key = Key::new("alpha", "\"90 deg\"", "without a unit in rad");
 pub(crate) const DH_B: Key = Key::new("b", "0.4", "m");
@@ -85,7 +88,8 @@ pub(crate) const DH_STANDARD: Key = Key::of_table(
     "m and angles; missing = 0; standard (distal): Rz(theta) Tz(d) Tx(a) Rx(alpha), the link's frame at its far end",
     &[&DH_STANDARD_KEYS],
 );
-const DH_STANDARD_KEYS: Keys = Keys::new("`dh_standard`", &[DH_A, DH_ALPHA, DH_D, DH_THETA]);
+const DH_STANDARD_KEYS: Keys =
+    Keys::new("`dh_standard`", &[DH_A, DH_ALPHA, DH_D, DH_THETA]).with_hints(hints::DH_STANDARD_TABLE);
 pub(crate) const DH_D: Key = Key::new("d", "0.4", "m");
 
 pub(crate) const ORIGIN: Key = Key::of_table(
@@ -94,7 +98,7 @@ pub(crate) const ORIGIN: Key = Key::of_table(
     "m and angles; missing = 0",
     &[&ORIGIN_KEYS],
 );
-const ORIGIN_KEYS: Keys = Keys::new("`origin`", &[XYZ, RPY]);
+const ORIGIN_KEYS: Keys = Keys::new("`origin`", &[XYZ, RPY]).with_hints(hints::ORIGIN_TABLE);
 pub(crate) const XYZ: Key = Key::new("xyz", "[0.0, 0.0, 0.4]", "m, in the parent's frame");
 pub(crate) const RPY: Key = Key::new("rpy", "[\"90 deg\", 0, 0]", "roll, pitch, yaw; without a unit in rad");
 
@@ -104,7 +108,7 @@ pub(crate) const INERTIA: Key = Key::of_table(
     "kg m², about the centre of mass, in the link's axes; missing = 0",
     &[&INERTIA_KEYS],
 );
-const INERTIA_KEYS: Keys = Keys::new("`inertia`", &[XX, YY, ZZ, XY, YZ, XZ]);
+const INERTIA_KEYS: Keys = Keys::new("`inertia`", &[XX, YY, ZZ, XY, YZ, XZ]).with_hints(hints::INERTIA_TABLE);
 pub(crate) const XX: Key = Key::new("xx", "0.1", "kg m²");
 pub(crate) const YY: Key = Key::new("yy", "0.1", "kg m²");
 pub(crate) const ZZ: Key = Key::new("zz", "0.1", "kg m²");
@@ -118,7 +122,8 @@ pub(crate) const RANGE: Key = Key::of_table(
     "rad or m, rad/s or m/s, rad/s² or m/s²",
     &[&RANGE_KEYS],
 );
-const RANGE_KEYS: Keys = Keys::new("`range`", &[POSITION, VELOCITY, ACCELERATION, FORCE]);
+const RANGE_KEYS: Keys =
+    Keys::new("`range`", &[POSITION, VELOCITY, ACCELERATION, FORCE]).with_hints(hints::RANGE_TABLE);
 pub(crate) const POSITION: Key = Key::new("position", "[\"-170 deg\", \"170 deg\"]", "rad or m");
 pub(crate) const VELOCITY: Key =
     Key::new("velocity", "\"150 deg\"", "the largest in either direction; without a unit rad/s or m/s");

@@ -4,6 +4,7 @@
 //! values mean together is for [`crate::check`].
 
 mod cut;
+mod hints;
 mod item;
 pub(crate) mod keys;
 mod link;

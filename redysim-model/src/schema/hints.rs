@@ -1,0 +1,125 @@
+//! Hints about names that are not keys of a model file: names from URDF, from toolboxes and textbooks, and keys that
+//! stand in another table.
+
+use redysim_toml::Hint;
+
+const RANGE: &str = "the range of a joint is a table, as in `range = { position = [\"-170 deg\", \"170 deg\"], velocity = \
+    \"150 deg\", acceleration = 10.0, force = 40.0 }`: it says for which states a tolerance holds, and limits no motion";
+const DH: &str = "Denavit-Hartenberg parameters are a table: `dh = { a, alpha, b, theta }` if they are Khalil and \
+    Kleinfinger's (modified), `dh_standard = { a, alpha, d, theta }` if they are the standard (distal) ones of data sheets \
+    and most textbooks";
+const DH_IS_MODIFIED: &str = "`dh` has the parameters of Khalil and Kleinfinger (modified), Rx(alpha) Tx(a) Rz(theta) \
+    Tz(b). Rows with `d` from a data sheet or textbook are mostly standard (distal): write them under `dh_standard`";
+const DH_IS_STANDARD: &str = "`dh_standard` has the standard (distal) parameters, Rz(theta) Tz(d) Tx(a) Rx(alpha). Rows \
+    with `b` are mostly those of Khalil and Kleinfinger (modified): write them under `dh`";
+const SCENARIO: &str = "a model has no state: initial positions and velocities go into a scenario, under `[initial]`";
+
+pub(super) const MODEL: &[Hint] = &[
+    Hint::new(
+        &["joint", "joints"],
+        "a joint has no table of its own: its keys stand in the [[link]] that it carries, as in `joint = \"revolute\"`",
+    ),
+    Hint::new(&["body", "bodies", "robot", "segment"], "each body is a [[link]], with the joint that carries it"),
+    Hint::new(&["unit", "units"], "the units are m, kg, s and rad; angles may be written \"90 deg\""),
+    Hint::key(&["g"], "gravity").with_help("It is a vector in the base frame, as in `gravity = [0.0, 0.0, -9.81]`"),
+    Hint::new(&["initial", "q0", "trajectory", "torque", "controller"], SCENARIO),
+];
+
+pub(super) const LINK: &[Hint] = &[
+    Hint::new(
+        &[
+            "limit",
+            "limits",
+            "lower",
+            "upper",
+            "velocity",
+            "acceleration",
+            "force",
+            "effort",
+            "torque",
+            "max_velocity",
+            "max_effort",
+            "max_torque",
+            "velocity_limit",
+            "effort_limit",
+            "torque_limit",
+            "position_limits",
+        ],
+        RANGE,
+    ),
+    Hint::new(
+        &["xyz", "rpy", "pose"],
+        "the place of a joint is a table, as in `origin = { xyz = [0.0, 0.0, 0.4], rpy = [\"90 deg\", 0, 0] }`, with \
+         `axis` beside it",
+    ),
+    Hint::new(&["a", "alpha", "b", "d", "theta", "DH", "denavit_hartenberg"], DH),
+    Hint::key(&["mdh", "dh_modified", "modified_dh", "craig"], "dh"),
+    Hint::key(&["sdh", "standard_dh", "dh_distal", "distal_dh"], "dh_standard"),
+    Hint::key(&["type", "kind", "joint_type"], "joint"),
+    Hint::key(&["cog", "cm", "center_of_mass", "centre_of_mass", "center_of_gravity"], "com"),
+    Hint::key(&["moment_of_inertia", "inertia_tensor", "moi", "I"], "inertia"),
+    Hint::new(
+        &["xx", "yy", "zz", "xy", "yz", "xz", "ixx", "iyy", "izz", "ixy", "iyz", "ixz"],
+        "the elements of an inertia are a table, as in `inertia = { xx = 0.1, yy = 0.1, zz = 0.02 }`",
+    ),
+    Hint::new(&["inertial"], "`mass`, `com` and `inertia` are keys of the link itself"),
+    Hint::new(&["child"], "a link names its `parent`; the joint between the two is that of the link"),
+    Hint::new(
+        &["visual", "collision", "geometry", "mesh", "material", "color", "colour"],
+        "a model has no shapes, which dynamics do not need: leave it out",
+    ),
+    Hint::key(&["passive", "motor", "motorised"], "actuated")
+        .with_help("A joint without a motor has `actuated = false`"),
+    Hint::new(&["q", "q0", "initial", "home"], SCENARIO),
+    Hint::new(&["gravity"], "gravity is that of the whole model: write it at the top of the file, before any [[link]]"),
+];
+
+pub(super) const DH_TABLE: &[Hint] = &[
+    Hint::key(&["d", "r"], "b").with_help(DH_IS_MODIFIED),
+    Hint::key(&["offset"], "theta")
+        .with_help("The variable of a revolute joint is added to `theta`, of a prismatic one to `b`"),
+];
+
+pub(super) const DH_STANDARD_TABLE: &[Hint] = &[
+    Hint::key(&["b"], "d").with_help(DH_IS_STANDARD),
+    Hint::key(&["r"], "a"),
+    Hint::key(&["offset"], "theta")
+        .with_help("The variable of a revolute joint is added to `theta`, of a prismatic one to `d`"),
+];
+
+pub(super) const ORIGIN_TABLE: &[Hint] = &[
+    Hint::key(&["position", "translation", "pos"], "xyz"),
+    Hint::key(&["rotation", "orientation", "euler", "rot"], "rpy")
+        .with_help("Roll, pitch and yaw are angles about the parent's x, y and z axes, in this order"),
+    Hint::new(&["axis"], "`axis` stands beside `origin`, as a key of the link"),
+];
+
+pub(super) const INERTIA_TABLE: &[Hint] =
+    &[Hint::key(&["yx", "iyx"], "xy"), Hint::key(&["zy", "izy"], "yz"), Hint::key(&["zx", "izx"], "xz")];
+
+pub(super) const RANGE_TABLE: &[Hint] = &[
+    Hint::key(&["lower", "upper", "min", "max", "limits"], "position")
+        .with_help("It has both ends, as in `position = [\"-170 deg\", \"170 deg\"]`"),
+    Hint::key(&["effort", "torque", "max_effort", "max_torque"], "force"),
+    Hint::key(&["speed", "max_velocity"], "velocity"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::super::keys;
+    use redysim_toml::Keys;
+
+    fn check(keys: &Keys) {
+        for hint in keys.hints {
+            assert!(hint.names.iter().all(|name| keys.names().all(|key| key != *name)), "{hint:?} of {}", keys.owner);
+            assert!(hint.key.is_none_or(|meant| keys.names().any(|key| key == meant)), "{hint:?} of {}", keys.owner);
+            assert!(hint.key.is_some() || !hint.help.is_empty(), "{hint:?} of {}", keys.owner);
+        }
+        keys.keys.iter().flat_map(|key| key.tables).for_each(|table| check(table));
+    }
+
+    #[test]
+    fn hints_are_about_names_that_are_not_keys_and_lead_to_keys_that_are() {
+        check(&keys::MODEL);
+    }
+}
