@@ -150,51 +150,54 @@ com = [0.1, 0.0, 0.0]
 inertia = { xx = 10.0, yy = 1000.0, zz = 1000.0 }
 "#;
 
-/// The exit code, and what is suspicious of a model.
-fn lints(name: &str, text: &str) -> (i32, Vec<String>) {
-    let path = scratch(&format!("check-{name}")).join("slips.toml");
-    std::fs::write(&path, text).unwrap();
+/// What `check --json` reports of a model, under a key of the report.
+fn reported(report: &Value, key: &str) -> Vec<String> {
+    report[key].as_array().unwrap().iter().map(|found| found["lint"].as_str().unwrap_or_default().to_owned()).collect()
+}
+
+#[test]
+fn lints_are_reported_with_their_names_where_they_stand_and_end_with_allow() {
+    let path = scratch("check-units").join("slips.toml");
+    std::fs::write(&path, SLIPS).unwrap();
     let (report, code) = json(&[path.to_str().unwrap()]);
-    let lines = report["summary"]["lints"].as_array().unwrap();
-    (code, lines.iter().map(|line| line.as_str().unwrap().to_owned()).collect())
+    assert_eq!((code, &report["valid"]), (0, &Value::Bool(true)));
+    let warnings = ["gravity-units", "mass-units", "length-units", "radius-of-gyration"];
+    assert_eq!(reported(&report, "warnings"), warnings);
+    assert_eq!(reported(&report, "notes"), ["under-actuated"]);
+    assert_eq!((&report["warnings"][2]["line"], &report["warnings"][2]["column"]), (&Value::from(12), &Value::from(7)));
+    let titles: Vec<_> = ["warnings", "notes"].iter().flat_map(|key| report[*key].as_array().unwrap()).collect();
+    let titles: Vec<_> = titles.into_iter().map(|found| found["title"].clone()).collect();
+    assert_eq!(report["summary"]["lints"], Value::Array(titles));
+
+    let run = call(&root(), &["check", path.to_str().unwrap()]);
+    assert!(
+        run.stderr.contains("warning[gravity-units]: ") && run.stderr.contains("note[under-actuated]: "),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(call(&root(), &["check", "--quiet", path.to_str().unwrap()]).stderr, "");
+
+    std::fs::write(&path, format!("allow = ['{}', 'under-actuated']{SLIPS}", warnings.join("', '"))).unwrap();
+    let (report, _) = json(&[path.to_str().unwrap()]);
+    assert_eq!(report["summary"]["lints"], Value::Array(vec![]));
 }
 
+/// A run computes what the model says, so its warnings are shown there as well; notes are not.
 #[test]
-fn links_of_very_different_lengths_and_points_of_mass_have_lints() {
-    let arm = SLIPS.replace("2000.0", "2.0").replace("-9810.0", "-9.81").replace("[150.0, ", "[0.15, ");
-    let (_, found) = lints("lengths", &arm.replace("[0.4, ", "[400.0, "));
-    let words =
-        "link `fore` is placed 400 m from the one that carries it, and the next, `upper`, only 0.3 m: m and mm?";
-    assert!(found.contains(&words.to_owned()), "{found:#?}");
-    let (_, found) = lints("reach", &arm.replace("[0.4, ", "[400.0, ").replace("0.3]", "300.0]"));
-    assert!(found.contains(&"the mechanism reaches 700 m: m and mm?".to_owned()), "{found:#?}");
-    let points: String =
-        arm.lines().filter(|line| !line.starts_with("inertia")).map(|line| format!("{line}\n")).collect();
-    let (_, found) = lints("points", &points);
-    assert_eq!(found[0], "no link has an `inertia`: all masses are points", "{found:#?}");
-}
-
-#[test]
-fn slips_of_units_have_lints() {
-    let (code, lints) = lints("units", SLIPS);
-    let wanted = [
-        "gravity is 9810 m/s²",
-        "kg and g?",
-        "`upper`: its centre of mass is 150 m",
-        "`fore`",
-        "an actuator at 1 joint",
-    ];
-    assert_eq!((code, lints.len()), (0, wanted.len()), "{lints:#?}");
-    for (line, wanted) in lints.iter().zip(wanted) {
-        assert!(line.contains(wanted), "`{wanted}` in `{line}`");
-    }
-}
-
-#[test]
-fn shipped_models_have_no_lints() {
-    for name in ["kr5.toml", "gripper.toml", "fourbar.toml", "three_rrr.toml", "leg.toml", "slider_crank.toml"] {
-        let (report, _) = json(&[&model(name)]);
-        assert_eq!(report["summary"]["lints"], Value::Array(vec![]), "{name}");
+fn runs_show_the_lints_of_their_model() {
+    let folder = scratch("check-runs");
+    let scenario = "name = 'swing'\nmodel = 'slips.toml'\n[trajectory]\nkind = 'cycloid'\nfrom = [0, 0]\nto = [1e-3, 0]\n\
+        duration = 1.0\n[inverse]\nend = 0.1\nstep = 0.05\n[forward]\nend = 1e-5\nstep = 1e-5\nintegrator = { method = 'Ode5', step = 1e-5 }\n\
+        torque = { law = 'free' }\n";
+    std::fs::write(folder.join("swing.toml"), scenario).unwrap();
+    // Gravity of the Moon is a note.
+    let model = SLIPS.replace("actuated = false\n", "").replace("[0.0, 0.0, -9810.0]", "[0.0, 0.0, -1.62]");
+    std::fs::write(folder.join("slips.toml"), model).unwrap();
+    for command in ["forward", "inverse"] {
+        let run = call(&folder, &[command, "swing.toml", "-o", command]);
+        assert_eq!(run.code, 0, "{command}: {}", run.stderr);
+        assert!(run.stderr.contains("warning[mass-units]: "), "{command}: {}", run.stderr);
+        assert!(!run.stderr.contains("note["), "{command}: {}", run.stderr);
     }
 }
 

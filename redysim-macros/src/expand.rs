@@ -90,11 +90,8 @@ fn message(diagnostic: &Diagnostic) -> String {
         return format!("{}\n = help: {}", diagnostic.title(), diagnostic.help());
     }
     let picture = diagnostic.to_string();
-    let severity = match diagnostic.severity() {
-        Severity::Error => "error: ",
-        _ => "warning: ",
-    };
-    picture.strip_prefix(severity).unwrap_or(&picture).to_string()
+    // The compiler shows the severity itself.
+    picture.find(diagnostic.title()).map_or(picture.as_str(), |title| &picture[title..]).to_string()
 }
 
 /// A compiler warning: the use of a deprecated constant, with the warning as its note.

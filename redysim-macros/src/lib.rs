@@ -47,7 +47,8 @@ use proc_macro::TokenStream;
 /// that is given here takes precedence over the file's.
 ///
 /// Errors in the model are compile errors that show the lines of the model file. Warnings about the model are warnings
-/// of the lint `deprecated`, the only kind that a macro can emit; `#[allow(deprecated)]` on the struct silences them.
+/// of the lint `deprecated`, the only kind that a macro can emit; `#[allow(deprecated)]` on the struct silences them, and
+/// `allow = ["gravity-up"]` at the top of the model file those with these names.
 #[proc_macro]
 pub fn redysim(input: TokenStream) -> TokenStream {
     match syn::parse(input) {

@@ -27,6 +27,7 @@
 //! | where | what it is |
 //! |---|---|
 //! | [`Model`], [`Loaded`], [`Faults`] | a model file: its contents, its warnings and its errors |
+//! | [`Lint`] | what a model may have, but is rarely meant |
 //! | [`GenericMechanism`] | the functions of a model read at run time; without allocation in a [`denoc::Workspace`] |
 //! | [`Tree`], [`joint`], [`parameter`] | the moving bodies, their joints, and numbers that may be given at run time |
 //! | [`denoc`] | the recursions over a tree: RNEA, CRBA, ABA and others in the DeNOC form, for any scalar |
@@ -42,6 +43,7 @@ pub mod frames;
 mod generic;
 pub mod inertia;
 pub mod joint;
+mod lint;
 mod load;
 mod lock;
 mod messages;
@@ -61,6 +63,7 @@ mod tree;
 
 pub use faults::Faults;
 pub use generic::GenericMechanism;
+pub use lint::Lint;
 pub use load::Loaded;
 pub use lock::LockError;
 pub use mobility::Mobility;

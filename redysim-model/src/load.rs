@@ -6,7 +6,7 @@ use crate::messages;
 use crate::model::Model;
 use crate::options::CodegenOptions;
 use crate::schema::Document;
-use redysim_toml::{Diagnostic, Diagnostics, Findings, Message, Source, Text, parse};
+use redysim_toml::{Diagnostic, Diagnostics, Findings, Message, Severity, Source, Text, parse};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,8 +19,10 @@ pub struct Loaded {
     pub text: String,
     /// What is asked of it, by the file or beside it.
     pub options: CodegenOptions,
-    /// Warnings, in the file's order.
+    /// Warnings, in the file's order, without those that the file allows.
     pub warnings: Vec<Diagnostic>,
+    /// What people may well mean, in the file's order, without what the file allows.
+    pub notes: Vec<Diagnostic>,
 }
 
 impl Model {
@@ -140,15 +142,15 @@ impl Model {
             return Err(Faults { diagnostics: findings.into_sorted(), interface: Box::new(interface), unread: false });
         }
         let document = Document::read(&file, &options, &mut findings);
-        match check::check(&document, &mut findings) {
+        let checked = check::check(&document, &mut findings);
+        let allowed: Vec<_> = document.allowed.iter().map(|lint| lint.name()).collect();
+        let found = findings.into_sorted().without(&allowed);
+        match checked {
             Some((model, options)) => {
-                Ok(Loaded { model, text: source.text.clone(), options, warnings: findings.into_sorted().0 })
+                let (notes, warnings) = found.into_iter().partition(|found| found.severity() == Severity::Note);
+                Ok(Loaded { model, text: source.text.clone(), options, warnings, notes })
             }
-            None => Err(Faults {
-                diagnostics: findings.into_sorted(),
-                interface: Box::new(document.public_interface()),
-                unread: false,
-            }),
+            None => Err(Faults { diagnostics: found, interface: Box::new(document.public_interface()), unread: false }),
         }
     }
 }

@@ -277,9 +277,11 @@ fn link_frames_of_the_ur5_are_the_products_of_the_textbook_matrices() {
         let mut frame = textbook(0.0, 0.0, 0.0, 0.0);
         for (link, ([a, alpha, d], q)) in ur5.link_kinematics(&q, &v).iter().zip(UR5.into_iter().zip(&q)) {
             frame = product(frame, textbook(a, alpha, d, *q));
-            for i in 0..3 {
-                assert!((link.origin[i] - frame[i][3]).abs() < 1e-15);
-                assert!((0..3).all(|j| (link.rotation[i][j] - frame[i][j]).abs() < 2e-15));
+            for (i, [x, y, z, position]) in frame.into_iter().take(3).enumerate() {
+                assert!((link.origin[i] - position).abs() < 1e-15);
+                assert!(
+                    link.rotation[i].iter().zip([x, y, z]).all(|(found, expected)| (found - expected).abs() < 2e-15)
+                );
             }
         }
     }

@@ -14,6 +14,8 @@ pub enum Severity {
     Error,
     /// The file can be used, but probably means something else.
     Warning,
+    /// The file can be used, and may well mean what it says.
+    Note,
 }
 
 /// The words of a finding.
@@ -49,6 +51,8 @@ pub enum Text {
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
     severity: Severity,
+    /// The name of the rule that is broken, where it has one.
+    lint: Option<&'static str>,
     message: Message,
     text: Text,
     source: Arc<Source>,
@@ -59,23 +63,29 @@ pub struct Diagnostic {
 impl Diagnostic {
     pub(crate) fn new(
         severity: Severity,
+        lint: Option<&'static str>,
         message: Message,
         text: Text,
         source: Arc<Source>,
         span: Range<usize>,
     ) -> Self {
-        Diagnostic { severity, message, text, source, span: Some(span) }
+        Diagnostic { severity, lint, message, text, source, span: Some(span) }
     }
 
     /// An error about a file as a whole, which could not be read.
     pub fn unreadable(name: impl Into<String>, message: Message) -> Self {
         let source = Arc::new(Source::new(name, ""));
-        Diagnostic { severity: Severity::Error, message, text: Text::File, source, span: None }
+        Diagnostic { severity: Severity::Error, lint: None, message, text: Text::File, source, span: None }
     }
 
-    /// Whether it is an error or a warning.
+    /// Whether it is an error, a warning or a note.
     pub fn severity(&self) -> Severity {
         self.severity
+    }
+
+    /// The name of the rule that is broken, as files name it to allow it; `None` if it cannot be allowed.
+    pub fn lint(&self) -> Option<&'static str> {
+        self.lint
     }
 
     /// The first line: which item breaks which rule, with the value found.
@@ -117,9 +127,14 @@ impl fmt::Display for Diagnostic {
         let level = match self.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
+            Severity::Note => Level::NOTE,
         };
         let place = self.span.as_ref().map(|span| self.source.place(span));
-        let group = Group::with_title(level.primary_title(&self.message.title));
+        let title = level.primary_title(&self.message.title);
+        let group = Group::with_title(match self.lint {
+            Some(lint) => title.id(lint),
+            None => title,
+        });
         let group = match &place {
             Some(place) => group.element(
                 Snippet::source(place.text)
@@ -134,7 +149,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Errors and warnings, in the file's order. Its `Display` shows one below the other.
+/// Errors, warnings and notes, in the file's order. Its `Display` shows one below the other.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
@@ -142,6 +157,12 @@ impl Diagnostics {
     /// The errors alone.
     pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
         self.iter().filter(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    /// Those that break none of the rules with the names `allowed`.
+    pub fn without(mut self, allowed: &[&str]) -> Self {
+        self.0.retain(|diagnostic| diagnostic.lint.is_none_or(|lint| !allowed.contains(&lint)));
+        self
     }
 }
 

@@ -39,17 +39,27 @@ impl Findings {
     /// Adds an error at a range of bytes.
     pub fn error(&mut self, span: Range<usize>, message: Message) {
         self.errors += 1;
-        self.push(Severity::Error, span, message);
+        self.push(Severity::Error, None, span, message);
     }
 
     /// Adds a warning at a range of bytes.
     pub fn warning(&mut self, span: Range<usize>, message: Message) {
-        self.push(Severity::Warning, span, message);
+        self.push(Severity::Warning, None, span, message);
     }
 
-    fn push(&mut self, severity: Severity, span: Range<usize>, message: Message) {
+    /// Adds a warning whose rule has the name `lint` at a range of bytes.
+    pub fn lint(&mut self, lint: &'static str, span: Range<usize>, message: Message) {
+        self.push(Severity::Warning, Some(lint), span, message);
+    }
+
+    /// Adds a note whose rule has the name `lint` at a range of bytes.
+    pub fn note(&mut self, lint: &'static str, span: Range<usize>, message: Message) {
+        self.push(Severity::Note, Some(lint), span, message);
+    }
+
+    fn push(&mut self, severity: Severity, lint: Option<&'static str>, span: Range<usize>, message: Message) {
         let source = Arc::clone(self.source());
-        self.diagnostics.push(Diagnostic::new(severity, message, self.text, source, span));
+        self.diagnostics.push(Diagnostic::new(severity, lint, message, self.text, source, span));
     }
 
     fn source(&self) -> &Arc<Source> {

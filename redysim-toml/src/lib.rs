@@ -60,7 +60,7 @@ pub use findings::Findings;
 pub use key::{Hint, Key, KeyPath, Keys};
 pub use reader::{Kind, Reader, TableAt, name_of};
 pub use source::Source;
-pub use value::{Array, Table, Value};
+pub use value::{Array, LARGE_ANGLE, ROUNDED_ANGLE, Table, Value};
 
 pub use toml::Spanned;
 pub use toml::de::DeValue;

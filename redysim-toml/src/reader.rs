@@ -295,8 +295,8 @@ impl<'a, 'f> Reader<'a, 'f> {
     fn parse_turn(&mut self, path: &KeyPath, value: &Value<'_>, per: &str) -> Option<f64> {
         let angle = Named { item: self.item, path, value }.angle(per);
         let angle = self.accept(value, angle)?;
-        if let Some(message) = angle.warning {
-            self.warning_at(value.span(), message);
+        if let Some((lint, message)) = angle.warning {
+            self.findings.lint(lint, value.span(), message);
         }
         Some(angle.radians)
     }

@@ -26,6 +26,12 @@ const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
 /// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1416.
 const NEARLY: f64 = 1e-5;
 
+/// The name of the warning about a plain number that is an angle of more than a turn.
+pub const LARGE_ANGLE: &str = "angle-units";
+
+/// The name of the warning about a plain number that is nearly a multiple of 90 deg.
+pub const ROUNDED_ANGLE: &str = "rounded-angle";
+
 /// A value, and what messages call it: its item and its path.
 #[derive(Clone, Copy)]
 pub(crate) struct Named<'v, 'a> {
@@ -37,7 +43,7 @@ pub(crate) struct Named<'v, 'a> {
 /// An angle, in radians, with a warning if it is implausible.
 pub(crate) struct Angle {
     pub(crate) radians: f64,
-    pub(crate) warning: Option<Message>,
+    pub(crate) warning: Option<(&'static str, Message)>,
 }
 
 impl Named<'_, '_> {
@@ -72,14 +78,14 @@ impl Named<'_, '_> {
     }
 
     /// A warning about a plain number that looks like degrees, or like quarter turns rounded by hand.
-    fn doubt(self, radians: f64) -> Option<Message> {
+    fn doubt(self, radians: f64) -> Option<(&'static str, Message)> {
         let Named { item, path, .. } = self;
         let quarters = (radians / FRAC_PI_2).round();
         let off = (radians - quarters * FRAC_PI_2).abs();
         if radians.abs() > TAU * (1.0 + NEARLY) {
-            Some(messages::large_angle(item, path, radians))
+            Some((LARGE_ANGLE, messages::large_angle(item, path, radians)))
         } else if quarters != 0.0 && off < NEARLY && off > f64::EPSILON * radians.abs() {
-            Some(messages::nearly_quarter_turn(item, path, radians, 90.0 * quarters))
+            Some((ROUNDED_ANGLE, messages::nearly_quarter_turn(item, path, radians, 90.0 * quarters)))
         } else {
             None
         }

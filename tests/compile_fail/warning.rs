@@ -1,4 +1,4 @@
-//! A warning of the model reaches the person who compiles, as a lint that can be denied or allowed.
+//! Warnings of a model reach the person who compiles, as a lint that can be denied or allowed.
 #![deny(deprecated)]
 
 redysim::redysim! {
@@ -8,6 +8,15 @@ redysim::redysim! {
 redysim::redysim! {
     #[allow(deprecated)]
     pub struct Accepted("../../models/kr5_table2.toml");
+}
+
+redysim::redysim! {
+    pub struct OtherRobot("../../models/warn/standard_rows.toml");
+}
+
+redysim::redysim! {
+    #[allow(deprecated)]
+    pub struct AcceptedRobot("../../models/warn/standard_rows.toml");
 }
 
 fn main() {}

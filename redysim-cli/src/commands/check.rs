@@ -1,4 +1,4 @@
-//! `redysim check MODEL`: every fault and warning where it stands, then what the model is.
+//! `redysim check MODEL`: every fault, warning and note where it stands, then what the model is.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use crate::summary::Summary;
 use redysim_model::{Diagnostic, Faults, Model, Severity};
 use serde::Serialize;
 
-/// Show every fault and warning of a model, then what it is.
+/// Show every fault, warning and note of a model, then what it is.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -21,8 +21,10 @@ With --quiet only faults are shown; the exit code is 0 for a model without fault
 
 --json prints one object, in SI units, whose keys stay as they are:
   file, valid        the model file, and whether it has no errors
-  errors, warnings   [{ title, help, file, line, column }]; line and column count
-                     from 1 and are null where the file could not be read
+  errors, warnings, notes
+                     [{ lint, title, help, file, line, column }]; lint is the name
+                     for `allow` or null, line and column count from 1 and are null
+                     where the file could not be read
   summary            null for a faulty model; else an object:
     name, gravity, mass, dof, mobility, loop_constraints, loop_rank,
     actuated, passive (names of joints), lints (texts),
@@ -46,12 +48,14 @@ struct Report<'a> {
     valid: bool,
     errors: Vec<Finding<'a>>,
     warnings: Vec<Finding<'a>>,
+    notes: Vec<Finding<'a>>,
     summary: Option<&'a Summary>,
 }
 
 /// A diagnostic for programs.
 #[derive(Serialize)]
 struct Finding<'a> {
+    lint: Option<&'static str>,
     title: &'a str,
     help: &'a str,
     file: &'a str,
@@ -62,7 +66,14 @@ struct Finding<'a> {
 impl<'a> Finding<'a> {
     fn of(diagnostic: &'a Diagnostic) -> Self {
         let (line, column) = diagnostic.position().unzip();
-        Finding { title: diagnostic.title(), help: diagnostic.help(), file: diagnostic.file(), line, column }
+        Finding {
+            lint: diagnostic.lint(),
+            title: diagnostic.title(),
+            help: diagnostic.help(),
+            file: diagnostic.file(),
+            line,
+            column,
+        }
     }
 }
 
@@ -71,7 +82,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let (diagnostics, summary) = match Model::load(&arguments.model) {
         Ok(loaded) => {
             let summary = (arguments.json || !quiet).then(|| Summary::of(&loaded)).transpose();
-            (loaded.warnings, summary.map_err(Failure::input))
+            ([loaded.warnings, loaded.notes].concat(), summary.map_err(Failure::input))
         }
         Err(faults) => match not_a_model(&arguments.model) {
             // Of its keys none is a model's: that goes without saying.
@@ -89,7 +100,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         shown.for_each(|found| to_stderr(&format!("{found}\n")));
     }
     match summary {
-        Ok(Some(summary)) if !arguments.json => print(&summary.to_string())?,
+        Ok(Some(summary)) if !arguments.json => {
+            summary.generator_warnings.iter().for_each(|warning| to_stderr(&format!("warning: {warning}\n")));
+            print(&summary.to_string())?;
+        }
         Ok(_) => {}
         Err(failure) => return Err(failure),
     }
@@ -111,6 +125,7 @@ fn print_json(arguments: &Arguments, diagnostics: &[Diagnostic], summary: Option
         valid: summary.is_some(),
         errors: of(Severity::Error),
         warnings: of(Severity::Warning),
+        notes: of(Severity::Note),
         summary,
     };
     let text = serde_json::to_string_pretty(&report).map_err(Failure::outside)?;

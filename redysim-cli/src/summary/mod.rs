@@ -1,6 +1,5 @@
 //! What a model is, for a person to check at a glance and for programs to read.
 
-mod lints;
 mod table;
 
 use redysim_codegen::Counted;
@@ -36,8 +35,11 @@ pub struct Summary {
     pub loops: Vec<LoopSummary>,
     /// Operations of each compiled function.
     pub operations: Vec<FunctionSummary>,
-    /// What is allowed, but rarely meant.
+    /// What is rarely meant: the titles of named warnings and of notes about the model, and the generator's warnings.
     pub lints: Vec<String>,
+    /// The generator's warnings alone.
+    #[serde(skip)]
+    pub generator_warnings: Vec<String>,
 }
 
 /// A link and its joint.
@@ -106,8 +108,8 @@ impl Summary {
         let model = &loaded.model;
         let found = Mobility::of(model);
         let Counted { operations, warnings } = redysim_codegen::operations(model, &loaded.options)?;
-        let mut lints = lints::of(model, &found);
-        lints.extend(warnings);
+        let named = loaded.warnings.iter().filter(|warning| warning.lint().is_some());
+        let titles = named.chain(&loaded.notes).map(|found| found.title().to_string());
         let joints = |actuated: bool| {
             let chosen = model.moving_links().filter(move |link| link.actuated == actuated);
             chosen.map(|link| link.joint_name.clone()).collect()
@@ -129,7 +131,8 @@ impl Summary {
                 .filter(|(function, _)| !model.loops.is_empty() || !function.needs_loops())
                 .map(|(function, count)| FunctionSummary { function: function.name(), count })
                 .collect(),
-            lints,
+            lints: titles.chain(warnings.iter().cloned()).collect(),
+            generator_warnings: warnings,
         })
     }
 }

@@ -31,12 +31,6 @@ impl Display for Summary {
         for each in &self.operations {
             writeln!(f, "  {:<20}{:>8}{:>18}", each.function, each.count.flops(), each.count.trig)?;
         }
-        if !self.lints.is_empty() {
-            writeln!(f, "\n  Is this meant?")?;
-        }
-        for lint in &self.lints {
-            writeln!(f, "  - {lint}")?;
-        }
         Ok(())
     }
 }

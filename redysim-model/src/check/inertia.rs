@@ -1,6 +1,8 @@
 //! Mass and inertia that a body can have.
 
+use super::lints;
 use crate::inertia::Sym3;
+use crate::lint::Lint;
 use crate::messages;
 use crate::model::Inertia;
 use crate::schema::LinkTable;
@@ -24,7 +26,8 @@ pub(super) fn check(link: &LinkTable, findings: &mut Findings) {
     if smallest < -DEFINITE * largest.abs().max(smallest.abs()) {
         findings.error(inertia.span(), messages::indefinite_inertia(&link.item, smallest));
     } else if excess > TRIANGLE * largest {
-        findings.warning(inertia.span(), messages::triangle(&link.item, largest, excess));
+        let message = messages::triangle(&link.item, largest, excess);
+        lints::report(findings, Lint::InertiaTriangle, inertia.span(), message);
     }
 }
 

@@ -3,6 +3,7 @@
 mod closed;
 mod cut;
 mod inertia;
+mod lints;
 mod massless;
 mod mobility;
 mod names;
@@ -59,11 +60,12 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     if findings.errors() > 0 {
         return None;
     }
-    for (cut, message) in mobility::check(&model) {
+    for (lint, cut, message) in mobility::check(&model) {
         let table = cut.and_then(|cut| document.loops.get(cut)).and_then(|table| table.name.spanned());
         let message = messages::with_locks(message, &document.locks());
-        findings.warning(table.map_or(document.place.clone(), Spanned::span), message);
+        lints::report(findings, lint, table.map_or(document.place.clone(), Spanned::span), message);
     }
+    lints::check(document, &model, findings);
     Some((model, options?))
 }
 

@@ -4,10 +4,12 @@
 //! caret; the help has the remedy. `item` is "link `arm`", "loop `crank`" or "model `kr5`".
 
 mod file;
+mod lints;
 mod mechanism;
 mod options;
 
 pub(crate) use file::*;
+pub(crate) use lints::*;
 pub(crate) use mechanism::*;
 pub(crate) use options::*;
 

@@ -5,12 +5,14 @@ use super::hints;
 use redysim_toml::{Key, Keys};
 
 pub(crate) const MODEL: Keys =
-    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS])
+    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, ALLOW])
         .with_hints(hints::MODEL);
 pub(crate) const NAME: Key = Key::new("name", "\"arm\"", "");
 pub(crate) const GRAVITY: Key = Key::new("gravity", "[0.0, 0.0, -9.81]", "m/s², in the base frame");
 pub(crate) const LINKS: Key = Key::of_tables("link", "one such table for each link", &[&LINK]);
 pub(crate) const LOOPS: Key = Key::of_tables("loop", "one such table for each cut joint", &[&LOOP]);
+
+pub(crate) const ALLOW: Key = Key::new("allow", "[\"gravity-up\"]", "names of lints that are not reported");
 
 pub(crate) const OPTIONS: Keys = Keys::new("A declaration", &[FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS]);
 pub(crate) const FUNCTIONS: Key =

@@ -15,15 +15,17 @@ pub(crate) use link::{Dh, DhStandard, LinkTable, Origin, PhysicsKeys};
 pub(crate) use options::{Entry, OptionsTable};
 
 use crate::joint::Joint;
+use crate::lint::Lint;
+use crate::messages;
 use crate::public_interface::{MovingJoint, PublicInterface};
 use redysim_runtime::Functions;
 use redysim_toml::words::quoted;
-use redysim_toml::{Field, Findings, Parsed, Reader, Spanned, TableAt};
+use redysim_toml::{DeValue, Field, Findings, Parsed, Reader, Spanned, TableAt};
 use std::ops::Range;
 
-/// The documentation of the keys of a model file, in Markdown: `docs/model_keys.md`.
+/// The documentation of the keys of a model file, and of the lints that `allow` may name, in Markdown: `docs/model_keys.md`.
 pub fn key_documentation() -> String {
-    keys::MODEL.documentation()
+    format!("{}\n{}", keys::MODEL.documentation(), Lint::documentation())
 }
 
 /// The names of the options that a declaration may have beside the path of its model file.
@@ -44,6 +46,8 @@ pub(crate) struct Document {
     /// Whether each link of the file is in `links`.
     pub(crate) links_complete: bool,
     pub(crate) loops: Vec<LoopTable>,
+    /// The lints that are not reported.
+    pub(crate) allowed: Vec<Lint>,
     /// The options of code generation, in the file or beside it.
     pub(crate) options: OptionsTable,
 }
@@ -59,6 +63,7 @@ impl Document {
         let mut reader = Reader::new(root, file.start(), &item, &keys::MODEL, findings);
         let name = reader.required(&keys::NAME, Reader::text);
         let gravity = reader.required(&keys::GRAVITY, Reader::vector);
+        let allowed = allowed(&mut reader);
         let links = reader.tables(&keys::LINKS);
         let loops = reader.tables(&keys::LOOPS);
         let links_complete = links.as_ref().is_some_and(|links| links.iter().all(Option::is_some));
@@ -68,7 +73,7 @@ impl Document {
         for lock in &options.locked.value {
             links[lock.link].locked = Some(lock.value);
         }
-        Document { item, place, name, gravity, links, links_complete, loops, options }
+        Document { item, place, name, gravity, links, links_complete, loops, allowed, options }
     }
 
     /// The joints that the options lock.
@@ -96,6 +101,25 @@ impl Document {
             functions: self.options.functions.value.value().map_or(Functions::ALL, |given| given.set()),
         }
     }
+}
+
+/// The lints that the file allows.
+fn allowed(reader: &mut Reader<'_, '_>) -> Vec<Lint> {
+    let mut allowed = Vec::new();
+    reader.field(&keys::ALLOW, |reader, path, value| {
+        for (index, value) in reader.array(path, value, "an array of names of lints")?.iter().enumerate() {
+            let DeValue::String(text) = value.get_ref() else {
+                reader.wrong_type::<()>(&path.element(index), value, "the name of a lint");
+                continue;
+            };
+            match Lint::ALL.into_iter().find(|lint| lint.name() == text.as_ref()) {
+                Some(lint) => allowed.push(lint),
+                None => _ = reader.error::<()>(value, messages::unknown_lint(reader.item(), text)),
+            }
+        }
+        Some(())
+    });
+    allowed
 }
 
 /// The readable tables with their numbers in the file, counted from 1.

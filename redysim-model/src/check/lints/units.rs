@@ -1,0 +1,87 @@
+//! Slips of units: millimetres, grams, degrees.
+
+use super::{Found, length, own_length, place_of, place_of_placement, size};
+use crate::lint::Lint;
+use crate::messages;
+use crate::model::{Link, Model};
+use crate::schema::Document;
+
+/// Hardly a mechanism reaches further, m.
+const REACH: f64 = 200.0;
+/// Hardly a mechanism of more than `LONG`, m, is lighter for its reach, kg/m.
+const LIGHT: f64 = 0.3;
+const LONG: f64 = 10.0;
+/// A length that may be in millimetres is beyond `LONG`, and so many times the next shorter one.
+const LENGTH_RATIO: f64 = 100.0;
+/// A centre of mass that may be in millimetres is further from its frame, m, and so many times as far as the mechanism
+/// reaches.
+const FAR: f64 = 5.0;
+const COM_RATIO: f64 = 30.0;
+/// Beyond this, the heaviest link that moves is suspiciously heavier than the lightest.
+const MASS_RATIO: f64 = 1e5;
+/// Hardly a joint turns further, rad: eight turns, less than 90 degrees are.
+const TURNS: f64 = 50.0;
+
+pub(super) fn check(document: &Document, model: &Model, found: &mut Found) {
+    let size = size(model);
+    if size > REACH || (size > LONG && model.mass() > 0.0 && model.mass() < LIGHT * size) {
+        let message = messages::far_reach(&model.name, size, model.mass());
+        found.push((Lint::LengthUnits, document.place.clone(), message));
+    } else {
+        uneven_lengths(document, model, found);
+    }
+    far_coms(document, model, size, found);
+    mass_ratio(document, model, found);
+    ranges(document, model, found);
+}
+
+/// The shortest of the lengths that are longer than the others by so much that their units may differ.
+fn uneven_lengths(document: &Document, model: &Model, found: &mut Found) {
+    let mut lengths: Vec<(f64, usize)> =
+        model.links.iter().map(own_length).zip(0..).filter(|(length, _)| *length > 0.0).collect();
+    lengths.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let jump = lengths.windows(2).find(|pair| pair[1].0 > LONG && pair[1].0 > LENGTH_RATIO * pair[0].0);
+    if let Some([(short, other), (long, link)]) = jump {
+        let message =
+            messages::uneven_lengths([(&model.links[*link].name, *long), (&model.links[*other].name, *short)]);
+        found.push((Lint::LengthUnits, place_of_placement(&document.links[*link]), message));
+    }
+}
+
+/// Centres of mass that are further from their frames than the mechanism reaches; without a reach, than the others.
+fn far_coms(document: &Document, model: &Model, size: f64, found: &mut Found) {
+    for (index, (link, table)) in model.links.iter().zip(&document.links).enumerate() {
+        let others =
+            model.links.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, link)| length(link.com));
+        let around = if size > 0.0 { size } else { others.fold(0.0, f64::max) };
+        let distance = length(link.com);
+        if around > 0.0 && distance > FAR && distance > COM_RATIO * around {
+            let message = messages::far_com(&table.item, distance, around);
+            found.push((Lint::LengthUnits, place_of(table, &table.com), message));
+        }
+    }
+}
+
+/// Of links on joints that move; what is fixed to a link may be as small as a mark on it.
+fn mass_ratio(document: &Document, model: &Model, found: &mut Found) {
+    let with_mass = || model.links.iter().enumerate().filter(|(_, link)| link.mass > 0.0 && link.joint.dof() > 0);
+    let by_mass = |a: &(usize, &Link), b: &(usize, &Link)| a.1.mass.total_cmp(&b.1.mass);
+    let (Some((_, light)), Some((index, heavy))) = (with_mass().min_by(by_mass), with_mass().max_by(by_mass)) else {
+        return;
+    };
+    if heavy.mass > MASS_RATIO * light.mass {
+        let message = messages::mass_ratio([(&heavy.name, heavy.mass), (&light.name, light.mass)]);
+        let table = &document.links[index];
+        found.push((Lint::MassUnits, place_of(table, &table.mass), message));
+    }
+}
+
+fn ranges(document: &Document, model: &Model, found: &mut Found) {
+    for (link, table) in model.links.iter().zip(&document.links).filter(|(link, _)| link.joint.turns()) {
+        let farthest = link.range.map_or(0.0, |range| range.position.into_iter().map(f64::abs).fold(0.0, f64::max));
+        if farthest > TURNS {
+            let message = messages::wide_range(&table.item, farthest);
+            found.push((Lint::RangeUnits, place_of(table, &table.range), message));
+        }
+    }
+}
