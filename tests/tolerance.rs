@@ -74,7 +74,7 @@ fn state(random: &mut Random, ranges: &[JointRange; 6]) -> [[f64; 6]; 3] {
     };
     let position = ranges.map(|JointRange { position: [a, b], .. }| 0.5 * (a + b) + 0.5 * (b - a) * share());
     let velocity = ranges.map(|range| range.velocity * share());
-    let acceleration = ranges.map(|range| range.acceleration * share());
+    let acceleration = ranges.map(|range| range.acceleration.expect("a range with an acceleration") * share());
     [position, velocity, acceleration]
 }
 

@@ -59,7 +59,10 @@ impl Judge {
         for _ in 0..SAMPLES {
             let q: [f64; DOF] = std::array::from_fn(|i| between(ranges[i].position[0], ranges[i].position[1]));
             let v: [f64; DOF] = std::array::from_fn(|i| between(-ranges[i].velocity, ranges[i].velocity));
-            let a: [f64; DOF] = std::array::from_fn(|i| between(-ranges[i].acceleration, ranges[i].acceleration));
+            let a: [f64; DOF] = std::array::from_fn(|i| {
+                let largest = ranges[i].acceleration.expect("the model's ranges have accelerations");
+                between(-largest, largest)
+            });
             let [wide_q, wide_v, wide_a] = [&q, &v, &a].map(|values| exact(values));
             let torques: Vec<DoubleDouble> = generic.inverse_dynamics(&wide_q, &wide_v, &wide_a);
             let tau: [f64; DOF] = std::array::from_fn(|i| f64::from(torques[i].to_f64() as f32));

@@ -8,7 +8,7 @@ use common::{Run, call, fail, scratch, succeed};
 use import_faults::BODY;
 use kinematics::{Numbers, positions, tree, urdf};
 use redysim_model::joint::JointPhysics;
-use redysim_model::{GenericMechanism, Model};
+use redysim_model::{GenericMechanism, JointRange, Model};
 use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -223,7 +223,7 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
         );
     }
     assert!(run.stderr.contains("warning: link `base_link`: `origin.rpy[1]` is 1.5708 rad"), "{}", run.stderr);
-    assert!(run.stdout.contains("# limits: position = [-1.0, 1.0], velocity = 2.0, force = 40.0"), "{}", run.stdout);
+    assert!(run.stdout.contains("range = { position = [-1.0, 1.0], velocity = 2.0, force = 40.0 }"), "{}", run.stdout);
     // What moves otherwise is no side note, and heads the model.
     for change in ["joint `loose` is floating", "joint `spin` moves no mass", "joint `knuckle` mimics `waist`"] {
         assert!(run.stderr.contains(&format!("warning: {change}")), "{change}: {}", run.stderr);
@@ -273,9 +273,10 @@ fn the_help_of_import_states_what_import_does() {
     assert_eq!((link("knuckle").joint.dof(), link("knuckle").actuated), (1, true));
     assert!(help.contains("Joints that move no mass become fixed."));
     assert_eq!(link("spin").joint.name(), "fixed");
-    assert!(help.contains("Limits with an acceleration become a `range`; others stay as comments."));
-    assert_eq!(imported[0].0.model().links[1].range.unwrap().acceleration, 7.0);
-    assert!(link("waist").range.is_none() && run.stdout.contains("# limits: position = [-1.0, 1.0]"));
+    assert!(help.contains("Limits of positions and velocity become a `range`; others stay as comments."));
+    assert_eq!(imported[0].0.model().links[1].range.unwrap().acceleration, Some(7.0));
+    assert_eq!(link("waist").range.unwrap().acceleration, None);
+    assert!(link("spin").range.is_none());
     assert!(help.contains("Damping and friction are kept."));
     let expected = JointPhysics { damping: 0.1, friction: 0.25, ..JointPhysics::default() };
     assert_eq!((link("waist").physics, link("spin").physics), (expected, JointPhysics::default()));
@@ -310,13 +311,15 @@ fn an_inertia_of_roundoff_is_left_out() {
 }
 
 #[test]
-fn limits_with_an_acceleration_are_a_range() {
+fn limits_are_a_range_with_the_acceleration_that_the_urdf_has() {
     let urdf = pendulum("<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>", BODY);
     let urdf = urdf.replace("<robot", "<robot version=\"1.2\"").replace("continuous", "revolute");
     let (mechanism, _) = import(&urdf, &[]);
     let range = mechanism.model().links[0].range.unwrap();
-    assert_eq!((range.position, range.velocity, range.acceleration), ([-1.0, 2.0], 3.0, 7.0));
+    assert_eq!((range.position, range.velocity, range.acceleration), ([-1.0, 2.0], 3.0, Some(7.0)));
     assert_eq!(range.force, Some(40.0));
+    let (mechanism, _) = import(&urdf.replace(" acceleration=\"7\"", ""), &[]);
+    assert_eq!(mechanism.model().links[0].range.unwrap(), JointRange { acceleration: None, ..range });
 }
 
 /// What makes no sense is not dropped either.

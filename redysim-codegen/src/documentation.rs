@@ -65,8 +65,8 @@ fn ranges(model: &Model) -> String {
     let line = |(name, kind, range): (&str, JointKind, JointRange)| {
         let unit = if kind.turns() { "rad" } else { "m" };
         let JointRange { position: [least, largest], velocity, acceleration, force } = range;
-        let motion =
-            format!("{least:.4} to {largest:.4} {unit}, ±{velocity:.4} {unit}/s, ±{acceleration:.4} {unit}/s²");
+        let acceleration = acceleration.map_or(String::new(), |acceleration| format!(", ±{acceleration:.4} {unit}/s²"));
+        let motion = format!("{least:.4} to {largest:.4} {unit}, ±{velocity:.4} {unit}/s{acceleration}");
         let force =
             force.map_or(String::new(), |force| format!(", force {force} {}", if kind.turns() { "N m" } else { "N" }));
         format!("- `{name}`: {motion}{force}")

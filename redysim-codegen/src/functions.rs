@@ -5,11 +5,11 @@ use crate::expressions::Expressions;
 use crate::forward_dynamics;
 pub use crate::forward_dynamics::{MethodChoice, MethodFigures};
 use crate::passes::{PassError, Passes};
-use crate::pruning::{Pruning, States, pruned};
+use crate::pruning::{Pruning, StateRange, States, pruned};
 use crate::reroll;
 use crate::tracing::simplified_on;
 use crate::trees::Trees;
-use redysim_model::{CodegenOptions, Function, JointRange, Link, Model, Tree};
+use redysim_model::{CodegenOptions, Function, Link, Model, Tree};
 use redysim_runtime::function::Shape;
 use std::cell::{LazyCell, OnceCell};
 
@@ -61,14 +61,17 @@ pub fn trace_of(tree: &Tree, options: &CodegenOptions, passes: &Passes) -> Resul
 ///
 /// # Errors
 ///
-/// If there is a tolerance and a joint without a range; as [`trace_of`].
+/// If there is a tolerance and a joint without a range that has an acceleration; as [`trace_of`].
 pub fn trace_model(
     model: &Model,
     options: &CodegenOptions,
     passes: &Passes,
 ) -> Result<Vec<TracedFunction>, TraceError> {
     let tree = Tree::new(model);
-    let range = |link: &Link| link.range.ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() });
+    let range = |link: &Link| {
+        let range = link.range.and_then(|range| StateRange::of(&range));
+        range.ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() })
+    };
     let pruning = match options.tolerance {
         Some(tolerance) => {
             let ranges = model.moving_links().map(range).collect::<Result<Vec<_>, _>>()?;
@@ -88,7 +91,7 @@ struct Pipeline<'a> {
     /// The exact numbers of the robot, by which the loss of digits is measured.
     reference: &'a Reference<'a>,
     /// The tolerance, and the ranges of the joints within which it holds.
-    pruning: Option<(f64, Vec<JointRange>)>,
+    pruning: Option<(f64, Vec<StateRange>)>,
 }
 
 impl Pipeline<'_> {
@@ -183,7 +186,7 @@ fn has_tolerance(function: Function) -> bool {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TraceError {
-    /// A tolerance needs a range for every joint, but a joint does not have one.
+    /// A tolerance needs a range with an acceleration for every joint, but a joint does not have one.
     NoRange {
         /// The joint.
         joint: String,
@@ -204,8 +207,8 @@ impl std::fmt::Display for TraceError {
             TraceError::NoRange { joint } => {
                 write!(
                     f,
-                    "a tolerance needs a range for every joint, but joint `{joint}` does not have one: give its link a \
-                     `range`"
+                    "a tolerance needs a range with an acceleration for every joint, but joint `{joint}` does not have \
+                     one: give its link a `range`"
                 )
             }
             TraceError::Pass(error) => error.fmt(f),

@@ -64,8 +64,8 @@ pub struct JointRange {
     pub position: [f64; 2],
     /// The largest speed in either direction.
     pub velocity: f64,
-    /// The largest acceleration in either direction.
-    pub acceleration: f64,
+    /// The largest acceleration in either direction; not every file gives it, but a tolerance needs it.
+    pub acceleration: Option<f64>,
     /// The force of which a tolerance is a share, N m or N; `None` for the largest that occurs within these ranges.
     pub force: Option<f64>,
 }

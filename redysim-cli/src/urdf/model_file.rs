@@ -87,16 +87,17 @@ fn inertia(i: Sym3<f64>) -> String {
     format!("{{ {} }}", entries.join(", "))
 }
 
-/// A range needs an acceleration, which most URDFs do not give: without one, the limits are kept as a comment.
+/// A range needs positions and a velocity: without them, as of a continuous joint, the limits are kept as a comment.
 fn range(limit: &JointLimit) -> String {
     let JointLimit { lower, upper, effort, velocity, acceleration, .. } = *limit;
     let force = if effort.is_finite() && effort > 0.0 { format!(", force = {effort:?}") } else { String::new() };
     let whole = lower.is_finite() && upper.is_finite() && lower < upper;
     let moves = |largest: f64| largest.is_finite() && largest > 0.0;
-    if whole && moves(velocity) && moves(acceleration) {
+    if whole && moves(velocity) {
+        let acceleration =
+            if moves(acceleration) { format!(", acceleration = {acceleration:?}") } else { String::new() };
         return format!(
-            "range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}, \
-             acceleration = {acceleration:?}{force} }}"
+            "range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}{acceleration}{force} }}"
         );
     }
     // Whatever is given is kept, if it makes sense or not.
@@ -106,7 +107,7 @@ fn range(limit: &JointLimit) -> String {
     let why = match (given && !whole, effort < 0.0 || velocity < 0.0) {
         (true, _) => "the lower one is not below the upper",
         (_, true) => "they are negative",
-        _ => "a `range` needs an acceleration, too",
+        _ => "a `range` needs positions and a velocity",
     };
     format!("# limits: {position}velocity = {velocity:?}{force}; {why}")
 }

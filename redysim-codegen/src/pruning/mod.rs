@@ -24,7 +24,7 @@ use measure::{scales, worst_error};
 use redysim_runtime::OperationCount;
 use redysim_runtime::function::Shape;
 use round::{Sample, round};
-pub use states::States;
+pub use states::{StateRange, States};
 
 /// What pruning has done to a function.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,12 +5,33 @@ use crate::expressions::Expressions;
 use crate::random::Random;
 use redysim_model::{JointRange, Tree, denoc};
 
+/// Within what a velocity and what it moves are sampled: as [`JointRange`], with an acceleration.
+#[derive(Clone, Copy, Debug)]
+pub struct StateRange {
+    /// The least and the largest displacement.
+    pub position: [f64; 2],
+    /// The largest speed in either direction.
+    pub velocity: f64,
+    /// The largest acceleration in either direction.
+    pub acceleration: f64,
+    /// The force of which the tolerance is a share, if it is stated.
+    pub force: Option<f64>,
+}
+
+impl StateRange {
+    /// The range of a joint; `None` if it has no acceleration.
+    pub fn of(range: &JointRange) -> Option<StateRange> {
+        let JointRange { position, velocity, acceleration, force } = *range;
+        Some(StateRange { position, velocity, acceleration: acceleration?, force })
+    }
+}
+
 /// The states in which a function is sampled.
 pub struct States<'a> {
     /// The bodies whose joints map displacements to coordinates.
     pub tree: &'a Tree,
     /// The ranges of displacement, velocity and acceleration, in the order of the velocities.
-    pub ranges: &'a [JointRange],
+    pub ranges: &'a [StateRange],
     /// Inverse dynamics, where the third argument of the function is joint forces.
     pub forces: Option<&'a Expressions>,
 }
@@ -45,7 +66,7 @@ impl States<'_> {
         let mut displacement = vec![0.0; self.ranges.len()];
         for state in 0..states {
             let corners = random.bits();
-            for (index, JointRange { position: [least, largest], velocity, acceleration, .. }) in
+            for (index, StateRange { position: [least, largest], velocity, acceleration, .. }) in
                 self.ranges.iter().enumerate()
             {
                 let middle = 0.5 * (least + largest);

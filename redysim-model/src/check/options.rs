@@ -3,7 +3,7 @@
 use crate::messages;
 use crate::model::Link;
 use crate::options::{AccelerationMethod, CodegenOptions};
-use crate::schema::{Document, Entry};
+use crate::schema::{Document, Entry, LinkTable};
 use redysim_runtime::{Function, Functions};
 use redysim_toml::Findings;
 
@@ -45,18 +45,25 @@ pub(super) fn without_dynamics_of_tree(
     }
 }
 
-/// The tolerance, which needs the range of every joint that moves; `Some(None)` without one.
+/// The tolerance, which needs the range of every joint that moves, with an acceleration; `Some(None)` without one.
 fn tolerance(document: &Document, findings: &mut Findings) -> Option<Option<f64>> {
     let Entry { text, value: tolerance } = &document.options.tolerance;
     if tolerance.is_missing() {
         return Some(None);
     }
     let given = tolerance.spanned()?;
-    let without = document.links.iter().filter(|link| !link.is_rigid() && link.range.is_missing());
-    let without: Vec<&str> = without.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect();
-    if !without.is_empty() {
+    let joints_where = |lacks: fn(&LinkTable) -> bool| -> Vec<&str> {
+        let links = document.links.iter().filter(|link| !link.is_rigid() && lacks(link));
+        links.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect()
+    };
+    let without_acceleration = |link: &LinkTable| link.range.value().is_some_and(|range| range.acceleration.is_none());
+    let lacking = [
+        ("no range", joints_where(|link| link.range.is_missing())),
+        ("a range without an acceleration", joints_where(without_acceleration)),
+    ];
+    for (what, joints) in lacking.into_iter().filter(|(_, joints)| !joints.is_empty()) {
         findings.within(*text, |findings| {
-            findings.error(given.span(), messages::no_range(&document.item, &without));
+            findings.error(given.span(), messages::no_range(&document.item, what, &joints));
         });
     }
     Some(Some(*given.get_ref()))

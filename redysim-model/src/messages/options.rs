@@ -98,13 +98,13 @@ pub(crate) fn bad_tolerance(item: &str, tolerance: f64) -> Message {
     )
 }
 
-/// A tolerance is asked for, but these joints have no range.
-pub(crate) fn no_range(item: &str, joints: &[&str]) -> Message {
+/// A tolerance is asked for, but these joints have `what`: no range, or one without an acceleration.
+pub(crate) fn no_range(item: &str, what: &str, joints: &[&str]) -> Message {
     let names: Vec<_> = joints.iter().map(|name| quoted(name)).collect();
     let names: Vec<_> = names.iter().map(String::as_str).collect();
     let (have, s) = if joints.len() == 1 { ("has", "") } else { ("have", "s") };
     message(
-        format!("{item}: `tolerance` is given, but joint{s} {} {have} no range", shortened(&names)),
+        format!("{item}: `tolerance` is given, but joint{s} {} {have} {what}", shortened(&names)),
         "holds within ranges only",
         format!("give each link whose joint moves its range, as in `{}`", keys::RANGE.example()),
     )

@@ -129,8 +129,11 @@ const RANGE_KEYS: Keys =
 pub(crate) const POSITION: Key = Key::new("position", "[\"-170 deg\", \"170 deg\"]", "rad or m");
 pub(crate) const VELOCITY: Key =
     Key::new("velocity", "\"150 deg\"", "the largest in either direction; without a unit rad/s or m/s");
-pub(crate) const ACCELERATION: Key =
-    Key::new("acceleration", "10.0", "the largest in either direction; without a unit rad/s² or m/s²");
+pub(crate) const ACCELERATION: Key = Key::new(
+    "acceleration",
+    "10.0",
+    "the largest in either direction, which a tolerance needs; without a unit rad/s² or m/s²",
+);
 pub(crate) const FORCE: Key =
     Key::new("force", "40.0", "N m or N, of which the tolerance is a share; default: the largest that occurs");
 

@@ -194,10 +194,9 @@ fn origin(mut reader: Reader<'_, '_>) -> Origin {
 
 /// Of a joint that turns, in radians.
 fn range(mut reader: Reader<'_, '_>, turns: bool) -> JointRange {
-    let [velocity, acceleration] = [(&keys::VELOCITY, "/s"), (&keys::ACCELERATION, "/s^2")].map(|(key, per)| {
-        let largest = reader.required(key, |reader, key| largest(reader, key, turns, per));
-        largest.value_or(0.0).unwrap_or_default()
-    });
+    let velocity = reader.required(&keys::VELOCITY, |reader, key| largest(reader, key, turns, "/s"));
+    let velocity = velocity.value_or(0.0).unwrap_or_default();
+    let acceleration = largest(&mut reader, &keys::ACCELERATION, turns, "/s^2").value().copied();
     let position = reader.required(&keys::POSITION, |reader, key| bounds(reader, key, turns));
     let position = position.value_or([0.0; 2]).unwrap_or_default();
     let force = reader.positive(&keys::FORCE);
