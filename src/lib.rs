@@ -94,9 +94,9 @@ pub mod generic {
     pub use redysim_model::pseudo::PseudoInertia;
     pub use redysim_model::spatial::{Mat3, Pose, Vec3};
     pub use redysim_model::{
-        AccelerationMethod, Attachment, Body, CodegenOptions, Cut, CutEnd, CutKind, CutSide, Diagnostic, Diagnostics,
-        Faults, GenericMechanism, Inertia, JointKind, JointRange, Link, Lint, Loaded, LockError, Loop, Mobility, Model,
-        MovingJoint, PublicInterface, Severity, Tree,
+        AccelerationMethod, Attachment, Body, BodyFrame, CodegenOptions, Cut, CutEnd, CutKind, CutSide, Diagnostic,
+        Diagnostics, Faults, Frame, GenericMechanism, Inertia, JointKind, JointRange, Link, Lint, Loaded, LockError,
+        Loop, Mobility, Model, MovingJoint, PublicInterface, Severity, Tree,
     };
 }
 

@@ -1,7 +1,8 @@
 //! On random trees the recursions, the base parameters and the traced expressions agree with Kane's equations.
 //!
 //! Two hundred trees of up to twelve joints: revolute, prismatic, helical and fixed, branching, oblique, links in
-//! scrambled order; in half of them with rotors, damping, friction and springs.
+//! scrambled order; in half of them with rotors, damping, friction and springs. Each has three frames of interest, on
+//! links or on the ground.
 
 mod common;
 
@@ -16,7 +17,7 @@ use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::joint::{JointPhysics, Vanishing};
 use redysim_model::regroup::base_parameters;
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{Function, JointKind, Link, Model, Tree};
+use redysim_model::{Frame, Function, JointKind, Link, Model, Tree};
 use std::collections::BTreeMap;
 
 const TREES: u64 = 200;
@@ -87,7 +88,13 @@ fn random_model(random: &mut Random) -> Model {
             ..link(grown, parent, joint, placed(&turned, at))
         }
     });
-    Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops: Vec::new() }
+    Model {
+        name: "random".into(),
+        gravity: Vec3::from_fn(|_| random.within(10.0)),
+        links,
+        loops: Vec::new(),
+        frames: Vec::new(),
+    }
 }
 
 /// What acts in a joint: each of its parts in half of the joints.
@@ -103,6 +110,40 @@ fn joint_physics(random: &mut Random) -> JointPhysics {
     }
 }
 
+/// A frame somewhere on a link, or on the ground; a third of them stand on the origin of the link's frame.
+fn frame(random: &mut Random, model: &Model, index: usize) -> Frame {
+    let link = random.below(model.links.len() + 1).checked_sub(1);
+    let at = if random.below(3) == 0 { Vec3::zero() } else { Vec3::from_fn(|_| random.within(0.3)) };
+    Frame { name: format!("frame{index}"), link, placement: placed(&rotation(random), at) }
+}
+
+/// A wrench on each frame, by its numbers: force, then moment.
+fn wrenches(random: &mut Random, frames: usize) -> Vec<f64> {
+    (0..6 * frames).map(|_| random.within(10.0)).collect()
+}
+
+/// What the functions of frames are by Kane's Jacobians and accelerations, in the order of the table of functions.
+fn frame_functions(expected: &Kane, dof: usize, wrenches: &[f64]) -> [(Function, Vec<f64>); 4] {
+    let (mut states, mut jacobians, mut biases, mut forces) = (vec![], vec![], vec![], DVector::zeros(dof));
+    for (frame, wrench) in expected.frames.iter().zip(wrenches.chunks(6)) {
+        let vectors = [&frame.origin, &frame.velocity, &frame.angular_velocity];
+        states.extend(frame.rotation.transpose().iter().copied());
+        states.extend(vectors.into_iter().flatten());
+        let (linear, angular) = frame.jacobians(dof);
+        jacobians.extend([&linear, &angular].into_iter().flat_map(|j| j.transpose().as_slice().to_vec()));
+        biases.extend([frame.acceleration, frame.angular_acceleration].iter().flatten());
+        let (force, moment) = wrench.split_at(3);
+        forces += linear.transpose() * Vector3::from_row_slice(force);
+        forces += angular.transpose() * Vector3::from_row_slice(moment);
+    }
+    [
+        (Function::FrameKinematics, states),
+        (Function::FrameJacobians, jacobians),
+        (Function::FrameBias, biases),
+        (Function::FrameForces, forces.as_slice().to_vec()),
+    ]
+}
+
 /// Calls `check` with each tree and Kane's answer at a few states.
 fn on_random_trees(mut check: impl FnMut(&Model, &Tree, &State, &Kane)) {
     for seed in 0..TREES {
@@ -112,6 +153,7 @@ fn on_random_trees(mut check: impl FnMut(&Model, &Tree, &State, &Kane)) {
             let moving = model.links.iter_mut().filter(|link| link.joint != JointKind::Fixed);
             moving.for_each(|link| link.physics = joint_physics(&mut random));
         }
+        model.frames = (0..3).map(|index| frame(&mut random, &model, index)).collect();
         let tree = Tree::new(&model);
         for _ in 0..STATES {
             let state = random.state(model.dof());
@@ -180,6 +222,21 @@ fn link_kinematics_agree_with_jacobians() {
     println!("{:?}", errors.0);
 }
 
+#[test]
+fn frames_agree_with_kanes_jacobians_and_accelerations() {
+    let mut errors = Errors::default();
+    let mut random = Random::new(1);
+    on_random_trees(|model, tree, State { q, v, .. }, expected| {
+        let wrenches = wrenches(&mut random, tree.frames.len());
+        for (function, expected) in frame_functions(expected, model.dof(), &wrenches) {
+            let second = if function == Function::FrameForces { &wrenches } else { v };
+            let computed = denoc::evaluate(function, tree, &Untraced, &[q, second]);
+            errors.add(function.name(), &computed, &expected, 1e-13);
+        }
+    });
+    println!("{:?}", errors.0);
+}
+
 /// The outputs of a traced function.
 fn evaluated(functions: &[TracedFunction], name: &str, arguments: &[&[f64]]) -> Vec<f64> {
     let function = functions.iter().find(|function| function.function.name() == name).expect("a function");
@@ -188,7 +245,7 @@ fn evaluated(functions: &[TracedFunction], name: &str, arguments: &[&[f64]]) -> 
 
 #[test]
 fn traced_expressions_agree_with_kanes_equations() {
-    let mut errors = Errors::default();
+    let (mut errors, mut random) = (Errors::default(), Random::new(1));
     let mut traced: Option<(Tree, Vec<TracedFunction>)> = None;
     on_random_trees(|_, tree, State { q, v, a }, expected| {
         if traced.as_ref().is_none_or(|(of, _)| of != tree) {
@@ -217,6 +274,13 @@ fn traced_expressions_agree_with_kanes_equations() {
             rotation.iter().copied().chain(vectors.into_iter().flatten().copied()).collect::<Vec<_>>()
         });
         errors.add("link_kinematics", &links, &wanted.collect::<Vec<_>>(), 1e-13);
+        let wrenches = wrenches(&mut random, tree.frames.len());
+        for (function, expected) in frame_functions(expected, q.len(), &wrenches) {
+            let second = if function == Function::FrameForces { &wrenches } else { v };
+            let arguments = [q.as_slice(), second];
+            let arguments = &arguments[..function.signature().arguments.len()];
+            errors.add(function.name(), &evaluated(functions, function.name(), arguments), &expected, 1e-13);
+        }
     });
     println!("{:?}", errors.0);
 }

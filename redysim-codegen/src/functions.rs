@@ -142,7 +142,7 @@ impl Pipeline<'_> {
             let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, self.passes)?;
             Ok(TracedFunction { expressions, pruning: Some(pruning), ..whole })
         };
-        self.options.functions.iter().map(make).collect()
+        self.options.functions.with_frames(self.tree.frames.len()).iter().map(make).collect()
     }
 
     /// The function on the description of the robot on which it is best computed.
@@ -157,9 +157,14 @@ impl Pipeline<'_> {
             }
             Function::Energy => (cheapest(&trees.energy(), function, passes)?, None),
             Function::CenterOfMass => (cheapest(&trees.moments(), function, passes)?, None),
-            Function::LinkKinematics | Function::LoopResidual | Function::LoopJacobian | Function::LoopBias => {
-                (cheapest(&trees.kinematics(), function, passes)?, None)
-            }
+            Function::LinkKinematics
+            | Function::FrameKinematics
+            | Function::FrameJacobians
+            | Function::FrameBias
+            | Function::FrameForces
+            | Function::LoopResidual
+            | Function::LoopJacobian
+            | Function::LoopBias => (cheapest(&trees.kinematics(), function, passes)?, None),
             Function::PassiveForces
             | Function::DissipatedPower
             | Function::CoordinateRates
@@ -177,9 +182,10 @@ fn cheapest(trees: &[Tree], function: Function, passes: &Passes) -> Result<Expre
     Ok(all.into_iter().min_by_key(Expressions::price).expect("at least one tree"))
 }
 
-/// Whether a tolerance bounds the errors of a function.
+/// Whether a tolerance bounds the errors of a function. Wrenches have no ranges within which it could.
 fn has_tolerance(function: Function) -> bool {
-    matches!(function.signature().result, Shape::Forces | Shape::Accelerations | Shape::MassMatrix)
+    !function.needs_frames()
+        && matches!(function.signature().result, Shape::Forces | Shape::Accelerations | Shape::MassMatrix)
 }
 
 /// Why the functions of a model cannot be traced with the given options.

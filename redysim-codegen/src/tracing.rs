@@ -22,7 +22,7 @@ pub fn traced(
     function: Function,
     computed: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 ) -> Expressions {
-    let length = |argument: &Argument| tree.size(argument.dimension());
+    let length = |argument: &Argument| tree.argument_length(*argument);
     traced_of(function.signature().arguments.iter().map(length), computed)
 }
 

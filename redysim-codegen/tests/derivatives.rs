@@ -9,7 +9,7 @@ use redysim_model::{Function, Model, Tree};
 use redysim_runtime::Dual;
 use std::collections::BTreeSet;
 
-const ROBOTS: [&str; 3] = ["kr5", "gripper", "test/gantry"];
+const ROBOTS: [&str; 4] = ["kr5", "gripper", "test/gantry", "test/frames"];
 
 fn tree(name: &str) -> Tree {
     let path = format!("{}/../models/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -18,7 +18,7 @@ fn tree(name: &str) -> Tree {
 
 /// The lengths of the arguments of a function.
 fn lengths(function: Function, tree: &Tree) -> Vec<usize> {
-    function.signature().arguments.iter().map(|argument| tree.size(argument.dimension())).collect()
+    function.signature().arguments.iter().map(|argument| tree.argument_length(*argument)).collect()
 }
 
 /// Values, then slopes.
@@ -74,8 +74,10 @@ fn arguments(lengths: &[usize], point: usize) -> Vec<Vec<f64>> {
 fn traced_derivatives_are_those_of_dual_numbers() {
     for robot in ROBOTS {
         let tree = tree(robot);
+        let has =
+            |function: &&Function| !function.needs_loops() && (!function.needs_frames() || !tree.frames.is_empty());
         let depends_on_motion = |function: &&Function| !function.signature().arguments.is_empty();
-        let functions = Function::ALL.iter().filter(|function| !function.needs_loops()).filter(depends_on_motion);
+        let functions = Function::ALL.iter().filter(has).filter(depends_on_motion);
         for &function in functions {
             let (expressions, lengths) = (traced_with_derivative(function, &tree), lengths(function, &tree));
             for point in 0..3 {

@@ -8,7 +8,7 @@ use random::Random;
 use redysim_codegen::functions::{TracedFunction, trace_model, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, source_file_with};
-use redysim_model::{CodegenOptions, Functions, JointRange, Model, Tree};
+use redysim_model::{CodegenOptions, Frame, Functions, JointRange, Model, Tree};
 use redysim_runtime::OperationCount;
 
 fn model(name: &str) -> Model {
@@ -141,12 +141,14 @@ fn the_puma_takes_no_more_operations_than_recorded_at_a_tolerance_of_one_percent
 }
 
 #[test]
-fn energies_places_coordinates_and_loops_are_exact() {
+fn energies_places_frames_coordinates_and_loops_are_exact() {
     let range = JointRange { position: [-1.0, 1.0], velocity: 1.0, acceleration: Some(1.0), force: None };
-    let model = with_range(model("fourbar"), range);
+    let mut model = with_range(model("fourbar"), range);
+    model.frames = vec![Frame { name: "tip".into(), link: Some(2), placement: model.links[2].placement }];
     let of_coordinates = ["coordinate_rates", "integrate", "difference", "neutral"];
     let exact = ["energy", "link_kinematics", "loop_residual", "loop_jacobian", "loop_bias"];
-    let exact = [exact.as_slice(), &of_coordinates].concat();
+    let of_frames = ["frame_kinematics", "frame_jacobians", "frame_bias", "frame_forces"];
+    let exact = [exact.as_slice(), &of_frames, &of_coordinates].concat();
     let whole = trace_with(&Tree::new(&model), &Passes::all()).expect("no pass changes a value");
     for function in traced(&model, &exact, 0.1) {
         let whole = whole.iter().find(|whole| whole.function == function.function).unwrap();

@@ -3,11 +3,11 @@
 use crate::denoc;
 use crate::inertia::Sym3;
 use crate::joint::{Joint, JointPosition};
-use crate::model::{CutKind, CutSide, Link, Model};
+use crate::model::{CutKind, CutSide, Frame, Link, Model};
 use crate::pseudo::PseudoInertia;
 use crate::rotation::{self, align_z};
 use crate::spatial::{Mat3, Pose, Vec3};
-use crate::tree::{Attachment, Body, Cut, CutEnd, Tree};
+use crate::tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Tree};
 
 impl Tree {
     /// The tree of a checked model.
@@ -22,14 +22,12 @@ impl Tree {
                 .map(|link| Attachment { body: None, pose: Pose::identity(), com: link.com })
                 .collect(),
             cuts: Vec::new(),
+            frames: Vec::new(),
         };
         let first = first_of_joints(model);
         for index in parents_first(model) {
             let link = &model.links[index];
-            let (parent, reference) = match link.parent {
-                Some(parent) => (tree.links[parent].body, tree.links[parent].pose),
-                None => (None, Pose::identity()),
-            };
+            let (parent, reference) = tree.on_body(link.parent);
             let placement = reference * link.placement;
             let (body, moved) = match Joint::of(link) {
                 None => (parent, placement),
@@ -46,6 +44,7 @@ impl Tree {
             *carrier = *carrier + inertia;
         }
         tree.cut(model);
+        tree.frames = model.frames.iter().map(|frame| tree.body_frame(frame)).collect();
         tree
     }
 
@@ -62,9 +61,18 @@ impl Tree {
         }
     }
 
+    /// The body of a link (`None` is the ground), and the link's frame in the body's.
+    fn on_body(&self, link: Option<usize>) -> (Option<usize>, Pose<f64>) {
+        link.map_or((None, Pose::identity()), |link| (self.links[link].body, self.links[link].pose))
+    }
+
+    fn body_frame(&self, frame: &Frame) -> BodyFrame {
+        let (body, pose) = self.on_body(frame.link);
+        BodyFrame { body, pose: (pose * frame.placement).without_roundoff() }
+    }
+
     fn cut_end(&self, joint: CutKind, side: &CutSide) -> CutEnd {
-        let (body, pose) =
-            side.link.map_or((None, Pose::identity()), |link| (self.links[link].body, self.links[link].pose));
+        let (body, pose) = self.on_body(side.link);
         let axes = match joint {
             CutKind::Weld => Mat3::identity(),
             CutKind::Revolute | CutKind::Spherical => align_z(side.axis),

@@ -70,6 +70,9 @@ pub fn reframe<P: Parameter>(tree: &mut Tree<P>, body: usize, angle: f64, distan
     for link in tree.links.iter_mut().filter(|link| link.body == Some(body)) {
         link.pose = clean_pose(back * link.pose, size);
     }
+    for frame in tree.frames.iter_mut().filter(|frame| frame.body == Some(body)) {
+        frame.pose = clean_pose(back * frame.pose, size);
+    }
     for end in tree.cuts.iter_mut().flat_map(|cut| [&mut cut.a, &mut cut.b]).filter(|end| end.body == Some(body)) {
         let Pose { rotation, position } = clean_pose(back * Pose { rotation: end.axes, position: end.point }, size);
         (end.axes, end.point) = (rotation, position);

@@ -6,9 +6,9 @@ use crate::model::Model;
 use crate::tree::Tree;
 use redysim_runtime::function::Dimension::{self, Coordinates, Velocities};
 use redysim_runtime::{
-    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LengthMismatch, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
-    Mechanism, PassiveForces, Scalar,
+    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, FrameAcceleration, FrameJacobian,
+    FrameState, Frames, GravityForces, InverseDynamics, LengthMismatch, LinkKinematics, LinkState, LoopClosure,
+    LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, PassiveForces, Scalar, Wrench,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -114,7 +114,7 @@ impl GenericMechanism {
         }
     }
 
-    fn check_length<S>(&self, name: &'static str, vector: &[S], expected: usize) {
+    fn check_length<T>(&self, name: &'static str, vector: &[T], expected: usize) {
         if let Err(mismatch) = LengthMismatch::check(name, vector, expected) {
             let (nq, nv) = (self.size(Coordinates), self.size(Velocities));
             panic!("{mismatch}: `{}` has {nq} coordinates and {nv} velocities", self.model.name);
@@ -146,6 +146,12 @@ impl Mechanism for GenericMechanism {
     }
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.velocity_names.get(index).map(String::as_str)
+    }
+    fn nf(&self) -> usize {
+        self.size(Dimension::Frames)
+    }
+    fn frame_name(&self, index: usize) -> Option<&str> {
+        self.model.frames.get(index).map(|frame| frame.name.as_str())
     }
 }
 
@@ -256,6 +262,32 @@ impl<S: Scalar> LinkKinematics<S> for GenericMechanism {
     fn link_kinematics(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<LinkState<S>> {
         self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::link_kinematics(&self.tree, &Untraced, q, v)
+    }
+}
+
+impl<S: Scalar> Frames<S> for GenericMechanism {
+    type States = Vec<FrameState<S>>;
+    type Jacobians = Vec<FrameJacobian<Vec<S>>>;
+    type Accelerations = Vec<FrameAcceleration<S>>;
+    type Wrenches = Vec<Wrench<S>>;
+
+    fn frame_kinematics(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<FrameState<S>> {
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
+        denoc::frame_kinematics(&self.tree, &Untraced, q, v)
+    }
+    fn frame_jacobians(&self, q: &Vec<S>) -> Vec<FrameJacobian<Vec<S>>> {
+        self.check(&[("q", Coordinates, q)]);
+        denoc::frame_jacobians(&self.tree, &Untraced, q)
+    }
+    fn frame_bias(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<FrameAcceleration<S>> {
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
+        denoc::frame_bias(&self.tree, &Untraced, q, v)
+    }
+    fn frame_forces(&self, q: &Vec<S>, wrenches: &Vec<Wrench<S>>) -> Vec<S> {
+        self.check(&[("q", Coordinates, q)]);
+        self.check_length("wrenches", wrenches, self.size(Dimension::Frames));
+        let wrenches: Vec<_> = wrenches.iter().copied().map(Into::into).collect();
+        denoc::frame_forces(&self.tree, &Untraced, q, &wrenches)
     }
 }
 

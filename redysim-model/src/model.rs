@@ -3,7 +3,7 @@
 use crate::joint::JointPhysics;
 use crate::spatial::{Pose, Vec3};
 
-/// A mechanism whose file passed every check. Links and loops stand in the file's order.
+/// A mechanism whose file passed every check. Links, loops and frames stand in the file's order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Name of the mechanism.
@@ -14,6 +14,8 @@ pub struct Model {
     pub links: Vec<Link>,
     /// The cut joints, in the file's order.
     pub loops: Vec<Loop>,
+    /// Frames of interest on links, in the file's order.
+    pub frames: Vec<Frame>,
 }
 
 /// One rigid body and the joint that carries it.
@@ -156,6 +158,17 @@ pub struct CutSide {
     pub point: Vec3<f64>,
     /// Unit vector of the axis that meets the other side's (revolute cuts), in the link's frame.
     pub axis: Vec3<f64>,
+}
+
+/// A frame of interest on a link, such as that of a tool or a foot: a table `[[frame]]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Name of the frame.
+    pub name: String,
+    /// Index of the link on which it stands in [`Model::links`]; `None` is the ground.
+    pub link: Option<usize>,
+    /// The frame in the link's.
+    pub placement: Pose<f64>,
 }
 
 /// The kinds of cut joint.

@@ -19,6 +19,8 @@ pub struct PublicInterface {
     pub joints: Vec<MovingJoint>,
     /// For each row of the loops, the name of its loop.
     pub loop_rows: Vec<String>,
+    /// Names of the frames; "frame #2" stands for one that cannot be read.
+    pub frames: Vec<String>,
     /// Mass of all links, kg; zero if it cannot be read.
     pub mass: f64,
     /// The functions of the type.
@@ -54,6 +56,7 @@ impl PublicInterface {
             Dimension::Velocities => self.joints.iter().map(|joint| joint.nv).sum(),
             Dimension::Links => self.links.len(),
             Dimension::LoopRows => self.loop_rows.len(),
+            Dimension::Frames => self.frames.len(),
         }
     }
 
@@ -71,8 +74,9 @@ impl PublicInterface {
             links: model.links.iter().map(|link| link.name.clone()).collect(),
             joints: joints.collect(),
             loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
+            frames: model.frames.iter().map(|frame| frame.name.clone()).collect(),
             mass: model.mass(),
-            functions: options.functions,
+            functions: options.functions.with_frames(model.frames.len()),
         }
     }
 }

@@ -231,9 +231,20 @@ impl<S: Scalar> Wrench<S> {
         Wrench { moment: self.moment.scale(factor), force: self.force.scale(factor) }
     }
 
+    /// The same about another point, from which the point of this one is at `arm`.
+    pub fn moved_by(self, arm: Vec3<S>) -> Self {
+        Wrench { moment: self.moment + arm.cross(self.force), force: self.force }
+    }
+
     /// The power of the wrench at a motion.
     pub fn dot(self, twist: Twist<S>) -> S {
         self.moment.dot(twist.angular) + self.force.dot(twist.linear)
+    }
+}
+
+impl<S> From<redysim_runtime::Wrench<S>> for Wrench<S> {
+    fn from(redysim_runtime::Wrench { force, moment }: redysim_runtime::Wrench<S>) -> Self {
+        Wrench { moment: Vec3(moment), force: Vec3(force) }
     }
 }
 

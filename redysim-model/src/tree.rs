@@ -8,7 +8,7 @@ use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_runtime::Scalar;
-use redysim_runtime::function::Dimension;
+use redysim_runtime::function::{Argument, Dimension};
 use std::ops::Range;
 
 /// Moving bodies, parents first, and where the model's links stand on them.
@@ -24,6 +24,8 @@ pub struct Tree<P = f64> {
     pub links: Vec<Attachment<P>>,
     /// The cut joints, in the model's order.
     pub cuts: Vec<Cut>,
+    /// Where each of [`Model::frames`](crate::model::Model::frames) stands, in the model's order.
+    pub frames: Vec<BodyFrame>,
 }
 
 /// A moving body with one joint about or along its z axis.
@@ -77,6 +79,15 @@ pub struct Attachment<P = f64> {
     pub pose: Pose<f64>,
     /// Centre of mass in the link's frame, m.
     pub com: Vec3<P>,
+}
+
+/// Where a frame stands on a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyFrame {
+    /// The body in [`Tree::bodies`]; `None` is the ground.
+    pub body: Option<usize>,
+    /// The frame in the body's.
+    pub pose: Pose<f64>,
 }
 
 /// A cut joint between two bodies.
@@ -146,6 +157,7 @@ impl<P> Tree<P> {
             bodies: self.bodies.iter().map(body).collect(),
             links: self.links.iter().map(link).collect(),
             cuts: self.cuts.clone(),
+            frames: self.frames.clone(),
         }
     }
 
@@ -184,6 +196,11 @@ impl<P> Tree<P> {
         (0..nq).map(|k| (golden * (position * nq + k + 1) as f64).fract() * 6.0 - 3.0).collect()
     }
 
+    /// The number of numbers that an argument of a function has.
+    pub fn argument_length(&self, argument: Argument) -> usize {
+        self.size(argument.dimension()) * argument.numbers()
+    }
+
     /// The number of elements that a vector of this dimension has.
     pub fn size(&self, dimension: Dimension) -> usize {
         match dimension {
@@ -191,6 +208,7 @@ impl<P> Tree<P> {
             Dimension::Velocities => self.nv(),
             Dimension::Links => self.links.len(),
             Dimension::LoopRows => self.loops_of_rows().count(),
+            Dimension::Frames => self.frames.len(),
         }
     }
 

@@ -8,7 +8,7 @@ use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::{base_parameters, take_from_parent};
 use redysim_model::scaling::in_unit;
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{Model, Tree, rotation};
+use redysim_model::{Function, Model, Tree, rotation};
 
 /// Roundoff of values of size one over a few dozen operations.
 const ROUNDOFF: f64 = 1e-12;
@@ -20,7 +20,8 @@ fn tree(name: &str) -> Tree {
 
 /// Revolute and prismatic joints, branching, oblique; and, with loops, the plane and space.
 fn trees() -> Vec<(&'static str, Tree)> {
-    let names = ["kr5", "gripper", "test/gantry", "test/bricard", "slider_crank", "leg", "peers/humanoid30"];
+    let names =
+        ["kr5", "gripper", "test/gantry", "test/bricard", "slider_crank", "leg", "peers/humanoid30", "test/frames"];
     names.map(|name| (name, tree(name))).into()
 }
 
@@ -38,7 +39,7 @@ fn dynamics(tree: &Tree) -> Vec<Vec<f64>> {
     ]
 }
 
-/// Where the links are and how far the loops are from closed.
+/// Where the links and the frames are and how far the loops are from closed.
 fn kinematics(tree: &Tree) -> Vec<Vec<f64>> {
     let (q, v) = (tree.sample(0), tree.sample(1));
     let mut values = vec![
@@ -46,6 +47,8 @@ fn kinematics(tree: &Tree) -> Vec<Vec<f64>> {
         denoc::loop_jacobian(tree, &Untraced, &q).concat(),
         denoc::loop_bias(tree, &Untraced, &q, &v),
     ];
+    let frames = [Function::FrameKinematics, Function::FrameJacobians, Function::FrameBias];
+    values.extend(frames.map(|function| denoc::evaluate(function, tree, &Untraced, &[&q, &v])));
     for link in denoc::link_kinematics(tree, &Untraced, &q, &v) {
         values.push(link.rotation.concat());
         values.extend([link.origin, link.com, link.velocity, link.angular_velocity].map(Vec::from));

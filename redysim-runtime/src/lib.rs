@@ -63,6 +63,7 @@ mod control;
 mod dispatch;
 mod dual;
 mod floats;
+mod frames;
 pub mod function;
 #[cfg(feature = "simulation")]
 pub mod integrate;
@@ -91,6 +92,7 @@ pub use control::{ComputedTorque, Proportional, ProportionalDerivative, TorqueLa
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched, Instructions};
 pub use dual::{Dual, coordinate_rates_tangent, forward_dynamics_tangent, inverse_dynamics_tangent};
+pub use frames::{FrameAcceleration, FrameJacobian, FrameState, Frames, Wrench};
 pub use function::set::Functions;
 pub use function::table::{Function, Operations};
 #[cfg(feature = "simulation")]

@@ -36,6 +36,15 @@ pub trait Mechanism {
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         (self.nq() == self.nv() && index < self.nv()).then_some(index)
     }
+    /// Number of frames of interest, NF: the tables `[[frame]]` of a model. The default is none.
+    fn nf(&self) -> usize {
+        0
+    }
+    /// Name of frame `index` in the model's order; `None` past the last, and by default.
+    fn frame_name(&self, index: usize) -> Option<&str> {
+        let _ = index;
+        None
+    }
 }
 
 /// Coordinates and velocities of a mechanism over the scalar `S`. The types of vectors carry their lengths: arrays for

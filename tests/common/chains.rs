@@ -58,7 +58,13 @@ pub fn chain(count: usize, rod: impl Fn(usize) -> Rod) -> Tree {
         link(index, parent, [start, 0.0, 0.0], rod(index))
     };
     let links = (0..count).map(numbered).collect();
-    Tree::new(&Model { name: "chain".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
+    Tree::new(&Model {
+        name: "chain".into(),
+        gravity: Vec3([0.0, -9.81, 0.0]),
+        links,
+        loops: Vec::new(),
+        frames: Vec::new(),
+    })
 }
 
 /// A palm on a joint, with `fingers` chains of `joints` light links each.
@@ -76,5 +82,11 @@ pub fn palm(fingers: usize, joints: usize) -> Tree {
         link(index, parent, start, Rod { axis, mass, length })
     };
     let links = (0..=fingers * joints).map(numbered).collect();
-    Tree::new(&Model { name: "palm".into(), gravity: Vec3([0.0, -9.81, 0.0]), links, loops: Vec::new() })
+    Tree::new(&Model {
+        name: "palm".into(),
+        gravity: Vec3([0.0, -9.81, 0.0]),
+        links,
+        loops: Vec::new(),
+        frames: Vec::new(),
+    })
 }

@@ -10,7 +10,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
 use redysim_model::joint::JointPhysics;
-use redysim_model::{JointKind, Link, Model};
+use redysim_model::spatial::Pose;
+use redysim_model::{Frame, JointKind, Link, Model};
 
 /// Everything the tests compare, at one state.
 pub struct Kane {
@@ -25,9 +26,11 @@ pub struct Kane {
     pub potential: f64,
     /// In the model's order.
     pub links: Vec<Body>,
+    /// The frames of interest, in the model's order.
+    pub frames: Vec<Body>,
 }
 
-/// A link in the base frame.
+/// A link or a frame of interest in the base frame. The centre of mass of a frame is its origin.
 #[derive(Clone)]
 pub struct Body {
     pub rotation: Matrix3<f64>,
@@ -36,8 +39,8 @@ pub struct Body {
     pub velocity: Vector3<f64>,
     pub angular_velocity: Vector3<f64>,
     /// Accelerations at zero joint accelerations, of the origin and of the axes.
-    acceleration: Vector3<f64>,
-    angular_acceleration: Vector3<f64>,
+    pub acceleration: Vector3<f64>,
+    pub angular_acceleration: Vector3<f64>,
     /// Joints between the ground and the link, with the coordinates.
     joints: Vec<(usize, Screw)>,
 }
@@ -67,24 +70,30 @@ impl Body {
         }
     }
 
-    /// The link that a joint with coordinate number `coordinate` carries on this one.
-    fn carry(&self, link: &Link, coordinate: usize, q: f64, v: f64) -> Body {
-        let placement = Matrix3::from_fn(|i, j| link.placement.rotation.0[i][j]);
-        let axis = Vector3::from(link.axis.0);
-        let at_zero = self.rotation * placement;
-        let z = at_zero * axis;
-        let arm = self.rotation * Vector3::from(link.placement.position.0);
+    /// A frame at `placement` that does not move against this one.
+    fn fixed(&self, placement: &Pose<f64>) -> Body {
+        let rotation = Matrix3::from_fn(|i, j| placement.rotation.0[i][j]);
+        let arm = self.rotation * Vector3::from(placement.position.0);
         let (w, dw) = (self.angular_velocity, self.angular_acceleration);
-        let mut body = Body {
-            rotation: at_zero,
-            origin: self.origin + arm,
-            com: Vector3::zeros(),
+        let origin = self.origin + arm;
+        Body {
+            rotation: self.rotation * rotation,
+            origin,
+            com: origin,
             velocity: self.velocity + w.cross(&arm),
             angular_velocity: w,
             acceleration: self.acceleration + dw.cross(&arm) + w.cross(&w.cross(&arm)),
             angular_acceleration: dw,
             joints: self.joints.clone(),
-        };
+        }
+    }
+
+    /// The link that a joint with coordinate number `coordinate` carries on this one.
+    fn carry(&self, link: &Link, coordinate: usize, q: f64, v: f64) -> Body {
+        let mut body = self.fixed(&link.placement);
+        let (at_zero, axis) = (body.rotation, Vector3::from(link.axis.0));
+        let z = at_zero * axis;
+        let (w, dw) = (self.angular_velocity, self.angular_acceleration);
         match link.joint {
             JointKind::Revolute => {
                 body.rotation = at_zero * Rotation3::from_axis_angle(&Unit::new_normalize(axis), link.offset + q);
@@ -135,7 +144,7 @@ impl Body {
     }
 
     /// Jacobians of the centre of mass and of the axes, a column for each of `dof` velocities.
-    fn jacobians(&self, dof: usize) -> (DMatrix<f64>, DMatrix<f64>) {
+    pub fn jacobians(&self, dof: usize) -> (DMatrix<f64>, DMatrix<f64>) {
         let (mut linear, mut angular) = (DMatrix::zeros(3, dof), DMatrix::zeros(3, dof));
         for &(coordinate, Screw { axis, point, turn, slide }) in &self.joints {
             linear.set_column(coordinate, &(turn * axis.cross(&(self.com - point)) + slide * axis));
@@ -149,6 +158,9 @@ impl Body {
 pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
     let dof = q.len();
     let links = bodies(model, q, v);
+    let ground = Body::ground();
+    let on_link = |frame: &Frame| frame.link.map_or(&ground, |link| &links[link]).fixed(&frame.placement);
+    let frames = model.frames.iter().map(on_link).collect();
     let g = Vector3::from(model.gravity.0);
     let mut sums = Kane {
         matrix: DMatrix::zeros(dof, dof),
@@ -159,6 +171,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         kinetic: 0.0,
         potential: 0.0,
         links: Vec::new(),
+        frames: Vec::new(),
     };
     let moving = model.links.iter().filter(|link| link.joint != JointKind::Fixed).enumerate();
     for (joint, link) in moving {
@@ -187,7 +200,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         sums.kinetic += 0.5 * (link.mass * speed.dot(&speed) + w.dot(&(inertia * w)));
         sums.potential -= link.mass * g.dot(&body.com);
     }
-    Kane { links, ..sums }
+    Kane { links, frames, ..sums }
 }
 
 /// All links, whatever their order: a link is placed as soon as its parent is.

@@ -33,6 +33,8 @@ impl Gripper {
     pub const NL: usize = 4;
     /// Number of rows of the loop constraints.
     pub const NC: usize = 0;
+    /// Number of frames of interest.
+    pub const NF: usize = 0;
     /// Mass of all links, kg.
     pub const MASS: f64 = 1f64;
     /// Names of the links, in the model's order.
@@ -41,6 +43,8 @@ impl Gripper {
     pub const JOINT_NAMES: [&'static str; 4] = ["joint1", "joint2", "joint3", "joint4"];
     /// Name of the loop to which each row of the loop constraints belongs.
     pub const LOOP_NAMES: [&'static str; 0] = [];
+    /// Names of the frames of interest, in the model's order.
+    pub const FRAME_NAMES: [&'static str; 0] = [];
     /// Whether each joint velocity has an actuator.
     pub const ACTUATED: [bool; 4] = [true, true, true, true];
     /// Operations of each function.
@@ -1162,6 +1166,12 @@ impl ::redysim_runtime::Mechanism for Gripper {
     }
     fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
         Self::JOINT_NAMES.get(index).copied()
+    }
+    fn nf(&self) -> usize {
+        Self::NF
+    }
+    fn frame_name(&self, index: usize) -> ::core::option::Option<&str> {
+        Self::FRAME_NAMES.get(index).copied()
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::ConfigurationSpace<S> for Gripper {

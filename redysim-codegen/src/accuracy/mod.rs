@@ -142,7 +142,10 @@ impl<'a> Reference<'a> {
                 | Shape::LoopRows
                 | Shape::LoopJacobian
                 | Shape::Coordinates
-                | Shape::Displacement => 1.0,
+                | Shape::Displacement
+                | Shape::Frames
+                | Shape::FrameJacobians
+                | Shape::FrameAccelerations => 1.0,
             };
             extremes(&computed(&state.arguments(function)), exact, weight)
         })
@@ -215,6 +218,8 @@ impl State {
             Argument::Velocities | Argument::Displacement => &self.v,
             Argument::Accelerations => &self.a,
             Argument::Forces => &self.tau,
+            // No function that is measured takes wrenches.
+            Argument::Wrenches => &[],
         };
         function.signature().arguments.iter().map(of).collect()
     }

@@ -35,13 +35,7 @@ fn one_loop(
 }
 
 fn side(document: &Document, table: &LoopTable, side: &CutSideTable, findings: &mut Findings) -> Option<CutSide> {
-    let link = side.link.spanned().and_then(|name| {
-        let link = tree::find(document, name.get_ref());
-        if link.is_none() {
-            tree::unknown(document, &table.item, side.link_key, name, findings);
-        }
-        link
-    });
+    let link = tree::carrier(document, &table.item, side.link_key, &side.link, findings);
     let axis_allowed = axis_allowed(table, side, findings);
     let axis = unit_axis(&table.item, side.axis_key, &side.axis, axis_allowed, findings);
     Some(CutSide { link: link?, point: Vec3(side.point.value_or([0.0; 3])?), axis: axis? })

@@ -2,6 +2,7 @@
 
 mod closed;
 mod cut;
+mod frame;
 mod inertia;
 mod lints;
 mod massless;
@@ -29,6 +30,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     let parents = tree::parents(document, findings);
     let links: Vec<_> = document.links.iter().map(|table| link(table, findings)).collect();
     let loops = cut::loops(document, parents.as_deref(), findings);
+    let frames = frame::frames(document, findings);
     let parents = parents?;
     let massless = massless::check(document, &parents);
     if document.loops.is_empty() {
@@ -45,7 +47,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     }
     let gravity = Vec3(*document.gravity.value()?);
     let mut options = options;
-    let model = Model { name: document.name.value()?.clone(), gravity, links, loops: loops? };
+    let model = Model { name: document.name.value()?.clone(), gravity, links, loops: loops?, frames: frames? };
     if findings.errors() > 0 {
         return None;
     }

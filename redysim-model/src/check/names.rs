@@ -21,9 +21,13 @@ pub(super) fn check(document: &Document, findings: &mut Findings) {
     for entry in &document.loops {
         not_blank(&entry.item, "name", &entry.name, findings);
     }
+    for frame in &document.frames {
+        not_blank(&frame.item, "name", &frame.name, findings);
+    }
 
     unique("link", document.links.iter().filter_map(|link| link.name.spanned()), findings);
     unique("loop", document.loops.iter().filter_map(|entry| entry.name.spanned()), findings);
+    unique("frame", document.frames.iter().filter_map(|frame| frame.name.spanned()), findings);
     joints_unique(document, findings);
 }
 

@@ -11,10 +11,14 @@ use redysim_toml::Findings;
 pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<CodegenOptions> {
     let Entry { text, value: functions } = &document.options.functions;
     let requested = functions.value().into_iter().flat_map(|requested| &requested.0);
-    for function in requested.filter(|function| function.get_ref().needs_loops() && document.loops.is_empty()) {
-        findings.within(*text, |findings| {
-            findings.error(function.span(), messages::function_of_loops(&document.item, *function.get_ref()));
-        });
+    for requested in requested {
+        let function = *requested.get_ref();
+        let message = match () {
+            _ if function.needs_loops() && document.loops.is_empty() => messages::function_of_loops,
+            _ if function.needs_frames() && document.frames.is_empty() => messages::function_of_frames,
+            _ => continue,
+        };
+        findings.within(*text, |findings| findings.error(requested.span(), message(&document.item, function)));
     }
     let functions = if functions.is_missing() { Functions::ALL } else { functions.value()?.set() };
     let forward_dynamics = &document.options.forward_dynamics.value;

@@ -39,9 +39,13 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
     if let Some(dh) = link.dh_standard.value() {
         return Some(from_dh_standard(joint, pitch, *dh));
     }
-    let Origin { xyz, rpy } = link.origin.value_or(Origin::default())?;
-    let placement = Pose { rotation: roll_pitch_yaw(rpy), position: Vec3(xyz) };
-    Some(Placed { placement: placement.without_negative_zeros(), axis: axis?, offset: 0.0, frame: Pose::identity() })
+    let placement = placement(link.origin.value_or(Origin::default())?);
+    Some(Placed { placement, axis: axis?, offset: 0.0, frame: Pose::identity() })
+}
+
+/// The pose that `origin` gives.
+pub(super) fn placement(Origin { xyz, rpy }: Origin) -> Pose<f64> {
+    Pose { rotation: roll_pitch_yaw(rpy), position: Vec3(xyz) }.without_negative_zeros()
 }
 
 /// By `dh`, by `dh_standard`, or by `origin` and `axis`, of which fixed joints have the first alone, and others may have

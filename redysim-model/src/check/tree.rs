@@ -3,10 +3,26 @@
 use super::names::BASE;
 use crate::messages;
 use crate::schema::Document;
-use redysim_toml::{Findings, Spanned};
+use redysim_toml::{Field, Findings, Spanned};
+
+/// The link that the key `key` of an item names; `Some(None)` is the ground. A name that is not known is reported.
+pub(super) fn carrier(
+    document: &Document,
+    item: &str,
+    key: &str,
+    name: &Field<String>,
+    findings: &mut Findings,
+) -> Option<Option<usize>> {
+    let name = name.spanned()?;
+    let found = find(document, name.get_ref());
+    if found.is_none() {
+        unknown(document, item, key, name, findings);
+    }
+    found
+}
 
 /// The link of this name: `Some(None)` is the ground, `None` no link.
-pub(super) fn find(document: &Document, name: &str) -> Option<Option<usize>> {
+fn find(document: &Document, name: &str) -> Option<Option<usize>> {
     if name == BASE {
         return Some(None);
     }
@@ -14,7 +30,7 @@ pub(super) fn find(document: &Document, name: &str) -> Option<Option<usize>> {
 }
 
 /// Reports a link name that is not known, unless a link's own name is unreadable: that one may be meant.
-pub(super) fn unknown(document: &Document, item: &str, key: &str, name: &Spanned<String>, findings: &mut Findings) {
+fn unknown(document: &Document, item: &str, key: &str, name: &Spanned<String>, findings: &mut Findings) {
     if document.links_complete && document.links.iter().all(|link| link.name.value().is_some()) {
         let links = document.links.iter().filter_map(|link| link.name.value()).map(String::as_str);
         findings.error(name.span(), messages::unknown_link(item, key, name.get_ref(), links));
@@ -42,12 +58,7 @@ pub(super) fn parents(document: &Document, findings: &mut Findings) -> Option<Ve
 
 fn parent(document: &Document, link: usize, findings: &mut Findings) -> Option<Option<usize>> {
     let link = &document.links[link];
-    let name = link.parent.spanned()?;
-    let found = find(document, name.get_ref());
-    if found.is_none() {
-        unknown(document, &link.item, "parent", name, findings);
-    }
-    found
+    carrier(document, &link.item, "parent", &link.parent, findings)
 }
 
 /// The cycles, each with its links in the order child, parent, parent's parent, from the first in the file.

@@ -60,6 +60,47 @@ impl<S: Scalar> Placed<S> {
     }
 }
 
+/// All bodies in the base frame, and their joints' frames.
+pub(super) struct Bodies<S> {
+    pub placed: Vec<Placed<S>>,
+    pub joints: Vec<JointFrame<S>>,
+    order: Order,
+}
+
+impl<S: Scalar> Bodies<S> {
+    /// At the coordinates `q` and velocities `v`.
+    pub fn new(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S], order: Order) -> Self {
+        let (placed, joints) = bodies(tree, trace, q, v, order);
+        Bodies { placed, joints, order }
+    }
+
+    /// The frame that stands at `pose` on a body; `None` is the ground.
+    pub fn place(&self, body: Option<usize>, pose: Pose<f64>) -> Placed<S> {
+        let pose = Pose::constant(pose);
+        match body {
+            Some(body) => self.placed[body].carry(self.joints[body].fixed_pose(pose), self.order),
+            None => Placed::ground().carry(pose, self.order),
+        }
+    }
+
+    /// The axis of a body's joint.
+    pub fn axis(&self, body: usize) -> Vec3<S> {
+        self.placed[body].pose.rotation.column(2)
+    }
+
+    /// A vector fixed to a body, in the body's axes; `None` is the ground.
+    pub fn fixed_vector(&self, body: Option<usize>, vector: Vec3<f64>) -> Vec3<S> {
+        let vector = Vec3::constant(vector);
+        body.map_or(vector, |body| self.joints[body].fixed_vector(vector))
+    }
+
+    /// From the origin of a body's parent to its own.
+    pub fn joint_arm(&self, tree: &Tree<impl Copy>, body: usize) -> Vec3<S> {
+        let position = self.joints[body].position;
+        tree.bodies[body].parent.map_or(position, |parent| self.placed[parent].pose.rotation * position)
+    }
+}
+
 /// Bodies one behind another whose joint axes are parallel: their angular velocities differ along the axes only, by the
 /// sum of the joints' rates, and no rate is multiplied by an axis twice.
 #[derive(Clone, Copy)]
@@ -78,7 +119,7 @@ impl<S: Scalar> ParallelRun<S> {
 }
 
 /// All bodies at the coordinates `q` and velocities `v`, and their joints' frames.
-pub(super) fn bodies<S: Scalar>(
+fn bodies<S: Scalar>(
     tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     q: &[S],

@@ -3,12 +3,13 @@
 use super::trace::Trace;
 use super::{
     Method, bias_forces, center_of_mass, coordinate_rates, difference, dissipated_power, energy, forward_dynamics,
-    gravity_forces, integrate, inverse_dynamics, link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix,
-    neutral, passive_forces,
+    frame_bias, frame_forces, frame_jacobians, frame_kinematics, gravity_forces, integrate, inverse_dynamics,
+    link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix, neutral, passive_forces,
 };
 use crate::parameter::ParameterIn;
+use crate::spatial::{Vec3, Wrench};
 use crate::tree::Tree;
-use redysim_runtime::{CenterOfMass, Energy, Function, LinkState, Scalar};
+use redysim_runtime::{CenterOfMass, Energy, FrameAcceleration, FrameState, Function, LinkState, Scalar};
 
 /// The values of `function` in the order of its [`Shape`](redysim_runtime::function::Shape); forward dynamics by the
 /// recursion. `x` are the arguments that its [signature](Function::signature) lists.
@@ -38,6 +39,30 @@ pub fn evaluate<S: Scalar>(
                 link.rotation.into_iter().chain([link.origin, link.com, link.velocity, link.angular_velocity])
             });
             vectors.flatten().collect()
+        }
+        Function::FrameKinematics => {
+            let vectors = frame_kinematics(tree, trace, x[0], x[1]).into_iter().flat_map(|frame: FrameState<S>| {
+                frame.rotation.into_iter().chain([frame.origin, frame.velocity, frame.angular_velocity])
+            });
+            vectors.flatten().collect()
+        }
+        Function::FrameJacobians => {
+            let rows = frame_jacobians(tree, trace, x[0])
+                .into_iter()
+                .flat_map(|frame| frame.linear.into_iter().chain(frame.angular));
+            rows.flatten().collect()
+        }
+        Function::FrameBias => {
+            let vectors = frame_bias(tree, trace, x[0], x[1])
+                .into_iter()
+                .flat_map(|frame: FrameAcceleration<S>| [frame.linear, frame.angular]);
+            vectors.flatten().collect()
+        }
+        Function::FrameForces => {
+            let (wrenches, _) = x[1].as_chunks();
+            let wrench =
+                |&[fx, fy, fz, mx, my, mz]: &[S; 6]| Wrench { force: Vec3([fx, fy, fz]), moment: Vec3([mx, my, mz]) };
+            frame_forces(tree, trace, x[0], &wrenches.iter().map(wrench).collect::<Vec<_>>())
         }
         Function::LoopResidual => loop_residual(tree, trace, x[0]),
         Function::LoopJacobian => loop_jacobian(tree, trace, x[0]).concat(),

@@ -171,6 +171,12 @@ impl<S: Scalar> JointFrame<S> {
         }
     }
 
+    /// A point given in the body's frame, in the parent's.
+    #[inline(always)]
+    pub fn point_to_parent(&self, point: Vec3<S>) -> Vec3<S> {
+        self.to_parent(point) + self.position
+    }
+
     /// A vector in the parent's axes, in the body's.
     #[inline(always)]
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
@@ -222,8 +228,7 @@ impl<S: Scalar> JointFrame<S> {
     /// A wrench on the body, in the parent's axes and about the parent's origin.
     #[inline(always)]
     pub fn wrench_to_parent(&self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
-        let force = self.to_parent(force);
-        Wrench { moment: self.to_parent(moment) + self.position.cross(force), force }
+        Wrench { force: self.to_parent(force), moment: self.to_parent(moment) }.moved_by(self.position)
     }
 
     /// A symmetric tensor of the body's axes, in the parent's.

@@ -1,11 +1,11 @@
-//! Positions and velocities of all links in the base frame.
+//! Positions and velocities of all links, and of all frames of interest, in the base frame.
 
-use super::base_frame::{Order, Placed, bodies};
+use super::base_frame::{Bodies, Order, Placed};
 use super::trace::Trace;
 use crate::parameter::ParameterIn;
-use crate::spatial::{Mat3, Pose};
-use crate::tree::{Attachment, Tree};
-use redysim_runtime::{LinkState, Scalar};
+use crate::spatial::Mat3;
+use crate::tree::{Attachment, BodyFrame, Tree};
+use redysim_runtime::{FrameState, LinkState, Scalar};
 
 /// Rotation, origin, centre of mass, velocity of the origin and angular velocity of every link, in the model's order.
 pub fn link_kinematics<S: Scalar, P: ParameterIn<S>>(
@@ -14,18 +14,28 @@ pub fn link_kinematics<S: Scalar, P: ParameterIn<S>>(
     q: &[S],
     v: &[S],
 ) -> Vec<LinkState<S>> {
-    let order = Order::Velocities;
-    let (bodies, joints) = bodies(tree, trace, q, v, order);
-    let state = |link: &Attachment<P>| {
-        let pose = Pose::constant(link.pose);
-        match link.body {
-            Some(body) => {
-                trace.step("links", body, || state_of(link, bodies[body].carry(joints[body].fixed_pose(pose), order)))
-            }
-            None => state_of(link, Placed::ground().carry(pose, order)),
-        }
+    let bodies = Bodies::new(tree, trace, q, v, Order::Velocities);
+    let state = |link: &Attachment<P>| match link.body {
+        Some(body) => trace.step("links", body, || state_of(link, bodies.place(link.body, link.pose))),
+        None => state_of(link, bodies.place(None, link.pose)),
     };
     tree.links.iter().map(state).collect()
+}
+
+/// Rotation, origin, velocity of the origin and angular velocity of every frame of interest, in the model's order.
+pub fn frame_kinematics<S: Scalar>(
+    tree: &Tree<impl ParameterIn<S>>,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+) -> Vec<FrameState<S>> {
+    let bodies = Bodies::new(tree, trace, q, v, Order::Velocities);
+    let state = |frame: &BodyFrame| {
+        let Placed { pose, velocity, angular, .. } = bodies.place(frame.body, frame.pose);
+        let Mat3(rotation) = pose.rotation;
+        FrameState { rotation, origin: pose.position.0, velocity: velocity.0, angular_velocity: angular.0 }
+    };
+    tree.frames.iter().map(state).collect()
 }
 
 /// The state of a link with the given frame.

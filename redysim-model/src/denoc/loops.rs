@@ -4,8 +4,7 @@
 //! aligned: sums of products aᵢ·bⱼ of axes of the two sides ([`CutKind::alignments`]). Rows that vanish at every
 //! position are left out ([`Cut::rows`](crate::tree::Cut::rows)), so that a planar mechanism costs planar code.
 
-use super::base_frame::{Order, Placed, bodies};
-use super::frame::JointFrame;
+use super::base_frame::{Bodies, Order, Placed};
 use super::trace::{Trace, Untraced};
 use crate::model::CutKind;
 use crate::parameter::ParameterIn;
@@ -42,11 +41,12 @@ struct Side<S> {
 }
 
 impl<S: Scalar> Side<S> {
-    fn new(tree: &Tree<impl Copy>, (bodies, joints): Bodies<S>, end: &CutEnd) -> Self {
-        let body = end.body.map_or(Placed::ground(), |body| bodies[body]);
+    fn new(tree: &Tree<impl Copy>, bodies: &Bodies<S>, end: &CutEnd) -> Self {
+        let body = end.body.map_or(Placed::ground(), |body| bodies.placed[body]);
         // The axes fixed to the body, which those of its pose need not be.
-        let rotation = end.body.map_or(Mat3::identity(), |body| joints[body].fixed_axes(bodies[body].pose.rotation));
-        let mut carried = vec![false; bodies.len()];
+        let fixed_axes = |index: usize| bodies.joints[index].fixed_axes(bodies.placed[index].pose.rotation);
+        let rotation = end.body.map_or(Mat3::identity(), fixed_axes);
+        let mut carried = vec![false; tree.bodies.len()];
         let mut at = end.body;
         while let Some(index) = at {
             carried[index] = true;
@@ -64,13 +64,10 @@ impl<S: Scalar> Side<S> {
     }
 }
 
-/// The bodies in the base frame, and their joints' frames.
-type Bodies<'a, S> = (&'a [Placed<S>], &'a [JointFrame<S>]);
-
 /// The rows of all loops: of each cut, what `point` and `alignment` make of its sides a and b.
 fn rows<S: Scalar, R>(
     tree: &Tree<impl ParameterIn<S>>,
-    bodies: Bodies<S>,
+    bodies: &Bodies<S>,
     point: impl Fn(&Side<S>, &Side<S>) -> [R; 3],
     alignment: impl Fn(&Side<S>, &Side<S>, &[Alignment]) -> R,
 ) -> Vec<R> {
@@ -90,10 +87,10 @@ fn weighted<S: Scalar>(terms: &[Alignment], term: impl Fn(usize, usize) -> S) ->
 
 /// How far each loop is from closed: m for points, sines for directions.
 pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
-    let (bodies, joints) = bodies(tree, trace, q, &[], Order::Positions);
+    let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     rows(
         tree,
-        (&bodies, &joints),
+        &bodies,
         |a, b| (b.point() - a.point()).0,
         |a, b, terms| weighted(terms, |i, j| a.axis(i).dot(b.axis(j))),
     )
@@ -101,7 +98,7 @@ pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
 
 /// The Jacobian J of the residual, by rows of length NV: the residual changes by J v.
 pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
-    let (bodies, joints) = bodies(tree, trace, q, &[], Order::Positions);
+    let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     // A joint that carries both sides turns their difference; one that carries one side moves that side alone.
     let over_joints = |a: &Side<S>, b: &Side<S>, effect: &dyn Fn(usize, bool, bool) -> S| {
         let mut row = vec![S::zero(); tree.nv()];
@@ -112,20 +109,20 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
         }
         row
     };
-    let axis = |index: usize| bodies[index].pose.rotation.column(2);
     let point_effect = |index: usize, a: &Side<S>, b: &Side<S>, on_a: bool, on_b: bool| {
         let (screw, sign) = (tree.bodies[index].joint.screw(), if on_b { S::one() } else { -S::one() });
         let turn = screw.turn(S::one()).map(|turn| {
             let arm = match (on_a, on_b) {
                 (true, true) => b.point() - a.point(),
-                (_, true) => b.point() - bodies[index].pose.position,
-                _ => a.point() - bodies[index].pose.position,
+                (_, true) => b.point() - bodies.placed[index].pose.position,
+                _ => a.point() - bodies.placed[index].pose.position,
             };
-            let across = axis(index).cross(arm);
+            let across = bodies.axis(index).cross(arm);
             if on_a && on_b { across.scale(turn) } else { across.scale(sign * turn) }
         });
         // A joint that carries both sides displaces both.
-        let slide = screw.slide(S::one()).filter(|_| !(on_a && on_b)).map(|slide| axis(index).scale(sign * slide));
+        let slide =
+            screw.slide(S::one()).filter(|_| !(on_a && on_b)).map(|slide| bodies.axis(index).scale(sign * slide));
         match (turn, slide) {
             (Some(turn), Some(slide)) => turn + slide,
             (turn, slide) => turn.or(slide).unwrap_or(Vec3::zero()),
@@ -137,11 +134,11 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
             (_, true) => b.cross(a),
             _ => a.cross(b),
         };
-        tree.bodies[index].joint.screw().turn(axis(index).dot(across)).unwrap_or(S::zero())
+        tree.bodies[index].joint.screw().turn(bodies.axis(index).dot(across)).unwrap_or(S::zero())
     };
     rows(
         tree,
-        (&bodies, &joints),
+        &bodies,
         |a, b| {
             [0, 1, 2].map(|axis| over_joints(a, b, &|index, on_a, on_b| point_effect(index, a, b, on_a, on_b)[axis]))
         },
@@ -155,11 +152,11 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
 
 /// J̇ v: how the rates J v of the residual change at zero joint accelerations.
 pub fn loop_bias<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
-    let (bodies, joints) = bodies(tree, trace, q, v, Order::Accelerations);
+    let bodies = Bodies::new(tree, trace, q, v, Order::Accelerations);
     let acceleration = |side: &Side<S>| side.body.acceleration + side.body.second_derivative(side.arm);
     rows(
         tree,
-        (&bodies, &joints),
+        &bodies,
         |a, b| (acceleration(b) - acceleration(a)).0,
         |a, b, terms| {
             weighted(terms, |i, j| {

@@ -26,6 +26,7 @@ mod kinematics;
 mod loops;
 mod mass_matrix;
 mod passive;
+mod task_frames;
 mod trace;
 mod workspace;
 
@@ -38,10 +39,11 @@ pub use forward::{
     Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion, forward_dynamics_in,
 };
 pub use inverse::{bias_forces, gravity_forces, inverse_dynamics, inverse_dynamics_in};
-pub use kinematics::link_kinematics;
+pub use kinematics::{frame_kinematics, link_kinematics};
 pub(crate) use loops::rows_that_vary;
 pub use loops::{loop_bias, loop_jacobian, loop_residual};
 pub use mass_matrix::{mass_matrix, mass_matrix_in};
 pub use passive::{dissipated_power, passive_forces};
+pub use task_frames::{frame_bias, frame_forces, frame_jacobians};
 pub use trace::{Trace, Untraced};
 pub use workspace::Workspace;

@@ -45,6 +45,21 @@ impl Screw {
         }
     }
 
+    /// The motion of a point at `arm` from the joint's origin, for a unit of the coordinate.
+    #[inline]
+    pub fn motion_at<S: Scalar>(self, arm: Vec3<S>) -> Twist<S> {
+        let across = |x: S| self.turn(x).unwrap_or(S::zero());
+        let (turn, slide) = (S::from_f64(self.turn), S::from_f64(self.slide));
+        Twist { angular: Vec3([S::zero(), S::zero(), turn]), linear: Vec3([-across(arm[1]), across(arm[0]), slide]) }
+    }
+
+    /// Sᵀ w, the joint force of a wrench about a point of the axis, in axes in which the joint's is `axis`.
+    #[inline]
+    pub fn project_along<S: Scalar>(self, axis: Vec3<S>, wrench: Wrench<S>) -> S {
+        let [turn, slide] = [self.turn(wrench.moment.dot(axis)), self.slide(wrench.force.dot(axis))];
+        turn.unwrap_or(S::zero()) + slide.unwrap_or(S::zero())
+    }
+
     /// Sᵀ w, the joint force of a wrench.
     #[inline]
     pub fn project<S: Scalar>(self, wrench: Wrench<S>) -> S {

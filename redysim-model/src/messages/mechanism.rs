@@ -19,7 +19,7 @@ pub(crate) fn reserved_name() -> Message {
     )
 }
 
-/// `what` is "link", "joint" or "loop".
+/// `what` is "link", "joint", "loop" or "frame".
 pub(crate) fn duplicate_name(what: &str, name: &str, first_line: usize) -> Message {
     let name = quoted(name);
     message(

@@ -42,6 +42,15 @@ pub(crate) fn function_of_loops(item: &str, function: Function) -> Message {
     )
 }
 
+pub(crate) fn function_of_frames(item: &str, function: Function) -> Message {
+    let name = function.name();
+    message(
+        format!("{item}: `functions` names `{name}`, but there are no frames"),
+        "the model has no [[frame]]",
+        "leave it out, or add a [[frame]] with the name of a link; every model has `link_kinematics`",
+    )
+}
+
 pub(crate) fn locked_unknown(item: &str, name: &str, joints: &[&str]) -> Message {
     let meant = did_you_mean(nearest(name, joints.iter().copied()));
     message(

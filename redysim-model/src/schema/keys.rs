@@ -5,12 +5,14 @@ use super::hints;
 use redysim_toml::{Key, Keys};
 
 pub(crate) const MODEL: Keys =
-    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, ALLOW])
+    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FRAMES, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, ALLOW])
         .with_hints(hints::MODEL);
 pub(crate) const NAME: Key = Key::new("name", "\"arm\"", "");
 pub(crate) const GRAVITY: Key = Key::new("gravity", "[0.0, 0.0, -9.81]", "m/s², in the base frame");
 pub(crate) const LINKS: Key = Key::of_tables("link", "one such table for each link", &[&LINK]);
 pub(crate) const LOOPS: Key = Key::of_tables("loop", "one such table for each cut joint", &[&LOOP]);
+pub(crate) const FRAMES: Key =
+    Key::of_tables("frame", "one such table for each frame of interest on a link", &[&FRAME]);
 
 pub(crate) const ALLOW: Key = Key::new("allow", "[\"gravity-up\"]", "names of lints that are not reported");
 
@@ -101,7 +103,8 @@ pub(crate) const ORIGIN: Key = Key::of_table(
     &[&ORIGIN_KEYS],
 );
 const ORIGIN_KEYS: Keys = Keys::new("`origin`", &[XYZ, RPY]).with_hints(hints::ORIGIN_TABLE);
-pub(crate) const XYZ: Key = Key::new("xyz", "[0.0, 0.0, 0.4]", "m, in the parent's frame");
+pub(crate) const XYZ: Key =
+    Key::new("xyz", "[0.0, 0.0, 0.4]", "m, in the frame of the parent, or of the link on which a frame stands");
 pub(crate) const RPY: Key = Key::new("rpy", "[\"90 deg\", 0, 0]", "roll, pitch, yaw; without a unit in rad");
 
 pub(crate) const INERTIA: Key = Key::of_table(
@@ -144,3 +147,6 @@ pub(crate) const AXIS_A: Key = Key::new("axis_a", "[0.0, 0.0, 1.0]", "in the fra
 pub(crate) const LINK_B: Key = Key::new("link_b", "\"base\"", "a link, or `base`");
 pub(crate) const POINT_B: Key = Key::new("point_b", "[0.1, 0.0, 0.0]", "m, in the frame of link b");
 pub(crate) const AXIS_B: Key = Key::new("axis_b", "[0.0, 0.0, 1.0]", "in the frame of link b");
+
+pub(crate) const FRAME: Keys = Keys::new("A frame", &[NAME, FRAME_LINK, ORIGIN]);
+pub(crate) const FRAME_LINK: Key = Key::new("link", "\"link6\"", "the link on which it stands, or `base`");

@@ -185,7 +185,7 @@ fn dh_standard(mut reader: Reader<'_, '_>) -> DhStandard {
     }
 }
 
-fn origin(mut reader: Reader<'_, '_>) -> Origin {
+pub(super) fn origin(mut reader: Reader<'_, '_>) -> Origin {
     Origin {
         xyz: reader.vector(&keys::XYZ).value_or([0.0; 3]).unwrap_or_default(),
         rpy: reader.angles(&keys::RPY).value_or([0.0; 3]).unwrap_or_default(),

@@ -4,6 +4,7 @@
 //! values mean together is for [`crate::check`].
 
 mod cut;
+mod frame;
 mod hints;
 mod item;
 pub(crate) mod keys;
@@ -11,6 +12,7 @@ mod link;
 mod options;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
+pub(crate) use frame::FrameTable;
 pub(crate) use link::{Dh, DhStandard, LinkTable, Origin, PhysicsKeys};
 pub(crate) use options::{Entry, OptionsTable};
 
@@ -48,6 +50,7 @@ pub(crate) struct Document {
     pub(crate) loops: Vec<LoopTable>,
     /// The lints that are not reported.
     pub(crate) allowed: Vec<Lint>,
+    pub(crate) frames: Vec<FrameTable>,
     /// The options of code generation, in the file or beside it.
     pub(crate) options: OptionsTable,
 }
@@ -66,14 +69,16 @@ impl Document {
         let allowed = allowed(&mut reader);
         let links = reader.tables(&keys::LINKS);
         let loops = reader.tables(&keys::LOOPS);
+        let frames = reader.tables(&keys::FRAMES);
         let links_complete = links.as_ref().is_some_and(|links| links.iter().all(Option::is_some));
         let mut links: Vec<_> = entries(links).map(|(i, table)| LinkTable::read(table, i, findings)).collect();
         let loops = entries(loops).map(|(i, table)| LoopTable::read(table, i, findings)).collect();
+        let frames = entries(frames).map(|(i, table)| FrameTable::read(table, i, findings)).collect();
         let options = OptionsTable::read([root, options.root()], &item, links_complete.then_some(&links), findings);
         for lock in &options.locked.value {
             links[lock.link].locked = Some(lock.value);
         }
-        Document { item, place, name, gravity, links, links_complete, loops, allowed, options }
+        Document { item, place, name, gravity, links, links_complete, loops, frames, allowed, options }
     }
 
     /// The joints that the options lock.
@@ -84,21 +89,22 @@ impl Document {
 
     /// The interface of the model, whatever is wrong with it.
     pub(crate) fn public_interface(&self) -> PublicInterface {
-        let name = |name: Option<&Spanned<String>>, link: &LinkTable| {
-            name.map_or(link.item.clone(), |name| name.get_ref().clone())
-        };
+        let name =
+            |name: Option<&Spanned<String>>, item: &String| name.map_or(item.clone(), |name| name.get_ref().clone());
         let joint = |link: &LinkTable| {
             let pitch = link.pitch.value().copied().unwrap_or_default();
             let joint = link.joint.value().and_then(|&kind| Joint::of_kind(kind, pitch));
-            MovingJoint::new(name(link.joint_name(), link), joint, link.actuated.value_or(true).unwrap_or(true))
+            MovingJoint::new(name(link.joint_name(), &link.item), joint, link.actuated.value_or(true).unwrap_or(true))
         };
+        let functions = self.options.functions.value.value().map_or(Functions::ALL, |given| given.set());
         PublicInterface {
             name: self.name.value().cloned().unwrap_or_default(),
-            links: self.links.iter().map(|link| name(link.name.spanned(), link)).collect(),
+            links: self.links.iter().map(|link| name(link.name.spanned(), &link.item)).collect(),
             joints: self.links.iter().filter(|link| !link.is_rigid()).map(joint).collect(),
             loop_rows: Vec::new(),
+            frames: self.frames.iter().map(|frame| name(frame.name.spanned(), &frame.item)).collect(),
             mass: self.links.iter().filter_map(|link| link.mass.value()).sum(),
-            functions: self.options.functions.value.value().map_or(Functions::ALL, |given| given.set()),
+            functions: functions.with_frames(self.frames.len()),
         }
     }
 }

@@ -7,7 +7,7 @@ use super::x86::{Avx2F32, Avx2F64};
 use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
-    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, Frames, GravityForces, InverseDynamics,
     LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, PassiveForces, Scalar,
 };
 
@@ -17,7 +17,7 @@ use crate::{
 /// It implements the traits of the mechanism for `f64` and `f32`. With fused multiply-add the last places of a result
 /// differ from those of the mechanism itself, unless the feature `deterministic` is set; they are those of
 /// [`batch`](crate::batch) on the same processor. Where the program is compiled for AVX2 and FMA, and on processors
-/// other than x86-64, it does the same as the mechanism. Link kinematics, loops and derivatives stay with the code that
+/// other than x86-64, it does the same as the mechanism. Link kinematics, frames, loops and derivatives stay with the code that
 /// the program is compiled for.
 ///
 /// In generic code, ask for the traits that `Dispatched<M>` is to have, as in `Dispatched<M>: InverseDynamics<f64>`.
@@ -94,6 +94,12 @@ impl<M: Mechanism> Mechanism for Dispatched<M> {
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         self.mechanism.coordinate_of_velocity(index)
     }
+    fn nf(&self) -> usize {
+        self.mechanism.nf()
+    }
+    fn frame_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.frame_name(index)
+    }
 }
 
 impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M> {
@@ -131,6 +137,26 @@ impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M
 impl<S: Scalar, M: LinkKinematics<S>> LinkKinematics<S> for Dispatched<M> {
     fn link_kinematics(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Links {
         self.mechanism.link_kinematics(q, v)
+    }
+}
+
+impl<S: Scalar, M: Frames<S>> Frames<S> for Dispatched<M> {
+    type States = M::States;
+    type Jacobians = M::Jacobians;
+    type Accelerations = M::Accelerations;
+    type Wrenches = M::Wrenches;
+
+    fn frame_kinematics(&self, q: &M::Coordinates, v: &M::Velocities) -> M::States {
+        self.mechanism.frame_kinematics(q, v)
+    }
+    fn frame_jacobians(&self, q: &M::Coordinates) -> M::Jacobians {
+        self.mechanism.frame_jacobians(q)
+    }
+    fn frame_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Accelerations {
+        self.mechanism.frame_bias(q, v)
+    }
+    fn frame_forces(&self, q: &M::Coordinates, wrenches: &M::Wrenches) -> M::Velocities {
+        self.mechanism.frame_forces(q, wrenches)
     }
 }
 

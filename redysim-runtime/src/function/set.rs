@@ -37,6 +37,13 @@ impl Functions {
         Functions(self.0 & !Functions::bit(function))
     }
 
+    /// Those of them that a mechanism with this many frames of interest has: without frames, none of those that need
+    /// frames.
+    pub fn with_frames(self, frames: usize) -> Functions {
+        let needing = self.iter().filter(|function| frames == 0 && function.needs_frames());
+        needing.fold(self, Functions::without)
+    }
+
     /// Whether `function` is among them.
     pub const fn contains(self, function: Function) -> bool {
         self.0 & Functions::bit(function) != 0

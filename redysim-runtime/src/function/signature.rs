@@ -24,11 +24,13 @@ pub enum Interface {
     WithTangent(&'static str),
     /// The trait `LoopClosure`, of mechanisms with closed loops.
     LoopClosure,
+    /// The trait `Frames`, of mechanisms with frames of interest.
+    Frames,
     /// The trait `ConfigurationSpace`, which every mechanism has, whatever functions are selected.
     ConfigurationSpace,
 }
 
-/// An argument: its name, and how long the array is.
+/// An argument: its name, and how long the array is and what it is made of.
 ///
 /// The enumeration is exhaustive, so that the compiler shows where a new argument is to be handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +49,8 @@ pub enum Argument {
     Accelerations,
     /// Joint forces `tau`, N m or N.
     Forces,
+    /// A [`Wrench`](crate::Wrench) at each frame, `wrenches`, N and N m.
+    Wrenches,
 }
 
 impl Argument {
@@ -60,6 +64,7 @@ impl Argument {
             Argument::Displacement => "dv",
             Argument::Accelerations => "a",
             Argument::Forces => "tau",
+            Argument::Wrenches => "wrenches",
         }
     }
 
@@ -70,6 +75,15 @@ impl Argument {
             Argument::Velocities | Argument::Displacement | Argument::Accelerations | Argument::Forces => {
                 Dimension::Velocities
             }
+            Argument::Wrenches => Dimension::Frames,
+        }
+    }
+
+    /// How many numbers an element has: one, or six of a wrench, the force before the moment.
+    pub const fn numbers(self) -> usize {
+        match self {
+            Argument::Wrenches => 6,
+            _ => 1,
         }
     }
 }
@@ -87,6 +101,8 @@ pub enum Dimension {
     Links,
     /// Rows of the loop constraints, NC.
     LoopRows,
+    /// Frames of interest, NF.
+    Frames,
 }
 
 /// What a function returns, and so in what order its values stand.
@@ -116,4 +132,10 @@ pub enum Shape {
     Coordinates,
     /// A displacement: joint velocities, constant over a unit of time, rad or m: `[S; NV]`.
     Displacement,
+    /// `[FrameState<S>; NF]`: rotation by rows, origin, velocity, angular velocity.
+    Frames,
+    /// `[FrameJacobian<[S; NV]>; NF]`: linear by rows, angular by rows.
+    FrameJacobians,
+    /// `[FrameAcceleration<S>; NF]`: linear, angular.
+    FrameAccelerations,
 }

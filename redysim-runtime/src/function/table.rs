@@ -98,6 +98,22 @@ functions! {
         (Coordinates, Velocities) -> Links,
         "Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every link, in \
          the base frame.";
+    FrameKinematics frame_kinematics, Interface::Frames,
+        (Coordinates, Velocities) -> Frames,
+        "Rotation, origin, velocity of the origin (m/s) and angular velocity (rad/s) of every frame of interest, in the \
+         base frame.";
+    FrameJacobians frame_jacobians, Interface::Frames,
+        (Coordinates) -> FrameJacobians,
+        "J(q) of every frame of interest, in the axes of the base frame: the velocity of its origin is linear · v, its \
+         angular velocity angular · v.";
+    FrameBias frame_bias, Interface::Frames,
+        (Coordinates, Velocities) -> FrameAccelerations,
+        "J̇ v of every frame of interest: the acceleration of its origin (m/s²) and its angular acceleration (rad/s²) at \
+         zero joint accelerations, in the base frame.";
+    FrameForces frame_forces, Interface::Frames,
+        (Coordinates, Wrenches) -> Forces,
+        "Σ Jᵀ w, N m or N: the joint forces that do the same work as wrenches on the mechanism at the origins of its \
+         frames, in the axes of the base frame.";
     LoopResidual loop_residual, Interface::LoopClosure,
         (Coordinates) -> LoopRows,
         "How far the loops are from closed: of each cut, the point of side b minus the point of side a in the base \
@@ -129,6 +145,11 @@ impl Function {
     /// Whether only a mechanism with closed loops has it.
     pub const fn needs_loops(self) -> bool {
         matches!(self.signature().interface, Interface::LoopClosure)
+    }
+
+    /// Whether only a mechanism with frames of interest has it.
+    pub const fn needs_frames(self) -> bool {
+        matches!(self.signature().interface, Interface::Frames)
     }
 
     /// Whether every mechanism has it, whatever functions are selected.

@@ -50,7 +50,11 @@ impl Writer<'_> {
     pub fn body(&self, FunctionProgram { function, program, .. }: &FunctionProgram) -> TokenStream {
         let signature = function.signature();
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
-        body(program, &arguments, |outputs| results::value(signature.result, self.interface, outputs, self.runtime))
+        let as_numbers = signature.arguments.iter().filter_map(|argument| as_numbers(*argument, self.interface));
+        let body = body(program, &arguments, |outputs| {
+            results::value(signature.result, self.interface, outputs, self.runtime)
+        });
+        quote!(#(#as_numbers)* #body)
     }
 
     /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
@@ -139,11 +143,36 @@ fn others(function: Function) -> impl Iterator<Item = Ident> {
 }
 
 /// The arguments with their types.
-pub fn parameters(function: Function, interface: &PublicInterface) -> impl Iterator<Item = TokenStream> {
-    function.signature().arguments.iter().map(|argument: &Argument| {
+pub fn parameters(
+    function: Function,
+    interface: &PublicInterface,
+    runtime: &TokenStream,
+) -> impl Iterator<Item = TokenStream> {
+    function.signature().arguments.iter().map(move |argument: &Argument| {
         let (name, length) = (local(argument.name()), length(interface, argument.dimension()));
-        quote!(#name: &[S; #length])
+        let element = match argument {
+            Argument::Wrenches => quote!(#runtime::Wrench<S>),
+            _ => quote!(S),
+        };
+        quote!(#name: &[#element; #length])
     })
+}
+
+/// The statement that makes one array of the numbers of an argument whose elements are structs.
+fn as_numbers(argument: Argument, interface: &PublicInterface) -> Option<TokenStream> {
+    let fields = match argument {
+        Argument::Wrenches => ["force", "moment"].map(local),
+        _ => return None,
+    };
+    let name = local(argument.name());
+    let numbers = (0..interface.size(argument.dimension())).flat_map(|element| {
+        let element = Literal::usize_unsuffixed(element);
+        let vector =
+            |field: &Ident| [0, 1, 2].map(Literal::usize_unsuffixed).map(|i| quote!(#name[#element].#field[#i]));
+        fields.iter().flat_map(vector).collect::<Vec<_>>()
+    });
+    let numbers = numbers.collect::<Vec<_>>();
+    Some(quote!(let #name = [#(#numbers),*];))
 }
 
 /// The name of the function that is given the sines and cosines.
@@ -156,7 +185,8 @@ fn head_inlined(function: Function, interface: &PublicInterface, angles: usize, 
     let name = inlined(function);
     let angles = Literal::usize_unsuffixed(angles);
     let [sin, cos] = [SIN, COS].map(local);
-    let (q, others) = (parameters(function, interface).take(1), parameters(function, interface).skip(1));
+    let (q, others) =
+        (parameters(function, interface, runtime).take(1), parameters(function, interface, runtime).skip(1));
     let output = results::output_type(function.signature().result, interface, runtime);
     quote!(fn #name<S: #runtime::Scalar>(
         #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)*
@@ -179,7 +209,7 @@ pub fn head_with_trig(
 ) -> TokenStream {
     let name = format_ident!("{}_with_trig", function.name());
     let (nq, angles) = (length(interface, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
-    let (trig, others) = (local(TRIG), parameters(function, interface).skip(1));
+    let (trig, others) = (local(TRIG), parameters(function, interface, runtime).skip(1));
     let output = results::output_type(function.signature().result, interface, runtime);
     quote!(fn #name<S: #runtime::Scalar>(
         #trig: &#runtime::JointTrig<S, #nq, #angles> #(, #others)*
@@ -189,7 +219,7 @@ pub fn head_with_trig(
 /// Name, arguments and result of a function.
 pub fn head(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
     let name = format_ident!("{}", function.name());
-    let parameters = parameters(function, interface);
+    let parameters = parameters(function, interface, runtime);
     let output = results::output_type(function.signature().result, interface, runtime);
     quote!(fn #name<S: #runtime::Scalar>(#(#parameters),*) -> #output)
 }

@@ -57,6 +57,7 @@ fn type_impls(
     let constants = constants(interface, operations, runtime);
     let mechanism = traits::mechanism(interface, configuration, name, runtime);
     let closure = traits::closure(interface, name, runtime);
+    let frames = traits::frames(interface, name, runtime);
     let traits = interface.functions.iter().map(|function| traits::own(function, interface, name, runtime));
     quote! {
         #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
@@ -67,6 +68,7 @@ fn type_impls(
         #mechanism
         #(#traits)*
         #closure
+        #frames
     }
 }
 
@@ -80,11 +82,12 @@ fn constants(
     operations: &[(Function, OperationCount)],
     runtime: &TokenStream,
 ) -> TokenStream {
-    let PublicInterface { name, links, joints, loop_rows, mass, .. } = interface;
+    let PublicInterface { name, links, joints, loop_rows, frames, mass, .. } = interface;
     let (nj, joints) = (Literal::usize_unsuffixed(joints.len()), joints.iter().map(|joint| &joint.name));
     let actuated = interface.actuated();
-    let sizes = [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows];
-    let [nq, nv, nl, nc] = sizes.map(|dimension| length(interface, dimension));
+    let sizes =
+        [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows, Dimension::Frames];
+    let [nq, nv, nl, nc, nf] = sizes.map(|dimension| length(interface, dimension));
     let counts = operations.iter().map(|(function, count)| {
         let field = format_ident!("{}", function.name());
         let [additions, multiplications, divisions, trig] =
@@ -104,6 +107,8 @@ fn constants(
         pub const NL: usize = #nl;
         /// Number of rows of the loop constraints.
         pub const NC: usize = #nc;
+        /// Number of frames of interest.
+        pub const NF: usize = #nf;
         /// Mass of all links, kg.
         pub const MASS: f64 = #mass;
         /// Names of the links, in the model's order.
@@ -112,6 +117,8 @@ fn constants(
         pub const JOINT_NAMES: [&'static str; #nj] = [#(#joints),*];
         /// Name of the loop to which each row of the loop constraints belongs.
         pub const LOOP_NAMES: [&'static str; #nc] = [#(#loop_rows),*];
+        /// Names of the frames of interest, in the model's order.
+        pub const FRAME_NAMES: [&'static str; #nf] = [#(#frames),*];
         /// Whether each joint velocity has an actuator.
         pub const ACTUATED: [bool; #nv] = [#(#actuated),*];
         /// Operations of each function.

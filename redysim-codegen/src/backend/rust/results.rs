@@ -8,8 +8,9 @@ use redysim_runtime::function::{Dimension, Shape};
 
 /// The return type.
 pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
-    let sizes = [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows];
-    let [nq, nv, nl, nc] = sizes.map(|dimension| length(interface, dimension));
+    let sizes =
+        [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows, Dimension::Frames];
+    let [nq, nv, nl, nc, nf] = sizes.map(|dimension| length(interface, dimension));
     match shape {
         Shape::Coordinates => quote!([S; #nq]),
         Shape::Forces | Shape::Accelerations | Shape::Displacement => quote!([S; #nv]),
@@ -20,6 +21,9 @@ pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStr
         Shape::Links => quote!([#runtime::LinkState<S>; #nl]),
         Shape::LoopRows => quote!([S; #nc]),
         Shape::LoopJacobian => quote!([[S; #nv]; #nc]),
+        Shape::Frames => quote!([#runtime::FrameState<S>; #nf]),
+        Shape::FrameJacobians => quote!([#runtime::FrameJacobian<[S; #nv]>; #nf]),
+        Shape::FrameAccelerations => quote!([#runtime::FrameAcceleration<S>; #nf]),
     }
 }
 
@@ -45,6 +49,27 @@ pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream],
             let links: Vec<TokenStream> = vectors.chunks(7).map(|link| link_state(link, runtime)).collect();
             array(&links)
         }
+        Shape::Frames => {
+            let vectors = rows(outputs, 3);
+            let states: Vec<TokenStream> = vectors.chunks(6).map(|frame| frame_state(frame, runtime)).collect();
+            array(&states)
+        }
+        Shape::FrameJacobians => {
+            let rows = rows(outputs, interface.size(Dimension::Velocities));
+            let jacobian = |rows: &[TokenStream]| {
+                let [linear, angular] = [array(&rows[..3]), array(&rows[3..])];
+                quote!(#runtime::FrameJacobian { linear: #linear, angular: #angular })
+            };
+            array(&rows.chunks(6).map(jacobian).collect::<Vec<_>>())
+        }
+        Shape::FrameAccelerations => {
+            let vectors = rows(outputs, 3);
+            let acceleration = |frame: &[TokenStream]| {
+                let [linear, angular] = [&frame[0], &frame[1]];
+                quote!(#runtime::FrameAcceleration { linear: #linear, angular: #angular })
+            };
+            array(&vectors.chunks(2).map(acceleration).collect::<Vec<_>>())
+        }
     }
 }
 
@@ -56,6 +81,18 @@ fn link_state(vectors: &[TokenStream], runtime: &TokenStream) -> TokenStream {
         rotation: #rotation,
         origin: #origin,
         com: #com,
+        velocity: #velocity,
+        angular_velocity: #angular_velocity,
+    })
+}
+
+/// The six vectors of a frame: three rows of its rotation, then the others in the order of the fields.
+fn frame_state(vectors: &[TokenStream], runtime: &TokenStream) -> TokenStream {
+    let rotation = array(&vectors[..3]);
+    let [origin, velocity, angular_velocity] = [3, 4, 5].map(|index| &vectors[index]);
+    quote!(#runtime::FrameState {
+        rotation: #rotation,
+        origin: #origin,
         velocity: #velocity,
         angular_velocity: #angular_velocity,
     })

@@ -12,7 +12,7 @@ pub fn own(function: Function, interface: &PublicInterface, name: &Ident, runtim
     let (trait_name, tangent) = match function.signature().interface {
         Interface::Own(trait_name) => (trait_name, None),
         Interface::WithTangent(trait_name) => (trait_name, Some(tangent(function, runtime))),
-        Interface::LoopClosure | Interface::ConfigurationSpace => return TokenStream::new(),
+        Interface::LoopClosure | Interface::Frames | Interface::ConfigurationSpace => return TokenStream::new(),
     };
     let trait_name = format_ident!("{trait_name}");
     let method = own_method(function, interface, runtime);
@@ -46,7 +46,7 @@ fn own_method(function: Function, interface: &PublicInterface, runtime: &TokenSt
 
 /// The method of a trait with the given body.
 fn method(function: Function, interface: &PublicInterface, runtime: &TokenStream, body: &TokenStream) -> TokenStream {
-    let (name, parameters) = (format_ident!("{}", function.name()), parameters(function, interface));
+    let (name, parameters) = (format_ident!("{}", function.name()), parameters(function, interface, runtime));
     let output = results::output_type(function.signature().result, interface, runtime);
     quote! {
         #[inline]
@@ -77,6 +77,25 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
             type Rows = [S; #nc];
             type Jacobian = [[S; #nv]; #nc];
             type Gram = [[S; #nc]; #nc];
+            #(#methods)*
+        }
+    }
+}
+
+/// The frames of interest, for a type that has all of their functions.
+pub fn frames(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let own = Function::ALL.iter().copied().filter(|function| function.needs_frames());
+    if !own.clone().all(|function| interface.functions.contains(function)) {
+        return TokenStream::new();
+    }
+    let [nv, nf] = [Dimension::Velocities, Dimension::Frames].map(|dimension| length(interface, dimension));
+    let methods = own.map(|function| own_method(function, interface, runtime));
+    quote! {
+        impl<S: #runtime::Scalar> #runtime::Frames<S> for #name {
+            type States = [#runtime::FrameState<S>; #nf];
+            type Jacobians = [#runtime::FrameJacobian<[S; #nv]>; #nf];
+            type Accelerations = [#runtime::FrameAcceleration<S>; #nf];
+            type Wrenches = [#runtime::Wrench<S>; #nf];
             #(#methods)*
         }
     }
@@ -117,6 +136,12 @@ pub fn mechanism(
             }
             fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
                 Self::JOINT_NAMES.get(index).copied()
+            }
+            fn nf(&self) -> usize {
+                Self::NF
+            }
+            fn frame_name(&self, index: usize) -> ::core::option::Option<&str> {
+                Self::FRAME_NAMES.get(index).copied()
             }
         }
         impl<S: #runtime::Scalar> #runtime::ConfigurationSpace<S> for #name {
