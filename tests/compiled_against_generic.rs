@@ -26,8 +26,9 @@ fn states(dof: usize) -> impl Iterator<Item = State> {
 fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &impl TreeDynamics<DoubleDouble>) {
     let name = generic.name().to_string();
     let new = |function: &str| Comparison::new(format!("{name} {function}"));
-    let [mut inverse, mut forward, mut matrix, mut bias, mut gravity, mut passive, mut kinetic, mut potential] =
-        ["inverse", "forward", "mass matrix", "bias", "gravity", "passive", "kinetic", "potential"].map(new);
+    let [mut inverse, mut forward, mut matrix, mut bias, mut coriolis, mut gravity, mut passive] =
+        ["inverse", "forward", "mass matrix", "bias", "coriolis matrix", "gravity", "passive"].map(new);
+    let [mut kinetic, mut potential] = ["kinetic", "potential"].map(new);
     for State { q, v, a } in states(generic.nv()) {
         let (q, v, a) = (exact(&q), exact(&v), exact(&a));
         let tau = inverse_dynamics(generic, &q, &v, &a);
@@ -36,6 +37,8 @@ fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &i
         forward.add(&rounded(ours), &rounded(forward_dynamics(generic, &q, &v, &tau)));
         matrix.add(&rounded(mass_matrix(compiled, &q).concat()), &rounded(mass_matrix(generic, &q).concat()));
         bias.add(&rounded(bias_forces(compiled, &q, &v)), &rounded(bias_forces(generic, &q, &v)));
+        let ours = coriolis_matrix(compiled, &q, &v).concat();
+        coriolis.add(&rounded(ours), &rounded(coriolis_matrix(generic, &q, &v).concat()));
         gravity.add(&rounded(gravity_forces(compiled, &q)), &rounded(gravity_forces(generic, &q)));
         passive.add(&rounded(passive_forces(compiled, &q, &v)), &rounded(passive_forces(generic, &q, &v)));
         let (ours, theirs) = (energy(compiled, &q, &v), energy(generic, &q, &v));
@@ -46,8 +49,9 @@ fn assert_same_functions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &i
     // 1e-6.
     let all = [inverse, matrix, gravity, passive, kinetic, potential];
     all.iter().for_each(|comparison| comparison.assert_within(1e-12));
-    // A few components of the bias are smaller than what its terms cancel to.
+    // A few components of the bias and elements of the Coriolis matrix are smaller than what their terms cancel to.
     bias.assert_within(4e-12);
+    coriolis.assert_within(1e-11);
     // The mass matrix of KR5 has condition 1e7, which is what multiplies the roundoff of constants here.
     forward.assert_within(1e-10);
 }

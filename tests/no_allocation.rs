@@ -3,7 +3,7 @@
 mod common;
 
 use common::methods::{WithMethod, every_adaptive, every_fixed};
-use redysim::{Event, ForwardSimulation, Integrator, LinkState, ZeroTorque, redysim};
+use redysim::{Event, ForwardSimulation, Integrator, LinkState, Wrench, ZeroTorque, redysim};
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
@@ -29,11 +29,12 @@ fn allocations_are_seen() {
 macro_rules! assert_nothing_allocated {
     ($mechanism:ident, $scalar:ty) => {
         let (q, v, x) = black_box(([0.1 as $scalar; $mechanism::NV], [0.2; $mechanism::NV], [0.3; $mechanism::NV]));
-        let calls: [(&str, &dyn Fn()); 7] = [
+        let calls: [(&str, &dyn Fn()); 8] = [
             ("inverse_dynamics", &|| _ = black_box($mechanism::inverse_dynamics(&q, &v, &x))),
             ("forward_dynamics", &|| _ = black_box($mechanism::forward_dynamics(&q, &v, &x))),
             ("mass_matrix", &|| _ = black_box($mechanism::mass_matrix(&q))),
             ("bias_forces", &|| _ = black_box($mechanism::bias_forces(&q, &v))),
+            ("coriolis_matrix", &|| _ = black_box($mechanism::coriolis_matrix(&q, &v))),
             ("gravity_forces", &|| _ = black_box($mechanism::gravity_forces(&q))),
             ("energy", &|| _ = black_box($mechanism::energy(&q, &v))),
             ("link_kinematics", &|| {
@@ -53,6 +54,20 @@ fn functions_allocate_nothing() {
     assert_nothing_allocated!(Kr5, f32);
     assert_nothing_allocated!(Gantry, f64);
     assert_nothing_allocated!(Gantry, f32);
+}
+
+#[test]
+fn functions_of_frames_allocate_nothing() {
+    redysim! { struct Machine("models/test/frames.toml"); }
+    let (q, v) = black_box(([0.1; Machine::NQ], [0.2; Machine::NV]));
+    let wrenches = black_box([Wrench { force: [1.0; 3], moment: [2.0; 3] }; Machine::NF]);
+    let all = || {
+        black_box(Machine::frame_kinematics(&q, &v));
+        black_box(Machine::frame_jacobians(&q));
+        black_box(Machine::frame_bias(&q, &v));
+        black_box(Machine::frame_forces(&q, &wrenches));
+    };
+    assert_eq!(allocations(all), 0);
 }
 
 /// A fall of KR5 with an event on the way.

@@ -6,10 +6,11 @@
 
 mod common;
 
+use common::dual::{Dual, moving};
 use common::kane::{Kane, kane};
 use common::random::{Random, State};
 use common::styles::{Style, inertia, link, offset, placed};
-use nalgebra::{DVector, Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
 
@@ -39,6 +40,12 @@ impl Errors {
         assert!(error <= tolerance, "{what}: error {error:.1e}\n{computed:?}\n{expected:?}");
         let worst = self.0.entry(what.to_string()).or_default();
         *worst = worst.max(error);
+    }
+
+    /// The same with one added to each component, so that what happens to vanish is held against numbers of size one.
+    fn add_to_one(&mut self, what: &str, computed: &[f64], expected: &[f64], tolerance: f64) {
+        let from_one = |values: &[f64]| values.iter().map(|x| x + 1.0).collect::<Vec<_>>();
+        self.add(what, &from_one(computed), &from_one(expected), tolerance);
     }
 }
 
@@ -207,11 +214,8 @@ fn link_kinematics_agree_with_jacobians() {
     let mut errors = Errors::default();
     on_random_trees(|_, tree, State { q, v, .. }, expected| {
         for (link, body) in denoc::link_kinematics(tree, &Untraced, q, v).iter().zip(&expected.links) {
-            // One is added, so that vectors which happen to vanish are held against numbers of size one.
-            let mut add = |what: &str, computed: &[f64], expected: &[f64]| {
-                let from_one = |values: &[f64]| values.iter().map(|x| x + 1.0).collect::<Vec<_>>();
-                errors.add(what, &from_one(computed), &from_one(expected), 1e-13);
-            };
+            let mut add =
+                |what: &str, computed: &[f64], expected: &[f64]| errors.add_to_one(what, computed, expected, 1e-13);
             add("rotation", &link.rotation.concat(), body.rotation.transpose().as_slice());
             add("origin", &link.origin, body.origin.as_slice());
             add("com", &link.com, body.com.as_slice());
@@ -233,6 +237,42 @@ fn frames_agree_with_kanes_jacobians_and_accelerations() {
             let computed = denoc::evaluate(function, tree, &Untraced, &[q, second]);
             errors.add(function.name(), &computed, &expected, 1e-13);
         }
+    });
+    println!("{:?}", errors.0);
+}
+
+/// M(q), and its derivative along `v`, by dual numbers.
+fn mass_matrix_along(tree: &Tree, q: &[f64], v: &[f64]) -> [DMatrix<f64>; 2] {
+    let rows = denoc::mass_matrix(tree, &Untraced, &moving(q, v)).concat();
+    let parts: [fn(&Dual<f64>) -> f64; 2] = [|x| x.value, |x| x.rate];
+    parts.map(|part| DMatrix::from_row_iterator(v.len(), v.len(), rows.iter().map(part)))
+}
+
+/// C_ij = ½ Σ_k (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) v_k.
+fn christoffel(tree: &Tree, q: &[f64], v: &[f64]) -> DMatrix<f64> {
+    let unit = |k: usize| (0..v.len()).map(|i| f64::from(u8::from(i == k))).collect::<Vec<_>>();
+    let slopes: Vec<DMatrix<f64>> = (0..v.len()).map(|k| mass_matrix_along(tree, q, &unit(k))[1].clone()).collect();
+    DMatrix::from_fn(v.len(), v.len(), |i, j| {
+        let term = |k: usize| (slopes[k][(i, j)] + slopes[j][(i, k)] - slopes[i][(j, k)]) * v[k];
+        0.5 * (0..v.len()).map(term).sum::<f64>()
+    })
+}
+
+#[test]
+fn the_coriolis_matrix_is_that_of_the_christoffel_symbols() {
+    let mut errors = Errors::default();
+    on_random_trees(|_, tree, State { q, v, .. }, expected| {
+        let rows = denoc::coriolis_matrix(tree, &Untraced, q, v).concat();
+        let matrix = DMatrix::from_row_slice(v.len(), v.len(), &rows);
+        let mut add =
+            |what: &str, computed: &[f64], expected: &[f64]| errors.add_to_one(what, computed, expected, 1e-12);
+        add("Christoffel symbols", matrix.as_slice(), christoffel(tree, q, v).as_slice());
+        let forces = &matrix * DVector::from_row_slice(v);
+        add("C v", forces.as_slice(), (&expected.bias - &expected.gravity - &expected.passive).as_slice());
+        let skew = &mass_matrix_along(tree, q, v)[1] - 2.0 * &matrix;
+        add("M' - 2 C", skew.as_slice(), (-skew.transpose()).as_slice());
+        let base = base_parameters(tree, Vanishing::TensorYy);
+        add("base parameters", &denoc::coriolis_matrix(&base, &Untraced, q, v).concat(), &rows);
     });
     println!("{:?}", errors.0);
 }
@@ -262,6 +302,11 @@ fn traced_expressions_agree_with_kanes_equations() {
         add("gravity_forces", &[q], expected.gravity.as_slice(), 1e-12);
         add("passive_forces", &[q, v], expected.passive.as_slice(), 1e-15);
         add("dissipated_power", &[q, v], &[expected.dissipated], 1e-14);
+        let coriolis = evaluated(functions, "coriolis_matrix", &[q, v]);
+        errors.add_to_one("coriolis_matrix", &coriolis, christoffel(tree, q, v).transpose().as_slice(), 1e-12);
+        let mut add = |name: &str, arguments: &[&[f64]], expected: &[f64], tolerance| {
+            errors.add(name, &evaluated(functions, name, arguments), expected, tolerance);
+        };
         let (wanted, condition) = accelerations(expected, &tau);
         add("forward_dynamics", &[q, v, tau.as_slice()], wanted.as_slice(), 1e-15 * condition.max(1e3));
         let energies = evaluated(functions, "energy", &[q, v]);

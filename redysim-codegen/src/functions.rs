@@ -155,6 +155,7 @@ impl Pipeline<'_> {
             Function::InverseDynamics | Function::BiasForces | Function::GravityForces | Function::MassMatrix => {
                 (trees.keeping_digits(function)?, None)
             }
+            Function::CoriolisMatrix => (cheapest(&trees.dynamics(), function, passes)?, None),
             Function::Energy => (cheapest(&trees.energy(), function, passes)?, None),
             Function::CenterOfMass => (cheapest(&trees.moments(), function, passes)?, None),
             Function::LinkKinematics

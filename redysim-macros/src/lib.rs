@@ -21,8 +21,9 @@ use proc_macro::TokenStream;
 ///
 /// The type has the constants `NAME`, `NQ`, `NV`, `NL`, `NC`, `NF`, `MASS`, `LINK_NAMES`, `JOINT_NAMES`, `LOOP_NAMES`,
 /// `FRAME_NAMES`, `ACTUATED` and `OPS`, the functions `inverse_dynamics`, `forward_dynamics`, `mass_matrix`,
-/// `bias_forces`, `gravity_forces`, `passive_forces`, `energy`, `center_of_mass`, `link_kinematics`, `loop_residual`,
-/// `loop_jacobian` and `loop_bias`, if the model has frames also `frame_kinematics`, `frame_jacobians`, `frame_bias` and `frame_forces`,
+/// `bias_forces`, `coriolis_matrix`, `gravity_forces`, `passive_forces`, `energy`, `center_of_mass`, `link_kinematics`,
+/// `loop_residual`, `loop_jacobian` and `loop_bias`, if the model has frames also `frame_kinematics`, `frame_jacobians`,
+/// `frame_bias` and `frame_forces`,
 /// all over any `S: Scalar`, and the traits that have them. Unless the declaration derives traits itself, the type is
 /// `Clone`, `Copy`, `Debug` and `Default`.
 ///

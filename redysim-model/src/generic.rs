@@ -6,9 +6,10 @@ use crate::model::Model;
 use crate::tree::Tree;
 use redysim_runtime::function::Dimension::{self, Coordinates, Velocities};
 use redysim_runtime::{
-    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, FrameAcceleration, FrameJacobian,
-    FrameState, Frames, GravityForces, InverseDynamics, LengthMismatch, LinkKinematics, LinkState, LoopClosure,
-    LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, PassiveForces, Scalar, Wrench,
+    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics,
+    FrameAcceleration, FrameJacobian, FrameState, Frames, GravityForces, InverseDynamics, LengthMismatch,
+    LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
+    PassiveForces, Scalar, Wrench,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -227,6 +228,13 @@ impl<S: Scalar> BiasForces<S> for GenericMechanism {
     fn bias_forces(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
         self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::bias_forces(&self.tree, &Untraced, q, v)
+    }
+}
+
+impl<S: Scalar> CoriolisMatrix<S> for GenericMechanism {
+    fn coriolis_matrix(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<Vec<S>> {
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
+        denoc::coriolis_matrix(&self.tree, &Untraced, q, v)
     }
 }
 

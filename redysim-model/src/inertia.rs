@@ -1,6 +1,6 @@
 //! The inertia of a rigid body about the origin of a frame, over any scalar.
 
-use crate::spatial::{Mat3, Vec3};
+use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use redysim_runtime::Scalar;
 use std::ops::Add;
 
@@ -118,6 +118,16 @@ pub struct RigidInertia<S> {
     pub moment: Vec3<S>,
     /// Inertia tensor about the origin, kg m².
     pub tensor: Sym3<S>,
+}
+
+impl<S: Scalar> RigidInertia<S> {
+    /// I v, the momentum at a velocity: angular about the origin, and linear.
+    pub fn momentum(&self, Twist { angular, linear }: Twist<S>) -> Wrench<S> {
+        Wrench {
+            moment: self.tensor.full() * angular + self.moment.cross(linear),
+            force: linear.scale(self.mass) + angular.cross(self.moment),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -204,6 +204,14 @@ impl<S: Scalar> Twist<S> {
         Twist { angular: Vec3::zero(), linear: Vec3::zero() }
     }
 
+    /// The rate of a motion that is fixed to a body, v × S at the body's velocity v.
+    pub fn rate_in(self, velocity: Twist<S>) -> Self {
+        Twist {
+            angular: velocity.angular.cross(self.angular),
+            linear: velocity.angular.cross(self.linear) + velocity.linear.cross(self.angular),
+        }
+    }
+
     /// Component `i` of six, the angular ones first.
     pub fn component(&self, i: usize) -> S {
         if i < 3 { self.angular[i] } else { self.linear[i - 3] }

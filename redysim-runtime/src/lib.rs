@@ -99,9 +99,9 @@ pub use function::table::{Function, Operations};
 pub use integrate::root::*;
 pub use joint_trig::JointTrig;
 pub use mechanism::{
-    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
-    PassiveForces, TreeDynamics,
+    Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
+    InverseDynamics, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
+    Mechanism, PassiveForces, TreeDynamics,
 };
 pub use operations::OperationCount;
 pub use scalar::{FUSED, Real, Scalar};

@@ -149,6 +149,14 @@ pub trait BiasForces<S: Scalar>: ConfigurationSpace<S> {
     fn bias_forces(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Velocities;
 }
 
+/// The Coriolis matrix.
+pub trait CoriolisMatrix<S: Scalar>: ConfigurationSpace<S> {
+    /// C(q, v), by rows: C v are the joint forces that the velocities take, N m or N, without those of gravity and of
+    /// damping, friction and springs. It is the matrix of the Christoffel symbols, for which Ṁ − 2 C is skew-symmetric,
+    /// as adaptive control and the observation of momentum need it: Ṁ = C + Cᵀ.
+    fn coriolis_matrix(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Matrix;
+}
+
 /// Forces that hold the mechanism against gravity.
 pub trait GravityForces<S: Scalar>: ConfigurationSpace<S> {
     /// g(q), N m or N.
@@ -219,6 +227,7 @@ pub trait TreeDynamics<S: Scalar>:
     + ForwardDynamics<S>
     + MassMatrix<S>
     + BiasForces<S>
+    + CoriolisMatrix<S>
     + GravityForces<S>
     + PassiveForces<S>
     + MechanicalEnergy<S>
@@ -232,6 +241,7 @@ impl<S: Scalar, M> TreeDynamics<S> for M where
         + ForwardDynamics<S>
         + MassMatrix<S>
         + BiasForces<S>
+        + CoriolisMatrix<S>
         + GravityForces<S>
         + PassiveForces<S>
         + MechanicalEnergy<S>

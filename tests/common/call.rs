@@ -1,9 +1,9 @@
 //! The functions of a mechanism on slices, whatever its own vectors are made of.
 
 use redysim::{
-    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, PassiveForces, Scalar,
-    Vector,
+    BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
+    InverseDynamics, LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
+    PassiveForces, Scalar, Vector,
 };
 
 fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
@@ -30,6 +30,11 @@ pub fn mass_matrix<S: Scalar>(m: &impl MassMatrix<S>, q: &[S]) -> Vec<Vec<S>> {
 
 pub fn bias_forces<S: Scalar>(m: &impl BiasForces<S>, q: &[S], v: &[S]) -> Vec<S> {
     m.bias_forces(&vector(q), &vector(v)).as_ref().to_vec()
+}
+
+/// By rows.
+pub fn coriolis_matrix<S: Scalar>(m: &impl CoriolisMatrix<S>, q: &[S], v: &[S]) -> Vec<Vec<S>> {
+    m.coriolis_matrix(&vector(q), &vector(v)).as_ref().iter().map(|row| row.as_ref().to_vec()).collect()
 }
 
 pub fn gravity_forces<S: Scalar>(m: &impl GravityForces<S>, q: &[S]) -> Vec<S> {

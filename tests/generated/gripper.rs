@@ -4,6 +4,7 @@
 // forward_dynamics     104 flops,   4 sine-cosine pairs
 // mass_matrix           20 flops,   3 sine-cosine pairs
 // bias_forces           46 flops,   4 sine-cosine pairs
+// coriolis_matrix       51 flops,   3 sine-cosine pairs
 // gravity_forces        21 flops,   4 sine-cosine pairs
 // passive_forces         0 flops,   0 sine-cosine pairs
 // energy                51 flops,   4 sine-cosine pairs
@@ -72,6 +73,12 @@ impl Gripper {
             multiplications: 28,
             divisions: 0,
             trig: 4,
+        },
+        coriolis_matrix: ::redysim_runtime::OperationCount {
+            additions: 20,
+            multiplications: 31,
+            divisions: 0,
+            trig: 3,
         },
         gravity_forces: ::redysim_runtime::OperationCount {
             additions: 7,
@@ -573,6 +580,111 @@ impl Gripper {
                 - minus_moment_link2_z,
         );
         [moment_link1_z, -minus_moment_link2_z, -minus_moment_link3_z, moment_link4_z]
+    }
+    /// C(q, v) of the Christoffel symbols: C v are the joint forces of the velocities, without gravity and passive forces; Ṁ − 2 C is skew-symmetric.
+    ///
+    /// 51 flops: 20 additions, 31 multiplications, 0 divisions; 3 sine-cosine pairs.
+    pub fn coriolis_matrix<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        v: &[S; 4],
+    ) -> [[S; 4]; 4] {
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                let (sin, cos) = S::sin_cos_all([q[1], q[2], q[3]]);
+                Self::coriolis_matrix_inlined(
+                    q,
+                    &[
+                        S::zero(),
+                        sin[0],
+                        sin[1],
+                        sin[2],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    &[
+                        S::zero(),
+                        cos[0],
+                        cos[1],
+                        cos[2],
+                        S::zero(),
+                        S::zero(),
+                        S::zero(),
+                    ],
+                    v,
+                )
+            },
+        )
+    }
+    /// [`coriolis_matrix`](Self::coriolis_matrix) with sines and cosines that are already computed.
+    pub fn coriolis_matrix_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
+        v: &[S; 4],
+    ) -> [[S; 4]; 4] {
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::coriolis_matrix_inlined(&trig.q, &trig.sin, &trig.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn coriolis_matrix_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> [[S; 4]; 4] {
+        let k = S::from_f64;
+        let [_, sin_link2, sin_link3, sin_link4, _, _, _] = *sin;
+        let [_, cos_link2, cos_link3, _, _, _, _] = *cos;
+        let vel_link2_x = v[0] * sin_link2;
+        let vel_link2_y = v[0] * cos_link2;
+        let w_link2_z = v[0] + v[1];
+        let vel_link3_x = S::mul_add(
+            sin_link3,
+            S::mul_add(k(0.5), w_link2_z, vel_link2_y),
+            cos_link3 * vel_link2_x,
+        );
+        let w_link3_z = v[2] + w_link2_z;
+        let p_link3_y = k(0.0005000000000000001) * w_link3_z;
+        let t1 = k(0.0005000000000000001) * vel_link3_x;
+        let vel_link4_x = sin_link4 * (k(0.5) * v[0]);
+        let w_link4_z = v[0] + v[3];
+        let p_link4_y = k(0.0005000000000000001) * w_link4_z;
+        let t2 = sin_link4 * p_link4_y;
+        let t3 = k(0.0005000000000000001) * cos_link3;
+        let h_link2_y = k(0.0005000000000000001) * sin_link3;
+        let minus_p_link2_x = sin_link3 * p_link3_y;
+        let t4 = cos_link3 * p_link3_y;
+        let h_link2_x = k(0.0015000000000000005) + t3;
+        let p_link2_y = S::mul_add(k(0.0015000000000000005), w_link2_z, t4);
+        let t5 = S::mul_add(
+            k(0.0010000000000000002),
+            vel_link3_x,
+            S::mul_add(k(0.003000000000000001), vel_link2_x, -minus_p_link2_x),
+        );
+        let t6 = k(0.5) * minus_p_link2_x;
+        let t7 = vel_link2_y * h_link2_y;
+        let t8 = cos_link2 * minus_p_link2_x;
+        let t9 = S::mul_add(sin_link2, p_link2_y, t8);
+        let t10 = k(0.5) * t5;
+        let t11 = t10 - S::mul_add(vel_link2_x, h_link2_x, t7);
+        [
+            [
+                -(k(0.5)
+                    * S::mul_add(
+                        k(2.0),
+                        t9,
+                        -(t5 + S::mul_add(k(0.0010000000000000002), vel_link4_x, -t2)),
+                    )),
+                t11 - t9,
+                -(t8 + S::mul_add(sin_link2, t4, t6)),
+                -(k(0.5) * t2),
+            ],
+            [t10, t11, -t6, k(0.0)],
+            [t1, t1 - S::mul_add(vel_link2_x, t3, t7), k(0.0), k(0.0)],
+            [k(0.0005000000000000001) * vel_link4_x, k(0.0), k(0.0), k(0.0)],
+        ]
     }
     /// g(q), N m or N: the joint forces at rest.
     ///
@@ -1251,6 +1363,12 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::BiasForces<S> for Gripper 
     #[inline]
     fn bias_forces(&self, q: &[S; 4], v: &[S; 4]) -> [S; 4] {
         Self::bias_forces(q, v)
+    }
+}
+impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::CoriolisMatrix<S> for Gripper {
+    #[inline]
+    fn coriolis_matrix(&self, q: &[S; 4], v: &[S; 4]) -> [[S; 4]; 4] {
+        Self::coriolis_matrix(q, v)
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::GravityForces<S> for Gripper {

@@ -137,6 +137,7 @@ impl<'a> Reference<'a> {
                 Shape::MassMatrix => 1.0 / (weights[k / weights.len()] * weights[k % weights.len()]),
                 Shape::Energy
                 | Shape::Power
+                | Shape::CoriolisMatrix
                 | Shape::CenterOfMass
                 | Shape::Links
                 | Shape::LoopRows

@@ -146,6 +146,11 @@ impl<'a> Trees<'a> {
         })
     }
 
+    /// The candidates for a function of M(q) and its derivatives.
+    pub fn dynamics(&self) -> Vec<Tree> {
+        [self.matrix(), self.bias(), self.plain()].map(Tree::clone).into()
+    }
+
     /// The candidates for the energies.
     pub fn energy(&self) -> Vec<Tree> {
         vec![self.regrouped(Vanishing::TensorYy), self.matrix().clone()]

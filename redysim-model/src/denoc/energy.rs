@@ -17,10 +17,8 @@ pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S
     let mut twice_springs: Option<S> = None;
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let Twist { angular, linear } = body.parent.map_or(Twist::zero(), |parent| velocities[parent]);
-        let linear = frame.to_body(linear + angular.cross(frame.position));
-        let carried = Twist { angular: frame.to_body(angular), linear };
-        let velocity = body.joint.added(carried, &v[body.v.clone()]);
+        let parent = body.parent.map_or(Twist::zero(), |parent| velocities[parent]);
+        let velocity = body.joint.added(frame.twist_to_body(parent), &v[body.v.clone()]);
         trace.name_twist(velocity, ["w", "vel"], index);
         twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), velocity);
         let (q, v) = (q[body.q.start], v[body.v.start]);

@@ -2,9 +2,9 @@
 
 use super::trace::Trace;
 use super::{
-    Method, bias_forces, center_of_mass, coordinate_rates, difference, dissipated_power, energy, forward_dynamics,
-    frame_bias, frame_forces, frame_jacobians, frame_kinematics, gravity_forces, integrate, inverse_dynamics,
-    link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix, neutral, passive_forces,
+    Method, bias_forces, center_of_mass, coordinate_rates, coriolis_matrix, difference, dissipated_power, energy,
+    forward_dynamics, frame_bias, frame_forces, frame_jacobians, frame_kinematics, gravity_forces, integrate,
+    inverse_dynamics, link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix, neutral, passive_forces,
 };
 use crate::parameter::ParameterIn;
 use crate::spatial::{Vec3, Wrench};
@@ -24,6 +24,7 @@ pub fn evaluate<S: Scalar>(
         Function::ForwardDynamics => forward_dynamics(Method::Recursion, tree, trace, x[0], x[1], x[2]),
         Function::MassMatrix => mass_matrix(tree, trace, x[0]).concat(),
         Function::BiasForces => bias_forces(tree, trace, x[0], x[1]),
+        Function::CoriolisMatrix => coriolis_matrix(tree, trace, x[0], x[1]).concat(),
         Function::GravityForces => gravity_forces(tree, trace, x[0]),
         Function::PassiveForces => passive_forces(tree, x[0], x[1]),
         Function::Energy => {

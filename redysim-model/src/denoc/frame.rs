@@ -5,7 +5,7 @@ use crate::inertia::Sym3;
 use crate::joint::JointPosition;
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
-use crate::spatial::{Mat3, Pose, Vec3, Wrench};
+use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
@@ -229,6 +229,13 @@ impl<S: Scalar> JointFrame<S> {
     #[inline(always)]
     pub fn wrench_to_parent(&self, Wrench { moment, force }: Wrench<S>) -> Wrench<S> {
         Wrench { force: self.to_parent(force), moment: self.to_parent(moment) }.moved_by(self.position)
+    }
+
+    /// A velocity of the parent at its origin, at the body's origin and in its axes.
+    #[inline(always)]
+    pub fn twist_to_body(&self, Twist { angular, linear }: Twist<S>) -> Twist<S> {
+        let linear = self.to_body(linear + angular.cross(self.position));
+        Twist { angular: self.to_body(angular), linear }
     }
 
     /// A symmetric tensor of the body's axes, in the parent's.

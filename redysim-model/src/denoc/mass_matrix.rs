@@ -3,7 +3,7 @@
 use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
 use super::workspace::{Composite, Workspace};
-use crate::inertia::Sym3;
+use crate::inertia::{RigidInertia, Sym3};
 use crate::joint::Screw;
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
@@ -65,7 +65,7 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
 }
 
 /// Which bodies can turn about directions parallel to their own joint's axis only, as all bodies of a planar mechanism.
-fn find_planar(planar: &mut Vec<bool>, tree: &Tree<impl Copy>) {
+pub(super) fn find_planar(planar: &mut Vec<bool>, tree: &Tree<impl Copy>) {
     planar.clear();
     planar.reserve(tree.bodies.len());
     for body in &tree.bodies {
@@ -75,19 +75,19 @@ fn find_planar(planar: &mut Vec<bool>, tree: &Tree<impl Copy>) {
 
 impl<S: Scalar> Composite<S> {
     #[inline(always)]
-    fn new(inertia: PseudoInertia<impl ParameterIn<S>>, frame: &JointFrame<S>) -> Self {
+    pub fn new(inertia: PseudoInertia<impl ParameterIn<S>>, frame: &JointFrame<S>) -> Self {
         let Sym3 { xx, yy, .. } = inertia.second.map(ParameterIn::value);
         Composite { inertia: frame.own_inertia(inertia), polar: xx + yy }
     }
 
     #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
+    pub fn plus(&self, other: &Self) -> Self {
         Composite { inertia: self.inertia + other.inertia, polar: self.polar + other.polar }
     }
 
     /// The composite in the parent's axes and about the parent's origin.
     #[inline(always)]
-    fn to_parent(&self, frame: &JointFrame<S>, planar: bool) -> Self {
+    pub fn to_parent(&self, frame: &JointFrame<S>, planar: bool) -> Self {
         let inertia = frame.inertia_to_parent(self.inertia);
         let polar = if planar {
             // Steiner's theorem for this one moment.
@@ -97,6 +97,12 @@ impl<S: Scalar> Composite<S> {
             inertia.second.xx + inertia.second.yy
         };
         Composite { inertia, polar }
+    }
+
+    /// The same with the inertia tensor.
+    pub fn to_rigid(&self) -> RigidInertia<S> {
+        let RigidInertia { mass, moment, tensor } = self.inertia.to_rigid();
+        RigidInertia { mass, moment, tensor: Sym3 { zz: self.polar, ..tensor } }
     }
 
     /// The wrench that gives the body a unit acceleration of its joint from rest.
@@ -109,7 +115,7 @@ impl<S: Scalar> Composite<S> {
         screw.combined(turn, slide)
     }
 
-    fn name(&self, trace: &impl Trace<S>, body: usize) {
+    pub fn name(&self, trace: &impl Trace<S>, body: usize) {
         trace.name_vector(self.inertia.moment, "h", body);
         trace.name_symmetric(self.inertia.second, "S", body);
         trace.name(self.polar, "J", body, "zz");

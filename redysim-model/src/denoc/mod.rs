@@ -16,6 +16,7 @@ mod articulated;
 mod base_frame;
 mod center_of_mass;
 mod configuration;
+mod coriolis;
 mod energy;
 mod evaluate;
 mod factorisation;
@@ -32,6 +33,7 @@ mod workspace;
 
 pub use center_of_mass::center_of_mass;
 pub use configuration::{coordinate_rates, difference, integrate, neutral};
+pub use coriolis::coriolis_matrix;
 pub use energy::energy;
 pub use evaluate::evaluate;
 pub use factorisation::Factorisation;

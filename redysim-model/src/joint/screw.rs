@@ -45,6 +45,12 @@ impl Screw {
         }
     }
 
+    /// S as a motion at the body's origin.
+    #[inline]
+    pub fn motion<S: Scalar>(self) -> Twist<S> {
+        self.motion_at(Vec3::zero())
+    }
+
     /// The motion of a point at `arm` from the joint's origin, for a unit of the coordinate.
     #[inline]
     pub fn motion_at<S: Scalar>(self, arm: Vec3<S>) -> Twist<S> {

@@ -7,8 +7,9 @@ use super::x86::{Avx2F32, Avx2F64};
 use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
-    BiasForces, CenterOfMass, ConfigurationSpace, Energy, ForwardDynamics, Frames, GravityForces, InverseDynamics,
-    LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism, PassiveForces, Scalar,
+    BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, Frames, GravityForces,
+    InverseDynamics, LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
+    PassiveForces, Scalar,
 };
 
 /// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and
@@ -230,6 +231,22 @@ macro_rules! vector_function {
     };
 }
 
+/// A function whose result is a square matrix.
+macro_rules! matrix_function {
+    ($float:ident, $number:ident: $trait:ident $function:ident $arguments:tt) => {
+        function! { $float, $number:
+            $trait $function $arguments -> <M as ConfigurationSpace<$float>>::Matrix => |found| {
+                let mut rows = found.as_ref().iter();
+                let size = rows.len();
+                Vector::from_fn(size, |_| match rows.next() {
+                    Some(row) => each(row, |number: $number| number.0),
+                    None => Vector::from_fn(size, |_| $float::NAN),
+                })
+            }
+        }
+    };
+}
+
 /// All functions of one state for numbers `$float`: as compiled, or, for AVX2, as numbers `$number`.
 macro_rules! functions {
     ($float:ident, $number:ident) => {
@@ -242,16 +259,8 @@ macro_rules! functions {
         vector_function! { $float, $number: BiasForces bias_forces(q: Coordinates, v: Velocities) }
         vector_function! { $float, $number: GravityForces gravity_forces(q: Coordinates) }
         vector_function! { $float, $number: PassiveForces passive_forces(q: Coordinates, v: Velocities) }
-        function! { $float, $number:
-            MassMatrix mass_matrix(q: Coordinates) -> <M as ConfigurationSpace<$float>>::Matrix => |found| {
-                let mut rows = found.as_ref().iter();
-                let size = rows.len();
-                Vector::from_fn(size, |_| match rows.next() {
-                    Some(row) => each(row, |number: $number| number.0),
-                    None => Vector::from_fn(size, |_| $float::NAN),
-                })
-            }
-        }
+        matrix_function! { $float, $number: MassMatrix mass_matrix(q: Coordinates) }
+        matrix_function! { $float, $number: CoriolisMatrix coriolis_matrix(q: Coordinates, v: Velocities) }
         function! { $float, $number:
             MechanicalEnergy energy(q: Coordinates, v: Velocities) -> Energy<$float>
             => |found| Energy { kinetic: found.kinetic.0, potential: found.potential.0 }

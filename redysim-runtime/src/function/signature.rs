@@ -116,6 +116,8 @@ pub enum Shape {
     Accelerations,
     /// The generalised inertia matrix, `[[S; NV]; NV]`, by rows.
     MassMatrix,
+    /// The Coriolis matrix, `[[S; NV]; NV]`, by rows.
+    CoriolisMatrix,
     /// `Energy<S>`: kinetic, potential.
     Energy,
     /// Power, `S`.

@@ -82,6 +82,10 @@ functions! {
     BiasForces bias_forces, Interface::Own("BiasForces"),
         (Coordinates, Velocities) -> Forces,
         "C(q, v) v + g(q), N m or N: the joint forces at zero acceleration.";
+    CoriolisMatrix coriolis_matrix, Interface::Own("CoriolisMatrix"),
+        (Coordinates, Velocities) -> CoriolisMatrix,
+        "C(q, v) of the Christoffel symbols: C v are the joint forces of the velocities, without gravity and passive \
+         forces; Ṁ − 2 C is skew-symmetric.";
     GravityForces gravity_forces, Interface::Own("GravityForces"),
         (Coordinates) -> Forces,
         "g(q), N m or N: the joint forces at rest.";

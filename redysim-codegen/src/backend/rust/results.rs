@@ -14,7 +14,7 @@ pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStr
     match shape {
         Shape::Coordinates => quote!([S; #nq]),
         Shape::Forces | Shape::Accelerations | Shape::Displacement => quote!([S; #nv]),
-        Shape::MassMatrix => quote!([[S; #nv]; #nv]),
+        Shape::MassMatrix | Shape::CoriolisMatrix => quote!([[S; #nv]; #nv]),
         Shape::Energy => quote!(#runtime::Energy<S>),
         Shape::Power => quote!(S),
         Shape::CenterOfMass => quote!(#runtime::CenterOfMass<S>),
@@ -33,7 +33,9 @@ pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream],
         Shape::Forces | Shape::Accelerations | Shape::LoopRows | Shape::Coordinates | Shape::Displacement => {
             array(outputs)
         }
-        Shape::MassMatrix | Shape::LoopJacobian => array(&rows(outputs, interface.size(Dimension::Velocities))),
+        Shape::MassMatrix | Shape::CoriolisMatrix | Shape::LoopJacobian => {
+            array(&rows(outputs, interface.size(Dimension::Velocities)))
+        }
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
             quote!(#runtime::Energy { kinetic: #kinetic, potential: #potential })
