@@ -7,7 +7,8 @@ use core::ops::ControlFlow;
 
 use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation,
-    ZeroTorque, Gauss6, Integrator, Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler, redysim,
+    FrameState, Gauss6, Integrator, Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler,
+    Wrench, ZeroTorque, redysim,
 };
 
 redysim! {
@@ -18,6 +19,14 @@ redysim! {
 redysim! {
     /// The four-bar of the ReDySim paper.
     struct Fourbar("../../../models/fourbar.toml");
+}
+
+redysim! {
+    /// A machine with frames.
+    struct Machine(
+        "../../../models/test/frames.toml",
+        functions = [frame_kinematics, frame_jacobians, frame_bias, frame_forces, coriolis_matrix]
+    );
 }
 
 unsafe extern "C" {
@@ -41,6 +50,7 @@ extern "C" fn main() -> i32 {
     i32::from(
         !(is_held_by_gravity_forces()
             && is_held_in_the_vectors_of_nalgebra()
+            && wrenches_have_the_power_of_their_joint_forces()
             && kept
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
@@ -63,6 +73,22 @@ fn is_held_in_the_vectors_of_nalgebra() -> bool {
     let accelerations = redysim::nalgebra::forward_dynamics(&Kr5, &q, &at_rest, &torques);
     let [.., hand] = redysim::nalgebra::link_kinematics(&Kr5, &q, &at_rest);
     accelerations.norm_squared() < 1e-18 && hand.pose.translation.vector.norm() > 0.1
+}
+
+fn wrenches_have_the_power_of_their_joint_forces() -> bool {
+    let (q, v) = ([0.1, 0.7, -0.4, 0.3, 0.9], [0.2, -0.3, 0.5, 0.1, -0.6]);
+    let wrenches = [Wrench { force: [1.0, 2.0, -3.0], moment: [0.0; 3] }; Machine::NF];
+    let states: [FrameState<f64>; Machine::NF] = Machine::frame_kinematics(&q, &v);
+    let power: f64 = states.iter().zip(&wrenches).map(|(state, wrench)| dot(&state.velocity, &wrench.force)).sum();
+    let of_joints: f64 = dot(&Machine::frame_forces(&q, &wrenches), &v);
+    let velocity = Machine::frame_jacobians(&q)[0].linear.map(|row| dot(&row, &v));
+    let found = Machine::frame_bias(&q, &v)[0].linear[0] + Machine::coriolis_matrix(&q, &v)[0][1];
+    let error = (power - of_joints) + (velocity[0] - states[0].velocity[0]);
+    power != 0.0 && found != 0.0 && -1e-12 < error && error < 1e-12
+}
+
+fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn keeps_its_energy_when_it_falls() -> Option<bool> {
