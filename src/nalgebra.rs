@@ -1,6 +1,6 @@
 //! The functions of compiled mechanisms over the vectors, matrices and isometries of [`::nalgebra`].
 //!
-//! Each function has the name of the one that it calls. Vectors are passed on as the arrays that they hold, and results
+//! All functions but those of frames are here, each with the name of the one that it calls. Vectors are passed on as the arrays that they hold, and results
 //! are moved into vectors and matrices, so that nothing is copied by hand. Neither `std` nor an allocator is needed.
 //!
 //! ```
@@ -22,8 +22,8 @@
 //! ```
 
 use crate::{
-    BiasForces, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkKinematics, LinkState,
-    LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, PassiveForces, Scalar,
+    BiasForces, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces, InverseDynamics,
+    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, PassiveForces, Scalar,
 };
 use ::nalgebra::{Isometry3, Matrix3, Point3, RealField, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 
@@ -171,6 +171,20 @@ where
     M: BiasForces<S, Coordinates = [S; NQ], Velocities = [S; NV]>,
 {
     mechanism.bias_forces(array(q), array(v)).into()
+}
+
+/// [`CoriolisMatrix::coriolis_matrix`]: C with Ṁ − 2 C skew-symmetric, of which C v is the part of the bias that
+/// velocities make.
+pub fn coriolis_matrix<S, M, const NQ: usize, const NV: usize>(
+    mechanism: &M,
+    q: &SVector<S, NQ>,
+    v: &SVector<S, NV>,
+) -> SMatrix<S, NV, NV>
+where
+    S: Number,
+    M: CoriolisMatrix<S, Coordinates = [S; NQ], Velocities = [S; NV], Matrix = [[S; NV]; NV]>,
+{
+    SMatrix::<S, NV, NV>::from(mechanism.coriolis_matrix(array(q), array(v))).transpose()
 }
 
 /// [`GravityForces::gravity_forces`]: the joint forces of gravity, N m or N.

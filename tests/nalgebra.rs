@@ -30,6 +30,8 @@ fn vectors_and_matrices_hold_the_numbers_of_the_arrays() {
     assert_eq!(dynamics::energy(&Kr5, &q, &v), Kr5::energy(&Q, &V));
     let (matrix, rows) = (dynamics::mass_matrix(&Kr5, &q), Kr5::mass_matrix(&Q));
     assert!((0..6).all(|i| (0..6).all(|j| matrix[(i, j)] == rows[i][j])));
+    let (coriolis, rows) = (dynamics::coriolis_matrix(&Kr5, &q, &v), Kr5::coriolis_matrix(&Q, &V));
+    assert!((0..6).all(|i| (0..6).all(|j| coriolis[(i, j)] == rows[i][j])));
     let residual = matrix * a + dynamics::bias_forces(&Kr5, &q, &v) - tau;
     assert!(residual.norm() < 1e-13 * tau.norm());
 }
