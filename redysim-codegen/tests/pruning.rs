@@ -178,8 +178,8 @@ fn without_a_range_nothing_is_pruned_with_a_warning() {
         implementation_with(&model("kr5"), &name, &runtime, &options, &Passes::all()).expect("no pass changes a value");
     assert_eq!(
         generated.warnings,
-        ["nothing is pruned: a tolerance needs a range for every joint, but joint `joint1` does not have one: give \
-          its link a `range`"]
+        ["nothing is pruned: a tolerance needs a range with an acceleration for every joint, but joint `joint1` does \
+          not have one: give its link a `range`"]
     );
     assert!(source_file_with(&model("kr5"), "Kr5", &options).unwrap().contains("// Warning: nothing is pruned"));
 }

@@ -103,7 +103,7 @@ pub type Arguments<'a, S, M> = (
 
 /// Joint forces from motion.
 pub trait InverseDynamics<S: Scalar>: ConfigurationSpace<S> {
-    /// τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.
+    /// τ = M(q) a + bias(q, v), N m or N: the joint forces of the tree, with the [bias](BiasForces).
     fn inverse_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, a: &Self::Velocities) -> Self::Velocities;
 
     /// The derivative of τ along `slopes`, (∂τ/∂q) dq + (∂τ/∂v) dv + (∂τ/∂a) da at `at` = (q, v, a). Compiled types and
@@ -120,7 +120,7 @@ pub trait InverseDynamics<S: Scalar>: ConfigurationSpace<S> {
 
 /// Accelerations from joint forces.
 pub trait ForwardDynamics<S: Scalar>: ConfigurationSpace<S> {
-    /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree (loops, if any, open).
+    /// a = M(q)⁻¹ (τ − bias(q, v)), rad/s² or m/s²: the accelerations of the tree (loops, if any, open).
     fn forward_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, tau: &Self::Velocities)
     -> Self::Velocities;
 
@@ -159,7 +159,7 @@ pub trait CoriolisMatrix<S: Scalar>: ConfigurationSpace<S> {
 
 /// Forces that hold the mechanism against gravity.
 pub trait GravityForces<S: Scalar>: ConfigurationSpace<S> {
-    /// g(q), N m or N.
+    /// g(q), N m or N: of gravity alone, without springs.
     fn gravity_forces(&self, q: &Self::Coordinates) -> Self::Velocities;
 }
 

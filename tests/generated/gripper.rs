@@ -188,7 +188,7 @@ impl Gripper {
             },
         )
     }
-    /// τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.
+    /// τ = M(q) a + bias(q, v), N m or N: the joint forces of the tree.
     ///
     /// 67 flops: 31 additions, 36 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn inverse_dynamics<S: ::redysim_runtime::Scalar>(
@@ -294,7 +294,7 @@ impl Gripper {
         );
         [moment_link1_z, -minus_moment_link2_z, moment_link3_z, moment_link4_z]
     }
-    /// a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree.
+    /// a = M(q)⁻¹ (τ − bias(q, v)), rad/s² or m/s²: the accelerations of the tree.
     ///
     /// By the factorisation M = U D Uᵀ of the generalised inertia matrix (CRBA): 104 flops, errors of 2e-15; the O(n) recursion over articulated bodies (ABA) takes 156, errors of 3e-16. Errors are the largest √M_ii |Δa_i| at sampled states, as shares of the largest √M_jj |a_j|.
     ///
@@ -504,7 +504,7 @@ impl Gripper {
             [t1, k(0.0), k(0.0), k(0.0001666666666666667)],
         ]
     }
-    /// C(q, v) v + g(q), N m or N: the joint forces at zero acceleration.
+    /// C(q, v) v + g(q) and the passive forces, N m or N: the joint forces at zero acceleration.
     ///
     /// 46 flops: 18 additions, 28 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn bias_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4], v: &[S; 4]) -> [S; 4] {
@@ -686,7 +686,7 @@ impl Gripper {
             [k(0.0005000000000000001) * vel_link4_x, k(0.0), k(0.0), k(0.0)],
         ]
     }
-    /// g(q), N m or N: the joint forces at rest.
+    /// g(q), N m or N: the joint forces of gravity alone, at rest.
     ///
     /// 21 flops: 7 additions, 14 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn gravity_forces<S: ::redysim_runtime::Scalar>(q: &[S; 4]) -> [S; 4] {
@@ -804,7 +804,7 @@ impl Gripper {
         let k = S::from_f64;
         [k(0.0), k(0.0), k(0.0), k(0.0)]
     }
-    /// Kinetic and potential energy, J; the potential is zero at the base frame's origin.
+    /// Kinetic and potential energy, J, with those of rotors and springs; the potential of gravity is zero at the base frame's origin.
     ///
     /// 51 flops: 18 additions, 33 multiplications, 0 divisions; 4 sine-cosine pairs.
     pub fn energy<S: ::redysim_runtime::Scalar>(

@@ -72,29 +72,30 @@ macro_rules! functions {
 functions! {
     InverseDynamics inverse_dynamics, Interface::WithTangent("InverseDynamics"),
         (Coordinates, Velocities, Accelerations) -> Forces,
-        "τ = M(q) a + C(q, v) v + g(q), N m or N: the joint forces of the tree.";
+        "τ = M(q) a + bias(q, v), N m or N: the joint forces of the tree.";
     ForwardDynamics forward_dynamics, Interface::WithTangent("ForwardDynamics"),
         (Coordinates, Velocities, Forces) -> Accelerations,
-        "a = M(q)⁻¹ (τ − C(q, v) v − g(q)), rad/s² or m/s²: the accelerations of the tree.";
+        "a = M(q)⁻¹ (τ − bias(q, v)), rad/s² or m/s²: the accelerations of the tree.";
     MassMatrix mass_matrix, Interface::Own("MassMatrix"),
         (Coordinates) -> MassMatrix,
         "M(q), the generalised inertia matrix, symmetric: kg m², kg m or kg.";
     BiasForces bias_forces, Interface::Own("BiasForces"),
         (Coordinates, Velocities) -> Forces,
-        "C(q, v) v + g(q), N m or N: the joint forces at zero acceleration.";
+        "C(q, v) v + g(q) and the passive forces, N m or N: the joint forces at zero acceleration.";
     CoriolisMatrix coriolis_matrix, Interface::Own("CoriolisMatrix"),
         (Coordinates, Velocities) -> CoriolisMatrix,
         "C(q, v) of the Christoffel symbols: C v are the joint forces of the velocities, without gravity and passive \
          forces; Ṁ − 2 C is skew-symmetric.";
     GravityForces gravity_forces, Interface::Own("GravityForces"),
         (Coordinates) -> Forces,
-        "g(q), N m or N: the joint forces at rest.";
+        "g(q), N m or N: the joint forces of gravity alone, at rest.";
     PassiveForces passive_forces, Interface::Own("PassiveForces"),
         (Coordinates, Velocities) -> Forces,
         "The part of the bias that damping, friction and springs take, N m or N.";
     Energy energy, Interface::Own("MechanicalEnergy"),
         (Coordinates, Velocities) -> Energy,
-        "Kinetic and potential energy, J; the potential is zero at the base frame's origin.";
+        "Kinetic and potential energy, J, with those of rotors and springs; the potential of gravity is zero at the base \
+         frame's origin.";
     CenterOfMass center_of_mass, Interface::Own("MassCenter"),
         (Coordinates, Velocities) -> CenterOfMass,
         "Position (m) and velocity (m/s) of the centre of mass of all links, in the base frame.";
