@@ -2,7 +2,7 @@
 
 use crate::denoc;
 use crate::inertia::Sym3;
-use crate::joint::{Joint, JointPosition};
+use crate::joint::{Joint, JointPhysics, JointPosition};
 use crate::model::{CutKind, CutSide, Frame, Link, Model};
 use crate::pseudo::PseudoInertia;
 use crate::rotation::{self, align_z};
@@ -114,7 +114,7 @@ impl Tree {
             q: q..q + joint.nq(),
             v: v..v + joint.nv(),
             inertia: PseudoInertia::zero(),
-            physics: link.physics,
+            physics: Some(link.physics).filter(JointPhysics::acts),
         });
         let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)

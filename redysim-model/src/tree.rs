@@ -49,8 +49,8 @@ pub struct Body<P = f64> {
     pub v: Range<usize>,
     /// Moments of its mass about the origin of its frame.
     pub inertia: PseudoInertia<P>,
-    /// What acts in the joint itself.
-    pub physics: JointPhysics<P>,
+    /// What acts in the joint itself; `None` if nothing does.
+    pub physics: Option<JointPhysics<P>>,
 }
 
 impl<P> Body<P> {
@@ -148,7 +148,7 @@ impl<P> Tree<P> {
             q: body.q.clone(),
             v: body.v.clone(),
             inertia: body.inertia.map(&f),
-            physics: body.physics.map(&f),
+            physics: body.physics.map(|physics| physics.map(&f)),
         };
         let link = |link: &Attachment<P>| Attachment { body: link.body, pose: link.pose, com: link.com.map(&f) };
         Tree {

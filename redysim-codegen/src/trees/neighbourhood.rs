@@ -1,7 +1,7 @@
 //! A body with its neighbours, as a small tree of its own.
 
 use redysim_model::inertia::Sym3;
-use redysim_model::joint::{Joint, JointPhysics};
+use redysim_model::joint::Joint;
 use redysim_model::parameter::Parameter;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::spatial::{Pose, Vec3};
@@ -96,7 +96,7 @@ fn stand_in<P: Parameter>(parent: Option<usize>) -> Body<P> {
         q: own(parent.map_or(0, |parent| parent + 1)),
         v: own(parent.map_or(0, |parent| parent + 1)),
         inertia: PseudoInertia::zero(),
-        physics: JointPhysics::default(),
+        physics: None,
     }
 }
 

@@ -40,7 +40,7 @@ fn without_inertia(tree: &Tree) -> Vec<usize> {
 }
 
 fn meets_own_inertia(body: &Body) -> bool {
-    body.joint.meets(body.inertia) > ROUNDOFF || body.physics.armature > 0.0
+    body.joint.meets(body.inertia) > ROUNDOFF || body.physics.is_some_and(|physics| physics.armature > 0.0)
 }
 
 /// The bodies with a velocity whose pivot is only roundoff, in the elimination of a symmetric `matrix` over the

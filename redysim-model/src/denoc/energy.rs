@@ -21,12 +21,14 @@ pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S
         let velocity = body.joint.added(frame.twist_to_body(parent), &v[body.v.clone()]);
         trace.name_twist(velocity, ["w", "vel"], index);
         twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), velocity);
-        let (q, v) = (q[body.q.start], v[body.v.start]);
-        if let Some(armature) = body.physics.armature() {
-            twice_kinetic += armature * (v * v);
-        }
-        if let Some(energy) = body.physics.twice_spring_energy(q) {
-            twice_springs = Some(twice_springs.map_or(energy, |sum| sum + energy));
+        if let Some(physics) = body.physics {
+            let (q, v) = (q[body.q.start], v[body.v.start]);
+            if let Some(armature) = physics.armature() {
+                twice_kinetic += armature * (v * v);
+            }
+            if let Some(energy) = physics.twice_spring_energy(q) {
+                twice_springs = Some(twice_springs.map_or(energy, |sum| sum + energy));
+            }
         }
         velocities.push(velocity);
     });

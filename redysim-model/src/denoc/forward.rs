@@ -100,14 +100,14 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         let bias = wrenches[index] + centrifugal_wrench(own, biases[index].angular);
         trace.name_wrench(bias, ["bias_n", "bias_f"], index);
         let column = inertia.column(screw);
-        let armature: Option<S> = body.physics.armature();
+        let armature: Option<S> = body.physics.and_then(|physics| physics.armature());
         let pivot = screw.project(column);
         let inverse = S::one() / armature.map_or(pivot, |armature| pivot + armature);
         trace.name(inverse, "inv_D", index, "");
         let ratio = column.scale(inverse);
         trace.name_wrench(ratio, ["ratio_n", "ratio_f"], index);
         let tau = tau[body.v.start];
-        let passive = body.physics.passive_force(q[body.q.start], v[body.v.start]);
+        let passive = body.physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start]));
         let tau = passive.map_or(tau, |passive: S| tau - passive);
         let drive = tau - screw.project(bias);
         trace.name(drive, "drive", index, "");
@@ -140,7 +140,7 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         } + biases[index].acceleration;
         let screw = body.joint.screw();
         let Pivot { inverse, ratio, drive } = &pivots[index];
-        let has_rotor = body.physics.armature::<S>().is_some();
+        let has_rotor = body.physics.is_some_and(|physics| physics.armature::<S>().is_some());
         let qdd = *inverse * *drive - power(screw, *ratio, acceleration, has_rotor);
         let acceleration = screw.added(acceleration, qdd);
         trace.name(qdd, "acc", index, "");

@@ -144,7 +144,7 @@ pub fn inverse_dynamics_in<S: Scalar>(
     tau: &mut [S],
 ) {
     newton_euler_in(work, tree, trace, q, v, a, tau, |body| {
-        body.physics.force(q[body.q.start], v[body.v.start], a[body.v.start])
+        body.physics?.force(q[body.q.start], v[body.v.start], a[body.v.start])
     });
 }
 

@@ -52,7 +52,7 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
         loop {
             let joint = &tree.bodies[at];
             let mut element = joint.joint.screw().project(wrench);
-            if let (true, Some(armature)) = (at == index, body.physics.armature()) {
+            if let (true, Some(armature)) = (at == index, body.physics.and_then(|physics| physics.armature())) {
                 element += armature;
             }
             matrix[body.v.start * nv + joint.v.start] = element;

@@ -8,7 +8,8 @@ use redysim_runtime::Scalar;
 pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, q: &[S], v: &[S]) -> Vec<S> {
     let mut tau = vec![S::zero(); tree.nv()];
     for body in &tree.bodies {
-        if let Some(force) = body.physics.passive_force(q[body.q.start], v[body.v.start]) {
+        let physics = body.physics;
+        if let Some(force) = physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start])) {
             tau[body.v.start] = force;
         }
     }
@@ -19,7 +20,7 @@ pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, q: &[S], v: &
 pub fn dissipated_power<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, v: &[S]) -> S {
     let forces = tree.bodies.iter().filter_map(|body| {
         let v = v[body.v.start];
-        body.physics.dissipative_force(v).map(|force: S| force * v)
+        body.physics?.dissipative_force(v).map(|force: S| force * v)
     });
     forces.reduce(|sum, power| sum + power).unwrap_or_else(S::zero)
 }

@@ -63,6 +63,12 @@ impl<P: Scalar> JointPhysics<P> {
 }
 
 impl<P: Parameter> JointPhysics<P> {
+    /// Whether one of its parts is not known to be zero.
+    pub fn acts(&self) -> bool {
+        let JointPhysics { armature, damping, friction, stiffness, .. } = *self;
+        [armature, damping, friction, stiffness].into_iter().any(|part| part.number() != Some(0.0))
+    }
+
     /// The armature; `None` if it is known to be zero.
     #[inline]
     pub fn armature<S: Scalar>(&self) -> Option<S>
