@@ -255,14 +255,14 @@ impl Gripper {
         let t5 = k(0.00025000000000000006) * cos_link3;
         let t6 = k(0.00025000000000000006) * sin_link3;
         let force_link3_x = S::mul_add(
-            k(0.0007500000000000002),
-            acc_link3_x,
-            -S::mul_add(dw_link3_z, t6, t4 * t5),
+            -t4,
+            t5,
+            S::mul_add(-dw_link3_z, t6, k(0.0007500000000000002) * acc_link3_x),
         );
         let force_link3_y = S::mul_add(
-            k(0.0007500000000000002),
-            acc_link3_y,
-            S::mul_add(-t4, t6, dw_link3_z * t5),
+            dw_link3_z,
+            t5,
+            S::mul_add(-t4, t6, k(0.0007500000000000002) * acc_link3_y),
         );
         let moment_link3_z = S::mul_add(
             -acc_link3_x,
@@ -285,14 +285,21 @@ impl Gripper {
             dw_link2_z,
             -force_link3_y,
         ) - moment_link3_z;
-        let t9 = S::mul_add(k(0.3924), cos_link1, k(0.0028333333333333335) * a[0])
-            + S::mul_add(-(w_link4_z * w_link4_z), t8, dw_link4_z * t7);
-        let moment_link1_z = S::mul_add(
-            k(2.0),
-            S::mul_add(cos_link2, force_link3_y, sin_link2 * force_link3_x),
-            -(minus_moment_link2_z + (-moment_link4_z - t9)),
+        let t9 = S::mul_add(
+            dw_link4_z,
+            t7,
+            S::mul_add(
+                -(w_link4_z * w_link4_z),
+                t8,
+                S::mul_add(k(0.3924), cos_link1, k(0.0028333333333333335) * a[0]),
+            ),
         );
-        [moment_link1_z, -minus_moment_link2_z, moment_link3_z, moment_link4_z]
+        let minus_moment_link1_z = S::mul_add(
+            k(2.0),
+            S::mul_add(-cos_link2, force_link3_y, sin_link2 * -force_link3_x),
+            minus_moment_link2_z + (-moment_link4_z - t9),
+        );
+        [-minus_moment_link1_z, -minus_moment_link2_z, moment_link3_z, moment_link4_z]
     }
     /// a = M(q)⁻¹ (τ − bias(q, v)), rad/s² or m/s²: the accelerations of the tree.
     ///
@@ -347,9 +354,9 @@ impl Gripper {
         let acc_link2_y = S::mul_add(cos_link2, acc_link1_y, -(sin_link2 * t2));
         let w_link2_z = v[0] + v[1];
         let acc_link3_x = S::mul_add(
-            cos_link2,
-            t2,
-            S::mul_add(-w_link2_z, w_link2_z, sin_link2 * acc_link1_y),
+            sin_link2,
+            acc_link1_y,
+            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
         );
         let w_link3_z = v[2] + w_link2_z;
         let t3 = w_link3_z * w_link3_z;
@@ -548,9 +555,9 @@ impl Gripper {
         let acc_link2_y = S::mul_add(cos_link2, acc_link1_y, -(sin_link2 * t2));
         let w_link2_z = v[0] + v[1];
         let acc_link3_x = S::mul_add(
-            cos_link2,
-            t2,
-            S::mul_add(-w_link2_z, w_link2_z, sin_link2 * acc_link1_y),
+            sin_link2,
+            acc_link1_y,
+            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
         );
         let w_link3_z = v[2] + w_link2_z;
         let t3 = w_link3_z * w_link3_z;
@@ -682,7 +689,7 @@ impl Gripper {
                 -(k(0.5) * t2),
             ],
             [t10, t11, -t6, k(0.0)],
-            [t1, t1 - S::mul_add(vel_link2_x, t3, t7), k(0.0), k(0.0)],
+            [t1, S::mul_add(-vel_link2_x, t3, t1) - t7, k(0.0), k(0.0)],
             [k(0.0005000000000000001) * vel_link4_x, k(0.0), k(0.0), k(0.0)],
         ]
     }
@@ -865,12 +872,12 @@ impl Gripper {
             ),
         );
         let t2 = S::mul_add(
-            w_link3_z,
-            k(0.0001666666666666667) * w_link3_z,
-            S::mul_add(
-                vel_link4_y,
-                k(0.0010000000000000002) * w_link4_z,
-                v[0] * (k(0.0058333333333333345) * v[0]),
+            -vel_link3_y,
+            k(0.0010000000000000002) * w_link3_z,
+            -S::mul_add(
+                v[0],
+                k(0.0058333333333333345) * v[0],
+                S::mul_add(vel_link4_y, k(0.0010000000000000002) * w_link4_z, t1),
             ),
         );
         let t3 = k(0.0005000000000000001) * sin_link3;
@@ -881,11 +888,11 @@ impl Gripper {
         );
         let t5 = sin_link1
             * S::mul_add(
-                cos_link2,
-                t4,
-                S::mul_add(
-                    -sin_link2,
-                    t3,
+                sin_link2,
+                t3,
+                -S::mul_add(
+                    cos_link2,
+                    t4,
                     S::mul_add(
                         k(0.0005000000000000001),
                         cos_link4,
@@ -894,7 +901,7 @@ impl Gripper {
                 ),
             );
         let t6 = S::mul_add(
-            cos_link1,
+            -cos_link1,
             S::mul_add(
                 sin_link2,
                 t4,
@@ -903,13 +910,9 @@ impl Gripper {
             t5,
         );
         ::redysim_runtime::Energy {
-            kinetic: -(k(0.5)
-                * S::mul_add(
-                    -vel_link3_y,
-                    k(0.0010000000000000002) * w_link3_z,
-                    -(t1 + t2),
-                )),
-            potential: k(98.10000000000001) * t6,
+            kinetic: k(0.5)
+                * S::mul_add(w_link3_z, k(0.0001666666666666667) * w_link3_z, -t2),
+            potential: -(k(98.10000000000001) * t6),
         }
     }
     /// Position (m) and velocity (m/s) of the centre of mass of all links, in the base frame.

@@ -10,6 +10,9 @@ use std::collections::HashMap;
 
 /// The expressions with common factors taken out of sums.
 pub fn shared(expressions: &Expressions) -> Expressions {
+    // As chains first, so that terms are met in an order that does not depend on how a sum is balanced.
+    let expressions =
+        &with_sums(expressions, |graph, terms, mapped| chain(graph, terms.iter().map(|&term| mapped(term))));
     let old = &expressions.graph;
     let uses = expressions.uses();
     with_sums(expressions, |graph, terms, mapped| {
@@ -19,12 +22,17 @@ pub fn shared(expressions: &Expressions) -> Expressions {
             let (with, without): (Vec<Edge>, Vec<Edge>) =
                 open.into_iter().partition(|&term| cofactor(old, &uses, term, factor).is_some());
             let cofactors = with.into_iter().filter_map(|term| cofactor(old, &uses, term, factor)).map(mapped);
-            let cofactors = cofactors.fold(graph.constant(0.0), |sum, term| graph.add(sum, term));
+            let cofactors = chain(graph, cofactors);
             sum.push(graph.multiply(mapped(factor), cofactors));
             open = without;
         }
-        sum.into_iter().chain(open.into_iter().map(mapped)).fold(graph.constant(0.0), |sum, term| graph.add(sum, term))
+        chain(graph, open.into_iter().map(mapped).chain(sum))
     })
+}
+
+/// The sum of terms, one after the other.
+fn chain(graph: &mut Graph, terms: impl Iterator<Item = Edge>) -> Edge {
+    terms.fold(graph.constant(0.0), |sum, term| graph.add(sum, term))
 }
 
 /// The factor that most terms share; `None` if no two do.

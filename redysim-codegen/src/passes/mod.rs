@@ -88,9 +88,10 @@ pub fn simplified(mut expressions: Expressions, passes: &Passes) -> Result<Expre
     }
     let sums = |expressions| applied("sums", passes.sums, sums::collected, expressions);
     let collected = sums(expressions)?;
-    let shared = applied("factors", passes.factors, factors::shared, collected.clone())?;
-    // Factors that were taken out leave new like terms; without any, the sums stay balanced.
-    if shared.price() < collected.price() { sums(shared) } else { Ok(collected) }
+    let price = collected.price();
+    let shared = applied("factors", passes.factors, factors::shared, collected)?;
+    // Factors that were taken out leave new like terms.
+    if shared.price() < price { sums(shared) } else { Ok(shared) }
 }
 
 /// The expressions after a pass, if it is on and does not raise the price.
