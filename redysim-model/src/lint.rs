@@ -40,7 +40,7 @@ pub enum Lint {
     NoMobility,
     /// There are more actuated joints than the mobility.
     OverActuated,
-    /// There is no gravity.
+    /// Gravity is zero.
     NoGravity,
     /// Gravity is not Earth's.
     OtherGravity,
@@ -128,7 +128,7 @@ impl Lint {
             Lint::RedundantConstraints => "constraints of a loop follow from others",
             Lint::NoMobility => "the loops leave nothing that moves",
             Lint::OverActuated => "more joints are actuated than the mobility",
-            Lint::NoGravity => "there is no gravity",
+            Lint::NoGravity => "gravity is zero",
             Lint::OtherGravity => "gravity is not Earth's",
             Lint::PointMasses => "no link has an inertia: all masses are points",
             Lint::UnderActuated => "fewer joints are actuated than the mobility",

@@ -30,7 +30,7 @@ impl Model {
     /// assert_eq!((arm.dof(), stiff.dof()), (2, 1));
     /// assert_eq!(
     ///     arm.locked(&[("elbw", 0.3)]).unwrap_err().to_string(),
-    ///     "there is no joint `elbw` to lock; did you mean `elbow`? The joints are: upper, elbow"
+    ///     "unknown joint `elbw` to lock; did you mean `elbow`? The joints are: upper, elbow"
     /// );
     /// # Ok::<(), redysim_model::LockError>(())
     /// ```
@@ -126,7 +126,7 @@ impl fmt::Display for LockError {
         match self {
             LockError::Unknown { joint, joints } => {
                 let meant = did_you_mean(nearest(joint, joints.iter().map(String::as_str)));
-                write!(f, "there is no joint {} to lock; {meant}The joints are: {}", quoted(joint), joints.join(", "))
+                write!(f, "unknown joint {} to lock; {meant}The joints are: {}", quoted(joint), joints.join(", "))
             }
             LockError::Fixed { joint } => write!(f, "joint {} is fixed already: do not lock it", quoted(joint)),
             LockError::Twice { joint } => write!(f, "joint {} is locked twice: give it one value", quoted(joint)),

@@ -314,6 +314,6 @@ fn shipped_models_have_no_lints() {
 fn an_unknown_lint_in_allow_is_an_error_with_the_nearest_name() {
     let faults = Model::from_toml(format!("allow = ['gravity-upp']\n{ARM}"), "model.toml").unwrap_err();
     let [error] = &faults.errors().collect::<Vec<_>>()[..] else { panic!("{faults}") };
-    assert_eq!(error.title(), "model `arm`: `allow` names `gravity-upp`, but there is no such lint");
+    assert_eq!(error.title(), "model `arm`: unknown lint `gravity-upp` in `allow`");
     assert!(error.help().starts_with("did you mean `gravity-up`? "), "{error}");
 }

@@ -126,7 +126,7 @@ pub(crate) fn unknown_choice(item: &str, path: &KeyPath, found: &str, choices: &
 pub(crate) fn unknown_name(item: &str, what: &str, found: &str, names: &[&str]) -> Message {
     let meant = did_you_mean(nearest(found, names.iter().copied()));
     let help = format!("{meant}The {what}s are: {}", names.join(", "));
-    message(format!("{item}: there is no {what} {}", quoted(found)), format!("no such {what}"), help)
+    message(format!("{item}: unknown {what} {}", quoted(found)), format!("unknown {what}"), help)
 }
 
 pub(crate) fn large_angle(item: &str, path: &KeyPath, radians: f64) -> Message {

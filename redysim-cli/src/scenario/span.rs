@@ -45,7 +45,7 @@ impl Span {
             }
         } else if count < 1.0 {
             Message {
-                title: format!("{item}: there is no instant but the first, since `step` is {:?} s", span.step),
+                title: format!("{item}: the first instant is the only one, since `step` is {:?} s", span.step),
                 label: format!("less than a step from {start:?} s"),
                 help: "give a `step`, s, that goes at least once into the run".into(),
             }

@@ -225,7 +225,7 @@ fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot) -> Result<&'u str, Fa
     for joint in &urdf.joints {
         for end in [&joint.parent.link, &joint.child.link] {
             if !urdf.links.iter().any(|link| &link.name == end) {
-                let message = format!("joint `{}` names the link `{end}`, but there is no such link", joint.name);
+                let message = format!("joint `{}`: unknown link `{end}`", joint.name);
                 return Err(document.fault_at("joint", &joint.name, message));
             }
         }

@@ -16,15 +16,15 @@ pub(crate) fn unknown_lint(item: &str, name: &str) -> Message {
     let names = Lint::ALL.map(Lint::name);
     let meant = did_you_mean(nearest(name, names));
     message(
-        format!("{item}: `allow` names {}, but there is no such lint", quoted(name)),
-        "no such lint",
+        format!("{item}: unknown lint {} in `allow`", quoted(name)),
+        "unknown lint",
         format!("{meant}The lints are: {}", names.join(", ")),
     )
 }
 
 pub(crate) fn no_gravity(model: &str) -> Message {
     message(
-        format!("model {}: there is no gravity", quoted(model)),
+        format!("model {}: gravity is zero", quoted(model)),
         "zero",
         "on Earth it is 9.81 m/s² downwards, as in `gravity = [0.0, 0.0, -9.81]`",
     )

@@ -33,8 +33,8 @@ pub(crate) fn unknown_link<'a>(item: &str, key: &str, name: &str, links: impl It
     let all: Vec<_> = std::iter::once("base").chain(links).collect();
     let meant = did_you_mean(nearest(name, all.iter().copied()));
     message(
-        format!("{item}: `{key}` names {}, but there is no such link", quoted(name)),
-        "no such link",
+        format!("{item}: unknown link {} in `{key}`", quoted(name)),
+        "unknown link",
         format!("{meant}The links are: {}", shortened(&all)),
     )
 }
@@ -125,7 +125,7 @@ pub(crate) fn origin_without_axis(item: &str, kind: &str) -> Message {
         format!("{item}: `origin` places its {kind} joint, but `axis` is missing"),
         "no `axis` beside it",
         format!(
-            "write for example `{}` ({}); there is no default, and that of URDF is x",
+            "write for example `{}` ({}); `axis` does not have a default here (in URDF it is x)",
             keys::AXIS.example(),
             keys::AXIS.meaning
         ),

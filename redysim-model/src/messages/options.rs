@@ -14,8 +14,8 @@ fn names_of_functions() -> Vec<&'static str> {
 pub(crate) fn unknown_function(item: &str, name: &str) -> Message {
     let meant = did_you_mean(nearest(name, names_of_functions()));
     message(
-        format!("{item}: `functions` names {}, but there is no such function", quoted(name)),
-        "no such function",
+        format!("{item}: unknown function {} in `functions`", quoted(name)),
+        "unknown function",
         format!("{meant}The functions are: {}", names_of_functions().join(", ")),
     )
 }
@@ -54,8 +54,8 @@ pub(crate) fn function_of_frames(item: &str, function: Function) -> Message {
 pub(crate) fn locked_unknown(item: &str, name: &str, joints: &[&str]) -> Message {
     let meant = did_you_mean(nearest(name, joints.iter().copied()));
     message(
-        format!("{item}: `locked` names {}, but there is no such joint", quoted(name)),
-        "no such joint",
+        format!("{item}: unknown joint {} in `locked`", quoted(name)),
+        "unknown joint",
         format!("{meant}The joints that move are: {}", shortened(joints)),
     )
 }
@@ -122,7 +122,7 @@ pub(crate) fn no_range(item: &str, what: &str, joints: &[&str]) -> Message {
 pub(crate) fn empty_range(item: &str, path: &KeyPath, [least, largest]: [f64; 2]) -> Message {
     message(
         format!("{item}: `{path}` goes from {} down to {}", rounded(least), rounded(largest)),
-        "no such range",
+        "empty range",
         "give the least coordinate first, then the largest",
     )
 }
