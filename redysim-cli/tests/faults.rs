@@ -100,17 +100,17 @@ fn values_that_are_not_angles_are_refused() {
 
 #[test]
 fn an_unknown_joint_is_reported_with_the_one_that_was_meant() {
-    let words = ["no joint `jiont2`", "did you mean `joint2`?", "trial.toml:2:"];
+    let words = ["unknown joint `jiont2`", "did you mean `joint2`?", "trial.toml:2:"];
     refuses("joint", "forward", &SWING.replace("[0, 1]", "{ jiont2 = 1 }"), 1, &words);
     let several = SWING.replace("[0, 1]", "{ jiont2 = 1, joint1 = '10 dg' }");
     let folder = scratch("faults-joints");
     let output = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &several)], 1);
-    assert!(output.contains("no joint `jiont2`") && output.contains("the unit `dg`"), "every one of them: {output}");
+    assert!(output.contains("unknown joint `jiont2`") && output.contains("the unit `dg`"), "every one of them: {output}");
     let one = "torque = { law = 'p', joints = ['joint1'], target = { joint2 = 1 }, kp = 1 }\n";
     let words = ["`forward.torque.target` has nothing to do with the joint `joint2`"];
     refuses("foreign", "forward", &format!("{SWING}{one}"), 1, &words);
     let law = "torque = { law = 'p', joints = ['joint9'], target = [0], kp = 1 }\n";
-    refuses("driven", "forward", &format!("{SWING}{law}"), 1, &["no joint `joint9`", "The joints are: joint1, joint2"]);
+    refuses("driven", "forward", &format!("{SWING}{law}"), 1, &["unknown joint `joint9`", "The joints are: joint1, joint2"]);
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn a_run_without_length_is_refused() {
         1,
         &["must end after its start", "trial.toml:4:7"],
     );
-    refuses("short", "forward", &SWING.replace("end = 1.0", "end = 0.01"), 1, &["no instant but the first"]);
+    refuses("short", "forward", &SWING.replace("end = 1.0", "end = 0.01"), 1, &["the first instant is the only one"]);
     refuses("many", "forward", &SWING.replace("end = 1.0", "end = 1e9"), 1, &["rows", "give a larger `step`"]);
     refuses("neither", "inverse", SWING, 1, &["does not state at which instants"]);
     refuses("nor", "forward", LIFT, 1, &["does not state which motion"]);
