@@ -57,7 +57,7 @@ fn loops_circles_and_several_roots_are_refused() {
 
 #[test]
 fn an_unknown_or_repeated_name_is_refused() {
-    refused(&robot(&[["j", "a", "b"], ["k", "bb", "c"]]), &["robot.urdf:6:", "joint `k` names the link `bb`"]);
+    refused(&robot(&[["j", "a", "b"], ["k", "bb", "c"]]), &["robot.urdf:6:", "joint `k`: unknown link `bb`"]);
     refused(&robot(&[["j", "a", "b"], ["j", "b", "c"]]), &["robot.urdf:6:", "two joints of the name `j`"]);
     let twice = robot(&[["j", "a", "b"], ["k", "b", "c"]]).replace("<link name=\"c\">", "<link name=\"b\">");
     refused(&twice, &["robot.urdf:4:", "two links of the name `b`"]);
