@@ -3,13 +3,12 @@
 
 mod common;
 
+use common::call::frames;
 use common::double_double::{DoubleDouble, exact, rounded};
 use common::dual::{Dual, moving};
 use common::random::{Random, State};
 use redysim::generic::{Frame, GenericMechanism, Link, Model, Pose};
-use redysim::{
-    Dispatch, FrameJacobian, FrameState, Frames, GravityForces, LinkKinematics, Mechanism, Scalar, Vector, Wrench,
-};
+use redysim::{Dispatch, FrameState, Frames, GravityForces, LinkKinematics, Mechanism, Scalar, Wrench};
 use redysim::{OperationCount, redysim};
 use redysim_codegen::operations;
 
@@ -168,32 +167,15 @@ fn weights_at_the_centres_of_mass_are_balanced_by_the_gravity_forces() {
     }
 }
 
-/// All functions of frames, by their numbers.
-fn all<S: Scalar, M: Frames<S>>(mechanism: &M, q: &[S], v: &[S], wrenches: &M::Wrenches) -> [Vec<S>; 4] {
-    let (q, v) = (Vector::from_fn(q.len(), |i| q[i]), Vector::from_fn(v.len(), |i| v[i]));
-    let states = mechanism.frame_kinematics(&q, &v);
-    let states = states.as_ref().iter().flat_map(|state| {
-        [state.rotation.concat(), [state.origin, state.velocity, state.angular_velocity].concat()].concat()
-    });
-    let jacobians = mechanism.frame_jacobians(&q);
-    let rows = |FrameJacobian { linear, angular }: &FrameJacobian<M::Velocities>| {
-        linear.iter().chain(angular).flat_map(|row| row.as_ref().to_vec()).collect::<Vec<S>>()
-    };
-    let bias = mechanism.frame_bias(&q, &v);
-    let bias = bias.as_ref().iter().flat_map(|bias| [bias.linear, bias.angular].concat());
-    let forces = mechanism.frame_forces(&q, wrenches);
-    [states.collect(), jacobians.as_ref().iter().flat_map(rows).collect(), bias.collect(), forces.as_ref().to_vec()]
-}
-
 #[test]
 fn compiled_and_dispatched_types_compute_what_the_run_time_path_computes() {
     let generic = GenericMechanism::new(model(&text("test/frames")));
     let mut random = Random::new(6);
     for State { q, v, .. } in states() {
         let wrenches = wrenches(&mut random);
-        let expected = all(&generic, &q, &v, &wrenches.to_vec());
-        let compiled = all(&Machine, &q, &v, &wrenches);
-        let dispatched = all(&Machine.dispatched(), &q, &v, &wrenches);
+        let expected = frames(&generic, &q, &v, &wrenches.to_vec());
+        let compiled = frames(&Machine, &q, &v, &wrenches);
+        let dispatched = frames(&Machine.dispatched(), &q, &v, &wrenches);
         for ((expected, compiled), dispatched) in expected.iter().zip(&compiled).zip(&dispatched) {
             assert_close("compiled", compiled, expected, 1e-14);
             assert_eq!(compiled, dispatched);
@@ -203,8 +185,8 @@ fn compiled_and_dispatched_types_compute_what_the_run_time_path_computes() {
         let precise =
             wrenches.map(|Wrench { force, moment }| Wrench { force: exactly(force), moment: exactly(moment) });
         let (q, v) = (exact(&q), exact(&v));
-        let expected = all(&generic, &q, &v, &precise.to_vec());
-        for (expected, compiled) in expected.into_iter().zip(all(&Machine, &q, &v, &precise)) {
+        let expected = frames(&generic, &q, &v, &precise.to_vec());
+        for (expected, compiled) in expected.into_iter().zip(frames(&Machine, &q, &v, &precise)) {
             assert_close("in double-double", &rounded(compiled), &rounded(expected), 1e-15);
         }
     }

@@ -1,9 +1,9 @@
 //! The functions of a mechanism on slices, whatever its own vectors are made of.
 
 use redysim::{
-    BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
-    InverseDynamics, LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
-    PassiveForces, Scalar, Vector,
+    BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, FrameJacobian, Frames,
+    GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy,
+    Mechanism, PassiveForces, Scalar, Vector,
 };
 
 fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
@@ -55,6 +55,23 @@ pub fn center_of_mass<S: Scalar>(m: &impl MassCenter<S>, q: &[S], v: &[S]) -> Ce
 
 pub fn link_kinematics<S: Scalar>(m: &impl LinkKinematics<S>, q: &[S], v: &[S]) -> Vec<LinkState<S>> {
     m.link_kinematics(&vector(q), &vector(v)).as_ref().to_vec()
+}
+
+/// The functions of frames by their numbers: kinematics, Jacobians, bias and joint forces.
+pub fn frames<S: Scalar, M: Frames<S>>(mechanism: &M, q: &[S], v: &[S], wrenches: &M::Wrenches) -> [Vec<S>; 4] {
+    let (q, v) = (vector(q), vector(v));
+    let states = mechanism.frame_kinematics(&q, &v);
+    let states = states.as_ref().iter().flat_map(|state| {
+        [state.rotation.concat(), [state.origin, state.velocity, state.angular_velocity].concat()].concat()
+    });
+    let jacobians = mechanism.frame_jacobians(&q);
+    let rows = |FrameJacobian { linear, angular }: &FrameJacobian<M::Velocities>| {
+        linear.iter().chain(angular).flat_map(|row| row.as_ref().to_vec()).collect::<Vec<S>>()
+    };
+    let bias = mechanism.frame_bias(&q, &v);
+    let bias = bias.as_ref().iter().flat_map(|bias| [bias.linear, bias.angular].concat());
+    let forces = mechanism.frame_forces(&q, wrenches);
+    [states.collect(), jacobians.as_ref().iter().flat_map(rows).collect(), bias.collect(), forces.as_ref().to_vec()]
 }
 
 pub fn loop_residual<S: Scalar, M: ConfigurationSpace<S> + LoopClosure<S, M>>(m: &M, q: &[S]) -> Vec<S> {

@@ -5,15 +5,22 @@ const FLOOR: f64 = 1e-6;
 
 /// Computed and expected values of one quantity, collected over a whole run.
 ///
-/// The error of a component is |computed − expected| / max(|expected|, 1e-6 · the largest |expected| of the run).
+/// The error of a component is |computed − expected| / max(|expected|, 1e-6 · the largest |expected| of the run), or
+/// another part than 1e-6.
 pub struct Comparison {
     what: String,
+    floor: f64,
     samples: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
 impl Comparison {
     pub fn new(what: impl Into<String>) -> Self {
-        Comparison { what: what.into(), samples: Vec::new() }
+        Comparison { what: what.into(), floor: FLOOR, samples: Vec::new() }
+    }
+
+    /// What is smaller than this part of the largest value is held against that part.
+    pub fn with_floor(self, floor: f64) -> Self {
+        Comparison { floor, ..self }
     }
 
     /// Adds one sample: the components of the quantity, computed and expected.
@@ -25,7 +32,7 @@ impl Comparison {
     /// The largest error of the run and where it is. NaN counts as infinite.
     pub fn worst(&self) -> (f64, String) {
         let expected = self.samples.iter().flat_map(|(_, expected)| expected);
-        let floor = FLOOR * expected.fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let floor = self.floor * expected.fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let mut worst = (0.0, String::from("nowhere"));
         for (sample, (computed, expected)) in self.samples.iter().enumerate() {
             for (component, (&x, &reference)) in computed.iter().zip(expected).enumerate() {
