@@ -7,7 +7,6 @@
 // They panic if the pipe is closed; `output` does not.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
-mod animation;
 mod commands;
 mod failure;
 mod interrupt;
@@ -15,6 +14,7 @@ mod layout;
 mod model;
 mod number;
 mod output;
+mod page;
 mod progress;
 mod recorded;
 mod results;
@@ -26,7 +26,7 @@ mod urdf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{animate, check, completions, forward, generate, import, inverse, plot};
+use commands::{animate, check, completions, forward, generate, import, inverse, plot, show};
 
 /// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
 #[derive(Parser)]
@@ -48,6 +48,7 @@ enum Command {
     Import(import::Arguments),
     Plot(plot::Arguments),
     Animate(animate::Arguments),
+    Show(show::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -61,6 +62,7 @@ fn main() -> ExitCode {
         Command::Import(arguments) => import::run(&arguments, quiet),
         Command::Plot(arguments) => plot::run(&arguments, quiet),
         Command::Animate(arguments) => animate::run(&arguments, quiet),
+        Command::Show(arguments) => show::run(&arguments, quiet),
         Command::Completions(arguments) => completions::run(&arguments),
     };
     match done {

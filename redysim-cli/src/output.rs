@@ -25,11 +25,20 @@ pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failu
 /// # Errors
 /// As [`write_file`]; and if it would take the place of the source.
 pub fn write_beside(source: &Path, path: &Path, contents: &[u8], force: bool) -> Result<(), Failure> {
+    check_beside(source, path, force)?;
+    write_file(path, contents, force)
+}
+
+/// Fails if [`write_beside`] would, as far as that is known before there is something to write.
+///
+/// # Errors
+/// As [`check_place`]; and if it would take the place of the source.
+pub fn check_beside(source: &Path, path: &Path, force: bool) -> Result<(), Failure> {
     if fs::canonicalize(path).is_ok_and(|path| fs::canonicalize(source).is_ok_and(|source| source == path)) {
         let message = format!("{} is what it would be made of", path.display());
         return Err(Failure::input(message).help("write elsewhere with --output"));
     }
-    write_file(path, contents, force)
+    check_place(path, force)
 }
 
 /// Fails if [`write_file`] would, as far as that is known before there is something to write.

@@ -6,7 +6,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{Table, call, fail, model, results, scratch, slide, succeed, swing, turn};
+use common::{Table, call, data, fail, model, results, scratch, slide, succeed, swing, turn};
 use serde_json::Value;
 
 /// Makes the page of the results in `folder`.
@@ -17,12 +17,6 @@ fn page(folder: &Path) -> String {
 
 fn numbers(list: &Value) -> Vec<f64> {
     list.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
-}
-
-/// The data in a page.
-fn data(page: &str) -> Value {
-    let (_, rest) = page.split_once(r#"<script id="data" type="application/json">"#).unwrap();
-    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
 }
 
 #[test]

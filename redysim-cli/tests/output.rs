@@ -103,6 +103,7 @@ fn a_full_disk_leaves_nothing_half_written() {
         // Some of the pictures find room.
         (60, &["plot", "run", "-o", "pictures"]),
         (1, &["animate", "run"]),
+        (1, &["show", &model]),
         (1, &["generate", &model, "-o", "model.rs"]),
         (1, &["import", "robot.urdf", "-o", "robot.toml"]),
     ] {

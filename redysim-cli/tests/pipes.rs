@@ -41,6 +41,8 @@ fn a_reader_that_closes_the_pipe_is_not_a_failure() {
             "import robot.urdf -o imported.toml",
             "plot run",
             "animate run",
+            "show model.toml",
+            "show model.toml -o page.html",
             "completions bash",
             "--help",
             "--version",
@@ -61,6 +63,7 @@ fn a_failure_keeps_its_exit_code_when_the_pipe_is_closed() {
             ("import model.toml", 1),
             ("plot nowhere", 3),
             ("animate nowhere", 3),
+            ("show nowhere.toml", 3),
             ("completions cobol", 2),
         ] {
             ends(stream, arguments, code);

@@ -1,4 +1,4 @@
-//! The page of `redysim animate` in a browser: `viewer/check` runs this, and says what it needs.
+//! The page of `redysim animate` and `redysim show` in a browser: `viewer/check` runs this, and says what it needs.
 
 mod common;
 
@@ -12,8 +12,13 @@ use common::{model, results, scratch, slide, succeed, swing, turn};
 /// the same motion at more instants if there are.
 fn plays(folder: &Path, finer: Option<&Path>) {
     succeed(folder, &["animate", "."]);
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("viewer/test.mjs");
-    let output = Command::new("node").arg(script).arg(folder).args(finer).output();
+    node("test.mjs", folder, finer);
+}
+
+/// Runs a script of `viewer/` on a folder.
+fn node(script: &str, folder: &Path, more: Option<&Path>) {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("viewer").join(script);
+    let output = Command::new("node").arg(script).arg(folder).args(more).output();
     let output = output.expect("node, which viewer/check looks for");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     println!("{}", String::from_utf8_lossy(&output.stdout));

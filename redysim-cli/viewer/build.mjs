@@ -1,4 +1,4 @@
-// Builds `dist/viewer.html`, the page that `redysim animate` fills with data. With `--check` it says whether the
+// Builds `dist/viewer.html`, the page that `redysim animate` and `show` fill with data. With `--check` it says whether the
 // committed page is what the sources build, and changes nothing.
 
 import { readFile, writeFile, mkdir } from "node:fs/promises";

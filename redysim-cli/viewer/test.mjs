@@ -3,18 +3,10 @@
 // motion at more instants, for what the page shows between those that it has.
 
 import assert from "node:assert/strict";
-import { mkdtemp, readFile, rm } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { readFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { drag, GL, inBrowser, NO_GL } from "./browser.mjs";
 
-const BROWSER = process.env.CHROMIUM ?? "/usr/bin/chromium";
-const FLAGS = [
-  "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-  "--disable-sync",
-];
-const GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 /** The page computes the links from the joints as the command does, but for rounding. */
 const TOLERANCE = 1e-9;
 /** Between instants: a twentieth of a pixel where a metre has five hundred. */
@@ -22,9 +14,10 @@ const BETWEEN = 1e-4;
 
 const folder = resolve(process.argv[2] ?? ".");
 const table = await kinematics(join(folder, "kinematics.csv"));
+const animation = join(folder, "animation.html");
 const finer = process.argv[3] && (await kinematics(join(resolve(process.argv[3]), "kinematics.csv")));
 
-await inBrowser([...GL], { width: 1280, height: 800 }, async (page) => {
+await inBrowser(animation, GL, { width: 1280, height: 800 }, async (page) => {
   await page.screenshot({ path: join(folder, "start.png") });
   await theSliderMovesTheLinks(page);
   if (finer) await linksAreWhereTheyAre(page, finer, finer.t.keys(), BETWEEN);
@@ -38,49 +31,20 @@ await inBrowser([...GL], { width: 1280, height: 800 }, async (page) => {
   await page.check("[data-layer=names]");
   await page.screenshot({ path: join(folder, "middle.png") });
 });
-await inBrowser([...GL], { width: 390, height: 844 }, async (page) => {
+await inBrowser(animation, GL, { width: 390, height: 844 }, async (page) => {
   const [width, wide] = await page.evaluate(() => [innerWidth, document.documentElement.scrollWidth]);
   assert.ok(wide <= width, `a narrow page must not scroll sideways, but is ${wide} wide in ${width}`);
   await page.screenshot({ path: join(folder, "narrow.png") });
 });
-await inBrowser(["--disable-gpu", "--disable-3d-apis"], { width: 1280, height: 800 }, async (page) => {
+await inBrowser(animation, NO_GL, { width: 1280, height: 800 }, async (page) => {
   assert.ok(await page.isVisible("#no-webgl"), "without WebGL the page must say so");
   await theSliderMovesTheLinks(page);
   await page.screenshot({ path: join(folder, "no_webgl.png") });
 }, /WebGL/);
 console.log(`${folder}: the page does what it must`);
 
-/** The page in a fresh browser; fails on console errors (but `expected` ones) and on any request but for the page. */
-async function inBrowser(flags, viewport, look, expected) {
-  const profile = await mkdtemp(join(tmpdir(), "redysim-viewer-"));
-  const browser = await chromium.launchPersistentContext(profile, {
-    executablePath: BROWSER, headless: true, args: [...FLAGS, ...flags], viewport,
-  });
-  try {
-    const page = await browser.newPage();
-    const faults = [];
-    const url = pathToFileURL(join(folder, "animation.html")).href;
-    page.on("pageerror", (error) => faults.push(String(error)));
-    page.on("console", (line) => line.type() === "error" && !expected?.test(line.text()) && faults.push(line.text()));
-    page.on("request", (request) => {
-      if (request.url() !== url && !/^(data|blob):/.test(request.url())) faults.push(`it asked for ${request.url()}`);
-    });
-    await page.goto(url);
-    await page.waitForFunction(() => window.redysim);
-    await look(page);
-    assert.deepEqual(faults, []);
-  } finally {
-    await browser.close();
-    await rm(profile, { recursive: true, force: true });
-  }
-}
-
-async function slide(page, time) {
-  await page.evaluate((time) => {
-    const slider = document.getElementById("time");
-    slider.value = time;
-    slider.dispatchEvent(new Event("input"));
-  }, time);
+function slide(page, time) {
+  return drag(page, "#time", time);
 }
 
 async function theSliderMovesTheLinks(page) {

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::animation;
 use crate::failure::Failure;
 use crate::output;
+use crate::page::Page;
 use crate::recorded::Recorded;
 use crate::results::names::{PAGE, is_written};
 
@@ -34,13 +34,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     }
     // Before what takes its time.
     output::check_place(&path, arguments.force)?;
-    let (page, notes) = animation::page(&recorded)?;
-    output::write_file(&path, page.as_bytes(), arguments.force)?;
-    if !quiet {
-        notes.iter().for_each(|note| output::to_stderr(&format!("note: {note}")));
-        output::to_stdout(&format!("{} ({} kB): open it in a browser", path.display(), page.len().div_ceil(1000)));
-    }
-    Ok(())
+    Page::of_run(&recorded)?.write(&path, arguments.force, quiet)
 }
 
 /// Whether two paths lead to the same folder.

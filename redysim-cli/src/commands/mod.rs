@@ -8,3 +8,4 @@ pub mod generate;
 pub mod import;
 pub mod inverse;
 pub mod plot;
+pub mod show;

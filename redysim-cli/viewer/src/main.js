@@ -1,25 +1,28 @@
-// Puts the page together: data, time, stage and curves.
+// Puts the page together: data, stage, and time with curves for a run, or sliders for a model.
 
 import { Vector3, Quaternion } from "three";
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { Charts } from "./charts.js";
+import { Linkage } from "./linkage.js";
+import { Loops } from "./loops.js";
 import { Motion } from "./motion.js";
 import { Player } from "./player.js";
+import { Posture } from "./posture.js";
+import { Sliders } from "./sliders.js";
 import { Stage } from "./stage.js";
 
 const at = (id) => document.getElementById(id);
-const animation = JSON.parse(at("data").textContent);
-const motion = new Motion(animation.motion, animation.bodies);
-document.title = `${animation.name} – redysim`;
-at("name").textContent = animation.name;
+const data = JSON.parse(at("data").textContent);
+const linkage = new Linkage(data.bodies);
+document.title = `${data.name} – redysim`;
+at("name").textContent = data.name;
 at("facts").textContent = facts();
-at("notes").textContent = animation.notes.join(" · ");
+at("notes").textContent = data.notes.join(" · ");
 
+const { moved, start, advance, report } = data.motion ? playing() : posing();
 const stage = makeStage();
-const player = new Player(motion, show);
-const charts = new Charts(at("charts"), animation.charts, (time) => player.seek(time));
-player.seek(motion.start);
+start();
 
 for (const button of document.querySelectorAll("[data-view]")) {
   button.addEventListener("click", () => stage?.view(button.dataset.view));
@@ -27,58 +30,96 @@ for (const button of document.querySelectorAll("[data-view]")) {
 for (const box of document.querySelectorAll("[data-layer]")) {
   const apply = () => stage?.setLayer(box.dataset.layer, box.checked);
   box.addEventListener("change", apply);
+  box.parentElement.hidden = !stage?.hasLayer(box.dataset.layer);
   apply();
 }
 
 let before = performance.now();
 requestAnimationFrame(function frame(now) {
-  player.advance((now - before) / 1000);
+  advance((now - before) / 1000);
   before = now;
   stage?.draw();
   requestAnimationFrame(frame);
 });
 
 /** What the page shows at present, for tests and for those who look into it from the console. */
-window.redysim = {
-  get time() {
-    return motion.time;
+window.redysim = Object.defineProperties(
+  {
+    /** Name, origin and centre of mass of every link in the base frame, m, as they are drawn. */
+    links: () => data.bodies.slice(1).map(drawn),
+    /** Where the camera is, m. */
+    camera: () => stage.camera.position.toArray(),
   },
-  get playing() {
-    return player.playing;
-  },
-  frames: motion.t.length,
-  seek: (time) => player.seek(time),
-  play: () => player.play(),
-  pause: () => player.pause(),
-  /** Name, origin and centre of mass of every link in the base frame, m, as they are drawn. */
-  links: () => animation.bodies.slice(1).map(drawn),
-  /** Where the camera is, m. */
-  camera: () => stage.camera.position.toArray(),
-};
+  Object.getOwnPropertyDescriptors(report),
+);
 
-function show() {
-  stage?.show();
-  charts.show(motion.time);
+/** A run: time goes on, and the curves go with it. */
+function playing() {
+  at("charts").hidden = at("playback").hidden = false;
+  const motion = new Motion(data.motion, linkage);
+  let charts = null;
+  const player = new Player(motion, () => {
+    stage?.show();
+    charts?.show(motion.time);
+  });
+  const start = () => {
+    charts = new Charts(at("charts"), data.charts, (time) => player.seek(time));
+    player.seek(motion.start);
+  };
+  const report = {
+    get time() {
+      return motion.time;
+    },
+    get playing() {
+      return player.playing;
+    },
+    frames: motion.t.length,
+    seek: (time) => player.seek(time),
+    play: () => player.play(),
+    pause: () => player.pause(),
+  };
+  return { moved: motion, start, advance: (seconds) => player.advance(seconds), report };
+}
+
+/** A model: whoever looks at it moves its coordinates. */
+function posing() {
+  at("sliders").hidden = false;
+  for (const layer of ["frames", "ellipsoids"]) document.querySelector(`[data-layer=${layer}]`).checked = true;
+  const length = Math.max(...data.bodies.flatMap(({ ends, joint }) => [...ends, joint?.position ?? []]).map(long), 1e-6);
+  const loops = new Loops(data.cuts, linkage, length);
+  const posture = new Posture(data.sliders, linkage, loops, length);
+  let sliders = null;
+  const start = () => (sliders = new Sliders(at("sliders"), data.joints, posture, () => stage?.show()));
+  const report = {
+    get q() {
+      return posture.q.slice();
+    },
+    /** How far the loops are from closed, m or a sine. */
+    get gap() {
+      return loops.gap(posture.q);
+    },
+    move: (coordinate, value) => sliders.move(coordinate, value),
+    reset: () => sliders.reset(),
+  };
+  return { moved: posture, start, advance: () => {}, report };
+}
+
+function long(vector) {
+  return Math.hypot(...vector);
 }
 
 function drawn({ name, com }, link) {
-  const object = stage?.mechanism.groups[link + 1];
-  const origin = new Vector3();
-  const rotation = new Quaternion();
-  if (object) {
-    object.getWorldPosition(origin);
-    object.getWorldQuaternion(rotation);
-  } else {
-    origin.copy(motion.poses[link + 1].position);
-    rotation.copy(motion.poses[link + 1].rotation);
-  }
-  const centre = com && new Vector3(...com).applyQuaternion(rotation).add(origin).toArray();
-  return { name, origin: origin.toArray(), com: centre };
+  const group = stage?.mechanism.groups[link + 1];
+  const pose = linkage.poses[link + 1];
+  const position = group?.getWorldPosition(new Vector3()) ?? pose.position;
+  const rotation = group?.getWorldQuaternion(new Quaternion()) ?? pose.rotation;
+  const placed = (point) => new Vector3(...point).applyQuaternion(rotation).add(position).toArray();
+  return { name, origin: placed(data.frames[link].position), com: com && placed(com) };
 }
 
 function facts() {
   const count = (number, one, many = `${one}s`) => `${number} ${number === 1 ? one : many}`;
-  const { bodies, joints, cuts } = animation;
+  const { bodies, joints, cuts } = data;
   const parts = [count(bodies.length - 1, "link"), count(joints.length, "joint that moves", "joints that move")];
   if (cuts.length) parts.push(count(cuts.length, "cut joint"));
   return parts.join(" · ");
@@ -86,9 +127,9 @@ function facts() {
 
 function makeStage() {
   try {
-    return new Stage(at("stage"), at("canvas"), animation, motion);
+    return new Stage(at("stage"), at("canvas"), data, linkage, moved);
   } catch (error) {
-    // Without WebGL the curves are still of use.
+    // Without WebGL curves and sliders are still of use.
     console.warn(error);
     at("no-webgl").hidden = false;
     at("stage").classList.add("no-webgl");

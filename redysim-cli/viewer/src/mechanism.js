@@ -1,11 +1,10 @@
-// The mechanism as solids: links from joint to joint, joints, centres of mass, names, and the traces of free ends.
+// The mechanism as solids: links from joint to joint, joints, what marks them, and the traces of free ends.
 
 import {
-  BoxGeometry, BufferGeometry, CanvasTexture, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Line,
-  LineBasicMaterial, Mesh, MeshStandardMaterial, SphereGeometry, Sprite, SpriteMaterial, SRGBColorSpace,
-  Vector3,
+  BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Line,
+  LineBasicMaterial, Mesh, MeshStandardMaterial, SphereGeometry, Vector3,
 } from "three";
-import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
+import { axes, centreMarks, ellipsoid, label } from "./marks.js";
 import { colour, GROUND } from "./palette.js";
 
 const Y = new Vector3(0, 1, 0);
@@ -14,24 +13,25 @@ const JOINT = "#3b434c";
 const TRACE = 1000;
 
 export class Mechanism {
-  /** `size` is the radius of all that it ever reaches, m. */
-  constructor({ bodies, cuts }, motion, size) {
-    this.motion = motion;
+  /** `size` is the radius of all that it ever reaches, m; without a `motion` it leaves no traces. */
+  constructor({ bodies, cuts, frames }, linkage, motion, size) {
+    Object.assign(this, { linkage, motion });
     this.root = new Group();
-    this.layers = { axes: [], coms: [], names: [], trace: [] };
+    this.layers = { links: [], axes: [], coms: [], ellipsoids: [], frames: [], names: [], trace: [] };
     this.rails = [];
     this.thick = thickness(bodies, size);
-    const mark = comMark();
-    this.groups = bodies.map((body, index) => this.#body(body, index, mark));
+    this.mark = centreMarks(2.6 * this.thick);
+    this.groups = bodies.map((body, index) => this.#body(body, index));
     bodies.forEach((body, index) => body.joint?.rail && this.#rail(body.joint.rail, index));
-    for (const { at, axis, kind } of cuts) this.groups[at.body].add(this.#joint(kind, axis, new Vector3(...at.point)));
-    this.#traces(bodies);
+    for (const { a, kind } of cuts) this.groups[a.body].add(this.#joint(kind, a.axis, new Vector3(...a.point)));
+    for (const frame of frames) this.#frame(frame);
+    if (motion) this.#traces(bodies);
   }
 
-  /** Moves everything to the present time of the motion. */
+  /** Moves everything to where the links are. */
   update() {
-    const { motion, groups } = this;
-    motion.poses.forEach(({ position, rotation }, body) => {
+    const { linkage, groups } = this;
+    linkage.poses.forEach(({ position, rotation }, body) => {
       groups[body].position.copy(position);
       groups[body].quaternion.copy(rotation);
     });
@@ -46,7 +46,13 @@ export class Mechanism {
     for (const object of this.layers[name] ?? []) object.visible = shown;
   }
 
-  #body({ name, joint, ends, com }, index, mark) {
+  /** Adds an object to a layer, and to a body. */
+  #add(layer, body, object) {
+    this.layers[layer].push(object);
+    body.add(object);
+  }
+
+  #body({ name, joint, ends, com, ellipsoid: solid }, index) {
     const group = new Group();
     this.root.add(group);
     const paint = index === 0 ? GROUND : joint.coordinate === null ? "#8b949e" : colour(joint.coordinate);
@@ -59,29 +65,23 @@ export class Mechanism {
       rod.quaternion.setFromUnitVectors(Y, to.clone().normalize());
       rod.position.copy(to).multiplyScalar(0.5);
       rod.castShadow = true;
-      group.add(rod);
+      this.#add("links", group, rod);
     }
     if (joint) group.add(this.#joint(joint.kind, joint.axis, new Vector3()));
-    if (com) {
-      const sprite = new Sprite(new SpriteMaterial({ map: mark, depthTest: false }));
-      sprite.position.set(...com);
-      sprite.scale.setScalar(2.6 * this.thick);
-      sprite.renderOrder = 2;
-      this.layers.coms.push(sprite);
-      group.add(sprite);
-    }
+    if (com) this.#add("coms", group, this.mark(com));
+    if (solid) this.#add("ellipsoids", group, ellipsoid(com, solid, paint));
     if (index > 0) {
-      const label = document.createElement("span");
-      label.className = "link-name";
-      label.textContent = name;
-      const object = new CSS2DObject(label);
       const middle = ends.length ? ends[ends.length - 1] : com ?? [0, 0, 0];
-      object.position.set(...middle).multiplyScalar(0.5);
-      object.center.set(0.5, 1.4);
-      this.layers.names.push(object);
-      group.add(object);
+      this.#add("names", group, label(name, middle.map((x) => 0.5 * x)));
     }
     return group;
+  }
+
+  /** Frames of interest are larger than those of links, and have names. */
+  #frame({ name, of_link, body, position, rotation }) {
+    const group = this.groups[body];
+    this.#add("frames", group, axes({ position, rotation }, (of_link ? 5 : 8) * this.thick));
+    if (!of_link) this.#add("names", group, label(name, position));
   }
 
   /** A pin or block along the axis, and the axis as a line; a ball for a spherical joint. */
@@ -100,13 +100,12 @@ export class Mechanism {
     if (shape) {
       const solid = new Mesh(shape(), new MeshStandardMaterial({ color: JOINT, roughness: 0.5 }));
       solid.castShadow = true;
-      group.add(solid);
+      this.#add("links", group, solid);
     }
     if (["revolute", "prismatic", "helical"].includes(kind)) {
       const thread = new CylinderGeometry(0.12 * r, 0.12 * r, 13 * r, 8);
       const line = new Mesh(thread, new MeshStandardMaterial({ color: JOINT }));
-      this.layers.axes.push(line);
-      group.add(line);
+      this.#add("axes", group, line);
     }
     return group;
   }
@@ -116,7 +115,7 @@ export class Mechanism {
       new CylinderGeometry(0.5 * this.thick, 0.5 * this.thick, 1, 16),
       new MeshStandardMaterial({ color: "#9aa3ad", roughness: 0.4 }),
     );
-    this.root.add(rod);
+    this.#add("links", this.root, rod);
     this.rails.push({ rod, from, body, point: new Vector3(...point) });
   }
 
@@ -128,7 +127,7 @@ export class Mechanism {
 
   /** The paths of the ends of links that carry no others. */
   #traces(bodies) {
-    const { motion } = this;
+    const { motion, linkage } = this;
     const tips = bodies.map((body, index) => ({ ...body, index, points: [] })).filter(({ tip }) => tip);
     this.parts = Math.ceil(TRACE / motion.t.length);
     const end = new Vector3();
@@ -137,7 +136,7 @@ export class Mechanism {
       for (let part = 0; part < this.parts; part++) {
         motion.seek(time + ((after - time) * part) / this.parts);
         for (const { index, ends, points } of tips) {
-          const { position, rotation } = motion.poses[index];
+          const { position, rotation } = linkage.poses[index];
           points.push(...end.fromArray(ends[ends.length - 1]).applyQuaternion(rotation).add(position).toArray());
         }
       }
@@ -147,8 +146,7 @@ export class Mechanism {
       const paint = joint.coordinate === null ? GROUND : colour(joint.coordinate);
       const line = new Line(geometry, new LineBasicMaterial({ color: paint, transparent: true, opacity: 0.7 }));
       line.frustumCulled = false;
-      this.layers.trace.push(line);
-      this.root.add(line);
+      this.#add("trace", this.root, line);
     }
     motion.seek(motion.start);
   }
@@ -165,34 +163,8 @@ function thickness(bodies, size) {
 /** Lays a rod of length 1 between two points. */
 function stretch(rod, from, to) {
   const along = to.clone().sub(from);
-  const length = along.length();
-  rod.visible = length > 1e-9;
-  if (!rod.visible) return;
+  const length = Math.max(along.length(), 1e-9);
   rod.position.copy(from).addScaledVector(along, 0.5);
-  rod.quaternion.setFromUnitVectors(Y, along.divideScalar(length));
+  if (length > 1e-9) rod.quaternion.setFromUnitVectors(Y, along.divideScalar(length));
   rod.scale.set(1, length, 1);
-}
-
-/** The usual mark of a centre of mass: a circle with two of its quarters black. */
-function comMark() {
-  const canvas = Object.assign(document.createElement("canvas"), { width: 128, height: 128 });
-  const draw = canvas.getContext("2d");
-  const sector = (from, to, style) => {
-    draw.fillStyle = style;
-    draw.beginPath();
-    draw.moveTo(64, 64);
-    draw.arc(64, 64, 54, from, to);
-    draw.fill();
-  };
-  sector(0, 2 * Math.PI, "#fff");
-  sector(0, Math.PI / 2, "#111");
-  sector(Math.PI, 1.5 * Math.PI, "#111");
-  draw.lineWidth = 9;
-  draw.strokeStyle = "#111";
-  draw.beginPath();
-  draw.arc(64, 64, 54, 0, 2 * Math.PI);
-  draw.stroke();
-  const texture = new CanvasTexture(canvas);
-  texture.colorSpace = SRGBColorSpace;
-  return texture;
 }

@@ -6,6 +6,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+import { AXES } from "./marks.js";
 import { Mechanism } from "./mechanism.js";
 
 const Y = new Vector3(0, 1, 0);
@@ -14,8 +15,8 @@ const TURN = Math.PI / 24;
 const ZOOM = 0.9;
 
 export class Stage {
-  /** Throws if the browser has no WebGL. */
-  constructor(place, canvas, animation, motion) {
+  /** `moved`, a motion or a posture, has moved `linkage`. Throws if the browser has no WebGL. */
+  constructor(place, canvas, data, linkage, moved) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setClearColor("#ffffff");
@@ -25,18 +26,19 @@ export class Stage {
     canvas.after(this.names.domElement);
     this.place = place;
     this.scene = new Scene();
-    this.up = upward(animation.gravity);
-    this.sphere = reach(animation, motion);
-    this.mechanism = new Mechanism(animation, motion, this.sphere.radius);
+    this.up = upward(data.gravity);
+    const visit = (see) => moved.visit(() => everyPoint(data, linkage, see));
+    this.sphere = reach(visit);
+    this.mechanism = new Mechanism(data, linkage, data.motion && moved, this.sphere.radius);
     this.scene.add(this.mechanism.root);
-    this.#ground(lowest(animation, motion, this.up));
+    this.#ground(lowest((see) => moved.stand(() => everyPoint(data, linkage, see)), this.up));
     this.#light();
     this.camera = new PerspectiveCamera(30, 1, this.sphere.radius / 50, this.sphere.radius * 100);
     // The controls turn about the camera's own upward direction, and ask for it only now.
     this.camera.up.copy(this.up);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => (this.stale = true));
-    this.start = firstView(animation, motion, this.up);
+    this.start = firstView(data, linkage, this.up);
     new ResizeObserver(() => this.#resize()).observe(place);
     this.#resize();
     this.view("start");
@@ -44,7 +46,7 @@ export class Stage {
     this.show();
   }
 
-  /** Moves the mechanism to the present time. */
+  /** Moves the mechanism to where the links are. */
   show() {
     this.mechanism.update();
     this.stale = true;
@@ -56,6 +58,11 @@ export class Stage {
     this.stale = false;
     this.renderer.render(this.scene, this.camera);
     this.names.render(this.scene, this.camera);
+  }
+
+  /** Whether there is anything in a layer. */
+  hasLayer(name) {
+    return name === "ground" || this.mechanism.layers[name].length > 0;
   }
 
   setLayer(name, shown) {
@@ -103,7 +110,7 @@ export class Stage {
     // Below the middle of the motion, on whole cells of the base frame.
     const middle = center.clone().addScaledVector(this.up, -center.dot(this.up));
     level.position.copy(middle.divideScalar(cell).round().multiplyScalar(cell)).addScaledVector(this.up, height);
-    const base = new AxesHelper(0.22 * radius).setColors("#cc3311", "#117733", "#0044aa");
+    const base = new AxesHelper(0.22 * radius).setColors(...AXES);
     base.material.depthTest = false;
     base.renderOrder = 1;
     this.ground.add(level, base);
@@ -175,14 +182,13 @@ function horizontal(up) {
 }
 
 /** A planar mechanism is looked at along its joint axes, a little from the side; any other one from a corner. */
-function firstView(animation, motion, up) {
+function firstView({ bodies }, linkage, up) {
   const { front, side } = horizontal(up);
   const corner = front.clone().addScaledVector(side, 0.75).addScaledVector(up, 0.55);
   const axes = [];
-  motion.seek(motion.start);
-  animation.bodies.forEach(({ joint }, index) => {
+  bodies.forEach(({ joint }, index) => {
     if (joint?.kind !== "revolute") return;
-    axes.push(new Vector3(...joint.axis).applyQuaternion(motion.poses[index].rotation));
+    axes.push(new Vector3(...joint.axis).applyQuaternion(linkage.poses[index].rotation));
   });
   const planar = axes.length > 0 && axes.every((axis) => Math.abs(axis.dot(axes[0])) > 1 - 1e-6);
   if (!planar) return corner;
@@ -192,33 +198,28 @@ function firstView(animation, motion, up) {
   return across.addScaledVector(up, 0.16).addScaledVector(new Vector3().crossVectors(up, across), 0.16);
 }
 
-/** Calls `see` with every point that any link reaches in some hundred frames. */
-function everyPoint({ bodies }, motion, see) {
+/** Calls `see` with every point that any link reaches where the links are. */
+function everyPoint({ bodies }, linkage, see) {
   const point = new Vector3();
-  const every = Math.max(1, Math.floor(motion.t.length / 300));
-  for (let frame = 0; frame < motion.t.length; frame += every) {
-    motion.seek(motion.t[frame]);
-    motion.poses.forEach(({ position, rotation }, body) => {
-      see(point.copy(position));
-      for (const end of bodies[body].ends) see(point.fromArray(end).applyQuaternion(rotation).add(position));
-    });
-  }
-  motion.seek(motion.start);
+  linkage.poses.forEach(({ position, rotation }, body) => {
+    see(point.copy(position));
+    for (const end of bodies[body].ends) see(point.fromArray(end).applyQuaternion(rotation).add(position));
+  });
 }
 
-/** A sphere around all that the mechanism ever reaches. */
-function reach(animation, motion) {
+/** A sphere around all points that `visit` sees. */
+function reach(visit) {
   const box = new Box3();
-  everyPoint(animation, motion, (point) => box.expandByPoint(point));
+  visit((point) => box.expandByPoint(point));
   const sphere = new Sphere(box.getCenter(new Vector3()), 1e-6);
-  everyPoint(animation, motion, (point) => (sphere.radius = Math.max(sphere.radius, sphere.center.distanceTo(point))));
+  visit((point) => (sphere.radius = Math.max(sphere.radius, sphere.center.distanceTo(point))));
   return sphere;
 }
 
-/** The height of the ground: of the base, or below what hangs from it. */
-function lowest(animation, motion, up) {
+/** The height of the ground: of the base, or below the points that `visit` sees. */
+function lowest(visit, up) {
   let height = 0;
-  everyPoint(animation, motion, (point) => (height = Math.min(height, point.dot(up))));
+  visit((point) => (height = Math.min(height, point.dot(up))));
   return height;
 }
 

@@ -1,11 +1,12 @@
 //! The looks of a mechanism, from its model: from where to where its links reach, and how they are joined.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use redysim_model::joint::{self, Screw};
-use redysim_model::spatial::{Mat3, Pose};
-use redysim_model::{CutSide, JointKind, Link, Model};
+use redysim_model::spatial::{Pose, Vec3};
+use redysim_model::{CutKind, CutSide, JointKind, Link, Model};
 use serde::Serialize;
 
+use super::quaternion;
+use super::solid::{Ellipsoid, Solid};
 use crate::layout::Layout;
 
 /// A link in the frame that its joint moves, or the ground (the first body) in the base frame.
@@ -20,6 +21,8 @@ pub struct Body<'a> {
     tip: bool,
     /// Centre of mass, m; none where there is no mass.
     com: Option<[f64; 3]>,
+    /// The solid ellipsoid about the centre of mass with its mass and inertia; none of a point mass.
+    ellipsoid: Option<Ellipsoid>,
 }
 
 #[derive(Serialize)]
@@ -58,16 +61,37 @@ struct Place {
 pub struct Cut<'a> {
     name: &'a str,
     kind: &'a str,
-    /// Side a.
-    at: Place,
-    /// Unit vector, in the frame of side a.
+    a: Side,
+    b: Side,
+}
+
+/// A side of a cut joint, in the frame of its body.
+#[derive(Serialize)]
+struct Side {
+    #[serde(flatten)]
+    place: Place,
+    /// Unit vector.
     axis: [f64; 3],
+    /// Of a weld, which aligns them, the axes of the link: quaternion x, y, z, w.
+    rotation: Option<[f64; 4]>,
+}
+
+/// A frame on a body: that of a link, or one of interest.
+#[derive(Serialize)]
+pub struct Frame<'a> {
+    name: &'a str,
+    /// Whether it is the frame of a link.
+    of_link: bool,
+    body: usize,
+    /// In the body's frame: origin, m, and quaternion x, y, z, w.
+    position: [f64; 3],
+    rotation: [f64; 4],
 }
 
 /// The ground, then the links in the model's order.
 pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
     let mut moving = layout.joints.iter();
-    let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None };
+    let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None, ellipsoid: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let screw = joint::Joint::of(link).map_or(Screw { turn: 0.0, slide: 0.0 }, joint::Joint::screw);
         let placement = frame(model, link.parent) * link.placement;
@@ -85,28 +109,60 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
             rail: (link.joint == JointKind::Prismatic)
                 .then(|| Place { body: number(link.parent), point: foot(model, link) }),
         };
-        let com = link.frame.transform(link.com).0;
+        let solid = Solid::of(link);
         let mut ends = ends(model, Some(index));
         if ends.is_empty() {
-            // No joint marks where it ends: its frame may stand there, or a uniform rod with this centre of mass ends
-            // at twice its distance.
-            let far_end = link.frame.position.0;
-            ends.push(if far_end == [0.0; 3] { com.map(|x| 2.0 * x) } else { far_end });
+            // No joint marks where it ends: its frame may stand there, else its inertia tells how large it is.
+            let far_end = link.frame.position;
+            ends = if far_end == Vec3::zero() { solid.ends() } else { vec![far_end.0] };
         }
         let tip = model.links.iter().all(|other| other.parent != Some(index));
-        Body { name: &link.name, joint: Some(joint), ends, tip, com: (link.mass > 0.0).then_some(com) }
+        let com = (link.mass > 0.0).then_some(solid.com.0);
+        Body { name: &link.name, joint: Some(joint), ends, tip, com, ellipsoid: solid.ellipsoid() }
     });
     std::iter::once(ground).chain(links).collect()
 }
 
-/// The cut joints, each where its side a holds it.
+/// The longest way from the base along the joints to the end of a link, m; 1 m where all is in one point.
+pub fn reach(bodies: &[Body]) -> f64 {
+    let length = |vector: [f64; 3]| Vec3(vector).dot(Vec3(vector)).sqrt();
+    let from_joint = |body: &Body| body.ends.iter().map(|&end| length(end)).fold(0.0, f64::max);
+    let joint = |body: &usize| bodies[*body].joint.as_ref();
+    let to_joint = |body: usize| -> f64 {
+        let chain = std::iter::successors(Some(body), |body| joint(body).map(|joint| joint.parent));
+        chain.filter_map(|body| joint(&body)).map(|joint| length(joint.position)).sum()
+    };
+    let longest = bodies.iter().enumerate().map(|(index, body)| to_joint(index) + from_joint(body)).fold(0.0, f64::max);
+    if longest > 0.0 { longest } else { 1.0 }
+}
+
+/// The cut joints.
 pub fn cuts(model: &Model) -> Vec<Cut<'_>> {
     let cuts = model.loops.iter().map(|cut| {
-        let at = Place { body: number(cut.a.link), point: point(model, &cut.a) };
-        let axis = (frame(model, cut.a.link).rotation * cut.a.axis).0;
-        Cut { name: &cut.name, kind: cut.joint.name(), at, axis }
+        let [a, b] = [&cut.a, &cut.b].map(|side| {
+            let rotation = frame(model, side.link).rotation;
+            let place = Place { body: number(side.link), point: point(model, side) };
+            let welded = (cut.joint == CutKind::Weld).then(|| quaternion(rotation));
+            Side { place, axis: (rotation * side.axis).0, rotation: welded }
+        });
+        Cut { name: &cut.name, kind: cut.joint.name(), a, b }
     });
     cuts.collect()
+}
+
+/// The frames of the links, then those of interest, in the model's order.
+pub fn frames(model: &Model) -> Vec<Frame<'_>> {
+    let placed = |name, of_link, link, Pose { position, rotation }: Pose<f64>| {
+        let (position, rotation) = (position.0, quaternion(rotation));
+        Frame { name, of_link, body: number(link), position, rotation }
+    };
+    let of_links =
+        model.links.iter().enumerate().map(|(index, link)| placed(link.name.as_str(), true, Some(index), link.frame));
+    let of_interest = model.frames.iter().map(|of| {
+        let pose = frame(model, of.link) * of.placement;
+        placed(of.name.as_str(), false, of.link, pose)
+    });
+    of_links.chain(of_interest).collect()
 }
 
 /// The frame of a link, or of the base, in the body's.
@@ -122,11 +178,6 @@ fn point(model: &Model, side: &CutSide) -> [f64; 3] {
 /// Number of a body among those that the page knows: the ground is 0.
 fn number(link: Option<usize>) -> usize {
     link.map_or(0, |index| index + 1)
-}
-
-fn quaternion(rotation: Mat3<f64>) -> [f64; 4] {
-    let matrix = Matrix3::from_fn(|row, column| rotation.0[row][column]);
-    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)).coords.into()
 }
 
 /// Where the joints of a link's children, and the cut joints on it, stand: in the body's frame.

@@ -1,0 +1,89 @@
+// Drags the sliders of the page `show.html` of a folder in headless Chromium, holds what it draws against the positions in
+// `expected.json`, and leaves screenshots beside it: node show.mjs FOLDER.
+//
+// `expected.json` has `drags`, each with a `coordinate`, the `value` to which its slider is dragged, and what must then be
+// so: `q`, coordinates with numbers or null where nothing is known; `links`, the origin and the centre of mass of each; and
+// `stops`, a part of what the page reports, or null.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { join, resolve } from "node:path";
+import { drag, GL, inBrowser, NO_GL } from "./browser.mjs";
+
+/** The page computes the links from the joints as the command does, but for rounding. */
+const TOLERANCE = 1e-9;
+/** The step at which the page gives up to move a coordinate whose loops do not close. */
+const STOP = 1e-5;
+
+const folder = resolve(process.argv[2] ?? ".");
+const show = join(folder, "show.html");
+const expected = JSON.parse(await readFile(join(folder, "expected.json"), "utf8"));
+
+await inBrowser(show, GL, { width: 1280, height: 800 }, async (page) => {
+  await page.screenshot({ path: join(folder, "start.png") });
+  await slidersMoveTheLinks(page);
+  await page.screenshot({ path: join(folder, "dragged.png") });
+  await everyLayerCanBeHidden(page);
+  await theButtonLeadsBackToTheStart(page);
+});
+await inBrowser(show, GL, { width: 390, height: 844 }, async (page) => {
+  const [width, wide] = await page.evaluate(() => [innerWidth, document.documentElement.scrollWidth]);
+  assert.ok(wide <= width, `a narrow page must not scroll sideways, but is ${wide} wide in ${width}`);
+  await page.screenshot({ path: join(folder, "narrow.png") });
+});
+await inBrowser(show, NO_GL, { width: 1280, height: 800 }, slidersMoveTheLinks, /WebGL/);
+console.log(`${folder}: the page does what it must`);
+
+async function slidersMoveTheLinks(page) {
+  for (const { coordinate, value, q, links, stops } of expected.drags) {
+    const before = await page.evaluate(() => redysim.q);
+    await drag(page, `#sliders label:nth-of-type(${coordinate + 1}) input`, value);
+    const found = await page.evaluate(() => ({ q: redysim.q, gap: redysim.gap, links: redysim.links() }));
+    const what = `${coordinate} dragged to ${value}`;
+    assert.notDeepEqual(found.q, before, `${what}: nothing moves`);
+    assert.ok(found.gap < TOLERANCE, `${what}: the loops are open by ${found.gap}`);
+    const status = await page.textContent("#sliders [role=status]");
+    if (stops) assert.ok(status.includes(stops), `${what}: the page must report ${stops}, reports ${status}`);
+    else assert.equal(status, "", what);
+    near(found.q, q, stops ? STOP : TOLERANCE, `${what}: coordinate`);
+    for (const [index, { name, origin, com }] of (links ?? []).entries()) {
+      assert.equal(found.links[index].name, name);
+      near(found.links[index].origin, origin, TOLERANCE, `${what}: origin of ${name}`);
+      if (found.links[index].com) near(found.links[index].com, com, TOLERANCE, `${what}: centre of ${name}`);
+    }
+  }
+}
+
+function near(found, expected, tolerance, what) {
+  expected?.forEach((value, index) => {
+    const apart = value === null ? 0 : Math.abs(found[index] - value);
+    assert.ok(apart <= tolerance * Math.max(1, Math.abs(value)), `${what} ${index}: ${found[index]} instead of ${value}`);
+  });
+}
+
+async function everyLayerCanBeHidden(page) {
+  const boxes = page.locator("#layers label:not([hidden]) input");
+  const names = await boxes.evaluateAll((boxes) => boxes.map((box) => box.dataset.layer));
+  for (const layer of expected.layers) assert.ok(names.includes(layer), `no box for ${layer} among ${names}`);
+  // The boxes themselves would differ.
+  await page.addStyleTag({ content: "#layers { visibility: hidden }" });
+  for (const name of names) {
+    const picture = async (shown) => {
+      await page.locator(`[data-layer=${name}]`).evaluate((box, shown) => {
+        box.checked = shown;
+        box.dispatchEvent(new Event("change"));
+      }, shown);
+      await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+      return page.locator("#stage").screenshot();
+    };
+    const hidden = await picture(false);
+    assert.ok(hidden.equals(await picture(false)), "the picture of what does not change must be the same");
+    assert.ok(!hidden.equals(await picture(true)), `showing ${name} changes nothing`);
+  }
+  await page.screenshot({ path: join(folder, "all.png") });
+}
+
+async function theButtonLeadsBackToTheStart(page) {
+  await page.click("#sliders button");
+  near(await page.evaluate(() => redysim.q), expected.start, 1e-15, "start: coordinate");
+}
