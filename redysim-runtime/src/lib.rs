@@ -88,7 +88,10 @@ pub use closed_loop::{
     ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion, LoopForces, Stabilisation,
 };
 #[cfg(feature = "simulation")]
-pub use control::{ComputedTorque, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque, uniform};
+pub use control::{
+    ComputedTorque, Limited, PdGravity, Pid, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque,
+    tracking_rates, uniform,
+};
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched, Instructions};
 pub use dual::{Dual, coordinate_rates_tangent, forward_dynamics_tangent, inverse_dynamics_tangent};
@@ -108,5 +111,5 @@ pub use scalar::{FUSED, Real, Scalar};
 #[cfg(feature = "simulation")]
 pub use simulate::{ForwardSimulation, SimulationState};
 #[cfg(feature = "simulation")]
-pub use trajectory::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
+pub use trajectory::{Cycloid, Motion, SetPoint, Trajectory, TrajectoryError, ViaPoints};
 pub use vector::{LengthMismatch, Vector};

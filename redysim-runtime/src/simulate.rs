@@ -11,6 +11,10 @@ use crate::{ConfigurationSpace, ForwardDynamics, LengthMismatch, Ode, Real, Torq
 /// [power](ConfigurationSpace::dissipated_power) P. It is the change of kinetic plus potential energy, a check of the
 /// whole simulation.
 ///
+/// A law that has states z of its own, such as [`Pid`](crate::Pid), extends the state to y = [q, q̇, E_act, z]: a vector
+/// of NQ + NV + 1 + [`state_count`](TorqueLaw::state_count) elements, with which
+/// [`extended_state`](Self::extended_state) starts.
+///
 /// ```
 /// # #[allow(dead_code)]
 /// # mod mechanisms { include!("../tests/mechanisms/mod.rs"); }
@@ -64,27 +68,29 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
         M::State::from_fn(q.as_ref().len() + v.as_ref().len() + 1, |i| component(i, sizes, (q, v, S::zero())))
     }
 
-    /// Checks that a state has the parts q, v and energy.
-    pub(crate) fn check_state<S: Real>(&self, state: &M::State) -> Result<(), LengthMismatch>
+    /// The state [q, v, 0, z] to start from with the law's states z, for a law that has some. An array must have
+    /// `NQ + NV + 1` elements and one for each of them.
+    pub fn extended_state<S: Real, Y: Vector<S>>(&self, q: &M::Coordinates, v: &M::Velocities) -> Y
     where
         M: ConfigurationSpace<S>,
+        L: TorqueLaw<S, M>,
     {
-        LengthMismatch::check("state", state.as_ref(), self.mechanism.nq() + self.mechanism.nv() + 1)
+        extended_state(self.mechanism, &self.law, q, v)
     }
 
     /// Writes [q, v, energy], or their rates, to `state`. What a `Vec` lacks is NaN.
-    fn write<S: Real>(&self, parts: (&M::Coordinates, &M::Velocities, S), state: &mut M::State)
+    fn write<S: Real>(&self, parts: (&M::Coordinates, &M::Velocities, S), state: &mut impl Vector<S>)
     where
         M: ConfigurationSpace<S>,
     {
         let sizes = (self.mechanism.nq(), self.mechanism.nv());
-        for (i, element) in state.as_mut().iter_mut().enumerate() {
+        for (i, element) in state.as_mut().iter_mut().enumerate().take(sizes.0 + sizes.1 + 1) {
             *element = component(i, sizes, parts);
         }
     }
 
     /// The parts of a state. What a `Vec` lacks is NaN.
-    pub fn split<S: Real>(&self, state: &M::State) -> SimulationState<S, M::Coordinates, M::Velocities>
+    pub fn split<S: Real, Y: Vector<S>>(&self, state: &Y) -> SimulationState<S, M::Coordinates, M::Velocities>
     where
         M: ConfigurationSpace<S>,
     {
@@ -97,37 +103,41 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     }
 
     /// The joint forces in a state.
-    pub fn torque<S: Real>(&mut self, t: S, state: &M::State) -> M::Velocities
+    pub fn torque<S: Real, Y: Vector<S>>(&mut self, t: S, state: &Y) -> M::Velocities
     where
         M: ConfigurationSpace<S>,
         L: TorqueLaw<S, M>,
     {
         let SimulationState { q, v, .. } = self.split(state);
-        self.law.torque(t, &q, &v)
+        law_torque(&mut self.law, self.mechanism, t, (&q, &v), (state, &mut state.clone()))
     }
 }
 
-impl<S, M, L> Ode<S, M::State> for ForwardSimulation<'_, M, L>
+impl<S, Y, M, L> Ode<S, Y> for ForwardSimulation<'_, M, L>
 where
     S: Real,
+    Y: Vector<S>,
     M: ForwardDynamics<S>,
     L: TorqueLaw<S, M>,
 {
-    fn derivative(&mut self, t: S, state: &M::State, rate: &mut M::State) {
+    fn derivative(&mut self, t: S, state: &Y, rate: &mut Y) {
         let SimulationState { q, v, .. } = self.split(state);
-        let tau = self.law.torque(t, &q, &v);
+        let tau = law_torque(&mut self.law, self.mechanism, t, (&q, &v), (state, rate));
         let rates = self.mechanism.coordinate_rates(&q, &v);
         let accelerations = self.mechanism.forward_dynamics(&q, &v, &tau);
         let power = dot(&tau, &v) - self.mechanism.dissipated_power(&q, &v);
         self.write((&rates, &accelerations, power), rate);
     }
 
-    fn check_lengths(&self, t: S, state: &M::State) -> Result<(), LengthMismatch> {
-        self.check_state(state)?;
+    fn check_lengths(&self, t: S, state: &Y) -> Result<(), LengthMismatch> {
+        check_state(self.mechanism, &self.law, state)?;
         self.law.check_lengths(t, self.mechanism)
     }
 
-    fn tangent(&mut self, t: S, state: &M::State, direction: &M::State, slope: &mut M::State) -> bool {
+    fn tangent(&mut self, t: S, state: &Y, direction: &Y, slope: &mut Y) -> bool {
+        if self.law.state_count(self.mechanism) != 0 {
+            return false;
+        }
         let SimulationState { q, v, .. } = self.split(state);
         let SimulationState { q: dq, v: dv, .. } = self.split(direction);
         let tau = self.law.torque(t, &q, &v);
@@ -146,7 +156,7 @@ where
         true
     }
 
-    fn coordinate_rates(&mut self, _t: S, state: &M::State, rates: &mut M::State) -> usize {
+    fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {
         let SimulationState { q, v, .. } = self.split(state);
         let coordinate_rates = self.mechanism.coordinate_rates(&q, &v);
         let nq = self.mechanism.nq();
@@ -155,6 +165,45 @@ where
         }
         nq
     }
+}
+
+/// The state [q, v, 0, z] with the states z of `law`.
+pub(crate) fn extended_state<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    law: &impl TorqueLaw<S, M>,
+    q: &M::Coordinates,
+    v: &M::Velocities,
+) -> Y {
+    let (nq, nv) = (mechanism.nq(), mechanism.nv());
+    let own = nq + nv + 1;
+    Y::from_fn(own + law.state_count(mechanism), |i| match i.checked_sub(own) {
+        Some(index) => law.initial_state(index),
+        None => component(i, (nq, nv), (q, v, S::zero())),
+    })
+}
+
+/// Checks that a state has the parts q, v, energy and the states of `law`.
+pub(crate) fn check_state<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    law: &impl TorqueLaw<S, M>,
+    state: &Y,
+) -> Result<(), LengthMismatch> {
+    let expected = mechanism.nq() + mechanism.nv() + 1 + law.state_count(mechanism);
+    LengthMismatch::check("state", state.as_ref(), expected)
+}
+
+/// The joint forces of a law in a state of a simulation of `mechanism`; the rates of the law's states are written to
+/// their place among the rates of that state.
+pub(crate) fn law_torque<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
+    law: &mut impl TorqueLaw<S, M>,
+    mechanism: &M,
+    t: S,
+    at: (&M::Coordinates, &M::Velocities),
+    (state, rates): (&Y, &mut Y),
+) -> M::Velocities {
+    let own = mechanism.nq() + mechanism.nv() + 1;
+    let of_law = state.as_ref().get(own..).unwrap_or_default();
+    law.torque_with_state(t, at, of_law, rates.as_mut().get_mut(own..).unwrap_or_default())
 }
 
 /// Component `i` of [q, v, energy] with `nq` and `nv` coordinates and velocities.

@@ -9,8 +9,8 @@ use mechanisms::Arm;
 use redysim_runtime::integrate::Accepted;
 use redysim_runtime::{
     Arguments, ComputedTorque, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError,
-    Integrator, InverseDynamics, LengthMismatch, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Proportional,
-    ProportionalDerivative, Radau5, Solution, TorqueLaw, TrackingPd, ZeroTorque,
+    Integrator, InverseDynamics, LengthMismatch, Limited, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Pid,
+    Proportional, ProportionalDerivative, Radau5, SetPoint, Solution, TorqueLaw, TrackingPd, ZeroTorque,
 };
 
 /// The arm with sizes known only at run time, and as many accelerations as it says.
@@ -127,6 +127,34 @@ fn a_simulation_begins_only_with_gains_and_targets_of_the_right_length() {
     assert_eq!(refused(torques(motion(3, 2, 2))), wrong("trajectory.q", 3, 2));
     assert_eq!(refused(torques(motion(2, 2, 0))), wrong("trajectory.a", 0, 2));
     assert_eq!(wrong("kp", 1, 2).to_string(), "`kp` must have 2 elements, but it has 1");
+}
+
+#[test]
+fn pid_and_limits_are_checked_for_a_component_of_each_velocity() {
+    let two = || vec![1.0; 2];
+    let pid = |[kp, ki, tracking, integral]: [usize; 4]| Pid {
+        trajectory: SetPoint::new(&DynamicArm(2), vec![0.0; 2]),
+        kp: vec![1.0; kp],
+        ki: vec![1.0; ki],
+        kd: two(),
+        tracking: vec![1.0; tracking],
+        integral: vec![0.0; integral],
+    };
+    let checked = |law: &dyn TorqueLaw<f64, DynamicArm>| law.check_lengths(0.0, &DynamicArm(2));
+    let wrong = |vector, length| Err(LengthMismatch { vector, length, expected: 2 });
+    assert_eq!(checked(&pid([2, 2, 2, 2])), Ok(()));
+    assert_eq!(checked(&pid([1, 2, 2, 2])), wrong("kp", 1));
+    assert_eq!(checked(&pid([2, 3, 2, 2])), wrong("ki", 3));
+    assert_eq!(checked(&pid([2, 2, 0, 2])), wrong("tracking", 0));
+    assert_eq!(checked(&pid([2, 2, 2, 1])), wrong("integral", 1));
+    assert_eq!(checked(&Limited { law: pid([2, 2, 2, 2]), limits: vec![1.0] }), wrong("limits", 1));
+    assert_eq!(checked(&Limited { law: pid([2, 2, 2, 1]), limits: two() }), wrong("integral", 1));
+    // A force for each velocity all the same, NaN where something is missing.
+    let mut short = Limited { law: pid([2, 1, 2, 2]), limits: vec![1.0] };
+    let (at, mut rates) = ((Q.to_vec(), V.to_vec()), [0.0_f64; 3]);
+    let short: &mut dyn TorqueLaw<f64, DynamicArm> = &mut short;
+    let force = short.torque_with_state(0.0, (&at.0, &at.1), &[0.0], &mut rates);
+    assert!(force.len() == 2 && force[1].is_nan() && rates[1].is_nan());
 }
 
 #[test]

@@ -5,8 +5,8 @@ mod mechanisms;
 
 use mechanisms::{Arm, GRAVITY, Pendulum, distance};
 use redysim_runtime::{
-    ComputedTorque, Cycloid, ForwardSimulation, Integrator, InverseDynamics, Motion, Ode45, Proportional,
-    ProportionalDerivative, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, uniform,
+    ComputedTorque, Cycloid, ForwardSimulation, Integrator, InverseDynamics, Motion, Ode45, PdGravity, Proportional,
+    ProportionalDerivative, SetPoint, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, uniform,
 };
 
 const Q: [f64; 2] = [0.5, -0.25];
@@ -113,6 +113,34 @@ fn tracking_pd_stays_near_a_slow_motion() {
             assert!((y[0] - trajectory.at(t).q[0]).abs() < 0.01, "{y:?} at {t}");
         })
         .unwrap();
+}
+
+/// The pendulum of 2 kg under PD with the gravity forces of one of `assumed` kg, at rest: its angle.
+fn rest_under_pd_with_gravity_of(assumed: f64) -> f64 {
+    let pendulum = Pendulum { mass: 2.0, length: 0.5 };
+    let known = Pendulum { mass: assumed, ..pendulum };
+    let law = PdGravity { mechanism: &known, trajectory: SetPoint::new(&known, [1.0]), kp: [20.0], kd: [6.0] };
+    let mut simulation = ForwardSimulation::new(&pendulum, law);
+    let start: [f64; 3] = simulation.state(&[0.0], &[0.0]);
+    let end = Ode45::new().rtol(1e-9).atol(1e-12).integrate(&mut simulation, (0.0, 20.0), start).unwrap();
+    assert!(end.y[1].abs() < 1e-9, "at rest: {:?}", end.y);
+    end.y[0]
+}
+
+#[test]
+fn pd_with_gravity_rests_at_its_set_point_with_the_right_payload() {
+    assert!((rest_under_pd_with_gravity_of(2.0) - 1.0).abs() < 1e-9);
+}
+
+/// Kp e = (m − m_assumed) g l sin q.
+#[test]
+fn pd_with_gravity_rests_off_its_set_point_by_the_weight_that_it_does_not_know_over_kp() {
+    for assumed in [0.0, 1.5, 2.4] {
+        let q = rest_under_pd_with_gravity_of(assumed);
+        let missing = (2.0 - assumed) * GRAVITY * 0.5 * q.sin();
+        assert!((20.0 * (1.0 - q) - missing).abs() < 1e-7, "{assumed} kg: {q}");
+        assert!((q - 1.0).abs() > 0.05, "{assumed} kg: {q}");
+    }
 }
 
 #[test]

@@ -1,12 +1,14 @@
 //! Motions prescribed in advance: coordinates, velocities and accelerations as functions of time.
 
 mod cycloid;
+mod set_point;
 mod spline;
 mod via_points;
 
 use core::fmt;
 
 pub use cycloid::Cycloid;
+pub use set_point::SetPoint;
 pub use via_points::ViaPoints;
 
 /// A motion at one time.

@@ -1,8 +1,8 @@
 // Two mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
 
 use redysim_runtime::{
-    Arguments, ConfigurationSpace, Energy, ForwardDynamics, InverseDynamics, LinkState, MechanicalEnergy, Mechanism,
-    Real, Scalar, Vector,
+    Arguments, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkState,
+    MechanicalEnergy, Mechanism, Real, Scalar, Vector,
 };
 
 pub const GRAVITY: f64 = 9.81;
@@ -114,6 +114,12 @@ impl<S: Scalar> ForwardDynamics<S> for Pendulum {
         slopes: Arguments<'_, S, Self>,
     ) -> Option<Self::Velocities> {
         Some(redysim_runtime::forward_dynamics_tangent(self, at, slopes))
+    }
+}
+
+impl<S: Scalar> GravityForces<S> for Pendulum {
+    fn gravity_forces(&self, q: &[S; 1]) -> [S; 1] {
+        [self.weight::<S>() * q[0].sin_cos().0]
     }
 }
 

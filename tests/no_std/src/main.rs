@@ -7,8 +7,8 @@ use core::ops::ControlFlow;
 
 use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation,
-    FrameState, Gauss6, Integrator, Motion, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5, SemiImplicitEuler,
-    Wrench, ZeroTorque, redysim,
+    FrameState, Gauss6, Integrator, Limited, Motion, Ode5, Ode15s, Ode45, PdGravity, Pid, ProportionalDerivative,
+    Radau5, SemiImplicitEuler, SetPoint, Wrench, ZeroTorque, redysim, tracking_rates,
 };
 
 redysim! {
@@ -54,6 +54,7 @@ extern "C" fn main() -> i32 {
             && kept
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
+            && rests_under_limited_pid().is_some_and(|rests| rests)
             && implicit_methods_agree().is_some_and(|agree| agree)),
     )
 }
@@ -110,7 +111,14 @@ fn stops_at_an_event_with_stable_steps() -> Option<bool> {
     let start = fall.state(&[0.0_f64; 6], &[0.0; 6]);
     let events = &mut [Event::any(&|_, y: &[f64; 13]| y[1] * y[1] - 0.01)];
     let end = Dop853::new()
-        .solve_with_events(&mut fall, (0.0, 0.5), start, events, |_| ControlFlow::Continue(()), |_| ControlFlow::Break(()))
+        .solve_with_events(
+            &mut fall,
+            (0.0, 0.5),
+            start,
+            events,
+            |_| ControlFlow::Continue(()),
+            |_| ControlFlow::Break(()),
+        )
         .ok()?;
     let stopped = end.t < 0.5 && end.y[1] * end.y[1] - 0.01 < 1e-9;
     let law = ProportionalDerivative { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
@@ -119,6 +127,23 @@ fn stops_at_an_event_with_stable_steps() -> Option<bool> {
     let method = SemiImplicitEuler::new(0.5 * warning.stable.step);
     let end = method.integrate(&mut held, (0.0, 0.1), start).ok()?;
     Some(stopped && warning.joint.is_some() && end.y[2] < 1.0)
+}
+
+fn rests_under_limited_pid() -> Option<bool> {
+    let (q, at_rest) = ([0.1, 0.7, -0.4, 0.3, 0.9, -0.2], [0.0; 6]);
+    let [kp, ki, kd] = [[500.0; 6], [100.0; 6], [50.0; 6]];
+    let tracking = tracking_rates(&kp, &ki, &kd);
+    let integral = Kr5::gravity_forces(&q);
+    let pid = Pid { trajectory: SetPoint::new(&Kr5, q), kp, ki, kd, tracking, integral };
+    let mut held = ForwardSimulation::new(&Kr5, Limited { law: pid, limits: [1000.0; 6] });
+    let start: [f64; 19] = held.extended_state(&q, &at_rest);
+    let by_pid = Ode15s::new().integrate(&mut held, (0.0, 0.1), start).ok()?;
+    let law = PdGravity { mechanism: &Kr5, trajectory: SetPoint::new(&Kr5, q), kp, kd };
+    let mut held = ForwardSimulation::new(&Kr5, law);
+    let start = held.state(&q, &at_rest);
+    let by_gravity = Ode15s::new().integrate(&mut held, (0.0, 0.1), start).ok()?;
+    let stays = |state: &[f64]| state.iter().zip(&q).all(|(now, then)| -1e-9 < now - then && now - then < 1e-9);
+    Some(stays(&by_pid.y) && stays(&by_gravity.y))
 }
 
 fn implicit_methods_agree() -> Option<bool> {

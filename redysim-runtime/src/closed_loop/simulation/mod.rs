@@ -9,10 +9,11 @@ use super::constraints::{Constraints, length_scale};
 use super::position::ProjectedPoint;
 use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
 use crate::integrate::Accepted;
+use crate::simulate::{check_state, extended_state, law_torque};
 use crate::vector::entry;
 use crate::{
     BiasForces, ConfigurationSpace, ForwardSimulation, LengthMismatch, LoopClosure, MassMatrix, Ode, Real,
-    SimulationState, TorqueLaw,
+    SimulationState, TorqueLaw, Vector,
 };
 
 pub use stabilisation::Stabilisation;
@@ -124,8 +125,19 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         ForwardSimulation::new(self.loops.mechanism, ()).state(q, v)
     }
 
+    /// The state [q, v, 0, z] with the law's states z, as that of
+    /// [`ForwardSimulation::extended_state`](crate::ForwardSimulation::extended_state), whether or not the loops are
+    /// closed there.
+    pub fn extended_state<Y: Vector<S>>(&self, q: &M::Coordinates, v: &M::Velocities) -> Y
+    where
+        M: ConfigurationSpace<S>,
+        L: TorqueLaw<S, M>,
+    {
+        extended_state(self.loops.mechanism, &self.law, q, v)
+    }
+
     /// The parts of a state. What a `Vec` lacks is NaN.
-    pub fn split(&self, state: &M::State) -> SimulationState<S, M::Coordinates, M::Velocities>
+    pub fn split<Y: Vector<S>>(&self, state: &Y) -> SimulationState<S, M::Coordinates, M::Velocities>
     where
         M: ConfigurationSpace<S>,
     {
@@ -136,7 +148,11 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     ///
     /// # Errors
     /// As [`ClosedLoop::dynamics`].
-    pub fn motion(&mut self, t: S, state: &M::State) -> Result<ConstrainedMotion<M::Velocities, C::Rows>, LoopError<S>>
+    pub fn motion<Y: Vector<S>>(
+        &mut self,
+        t: S,
+        state: &Y,
+    ) -> Result<ConstrainedMotion<M::Velocities, C::Rows>, LoopError<S>>
     where
         M: MassMatrix<S> + BiasForces<S>,
         C: LoopClosure<S, M>,
@@ -149,10 +165,10 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     ///
     /// # Errors
     /// As [`ClosedLoop::dynamics`].
-    pub fn forced_motion(
+    pub fn forced_motion<Y: Vector<S>>(
         &mut self,
         t: S,
-        state: &M::State,
+        state: &Y,
     ) -> Result<ForcedMotion<M::Velocities, C::Rows>, LoopError<S>>
     where
         M: MassMatrix<S> + BiasForces<S>,
@@ -160,7 +176,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         L: TorqueLaw<S, M>,
     {
         let SimulationState { q, v, .. } = self.split(state);
-        let tau = self.law.torque(t, &q, &v);
+        let tau = law_torque(&mut self.law, self.loops.mechanism, t, (&q, &v), (state, &mut state.clone()));
         let motion = self.constrained(&self.loops.constraints_at(&q)?, &q, &v, &tau)?;
         Ok(ForcedMotion { tau, motion })
     }
@@ -168,7 +184,7 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     /// Where the derivative at a state is evaluated: the state itself, or, with the projection near a singular position
     /// or with redundant rows, the nearest one that keeps the loops closed. In a state that is slightly open, rows
     /// contradict each other, and the rank may be another.
-    fn evaluation_point(&self, state: &M::State) -> Result<EvaluationPoint<S, M, C>, LoopError<S>>
+    fn evaluation_point(&self, state: &impl Vector<S>) -> Result<EvaluationPoint<S, M, C>, LoopError<S>>
     where
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
@@ -208,22 +224,23 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     }
 }
 
-impl<S, M, L, C> Ode<S, M::State> for ClosedLoopSimulation<'_, S, M, L, C>
+impl<S, Y, M, L, C> Ode<S, Y> for ClosedLoopSimulation<'_, S, M, L, C>
 where
     S: Real,
+    Y: Vector<S>,
     M: MassMatrix<S> + BiasForces<S>,
     L: TorqueLaw<S, M>,
     C: LoopClosure<S, M>,
 {
-    fn check_lengths(&self, t: S, state: &M::State) -> Result<(), LengthMismatch> {
-        ForwardSimulation::new(self.loops.mechanism, ()).check_state(state)?;
+    fn check_lengths(&self, t: S, state: &Y) -> Result<(), LengthMismatch> {
+        check_state(self.loops.mechanism, &self.law, state)?;
         self.law.check_lengths(t, self.loops.mechanism)
     }
 
     /// Not a number where the loops cannot be solved; [`last_error`](Self::last_error) then says why.
-    fn derivative(&mut self, t: S, state: &M::State, rate: &mut M::State) {
+    fn derivative(&mut self, t: S, state: &Y, rate: &mut Y) {
         let taken = self.evaluation_point(state).and_then(|EvaluationPoint { q, v, constraints }| {
-            let tau = self.law.torque(t, &q, &v);
+            let tau = law_torque(&mut self.law, self.loops.mechanism, t, (&q, &v), (state, rate));
             let motion = self.constrained(&constraints, &q, &v, &tau)?;
             let mechanism = self.loops.mechanism;
             let power = dot(tau.as_ref(), v.as_ref()) - mechanism.dissipated_power(&q, &v);
@@ -244,7 +261,7 @@ where
         }
     }
 
-    fn coordinate_rates(&mut self, _t: S, state: &M::State, rates: &mut M::State) -> usize {
+    fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {
         let SimulationState { q, v, .. } = self.split(state);
         for (rate, &value) in rates.as_mut().iter_mut().zip(self.loops.mechanism.coordinate_rates(&q, &v).as_ref()) {
             *rate = value;
@@ -252,7 +269,7 @@ where
         self.loops.mechanism.nq()
     }
 
-    fn accepted(&mut self, _t: S, step: S, state: &mut M::State) -> Accepted {
+    fn accepted(&mut self, _t: S, step: S, state: &mut Y) -> Accepted {
         let corrected = self.stabilisation.check(step).and_then(|()| match self.stabilisation {
             Stabilisation::Projection => {
                 let SimulationState { q, v, .. } = self.split(state);
