@@ -49,6 +49,14 @@ pub struct FrameJacobian<Row> {
     pub angular: [Row; 3],
 }
 
+impl<Row: Clone> FrameJacobian<Row> {
+    /// All rows: those of `linear`, then those of `angular`.
+    pub fn rows(&self) -> [Row; 6] {
+        let ([x, y, z], [rx, ry, rz]) = (self.linear.clone(), self.angular.clone());
+        [x, y, z, rx, ry, rz]
+    }
+}
+
 /// The acceleration of one frame, in the base frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameAcceleration<S> {

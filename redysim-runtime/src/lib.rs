@@ -28,6 +28,7 @@
 //! | numbers | [`Scalar`] and [`Real`]; [`Dual`] for derivatives; [`lanes`], several numbers side by side |
 //! | motion in time | [`Integrator`] and the methods, [`integrate`]; [`ForwardSimulation`] |
 //! | what drives it | [`TorqueLaw`], [`Trajectory`] |
+//! | tasks | [`OperationalSpace`]: inertia, inverse and null space of a task, such as a frame's motion |
 //! | closed loops | [`ClosedLoop`]: constraint forces, assembly and projection; simulation and inverse dynamics |
 //! | many states | [`batch`], on all cores; [`Dispatched`], by the best instructions that the processor has |
 //!
@@ -70,7 +71,9 @@ pub mod integrate;
 mod joint_trig;
 #[cfg(feature = "lanes")]
 pub mod lanes;
+mod linear_algebra;
 mod mechanism;
+mod operational_space;
 mod operations;
 #[cfg(feature = "lanes")]
 mod registers;
@@ -82,7 +85,7 @@ mod trajectory;
 mod trigonometry;
 mod vector;
 
-pub use closed_loop::{Assembly, ClosedLoop, ConstrainedMotion, LoopError, NamedLoopError, Projection, RowSet};
+pub use closed_loop::{Assembly, ClosedLoop, ConstrainedMotion, LoopError, NamedLoopError, Projection};
 #[cfg(feature = "simulation")]
 pub use closed_loop::{
     ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion, LoopForces, Stabilisation,
@@ -101,11 +104,13 @@ pub use function::table::{Function, Operations};
 #[cfg(feature = "simulation")]
 pub use integrate::root::*;
 pub use joint_trig::JointTrig;
+pub use linear_algebra::RowSet;
 pub use mechanism::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
     InverseDynamics, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
     Mechanism, PassiveForces, TreeDynamics,
 };
+pub use operational_space::{OperationalSpace, OperationalSpaceError, TaskStatus};
 pub use operations::OperationCount;
 pub use scalar::{FUSED, Real, Scalar};
 #[cfg(feature = "simulation")]

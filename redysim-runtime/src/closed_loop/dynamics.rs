@@ -1,8 +1,8 @@
 //! Accelerations of closed loops, and the forces that keep them closed.
 
 use super::constraints::Constraints;
-use super::constraints::linear_algebra::{add_scaled, difference, largest};
 use super::{ClosedLoop, LoopError};
+use crate::linear_algebra::{add_scaled, difference, largest};
 use crate::vector::entry;
 use crate::{BiasForces, LoopClosure, MassMatrix, Real, Vector};
 
@@ -61,24 +61,26 @@ impl<M, C> ClosedLoop<'_, M, C> {
         // In scaled coordinates: s = s₀ + Wᵀ λ with W s = b, so that Q s = R⁻¹ Tᵀ b.
         let of_tree = self.mechanism.bias_forces(q, v);
         let mut scaled = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(tau, i) - entry(&of_tree, i));
-        constraints.metric.scale(&mut scaled);
-        let change =
-            difference(&constraints.decomposition.solve(&wanted), &constraints.decomposition.coordinates(&scaled));
-        let by_loops = constraints.decomposition.combination(&change);
+        constraints.weighted.metric.scale(&mut scaled);
+        let change = difference(
+            &constraints.weighted.decomposition.solve(&wanted),
+            &constraints.weighted.decomposition.coordinates(&scaled),
+        );
+        let by_loops = constraints.weighted.decomposition.combination(&change);
         for (scaled, &by_loops) in scaled.as_mut().iter_mut().zip(by_loops.as_ref()) {
             *scaled += by_loops;
         }
-        constraints.metric.unscale(&mut scaled);
-        let mut multipliers = constraints.decomposition.multipliers(&change);
+        constraints.weighted.metric.unscale(&mut scaled);
+        let mut multipliers = constraints.weighted.decomposition.multipliers(&change);
         if constraints.augmentation != S::zero() {
             // Of w Jᵀ J a, which the metric has on the side of the inertia, what can be reached of J a.
-            let missed = constraints.decomposition.unreachable(&wanted);
+            let missed = constraints.weighted.decomposition.unreachable(&wanted);
             add_scaled(multipliers.as_mut(), -constraints.augmentation, difference(&wanted, &missed).as_ref());
         }
         let finite = |values: &[S]| largest(values.iter().copied()).0.is_finite();
         if !(finite(scaled.as_ref()) && finite(multipliers.as_ref())) {
             return Err(LoopError::NotFinite);
         }
-        Ok(ConstrainedMotion { accelerations: scaled, multipliers, rank: constraints.decomposition.rank() })
+        Ok(ConstrainedMotion { accelerations: scaled, multipliers, rank: constraints.weighted.decomposition.rank() })
     }
 }

@@ -19,7 +19,7 @@ mod position;
 mod simulation;
 
 pub use dynamics::ConstrainedMotion;
-pub use error::{LoopError, NamedLoopError, RowSet};
+pub use error::{LoopError, NamedLoopError};
 #[cfg(feature = "simulation")]
 pub use inverse::{ClosedLoopComputedTorque, ClosedLoopInverse, LoopForces};
 pub use position::{Assembly, Projection};

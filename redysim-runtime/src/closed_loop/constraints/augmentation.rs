@@ -1,8 +1,8 @@
 //! M + w JᵀJ: the mass matrix of a tree with its constraints (the augmented Lagrangian formulation).
 
 use super::length_scale;
-use super::linear_algebra::largest;
 use crate::closed_loop::ClosedLoop;
+use crate::linear_algebra::largest;
 use crate::vector::entry;
 use crate::{LoopClosure, MassMatrix, Real, Vector};
 

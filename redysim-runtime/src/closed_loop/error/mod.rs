@@ -1,14 +1,13 @@
 //! Why a loop could not be closed, or its dynamics not be solved.
 
 mod named;
-mod row_set;
 
 use core::fmt;
 
-use crate::LengthMismatch;
+use crate::linear_algebra::{NotFinite, NotPositiveDefinite};
+use crate::{LengthMismatch, RowSet};
 
 pub use named::NamedLoopError;
-pub use row_set::RowSet;
 
 /// What is wrong with a closed loop. Rows are counted from 0 in the order of `loop_residual`, velocities in the
 /// model's.
@@ -106,6 +105,18 @@ pub enum LoopError<S> {
     },
     /// A position, a velocity, a force, or what the mechanism makes of them is infinite or not a number.
     NotFinite,
+}
+
+impl<S> From<NotPositiveDefinite> for LoopError<S> {
+    fn from(NotPositiveDefinite { velocity }: NotPositiveDefinite) -> Self {
+        Self::SingularInertia { velocity }
+    }
+}
+
+impl<S> From<NotFinite> for LoopError<S> {
+    fn from(_: NotFinite) -> Self {
+        Self::NotFinite
+    }
 }
 
 impl<S> LoopError<S> {

@@ -1,9 +1,9 @@
 //! The forces of the actuators for given accelerations of the independent joints.
 
 use super::LoopForces;
-use crate::closed_loop::constraints::linear_algebra::{add_scaled, difference, dot, largest, product, zeros};
-use crate::closed_loop::constraints::{OrthogonalDecomposition, zero_columns};
+use crate::closed_loop::constraints::{LoopDecomposition, rank_tolerance, zero_columns};
 use crate::closed_loop::{ClosedLoop, LoopError};
+use crate::linear_algebra::{add_scaled, difference, dot, largest, product, zeros};
 use crate::vector::entry;
 use crate::{InverseDynamics, LengthMismatch, LoopClosure, Mechanism, Motion, Real, Vector};
 
@@ -135,7 +135,7 @@ impl<M, C> Actuation<'_, M, C> {
     fn multipliers<S: Real>(
         &self,
         jacobian: &C::Jacobian,
-        unactuated: &OrthogonalDecomposition<S, M, C>,
+        unactuated: &LoopDecomposition<S, M, C>,
         of_tree: &M::Velocities,
     ) -> C::Rows
     where
@@ -180,7 +180,7 @@ impl<M, C> Actuation<'_, M, C> {
         &self,
         jacobian: &C::Jacobian,
         known: &[usize],
-    ) -> Result<OrthogonalDecomposition<S, M, C>, LoopError<S>>
+    ) -> Result<LoopDecomposition<S, M, C>, LoopError<S>>
     where
         M: InverseDynamics<S>,
         C: LoopClosure<S, M>,
@@ -189,7 +189,7 @@ impl<M, C> Actuation<'_, M, C> {
         for row in rows.as_mut() {
             zero_columns(row, known);
         }
-        OrthogonalDecomposition::new(rows, self.loops.mechanism.nv())
+        Ok(LoopDecomposition::<S, M, C>::new(rows, self.loops.mechanism.nv(), rank_tolerance())?)
     }
 
     fn prescribe<S: Real, V: Vector<S>, I: Vector<S>>(&self, x: &mut V, given: &I) {

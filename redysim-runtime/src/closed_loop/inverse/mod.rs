@@ -4,9 +4,9 @@ mod actuation;
 mod computed_torque;
 
 use super::constraints::Metric;
-use super::constraints::linear_algebra::largest;
 use super::position::NewtonStatus;
 use super::{ClosedLoop, LoopError};
+use crate::linear_algebra::largest;
 use crate::vector::entry;
 use crate::{InverseDynamics, LoopClosure, MassMatrix, Motion, Real, Trajectory, Vector};
 use actuation::Actuation;

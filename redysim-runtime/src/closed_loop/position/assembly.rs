@@ -2,8 +2,8 @@
 
 use super::NewtonStatus;
 use crate::closed_loop::constraints::Metric;
-use crate::closed_loop::constraints::linear_algebra::{difference, largest, norm, product};
 use crate::closed_loop::{ClosedLoop, LoopError};
+use crate::linear_algebra::{difference, largest, norm, product};
 use crate::{LoopClosure, MassMatrix, Real};
 
 /// Enough to cross several turns by the largest step.
@@ -75,7 +75,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
         // The second time takes away what rounding left of the first.
         for _ in 0..2 {
             let rates: C::Rows = product(solution.constraints.jacobian.as_ref(), v.as_ref());
-            v = difference(&v, &solution.constraints.least_norm(&rates));
+            v = difference(&v, &solution.constraints.weighted.least_norm(&rates));
         }
         if largest(v.as_ref().iter().copied()).0 <= S::EPSILON * asked {
             // The loops stop all that was asked for: what is left is roundoff of it.
@@ -104,7 +104,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
             distance,
             position_residual,
             row,
-            rank: solution.constraints.decomposition.rank(),
+            rank: solution.constraints.weighted.decomposition.rank(),
         })
     }
 }

@@ -1,8 +1,8 @@
 //! Newton's method for the position constraints, on the branch of its guess.
 
-use crate::closed_loop::constraints::linear_algebra::{largest, norm};
 use crate::closed_loop::constraints::{Constraints, Metric};
 use crate::closed_loop::{ClosedLoop, LoopError};
+use crate::linear_algebra::{largest, norm};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 
@@ -93,7 +93,7 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        let step = constraints.least_norm(residual);
+        let step = constraints.weighted.least_norm(residual);
         let (farthest, _) = largest(step.as_ref().iter().copied());
         let mut part = (S::from_f64(LARGEST_STEP) / farthest).minimum(S::one());
         let before = norm(residual.as_ref());

@@ -1,9 +1,9 @@
 //! The projection of position and velocity onto the constraints, as after a step of integration.
 
 use super::NewtonSolution;
-use crate::closed_loop::constraints::linear_algebra::largest;
 use crate::closed_loop::constraints::{Constraints, Metric};
 use crate::closed_loop::{ClosedLoop, LoopError};
+use crate::linear_algebra::largest;
 use crate::vector::entry;
 use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 
@@ -68,12 +68,12 @@ impl<M, C> ClosedLoop<'_, M, C> {
             return Err(LoopError::NoConvergence { position_residual, row });
         }
         // A velocity that a `Vec` lacks is NaN, and seen to be.
-        let normal = constraints.normal_velocity(v);
+        let normal = constraints.weighted.normal_velocity(v);
         let v = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(v, i) - entry(&normal, i));
         if !largest(v.as_ref().iter().copied()).0.is_finite() {
             return Err(LoopError::NotFinite);
         }
-        let rank = constraints.decomposition.rank();
+        let rank = constraints.weighted.decomposition.rank();
         Ok(ProjectedPoint { projection: Projection { q, v, position_residual, rank }, constraints })
     }
 }

@@ -4,11 +4,11 @@ mod stabilisation;
 
 use core::iter::once;
 
-use super::constraints::linear_algebra::{dot, largest, product};
 use super::constraints::{Constraints, length_scale};
 use super::position::ProjectedPoint;
 use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
 use crate::integrate::Accepted;
+use crate::linear_algebra::{dot, largest, product};
 use crate::simulate::{check_state, extended_state, law_torque};
 use crate::vector::entry;
 use crate::{
@@ -192,8 +192,8 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         let SimulationState { q, v, .. } = self.split(state);
         let constraints = self.loops.constraints_at(&q)?;
         if self.stabilisation == Stabilisation::Projection
-            && (constraints.decomposition.nearly_singular()
-                || constraints.decomposition.rank() < self.loops.closure.nc())
+            && (constraints.weighted.decomposition.nearly_singular()
+                || constraints.weighted.decomposition.rank() < self.loops.closure.nc())
             && let Ok(ProjectedPoint { projection, constraints }) = self.loops.project_with_constraints(&q, &v)
         {
             return Ok(EvaluationPoint { q: projection.q, v: projection.v, constraints });

@@ -1,8 +1,8 @@
-//! A set of rows of the loop residual.
+//! A set of rows of a Jacobian.
 
 use core::fmt;
 
-/// Some of the first 128 rows of the loop residual; rows beyond are not recorded.
+/// Some of the first 128 rows of a Jacobian, such as that of the loop residual; rows beyond are not recorded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RowSet(u128);
 

@@ -1,4 +1,15 @@
-//! Small vectors and matrices by slices; nothing here can panic.
+//! Small vectors and matrices by slices, and the solves of any rank that closed loops and operational space stand on;
+//! nothing here can panic.
+
+mod mass_metric;
+mod orthogonal_decomposition;
+mod row_set;
+mod weighted_rows;
+
+pub use mass_metric::{MassMetric, NotPositiveDefinite};
+pub use orthogonal_decomposition::{NotFinite, OrthogonalDecomposition};
+pub use row_set::RowSet;
+pub use weighted_rows::WeightedRows;
 
 use crate::vector::entry;
 use crate::{Real, Scalar, Vector};

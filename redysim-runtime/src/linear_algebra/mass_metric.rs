@@ -4,12 +4,19 @@
 //! velocity or an acceleration x make xᵀ M x = sᵀ s. In them Gauss' principle of least constraint is Euclidean: of all
 //! accelerations that keep the loops closed, the true one is nearest to the unconstrained one.
 
-use super::LoopError;
-use super::linear_algebra::{add_scaled, dot};
+use super::{add_scaled, dot};
 use crate::vector::entry;
 use crate::{Real, Vector};
 
+/// A pivot of M is not positive, or not a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotPositiveDefinite {
+    /// The velocity of the pivot.
+    pub velocity: usize,
+}
+
 /// M = U D Uᵀ, in the room of M. Row k holds column k of U above its diagonal, then D_k^−½; what follows is not used.
+#[derive(Clone)]
 pub struct MassMetric<A> {
     factors: A,
     regular: bool,
@@ -20,7 +27,7 @@ const ROUNDINGS: f64 = 16.0;
 
 impl<A> MassMetric<A> {
     /// Factorises `matrix`, of which the lower triangle is looked at. Zeros that branches leave cost nothing.
-    pub fn new<S: Real, V: Vector<S>>(mut matrix: A) -> Result<Self, LoopError<S>>
+    pub fn new<S: Real, V: Vector<S>>(mut matrix: A) -> Result<Self, NotPositiveDefinite>
     where
         A: Vector<V>,
     {
@@ -32,7 +39,7 @@ impl<A> MassMetric<A> {
             let Some((column, [pivot, ..])) = row.as_mut().split_at_mut_checked(k) else { continue };
             let size = *pivot;
             if !(size > S::zero() && size.is_finite()) {
-                return Err(LoopError::SingularInertia { velocity: k });
+                return Err(NotPositiveDefinite { velocity: k });
             }
             regular &= size > S::from_f64(ROUNDINGS) * S::EPSILON * entry(&diagonal, k);
             for (i, other) in above.iter_mut().enumerate() {
@@ -69,6 +76,19 @@ impl<A> MassMetric<A> {
                 add_scaled(above, -*value, column);
                 *value = *value * *root;
             }
+        }
+    }
+
+    /// U D^½ s: the generalised force with scaled coordinates s, in place; the inverse of [`scale`](Self::scale).
+    pub fn unscale_force<S: Real, V: Vector<S>>(&self, scaled: &mut V)
+    where
+        A: Vector<V>,
+    {
+        for (k, row) in self.factors.as_ref().iter().enumerate() {
+            let Some((column, [root, ..])) = row.as_ref().split_at_checked(k) else { continue };
+            let Some((above, [value, ..])) = scaled.as_mut().split_at_mut_checked(k) else { continue };
+            *value = *value / *root;
+            add_scaled(above, *value, column);
         }
     }
 
@@ -115,6 +135,10 @@ mod tests {
             assert!((a - b).abs() < 1e-15, "M x and x have the same scaled coordinates: {of_force:?} {of_velocity:?}");
         }
         assert!((dot(&of_velocity, &of_velocity) - dot(&force, &x)).abs() < 1e-14);
+        metric.unscale_force(&mut of_force);
+        for (a, b) in of_force.iter().zip(&force) {
+            assert!((a - b).abs() < 1e-14, "{of_force:?} {force:?}");
+        }
         metric.unscale(&mut of_velocity);
         for (a, b) in of_velocity.iter().zip(&x) {
             assert!((a - b).abs() < 1e-15);
@@ -132,8 +156,8 @@ mod tests {
     #[test]
     fn a_matrix_that_is_not_positive_definite_is_refused_with_the_velocity() {
         let error = MassMetric::new::<f64, [f64; 2]>([[1.0, 2.0], [2.0, 1.0]]).err();
-        assert_eq!(error, Some(LoopError::SingularInertia { velocity: 0 }));
+        assert_eq!(error, Some(NotPositiveDefinite { velocity: 0 }));
         let error = MassMetric::new::<f64, [f64; 2]>([[1.0, 2.0], [2.0, f64::NAN]]).err();
-        assert_eq!(error, Some(LoopError::SingularInertia { velocity: 1 }));
+        assert_eq!(error, Some(NotPositiveDefinite { velocity: 1 }));
     }
 }

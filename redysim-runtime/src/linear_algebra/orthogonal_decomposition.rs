@@ -1,4 +1,4 @@
-//! The rows of a matrix W (NC × NV) of any rank r: W = T R Q, a complete orthogonal decomposition.
+//! The rows of a matrix W of any rank r: W = T R Q, a complete orthogonal decomposition.
 //!
 //! Q has r orthonormal rows that span the rows of W, T r orthonormal columns that span its columns, R is upper
 //! triangular. So both W⁺ = Qᵀ R⁻¹ Tᵀ and its transpose are at hand, which give least-norm answers whether the rows are
@@ -8,60 +8,61 @@
 
 use core::marker::PhantomData;
 
-use super::linear_algebra::{add_scaled, dot, largest, norm, zeros};
-use super::{LoopError, RowSet};
-use crate::{ConfigurationSpace, LoopClosure, Real, Vector};
+use super::{RowSet, add_scaled, dot, largest, norm, zeros};
+use crate::{Real, Vector};
 
-/// A row counts as dependent when what remains of it is at most this part of the longest row.
-///
-/// At a singular position a residual of rounding size leaves the position uncertain by its root, 10⁻⁸, and what is
-/// divided by the remainder σ carries an error of that size over σ. A row left out for one evaluation, on the other
-/// hand, costs little, since σ is as small only within a tiny part of a step. Experiments with the N-four-bar (steps of
-/// 10⁻² to 5·10⁻⁵ s through ten singular positions) are best between 3·10⁻⁶ and 3·10⁻⁵.
-const DEPENDENT: f64 = 1e-5;
 /// Below this remainder a position is called nearly singular.
 const NEARLY_SINGULAR: f64 = 0.03;
 
-fn rank_tolerance<S: Real>() -> S {
-    S::from_f64(DEPENDENT).maximum(S::EPSILON.sqrt())
-}
+/// An element of W is infinite or not a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotFinite;
 
-/// W = T R Q.
-pub struct OrthogonalDecomposition<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> {
+/// W = T R Q, with rows `V` in `W`, and columns `R` in the square matrix `G`.
+#[derive(Clone)]
+pub struct OrthogonalDecomposition<S, V, R, W, G> {
     /// The rows of Q.
-    basis: C::Jacobian,
+    basis: W,
     /// The columns of T.
-    columns: C::Gram,
+    columns: G,
     /// The rows of R.
-    triangle: C::Gram,
+    triangle: G,
     rank: usize,
     /// The length of a row.
     count: usize,
     nearly_singular: bool,
     dependent: RowSet,
-    scalar: PhantomData<fn() -> (S, M)>,
+    scalar: PhantomData<(S, V, R)>,
 }
 
-impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecomposition<S, M, C> {
-    /// Decomposes the matrix with the given rows, each of length `count`.
-    pub fn new(mut rows: C::Jacobian, count: usize) -> Result<Self, LoopError<S>> {
+impl<S, V, R, W, G> OrthogonalDecomposition<S, V, R, W, G>
+where
+    S: Real,
+    V: Vector<S>,
+    R: Vector<S>,
+    W: Vector<V>,
+    G: Vector<R>,
+{
+    /// Decomposes the matrix with the given rows, each of length `count`. A row counts as dependent when what remains
+    /// of it is at most `tolerance` times the longest row.
+    pub fn new(mut rows: W, count: usize, tolerance: S) -> Result<Self, NotFinite> {
         let nc = rows.as_ref().len();
         let mut basis = rows.clone();
-        let mut columns = C::Gram::from_fn(nc, |_| zeros(nc));
-        let mut used: C::Rows = zeros(nc);
+        let mut columns = G::from_fn(nc, |_| zeros(nc));
+        let mut used: R = zeros(nc);
         let mut rank = 0;
         let (mut longest, mut nearly_singular) = (S::zero(), false);
         for step in 0..nc {
             // A row in use has become zero.
             let (size, pivot) = largest(rows.as_ref().iter().map(|row| norm(row.as_ref())));
             if !size.is_finite() {
-                return Err(LoopError::NotFinite);
+                return Err(NotFinite);
             }
             longest = longest.maximum(size);
             // Rows that are redundant at every position leave nothing but rounding.
             let rounding = S::from_f64(1e3) * S::EPSILON * longest;
             nearly_singular |= rounding < size && size < S::from_f64(NEARLY_SINGULAR) * longest;
-            if size <= rank_tolerance::<S>() * longest {
+            if size <= tolerance * longest {
                 break;
             }
             let Some(row) = rows.as_mut().get_mut(pivot) else { break };
@@ -92,6 +93,11 @@ impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecompos
         Ok(Self { basis, columns, triangle, rank, count, nearly_singular, dependent, scalar: PhantomData })
     }
 
+    /// The length of a row.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// How many rows are independent at this position.
     pub fn rank(&self) -> usize {
         self.rank
@@ -108,8 +114,8 @@ impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecompos
     }
 
     /// Q s.
-    pub fn coordinates(&self, s: &M::Velocities) -> C::Rows {
-        let mut coordinates: C::Rows = zeros(self.basis.as_ref().len());
+    pub fn coordinates(&self, s: &V) -> R {
+        let mut coordinates: R = zeros(self.basis.as_ref().len());
         for (coordinate, base) in coordinates.as_mut().iter_mut().zip(self.basis.as_ref()).take(self.rank) {
             *coordinate = dot(base.as_ref(), s.as_ref());
         }
@@ -117,8 +123,8 @@ impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecompos
     }
 
     /// Qᵀ c.
-    pub fn combination(&self, coordinates: &C::Rows) -> M::Velocities {
-        let mut sum = M::Velocities::from_fn(self.count, |_| S::zero());
+    pub fn combination(&self, coordinates: &R) -> V {
+        let mut sum = V::from_fn(self.count, |_| S::zero());
         for (base, &coordinate) in self.basis.as_ref().iter().zip(coordinates.as_ref()).take(self.rank) {
             add_scaled(sum.as_mut(), coordinate, base.as_ref());
         }
@@ -126,8 +132,8 @@ impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecompos
     }
 
     /// R⁻¹ Tᵀ b, so that s = Qᵀ R⁻¹ Tᵀ b is the shortest of the solutions of W s = b (in the sense of least squares).
-    pub fn solve(&self, b: &C::Rows) -> C::Rows {
-        let mut solution: C::Rows = zeros(b.as_ref().len());
+    pub fn solve(&self, b: &R) -> R {
+        let mut solution: R = zeros(b.as_ref().len());
         for (j, (column, row)) in
             self.columns.as_ref().iter().zip(self.triangle.as_ref()).enumerate().take(self.rank).rev()
         {
@@ -139,9 +145,9 @@ impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecompos
     }
 
     /// T R⁻ᵀ c, the shortest λ with Wᵀ λ = Qᵀ c.
-    pub fn multipliers(&self, coordinates: &C::Rows) -> C::Rows {
+    pub fn multipliers(&self, coordinates: &R) -> R {
         let mut rest = coordinates.clone();
-        let mut multipliers: C::Rows = zeros(rest.as_ref().len());
+        let mut multipliers: R = zeros(rest.as_ref().len());
         for (j, (column, row)) in self.columns.as_ref().iter().zip(self.triangle.as_ref()).enumerate().take(self.rank) {
             let Some((_, [diagonal, beside @ ..])) = row.as_ref().split_at_checked(j) else { continue };
             let Some((_, [element, later @ ..])) = rest.as_mut().split_at_mut_checked(j) else { continue };
@@ -153,7 +159,7 @@ impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> OrthogonalDecompos
     }
 
     /// b − T Tᵀ b, what no s can reach.
-    pub fn unreachable(&self, b: &C::Rows) -> C::Rows {
+    pub fn unreachable(&self, b: &R) -> R {
         let mut rest = b.clone();
         for column in self.columns.as_ref().iter().take(self.rank) {
             let along = dot(column.as_ref(), rest.as_ref());
