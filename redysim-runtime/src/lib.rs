@@ -92,8 +92,8 @@ pub use closed_loop::{
 };
 #[cfg(feature = "simulation")]
 pub use control::{
-    ComputedTorque, Limited, PdGravity, Pid, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque,
-    tracking_rates, uniform,
+    Compensation, ComputedTorque, FrameGains, FrameTrajectory, Impedance, Limited, PdGravity, Pid, Proportional,
+    ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque, tracking_rates, uniform,
 };
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched, Instructions};

@@ -8,9 +8,10 @@
 //! | [`Pid`] | with integral action, whose state the simulation integrates |
 //! | [`PdGravity`] | a spring and a damper to a motion, and the gravity forces of a model |
 //! | [`ComputedTorque`] | the inverse dynamics of a model, with feedback |
+//! | [`Impedance`] | springs and dampers on a frame, and gravity forces or the bias of a model |
 //! | [`Limited`] | any law within the limits of the actuators |
 //!
-//! They treat each joint by itself, with one gain for each velocity. [`ComputedTorque`] and [`PdGravity`] take position
+//! All but [`Impedance`] treat each joint by itself, with one gain for each velocity. [`ComputedTorque`] and [`PdGravity`] take position
 //! errors from the mechanism's `difference`; the others subtract coordinates from coordinates, and are for joints of one
 //! coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint), proportional gains
 //! N m/rad (N/m) and derivative gains N m s/rad (N s/m) by default. One gain for all joints is written
@@ -18,15 +19,18 @@
 //! length, nor with a law that the mechanism has too many coordinates for ([`TorqueLaw::check_lengths`]).
 
 mod computed_torque;
+mod impedance;
 mod limited;
 mod pd_gravity;
 mod pid;
+mod rotation_vector;
 mod spring_damper;
 
 use crate::vector::entry;
 use crate::{ConfigurationSpace, LengthMismatch, Mechanism, Motion, Real, Scalar, Vector};
 
 pub use computed_torque::ComputedTorque;
+pub use impedance::{Compensation, FrameGains, FrameTrajectory, Impedance};
 pub use limited::Limited;
 pub use pd_gravity::PdGravity;
 pub use pid::{Pid, tracking_rates};
