@@ -152,7 +152,14 @@ fn random_model(random: &mut Random) -> Model {
         let joint = [CutKind::Revolute, CutKind::Spherical, CutKind::Weld][random.below(3)];
         loops.push(Loop { name: format!("loop{number}"), joint, a, b });
     }
-    Model { name: "random".into(), gravity: Vec3::from_fn(|_| random.within(10.0)), links, loops, frames: Vec::new() }
+    Model {
+        name: "random".into(),
+        gravity: Vec3::from_fn(|_| random.within(10.0)),
+        links,
+        loops,
+        frames: Vec::new(),
+        springs: Vec::new(),
+    }
 }
 
 /// The axes of side a of each cut as the library has chosen them, in the link's frame.

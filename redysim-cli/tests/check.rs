@@ -62,6 +62,19 @@ fn the_mobility_of_bricards_linkage_is_one() {
 }
 
 #[test]
+fn the_summary_lists_springs_between_points() {
+    let (report, _) = json(&[&model("test/springs.toml")]);
+    let springs = report["summary"]["springs"].as_array().unwrap();
+    assert_eq!(springs.len(), 4);
+    assert_eq!((&springs[1]["name"], &springs[1]["link_b"]), (&Value::from("strut"), &Value::from("bracket")));
+    assert_eq!((&springs[1]["stiffness"], &springs[1]["damping"]), (&Value::from(900.0), &Value::from(30.0)));
+    assert_eq!((&springs[2]["name"], &springs[3]["link_a"]), (&Value::Null, &Value::from("base")));
+    let run = call(&root(), &["check", &model("test/springs.toml")]);
+    let strut = "  spring     strut: upper – bracket, 900 N/m, 30 N s/m, relaxed at 0.35 m\n";
+    assert!(run.stdout.contains(strut), "{}", run.stdout);
+}
+
+#[test]
 fn operation_counts_are_those_of_the_compiled_functions() {
     let (report, _) = json(&[&model("kr5.toml")]);
     let operations = report["summary"]["operations"].as_array().unwrap();

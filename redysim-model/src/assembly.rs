@@ -3,10 +3,11 @@
 use crate::denoc;
 use crate::inertia::Sym3;
 use crate::joint::{Joint, JointPhysics, JointPosition};
-use crate::model::{CutKind, CutSide, Frame, Link, Model};
+use crate::model::{CutKind, CutSide, Frame, Link, LinkPoint, Model, Spring};
 use crate::pseudo::PseudoInertia;
 use crate::rotation::{self, align_z};
 use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spring::{BodyPoint, BodySpring};
 use crate::tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Tree};
 
 impl Tree {
@@ -23,6 +24,7 @@ impl Tree {
                 .collect(),
             cuts: Vec::new(),
             frames: Vec::new(),
+            springs: Vec::new(),
         };
         let first = first_of_joints(model);
         for index in parents_first(model) {
@@ -45,6 +47,7 @@ impl Tree {
         }
         tree.cut(model);
         tree.frames = model.frames.iter().map(|frame| tree.body_frame(frame)).collect();
+        tree.springs = model.springs.iter().map(|spring| tree.body_spring(spring)).filter(BodySpring::acts).collect();
         tree
     }
 
@@ -69,6 +72,17 @@ impl Tree {
     fn body_frame(&self, frame: &Frame) -> BodyFrame {
         let (body, pose) = self.on_body(frame.link);
         BodyFrame { body, pose: (pose * frame.placement).without_roundoff() }
+    }
+
+    fn body_spring(&self, spring: &Spring) -> BodySpring {
+        let &Spring { a, b, stiffness, damping, length, .. } = spring;
+        BodySpring { a: self.body_point(a), b: self.body_point(b), stiffness, damping, length }
+    }
+
+    fn body_point(&self, LinkPoint { link, point }: LinkPoint) -> BodyPoint {
+        let (body, pose) = self.on_body(link);
+        let end = (pose * Pose { rotation: Mat3::identity(), position: point }).without_roundoff();
+        BodyPoint { body, point: end.position }
     }
 
     fn cut_end(&self, joint: CutKind, side: &CutSide) -> CutEnd {

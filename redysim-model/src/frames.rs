@@ -11,6 +11,7 @@ use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::rotation;
 use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spring::BodySpring;
 use crate::tree::{Body, Tree};
 
 /// Elements of a rotation nearer than this to a quarter turn's are roundoff of the products they come from.
@@ -76,6 +77,9 @@ pub fn reframe<P: Parameter>(tree: &mut Tree<P>, body: usize, angle: f64, distan
     for end in tree.cuts.iter_mut().flat_map(|cut| [&mut cut.a, &mut cut.b]).filter(|end| end.body == Some(body)) {
         let Pose { rotation, position } = clean_pose(back * Pose { rotation: end.axes, position: end.point }, size);
         (end.axes, end.point) = (rotation, position);
+    }
+    for end in tree.springs.iter_mut().flat_map(BodySpring::ends_mut).filter(|end| end.body == Some(body)) {
+        end.point = clean_vector(back.transform(end.point), size);
     }
 }
 

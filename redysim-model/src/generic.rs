@@ -192,7 +192,7 @@ impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
     }
     fn dissipated_power(&self, q: &Vec<S>, v: &Vec<S>) -> S {
         self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
-        denoc::dissipated_power(&self.tree, v)
+        denoc::dissipated_power(&self.tree, &Untraced, q, v)
     }
 }
 
@@ -255,7 +255,7 @@ impl<S: Scalar> MechanicalEnergy<S> for GenericMechanism {
 impl<S: Scalar> PassiveForces<S> for GenericMechanism {
     fn passive_forces(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
         self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
-        denoc::passive_forces(&self.tree, q, v)
+        denoc::passive_forces(&self.tree, &Untraced, q, v)
     }
 }
 

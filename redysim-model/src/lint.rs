@@ -30,6 +30,10 @@ pub enum Lint {
     GravityUp,
     /// Denavit-Hartenberg parameters look like those of the other convention.
     DhConvention,
+    /// The ends of a spring stay at one distance.
+    SpringWithoutEffect,
+    /// The ends of a spring with a free length coincide where all coordinates are zero.
+    SpringDirection,
     /// The loops could not be closed.
     LoopOpen,
     /// The constraints of a loop hold at every position.
@@ -52,7 +56,7 @@ pub enum Lint {
 
 impl Lint {
     /// Every lint.
-    pub const ALL: [Lint; 20] = [
+    pub const ALL: [Lint; 22] = [
         Lint::AngleUnits,
         Lint::RoundedAngle,
         Lint::RangeUnits,
@@ -64,6 +68,8 @@ impl Lint {
         Lint::GravityUnits,
         Lint::GravityUp,
         Lint::DhConvention,
+        Lint::SpringWithoutEffect,
+        Lint::SpringDirection,
         Lint::LoopOpen,
         Lint::LoopWithoutConstraints,
         Lint::RedundantConstraints,
@@ -89,6 +95,8 @@ impl Lint {
             Lint::GravityUnits => "gravity-units",
             Lint::GravityUp => "gravity-up",
             Lint::DhConvention => "dh-convention",
+            Lint::SpringWithoutEffect => "spring-without-effect",
+            Lint::SpringDirection => "spring-direction",
             Lint::LoopOpen => "loop-open",
             Lint::LoopWithoutConstraints => "loop-without-constraints",
             Lint::RedundantConstraints => "redundant-constraints",
@@ -122,6 +130,11 @@ impl Lint {
             Lint::DhConvention => {
                 "the rows under `dh` look like standard (distal) ones, or those under `dh_standard` like Khalil and \
                  Kleinfinger's"
+            }
+            Lint::SpringWithoutEffect => "the ends of a spring stay at one distance",
+            Lint::SpringDirection => {
+                "the ends of a spring with a free length coincide where all coordinates are zero: its force has no \
+                 direction there"
             }
             Lint::LoopOpen => "the loops could not be closed from any of several starts",
             Lint::LoopWithoutConstraints => "the constraints of a loop hold at every position",

@@ -3,7 +3,7 @@
 use crate::joint::JointPhysics;
 use crate::spatial::{Pose, Vec3};
 
-/// A mechanism whose file passed every check. Links, loops and frames stand in the file's order.
+/// A mechanism whose file passed every check. Links, loops, frames and springs stand in the file's order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Name of the mechanism.
@@ -16,6 +16,8 @@ pub struct Model {
     pub loops: Vec<Loop>,
     /// Frames of interest on links, in the file's order.
     pub frames: Vec<Frame>,
+    /// Springs between points, in the file's order.
+    pub springs: Vec<Spring>,
 }
 
 /// One rigid body and the joint that carries it.
@@ -169,6 +171,34 @@ pub struct Frame {
     pub link: Option<usize>,
     /// The frame in the link's.
     pub placement: Pose<f64>,
+}
+
+/// A spring with a damper between two points: a table `[[spring]]`.
+///
+/// It pulls its ends together with the force k (ℓ − ℓ₀) + c ℓ̇ along the line between them, where ℓ is their distance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// Name of the spring, if the file gives one.
+    pub name: Option<String>,
+    /// One end.
+    pub a: LinkPoint,
+    /// The other end.
+    pub b: LinkPoint,
+    /// Stiffness k, N/m.
+    pub stiffness: f64,
+    /// Viscous damping c, N s/m.
+    pub damping: f64,
+    /// Free length ℓ₀, at which the spring is relaxed, m.
+    pub length: f64,
+}
+
+/// A point on a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkPoint {
+    /// Index of the link in [`Model::links`]; `None` is the ground.
+    pub link: Option<usize>,
+    /// The point, in the link's frame, m.
+    pub point: Vec3<f64>,
 }
 
 /// The kinds of cut joint.

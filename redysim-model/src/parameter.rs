@@ -18,6 +18,12 @@ pub trait ParameterIn<S>: Parameter {
     fn value(self) -> S;
 }
 
+/// A parameter that may not be zero.
+#[inline]
+pub(crate) fn acting<S: Scalar, P: ParameterIn<S>>(parameter: P) -> Option<S> {
+    (parameter.number() != Some(0.0)).then(|| parameter.value())
+}
+
 impl Parameter for f64 {
     #[inline]
     fn number(self) -> Option<f64> {

@@ -18,6 +18,9 @@ pub fn in_unit<P: Parameter>(tree: &Tree<P>, unit: f64) -> Option<Tree<P>> {
         body.placement.position.0 = body.placement.position.0.map(|length| exact_one(length / unit));
         body.inertia = scaled(body.inertia, unit);
     }
+    for spring in &mut tree.springs {
+        *spring = spring.in_unit(unit);
+    }
     Some(tree)
 }
 
@@ -31,6 +34,6 @@ fn scaled<P: Parameter>(inertia: PseudoInertia<P>, unit: f64) -> PseudoInertia<P
 }
 
 /// ±1 for what differs from it by roundoff.
-fn exact_one(value: f64) -> f64 {
+pub(crate) fn exact_one(value: f64) -> f64 {
     if (value.abs() - 1.0).abs() < 16.0 * f64::EPSILON { value.signum() } else { value }
 }

@@ -7,6 +7,7 @@ use crate::joint::{Joint, JointPhysics};
 use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spring::BodySpring;
 use redysim_runtime::Scalar;
 use redysim_runtime::function::{Argument, Dimension};
 use std::ops::Range;
@@ -26,6 +27,8 @@ pub struct Tree<P = f64> {
     pub cuts: Vec<Cut>,
     /// Where each of [`Model::frames`](crate::model::Model::frames) stands, in the model's order.
     pub frames: Vec<BodyFrame>,
+    /// The springs between points that act, in the model's order.
+    pub springs: Vec<BodySpring<P>>,
 }
 
 /// A moving body with one joint about or along its z axis.
@@ -134,7 +137,7 @@ impl<P> Tree<P> {
         self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
     }
 
-    /// The tree with `f` applied to gravity, to each inertial parameter and to the physics of each joint.
+    /// The tree with `f` applied to gravity, to each inertial parameter, to the physics of each joint and to each spring.
     pub fn map<Q>(&self, f: impl Fn(P) -> Q) -> Tree<Q>
     where
         P: Scalar,
@@ -158,6 +161,7 @@ impl<P> Tree<P> {
             links: self.links.iter().map(link).collect(),
             cuts: self.cuts.clone(),
             frames: self.frames.clone(),
+            springs: self.springs.iter().map(|spring| spring.map(&f)).collect(),
         }
     }
 

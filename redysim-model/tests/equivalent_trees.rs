@@ -18,10 +18,19 @@ fn tree(name: &str) -> Tree {
     Tree::new(&Model::load(path).expect("a good model").model)
 }
 
-/// Revolute and prismatic joints, branching, oblique; and, with loops, the plane and space.
+/// Revolute and prismatic joints, branching, oblique; with loops, the plane and space; springs between points.
 fn trees() -> Vec<(&'static str, Tree)> {
-    let names =
-        ["kr5", "gripper", "test/gantry", "test/bricard", "slider_crank", "leg", "peers/humanoid30", "test/frames"];
+    let names = [
+        "kr5",
+        "gripper",
+        "test/gantry",
+        "test/bricard",
+        "slider_crank",
+        "leg",
+        "peers/humanoid30",
+        "test/frames",
+        "test/springs",
+    ];
     names.map(|name| (name, tree(name))).into()
 }
 
@@ -34,6 +43,8 @@ fn dynamics(tree: &Tree) -> Vec<Vec<f64>> {
         denoc::mass_matrix(tree, &Untraced, &q).concat(),
         denoc::bias_forces(tree, &Untraced, &q, &v),
         denoc::gravity_forces(tree, &Untraced, &q),
+        denoc::passive_forces(tree, &Untraced, &q, &v),
+        vec![denoc::dissipated_power(tree, &Untraced, &q, &v)],
         vec![energy.kinetic],
         vec![energy.potential],
     ]

@@ -183,6 +183,11 @@ fn an_arm_in_si_units_has_no_lints() {
     assert_eq!(lints(&load(ARM)), [""; 0]);
 }
 
+/// The arm with a spring between two points.
+fn sprung(ends: &str) -> String {
+    format!("{ARM}\n[[spring]]\n{ends}\nstiffness = 100.0\nlength = 0.2\n")
+}
+
 /// For each lint, a model that has what it is about and nothing else.
 fn cases() -> Vec<(Lint, String)> {
     let warn = |name: &str| fs::read_to_string(models().join(format!("warn/{name}.toml"))).unwrap();
@@ -222,6 +227,11 @@ fn cases() -> Vec<(Lint, String)> {
         (Lint::GravityUp, arm(&[("0.0, -9.81", "9.81, 0.0")])),
         (Lint::DhConvention, chain("dh", PUBLISHED[0].1, &[])),
         (Lint::DhConvention, chain("dh_standard", &khalil_kleinfinger(PUBLISHED[0].1), &[])),
+        (Lint::SpringWithoutEffect, sprung("link_b = 'upper'\nlink_a = 'turret'\npoint_a = [0.1, 0, 0.2]")),
+        (
+            Lint::SpringDirection,
+            sprung("link_b = 'fore'\nlink_a = 'upper'\npoint_b = [0, 0.1, 0]\npoint_a = [0.4, 0.1, 0]"),
+        ),
         (Lint::LoopOpen, warn("loop_stays_open")),
         (Lint::LoopWithoutConstraints, warn("loop_without_constraints")),
         (Lint::RedundantConstraints, warn("redundant_rows")),

@@ -64,6 +64,7 @@ pub fn chain(count: usize, rod: impl Fn(usize) -> Rod) -> Tree {
         links,
         loops: Vec::new(),
         frames: Vec::new(),
+        springs: Vec::new(),
     })
 }
 
@@ -88,5 +89,6 @@ pub fn palm(fingers: usize, joints: usize) -> Tree {
         links,
         loops: Vec::new(),
         frames: Vec::new(),
+        springs: Vec::new(),
     })
 }

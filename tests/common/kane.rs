@@ -10,15 +10,15 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
 use redysim_model::joint::JointPhysics;
-use redysim_model::spatial::Pose;
-use redysim_model::{Frame, JointKind, Link, Model};
+use redysim_model::spatial::{Mat3, Pose};
+use redysim_model::{Frame, JointKind, Link, LinkPoint, Model};
 
 /// Everything the tests compare, at one state.
 pub struct Kane {
     pub matrix: DMatrix<f64>,
     pub bias: DVector<f64>,
     pub gravity: DVector<f64>,
-    /// Of damping, friction and springs in the joints, part of the bias.
+    /// Of damping, friction and springs, in the joints and between points: part of the bias.
     pub passive: DVector<f64>,
     /// Power of damping and friction.
     pub dissipated: f64,
@@ -183,6 +183,20 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         sums.dissipated += dissipative * v[joint];
         sums.kinetic += 0.5 * armature * v[joint].powi(2);
         sums.potential += 0.5 * stiffness * stretch.powi(2);
+    }
+    for spring in &model.springs {
+        let end = |LinkPoint { link, point }: LinkPoint| {
+            let on = Pose { rotation: Mat3::identity(), position: point };
+            link.map_or(&ground, |link| &links[link]).fixed(&on)
+        };
+        let (a, b) = (end(spring.a), end(spring.b));
+        let line = b.origin - a.origin;
+        let (length, direction) = (line.norm(), line.normalize());
+        let (stretch, rate) = (length - spring.length, direction.dot(&(b.velocity - a.velocity)));
+        let tension = spring.stiffness * stretch + spring.damping * rate;
+        sums.passive += (b.jacobians(dof).0 - a.jacobians(dof).0).transpose() * direction * tension;
+        sums.dissipated += spring.damping * rate.powi(2);
+        sums.potential += 0.5 * spring.stiffness * stretch.powi(2);
     }
     sums.bias += &sums.passive;
     for (link, body) in model.links.iter().zip(&links) {

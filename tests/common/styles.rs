@@ -66,6 +66,7 @@ impl Style {
             links,
             loops: Vec::new(),
             frames: Vec::new(),
+            springs: Vec::new(),
         }
     }
 

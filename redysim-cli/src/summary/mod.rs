@@ -4,7 +4,7 @@ mod table;
 
 use redysim_codegen::Counted;
 use redysim_codegen::passes::PassError;
-use redysim_model::{Link, Loaded, Mobility, Model, Tree};
+use redysim_model::{Link, Loaded, Mobility, Model, Spring, Tree};
 use redysim_runtime::OperationCount;
 use serde::{Serialize, Serializer};
 
@@ -33,6 +33,8 @@ pub struct Summary {
     pub links: Vec<LinkSummary>,
     /// The loops, in the file's order.
     pub loops: Vec<LoopSummary>,
+    /// The springs between points, in the file's order.
+    pub springs: Vec<SpringSummary>,
     /// Operations of each compiled function.
     pub operations: Vec<FunctionSummary>,
     /// What is rarely meant: the titles of named warnings and of notes about the model, and the generator's warnings.
@@ -74,6 +76,23 @@ pub struct LoopSummary {
     pub constraints: usize,
     /// How many of these do not follow from the loops before it.
     pub rank: usize,
+}
+
+/// A spring with a damper between two points.
+#[derive(Debug, Serialize)]
+pub struct SpringSummary {
+    /// Name of the spring; null if the file gives none.
+    pub name: Option<String>,
+    /// The link at end a, or "base".
+    pub link_a: String,
+    /// The link at end b, or "base".
+    pub link_b: String,
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+    /// Damping, N s/m.
+    pub damping: f64,
+    /// Free length, m.
+    pub length: f64,
 }
 
 /// What a compiled function costs.
@@ -126,6 +145,7 @@ impl Summary {
             passive: joints(false),
             links: model.links.iter().map(|link| link_summary(model, link)).collect(),
             loops: loop_summaries(model, &found.added),
+            springs: model.springs.iter().map(|spring| spring_summary(model, spring)).collect(),
             operations: operations
                 .into_iter()
                 .filter(|(function, _)| !model.loops.is_empty() || !function.needs_loops())
@@ -160,6 +180,17 @@ fn loop_summaries(model: &Model, added: &[usize]) -> Vec<LoopSummary> {
     };
     let constraints = cuts.iter().map(|cut| cut.rows.iter().filter(|kept| **kept).count());
     model.loops.iter().zip(constraints).zip(added).map(summary).collect()
+}
+
+fn spring_summary(model: &Model, spring: &Spring) -> SpringSummary {
+    SpringSummary {
+        name: spring.name.clone(),
+        link_a: link_name(model, spring.a.link),
+        link_b: link_name(model, spring.b.link),
+        stiffness: spring.stiffness,
+        damping: spring.damping,
+        length: spring.length,
+    }
 }
 
 fn link_name(model: &Model, link: Option<usize>) -> String {

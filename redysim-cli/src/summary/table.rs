@@ -25,6 +25,13 @@ impl Display for Summary {
         if self.loops.len() > 1 {
             row(f, "all loops", format!("rank {} of {} constraints", self.loop_rank, self.loop_constraints))?;
         }
+        for each in &self.springs {
+            let name = each.name.as_ref().map_or(String::new(), |name| format!("{name}: "));
+            let ends = format!("{} – {}", each.link_a, each.link_b);
+            let [stiffness, damping, length] = [each.stiffness, each.damping, each.length].map(rounded);
+            let numbers = format!("{stiffness} N/m, {damping} N s/m, relaxed at {length} m");
+            row(f, "spring", format!("{name}{ends}, {numbers}"))?;
+        }
         writeln!(f)?;
         self.write_links(f)?;
         writeln!(f, "\n  {:<20}{:>8}{:>18}", "compiled function", "flops", "sine-cosine pairs")?;

@@ -256,6 +256,10 @@ fn perturbed(tree: &Tree, seed: u64) -> Tree {
         let [xx, yy, zz, xy, yz, xz] = elements;
         *second = Sym3 { xx, yy, zz, xy, yz, xz };
     }
+    for spring in &mut tree.springs {
+        perturb(&mut random, &mut spring.a.point.0);
+        perturb(&mut random, &mut spring.b.point.0);
+    }
     tree
 }
 

@@ -44,7 +44,14 @@ impl<P: Parameter> Neighbourhood<P> {
 pub fn neighbourhood<P: Parameter>(tree: &Tree<P>, body: usize) -> Neighbourhood<P> {
     let above: Vec<usize> = std::iter::successors(Some(body), |&at| tree.bodies[at].parent).take(ABOVE + 1).collect();
     let top = *above.last().expect("the body itself");
-    let mut part = Tree { bodies: Vec::new(), links: Vec::new(), cuts: Vec::new(), frames: Vec::new(), ..tree.clone() };
+    let mut part = Tree {
+        bodies: Vec::new(),
+        links: Vec::new(),
+        cuts: Vec::new(),
+        frames: Vec::new(),
+        springs: Vec::new(),
+        ..tree.clone()
+    };
     let mut origins = Vec::new();
     if tree.bodies[top].parent.is_some() {
         for parent in [None, Some(0)] {

@@ -35,10 +35,10 @@ fn one_loop(
 }
 
 fn side(document: &Document, table: &LoopTable, side: &CutSideTable, findings: &mut Findings) -> Option<CutSide> {
-    let link = tree::carrier(document, &table.item, side.link_key, &side.link, findings);
+    let link = tree::carrier(document, &table.item, side.at.link_key, &side.at.link, findings);
     let axis_allowed = axis_allowed(table, side, findings);
     let axis = unit_axis(&table.item, side.axis_key, &side.axis, axis_allowed, findings);
-    Some(CutSide { link: link?, point: Vec3(side.point.value_or([0.0; 3])?), axis: axis? })
+    Some(CutSide { link: link?, point: Vec3(side.at.point.value_or([0.0; 3])?), axis: axis? })
 }
 
 /// Only a revolute cut has an axis.
@@ -57,20 +57,12 @@ fn joins_two_bodies(
     parents: &[Option<usize>],
     findings: &mut Findings,
 ) {
-    if body(document, a, parents) != body(document, b, parents) {
+    let is_rigid = |link: usize| document.links[link].is_rigid();
+    if tree::body(a, parents, is_rigid) != tree::body(b, parents, is_rigid) {
         return;
     }
-    if let (Some(link_a), Some(link_b)) = (table.a.link.spanned(), table.b.link.spanned()) {
+    if let (Some(link_a), Some(link_b)) = (table.a.at.link.spanned(), table.b.at.link.spanned()) {
         let message = messages::loop_within_body(&table.item, link_a.get_ref(), link_b.get_ref(), document.locks());
         findings.error(link_b.span(), message);
     }
-}
-
-/// The link that fixed joints make this one a part of; `None` is the ground.
-fn body(document: &Document, link: Option<usize>, parents: &[Option<usize>]) -> Option<usize> {
-    let mut at = link;
-    while let Some(link) = at.filter(|&link| document.links[link].is_rigid()) {
-        at = parents[link];
-    }
-    at
 }

@@ -12,6 +12,7 @@ mod options;
 mod physics;
 mod placement;
 mod singular;
+mod spring;
 mod tree;
 
 use crate::messages;
@@ -31,6 +32,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     let links: Vec<_> = document.links.iter().map(|table| link(table, findings)).collect();
     let loops = cut::loops(document, parents.as_deref(), findings);
     let frames = frame::frames(document, findings);
+    let springs = spring::springs(document, parents.as_deref(), findings);
     let parents = parents?;
     let massless = massless::check(document, &parents);
     if document.loops.is_empty() {
@@ -47,7 +49,8 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     }
     let gravity = Vec3(*document.gravity.value()?);
     let mut options = options;
-    let model = Model { name: document.name.value()?.clone(), gravity, links, loops: loops?, frames: frames? };
+    let name = document.name.value()?.clone();
+    let model = Model { name, gravity, links, loops: loops?, frames: frames?, springs: springs? };
     if findings.errors() > 0 {
         return None;
     }

@@ -24,10 +24,14 @@ pub(super) fn check(document: &Document, findings: &mut Findings) {
     for frame in &document.frames {
         not_blank(&frame.item, "name", &frame.name, findings);
     }
+    for spring in &document.springs {
+        not_blank(&spring.item, "name", &spring.name, findings);
+    }
 
     unique("link", document.links.iter().filter_map(|link| link.name.spanned()), findings);
     unique("loop", document.loops.iter().filter_map(|entry| entry.name.spanned()), findings);
     unique("frame", document.frames.iter().filter_map(|frame| frame.name.spanned()), findings);
+    unique("spring", document.springs.iter().filter_map(|spring| spring.name.spanned()), findings);
     joints_unique(document, findings);
 }
 

@@ -37,6 +37,15 @@ fn unknown(document: &Document, item: &str, key: &str, name: &Spanned<String>, f
     }
 }
 
+/// The link that rigid joints make this one a part of; `None` is the ground.
+pub(super) fn body(link: Option<usize>, parents: &[Option<usize>], is_rigid: impl Fn(usize) -> bool) -> Option<usize> {
+    let mut at = link;
+    while let Some(link) = at.filter(|&link| is_rigid(link)) {
+        at = parents[link];
+    }
+    at
+}
+
 /// Each link's parent (`None` is the ground), if all are known and every link hangs on the ground in the end.
 pub(super) fn parents(document: &Document, findings: &mut Findings) -> Option<Vec<Option<usize>>> {
     let parents: Vec<_> = (0..document.links.len()).map(|link| parent(document, link, findings)).collect();

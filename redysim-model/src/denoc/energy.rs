@@ -1,6 +1,7 @@
 //! Kinetic and potential energy.
 
 use super::frame::{JointFrame, joint_frames};
+use super::springs::Springs;
 use super::trace::Trace;
 use crate::inertia::RigidInertia;
 use crate::parameter::ParameterIn;
@@ -14,7 +15,7 @@ pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S
     let frames = joint_frames(tree, trace, q);
     let mut velocities: Vec<Twist<S>> = Vec::with_capacity(tree.bodies.len());
     let mut twice_kinetic = S::zero();
-    let mut twice_springs: Option<S> = None;
+    let mut twice_springs = Springs::default().twice_energy(tree, &frames);
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(Twist::zero(), |parent| velocities[parent]);

@@ -26,7 +26,7 @@ pub fn evaluate<S: Scalar>(
         Function::BiasForces => bias_forces(tree, trace, x[0], x[1]),
         Function::CoriolisMatrix => coriolis_matrix(tree, trace, x[0], x[1]).concat(),
         Function::GravityForces => gravity_forces(tree, trace, x[0]),
-        Function::PassiveForces => passive_forces(tree, x[0], x[1]),
+        Function::PassiveForces => passive_forces(tree, trace, x[0], x[1]),
         Function::Energy => {
             let Energy { kinetic, potential } = energy(tree, trace, x[0], x[1]);
             vec![kinetic, potential]
@@ -72,6 +72,6 @@ pub fn evaluate<S: Scalar>(
         Function::Integrate => integrate(tree, x[0], x[1]),
         Function::Difference => difference(tree, x[0], x[1]),
         Function::Neutral => neutral(tree),
-        Function::DissipatedPower => vec![dissipated_power(tree, x[1])],
+        Function::DissipatedPower => vec![dissipated_power(tree, trace, x[0], x[1])],
     }
 }

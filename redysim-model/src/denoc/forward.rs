@@ -79,8 +79,11 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     tau: &[S],
     result: &mut [S],
 ) {
-    let Workspace { positions, frames, biases, inertias, wrenches, pivots, accelerations, .. } = work;
+    let Workspace { positions, frames, biases, inertias, wrenches, pivots, accelerations, springs, .. } = work;
     joint_frames_in(positions, frames, tree, trace, q);
+    let drives = springs.forces(tree, frames, v);
+    drives.iter_mut().zip(tau).for_each(|(drive, &tau)| *drive = tau - *drive);
+    let tau = if drives.is_empty() { tau } else { drives };
     bias_accelerations(biases, tree, trace, frames, v);
     let rigid = |(body, frame): (&Body<P>, &JointFrame<S>)| {
         ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid())

@@ -177,6 +177,12 @@ impl<S: Scalar> JointFrame<S> {
         self.to_parent(point) + self.position
     }
 
+    /// The joint's axis, in the parent's axes.
+    #[inline(always)]
+    pub fn axis(&self) -> Vec3<S> {
+        rotated(self.parent_rotation, self.fixed.column(2))
+    }
+
     /// A vector in the parent's axes, in the body's.
     #[inline(always)]
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {

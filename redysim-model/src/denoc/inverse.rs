@@ -146,6 +146,9 @@ pub fn inverse_dynamics_in<S: Scalar>(
     newton_euler_in(work, tree, trace, q, v, a, tau, |body| {
         body.physics?.force(q[body.q.start], v[body.v.start], a[body.v.start])
     });
+    for (tau, force) in tau.iter_mut().zip(work.springs.forces(tree, &work.frames, v)) {
+        *tau += *force;
+    }
 }
 
 /// The forces of the bodies' motion, with what acts in each joint itself, written to `tau`.

@@ -27,6 +27,7 @@ mod kinematics;
 mod loops;
 mod mass_matrix;
 mod passive;
+mod springs;
 mod task_frames;
 mod trace;
 mod workspace;

@@ -1,11 +1,14 @@
-//! What acts in the joints without an actuator.
+//! What acts in joints and between points without an actuator.
 
+use super::frame::joint_frames;
+use super::springs::Springs;
+use super::trace::Trace;
 use crate::parameter::ParameterIn;
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
 /// The part of the bias that damping, friction and springs take: the force that each joint must have against them.
-pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, q: &[S], v: &[S]) -> Vec<S> {
+pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
     let mut tau = vec![S::zero(); tree.nv()];
     for body in &tree.bodies {
         let physics = body.physics;
@@ -13,14 +16,24 @@ pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, q: &[S], v: &
             tau[body.v.start] = force;
         }
     }
+    if !tree.springs.is_empty() {
+        let frames = joint_frames(tree, trace, q);
+        let mut springs = Springs::default();
+        tau.iter_mut().zip(springs.forces(tree, &frames, v)).for_each(|(tau, force)| *tau += *force);
+    }
     tau
 }
 
 /// The power that damping and friction take, which is never negative.
-pub fn dissipated_power<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, v: &[S]) -> S {
-    let forces = tree.bodies.iter().filter_map(|body| {
+pub fn dissipated_power<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> S {
+    let in_joints = tree.bodies.iter().filter_map(|body| {
         let v = v[body.v.start];
         body.physics?.dissipative_force(v).map(|force: S| force * v)
     });
-    forces.reduce(|sum, power| sum + power).unwrap_or_else(S::zero)
+    let between_points = if tree.springs.is_empty() {
+        None
+    } else {
+        Springs::default().dissipated_power(tree, &joint_frames(tree, trace, q), v)
+    };
+    in_joints.chain(between_points).reduce(|sum, power| sum + power).unwrap_or_else(S::zero)
 }

@@ -2,6 +2,7 @@
 
 use super::articulated::ArticulatedInertia;
 use super::frame::{AxisPosition, JointFrame};
+use super::springs::Springs;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use crate::tree::Tree;
@@ -24,6 +25,7 @@ pub struct Workspace<S> {
     pub(super) accelerations: Vec<Twist<S>>,
     pub(super) planar: Vec<bool>,
     pub(super) composites: Vec<Composite<S>>,
+    pub(super) springs: Springs<S>,
 }
 
 impl<S> Default for Workspace<S> {
@@ -36,7 +38,7 @@ impl<S> Default for Workspace<S> {
 impl<S> Workspace<S> {
     /// Buffers of the size that the recursions over `tree` need.
     pub fn for_tree<P>(tree: &Tree<P>) -> Self {
-        Workspace::for_bodies(tree.bodies.len())
+        Workspace { springs: Springs::for_tree(tree), ..Workspace::for_bodies(tree.bodies.len()) }
     }
 
     fn for_bodies(count: usize) -> Self {
@@ -52,6 +54,7 @@ impl<S> Workspace<S> {
             accelerations: Vec::with_capacity(count),
             planar: Vec::with_capacity(count),
             composites: Vec::with_capacity(count),
+            springs: Springs::default(),
         }
     }
 }

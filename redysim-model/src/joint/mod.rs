@@ -29,6 +29,7 @@ use crate::pseudo::PseudoInertia;
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
 pub(crate) use physics::FRICTION_VELOCITY;
 pub use physics::JointPhysics;
+pub(crate) use physics::sum;
 pub use position::JointPosition;
 use redysim_runtime::Scalar;
 pub use screw::Screw;

@@ -1,6 +1,6 @@
 //! What acts in a joint itself: the inertia of its rotor, damping, friction and a spring.
 
-use crate::parameter::{Parameter, ParameterIn};
+use crate::parameter::{Parameter, ParameterIn, acting};
 use redysim_runtime::Scalar;
 
 /// The physics of a joint beside the bodies that it connects. Each of its numbers holds for every velocity of the
@@ -126,15 +126,9 @@ impl<P: Parameter> JointPhysics<P> {
 
 /// The sum of forces of which some may not act.
 #[inline]
-fn sum<S: Scalar>([a, b]: [Option<S>; 2]) -> Option<S> {
+pub(crate) fn sum<S: Scalar>([a, b]: [Option<S>; 2]) -> Option<S> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a + b),
         (one, None) | (None, one) => one,
     }
-}
-
-/// A parameter that may not be zero.
-#[inline]
-fn acting<S: Scalar, P: ParameterIn<S>>(parameter: P) -> Option<S> {
-    (parameter.number() != Some(0.0)).then(|| parameter.value())
 }

@@ -181,6 +181,26 @@ pub(crate) fn modified_rows(item: &str, next: &str) -> Message {
     )
 }
 
+pub(crate) fn constant_length(item: &str, length: f64) -> Message {
+    message(
+        format!("{item}: its ends are {} m apart at every position, so it has no effect", rounded(length)),
+        "never changes its length",
+        "check its links and points: an end on a joint's axis is not moved by that joint",
+    )
+}
+
+pub(crate) fn no_direction(item: &str, length: f64) -> Message {
+    message(
+        format!(
+            "{item}: its ends coincide where all coordinates are zero, and its free length is {} m",
+            rounded(length)
+        ),
+        "its force has no direction there",
+        "check its points; where they coincide, its force is zero, and a little beside it pushes with all of its preload. \
+         A spring that balances a weight mostly has `length = 0`",
+    )
+}
+
 pub(crate) fn under_actuated(model: &str, actuated: usize, mobility: usize) -> Message {
     let joints = if actuated == 1 { "joint" } else { "joints" };
     message(

@@ -19,7 +19,7 @@ pub(crate) fn reserved_name() -> Message {
     )
 }
 
-/// `what` is "link", "joint", "loop" or "frame".
+/// `what` is "link", "joint", "loop", "frame" or "spring".
 pub(crate) fn duplicate_name(what: &str, name: &str, first_line: usize) -> Message {
     let name = quoted(name);
     message(
@@ -252,13 +252,44 @@ pub(crate) fn nothing_moves(item: &str) -> Message {
 
 /// `link_a` and `link_b` are one link, or fixed to each other.
 pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str, locks: Vec<&str>) -> Message {
-    let title = match link_a == link_b {
+    let title = within_body(item, link_a, link_b);
+    with_locks(message(title, "the same body", "a loop must join two bodies that move against each other"), &locks)
+}
+
+pub(crate) fn negative_of_spring(item: &str, key: &str, value: f64) -> Message {
+    let why = match key {
+        _ if key == keys::LENGTH.name => "no distance is",
+        _ if key == keys::SPRING_STIFFNESS.name => "the spring would push its ends further the longer it is",
+        _ => "the damper would drive its ends",
+    };
+    message(format!("{item}: `{key}` is negative: {value:?}; {why}"), "negative", "give zero or a positive number")
+}
+
+pub(crate) fn spring_without_force(item: &str) -> Message {
+    let [stiffness, damping] = [&keys::SPRING_STIFFNESS, &keys::SPRING_DAMPING];
+    message(
+        format!("{item}: it has neither `{}` nor `{}`, so it has no effect", stiffness.name, damping.name),
+        "no force",
+        format!("give for example `{}` ({}) and `{}`", stiffness.example(), stiffness.meaning, keys::LENGTH.example()),
+    )
+}
+
+/// `link_a` and `link_b` are one link, or fixed to each other.
+pub(crate) fn spring_within_body(item: &str, link_a: &str, link_b: &str) -> Message {
+    message(
+        within_body(item, link_a, link_b),
+        "the same body",
+        "a spring must join two bodies that move against each other: one within a body never changes its length",
+    )
+}
+
+fn within_body(item: &str, link_a: &str, link_b: &str) -> String {
+    match link_a == link_b {
         true => format!("{item}: it joins {} to itself", quoted(link_a)),
         false => {
             format!("{item}: it joins {} and {}, which fixed joints make one body", quoted(link_a), quoted(link_b))
         }
-    };
-    with_locks(message(title, "the same body", "a loop must join two bodies that move against each other"), &locks)
+    }
 }
 
 /// Newton's method did not close the loops from any start.

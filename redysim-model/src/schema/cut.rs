@@ -2,6 +2,7 @@
 
 use super::item::item;
 use super::keys;
+use super::point::PointTable;
 use crate::model::CutKind;
 use redysim_toml::{Field, Findings, Key, Reader, TableAt};
 
@@ -19,12 +20,9 @@ pub(crate) struct LoopTable {
 /// One side of the cut.
 #[derive(Debug)]
 pub(crate) struct CutSideTable {
-    /// The key of the link, `link_a` or `link_b`.
-    pub(crate) link_key: &'static str,
+    pub(crate) at: PointTable,
     /// The key of the axis, `axis_a` or `axis_b`.
     pub(crate) axis_key: &'static str,
-    pub(crate) link: Field<String>,
-    pub(crate) point: Field<[f64; 3]>,
     pub(crate) axis: Field<[f64; 3]>,
 }
 
@@ -44,11 +42,5 @@ impl LoopTable {
 }
 
 fn side(reader: &mut Reader<'_, '_>, [link, point, axis]: [&Key; 3]) -> CutSideTable {
-    CutSideTable {
-        link_key: link.name,
-        axis_key: axis.name,
-        link: reader.required(link, Reader::text),
-        point: reader.vector(point),
-        axis: reader.vector(axis),
-    }
+    CutSideTable { at: PointTable::read(reader, link, point), axis_key: axis.name, axis: reader.vector(axis) }
 }

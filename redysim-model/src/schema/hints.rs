@@ -21,6 +21,7 @@ pub(super) const MODEL: &[Hint] = &[
     ),
     Hint::new(&["body", "bodies", "robot", "segment"], "each body is a [[link]], with the joint that carries it"),
     Hint::new(&["unit", "units"], "the units are m, kg, s and rad; angles may be written \"90 deg\""),
+    Hint::key(&["damper", "springs", "spring_damper", "force_element"], "spring"),
     Hint::key(&["g"], "gravity").with_help("It is a vector in the base frame, as in `gravity = [0.0, 0.0, -9.81]`"),
     Hint::new(&["initial", "q0", "trajectory", "torque", "controller"], SCENARIO),
 ];
@@ -123,3 +124,9 @@ mod tests {
         check(&keys::MODEL);
     }
 }
+
+pub(super) const SPRING: &[Hint] = &[
+    Hint::key(&["k", "spring_constant", "rate"], "stiffness"),
+    Hint::key(&["c", "d", "damping_coefficient"], "damping"),
+    Hint::key(&["rest_length", "free_length", "natural_length", "l0", "rest"], "length"),
+];

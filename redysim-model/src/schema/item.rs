@@ -1,4 +1,4 @@
-//! The names of links, loops and frames in messages.
+//! The names of links, loops, frames and springs in messages.
 
 use super::keys::NAME;
 use redysim_toml::words::quoted;

@@ -4,15 +4,19 @@
 use super::hints;
 use redysim_toml::{Key, Keys};
 
-pub(crate) const MODEL: Keys =
-    Keys::new("A model", &[NAME, GRAVITY, LINKS, LOOPS, FRAMES, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, ALLOW])
-        .with_hints(hints::MODEL);
+pub(crate) const MODEL: Keys = Keys::new(
+    "A model",
+    &[NAME, GRAVITY, LINKS, LOOPS, FRAMES, SPRINGS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, ALLOW],
+)
+.with_hints(hints::MODEL);
 pub(crate) const NAME: Key = Key::new("name", "\"arm\"", "");
 pub(crate) const GRAVITY: Key = Key::new("gravity", "[0.0, 0.0, -9.81]", "m/s², in the base frame");
 pub(crate) const LINKS: Key = Key::of_tables("link", "one such table for each link", &[&LINK]);
 pub(crate) const LOOPS: Key = Key::of_tables("loop", "one such table for each cut joint", &[&LOOP]);
 pub(crate) const FRAMES: Key =
     Key::of_tables("frame", "one such table for each frame of interest on a link", &[&FRAME]);
+pub(crate) const SPRINGS: Key =
+    Key::of_tables("spring", "one such table for each spring between two points", &[&SPRING]);
 
 pub(crate) const ALLOW: Key = Key::new("allow", "[\"gravity-up\"]", "names of lints that are not reported");
 
@@ -150,3 +154,16 @@ pub(crate) const AXIS_B: Key = Key::new("axis_b", "[0.0, 0.0, 1.0]", "in the fra
 
 pub(crate) const FRAME: Keys = Keys::new("A frame", &[NAME, FRAME_LINK, ORIGIN]);
 pub(crate) const FRAME_LINK: Key = Key::new("link", "\"link6\"", "the link on which it stands, or `base`");
+
+pub(crate) const SPRING: Keys =
+    Keys::new("A spring", &[NAME, LINK_A, POINT_A, LINK_B, POINT_B, SPRING_STIFFNESS, SPRING_DAMPING, LENGTH])
+        .with_hints(hints::SPRING);
+pub(crate) const SPRING_STIFFNESS: Key =
+    Key::new("stiffness", "1000.0", "N/m, along the line between the points; default: 0");
+pub(crate) const SPRING_DAMPING: Key =
+    Key::new("damping", "20.0", "N s/m, along the line between the points; default: 0");
+pub(crate) const LENGTH: Key = Key::new(
+    "length",
+    "0.2",
+    "m: the distance of the points at which the spring is relaxed; needed beside `stiffness`",
+);

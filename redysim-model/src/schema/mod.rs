@@ -10,11 +10,15 @@ mod item;
 pub(crate) mod keys;
 mod link;
 mod options;
+mod point;
+mod spring;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
 pub(crate) use frame::FrameTable;
 pub(crate) use link::{Dh, DhStandard, LinkTable, Origin, PhysicsKeys};
 pub(crate) use options::{Entry, OptionsTable};
+pub(crate) use point::PointTable;
+pub(crate) use spring::SpringTable;
 
 use crate::joint::Joint;
 use crate::lint::Lint;
@@ -51,6 +55,7 @@ pub(crate) struct Document {
     /// The lints that are not reported.
     pub(crate) allowed: Vec<Lint>,
     pub(crate) frames: Vec<FrameTable>,
+    pub(crate) springs: Vec<SpringTable>,
     /// The options of code generation, in the file or beside it.
     pub(crate) options: OptionsTable,
 }
@@ -70,15 +75,17 @@ impl Document {
         let links = reader.tables(&keys::LINKS);
         let loops = reader.tables(&keys::LOOPS);
         let frames = reader.tables(&keys::FRAMES);
+        let springs = reader.tables(&keys::SPRINGS);
         let links_complete = links.as_ref().is_some_and(|links| links.iter().all(Option::is_some));
         let mut links: Vec<_> = entries(links).map(|(i, table)| LinkTable::read(table, i, findings)).collect();
         let loops = entries(loops).map(|(i, table)| LoopTable::read(table, i, findings)).collect();
         let frames = entries(frames).map(|(i, table)| FrameTable::read(table, i, findings)).collect();
+        let springs = entries(springs).map(|(i, table)| SpringTable::read(table, i, findings)).collect();
         let options = OptionsTable::read([root, options.root()], &item, links_complete.then_some(&links), findings);
         for lock in &options.locked.value {
             links[lock.link].locked = Some(lock.value);
         }
-        Document { item, place, name, gravity, links, links_complete, loops, frames, allowed, options }
+        Document { item, place, name, gravity, links, links_complete, loops, frames, springs, allowed, options }
     }
 
     /// The joints that the options lock.

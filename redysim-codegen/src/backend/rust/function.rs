@@ -57,6 +57,17 @@ impl Writer<'_> {
         quote!(#(#as_numbers)* #body)
     }
 
+    /// The code of a function with that of the sines and cosines that it needs.
+    pub fn whole_body(&self, program: &FunctionProgram) -> TokenStream {
+        let body = self.body(program);
+        if program.trig.angles.is_empty() {
+            return body;
+        }
+        let (computed, sines, cosines) = trig_statement(&program.trig);
+        let [sin, cos] = [SIN, COS].map(local);
+        quote!(#computed let (#sin, #cos) = (#sines, #cosines); #body)
+    }
+
     /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
     /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, program: &FunctionProgram) -> TokenStream {

@@ -25,7 +25,7 @@ pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStre
         functions.iter().partition(|program| program.function.is_always_present());
     let definitions =
         std::iter::once(writer.joint_trig()).chain(own.into_iter().map(|program| writer.function(program)));
-    let configuration = configuration.into_iter().map(|program| (program.function, writer.body(program)));
+    let configuration = configuration.into_iter().map(|program| (program.function, writer.whole_body(program)));
     let operations: Vec<_> = functions.iter().map(|program| (program.function, program.operations)).collect();
     type_impls(interface, configuration.collect(), name, runtime, &operations, definitions.collect())
 }

@@ -3,6 +3,7 @@
 mod dh;
 mod gravity;
 mod inertias;
+mod springs;
 mod units;
 
 use crate::lint::Lint;
@@ -20,6 +21,7 @@ pub(super) fn check(document: &Document, model: &Model, findings: &mut Findings)
     units::check(document, model, &mut found);
     inertias::check(document, model, &mut found);
     dh::check(document, model, &mut found);
+    springs::check(document, model, &mut found);
     for (lint, place, message) in found {
         report(findings, lint, place, message);
     }
@@ -50,7 +52,7 @@ fn place_of_placement(link: &LinkTable) -> Range<usize> {
 }
 
 /// How far the mechanism reaches when it is stretched: the longest way from the ground over the origins of the links'
-/// frames, or over the points of its cuts.
+/// frames, or over the points of its cuts and springs.
 fn size(model: &Model) -> f64 {
     let reach = |link: Option<usize>| {
         let chain = std::iter::successors(link, |&link| model.links[link].parent);
@@ -58,7 +60,9 @@ fn size(model: &Model) -> f64 {
     };
     let ends = (0..model.links.len()).map(|link| reach(Some(link)));
     let sides = model.loops.iter().flat_map(|cut| [&cut.a, &cut.b]);
-    ends.chain(sides.map(|side| reach(side.link) + length(side.point))).fold(0.0, f64::max)
+    let cuts = sides.map(|side| (side.link, side.point));
+    let springs = model.springs.iter().flat_map(|spring| [spring.a, spring.b]).map(|end| (end.link, end.point));
+    ends.chain(cuts.chain(springs).map(|(link, point)| reach(link) + length(point))).fold(0.0, f64::max)
 }
 
 /// The way from the frame of a link's parent to its own.
