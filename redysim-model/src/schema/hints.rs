@@ -105,6 +105,12 @@ pub(super) const RANGE_TABLE: &[Hint] = &[
     Hint::key(&["speed", "max_velocity"], "velocity"),
 ];
 
+pub(super) const SPRING: &[Hint] = &[
+    Hint::key(&["k", "spring_constant", "rate"], "stiffness"),
+    Hint::key(&["c", "d", "damping_coefficient"], "damping"),
+    Hint::key(&["rest_length", "free_length", "natural_length", "l0", "rest"], "length"),
+];
+
 #[cfg(test)]
 mod tests {
     use super::super::keys;
@@ -124,9 +130,3 @@ mod tests {
         check(&keys::MODEL);
     }
 }
-
-pub(super) const SPRING: &[Hint] = &[
-    Hint::key(&["k", "spring_constant", "rate"], "stiffness"),
-    Hint::key(&["c", "d", "damping_coefficient"], "damping"),
-    Hint::key(&["rest_length", "free_length", "natural_length", "l0", "rest"], "length"),
-];
