@@ -105,12 +105,21 @@ fn an_unknown_joint_is_reported_with_the_one_that_was_meant() {
     let several = SWING.replace("[0, 1]", "{ jiont2 = 1, joint1 = '10 dg' }");
     let folder = scratch("faults-joints");
     let output = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &several)], 1);
-    assert!(output.contains("unknown joint `jiont2`") && output.contains("the unit `dg`"), "every one of them: {output}");
+    assert!(
+        output.contains("unknown joint `jiont2`") && output.contains("the unit `dg`"),
+        "every one of them: {output}"
+    );
     let one = "torque = { law = 'p', joints = ['joint1'], target = { joint2 = 1 }, kp = 1 }\n";
     let words = ["`forward.torque.target` has nothing to do with the joint `joint2`"];
     refuses("foreign", "forward", &format!("{SWING}{one}"), 1, &words);
     let law = "torque = { law = 'p', joints = ['joint9'], target = [0], kp = 1 }\n";
-    refuses("driven", "forward", &format!("{SWING}{law}"), 1, &["unknown joint `joint9`", "The joints are: joint1, joint2"]);
+    refuses(
+        "driven",
+        "forward",
+        &format!("{SWING}{law}"),
+        1,
+        &["unknown joint `joint9`", "The joints are: joint1, joint2"],
+    );
 }
 
 #[test]

@@ -204,12 +204,11 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
     let reports = [
         "its 5 kg never move",
         "link `base` is called `base_link` here",
-        "joint `knuckle` mimics `waist` in the URDF (2 times its value, plus 0)",
+        "joint `knuckle` mimics `waist` in the URDF (2 times its value, plus 0 rad)",
         "joint `spin` moves no mass",
         "joint `loose` is floating in the URDF: it is fixed at zero here",
         "the limits of 1 joint limit nothing",
         "left out: <gazebo>, on line 21",
-        "left out: <limit> without a velocity, on line 16",
         "left out: <material>, on line 3",
         "left out: <transmission>, 2 of them, the first on line 19",
         "left out: <visual> in a <link>, on line 6",
@@ -273,18 +272,26 @@ fn the_help_of_import_states_what_import_does() {
     assert_eq!((link("knuckle").joint.dof(), link("knuckle").actuated), (1, true));
     assert!(help.contains("Joints that move no mass become fixed."));
     assert_eq!(link("spin").joint.name(), "fixed");
-    assert!(help.contains("Limits of positions and velocity become a `range`; others stay as comments."));
+    assert!(help.contains("Limits of positions and velocity become a `range`."));
     assert_eq!(imported[0].0.model().links[1].range.unwrap().acceleration, Some(7.0));
     assert_eq!(link("waist").range.unwrap().acceleration, None);
     assert!(link("spin").range.is_none());
     assert!(help.contains("Damping and friction are kept."));
     let expected = JointPhysics { damping: 0.1, friction: 0.25, ..JointPhysics::default() };
     assert_eq!((link("waist").physics, link("spin").physics), (expected, JointPhysics::default()));
-    assert!(help.contains("Visuals, collisions and transmissions are left out."));
-    for left_out in ["<visual>", "<transmission>"] {
-        let head = run.stdout.split("[[link]]").next().unwrap();
-        assert!(head.contains(left_out) && run.stderr.contains(left_out), "{left_out}: {head}");
+    assert!(help.contains(
+        "Other numbers, such as transmission ratios, other limits and what a joint that becomes fixed had, stay as \
+         comments beside their links; those of the root stay in the model's head."
+    ));
+    let rich = import(RICH, &[]).1.stdout;
+    for kept in
+        ["motor.mechanicalReduction = -100.5", "limit: jerk", "axis: xyz = [0, 0.6, 0.8]", "its 5 kg never move"]
+    {
+        assert!(rich.contains(kept), "{kept}: {rich}");
     }
+    assert!(help.contains("Visuals and collisions are left out."));
+    let head = run.stdout.split("[[link]]").next().unwrap();
+    assert!(head.contains("<visual>") && run.stderr.contains("<visual>"), "{head}");
 }
 
 #[test]
@@ -327,8 +334,82 @@ fn limits_are_a_range_with_the_acceleration_that_the_urdf_has() {
 fn limits_whose_lower_one_is_not_below_the_upper_are_kept_as_they_are() {
     let urdf = pendulum("<limit lower=\"2\" upper=\"1\" effort=\"-10\" velocity=\"3\"/>", BODY);
     let (_, run) = import(&urdf.replace("continuous", "revolute"), &[]);
-    let kept = "# limits: position = [2.0, 1.0], velocity = 3.0, force = -10.0; the lower one is not below the upper";
+    let kept = "# limit: lower = 2 rad, upper = 1 rad, effort = -10 N m, velocity = 3 rad/s; \
+                the lower one is not below the upper";
     assert!(run.stdout.contains(kept), "{}", run.stdout);
+}
+
+const RICH: &str = r#"<robot name="rich">
+  <link name="plinth"><inertial><origin xyz="0 0 0.5"/><mass value="5"/>
+    <inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0.25"/></inertial></link>
+  <link name="arm"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <contact><rolling_friction value="0.001"/></contact><visual><origin xyz="1 2 3"/><geometry/></visual></link>
+  <link name="slide"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="flag"/>
+  <joint name="shoulder" type="revolute"><parent link="plinth"/><child link="arm"/>
+    <limit lower="-1" upper="1" effort="40" velocity="2" jerk="900"/><calibration rising="0.125"/>
+    <dynamics damping="0.5" friction="0.25" spring_stiffness="70"/>
+    <safety_controller soft_lower_limit="-0.9" soft_upper_limit="0.9" k_position="15" k_velocity="3"/></joint>
+  <joint name="rail" type="prismatic"><parent link="arm"/><child link="slide"/><axis xyz="0 1 0"/>
+    <limit effort="7" lower="0" upper="0.5"/><mimic joint="shoulder" multiplier="-0.5" offset="0.125"/></joint>
+  <joint name="pole" type="continuous"><parent link="slide"/><child link="flag"/><axis xyz="0 0.6 0.8"/>
+    <limit effort="3" velocity="4"/><dynamics damping="0.0625"/></joint>
+  <transmission name="gear"><type>transmission_interface/SimpleTransmission</type><joint name="shoulder"/>
+    <actuator name="motor"><mechanicalReduction>-100.5</mechanicalReduction></actuator></transmission>
+  <gazebo reference="slide"><mu1>0.9</mu1></gazebo>
+</robot>
+"#;
+
+#[test]
+fn numbers_that_a_model_has_no_place_for_are_comments_beside_their_links() {
+    let (mechanism, run) = import(RICH, &[]);
+    let parts: Vec<&str> = run.stdout.split("[[link]]\n").collect();
+    let [head, shoulder, rail, pole] = parts.as_slice() else { panic!("{}", run.stdout) };
+    let comments =
+        |part: &str| part.lines().filter(|line| line.starts_with("# ")).map(String::from).collect::<Vec<_>>();
+    assert!(head.contains(
+        "its 5 kg never move and are left out: com = [0.0, 0.0, 0.5] m, \
+         inertia = { xx = 1.0, yy = 2.0, zz = 2.5, yz = 0.25 } kg m²"
+    ));
+    assert_eq!(
+        comments(shoulder),
+        [
+            "# limit: jerk = 900 rad/s³",
+            "# dynamics: spring_stiffness = 70",
+            "# contact: rolling_friction.value = 0.001",
+            "# calibration: rising = 0.125 rad",
+            "# safety_controller: soft_lower_limit = -0.9 rad, soft_upper_limit = 0.9 rad, k_position = 15 1/s, \
+             k_velocity = 3 N m s/rad",
+            "# transmission `gear`: motor.mechanicalReduction = -100.5; `armature` is the inertia of the rotor times its \
+             square",
+        ]
+    );
+    assert_eq!(
+        comments(rail),
+        [
+            "# joint `rail` mimics `shoulder` in the URDF (-0.5 times its value, plus 0.125 m): it is free here, with an \
+             actuator of its own",
+            "# limit: effort = 7 N, lower = 0 m, upper = 0.5 m; a `range` needs a velocity",
+            "# gazebo: mu1 = 0.9",
+        ]
+    );
+    assert_eq!(
+        comments(pole)[1..],
+        [
+            "# axis: xyz = [0, 0.6, 0.8]",
+            "# limit: effort = 3 N m, velocity = 4 rad/s",
+            "# dynamics: damping = 0.0625 N m s/rad",
+        ]
+    );
+    assert_eq!(mechanism.model().links[0].physics.damping, 0.5);
+    // Pictures are left out; what is kept is not.
+    assert!(head.contains("left out: <visual> in a <link>, on line 5") && !head.contains("left out: <transmission>"));
+    assert!(run.stderr.contains("note: what a model has no place for is kept in comments beside its link: 11 lines"));
+    // Where a fixed link becomes a part of another, its comments go along.
+    let fused = import(RICH, &["--fuse-fixed"]).1.stdout;
+    let slide = fused.split("[[link]]\n").nth(2).unwrap();
+    assert!(slide.contains("# joint `pole`: dynamics: damping = 0.0625 N m s/rad"), "{slide}");
+    assert!(slide.contains("link `flag` is a part of `slide`: origin = {}"), "{slide}");
 }
 
 #[test]

@@ -11,9 +11,10 @@ use crate::urdf::{Imported, Options, import};
 ///
 /// Joints keep their order, names, origins and axes. The root link becomes the ground. Inertias are turned into the
 /// links' axes. Continuous joints become revolute. Floating, planar and spherical joints become fixed at zero. Joints
-/// that mimic others move by themselves. Joints that move no mass become fixed. Limits of
-/// positions and velocity become a `range`; others stay as comments. Damping and friction are kept. Visuals, collisions and transmissions are left out.
-/// Whatever changes or is left out is reported, here and in the model's head.
+/// that mimic others move by themselves. Joints that move no mass become fixed. Limits of positions and velocity become
+/// a `range`. Damping and friction are kept. Other numbers, such as transmission ratios, other limits and what a joint
+/// that becomes fixed had, stay as comments beside their links; those of the root stay in the model's head. Visuals and
+/// collisions are left out. Whatever changes or is left out is reported, here and in the model's head.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:

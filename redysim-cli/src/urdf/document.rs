@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document as Xml, Node};
 
+use super::comments::is_kept;
 use crate::failure::Failure;
 
 /// A URDF file whose form is right: well-formed, with the elements and numbers that a robot needs.
@@ -180,8 +181,18 @@ impl<'a> Document<'a> {
         self.fault(node, format!("{item}: `{attribute}` of its <{tag}> must be {wanted}, found \"{found}\""))
     }
 
+    /// The joints, in the order of the file.
+    pub fn joints(&self) -> impl Iterator<Item = Node<'_, 'a>> {
+        children(self.xml.root_element(), "joint")
+    }
+
+    /// The joint of this name.
+    pub fn joint(&self, name: &str) -> Option<Node<'_, 'a>> {
+        self.joints().find(|joint| joint.attribute("name") == Some(name))
+    }
+
     /// The elements that nothing is read of; what is inside them counts as one with them.
-    fn unread(&self) -> Vec<Node<'_, 'a>> {
+    pub fn unread(&self) -> Vec<Node<'_, 'a>> {
         let (mut unread, mut open) = (Vec::new(), vec![self.xml.root_element()]);
         while let Some(owner) = open.pop() {
             let read = read_in(owner);
@@ -193,10 +204,11 @@ impl<'a> Document<'a> {
         unread
     }
 
-    /// What is left out, in words: `<visual> in a <link>, 12 of them, the first on line 7`.
+    /// What is left out, in words: `<visual> in a <link>, 12 of them, the first on line 7`. What is kept as a comment is
+    /// not.
     pub fn left_out(&self) -> Vec<String> {
         let mut found = BTreeMap::<String, (usize, u32)>::new();
-        for node in self.unread() {
+        for node in self.unread().into_iter().filter(|node| !is_kept(self, *node)) {
             let line = self.line(node);
             let (count, first) = found.entry(described(node)).or_insert((0, line));
             (*count, *first) = (*count + 1, line.min(*first));
@@ -222,7 +234,6 @@ impl<'a> Document<'a> {
 fn described(node: Node) -> String {
     let (tag, owner) = (node.tag_name().name(), node.parent().map_or("", |owner| owner.tag_name().name()));
     match (owner, tag) {
-        ("joint", "limit") => "<limit> without a velocity".into(),
         ("robot", _) => format!("<{tag}>"),
         _ => format!("<{tag}> in a <{owner}>"),
     }
@@ -245,7 +256,8 @@ fn children<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> impl Iterator<Item = Node<
     node.children().filter(move |child| child.tag_name().name() == tag)
 }
 
-fn child<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> Option<Node<'n, 'a>> {
+/// The first element of a name inside another.
+pub fn child<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> Option<Node<'n, 'a>> {
     children(node, tag).next()
 }
 

@@ -5,6 +5,7 @@ use redysim_model::JointKind;
 use redysim_model::spatial::Pose;
 
 use super::inertial::Inertial;
+use super::model_file::{inertial, origin};
 use super::robot::{Link, Origin, Robot};
 
 impl Robot {
@@ -56,14 +57,25 @@ impl Robot {
                     fused[carrier].inertial = fused[carrier].inertial.and(part);
                 }
                 None if part.mass != 0.0 => {
-                    notes.push(format!("link `{}` is fixed to the ground: its {} kg never move", link.name, part.mass));
+                    notes.push(format!(
+                        "link `{}` is fixed to the ground: its {} kg never move: {}",
+                        link.name,
+                        part.mass,
+                        inertial(part)
+                    ));
                 }
                 _ => {}
             }
-            let remarks = link.remarks.iter().cloned().chain([format!("link `{}` is a part of {whole}", link.name)]);
+            let at = origin(Origin::of(placed));
+            let fuse = format!("link `{}` is a part of {whole}: origin = {at}", link.name);
+            let remarks = link.remarks.iter().cloned().chain([fuse]);
+            let comments = link.comments.iter().map(|comment| format!("joint `{}`: {comment}", link.joint_name));
             match carrier {
-                Some(carrier) => fused[carrier].remarks.extend(remarks),
-                None => notes.extend(remarks),
+                Some(carrier) => {
+                    fused[carrier].remarks.extend(remarks);
+                    fused[carrier].comments.extend(comments);
+                }
+                None => notes.extend(remarks.chain(comments)),
             }
         }
         let mut places = vec![None; links.len()];

@@ -6,7 +6,8 @@ use redysim_model::inertia::Sym3;
 use redysim_model::{JointKind, rotation};
 use urdf_rs::JointLimit;
 
-use super::robot::{Link, Robot};
+use super::inertial::Inertial;
+use super::robot::{Link, Origin, Robot};
 
 /// The text, and the line on which each link begins.
 pub struct ModelFile {
@@ -35,19 +36,19 @@ pub fn write(robot: &Robot, head: &[String]) -> ModelFile {
 
 fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result {
     writeln!(text, "[[link]]")?;
-    for remark in &link.remarks {
+    for remark in link.remarks.iter().chain(&link.comments) {
         writeln!(text, "# {}", one_line(remark))?;
     }
     writeln!(text, "name = {}", quoted(&link.name))?;
     writeln!(text, "joint_name = {}", quoted(&link.joint_name))?;
     writeln!(text, "parent = {}", quoted(link.parent.map_or("base", |parent| &robot.links[parent].name)))?;
     writeln!(text, "joint = \"{}\"", link.kind.name())?;
-    writeln!(text, "origin = {}", origin(link))?;
+    writeln!(text, "origin = {}", origin(link.origin))?;
     if link.kind != JointKind::Fixed {
         writeln!(text, "axis = {}", vector(link.axis))?;
     }
-    if let Some(limit) = &link.limit {
-        writeln!(text, "{}", range(limit))?;
+    if let Some(Ok(range)) = link.limit.as_ref().map(range) {
+        writeln!(text, "{range}")?;
     }
     for (key, value) in ["damping", "friction"].into_iter().zip(link.resistance) {
         if value != 0.0 {
@@ -64,9 +65,15 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
     Ok(())
 }
 
-fn origin(link: &Link) -> String {
-    let xyz = (link.origin.xyz != [0.0; 3]).then(|| format!("xyz = {}", vector(link.origin.xyz)));
-    let rpy = (link.origin.rpy != [0.0; 3]).then(|| format!("rpy = [{}]", link.origin.rpy.map(angle).join(", ")));
+/// Centre of mass and inertia of what the model does not have.
+pub fn inertial(body: Inertial) -> String {
+    format!("com = {} m, inertia = {} kg m²", vector(body.com.0), inertia(body.inertia))
+}
+
+/// An origin as models have it.
+pub fn origin(Origin { xyz, rpy }: Origin) -> String {
+    let xyz = (xyz != [0.0; 3]).then(|| format!("xyz = {}", vector(xyz)));
+    let rpy = (rpy != [0.0; 3]).then(|| format!("rpy = [{}]", rpy.map(angle).join(", ")));
     let entries: Vec<String> = xyz.into_iter().chain(rpy).collect();
     if entries.is_empty() { "{}".into() } else { format!("{{ {} }}", entries.join(", ")) }
 }
@@ -87,29 +94,25 @@ fn inertia(i: Sym3<f64>) -> String {
     format!("{{ {} }}", entries.join(", "))
 }
 
-/// A range needs positions and a velocity: without them, as of a continuous joint, the limits are kept as a comment.
-fn range(limit: &JointLimit) -> String {
+/// Why limits are not a range.
+pub struct Unfit(pub &'static str);
+
+/// Limits as a range, which needs positions and a velocity.
+pub fn range(limit: &JointLimit) -> Result<String, Unfit> {
     let JointLimit { lower, upper, effort, velocity, acceleration, .. } = *limit;
-    let force = if effort.is_finite() && effort > 0.0 { format!(", force = {effort:?}") } else { String::new() };
-    let whole = lower.is_finite() && upper.is_finite() && lower < upper;
-    let moves = |largest: f64| largest.is_finite() && largest > 0.0;
-    if whole && moves(velocity) {
-        let acceleration =
-            if moves(acceleration) { format!(", acceleration = {acceleration:?}") } else { String::new() };
-        return format!(
-            "range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}{acceleration}{force} }}"
-        );
+    let positive = |x: f64| x.is_finite() && x > 0.0;
+    if lower.is_finite() && upper.is_finite() && lower >= upper && (lower, upper) != (0.0, 0.0) {
+        return Err(Unfit("the lower one is not below the upper"));
     }
-    // Whatever is given is kept, if it makes sense or not.
-    let given = lower.is_finite() && upper.is_finite() && (lower, upper) != (0.0, 0.0);
-    let position = if given { format!("position = [{lower:?}, {upper:?}], ") } else { String::new() };
-    let force = if effort != 0.0 { format!(", force = {effort:?}") } else { String::new() };
-    let why = match (given && !whole, effort < 0.0 || velocity < 0.0) {
-        (true, _) => "the lower one is not below the upper",
-        (_, true) => "they are negative",
-        _ => "a `range` needs positions and a velocity",
-    };
-    format!("# limits: {position}velocity = {velocity:?}{force}; {why}")
+    if effort < 0.0 || velocity < 0.0 {
+        return Err(Unfit("they are negative"));
+    }
+    if !(lower.is_finite() && upper.is_finite() && lower < upper && positive(velocity)) {
+        return Err(Unfit("a `range` needs positions and a velocity"));
+    }
+    let entry = |key: &str, x: f64| if positive(x) { format!(", {key} = {x:?}") } else { String::new() };
+    let (acceleration, force) = (entry("acceleration", acceleration), entry("force", effort));
+    Ok(format!("range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}{acceleration}{force} }}"))
 }
 
 fn vector(v: [f64; 3]) -> String {

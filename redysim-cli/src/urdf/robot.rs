@@ -10,6 +10,7 @@ use urdf_rs::{JointLimit, JointType};
 
 use super::document::Document;
 use super::inertial::Inertial;
+use super::model_file::inertial;
 use crate::failure::Failure;
 use crate::number::counted;
 
@@ -45,6 +46,8 @@ pub struct Link {
     pub mimics: Option<String>,
     /// What a reader of the model should know.
     pub remarks: Vec<String>,
+    /// What of the URDF a model has no place for.
+    pub comments: Vec<String>,
 }
 
 /// Where a joint stands, as files write it.
@@ -90,12 +93,16 @@ impl Robot {
         let carried_by: HashMap<&str, usize> =
             urdf.joints.iter().enumerate().map(|(index, joint)| (joint.child.link.as_str(), index)).collect();
         let mut notes = Vec::new();
-        notes.push(match inertial_of(root).mass {
-            0.0 => format!("the root link `{root}` is the ground, called `base` here"),
-            mass => format!(
-                "the root link `{root}` is fixed to the ground, called `base` here: its {mass} kg never move and are \
-                 left out"
-            ),
+        let fixed = inertial_of(root);
+        notes.push(if fixed.is_none() {
+            format!("the root link `{root}` is the ground, called `base` here")
+        } else {
+            format!(
+                "the root link `{root}` is fixed to the ground, called `base` here: its {} kg never move and are left \
+                 out: {}",
+                fixed.mass,
+                inertial(fixed)
+            )
         });
         let link = |joint: &urdf_rs::Joint| Link {
             name: joint.child.link.clone(),
@@ -109,6 +116,7 @@ impl Robot {
             resistance: resistance(joint),
             mimics: mimics(joint),
             remarks: not_here(joint).into_iter().collect(),
+            comments: Vec::new(),
         };
         let links: Vec<Link> = urdf.joints.iter().map(link).collect();
         Ok(Robot { name: urdf.name.clone(), links, notes }.without_noise())
@@ -187,7 +195,8 @@ fn not_here(joint: &urdf_rs::Joint) -> Option<String> {
 fn mimics(joint: &urdf_rs::Joint) -> Option<String> {
     let mimic = joint.mimic.as_ref()?;
     let (factor, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
-    Some(format!("mimics `{}` in the URDF ({factor} times its value, plus {offset})", mimic.joint))
+    let unit = if joint.joint_type == JointType::Prismatic { "m" } else { "rad" };
+    Some(format!("mimics `{}` in the URDF ({factor} times its value, plus {offset} {unit})", mimic.joint))
 }
 
 /// Damping and friction.

@@ -114,7 +114,7 @@ fn an_infinite_limit_is_accepted() {
     let limit = "<limit lower=\"-inf\" upper=\"inf\" effort=\"inf\" velocity=\"3\"/></joint>";
     let good = robot(&[["j", "a", "b"], ["k", "b", "c"]]);
     let run = import_from(&folder_with(good.replacen("</joint>", limit, 1)), &[]);
-    assert!(run.code == 0 && run.stdout.contains("velocity = 3.0"), "{} {}", run.stdout, run.stderr);
+    assert!(run.code == 0 && run.stdout.contains("velocity = 3 rad/s; a `range`"), "{} {}", run.stdout, run.stderr);
 }
 
 #[test]
