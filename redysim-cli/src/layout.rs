@@ -156,11 +156,14 @@ impl Layout {
         self.joints.get(velocity.joint)
     }
 
-    /// What messages call a component of the state [q, v, work of the actuators] of a forward run.
+    /// What messages call a component of the state [q, v, work of the actuators, integral actions] of a forward run.
     pub fn name_in_state(&self, component: usize) -> String {
         let (what, of) = match component.checked_sub(self.nq()) {
             None => ("coordinate", &self.coordinates[component]),
             Some(velocity) if velocity < self.nv() => ("velocity", &self.velocities[velocity]),
+            Some(state) if (self.nv() + 1..=2 * self.nv()).contains(&state) => {
+                ("integral action", &self.velocities[state - self.nv() - 1])
+            }
             Some(_) => return "the work of the actuators".to_owned(),
         };
         let joint = &self.joints[of.joint].name;
@@ -227,6 +230,8 @@ pub mod tests {
             (8, "the velocity `base.vx` of the joint `base`"),
             (14, "the velocity of the joint `arm`"),
             (15, "the work of the actuators"),
+            (16, "the integral action `base.vx` of the joint `base`"),
+            (22, "the integral action of the joint `arm`"),
         ] {
             assert_eq!(layout.name_in_state(component), name, "component {component}");
         }

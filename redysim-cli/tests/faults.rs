@@ -156,7 +156,7 @@ fn an_unknown_integrator_is_refused() {
 #[test]
 fn an_unknown_law_is_refused_and_so_is_one_without_its_trajectory() {
     let swing = |law: &str| format!("{SWING}torque = {{ {law} }}\n");
-    refuses("law", "forward", &swing("law = 'pid'"), 1, &["cannot be `pid`", "did you mean `pd`?"]);
+    refuses("law", "forward", &swing("law = 'pdd'"), 1, &["cannot be `pdd`", "did you mean `pd`?"]);
     refuses("gain", "forward", &swing("law = 'p', target = [0, 0]"), 1, &["`forward.torque.kp` is missing"]);
     let law = "law = 'tracking-pd', kp = 1, kd = 1";
     let words = ["follows a trajectory, but the scenario does not define one", "add a table `[trajectory]`"];

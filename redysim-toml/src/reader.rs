@@ -137,13 +137,7 @@ impl<'a, 'f> Reader<'a, 'f> {
 
     /// A number above zero.
     pub fn positive(&mut self, key: &Key) -> Field<f64> {
-        self.field(key, |reader, path, value| {
-            let number = reader.parse_number(path, value)?;
-            if number <= 0.0 {
-                return reader.error(value, messages::not_positive(reader.item, path, number));
-            }
-            Some(number)
-        })
+        self.field(key, Self::parse_positive)
     }
 
     /// An angle, in radians.
@@ -275,6 +269,15 @@ impl<'a, 'f> Reader<'a, 'f> {
     pub fn parse_number(&mut self, path: &KeyPath, value: &Value<'_>) -> Option<f64> {
         let number = Named { item: self.item, path, value }.number();
         self.accept(value, number)
+    }
+
+    /// The value as a number above zero.
+    pub fn parse_positive(&mut self, path: &KeyPath, value: &Value<'_>) -> Option<f64> {
+        let number = self.parse_number(path, value)?;
+        if number <= 0.0 {
+            return self.error(value, messages::not_positive(self.item, path, number));
+        }
+        Some(number)
     }
 
     /// The value as an angle, in radians: a number, or one with a unit.

@@ -8,7 +8,7 @@ use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
 use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
 use super::{Ended, Folder, Outcome, Summary};
 use crate::failure::Failure;
-use crate::scenario::{Absolute, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH};
+use crate::scenario::{Absolute, HeldFrame, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH};
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
@@ -43,12 +43,17 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
         settings(&mut table["integrator"], forward.integrator);
         named(&mut table["torque"], "law");
         keep(&mut table["torque"], "law", value("free"));
-        if let Torque::Table { forces, .. } = &forward.torque {
+        if let Torque::Table { forces, .. } = forward.torque.unlimited() {
             folder.write(TORQUE, forces.table.text.as_bytes())?;
             table["torque"]["file"] = value(TORQUE);
         }
         if let Some(joints) = forward.torque.joints() {
             keep(&mut table["torque"], "joints", value(joints.iter().map(name).collect::<Array>()));
+        }
+        match forward.torque.unlimited() {
+            Torque::Pid { tracking_rate, .. } => keep(&mut table["torque"], "tracking_rate", numbers(tracking_rate)),
+            Torque::Impedance(held) => held_frame(&mut table["torque"], held),
+            _ => {}
         }
         if scenario.loops() {
             named(&mut table["stabilisation"], "kind");
@@ -105,6 +110,13 @@ fn settings(table: &mut Item, integrator: Integrator) {
             keep(table, "atol", number(position));
         }
     }
+}
+
+fn held_frame(table: &mut Item, held: &HeldFrame) {
+    keep(table, "angular_stiffness", numbers(&held.stiffness.angular));
+    keep(table, "angular_damping", numbers(&held.damping.angular));
+    keep(table, "compensation", value(HeldFrame::name_of(held.compensation)));
+    keep(table, "null_space_damping", number(held.null_space_damping));
 }
 
 fn numbers(values: &[f64]) -> Item {

@@ -33,7 +33,8 @@ impl Forward {
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
             let torque = Torque::read(&mut reader, subject, trajectory);
             let stabilisation = stabilisation(&mut reader, subject);
-            if let (Some(Torque::Computed { .. }), Some(stabilisation)) = (&torque, stabilisation) {
+            let unlimited = torque.as_ref().map(Torque::unlimited);
+            if let (Some(Torque::Computed { .. }), Some(stabilisation)) = (unlimited, stabilisation) {
                 warn_of_redundancy(&mut reader, subject, stabilisation);
             }
             Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })

@@ -56,7 +56,7 @@ pub struct Absolute {
     pub position: f64,
     /// Of their rates, rad/s or m/s.
     pub velocity: f64,
-    /// Of the work that the actuators do, J.
+    /// Of the work that the actuators do, J, and of integral actions, N m or N.
     pub work: f64,
 }
 
@@ -76,10 +76,13 @@ impl Absolute {
         Some(Absolute { position: position?, velocity: velocity?, work: work? })
     }
 
-    /// One for each component of the state [q, q̇, E_act] of a mechanism.
-    fn of_state(self, mechanism: &GenericMechanism) -> Vec<f64> {
+    /// One for each of the `count` components of the state [q, q̇, E_act, z] of a mechanism: integral actions z, N m or
+    /// N, are weighed as work is.
+    fn of_state(self, mechanism: &GenericMechanism, count: usize) -> Vec<f64> {
         let (nq, nv) = (mechanism.tree().nq(), mechanism.tree().nv());
-        [vec![self.position; nq], vec![self.velocity; nv], vec![self.work]].concat()
+        let mut all = [vec![self.position; nq], vec![self.velocity; nv]].concat();
+        all.resize(count, self.work);
+        all
     }
 }
 
@@ -212,7 +215,7 @@ impl Integrator {
                 Fixed::Gauss6 => Gauss6::new(step).run(ode, interval, start, observer),
             },
             Integrator::Adaptive(method, tolerances) => {
-                let atol = tolerances.atol.of_state(mechanism);
+                let atol = tolerances.atol.of_state(mechanism, start.len());
                 match method {
                     Adaptive::Ode45 => tolerances.on(Ode45::new(), &atol).run(ode, interval, start, observer),
                     Adaptive::Dop853 => tolerances.on(Dop853::new(), &atol).run(ode, interval, start, observer),

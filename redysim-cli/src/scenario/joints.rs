@@ -6,7 +6,7 @@ use std::ops::Range;
 use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Spanned, Value};
 
 use super::resolution::resolved;
-use crate::layout::{Component, Joint};
+use crate::layout::{Component, Joint, Layout};
 
 /// What the values for joints are.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -17,10 +17,19 @@ pub enum Quantity {
     Rate,
     /// Gains: plain numbers, and one number is that of all joints.
     Gain,
+    /// Limits of forces: likewise, above zero, and infinite where they are missing.
+    Limit,
+}
+
+impl Quantity {
+    /// Whether one number may stand for those of all joints.
+    fn may_be_uniform(self) -> bool {
+        matches!(self, Quantity::Gain | Quantity::Limit)
+    }
 }
 
 /// One value for each of `of`, indices into `components`: an array in their order, or a table by their names, in which
-/// missing coordinates are those of the neutral position, and other missing values zero.
+/// missing coordinates are those of the neutral position, missing limits infinite, and other missing values zero.
 pub fn values(
     reader: &mut Reader<'_, '_>,
     key: &Key,
@@ -29,6 +38,42 @@ pub fn values(
     of: &[usize],
 ) -> Field<Vec<f64>> {
     reader.field(key, |reader, path, value| list(reader, path, value, quantity, components, of))
+}
+
+/// Limits of forces, one for each velocity of the joints `of`, which are above zero: as [`values`] reads them, or
+/// "range", which stands for the `force` of each joint's range, as `range_force` has it.
+pub fn limits(
+    reader: &mut Reader<'_, '_>,
+    key: &Key,
+    layout: &Layout,
+    of: &[usize],
+    range_force: impl Fn(usize) -> Option<f64>,
+) -> Field<Vec<f64>> {
+    reader.field(key, |reader, path, value| {
+        let DeValue::String(name) = value.get_ref() else {
+            return list(reader, path, value, Quantity::Limit, &layout.velocities, &layout.velocities_of(of));
+        };
+        reader.choose(path, value, name, &[("range", ())])?;
+        let mut limits = Vec::new();
+        for &joint in of {
+            let Joint { name, v, .. } = &layout.joints[joint];
+            let Some(force) = range_force(joint) else {
+                let message = Message {
+                    title: format!(
+                        "{}: `{path}` is \"range\", and the joint `{name}` has no `range.force`",
+                        reader.item()
+                    ),
+                    label: "not known for every joint".into(),
+                    help: format!(
+                        "give `{name}` a `force` in its `range` in the model, or write the limits here, N m or N"
+                    ),
+                };
+                return reader.error(value, message);
+            };
+            limits.extend(v.clone().map(|_| force));
+        }
+        Some(limits)
+    })
 }
 
 /// Values for every point of a motion: an array of what [`values`] reads.
@@ -109,7 +154,11 @@ fn list(
             read.collect::<Vec<_>>().into_iter().collect()
         }
         DeValue::Table(table) => {
-            let mut values: Vec<f64> = of.iter().map(|&index| components[index].neutral).collect();
+            let missing = |index: usize| match quantity {
+                Quantity::Limit => f64::INFINITY,
+                _ => components[index].neutral,
+            };
+            let mut values: Vec<f64> = of.iter().map(|&index| missing(index)).collect();
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
                 let names = components.iter().map(|component| component.name.as_str());
                 let index = index(reader, name.span(), name.get_ref(), names)?;
@@ -123,8 +172,8 @@ fn list(
             table.iter().map(&mut read).collect::<Vec<_>>().into_iter().collect::<Option<()>>()?;
             Some(values)
         }
-        DeValue::Integer(_) | DeValue::Float(_) if quantity == Quantity::Gain => {
-            Some(vec![reader.parse_number(path, value)?; of.len()])
+        DeValue::Integer(_) | DeValue::Float(_) if quantity.may_be_uniform() => {
+            Some(vec![plain(reader, path, value, quantity)?; of.len()])
         }
         _ => reader.wrong_type(path, value, "an array with a value for each joint, or a table by their names"),
     }
@@ -143,6 +192,14 @@ fn one(
             resolved(reader, value.span(), path, angle)
         }
         Quantity::Rate => reader.parse_displacement(path, value, component.turns(), "/s"),
-        Quantity::Coordinate | Quantity::Gain => reader.parse_number(path, value),
+        Quantity::Coordinate | Quantity::Gain | Quantity::Limit => plain(reader, path, value, quantity),
+    }
+}
+
+/// A number without a unit.
+fn plain(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>, quantity: Quantity) -> Option<f64> {
+    match quantity {
+        Quantity::Limit => reader.parse_positive(path, value),
+        _ => reader.parse_number(path, value),
     }
 }

@@ -70,19 +70,77 @@ pub const TORQUE: Key = Key::of_table(
     "torque",
     "{ law = \"pd\", target = [0, 0], kp = 49.0, kd = 14.0 }",
     "",
-    &[&ZERO_TORQUE, &P, &PD, &TRACKING_PD, &COMPUTED_TORQUE, &FORCE_TABLE],
+    &[&ZERO_TORQUE, &P, &PD, &PID, &PD_GRAVITY, &TRACKING_PD, &COMPUTED_TORQUE, &IMPEDANCE, &FORCE_TABLE],
 );
 pub const ZERO_TORQUE: Keys = Keys::new("The law `free`", &[LAW]);
-pub const P: Keys = Keys::new("The law `p`", &[LAW, DRIVEN, TARGET, KP]);
-pub const PD: Keys = Keys::new("The law `pd`", &[LAW, DRIVEN, TARGET, KP, KD]);
-pub const TRACKING_PD: Keys = Keys::new("The law `tracking-pd`", &[LAW, DRIVEN, KP, KD]);
-pub const COMPUTED_TORQUE: Keys = Keys::new("The law `computed-torque`", &[LAW, KP, KD]);
-pub const FORCE_TABLE: Keys = Keys::new("The law `csv`", &[LAW, DRIVEN, FORCE_FILE]);
-pub const LAW: Key = Key::new("law", "\"free\"", "or p, pd, tracking-pd, computed-torque, csv");
+pub const P: Keys = Keys::new("The law `p`", &[LAW, DRIVEN, TARGET, KP, LIMITS]);
+pub const PD: Keys = Keys::new("The law `pd`", &[LAW, DRIVEN, TARGET, KP, KD, LIMITS]);
+pub const PID: Keys = Keys::new("The law `pid`", &[LAW, DRIVEN, TARGET, KP, KI, KD, TRACKING_RATE, LIMITS]);
+pub const PD_GRAVITY: Keys = Keys::new("The law `pd-gravity`", &[LAW, DRIVEN, TARGET, KP, KD, PAYLOAD, LIMITS]);
+pub const TRACKING_PD: Keys = Keys::new("The law `tracking-pd`", &[LAW, DRIVEN, KP, KD, LIMITS]);
+pub const COMPUTED_TORQUE: Keys = Keys::new("The law `computed-torque`", &[LAW, KP, KD, LIMITS]);
+pub const IMPEDANCE: Keys = Keys::new(
+    "The law `impedance`",
+    &[
+        LAW,
+        DRIVEN,
+        FRAME,
+        POSE,
+        STIFFNESS,
+        ANGULAR_STIFFNESS,
+        DAMPING,
+        ANGULAR_DAMPING,
+        COMPENSATION,
+        NULL_SPACE_DAMPING,
+        PAYLOAD,
+        LIMITS,
+    ],
+);
+pub const FORCE_TABLE: Keys = Keys::new("The law `csv`", &[LAW, DRIVEN, FORCE_FILE, LIMITS]);
+pub const LAW: Key =
+    Key::new("law", "\"free\"", "or p, pd, pid, pd-gravity, tracking-pd, computed-torque, impedance, csv");
 pub const DRIVEN: Key = Key::new("joints", "[\"crank\"]", "which are driven");
 pub const TARGET: Key = Key::new("target", "[0, \"90 deg\"]", "rad or m");
 pub const KP: Key = Key::new("kp", "49.0", "of all joints, or one of each: [49.0, 20.0]");
 pub const KD: Key = Key::new("kd", "14.0", "of all joints, or one of each: [14.0, 8.0]");
+pub const KI: Key = Key::new("ki", "60.0", "of all joints, or one of each: [60.0, 20.0]");
+pub const TRACKING_RATE: Key =
+    Key::new("tracking_rate", "2.0", "1/s, of anti-windup; √(ki/kd), or ki/kp where kd is 0, by default");
+pub const LIMITS: Key = Key::new(
+    "limits",
+    "100.0",
+    "N m or N, the largest forces, of all joints or one of each; or \"range\": the `force` of each joint's `range`",
+);
+pub const PAYLOAD: Key = Key::of_table(
+    "payload",
+    "{ link = \"link6\", mass = 5.0, com = [0.0, 0.0, 0.1] }",
+    "a mass that the law assumes at a point of a link, beyond those of the model",
+    &[&PAYLOAD_KEYS],
+);
+const PAYLOAD_KEYS: Keys = Keys::new("`payload`", &[PAYLOAD_LINK, PAYLOAD_MASS, PAYLOAD_COM]);
+pub const PAYLOAD_LINK: Key = Key::new("link", "\"link6\"", "which link carries it");
+pub const PAYLOAD_MASS: Key = Key::new("mass", "5.0", "kg; negative for a link that is lighter than in the model");
+pub const PAYLOAD_COM: Key =
+    Key::new("com", "[0.0, 0.0, 0.1]", "m, where it is in the link's frame; its origin by default");
+pub const FRAME: Key = Key::new("frame", "\"tool\"", "which `[[frame]]` of the model is held");
+pub const POSE: Key = Key::of_table(
+    "target",
+    "{ xyz = [0.5, 0.0, 0.3], rpy = [0, \"90 deg\", 0] }",
+    "where the frame should be in the base frame; where it starts by default",
+    &[&POSE_KEYS],
+);
+const POSE_KEYS: Keys = Keys::new("`target`", &[XYZ, RPY]);
+pub const XYZ: Key = Key::new("xyz", "[0.5, 0.0, 0.3]", "m");
+pub const RPY: Key = Key::new("rpy", "[0, \"90 deg\", 0]", "roll, pitch, yaw; without a unit in rad");
+pub const STIFFNESS: Key =
+    Key::new("stiffness", "[900.0, 900.0, 400.0]", "N/m, along the axes of the desired frame; or one number for all");
+pub const ANGULAR_STIFFNESS: Key = Key::new("angular_stiffness", "50.0", "N m/rad, about these axes; 0 by default");
+pub const DAMPING: Key = Key::new("damping", "60.0", "N s/m, along these axes");
+pub const ANGULAR_DAMPING: Key = Key::new("angular_damping", "5.0", "N m s/rad, about these axes; 0 by default");
+pub const COMPENSATION: Key =
+    Key::new("compensation", "\"gravity\"", "or bias: Coriolis forces and the joints' own too");
+pub const NULL_SPACE_DAMPING: Key =
+    Key::new("null_space_damping", "2.0", "1/s, of what leaves the frame alone; 0 by default");
 pub const FORCE_FILE: Key = Key::new("file", "\"forces.csv\"", "from the folder of the scenario");
 
 pub const STABILISATION: Key = Key::of_table(

@@ -1,7 +1,7 @@
 //! Torque laws as they act on a mechanism.
 
 use redysim_model::GenericMechanism;
-use redysim_runtime::{ClosedLoopComputedTorque, LengthMismatch, LoopError, TorqueLaw};
+use redysim_runtime::{ClosedLoopComputedTorque, LengthMismatch, Limited, LoopError, TorqueLaw};
 
 use super::trajectory::Prescribed;
 
@@ -11,6 +11,8 @@ pub enum Law<'a> {
     Total(Box<dyn TorqueLaw<f64, GenericMechanism> + 'a>),
     /// A law that is undefined where the loops do not permit the prescribed motion.
     OfLoops(ClosedLoopComputedTorque<'a, f64, GenericMechanism, &'a Prescribed, Vec<f64>>),
+    /// A law within the limits of the actuators.
+    Limited(Box<Limited<Law<'a>, Vec<f64>>>),
 }
 
 type Pair<'a> = (&'a Vec<f64>, &'a Vec<f64>);
@@ -26,30 +28,59 @@ impl<'a> Law<'a> {
         match self {
             Law::Total(_) => None,
             Law::OfLoops(law) => law.last_error(),
+            Law::Limited(limited) => limited.law.last_error(),
+        }
+    }
+
+    /// A law whose forces are at most `limits`, one for each velocity.
+    pub fn limited(law: Law<'a>, limits: Vec<f64>) -> Self {
+        Law::Limited(Box::new(Limited { law, limits }))
+    }
+
+    fn chosen(&self) -> &(dyn TorqueLaw<f64, GenericMechanism> + 'a) {
+        match self {
+            Law::Total(law) => law.as_ref(),
+            Law::OfLoops(law) => law,
+            Law::Limited(law) => law.as_ref(),
+        }
+    }
+
+    fn chosen_mut(&mut self) -> &mut (dyn TorqueLaw<f64, GenericMechanism> + 'a) {
+        match self {
+            Law::Total(law) => law.as_mut(),
+            Law::OfLoops(law) => law,
+            Law::Limited(law) => law.as_mut(),
         }
     }
 }
 
 impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
     fn torque(&mut self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
-        match self {
-            Law::Total(law) => law.torque(t, q, v),
-            Law::OfLoops(law) => law.torque(t, q, v),
-        }
+        self.chosen_mut().torque(t, q, v)
     }
 
     fn check_lengths(&self, t: f64, mechanism: &GenericMechanism) -> Result<(), LengthMismatch> {
-        match self {
-            Law::Total(law) => law.check_lengths(t, mechanism),
-            Law::OfLoops(law) => law.check_lengths(t, mechanism),
-        }
+        self.chosen().check_lengths(t, mechanism)
     }
 
     fn torque_tangent(&mut self, t: f64, at: Pair<'_>, slopes: Pair<'_>) -> Option<Vec<f64>> {
-        match self {
-            Law::Total(law) => law.torque_tangent(t, at, slopes),
-            Law::OfLoops(law) => law.torque_tangent(t, at, slopes),
-        }
+        self.chosen_mut().torque_tangent(t, at, slopes)
+    }
+
+    fn state_count(&self, mechanism: &GenericMechanism) -> usize {
+        self.chosen().state_count(mechanism)
+    }
+
+    fn initial_state(&self, index: usize) -> f64 {
+        self.chosen().initial_state(index)
+    }
+
+    fn torque_with_state(&mut self, t: f64, at: Pair<'_>, state: &[f64], rates: &mut [f64]) -> Vec<f64> {
+        self.chosen_mut().torque_with_state(t, at, state, rates)
+    }
+
+    fn track(&self, excess: &Vec<f64>, rates: &mut [f64]) {
+        self.chosen().track(excess, rates);
     }
 }
 

@@ -35,7 +35,7 @@ pub use span::Span;
 pub use subject::{Dynamics, Subject};
 use subject::{given, indices};
 use table::InputTable;
-pub use torque::Torque;
+pub use torque::{HeldFrame, Torque};
 pub use trajectory::{Prescribed, USUAL_THROUGH};
 
 /// What is to be computed of a model.
@@ -124,7 +124,7 @@ impl Scenario {
         }
         let Some(Forward { span, torque, .. }) = &self.forward else { return Ok(()) };
         cover(torque.followed().and_then(|trajectory| trajectory.table.as_ref()), *span)?;
-        match torque {
+        match torque.unlimited() {
             Torque::Table { forces, .. } => cover(Some(&forces.table), *span),
             _ => Ok(()),
         }

@@ -20,7 +20,8 @@ pub enum System<'a> {
 
 impl<'a> System<'a> {
     pub fn new(scenario: &'a Scenario, forward: &'a Forward) -> Self {
-        let (mechanism, law) = (&scenario.mechanism, forward.torque.law(&scenario.mechanism, &scenario.layout));
+        let (mechanism, law) =
+            (&scenario.mechanism, forward.torque.law(&scenario.mechanism, &scenario.layout, &scenario.initial));
         if scenario.loops() {
             let simulation = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), law);
             System::Loops(simulation.stabilisation(forward.stabilisation))
@@ -55,17 +56,17 @@ impl<'a> System<'a> {
     pub fn start(&self, scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<Vec<f64>, Failure> {
         let initial = &scenario.initial;
         let simulation = match self {
-            System::Tree(simulation) => return Ok(simulation.state(&initial.q, &initial.v)),
+            System::Tree(simulation) => return Ok(simulation.extended_state(&initial.q, &initial.v)),
             System::Loops(simulation) => simulation,
         };
         let loops = simulation.loops();
         let failed = |reason| Failure::input(format!("the start: {}", loops.with_names(reason)));
         if !initial.assemble {
-            return match forward.stabilisation {
-                Stabilisation::Projection => simulation.start(&initial.q, &initial.v).map_err(failed),
-                // Without projection, loops may be open: they stay as far open as they are, or feedback closes them.
-                _ => Ok(simulation.state(&initial.q, &initial.v)),
-            };
+            // Without projection, loops may be open: they stay as far open as they are, or feedback closes them.
+            if forward.stabilisation == Stabilisation::Projection {
+                simulation.start(&initial.q, &initial.v).map_err(failed)?;
+            }
+            return Ok(simulation.extended_state(&initial.q, &initial.v));
         }
         let closed =
             loops.assemble(&initial.q, &initial.v, &scenario.layout.velocities_of(&initial.held)).map_err(failed)?;
@@ -87,7 +88,7 @@ impl<'a> System<'a> {
                 to_stdout(&format!("So that they stay closed, its speeds change: {changed}."));
             }
         }
-        Ok(simulation.assembled(&closed))
+        Ok(simulation.extended_state(&closed.q, &closed.v))
     }
 
     /// What is written of a state. Within a step loops are only as closed as the method is accurate; where steps are
@@ -108,7 +109,11 @@ impl<'a> System<'a> {
                     let closed = loops.project(&q, &v).map_err(failed)?;
                     (q, v) = (closed.q, closed.v);
                 }
-                let forced = simulation.forced_motion(t, &simulation.state(&q, &v));
+                let mut closed = state.clone();
+                for (element, &value) in closed.iter_mut().zip(q.iter().chain(&v)) {
+                    *element = value;
+                }
+                let forced = simulation.forced_motion(t, &closed);
                 simulation.law().last_error().map_or(Ok(()), Err).map_err(failed)?;
                 let ForcedMotion { tau, motion } = forced.map_err(failed)?;
                 (tau, motion.accelerations, motion.multipliers)

@@ -1,18 +1,24 @@
 //! What the actuators do.
 
+mod impedance;
+mod payload;
+
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Proportional, ProportionalDerivative, TrackingPd, ZeroTorque,
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Limited, PdGravity, Pid, Proportional,
+    ProportionalDerivative, SetPoint, TrackingPd, ZeroTorque, tracking_rates,
 };
 use redysim_toml::{Key, Kind, Message, Reader};
 
 use super::forces::Forces;
-use super::joints::{Quantity, some, values};
+use super::initial::Initial;
+use super::joints::{Quantity, limits, some, values};
 use super::keys;
 use super::law::Law;
 use super::subject::{Subject, given, spread};
 use super::trajectory::Prescribed;
 use crate::layout::{Component, Joint, Layout};
+pub use impedance::HeldFrame;
 
 /// A torque law, as the scenario has it: its values are those of the joints that it drives.
 #[derive(Clone, Debug)]
@@ -28,6 +34,30 @@ pub enum Torque {
         target: Vec<f64>,
         kp: Vec<f64>,
         kd: Vec<f64>,
+    },
+    Pid {
+        joints: Vec<usize>,
+        target: Vec<f64>,
+        kp: Vec<f64>,
+        ki: Vec<f64>,
+        kd: Vec<f64>,
+        tracking_rate: Vec<f64>,
+    },
+    PdGravity {
+        joints: Vec<usize>,
+        target: Vec<f64>,
+        kp: Vec<f64>,
+        kd: Vec<f64>,
+        /// The model with the payload that the law assumes, if it assumes one.
+        laden: Option<Box<GenericMechanism>>,
+    },
+    /// Springs and dampers on a frame.
+    Impedance(HeldFrame),
+    /// A law within the limits of the actuators, one for each of the velocities that it drives.
+    Limited {
+        law: Box<Torque>,
+        joints: Vec<usize>,
+        limits: Vec<f64>,
     },
     /// A spring and a damper to a motion.
     TrackingPd {
@@ -52,12 +82,15 @@ pub enum Torque {
     },
 }
 
-const LAWS: [Kind<ReadLaw>; 6] = [
+const LAWS: [Kind<ReadLaw>; 9] = [
     Kind { name: "free", kind: |_| Some(Torque::Zero), keys: &keys::ZERO_TORQUE },
     Kind { name: "p", kind: |law| law.p(), keys: &keys::P },
     Kind { name: "pd", kind: |law| law.pd(), keys: &keys::PD },
+    Kind { name: "pid", kind: |law| law.pid(), keys: &keys::PID },
+    Kind { name: "pd-gravity", kind: |law| law.pd_gravity(), keys: &keys::PD_GRAVITY },
     Kind { name: "tracking-pd", kind: |law| law.tracking_pd(), keys: &keys::TRACKING_PD },
     Kind { name: "computed-torque", kind: |law| law.computed_torque(), keys: &keys::COMPUTED_TORQUE },
+    Kind { name: "impedance", kind: |law| law.impedance(), keys: &keys::IMPEDANCE },
     Kind { name: "csv", kind: |law| law.table(), keys: &keys::FORCE_TABLE },
 ];
 
@@ -70,6 +103,22 @@ struct Source<'s, 'a, 'f> {
     subject: &'s Subject<'s>,
     /// The scenario's trajectory, if it has one; `None` if that is invalid.
     trajectory: Option<Option<&'s Prescribed>>,
+}
+
+/// The limits of the forces on some joints; `None` if there are none.
+struct Limits {
+    joints: Vec<usize>,
+    forces: Option<Vec<f64>>,
+}
+
+impl Limits {
+    /// The law within these limits.
+    fn of(self, law: Torque) -> Torque {
+        match self.forces {
+            Some(limits) => Torque::Limited { law: Box::new(law), joints: self.joints, limits },
+            None => law,
+        }
+    }
 }
 
 impl Torque {
@@ -87,25 +136,36 @@ impl Torque {
 
     /// The joints that the law drives, given or by default.
     pub fn joints(&self) -> Option<&[usize]> {
-        match self {
-            Torque::Zero | Torque::Computed { .. } => None,
+        match self.unlimited() {
+            Torque::Zero | Torque::Computed { .. } | Torque::Limited { .. } => None,
             Torque::P { joints, .. }
             | Torque::Pd { joints, .. }
+            | Torque::Pid { joints, .. }
+            | Torque::PdGravity { joints, .. }
+            | Torque::Impedance(HeldFrame { joints, .. })
             | Torque::TrackingPd { joints, .. }
             | Torque::Table { joints, .. } => Some(joints),
         }
     }
 
+    /// The law without the limits of its forces.
+    pub fn unlimited(&self) -> &Torque {
+        match self {
+            Torque::Limited { law, .. } => law,
+            law => law,
+        }
+    }
+
     /// What the law follows, if it follows a motion.
     pub fn followed(&self) -> Option<&Prescribed> {
-        match self {
+        match self.unlimited() {
             Torque::TrackingPd { trajectory, .. } | Torque::Computed { trajectory, .. } => Some(trajectory),
             _ => None,
         }
     }
 
-    /// The law as it acts on `mechanism`.
-    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, layout: &'a Layout) -> Law<'a> {
+    /// The law as it acts on `mechanism`, which starts at `initial`.
+    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, layout: &'a Layout, initial: &Initial) -> Law<'a> {
         let positions =
             |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, &layout.coordinates);
         let whole =
@@ -120,6 +180,27 @@ impl Torque {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
                 let target = positions(joints, target);
                 Law::total(ProportionalDerivative { target, kp, kd })
+            }
+            Torque::Pid { joints, target, kp, ki, kd, tracking_rate } => {
+                let [kp, ki, kd, tracking] = [kp, ki, kd, tracking_rate].map(|gains| whole(joints, gains));
+                let trajectory = SetPoint::new(mechanism, positions(joints, target));
+                Law::total(Pid { trajectory, kp, ki, kd, tracking, integral: vec![0.0; layout.nv()] })
+            }
+            Torque::PdGravity { joints, target, kp, kd, laden } => {
+                let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
+                let trajectory = SetPoint::new(mechanism, positions(joints, target));
+                let law = PdGravity { mechanism: laden.as_deref().unwrap_or(mechanism), trajectory, kp, kd };
+                Law::total(Limited { law, limits: only(joints, layout) })
+            }
+            Torque::Impedance(held) => {
+                Law::total(Limited { law: held.law(mechanism, initial), limits: only(&held.joints, layout) })
+            }
+            Torque::Limited { law, joints, limits } => {
+                let mut all = vec![f64::INFINITY; layout.nv()];
+                for (velocity, &limit) in layout.velocities_of(joints).into_iter().zip(limits) {
+                    all[velocity] = limit;
+                }
+                Law::limited(law.law(mechanism, layout, initial), all)
             }
             Torque::TrackingPd { joints, trajectory, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
@@ -139,17 +220,81 @@ impl Torque {
     }
 }
 
+/// Limits that leave the joints `driven` alone and let nothing act on the others.
+fn only(driven: &[usize], layout: &Layout) -> Vec<f64> {
+    let mut limits = vec![0.0; layout.nv()];
+    for velocity in layout.velocities_of(driven) {
+        limits[velocity] = f64::INFINITY;
+    }
+    limits
+}
+
 impl<'s> Source<'s, '_, '_> {
     fn p(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
         let [target, kp] = [self.targets(&joints), self.gains(&keys::KP, &joints)];
-        Some(Torque::P { joints, target: target?, kp: kp? })
+        let limits = self.limits(&joints)?;
+        Some(limits.of(Torque::P { joints, target: target?, kp: kp? }))
     }
 
     fn pd(mut self) -> Option<Torque> {
         let joints = self.driven(self.subject.actuated())?;
         let [target, kp, kd] = [self.targets(&joints), self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
-        Some(Torque::Pd { joints, target: target?, kp: kp?, kd: kd? })
+        let limits = self.limits(&joints)?;
+        Some(limits.of(Torque::Pd { joints, target: target?, kp: kp?, kd: kd? }))
+    }
+
+    fn pid(mut self) -> Option<Torque> {
+        let joints = self.driven(self.subject.actuated())?;
+        let target = self.targets(&joints);
+        let [kp, ki, kd] = [keys::KP, keys::KI, keys::KD].map(|key| self.gains(&key, &joints));
+        let layout = self.subject.layout;
+        let velocities = layout.velocities_of(&joints);
+        let rate = values(&mut self.reader, &keys::TRACKING_RATE, Quantity::Gain, &layout.velocities, &velocities);
+        let limits = self.limits(&joints)?;
+        let (kp, ki, kd) = (kp?, ki?, kd?);
+        let tracking_rate = rate.value_or(tracking_rates(&kp, &ki, &kd))?;
+        Some(limits.of(Torque::Pid { joints, target: target?, kp, ki, kd, tracking_rate }))
+    }
+
+    fn pd_gravity(mut self) -> Option<Torque> {
+        self.expect_tree("pd-gravity")?;
+        let joints = self.driven(self.subject.actuated())?;
+        let [target, kp, kd] = [self.targets(&joints), self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
+        let laden = payload::read(&mut self.reader, self.subject.model);
+        let limits = self.limits(&joints)?;
+        Some(limits.of(Torque::PdGravity { joints, target: target?, kp: kp?, kd: kd?, laden: laden? }))
+    }
+
+    fn impedance(mut self) -> Option<Torque> {
+        self.expect_tree("impedance")?;
+        let joints = self.driven(self.subject.actuated())?;
+        let limits = self.limits(&joints);
+        let held = HeldFrame::read(&mut self.reader, self.subject.model, joints);
+        Some(limits?.of(Torque::Impedance(held?)))
+    }
+
+    /// Fails for closed loops, on which the law `name` does not act.
+    fn expect_tree(&mut self, name: &str) -> Option<()> {
+        if !self.subject.loops() {
+            return Some(());
+        }
+        self.reader.error_of_table(Message {
+            title: format!(
+                "{}: the law `{name}` compensates the gravity of a tree, and the model has closed loops",
+                self.reader.item()
+            ),
+            label: "not for this model".into(),
+            help: "take the law `computed-torque`, which carries the weight of closed loops, or `pid`".into(),
+        })
+    }
+
+    /// The limits of the forces on `joints`, if there are any.
+    fn limits(&mut self, joints: &[usize]) -> Option<Limits> {
+        let force = |joint: usize| self.subject.model.moving_links().nth(joint)?.range?.force;
+        let field = limits(&mut self.reader, &keys::LIMITS, self.subject.layout, joints, force);
+        let forces = if field.is_missing() { None } else { Some(field.value()?.clone()) };
+        Some(Limits { joints: joints.to_vec(), forces })
     }
 
     fn tracking_pd(mut self) -> Option<Torque> {
@@ -164,7 +309,8 @@ impl<'s> Source<'s, '_, '_> {
         if joints.is_empty() {
             return idle(&mut self.reader);
         }
-        Some(Torque::TrackingPd { joints, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
+        let limits = self.limits(&joints)?;
+        Some(limits.of(Torque::TrackingPd { joints, trajectory: trajectory.clone(), kp: kp?, kd: kd? }))
     }
 
     fn computed_torque(mut self) -> Option<Torque> {
@@ -178,7 +324,8 @@ impl<'s> Source<'s, '_, '_> {
             let title = format!("{}: {fault}, and computed torque moves it whole", self.reader.item());
             return self.reader.error_of_table(Message { title, label: "not with this trajectory".into(), help });
         }
-        Some(Torque::Computed { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? })
+        let limits = self.limits(&self.subject.actuated())?;
+        Some(limits.of(Torque::Computed { actuated, trajectory: trajectory.clone(), kp: kp?, kd: kd? }))
     }
 
     fn table(mut self) -> Option<Torque> {
@@ -186,7 +333,8 @@ impl<'s> Source<'s, '_, '_> {
         let forces = self
             .subject
             .table(&mut self.reader, &keys::FORCE_FILE, |table| Forces::of(table, self.subject.layout, &joints))?;
-        Some(Torque::Table { joints, forces })
+        let limits = self.limits(&joints)?;
+        Some(limits.of(Torque::Table { joints, forces }))
     }
 
     /// The motion that the law follows.
