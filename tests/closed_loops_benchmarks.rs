@@ -20,7 +20,7 @@ fn digits(computed: f64, published: f64) -> f64 {
 #[test]
 fn andrews_mechanism_is_where_it_was_published_to_be() {
     let loops = ClosedLoop::new(&Andrews);
-    let law = |_t: f64, q: &[f64; 7], _v: &[f64; 7]| andrews::torques(q);
+    let law = |_t: f64, _q: &[f64; 7], _v: &[f64; 7]| andrews::TORQUES;
     let mut squeezing = ClosedLoopSimulation::new(loops, law);
     let start = squeezing.start(&andrews::START, &[0.0; 7]).expect("the published start closes");
     let mut gap = 0.0_f64;

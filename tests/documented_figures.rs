@@ -198,7 +198,7 @@ fn the_four_bar_drifts_as_little_as_the_readme_states() {
 
 #[test]
 fn andrews_mechanism_has_the_digits_that_the_readme_states() {
-    let law = |_t: f64, q: &[f64; 7], _v: &[f64; 7]| andrews::torques(q);
+    let law = |_t: f64, _q: &[f64; 7], _v: &[f64; 7]| andrews::TORQUES;
     let mut squeezing = ClosedLoopSimulation::new(ClosedLoop::new(&Andrews), law);
     let start = squeezing.start(&andrews::START, &[0.0; 7]).expect("the published start closes");
     let end = Ode45::new().rtol(1e-12).atol(1e-12).integrate(&mut squeezing, (0.0, 0.03), start).expect("it ends").y;

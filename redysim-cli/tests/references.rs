@@ -1,5 +1,8 @@
 //! What the program writes, against numbers that none of this project's code computed.
 
+#[path = "../../tests/common/andrews.rs"]
+#[allow(dead_code, reason = "tests of the facade use the rest")]
+mod andrews;
 mod common;
 
 use std::fs;
@@ -72,6 +75,47 @@ fn three_links_fall_as_in_quadruple_precision() {
 #[test]
 fn the_fourbar_falls_as_in_quadruple_precision() {
     falls("fourbar", "golden_ref_hoken_rest_consistent.csv", 3, 2, AGAINST_QUADRUPLE_PRECISION);
+}
+
+/// The results of a shipped scenario's motion.
+fn moves(scenario: &str) -> impl Fn(&str) -> Table {
+    let folder = scratch(&format!("moves-{scenario}"));
+    succeed(&folder, &["forward", &format!("{}/scenarios/{scenario}.toml", root().display()), "-o", "run"]);
+    move |name| Table::csv(&folder.join("run").join(name))
+}
+
+/// The tolerances of the integrator are 1e-10 for a step. The dampers take the errors of the fast motions away; those of
+/// the angle of the shaft, which nothing holds, add up over a thousand steps.
+#[test]
+fn the_flyball_governor_moves_as_in_quadruple_precision() {
+    let read = moves("flyball");
+    let (found, reference) = (read("statevar.csv"), Table::reference("quad_flyball.csv"));
+    for expected in &reference.rows {
+        let nearest = |row: &&Vec<f64>| (row[0] - expected[0]).abs() < 1e-12;
+        let row = found.rows.iter().find(nearest).expect("a row at this time");
+        let off = deviation(&[row[1..9].to_vec()], &[expected[1..].to_vec()]);
+        println!("flyball at {} s: {off:e}", expected[0]);
+        assert!(off < 1e-9, "at {} s: {off:e}", expected[0]);
+    }
+}
+
+/// The published positions are right to 1e-10 of themselves, velocities to 5e-8 and multipliers to 1e-6.
+#[test]
+fn andrews_mechanism_moves_as_published_with_its_spring_in_the_model() {
+    let read = moves("andrews");
+    let last = |table: &Table, columns: std::ops::Range<usize>| table.rows.last().unwrap()[columns].to_vec();
+    let (states, multipliers) = (read("statevar.csv"), read("lambda.csv"));
+    assert!((last(&states, 0..1)[0] - 0.03).abs() < 1e-15);
+    for (what, found, published, off) in [
+        ("positions", last(&states, 1..8), &andrews::END[..], 5e-10),
+        ("velocities", last(&states, 8..15), &andrews::END_VELOCITIES, 2e-7),
+        ("multipliers", last(&multipliers, 1..7), &andrews::END_MULTIPLIERS, 5e-6),
+    ] {
+        let shares = found.iter().zip(published).map(|(found, published)| found / published).collect();
+        let worst = deviation(&[shares], &[vec![1.0; published.len()]]);
+        println!("andrews: {what} {worst:e}");
+        assert!(worst < off, "{what}: {worst:e}");
+    }
 }
 
 /// The forces of a scenario's motion, against ReDySim's own: motion, forces of the actuated joints, and multipliers,

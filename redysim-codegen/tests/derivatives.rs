@@ -9,7 +9,7 @@ use redysim_model::{Function, Model, Tree};
 use redysim_runtime::Dual;
 use std::collections::BTreeSet;
 
-const ROBOTS: [&str; 4] = ["kr5_drives", "gripper", "test/gantry", "test/frames"];
+const ROBOTS: [&str; 5] = ["kr5_drives", "test/springs", "gripper", "test/gantry", "test/frames"];
 
 fn tree(name: &str) -> Tree {
     let path = format!("{}/../models/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -77,9 +77,10 @@ fn traced_derivatives_are_those_of_dual_numbers() {
         let has =
             |function: &&Function| !function.needs_loops() && (!function.needs_frames() || !tree.frames.is_empty());
         let depends_on_motion = |function: &&Function| !function.signature().arguments.is_empty();
-        // Without drives, nothing acts in the joints.
+        // Without drives and springs, nothing acts in the joints or between points.
         let acts = |function: &&Function| {
-            robot == "kr5_drives" || !matches!(function, Function::PassiveForces | Function::DissipatedPower)
+            ["kr5_drives", "test/springs"].contains(&robot)
+                || !matches!(function, Function::PassiveForces | Function::DissipatedPower)
         };
         let functions = Function::ALL.iter().filter(acts).filter(has).filter(depends_on_motion);
         for &function in functions {

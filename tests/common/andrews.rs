@@ -4,8 +4,8 @@
 //! Magherini, *Test Set for Initial Value Problem Solvers*, chapter "Andrews' squeezing mechanism"; IFToMM benchmark
 //! library, A03.
 
-/// The moment that drives β, N m.
-pub const DRIVE: f64 = 0.033;
+/// The joint torques of the drive, N m.
+pub const TORQUES: [f64; 7] = [0.033, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
 /// A consistent start at rest.
 pub const START: [f64; 7] = [
@@ -66,37 +66,3 @@ pub const END_MULTIPLIERS: [f64; 6] = [
     22.642_492_320_827_39,
     11.617_407_000_196_73,
 ];
-
-/// Stiffness of the spring, N/m, and its length without load, m.
-const SPRING: (f64, f64) = (4530.0, 0.07785);
-
-/// Where the spring is fixed: on the ground, ...
-const GROUND: [f64; 2] = [0.014, 0.072];
-
-/// ... and on K3, in its frame, whose origin is `K3`.
-const ON_K3: [f64; 2] = [0.02, -0.018];
-const K3: [f64; 2] = [-0.03635, 0.03273];
-
-/// The joint torques of the drive and the spring, N m.
-pub fn torques(q: &[f64]) -> [f64; 7] {
-    let (sin, cos) = q[2].sin_cos();
-    let arm = [cos * ON_K3[0] - sin * ON_K3[1], sin * ON_K3[0] + cos * ON_K3[1]];
-    let (stretch, [x, y]) = spring(q);
-    let force = -SPRING.0 * stretch;
-    [DRIVE, 0.0, force * (arm[0] * y - arm[1] * x), 0.0, 0.0, 0.0, 0.0]
-}
-
-/// The energy in the spring, J. With that of the bodies it grows by `DRIVE` times the angle β has turned.
-pub fn spring_energy(q: &[f64]) -> f64 {
-    let (stretch, _) = spring(q);
-    0.5 * SPRING.0 * stretch * stretch
-}
-
-/// How much longer the spring is than without load, and the unit vector along it from the ground to K3.
-fn spring(q: &[f64]) -> (f64, [f64; 2]) {
-    let (sin, cos) = q[2].sin_cos();
-    let x = K3[0] + cos * ON_K3[0] - sin * ON_K3[1] - GROUND[0];
-    let y = K3[1] + sin * ON_K3[0] + cos * ON_K3[1] - GROUND[1];
-    let length = x.hypot(y);
-    (length - SPRING.1, [x / length, y / length])
-}
