@@ -75,6 +75,11 @@ impl Failure {
         self.help.as_deref().unwrap_or_default()
     }
 
+    /// The same as a warning, where the command goes on without what failed.
+    pub fn warning(&self) -> String {
+        self.to_string().replacen("error: ", "warning: ", 1)
+    }
+
     /// 1 for input, 3 for what is outside, 130 for Ctrl-C; 2 is the command line's own.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self.kind {

@@ -1,10 +1,55 @@
 //! Model files, and the failures of files that are not models.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 use crate::output::to_stderr;
+use crate::urdf::{self, Imported};
 use redysim_model::{Faults, Loaded, Model};
+
+/// The model of a model file or of a URDF.
+pub struct Read {
+    /// The model.
+    pub model: Model,
+    /// The text of its model file.
+    pub text: String,
+    /// The URDF of which it was made, if it was.
+    pub urdf: Option<PathBuf>,
+}
+
+impl From<Loaded> for Read {
+    fn from(Loaded { model, text, .. }: Loaded) -> Self {
+        Read { model, text, urdf: None }
+    }
+}
+
+/// Whether a file is a URDF, by its name.
+pub fn is_urdf(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("urdf"))
+}
+
+/// Reads a model file or a URDF, and prints warnings unless `quiet`.
+///
+/// # Errors
+/// As [`load`] and [`of_urdf`].
+pub fn read(path: &Path, quiet: bool) -> Result<Read, Failure> {
+    if is_urdf(path) { of_urdf(path, quiet) } else { load(path, quiet).map(Read::from) }
+}
+
+/// The model that `redysim import` makes of a URDF; prints what moves otherwise, and warnings, unless `quiet`.
+///
+/// # Errors
+/// If the file cannot be read, or its first fault.
+pub fn of_urdf(path: &Path, quiet: bool) -> Result<Read, Failure> {
+    let Imported { text, model, changes, warnings, .. } =
+        urdf::import(&urdf::read(path)?, path, urdf::Options::default())?;
+    if !quiet {
+        let changes = changes.iter().map(String::as_str);
+        let warnings = changes.chain(warnings.iter().map(|warning| warning.title()));
+        warnings.for_each(|warning| to_stderr(&format!("warning: {warning}")));
+    }
+    Ok(Read { model, text, urdf: Some(path.to_owned()) })
+}
 
 /// Reads a model, prints its warnings unless `quiet`, and reports every fault at once.
 pub fn load(path: &Path, quiet: bool) -> Result<Loaded, Failure> {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{model, results, scratch, slide, succeed, swing, turn};
+use common::{model, results, robot, scratch, slide, succeed, swing, turn};
 
 /// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of
 /// the same motion at more instants if there are.
@@ -80,4 +80,16 @@ fn a_rotor_turns_the_way_it_does_between_instants() {
     };
     // By 4 rad from one instant to the next: the short way would be backwards.
     plays(&spin("rotor", 0.2), Some(&spin("rotor_finer", 0.01)));
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_the_robot_of_a_urdf_with_its_meshes() {
+    let folder = folder("meshes");
+    robot(&folder);
+    let motion =
+        "trajectory = { from = [0, 0], to = [1, 0.2], duration = 1.0 }\ninverse = { end = 1.0, step = 0.01 }\n";
+    fs::write(folder.join("trial.toml"), format!("model = 'arm_description/urdf/robot.urdf'\n{motion}")).unwrap();
+    succeed(&folder, &["inverse", "trial.toml", "-o", "run"]);
+    plays(&folder.join("run"), None);
 }

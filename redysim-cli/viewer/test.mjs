@@ -20,6 +20,7 @@ const finer = process.argv[3] && (await kinematics(join(resolve(process.argv[3])
 await inBrowser(animation, GL, { width: 1280, height: 800 }, async (page) => {
   await page.screenshot({ path: join(folder, "start.png") });
   await theSliderMovesTheLinks(page);
+  await everyMeshIsDrawn(page);
   if (finer) await linksAreWhereTheyAre(page, finer, finer.t.keys(), BETWEEN);
   await theSpaceBarPlaysAndPauses(page);
   await theKeysStepAndJump(page);
@@ -52,6 +53,12 @@ async function theSliderMovesTheLinks(page) {
   await linksAreWhereTheyAre(page, table, rows, TOLERANCE);
   const moved = rows.map((row) => table.point(row, "com_", table.links.at(-1)).join());
   assert.ok(new Set(moved).size > 1, "a mechanism that does not move shows nothing");
+}
+
+async function everyMeshIsDrawn(page) {
+  const bodies = await page.evaluate(() => JSON.parse(document.getElementById("data").textContent).meshes);
+  const drawn = await page.evaluate(() => redysim.meshes());
+  assert.deepEqual(drawn.map(({ body }) => body), bodies.map(({ body }) => body));
 }
 
 async function linksAreWhereTheyAre(page, table, rows, tolerance) {

@@ -9,6 +9,8 @@ use crate::recorded::Recorded;
 use crate::results::names::{PAGE, is_written};
 
 /// Make a page of HTML, complete in itself, that plays a run in 3D beside its curves.
+///
+/// If the scenario's model is a URDF, the links have its meshes (STL, DAE and OBJ, without textures), up to 20 MB.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  redysim animate results/kuka/forward -o kuka.html")]
 pub struct Arguments {

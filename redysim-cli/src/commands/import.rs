@@ -1,11 +1,10 @@
 //! `redysim import ROBOT.urdf`: a model file from a URDF.
 
-use std::fs;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
 use crate::output::{print, to_stderr, write_beside};
-use crate::urdf::{Imported, Options, import};
+use crate::urdf::{Imported, Options, import, read};
 
 /// Make a model file from a URDF, and report what changes.
 ///
@@ -45,13 +44,8 @@ pub struct Arguments {
 /// Imports the robot.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let path = &arguments.robot;
-    let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let byte = error.utf8_error().valid_up_to() + 1;
-        Failure::input(format!("{} is not UTF-8 (byte {byte})", path.display())).help("save the file as UTF-8")
-    })?;
     let options = Options { fuse_fixed: arguments.fuse_fixed, quarter_turns: arguments.quarter_turns };
-    let Imported { text, changes, notes, warnings } = import(&text, path, options)?;
+    let Imported { text, changes, notes, warnings, .. } = import(&read(path)?, path, options)?;
     match &arguments.output {
         Some(output) => write_beside(path, output, text.as_bytes(), arguments.force)?,
         None => print(&text)?,

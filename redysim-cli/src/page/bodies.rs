@@ -123,6 +123,13 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
     std::iter::once(ground).chain(links).collect()
 }
 
+impl Body<'_> {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        self.name
+    }
+}
+
 /// The longest way from the base along the joints to the end of a link, m; 1 m where all is in one point.
 pub fn reach(bodies: &[Body]) -> f64 {
     let length = |vector: [f64; 3]| Vec3(vector).dot(Vec3(vector)).sqrt();

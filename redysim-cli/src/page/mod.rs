@@ -2,6 +2,7 @@
 //! have sliders.
 
 mod bodies;
+mod meshes;
 mod motion;
 mod sliders;
 mod solid;
@@ -18,6 +19,7 @@ use crate::layout::Layout;
 use crate::output;
 use crate::recorded::{Chart, Recorded};
 use bodies::{Body, Cut, Frame};
+use meshes::Meshes;
 use motion::Keyframes;
 use sliders::Slider;
 
@@ -32,6 +34,8 @@ pub struct Page {
     pub html: String,
     /// What those who look at it should know, which it shows, too.
     pub notes: Vec<String>,
+    /// The meshes that are left out.
+    missing: Vec<Failure>,
 }
 
 impl Page {
@@ -41,30 +45,32 @@ impl Page {
     /// If the model or a table is missing or wrong.
     pub fn of_run(recorded: &Recorded) -> Result<Page, Failure> {
         let model = recorded.model()?;
+        let urdf = recorded.urdf();
         let charts = recorded.charts()?;
         let layout = Layout::of(&model);
         let (motion, notes) = motion::of(recorded, &model, &layout)?;
         let charts = charts.iter().map(Curves::of).collect();
-        Data { charts, ..Data::of(&model, &layout, Moved::Motion(motion), notes) }.page()
+        Data { charts, ..Data::of(&model, &layout, Moved::Motion(motion), notes) }.page(urdf.as_deref())
     }
 
-    /// The page on which whoever looks at it moves the model.
+    /// The page on which whoever looks at it moves the model, with the meshes of the URDF of which it was made.
     ///
     /// # Errors
     /// If the data have no JSON.
-    pub fn of_model(model: &Model) -> Result<Page, Failure> {
+    pub fn of_model(model: &Model, urdf: Option<&Path>) -> Result<Page, Failure> {
         let layout = Layout::of(model);
         let (sliders, note) = sliders::of(model, &layout);
-        Data::of(model, &layout, Moved::Sliders(sliders), note.into_iter().collect()).page()
+        Data::of(model, &layout, Moved::Sliders(sliders), note.into_iter().collect()).page(urdf)
     }
 
-    /// Writes it to `path`, and prints where it is and its notes unless `quiet`.
+    /// Writes it to `path`, and prints where it is, its notes and what it lacks unless `quiet`.
     ///
     /// # Errors
     /// If the file is there and `force` is not given, or if it cannot be written.
     pub fn write(&self, path: &Path, force: bool, quiet: bool) -> Result<(), Failure> {
         output::write_file(path, self.html.as_bytes(), force)?;
         if !quiet {
+            self.missing.iter().for_each(|missing| output::to_stderr(&missing.warning()));
             self.notes.iter().for_each(|note| output::to_stderr(&format!("note: {note}")));
             let size = self.html.len().div_ceil(1000);
             output::to_stdout(&format!("{} ({size} kB): open it in a browser", path.display()));
@@ -96,6 +102,8 @@ struct Data<'a> {
     moved: Moved,
     notes: Vec<String>,
     charts: Vec<Curves<'a>>,
+    #[serde(flatten)]
+    drawn: Meshes,
     /// The names of the coordinates.
     joints: Vec<String>,
 }
@@ -122,13 +130,22 @@ impl<'a> Data<'a> {
             moved,
             notes,
             charts: Vec::new(),
+            drawn: Meshes::default(),
             joints: layout.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect(),
         }
     }
 
-    fn page(self) -> Result<Page, Failure> {
+    /// The page of these data, with the meshes of a URDF.
+    fn page(mut self, urdf: Option<&Path>) -> Result<Page, Failure> {
+        self.drawn = urdf.map(|urdf| Meshes::of_urdf(urdf, &self.bodies)).unwrap_or_default();
+        match self.drawn.missing.len() {
+            0 => {}
+            1 => self.notes.push("one mesh is left out".into()),
+            count => self.notes.push(format!("{count} meshes are left out")),
+        }
         let json = serde_json::to_string(&self).map_err(Failure::outside)?;
-        Ok(Page { html: PAGE.replacen(PLACE, &in_html(&json), 1), notes: self.notes })
+        let Data { notes, drawn: Meshes { missing, .. }, .. } = self;
+        Ok(Page { html: PAGE.replacen(PLACE, &in_html(&json), 1), notes, missing })
     }
 }
 

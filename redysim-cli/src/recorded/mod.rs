@@ -74,6 +74,12 @@ impl Recorded {
         })
     }
 
+    /// The URDF of which the model was made, if the run says so.
+    pub fn urdf(&self) -> Option<PathBuf> {
+        let run: toml::Table = std::fs::read_to_string(self.folder.join(names::RUN_FILE)).ok()?.parse().ok()?;
+        run.get("run")?.get(names::URDF)?.as_str().map(PathBuf::from)
+    }
+
     /// The model whose motion it is.
     ///
     /// # Errors

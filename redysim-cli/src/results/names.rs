@@ -2,6 +2,8 @@
 
 /// The file that every result has.
 pub const RUN_FILE: &str = "run.toml";
+/// The key of its table `run` that names the URDF of which the model was made.
+pub const URDF: &str = "urdf";
 /// The copies of what a scenario names.
 pub const MODEL: &str = "model.toml";
 pub const TRAJECTORY: &str = "trajectory.csv";

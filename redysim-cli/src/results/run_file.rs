@@ -5,7 +5,7 @@
 
 use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
 
-use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY};
+use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY, URDF};
 use super::{Ended, Folder, Outcome, Summary};
 use crate::failure::Failure;
 use crate::scenario::{Absolute, HeldFrame, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH};
@@ -62,6 +62,10 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
     }
     document.remove("run");
     document["run"] = Item::Table(how_it_went(summary));
+    if let Some(urdf) = &scenario.urdf {
+        let path = std::fs::canonicalize(urdf).unwrap_or_else(|_| urdf.clone());
+        document["run"][URDF] = value(path.display().to_string());
+    }
     folder.write(RUN_FILE, document.to_string().as_bytes())
 }
 

@@ -5,7 +5,8 @@ use redysim_toml::{Key, Keys};
 
 pub const SCENARIO: Keys = Keys::new("A scenario", &[NAME, MODEL, INITIAL, TRAJECTORY, INVERSE, FORWARD, RUN]);
 pub const NAME: Key = Key::new("name", "\"swing\"", "what the results are called");
-pub const MODEL: Key = Key::new("model", "\"../models/kr5.toml\"", "from the folder of the scenario");
+pub const MODEL: Key =
+    Key::new("model", "\"../models/kr5.toml\"", "a model file or a URDF, from the folder of the scenario");
 const RUN: Key = Key::new("run", "{ redysim = \"0.1.0\" }", "written by a run into the copy in its results; ignored");
 
 pub const INITIAL: Key = Key::of_table("initial", "{ q = [0, \"60 deg\"], v = [0, 0] }", "", &[&INITIAL_KEYS]);

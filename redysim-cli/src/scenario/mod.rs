@@ -16,7 +16,7 @@ mod torque;
 mod trajectory;
 
 use std::cell::OnceCell;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use redysim_model::{Diagnostic, GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
@@ -25,7 +25,7 @@ use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
 use crate::layout::Layout;
-use crate::model;
+use crate::model::{self, Read};
 use crate::output::to_stderr;
 pub use forward::Forward;
 pub use initial::Initial;
@@ -46,6 +46,8 @@ pub struct Scenario {
     pub document: DocumentMut,
     /// The text of the model's file.
     pub model_text: String,
+    /// The URDF of which the model was made, if it was.
+    pub urdf: Option<PathBuf>,
     /// The model.
     pub mechanism: GenericMechanism,
     /// Its joints that move, and their coordinates.
@@ -146,21 +148,18 @@ fn read(
     let named = model.spanned()?;
     let model_path = folder.join(named.get_ref());
     // What the rest of the scenario means depends on the joints.
-    let (mechanism, model_text) = match Model::load(&model_path) {
-        Err(faults) if faults.unread => {
+    let read = match (!model::is_urdf(&model_path)).then(|| Model::load(&model_path)) {
+        Some(Err(faults)) if faults.unread => {
             let why = faults.errors().map(Diagnostic::title).collect::<String>();
             let title = format!("{}: {why}", model_path.display());
             let help = "the path of the model is taken from the folder of the scenario".into();
             return reader.error_at(named.span(), Message { title, label: "named here".into(), help });
         }
-        read => match model::loaded(&model_path, read, quiet) {
-            Ok(loaded) => (GenericMechanism::new(loaded.model), loaded.text),
-            Err(fault) => {
-                *failure = Some(fault);
-                return None;
-            }
-        },
+        Some(read) => model::loaded(&model_path, read, quiet).map(Read::from),
+        None => model::of_urdf(&model_path, quiet),
     };
+    let Read { model, text: model_text, urdf } = read.map_err(|fault| *failure = Some(fault)).ok()?;
+    let mechanism = GenericMechanism::new(model);
     let layout = Layout::of(mechanism.model());
     let subject = Subject { dynamics, layout: &layout, model: mechanism.model(), mobility: OnceCell::new(), folder };
     let initial = Initial::read(&mut reader, &subject);
@@ -180,7 +179,7 @@ fn read(
         limits::check_start(&mut reader, &subject, &initial, span)?;
     }
     let document = document(&mut reader, &text)?;
-    Some(Scenario { name, document, model_text, mechanism, layout, initial, trajectory, inverse, forward })
+    Some(Scenario { name, document, model_text, urdf, mechanism, layout, initial, trajectory, inverse, forward })
 }
 
 /// The file as a document that can be edited. It is parsed again for that: the parts that this run does not read must

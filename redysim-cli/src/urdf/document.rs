@@ -60,7 +60,13 @@ impl<'a> Document<'a> {
         Failure::input(format!("{}:{}: {message}", self.file, self.line_of(tag, name)))
     }
 
-    fn line(&self, node: Node) -> u32 {
+    /// The robot, of which everything else is a part.
+    pub fn robot(&self) -> Node<'_, 'a> {
+        self.xml.root_element()
+    }
+
+    /// The line on which an element begins.
+    pub fn line(&self, node: Node) -> u32 {
         self.xml.text_pos_at(node.range().start).row
     }
 
@@ -252,7 +258,8 @@ fn is_xacro(node: &Node) -> bool {
     node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"))
 }
 
-fn children<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> impl Iterator<Item = Node<'n, 'a>> {
+/// The elements of a name in an element.
+pub fn children<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> impl Iterator<Item = Node<'n, 'a>> {
     node.children().filter(move |child| child.tag_name().name() == tag)
 }
 

@@ -6,13 +6,16 @@ mod fixed;
 mod inertial;
 mod model_file;
 mod robot;
+mod visuals;
 
+use std::fs;
 use std::path::Path;
 
 use document::Document;
 use model_file::ModelFile;
 use redysim_model::{Diagnostic, JointKind, Model};
 use robot::Robot;
+pub use visuals::Visual;
 
 use crate::failure::Failure;
 use crate::number::{counted, rounded};
@@ -21,6 +24,8 @@ use crate::number::{counted, rounded};
 pub struct Imported {
     /// The text of the model file.
     pub text: String,
+    /// The model.
+    pub model: Model,
     /// The joints that move otherwise than in the URDF.
     pub changes: Vec<String>,
     /// What is left out or written otherwise.
@@ -36,6 +41,26 @@ pub struct Options {
     pub fuse_fixed: bool,
     /// Angles that are nearly multiples of 90° are made so.
     pub quarter_turns: bool,
+}
+
+/// The text of the URDF file at `path`.
+///
+/// # Errors
+/// If it cannot be read, or is not UTF-8.
+pub fn read(path: &Path) -> Result<String, Failure> {
+    let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let byte = error.utf8_error().valid_up_to() + 1;
+        Failure::input(format!("{} is not UTF-8 (byte {byte})", path.display())).help("save the file as UTF-8")
+    })
+}
+
+/// The meshes with which the URDF file at `path` draws its links, numbered as in the imported model.
+///
+/// # Errors
+/// If it cannot be read, or is not a URDF.
+pub fn visuals(path: &Path) -> Result<Vec<Visual>, Failure> {
+    Ok(Document::parse(&read(path)?, &path.display().to_string())?.visuals())
 }
 
 /// Imports the text of the URDF file at `path`.
@@ -79,7 +104,7 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
         });
         Failure::input(shown.collect::<Vec<_>>().join("\nerror: "))
     })?;
-    Ok(Imported { text: written.text, changes, notes, warnings: loaded.warnings })
+    Ok(Imported { text: written.text, model: loaded.model, changes, notes, warnings: loaded.warnings })
 }
 
 /// The line of the URDF from which a line of the model file comes: of the link for what it weighs, else of its joint.

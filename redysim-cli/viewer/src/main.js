@@ -1,6 +1,6 @@
 // Puts the page together: data, stage, and time with curves for a run, or sliders for a model.
 
-import { Vector3, Quaternion } from "three";
+import { Box3, Vector3, Quaternion } from "three";
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { Charts } from "./charts.js";
@@ -18,10 +18,11 @@ const linkage = new Linkage(data.bodies);
 document.title = `${data.name} – redysim`;
 at("name").textContent = data.name;
 at("facts").textContent = facts();
-at("notes").textContent = data.notes.join(" · ");
 
 const { moved, start, advance, report } = data.motion ? playing() : posing();
 const stage = makeStage();
+const unread = (stage?.unread ?? []).map((name) => `the mesh ${name} cannot be read`);
+at("notes").textContent = [...data.notes, ...unread].join(" · ");
 start();
 
 for (const button of document.querySelectorAll("[data-view]")) {
@@ -47,6 +48,8 @@ window.redysim = Object.defineProperties(
   {
     /** Name, origin and centre of mass of every link in the base frame, m, as they are drawn. */
     links: () => data.bodies.slice(1).map(drawn),
+    /** Body and corners in the base frame, m, of the box around each mesh. */
+    meshes: () => (stage?.mechanism.layers.meshes ?? []).map(boxed),
     /** Where the camera is, m. */
     camera: () => stage.camera.position.toArray(),
   },
@@ -115,6 +118,11 @@ function drawn({ name, com }, link) {
   const rotation = group?.getWorldQuaternion(new Quaternion()) ?? pose.rotation;
   const placed = (point) => new Vector3(...point).applyQuaternion(rotation).add(position).toArray();
   return { name, origin: placed(data.frames[link].position), com: com && placed(com) };
+}
+
+function boxed(mesh) {
+  const { min, max } = new Box3().setFromObject(mesh, true);
+  return { body: stage.mechanism.groups.indexOf(mesh.parent), min: min.toArray(), max: max.toArray() };
 }
 
 function facts() {

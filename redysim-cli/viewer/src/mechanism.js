@@ -14,10 +14,10 @@ const TRACE = 1000;
 
 export class Mechanism {
   /** `size` is the radius of all that it ever reaches, m; without a `motion` it leaves no traces. */
-  constructor({ bodies, cuts, frames }, linkage, motion, size) {
+  constructor({ bodies, cuts, frames }, meshes, linkage, motion, size) {
     Object.assign(this, { linkage, motion });
     this.root = new Group();
-    this.layers = { links: [], axes: [], coms: [], ellipsoids: [], frames: [], names: [], trace: [] };
+    this.layers = { links: [], axes: [], coms: [], ellipsoids: [], frames: [], names: [], trace: [], meshes: [] };
     this.rails = [];
     this.thick = thickness(bodies, size);
     this.mark = centreMarks(2.6 * this.thick);
@@ -26,6 +26,7 @@ export class Mechanism {
     for (const { a, kind } of cuts) this.groups[a.body].add(this.#joint(kind, a.axis, new Vector3(...a.point)));
     for (const frame of frames) this.#frame(frame);
     if (motion) this.#traces(bodies);
+    for (const { body, object } of meshes) this.#add("meshes", this.groups[body], object);
   }
 
   /** Moves everything to where the links are. */

@@ -7,7 +7,7 @@ const FINEST = 1e-6;
 /** A coordinate that moves further in a step, rad or lengths of the mechanism, has left its branch. */
 const LEAP = 0.5;
 /** Parts of a slider by which each coordinate is moved to see how much room there must be around the start. */
-const ROOM = [-0.125, 0.125];
+const ROOM = [-0.25, 0.25];
 
 export class Posture {
   /** `sliders`, the coordinates with their limits and starts; `length`, the size of the mechanism, m. */

@@ -8,6 +8,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
 import { AXES } from "./marks.js";
 import { Mechanism } from "./mechanism.js";
+import { meshes } from "./meshes.js";
 
 const Y = new Vector3(0, 1, 0);
 /** Angle by which a key turns the view, and factor by which it comes closer. */
@@ -27,11 +28,15 @@ export class Stage {
     this.place = place;
     this.scene = new Scene();
     this.up = upward(data.gravity);
-    const visit = (see) => moved.visit(() => everyPoint(data, linkage, see));
-    this.sphere = reach(visit);
-    this.mechanism = new Mechanism(data, linkage, data.motion && moved, this.sphere.radius);
+    /** The names of files that cannot be read. */
+    this.unread = [];
+    const solids = meshes(data, (name) => this.unread.push(name));
+    const points = data.bodies.map(({ ends }) => ends.map((end) => new Vector3(...end)));
+    for (const { body, box } of solids) points[body].push(...corners(box));
+    this.sphere = reach((see) => moved.visit(() => everyPoint(points, linkage, see)));
+    this.mechanism = new Mechanism(data, solids, linkage, data.motion && moved, this.sphere.radius);
     this.scene.add(this.mechanism.root);
-    this.#ground(lowest((see) => moved.stand(() => everyPoint(data, linkage, see)), this.up));
+    this.#ground(lowest((see) => moved.stand(() => everyPoint(points, linkage, see)), this.up));
     this.#light();
     this.camera = new PerspectiveCamera(30, 1, this.sphere.radius / 50, this.sphere.radius * 100);
     // The controls turn about the camera's own upward direction, and ask for it only now.
@@ -198,12 +203,17 @@ function firstView({ bodies }, linkage, up) {
   return across.addScaledVector(up, 0.16).addScaledVector(new Vector3().crossVectors(up, across), 0.16);
 }
 
-/** Calls `see` with every point that any link reaches where the links are. */
-function everyPoint({ bodies }, linkage, see) {
+function corners({ min, max }) {
+  const pick = (corner, axis) => ((corner >> axis) & 1 ? max : min).getComponent(axis);
+  return [...Array(8).keys()].map((corner) => new Vector3(pick(corner, 0), pick(corner, 1), pick(corner, 2)));
+}
+
+/** Calls `see` with the origins of the bodies and the `points` of each where the links are. */
+function everyPoint(points, linkage, see) {
   const point = new Vector3();
   linkage.poses.forEach(({ position, rotation }, body) => {
     see(point.copy(position));
-    for (const end of bodies[body].ends) see(point.fromArray(end).applyQuaternion(rotation).add(position));
+    for (const own of points[body]) see(point.copy(own).applyQuaternion(rotation).add(position));
   });
 }
 
