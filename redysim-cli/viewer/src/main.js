@@ -50,6 +50,8 @@ window.redysim = Object.defineProperties(
     links: () => data.bodies.slice(1).map(drawn),
     /** Body and corners in the base frame, m, of the box around each mesh. */
     meshes: () => (stage?.mechanism.layers.meshes ?? []).map(boxed),
+    /** What is drawn, as the address of a PNG, and the names over it. */
+    picture: () => stage.picture(),
     /** Where the camera is, m. */
     camera: () => stage.camera.position.toArray(),
   },

@@ -65,6 +65,13 @@ export class Stage {
     this.names.render(this.scene, this.camera);
   }
 
+  /** What is drawn, as the address of a PNG, and the names over it. */
+  picture() {
+    this.stale = true;
+    this.draw();
+    return [this.renderer.domElement.toDataURL(), this.names.domElement.innerText];
+  }
+
   /** Whether there is anything in a layer. */
   hasLayer(name) {
     return name === "ground" || this.mechanism.layers[name].length > 0;
