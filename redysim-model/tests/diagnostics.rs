@@ -71,15 +71,48 @@ fn table_2_has_an_impossible_last_link() {
     assert!(warning.title().contains("link `link6`") && warning.title().contains("by 1e-6 kg m²"), "{warning}");
 }
 
+/// Each table stands between `<!-- keys: OWNER -->` and `<!-- end -->`.
 #[test]
-fn the_documentation_lists_every_key_with_its_example_and_meaning() {
-    let path = models().join("../docs/model_keys.md");
-    let head = "# Keys of a model file\n\n";
-    let documentation = format!("{head}{}", redysim_model::key_documentation());
-    if std::env::var_os("BLESS").is_some() {
-        fs::write(&path, &documentation).unwrap();
+fn the_documentation_lists_every_key_with_its_example_default_and_meaning() {
+    let path = models().join("../docs/models.md");
+    let written = fs::read_to_string(&path).unwrap();
+    let mut expected = written.clone();
+    let tables = redysim_model::key_documentation();
+    for (owner, table) in &tables {
+        let head = format!("<!-- keys: {owner} -->\n");
+        let begin = expected.find(&head).unwrap_or_else(|| panic!("docs/models.md has no line {head}")) + head.len();
+        let length = expected[begin..].find("<!-- end -->").expect("the end of the table");
+        expected.replace_range(begin..begin + length, table);
     }
-    assert!(fs::read_to_string(path).unwrap() == documentation, "BLESS=1 writes docs/model_keys.md anew");
+    assert_eq!(written.matches("<!-- keys: ").count(), tables.len(), "tables of keys that do not exist");
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&path, &expected).unwrap();
+    } else {
+        assert!(written == expected, "BLESS=1 writes the tables of docs/models.md anew");
+    }
+}
+
+#[test]
+fn every_key_states_its_default_or_that_it_is_required() {
+    let tables = redysim_model::key_documentation();
+    let keys = tables.iter().filter(|(owner, _)| *owner != "Lints");
+    for (owner, row) in keys.flat_map(|(owner, table)| table.lines().skip(2).map(move |row| (owner, row))) {
+        let cells: Vec<&str> = row.trim_matches('|').split(" | ").collect();
+        assert!(cells.len() == 4 && !cells[2].trim().is_empty(), "{owner}: {row}");
+    }
+}
+
+/// Of the documentation of the model file.
+#[test]
+fn pictures_that_the_documentation_names_are_there() {
+    let documentation = fs::read_to_string(models().join("../docs/models.md")).unwrap();
+    let pictures: Vec<&str> =
+        documentation.split("](pictures/").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert_eq!(pictures.len(), 4);
+    for picture in pictures {
+        let text = fs::read_to_string(models().join("../docs/pictures").join(picture)).unwrap();
+        assert!(text.starts_with("<svg") && text.trim_end().ends_with("</svg>"), "{picture}");
+    }
 }
 
 #[test]

@@ -18,6 +18,8 @@ pub struct Key {
     value: Option<&'static str>,
     /// The meaning of the value, with its unit; empty if the name is enough.
     pub meaning: &'static str,
+    /// What holds where the key is missing, or that it must not be; empty if its owner does not state it.
+    pub default: &'static str,
     /// The keys of the table that is its value: one set of keys, or one for each kind of table.
     pub tables: &'static [&'static Keys],
 }
@@ -25,7 +27,7 @@ pub struct Key {
 impl Key {
     /// A key with an example of its value, as TOML, and what it means.
     pub const fn new(name: &'static str, value: &'static str, meaning: &'static str) -> Self {
-        Key { name, value: Some(value), meaning, tables: &[] }
+        Key { name, value: Some(value), meaning, default: "", tables: &[] }
     }
 
     /// A key whose value is a table, with the keys of that table, or of each kind of it.
@@ -35,12 +37,17 @@ impl Key {
         meaning: &'static str,
         tables: &'static [&'static Keys],
     ) -> Self {
-        Key { name, value: Some(value), meaning, tables }
+        Key { name, value: Some(value), meaning, default: "", tables }
     }
 
     /// A key whose value is an array of tables, each headed `[[name]]`.
     pub const fn of_tables(name: &'static str, meaning: &'static str, tables: &'static [&'static Keys]) -> Self {
-        Key { name, value: None, meaning, tables }
+        Key { name, value: None, meaning, default: "", tables }
+    }
+
+    /// The key with what holds where it is missing.
+    pub const fn with_default(self, default: &'static str) -> Self {
+        Key { default, ..self }
     }
 
     /// The example of its value; empty for an array of tables.
@@ -135,24 +142,30 @@ impl Keys {
     /// assert_eq!(CLOCK.documentation(), format!("A clock has the keys:\n\n{head}\n{row}\n"));
     /// ```
     pub fn documentation(&self) -> String {
-        let mut seen = Vec::new();
-        let mut text = String::new();
-        self.document(&mut text, &mut seen);
-        text
+        let tables = self.documented_tables().into_iter();
+        tables.map(|(owner, table)| format!("{owner} has the keys:\n\n{table}")).collect::<Vec<_>>().join("\n")
     }
 
-    fn document(&self, text: &mut String, seen: &mut Vec<&'static str>) {
-        if !text.is_empty() {
-            text.push('\n');
-        }
-        seen.push(self.owner);
-        text.push_str(&format!("{} has the keys:\n\n| key | example | meaning |\n|---|---|---|\n", self.owner));
+    /// The tables of [`Keys::documentation`], each with the owner of its keys. Defaults have a column where they are
+    /// stated.
+    pub fn documented_tables(&self) -> Vec<(&'static str, String)> {
+        let mut tables = Vec::new();
+        self.document(&mut tables);
+        tables
+    }
+
+    fn document(&self, tables: &mut Vec<(&'static str, String)>) {
+        let has_defaults = self.keys.iter().any(|key| !key.default.is_empty());
+        let (head, rule) = if has_defaults { ("default | ", "---|") } else { ("", "") };
+        let mut text = format!("| key | example | {head}meaning |\n|---|---|---|{rule}\n");
         for key in self.keys {
-            text.push_str(&format!("| `{}` | `{}` | {} |\n", key.name, key.example(), key.meaning));
+            let default = if has_defaults { format!("{} | ", key.default) } else { String::new() };
+            text.push_str(&format!("| `{}` | `{}` | {default}{} |\n", key.name, key.example(), key.meaning));
         }
+        tables.push((self.owner, text));
         for table in self.keys.iter().flat_map(|key| key.tables) {
-            if !seen.contains(&table.owner) {
-                table.document(text, seen);
+            if tables.iter().all(|(owner, _)| owner != &table.owner) {
+                table.document(tables);
             }
         }
     }

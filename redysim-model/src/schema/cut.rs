@@ -33,7 +33,7 @@ impl LoopTable {
         let mut reader = Reader::new(at.table, at.header, &item, &keys::LOOP, findings);
         LoopTable {
             name: reader.required(&keys::NAME, Reader::text),
-            joint: reader.required(&keys::JOINT, |reader, key| reader.choice(key, &CutKind::ALL)),
+            joint: reader.required(&keys::CUT_JOINT, |reader, key| reader.choice(key, &CutKind::ALL)),
             a: side(&mut reader, [&keys::LINK_A, &keys::POINT_A, &keys::AXIS_A]),
             b: side(&mut reader, [&keys::LINK_B, &keys::POINT_B, &keys::AXIS_B]),
             item,

@@ -29,9 +29,11 @@ use redysim_toml::words::quoted;
 use redysim_toml::{DeValue, Field, Findings, Parsed, Reader, Spanned, TableAt};
 use std::ops::Range;
 
-/// The documentation of the keys of a model file, and of the lints that `allow` may name, in Markdown: `docs/model_keys.md`.
-pub fn key_documentation() -> String {
-    format!("{}\n{}", keys::MODEL.documentation(), Lint::documentation())
+/// The documentation of the keys of a model file, and of the lints that `allow` may name, as tables in Markdown, each with
+/// what has the keys, such as "A link": `docs/models.md` has them all.
+pub fn key_documentation() -> Vec<(&'static str, String)> {
+    let lints = ("Lints", Lint::documentation());
+    keys::MODEL.documented_tables().into_iter().chain([lints]).collect()
 }
 
 /// The names of the options that a declaration may have beside the path of its model file.
