@@ -1,7 +1,8 @@
 """Imports and compiles robots, computes at random states by redysim and by Pinocchio, and prints how far they differ.
 
-Both read the same URDF. Joints that redysim fixes (floating bases, joints that move no mass) are locked at zero in Pinocchio;
-joints that mimic others are free in both. The base is fixed in both.
+Both read the same URDF. Joints that redysim fixes (floating bases, joints that move no mass) are locked at zero in
+Pinocchio; joints that mimic others are free in both. The base is fixed in both. Frames on the tips, wrenches on them,
+and rotors are added to both.
 """
 
 import sys
@@ -11,14 +12,12 @@ import pinocchio
 from comparison import STATES, TOLERANCE, Comparison, Failed, compared
 from compiled import Compiled, compiled
 from peer import Refused
-from robot import FUSED, KEPT, Robot, example_robots, robots
-
-COMPILED = "compiled"
+from robot import COMPILED, FUSED, KEPT, Robot, example_robots, robots
 
 
-def row(robot: Robot, evaluate: Path, compiled: Compiled) -> tuple[str, bool]:
+def row(robot: Robot, evaluate: Path, compiled: Compiled, at_run_time: bool) -> tuple[str, bool]:
     """A robot's line of the table, and whether all that is imported agrees."""
-    commands = {way: [evaluate, model] for way, model in robot.models.items()}
+    commands = {way: [evaluate, model] for way, model in robot.models.items() if at_run_time or way != COMPILED}
     if robot.name in compiled.programs:
         commands[COMPILED] = [compiled.programs[robot.name]]
     refused, failed = robot.refused[:1], []
@@ -27,7 +26,7 @@ def row(robot: Robot, evaluate: Path, compiled: Compiled) -> tuple[str, bool]:
     found: dict[str, Comparison] = {}
     for way, command in commands.items():
         try:
-            found[way] = compared(command, robot.urdf)
+            found[way] = compared(command, robot.urdf, robot.models[way])
         except Refused as reason:
             refused = refused or [str(reason)]
         except Failed as reason:
@@ -38,7 +37,9 @@ def row(robot: Robot, evaluate: Path, compiled: Compiled) -> tuple[str, bool]:
         failed.append("**the models do not move the same joints**")
     remarks = "; ".join(refused + failed + ill_conditioned(list(found.values())) + (lost(robot.said) if found else []))
     kept = found.get(KEPT)
-    shares = [kept.forces, kept.matrices, kept.accelerations] if kept else [None] * 3
+    shares = [None] * 5
+    if kept:
+        shares = [kept.forces, kept.matrices, kept.accelerations, kept.jacobians, kept.bias]
     shares += [found[way].largest if way in found else None for way in [FUSED, COMPILED]]
     numbers = " | ".join("" if share is None else f"{share:.0e}" for share in shares)
     return f"| {robot.title} | {len(joints[0]) if joints else ''} | {numbers} | {remarks} |", not failed
@@ -60,21 +61,30 @@ def lost(said: list[str]) -> list[str]:
 
 
 def main() -> None:
-    built, *files = sys.argv[1:]
+    built, *words = sys.argv[1:]
+    at_run_time = "--run-time" in words
+    files = [word for word in words if word != "--run-time"]
     target, crate = Path(built) / "cargo", Path(built) / "robots"
     programs = target / "release"
     all_robots = robots([Path(file) for file in files] or example_robots())
     for robot in all_robots:
         robot.make_models(programs / "redysim", crate / "models")
-    made = compiled(crate, [robot.name for robot in all_robots if robot.models], target)
+    made = Compiled()
+    if not at_run_time:
+        made = compiled(crate, [robot.name for robot in all_robots if robot.models], target)
     print(f"# Imported robots beside Pinocchio {pinocchio.__version__}\n")
     print(f"The largest difference at {STATES} random states; how it is found is in [peers/README.md](../README.md).")
-    print("The last column is by the functions that `redysim!` makes, those before it by the generic path.\n")
-    print("| robot | joints | inverse dynamics | mass matrix | forward dynamics | all, fused | all, compiled | |")
-    print("|---|---|---|---|---|---|---|---|")
+    if at_run_time:
+        print("All is by the generic path (`--run-time`); the last two columns have rotors in all joints.\n")
+    else:
+        print("The last column is by the functions that `redysim!` makes, those before it by the generic path. The last")
+        print("two have rotors in all joints.\n")
+    columns = "inverse dynamics | mass matrix | forward dynamics | Jacobians | their rates | all, fused"
+    print(f"| robot | joints | {columns} | all, {'kept' if at_run_time else 'compiled'} | |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     agree = True
     for robot in all_robots:
-        line, agrees = row(robot, programs / "redysim-evaluate", made)
+        line, agrees = row(robot, programs / "redysim-evaluate", made, at_run_time)
         print(line, flush=True)
         agree = agree and agrees
     if not agree:

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import tomllib
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
@@ -25,6 +26,9 @@ class Comparison:
     forces: float
     matrices: float
     accelerations: float
+    jacobians: float
+    # J̇ v.
+    bias: float
     # How far the forces that redysim's accelerations take, by Pinocchio, are from those that made them.
     taken: float
     # Of the mass matrix with a diagonal of ones: so many times its roundoff is in any program's accelerations.
@@ -33,13 +37,14 @@ class Comparison:
     @property
     def largest(self) -> float:
         """The largest difference; no number if any is none."""
-        return float(numpy.max([self.forces, self.matrices, self.accelerations]))
+        return float(numpy.max([self.forces, self.matrices, self.accelerations, self.jacobians, self.bias]))
 
     @property
     def agrees(self) -> bool:
         """Where the mass matrix is nearly singular, accelerations are right that take the right forces."""
         accelerations = self.taken if self.by_forces else self.accelerations
-        return all(share < TOLERANCE for share in [self.forces, self.matrices, accelerations])
+        shares = [self.forces, self.matrices, accelerations, self.jacobians, self.bias]
+        return all(share < TOLERANCE for share in shares)
 
     @property
     def by_forces(self) -> bool:
@@ -47,31 +52,54 @@ class Comparison:
         return self.accelerations > TOLERANCE and self.condition * numpy.finfo(float).eps > TOLERANCE / 100
 
 
-def compared(command: list[str | Path], urdf: Path) -> Comparison:
-    """Computes at random states by this command and by Pinocchio."""
+def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
+    """Computes at random states by this command, which has this model, and by Pinocchio."""
     names, _ = _answers(command, "")
-    peer, n = Peer(urdf, names), len(names)
+    peer, n = Peer(urdf, names, tomllib.loads(model.read_text())), len(names)
+    shapes = [(n,), (n, n), (n,), (len(peer.frames), 6, n), (len(peer.frames), 6)]
     random = numpy.random.default_rng(1)
     states = []
     for _ in range(STATES):
         q, v, a = random.uniform(-pi, pi, n), random.uniform(-2, 2, n), random.uniform(-5, 5, n)
+        wrenches = (random.uniform(-1, 1, (len(peer.frames), 6)) * peer.wrench_scales()).ravel()
         # Forces that make accelerations of this size: those of light fingers and of a trunk differ by orders.
-        states += [(q, v, a), (q, v, peer.forces(q, v, a))]
+        states += [(q, v, a, wrenches), (q, v, peer.forces(q, v, a, wrenches), wrenches)]
     text = "".join(" ".join(repr(float(x)) for x in numpy.concatenate(state)) + "\n" for state in states)
     _, found = _answers(command, text)
+    parts = [_split(line, shapes) for line in found]
+    forces, computed, _, jacobians, bias = zip(*parts[::2])
+    accelerations = [part[2] for part in parts[1::2]]
     motions, driven = states[::2], states[1::2]
-    matrices = [peer.matrix(q) for q, _, _ in motions]
+    matrices = [peer.matrix(q) for q, *_ in motions]
     scales = [numpy.sqrt(numpy.outer(numpy.diag(matrix), numpy.diag(matrix))) for matrix in matrices]
-    accelerations = [line[n + n * n :] for line in found[1::2]]
-    taken = [peer.forces(q, v, a) for (q, v, _), a in zip(driven, accelerations)]
+    taken = [peer.forces(q, v, a, wrenches) for (q, v, _, wrenches), a in zip(driven, accelerations)]
+    expected = [peer.jacobians(q) for q, *_ in motions], [peer.bias(q, v) for q, v, *_ in motions]
     return Comparison(
         joints=names,
-        forces=_furthest([line[:n] for line in found[::2]], [peer.forces(*state) for state in motions]),
-        matrices=_furthest([line[n : n + n * n].reshape(n, n) for line in found[::2]], matrices, numpy.array(scales)),
+        forces=_furthest(forces, [peer.forces(*state) for state in motions]),
+        matrices=_furthest(computed, matrices, numpy.array(scales)),
         accelerations=_furthest(accelerations, [peer.accelerations(*state) for state in driven]),
-        taken=_furthest(taken, [tau for _, _, tau in driven]),
+        jacobians=_furthest(jacobians, expected[0], _by_frame(expected[0])),
+        bias=_furthest(bias, expected[1], _by_frame(expected[1])),
+        taken=_furthest(taken, [tau for _, _, tau, _ in driven]),
         condition=max(float(numpy.linalg.cond(matrix / scale)) for matrix, scale in zip(matrices, scales)),
     )
+
+
+def _split(line: numpy.ndarray, shapes: list[tuple[int, ...]]) -> list[numpy.ndarray]:
+    """The parts of a line, which have these shapes one after the other."""
+    ends = numpy.cumsum([numpy.prod(shape, dtype=int) for shape in shapes])
+    if ends[-1] != len(line):
+        raise Failed(f"an answer has {len(line)} numbers instead of {ends[-1]}")
+    return [part.reshape(shape) for part, shape in zip(numpy.split(line, ends[:-1]), shapes)]
+
+
+def _by_frame(quantity: list[numpy.ndarray]) -> numpy.ndarray:
+    """The scale of each number: the largest of its frame at any state, in m, s and rad."""
+    numbers = numpy.abs(numpy.array(quantity))
+    states, frames = numbers.shape[:2]
+    largest = numbers.reshape(states, frames, -1).max(axis=(0, 2))
+    return numpy.broadcast_to(largest.reshape([1, frames] + [1] * (numbers.ndim - 2)), numbers.shape)
 
 
 def _answers(command: list[str | Path], states: str) -> tuple[list[str], list[numpy.ndarray]]:

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pinocchio
 from compiled import write_changed
+from extras import with_frames, with_rotors
 
-# The models by their fixed links, and so the columns of the generic path.
-KEPT, FUSED = "generic", "fused"
+# The models: by the generic path with fixed links kept and fused, and the one that is compiled.
+KEPT, FUSED, COMPILED = "generic", "fused", "compiled"
 
 
 @dataclass
@@ -20,6 +21,7 @@ class Robot:
     urdf: Path
     # Of its program and of its files.
     name: str
+    # All with frames, but for the first with rotors, too.
     models: dict[str, Path] = field(default_factory=dict)
     # Why there are not both of them.
     refused: list[str] = field(default_factory=list)
@@ -33,7 +35,7 @@ class Robot:
         return self.urdf.stem if package in self.urdf.stem else f"{package}/{self.urdf.stem}"
 
     def make_models(self, redysim: Path, folder: Path) -> None:
-        """Imports it with fixed links kept, and fused. The first that is a model is to be compiled."""
+        """Imports it with fixed links kept, and fused. The first that is a model is to be compiled, with rotors."""
         for way, options in [(KEPT, []), (FUSED, ["--fuse-fixed"])]:
             done = subprocess.run([redysim, "import", self.urdf, *options], capture_output=True, text=True)
             # 1 is faulty input; nothing else is for the file to answer for.
@@ -42,9 +44,16 @@ class Robot:
             if done.returncode == 1:
                 self.refused.append(self._fault(done.stderr))
                 continue
-            self.models[way] = folder / ("fused" if self.models else "") / f"{self.name}.toml"
             self.said = done.stderr.splitlines()
-            write_changed(self.models[way], done.stdout)
+            framed = with_frames(done.stdout)
+            driven = with_rotors(framed, self.urdf)
+            self._write(way, folder / way, framed if way == KEPT else driven)
+            if COMPILED not in self.models:
+                self._write(COMPILED, folder, driven)
+
+    def _write(self, way: str, folder: Path, model: str) -> None:
+        self.models[way] = folder / f"{self.name}.toml"
+        write_changed(self.models[way], model)
 
     def _fault(self, said: str) -> str:
         """The first of the errors."""

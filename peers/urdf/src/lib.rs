@@ -1,34 +1,50 @@
 //! Dynamics of a mechanism, compiled or generic, at states that another program writes.
 
-use redysim::{ForwardDynamics, InverseDynamics, MassMatrix, Vector};
+use redysim::{ForwardDynamics, FrameAcceleration, Frames, InverseDynamics, MassMatrix, PassiveForces, Vector, Wrench};
 use std::error::Error;
 use std::io::{BufRead, Write};
 
 /// Answers to the states on the standard input.
 ///
-/// First it prints the names of the joints that move, with tabs between. Then, for each line of 3 NV numbers q, v and a
-/// that it reads, one line of NV + NV² + NV: the joint forces at (q, v, a), the mass matrix by rows, and the
-/// accelerations at (q, v) under the forces a. Numbers are written so that they read back as they are.
+/// First it prints the names of the joints that move, with tabs between. Then, for each line of 3 NV + 6 NF numbers q,
+/// v, a and the wrenches w on the frames that it reads, one line of NV + NV² + NV + 6 NF NV + 6 NF: the joint forces at
+/// (q, v, a) under w, the mass matrix by rows, the accelerations at (q, v) under the forces a and w, the Jacobians of
+/// the frames by rows, and their J̇ v. What acts in the joints passively is left out of the forces, and given by the
+/// actuators. Numbers are written so that they read back as they are.
 pub fn answer<M>(mechanism: &M) -> Result<(), Box<dyn Error>>
 where
-    M: InverseDynamics<f64> + MassMatrix<f64> + ForwardDynamics<f64>,
+    M: InverseDynamics<f64>
+        + MassMatrix<f64>
+        + ForwardDynamics<f64>
+        + PassiveForces<f64>
+        + Frames<f64, Wrenches: Vector<Wrench<f64>>>,
 {
-    let nv = mechanism.nv();
+    let (nv, nf) = (mechanism.nv(), mechanism.nf());
     let mut out = std::io::stdout().lock();
     let names: Vec<&str> = (0..nv).filter_map(|joint| mechanism.joint_name(joint)).collect();
     writeln!(out, "{}", names.join("\t"))?;
     for line in std::io::stdin().lock().lines() {
         let state = line?.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>()?;
-        if state.len() != 3 * nv {
-            return Err(format!("a state of {} numbers instead of 3 · {nv}", state.len()).into());
+        if state.len() != 3 * nv + 6 * nf {
+            return Err(format!("a state of {} numbers instead of 3 · {nv} + 6 · {nf}", state.len()).into());
         }
         let q = M::Coordinates::from_fn(nv, |joint| state[joint]);
         let [v, a] = [1, 2].map(|part| M::Velocities::from_fn(nv, |joint| state[part * nv + joint]));
-        let forces = mechanism.inverse_dynamics(&q, &v, &a);
+        let part = |from: usize| [0, 1, 2].map(|axis| state[3 * nv + from + axis]);
+        let wrenches = M::Wrenches::from_fn(nf, |frame| Wrench { force: part(6 * frame), moment: part(6 * frame + 3) });
+        let (passive, external) = (mechanism.passive_forces(&q, &v), mechanism.frame_forces(&q, &wrenches));
+        let [passive, external] = [passive.as_ref(), external.as_ref()];
+        let driven = M::Velocities::from_fn(nv, |joint| a.as_ref()[joint] + passive[joint] + external[joint]);
+        let inverse = mechanism.inverse_dynamics(&q, &v, &a);
+        let forces: Vec<f64> = (0..nv).map(|i| inverse.as_ref()[i] - passive[i] - external[i]).collect();
         let matrix = mechanism.mass_matrix(&q);
-        let accelerations = mechanism.forward_dynamics(&q, &v, &a);
+        let accelerations = mechanism.forward_dynamics(&q, &v, &driven);
+        let (jacobians, bias) = (mechanism.frame_jacobians(&q), mechanism.frame_bias(&q, &v));
         let rows = matrix.as_ref().iter().flat_map(|row| row.as_ref());
-        let numbers = forces.as_ref().iter().chain(rows).chain(accelerations.as_ref());
+        let columns = jacobians.as_ref().iter().flat_map(|jacobian| jacobian.linear.iter().chain(&jacobian.angular));
+        let bias = bias.as_ref().iter().flat_map(|FrameAcceleration { linear, angular }| linear.iter().chain(angular));
+        let numbers = forces.iter().chain(rows).chain(accelerations.as_ref());
+        let numbers = numbers.chain(columns.flat_map(|row| row.as_ref())).chain(bias);
         writeln!(out, "{}", numbers.map(|number| format!("{number:?}")).collect::<Vec<_>>().join(" "))?;
     }
     Ok(())
