@@ -14,7 +14,7 @@ pub enum Lint {
     RoundedAngle,
     /// The range of a joint that turns goes beyond 50 rad.
     RangeUnits,
-    /// A length or a centre of mass is as if in millimetres, of one link or of all.
+    /// A length or a centre of mass is as if in millimetres, of one link, of one spring or of all.
     LengthUnits,
     /// The heaviest link on a joint that moves has more than 1e5 times the mass of the lightest.
     MassUnits,
@@ -115,7 +115,9 @@ impl Lint {
             Lint::AngleUnits => "a plain number is an angle of more than a turn: degrees?",
             Lint::RoundedAngle => "a plain number is nearly, but not exactly, a multiple of 90 deg",
             Lint::RangeUnits => "the range of a joint that turns goes beyond 50 rad: degrees?",
-            Lint::LengthUnits => "a length or a centre of mass is as if in millimetres, of one link or of all",
+            Lint::LengthUnits => {
+                "a length or a centre of mass is as if in millimetres, of one link, of one spring or of all"
+            }
             Lint::MassUnits => {
                 "the heaviest link on a joint that moves has more than 1e5 times the mass of the lightest: kg and g?"
             }

@@ -227,6 +227,7 @@ fn cases() -> Vec<(Lint, String)> {
         (Lint::GravityUp, arm(&[("0.0, -9.81", "9.81, 0.0")])),
         (Lint::DhConvention, chain("dh", PUBLISHED[0].1, &[])),
         (Lint::DhConvention, chain("dh_standard", &khalil_kleinfinger(PUBLISHED[0].1), &[])),
+        (Lint::LengthUnits, sprung("link_b = 'fore'\nlink_a = 'turret'").replace("length = 0.2", "length = 200")),
         (Lint::SpringWithoutEffect, sprung("link_b = 'upper'\nlink_a = 'turret'\npoint_a = [0.1, 0, 0.2]")),
         (
             Lint::SpringDirection,

@@ -96,6 +96,14 @@ pub(crate) fn far_com(item: &str, distance: f64, around: f64) -> Message {
     )
 }
 
+pub(crate) fn long_spring(item: &str, length: f64, around: f64) -> Message {
+    message(
+        format!("{item}: its free length is {} m, in a mechanism of {} m", rounded(length), rounded(around)),
+        "in mm?",
+        "`length` is in m",
+    )
+}
+
 /// The names and masses of the heaviest and of the lightest link.
 pub(crate) fn mass_ratio([(heavy, mass), (light, least)]: [(&String, f64); 2]) -> Message {
     message(

@@ -5,6 +5,7 @@ use crate::lint::Lint;
 use crate::messages;
 use crate::model::{Link, Model};
 use crate::schema::Document;
+use redysim_toml::Spanned;
 
 /// Hardly a mechanism reaches further, m.
 const REACH: f64 = 200.0;
@@ -14,9 +15,9 @@ const LONG: f64 = 10.0;
 /// A length that may be in millimetres is beyond `LONG`, and so many times the next shorter one.
 const LENGTH_RATIO: f64 = 100.0;
 /// A centre of mass that may be in millimetres is further from its frame, m, and so many times as far as the mechanism
-/// reaches.
+/// reaches; the free length of a spring likewise.
 const FAR: f64 = 5.0;
-const COM_RATIO: f64 = 30.0;
+const FAR_RATIO: f64 = 30.0;
 /// Beyond this, the heaviest link that moves is suspiciously heavier than the lightest.
 const MASS_RATIO: f64 = 1e5;
 /// Hardly a joint turns further, rad: eight turns, less than 90 degrees are.
@@ -31,6 +32,7 @@ pub(super) fn check(document: &Document, model: &Model, found: &mut Found) {
         uneven_lengths(document, model, found);
     }
     far_coms(document, model, size, found);
+    long_springs(document, model, size, found);
     mass_ratio(document, model, found);
     ranges(document, model, found);
 }
@@ -55,9 +57,19 @@ fn far_coms(document: &Document, model: &Model, size: f64, found: &mut Found) {
             model.links.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, link)| length(link.com));
         let around = if size > 0.0 { size } else { others.fold(0.0, f64::max) };
         let distance = length(link.com);
-        if around > 0.0 && distance > FAR && distance > COM_RATIO * around {
+        if around > 0.0 && distance > FAR && distance > FAR_RATIO * around {
             let message = messages::far_com(&table.item, distance, around);
             found.push((Lint::LengthUnits, place_of(table, &table.com), message));
+        }
+    }
+}
+
+/// Springs whose free length is further than the mechanism reaches.
+fn long_springs(document: &Document, model: &Model, size: f64, found: &mut Found) {
+    for (spring, table) in model.springs.iter().zip(&document.springs) {
+        if spring.length > FAR && spring.length > FAR_RATIO * size {
+            let place = table.length.spanned().map_or(table.header.clone(), Spanned::span);
+            found.push((Lint::LengthUnits, place, messages::long_spring(&table.item, spring.length, size)));
         }
     }
 }
