@@ -132,6 +132,10 @@ fn a_run_of_a_urdf_is_played_with_its_meshes_and_without_them_if_it_is_gone() {
     succeed(&folder, &["animate", "run"]);
     let page = |folder: &Path| data(&fs::read_to_string(folder.join("run/animation.html")).unwrap());
     assert_eq!(page(&folder)["meshes"].as_array().unwrap().len(), 3);
+    // The run can be done again from its folder, whose model is a model file.
+    succeed(&folder, &["inverse", "run/run.toml", "-o", "run/again"]);
+    succeed(&folder, &["animate", "run/again", "-o", "run/animation.html", "--force"]);
+    assert_eq!(page(&folder)["meshes"].as_array().unwrap().len(), 3);
     // Another robot stands there by now.
     let text = fs::read_to_string(&urdf).unwrap();
     fs::write(&urdf, text.replace("\"arm\"", "\"boom\"")).unwrap();

@@ -60,11 +60,15 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
             keep(&mut table["stabilisation"], "kind", value("projection"));
         }
     }
-    document.remove("run");
-    document["run"] = Item::Table(how_it_went(summary));
-    if let Some(urdf) = &scenario.urdf {
+    // A run that is done again has the URDF of the first one.
+    let before = document.remove("run").and_then(|run| Some(run.get(URDF)?.as_str()?.to_owned()));
+    let urdf = scenario.urdf.as_ref().map(|urdf| {
         let path = std::fs::canonicalize(urdf).unwrap_or_else(|_| urdf.clone());
-        document["run"][URDF] = value(path.display().to_string());
+        path.display().to_string()
+    });
+    document["run"] = Item::Table(how_it_went(summary));
+    if let Some(urdf) = urdf.or(before) {
+        document["run"][URDF] = value(urdf);
     }
     folder.write(RUN_FILE, document.to_string().as_bytes())
 }
