@@ -1,6 +1,6 @@
 //! Frames of interest on the links of a mechanism, such as tools and feet: their motion, Jacobians and wrenches.
 
-use crate::{ConfigurationSpace, Scalar};
+use crate::{ConfigurationSpace, Scalar, Vector};
 
 /// The frames of interest of a mechanism: the tables `[[frame]]` of its model, in the file's order.
 ///
@@ -9,9 +9,9 @@ pub trait Frames<S: Scalar>: ConfigurationSpace<S> {
     /// One [`FrameState`] for each frame: `[FrameState<S>; NF]`.
     type States: AsRef<[FrameState<S>]>;
     /// One [`FrameJacobian`] for each frame: `[FrameJacobian<[S; NV]>; NF]`.
-    type Jacobians: AsRef<[FrameJacobian<Self::Velocities>]>;
+    type Jacobians: Vector<FrameJacobian<Self::Velocities>>;
     /// One [`FrameAcceleration`] for each frame: `[FrameAcceleration<S>; NF]`.
-    type Accelerations: AsRef<[FrameAcceleration<S>]>;
+    type Accelerations: Vector<FrameAcceleration<S>>;
     /// One [`Wrench`] for each frame: `[Wrench<S>; NF]`.
     type Wrenches: AsRef<[Wrench<S>]>;
 

@@ -85,7 +85,9 @@ mod trajectory;
 mod trigonometry;
 mod vector;
 
-pub use closed_loop::{Assembly, ClosedLoop, ConstrainedMotion, LoopError, NamedLoopError, Projection};
+pub use closed_loop::{
+    Assembly, ClosedLoop, ConstrainedMotion, IndependentMotion, LoopError, NamedLoopError, Projection,
+};
 #[cfg(feature = "simulation")]
 pub use closed_loop::{
     ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion, LoopForces, Stabilisation,

@@ -5,6 +5,7 @@
 //! | `constraints` | the constraints at one position: J in the metric of M, its rank and its least-norm solutions |
 //! | `position` | positions and velocities that satisfy the constraints: Newton's method from a guess, projection |
 //! | `dynamics` | accelerations and multipliers |
+//! | `independent` | the motions that the loops allow, by the independent velocities; frames that move with them |
 //! | `inverse` | forces of the actuators for a motion of the independent coordinates |
 //! | `simulation` | motion in time; the only part that needs the integrators |
 //! | `error` | errors, with the names of loops and joints |
@@ -12,6 +13,7 @@
 mod constraints;
 mod dynamics;
 mod error;
+mod independent;
 #[cfg(feature = "simulation")]
 mod inverse;
 mod position;
@@ -20,6 +22,7 @@ mod simulation;
 
 pub use dynamics::ConstrainedMotion;
 pub use error::{LoopError, NamedLoopError};
+pub use independent::IndependentMotion;
 #[cfg(feature = "simulation")]
 pub use inverse::{ClosedLoopComputedTorque, ClosedLoopInverse, LoopForces};
 pub use position::{Assembly, Projection};
@@ -34,6 +37,8 @@ pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
 /// - [`assemble`](Self::assemble) closes the loops from a guess, [`project`](Self::project) removes drift.
 /// - [`dynamics`](Self::dynamics) gives accelerations and constraint forces, and
 ///   [`ClosedLoopSimulation`](crate::ClosedLoopSimulation) moves the mechanism in time with any integrator.
+/// - [`independent_motion`](Self::independent_motion) has all velocities, and the Jacobians of frames, by independent
+///   ones.
 /// - [`ClosedLoopInverse`](crate::ClosedLoopInverse) finds the joint forces for a trajectory of the independent
 ///   coordinates, which [`ClosedLoopComputedTorque`](crate::ClosedLoopComputedTorque) follows under control.
 ///

@@ -1,14 +1,12 @@
 //! The forces of the actuators for given accelerations of the independent joints.
 
 use super::LoopForces;
-use crate::closed_loop::constraints::{LoopDecomposition, rank_tolerance, zero_columns};
+use crate::closed_loop::constraints::{LoopDecomposition, zero_columns};
+use crate::closed_loop::independent::{Completion, SMALL, check_independent, without_columns};
 use crate::closed_loop::{ClosedLoop, LoopError};
-use crate::linear_algebra::{add_scaled, difference, dot, largest, product, zeros};
+use crate::linear_algebra::{add_scaled, dot, largest, product, zeros};
 use crate::vector::entry;
 use crate::{InverseDynamics, LengthMismatch, LoopClosure, Mechanism, Motion, Real, Vector};
-
-/// The largest force without an actuator that counts as rounding, as a part of the largest force; likewise for speeds.
-const SMALL: f64 = 1e-9;
 
 /// Closed loops, the velocities that determine all others, and those that have actuators.
 #[derive(Clone, Copy, Debug)]
@@ -25,11 +23,9 @@ impl<M, C> Actuation<'_, M, C> {
         M: InverseDynamics<S>,
     {
         let count = self.loops.mechanism.nv();
-        if let Some(&velocity) = self.independent.iter().chain(self.actuated).find(|&&index| index >= count) {
+        check_independent(self.independent, count)?;
+        if let Some(&velocity) = self.actuated.iter().find(|&&index| index >= count) {
             return Err(LoopError::VelocityOutOfRange { velocity, count });
-        }
-        if let Some(&velocity) = repeated(self.independent) {
-            return Err(LoopError::RepeatedVelocity { velocity });
         }
         match self.independent.iter().zip(self.coordinates()).find(|(_, coordinate)| coordinate.is_none()) {
             Some((&velocity, _)) => Err(LoopError::NoCoordinate { velocity }),
@@ -73,50 +69,22 @@ impl<M, C> Actuation<'_, M, C> {
         C: LoopClosure<S, M>,
     {
         let ClosedLoop { mechanism, closure } = self.loops;
-        let count = mechanism.nv();
-        let jacobian = closure.loop_jacobian(&q);
-        let dependent = self.without_columns(&jacobian, self.independent)?;
-        let needed = count - self.independent.len();
-        if dependent.rank() < needed {
-            return Err(LoopError::RankDeficient { rank: dependent.rank(), needed, rows: dependent.dependent_rows() });
-        }
-        // J_d x_d = b − J_i x_i.
-        let complete = |given: &I, bias: &C::Rows| {
-            let mut x: M::Velocities = zeros(count);
-            self.prescribe(&mut x, given);
-            for _ in 0..2 {
-                let rates: C::Rows = product(jacobian.as_ref(), x.as_ref());
-                let missing = C::Rows::from_fn(closure.nc(), |row| entry(&rates, row) + entry(bias, row));
-                x = difference(&x, &dependent.combination(&dependent.solve(&missing)));
-            }
-            x
-        };
-        let v = complete(v_independent, &zeros(closure.nc()));
-        let rates: C::Rows = product(jacobian.as_ref(), v.as_ref());
-        let (residual, row) = largest(rates.as_ref().iter().copied());
-        let small = S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON);
-        if residual > small * (S::one() + largest(v.as_ref().iter().copied()).0) {
-            return Err(LoopError::InconsistentVelocity { residual, row });
-        }
-        let bias = closure.loop_bias(&q, &v);
-        let a = complete(a_independent, &bias);
-        let rates: C::Rows = product(jacobian.as_ref(), a.as_ref());
-        let misses = (0..closure.nc()).map(|row| entry(&rates, row) + entry(&bias, row));
-        let (residual, row) = largest(misses);
-        if residual > small * (S::one() + largest(a.as_ref().iter().chain(bias.as_ref()).copied()).0) {
-            return Err(LoopError::InconsistentVelocity { residual, row });
-        }
+        let completion = Completion::new(self.loops, &q, self.independent)?;
+        let jacobian = &completion.jacobian;
+        let v = completion.complete(v_independent, &zeros(closure.nc()))?;
+        let a = completion.complete(a_independent, &closure.loop_bias(&q, &v))?;
         let of_tree = mechanism.inverse_dynamics(&q, &v, &a);
         if !largest(of_tree.as_ref().iter().copied()).0.is_finite() {
             return Err(LoopError::NotFinite);
         }
-        let rank = self.without_columns(&jacobian, &[])?.rank();
-        let unactuated = self.without_columns(&jacobian, self.actuated)?;
-        let multipliers = self.multipliers(&jacobian, &unactuated, &of_tree);
+        let rank = without_columns::<S, M, C>(mechanism, jacobian, &[])?.rank();
+        let unactuated = without_columns::<S, M, C>(mechanism, jacobian, self.actuated)?;
+        let multipliers = self.multipliers(jacobian, &unactuated, &of_tree);
         let mut forces = of_tree.clone();
         for (row, &multiplier) in jacobian.as_ref().iter().zip(multipliers.as_ref()) {
             add_scaled(forces.as_mut(), -multiplier, row.as_ref());
         }
+        let small = S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON);
         let (most, _) = largest(of_tree.as_ref().iter().copied());
         for (velocity, force) in forces.as_mut().iter_mut().enumerate() {
             if !self.actuated.contains(&velocity) {
@@ -174,34 +142,4 @@ impl<M, C> Actuation<'_, M, C> {
         add_scaled(multipliers.as_mut(), S::one(), y.as_ref());
         multipliers
     }
-
-    /// The rows of J without the columns of the velocities `known`.
-    fn without_columns<S: Real>(
-        &self,
-        jacobian: &C::Jacobian,
-        known: &[usize],
-    ) -> Result<LoopDecomposition<S, M, C>, LoopError<S>>
-    where
-        M: InverseDynamics<S>,
-        C: LoopClosure<S, M>,
-    {
-        let mut rows = jacobian.clone();
-        for row in rows.as_mut() {
-            zero_columns(row, known);
-        }
-        Ok(LoopDecomposition::<S, M, C>::new(rows, self.loops.mechanism.nv(), rank_tolerance())?)
-    }
-
-    fn prescribe<S: Real, V: Vector<S>, I: Vector<S>>(&self, x: &mut V, given: &I) {
-        for (i, &index) in self.independent.iter().enumerate() {
-            if let Some(element) = x.as_mut().get_mut(index) {
-                *element = entry(given, i);
-            }
-        }
-    }
-}
-
-/// The first number that is repeated.
-fn repeated(indices: &[usize]) -> Option<&usize> {
-    indices.iter().enumerate().find(|(i, a)| indices.iter().take(*i).any(|b| b == *a)).map(|(_, a)| a)
 }
