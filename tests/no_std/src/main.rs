@@ -6,9 +6,10 @@
 use core::ops::ControlFlow;
 
 use redysim::{
-    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Dop853, Event, ForwardSimulation,
-    FrameState, Gauss6, Integrator, Limited, Motion, Ode5, Ode15s, Ode45, PdGravity, Pid, ProportionalDerivative,
-    Radau5, SemiImplicitEuler, SetPoint, Wrench, ZeroTorque, redysim, tracking_rates,
+    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation, Dop853, Event,
+    ForwardSimulation, FrameGains, FrameState, Gauss6, Impedance, IndependentMotion, Integrator, Limited, Motion, Ode5,
+    Ode15s, Ode45, OperationalSpace, PdGravity, Pid, ProportionalDerivative, Radau5, SemiImplicitEuler, SetPoint,
+    Wrench, ZeroTorque, redysim, tracking_rates,
 };
 
 redysim! {
@@ -19,6 +20,11 @@ redysim! {
 redysim! {
     /// The four-bar of the ReDySim paper.
     struct Fourbar("../../../models/fourbar.toml");
+}
+
+redysim! {
+    /// The same with rotors and a tool.
+    struct Kr5Tool("../../../models/kr5_tool.toml");
 }
 
 redysim! {
@@ -55,6 +61,8 @@ extern "C" fn main() -> i32 {
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
             && rests_under_limited_pid().is_some_and(|rests| rests)
+            && holds_its_tool().is_some_and(|holds| holds)
+            && the_crank_carries_the_weight().is_some_and(|carries| carries)
             && implicit_methods_agree().is_some_and(|agree| agree)),
     )
 }
@@ -144,6 +152,37 @@ fn rests_under_limited_pid() -> Option<bool> {
     let by_gravity = Ode15s::new().integrate(&mut held, (0.0, 0.1), start).ok()?;
     let stays = |state: &[f64]| state.iter().zip(&q).all(|(now, then)| -1e-9 < now - then && now - then < 1e-9);
     Some(stays(&by_pid.y) && stays(&by_gravity.y))
+}
+
+fn holds_its_tool() -> Option<bool> {
+    let (q, at_rest) = ([0.1, 0.7, -0.4, 0.3, 0.9, -0.2], [0.0; 6]);
+    let [target] = Kr5Tool::frame_kinematics(&q, &at_rest);
+    let gains = |linear: f64, angular: f64| FrameGains { linear: [linear; 3], angular: [angular; 3] };
+    let law = Impedance {
+        mechanism: &Kr5Tool,
+        frame: 0,
+        target,
+        stiffness: gains(900.0, 0.0),
+        damping: gains(90.0, 0.0),
+        compensation: Compensation::Gravity,
+        null_space_damping: 1.0,
+    };
+    let mut held = ForwardSimulation::new(&Kr5Tool, law);
+    let start = held.state(&q, &[0.0, 0.0, 0.0, 0.1, 0.0, 0.0]);
+    let end = Ode45::new().integrate(&mut held, (0.0, 0.1), start).ok()?;
+    let [jacobian] = Kr5Tool::frame_jacobians(&q);
+    let space = OperationalSpace::new(Kr5Tool::mass_matrix(&q), jacobian.rows()).ok()?;
+    let slowed = end.y[9] < 0.099;
+    Some(slowed && space.rank() == 6 && space.inertia()[0][0] > 0.1 && space.projector()[0][0] < 1e-9)
+}
+
+fn the_crank_carries_the_weight() -> Option<bool> {
+    let loops = ClosedLoop::new(&Fourbar);
+    let assembly = loops.assemble(&[0.0_f64, 0.9844, 4.3144], &[0.0; 3], &[0]).ok()?;
+    let motion: IndependentMotion<f64, _, _, [f64; 1]> = loops.independent_motion(&assembly.q, &[0]).ok()?;
+    let [torque] = motion.restricted(&Fourbar::gravity_forces(&assembly.q));
+    let [velocity, ..] = motion.velocities(&[2.0]);
+    Some(torque != 0.0 && 1.999 < velocity && velocity < 2.001)
 }
 
 fn implicit_methods_agree() -> Option<bool> {
