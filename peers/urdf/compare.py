@@ -77,8 +77,8 @@ def main() -> None:
     if at_run_time:
         print("All is by the generic path (`--run-time`); the last two columns have rotors in all joints.\n")
     else:
-        print("The last column is by the functions that `redysim!` makes, those before it by the generic path. The last")
-        print("two have rotors in all joints.\n")
+        print("The last column is by the functions that `redysim!` makes, those before it by the generic path. The")
+        print("last two have rotors in all joints.\n")
     columns = "inverse dynamics | mass matrix | forward dynamics | Jacobians | their rates | all, fused"
     print(f"| robot | joints | {columns} | all, {'kept' if at_run_time else 'compiled'} | |")
     print("|---|---|---|---|---|---|---|---|---|---|")

@@ -62,7 +62,8 @@ pub(crate) const LINK: Keys = Keys::new(
     ],
 )
 .with_hints(hints::LINK);
-pub(crate) const JOINT_NAME: Key = Key::new("joint_name", "\"elbow\"", "").with_default("the name of the link");
+pub(crate) const JOINT_NAME: Key = Key::new("joint_name", "\"elbow\"", "what results call the joint, and `locked` too")
+    .with_default("the name of the link");
 pub(crate) const PARENT: Key =
     Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground").with_default("required");
 pub(crate) const JOINT: Key =
@@ -88,7 +89,8 @@ pub(crate) const STIFFNESS: Key =
     Key::new("stiffness", "20.0", "N m/rad or N/m, of a spring in the joint").with_default("0");
 pub(crate) const REST: Key =
     Key::new("rest", "0.5", "where the spring is relaxed; without a unit rad or m").with_default("0");
-pub(crate) const ACTUATED: Key = Key::new("actuated", "false", "").with_default("true");
+pub(crate) const ACTUATED: Key =
+    Key::new("actuated", "false", "whether an actuator moves the joint").with_default("true");
 
 pub(crate) const DH: Key = Key::of_table(
     "dh",
