@@ -4,8 +4,8 @@
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
     Compensation, ConfigurationSpace, Dop853, ForwardDynamics, ForwardSimulation, FrameGains, FrameState, Frames,
-    Impedance, Integrator, LengthMismatch, MassMatrix, MechanicalEnergy, Mechanism, OperationalSpace, TorqueLaw,
-    Wrench,
+    Impedance, Integrator, LengthMismatch, MassMatrix, MechanicalEnergy, Mechanism, OperationalSpace, TaskStatus,
+    TorqueLaw, Wrench,
 };
 
 /// KR5 with a tool, whose frame is turned against the flange.
@@ -184,6 +184,31 @@ fn null_space_damping_slows_the_motions_that_leave_the_task_alone_and_nothing_el
     for i in 0..6 {
         assert!((with[i] - without[i] + rate * null[i]).abs() < 1e-9, "{with:?} {without:?} {null:?}");
     }
+}
+
+/// With joints 4 and 6 in line, the tool cannot turn about what is square to both axes of the wrist.
+#[test]
+fn a_straight_wrist_leaves_the_tool_five_directions_and_the_status_says_so() {
+    let robot = kr5();
+    let space = |q: &[f64]| {
+        let (mass_matrix, jacobians) = (robot.mass_matrix(&q.to_vec()), robot.frame_jacobians(&q.to_vec()));
+        OperationalSpace::new(mass_matrix, jacobians[0].rows()).unwrap()
+    };
+    assert_eq!(space(&Q).status(), TaskStatus::Full);
+    let mut straight = Q;
+    straight[4] = 0.0;
+    let space = space(&straight);
+    assert!(matches!(space.status(), TaskStatus::Deficient { rank: 5, .. }), "{:?}", space.status());
+    // What the joints can do is attainable, and the wrist's own motion is all that leaves the tool alone.
+    let velocity = space.task_velocity(&vec![0.5, -0.3, 0.8, -1.0, 0.2, 0.6]);
+    for (attained, velocity) in space.attainable(&velocity).iter().zip(velocity) {
+        assert!((attained - velocity).abs() < 1e-12, "{attained} {velocity}");
+    }
+    let counter = [0.0, 0.0, 0.0, 1.0, 0.0, -1.0];
+    for (kept, counter) in space.null_velocity(&counter.to_vec()).iter().zip(counter) {
+        assert!((kept - counter).abs() < 1e-9, "{kept} {counter}");
+    }
+    assert!(space.inertia().iter().flatten().all(|element| element.is_finite() && element.abs() < 1e4));
 }
 
 /// By the formula, in a frame that is neither the tool's nor the base's, with a moving target.
