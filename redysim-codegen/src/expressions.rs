@@ -1,6 +1,6 @@
 //! The body of one function: a graph and the values it returns.
 
-use crate::graph::{Edge, Graph, Name, Node};
+use crate::graph::{Edge, Graph, Leaf, Name, Node};
 use crate::policies::{LONGEST_UNROLLED, PRICE_PER_DIVISION, PRICE_PER_PAIR};
 use redysim_runtime::{OperationCount, Scalar};
 use std::collections::HashSet;
@@ -81,11 +81,12 @@ impl Expressions {
         let mut count = OperationCount::default();
         let mut angles = HashSet::new();
         for (index, uses) in self.uses().into_iter().enumerate() {
-            if uses == 0 {
+            // What depends on parameters alone is computed once, not in every call.
+            if uses == 0 || self.graph.is_fixed(self.graph.edge(index)) {
                 continue;
             }
             match self.graph.node(index) {
-                Node::Input { .. } | Node::Constant(_) => {}
+                Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => {}
                 Node::Add(..) | Node::Subtract(..) => count.additions += 1,
                 Node::Multiply(..) => count.multiplications += 1,
                 // A square root takes about as long as a division.
@@ -107,25 +108,26 @@ impl Expressions {
         count.additions + count.multiplications + PRICE_PER_DIVISION * count.divisions + PRICE_PER_PAIR * count.trig
     }
 
-    /// The outputs for the given arguments, computed with any scalar.
+    /// The outputs for the given arguments, computed with any scalar; parameters have the values of the model.
     pub fn evaluate<S: Scalar>(&self, arguments: &[&[S]]) -> Vec<S> {
+        self.evaluate_with(arguments, |_, nominal| S::from_f64(nominal))
+    }
+
+    /// The outputs for the given arguments, and for parameters with the values that `parameter` gives for their index
+    /// and their value in the model.
+    pub fn evaluate_with<S: Scalar>(&self, arguments: &[&[S]], parameter: impl Fn(u32, f64) -> S) -> Vec<S> {
         let mut values: Vec<S> = Vec::with_capacity(self.graph.len());
         for index in 0..self.graph.len() {
             let at = |edge: Edge| {
                 let value = values[edge.node()];
                 if edge.is_negative() { -value } else { value }
             };
-            values.push(match self.graph.node(index) {
-                Node::Input { argument, index } => arguments[usize::from(argument)][index as usize],
-                Node::Constant(bits) => S::from_f64(f64::from_bits(bits)),
-                Node::Add(a, b) => at(a) + at(b),
-                Node::Subtract(a, b) => at(a) - at(b),
-                Node::Multiply(a, b) => at(a) * at(b),
-                Node::Divide(a, b) => at(a) / at(b),
-                Node::Sin(a) => at(a).sin_cos().0,
-                Node::Cos(a) => at(a).sin_cos().1,
-                Node::Sqrt(a) => at(a).sqrt(),
+            let value = self.graph.node(index).evaluate(at, |leaf| match leaf {
+                Leaf::Input { argument, index } => arguments[usize::from(argument)][index as usize],
+                Leaf::Constant(value) => S::from_f64(value),
+                Leaf::Parameter { index, nominal } => parameter(index, nominal),
             });
+            values.push(value);
         }
         let at = |edge: &Edge| if edge.is_negative() { -values[edge.node()] } else { values[edge.node()] };
         self.outputs.iter().map(at).collect()

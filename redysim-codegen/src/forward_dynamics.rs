@@ -80,6 +80,7 @@ fn recursion(trees: &Trees) -> Result<Candidate, PassError> {
 fn factorisation(trees: &Trees, passes: &Passes) -> Result<Candidate, PassError> {
     let (matrix, bias) = (trees.matrix(), trees.bias());
     let expressions = traced(matrix, Function::ForwardDynamics, |t, x| {
+        let (matrix, bias) = (&t.tree(matrix), &t.tree(bias));
         let forces = denoc::bias_forces(bias, t, x[0], x[1]);
         let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();
         Factorisation::new(matrix, t, &denoc::mass_matrix(matrix, t, x[0])).solve(&drive)

@@ -4,9 +4,11 @@ use crate::accuracy::Reference;
 use crate::expressions::Expressions;
 use crate::forward_dynamics;
 pub use crate::forward_dynamics::{MethodChoice, MethodFigures};
+use crate::lumping::{lumped, tree_with_parameters};
 use crate::passes::{PassError, Passes};
 use crate::pruning::{Pruning, StateRange, States, pruned};
 use crate::reroll;
+use crate::symbol::{Symbol, SymbolicTree, Tracer};
 use crate::tracing::simplified_on;
 use crate::trees::Trees;
 use redysim_model::{CodegenOptions, Function, Link, Model, Tree};
@@ -49,8 +51,11 @@ pub fn trace_with(tree: &Tree, passes: &Passes) -> Result<Vec<TracedFunction>, P
 /// # Errors
 ///
 /// In debug builds passes over expressions are verified, and one that changes a value or breaks the graph is reported.
+///
+/// Parameters of the options are those of a model, and so have no effect.
 pub fn trace_of(tree: &Tree, options: &CodegenOptions, passes: &Passes) -> Result<Vec<TracedFunction>, PassError> {
-    let pipeline = Pipeline { tree, options, passes, reference: &Reference::new(tree), pruning: None };
+    let symbolic = &tree.map(Symbol::Constant);
+    let pipeline = Pipeline { tree, symbolic, options, passes, reference: &Reference::new(tree), pruning: None };
     pipeline.run()
 }
 
@@ -79,13 +84,47 @@ pub fn trace_model(
         }
         None => None,
     };
-    let pipeline = Pipeline { tree: &tree, options, passes, reference: &Reference::new(&tree), pruning };
+    let symbolic = &tree.map(Symbol::Constant);
+    let pipeline = Pipeline { tree: &tree, symbolic, options, passes, reference: &Reference::new(&tree), pruning };
     Ok(pipeline.run()?)
 }
 
+/// The functions of a mechanism with run-time parameters.
+#[derive(Clone, Debug)]
+pub struct ParametricFunctions {
+    /// The functions. Their parameters are the outputs of `lumped`.
+    pub functions: Vec<TracedFunction>,
+    /// What depends on the parameters alone, as a function of them.
+    pub lumped: Expressions,
+}
+
+/// Traces and simplifies the functions that `options` select, with the numbers that they name as parameters. Nothing is
+/// pruned.
+///
+/// # Errors
+///
+/// As [`trace_of`].
+pub fn trace_with_parameters(
+    model: &Model,
+    options: &CodegenOptions,
+    passes: &Passes,
+) -> Result<ParametricFunctions, PassError> {
+    let (tree, tracer) = (&Tree::new(model), Tracer::default());
+    let mut functions = {
+        let symbolic = &tree_with_parameters(model, &options.parameters, &tracer);
+        let pipeline = Pipeline { tree, symbolic, options, passes, reference: &Reference::new(tree), pruning: None };
+        pipeline.run()?
+    };
+    let lumped = lumped(&mut functions, tracer);
+    Ok(ParametricFunctions { functions, lumped })
+}
+
 /// The inputs from which all functions of a mechanism are made.
-struct Pipeline<'a> {
+struct Pipeline<'a, 'p> {
+    /// The robot with the numbers of the model.
     tree: &'a Tree,
+    /// The robot with symbols in place of the numbers that are given at run time.
+    symbolic: &'a SymbolicTree<'p>,
     options: &'a CodegenOptions,
     passes: &'a Passes,
     /// The exact numbers of the robot, by which the loss of digits is measured.
@@ -94,7 +133,7 @@ struct Pipeline<'a> {
     pruning: Option<(f64, Vec<StateRange>)>,
 }
 
-impl Pipeline<'_> {
+impl<'p> Pipeline<'_, 'p> {
     /// Makes every selected function by the same steps:
     ///
     /// 1. It is traced on the cheapest description of the robot that keeps its digits; forward dynamics by the method
@@ -104,9 +143,9 @@ impl Pipeline<'_> {
     /// 3. Where it has a tolerance and can be unrolled, terms that do not matter within the ranges of the joints are
     ///    left out.
     fn run(&self) -> Result<Vec<TracedFunction>, PassError> {
-        let trees = Trees::new(self.tree, self.passes, self.reference);
+        let trees = Trees::new(self.symbolic, self.passes, self.reference);
         let uniform_passes = self.passes.uniform();
-        let uniform_trees = LazyCell::new(|| Trees::new(self.tree, &uniform_passes, self.reference));
+        let uniform_trees = LazyCell::new(|| Trees::new(self.symbolic, &uniform_passes, self.reference));
         let unpruned = |function: Function| {
             let unrolled = self.simplified(function, &trees, self.passes)?;
             if !(self.passes.loops && unrolled.expressions.is_long()) {
@@ -146,7 +185,12 @@ impl Pipeline<'_> {
     }
 
     /// The function on the description of the robot on which it is best computed.
-    fn simplified(&self, function: Function, trees: &Trees, passes: &Passes) -> Result<TracedFunction, PassError> {
+    fn simplified(
+        &self,
+        function: Function,
+        trees: &Trees<'_, 'p>,
+        passes: &Passes,
+    ) -> Result<TracedFunction, PassError> {
         let (expressions, method) = match function {
             Function::ForwardDynamics => {
                 let (expressions, choice) = forward_dynamics::choose(trees, self.options.forward_dynamics, passes)?;
@@ -171,14 +215,14 @@ impl Pipeline<'_> {
             | Function::CoordinateRates
             | Function::Integrate
             | Function::Difference
-            | Function::Neutral => (simplified_on(self.tree, function, passes)?, None),
+            | Function::Neutral => (simplified_on(self.symbolic, function, passes)?, None),
         };
         Ok(TracedFunction { function, method, expressions, pruning: None })
     }
 }
 
 /// A function on the tree on which it costs least.
-fn cheapest(trees: &[Tree], function: Function, passes: &Passes) -> Result<Expressions, PassError> {
+fn cheapest(trees: &[SymbolicTree], function: Function, passes: &Passes) -> Result<Expressions, PassError> {
     let all = trees.iter().map(|tree| simplified_on(tree, function, passes)).collect::<Result<Vec<_>, _>>()?;
     Ok(all.into_iter().min_by_key(Expressions::price).expect("at least one tree"))
 }

@@ -2,7 +2,8 @@
 
 use crate::backend::rust;
 use crate::documentation;
-use crate::functions::{TraceError, TracedFunction, trace_model, trace_of};
+use crate::expressions::Expressions;
+use crate::functions::{ParametricFunctions, TraceError, TracedFunction, trace_model, trace_of, trace_with_parameters};
 use crate::mechanism::MechanismProgram;
 use crate::passes::{PassError, Passes};
 use proc_macro2::{Ident, TokenStream};
@@ -12,7 +13,12 @@ use redysim_runtime::OperationCount;
 /// The code of a mechanism, and its operations.
 #[derive(Clone, Debug)]
 pub struct Generated {
-    /// `impl` blocks for a type that is declared elsewhere.
+    /// What follows the name of the struct in its declaration: `;`, or for a mechanism with run-time parameters, its
+    /// scalar and its field.
+    pub declaration: TokenStream,
+    /// The traits that the struct may derive.
+    pub derives: TokenStream,
+    /// `impl` blocks for the struct.
     pub tokens: TokenStream,
     /// Operations of each function.
     pub operations: Vec<(Function, OperationCount)>,
@@ -50,11 +56,12 @@ pub fn implementation_with(
     options: &CodegenOptions,
     passes: &Passes,
 ) -> Result<Generated, PassError> {
-    let (functions, warnings) = functions(model, options, passes)?;
+    let Made { functions, lumped, warnings } = functions(model, options, passes)?;
     let interface = PublicInterface::new(model, options);
-    let mechanism = MechanismProgram::new(model, &interface, &functions, &rust::RESERVED);
+    let mechanism = MechanismProgram::new(model, &interface, &functions, lumped.as_ref(), &rust::RESERVED);
     let tokens = rust::mechanism(&mechanism, name, runtime);
-    Ok(Generated { tokens, operations: operations_of(&functions), warnings })
+    let (declaration, derives) = rust::declaration(lumped.map(|lumped| lumped.outputs.len()));
+    Ok(Generated { declaration, derives, tokens, operations: operations_of(&functions), warnings })
 }
 
 /// The operations and warnings of [`implementation_with`], with all passes, without the code.
@@ -63,19 +70,32 @@ pub fn implementation_with(
 ///
 /// As [`implementation`].
 pub fn operations(model: &Model, options: &CodegenOptions) -> Result<Counted, PassError> {
-    let (functions, warnings) = functions(model, options, &Passes::default())?;
+    let Made { functions, warnings, .. } = functions(model, options, &Passes::default())?;
     Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
+/// What a mechanism is made of.
+struct Made {
+    functions: Vec<TracedFunction>,
+    /// What depends on run-time parameters alone, if there are any.
+    lumped: Option<Expressions>,
+    warnings: Vec<String>,
+}
+
 /// The functions that `options` select and those that every mechanism has, and warnings.
-fn functions(
-    model: &Model,
-    options: &CodegenOptions,
-    passes: &Passes,
-) -> Result<(Vec<TracedFunction>, Vec<String>), PassError> {
+fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result<Made, PassError> {
     let always_present = Function::ALL.iter().copied().filter(|function| function.is_always_present());
     let functions = Functions::of(options.functions.iter().chain(always_present));
-    let options = &CodegenOptions { functions, ..*options };
+    let options = &CodegenOptions { functions, ..options.clone() };
+    if !options.parameters.is_empty() {
+        let ParametricFunctions { functions, lumped } = trace_with_parameters(model, options, passes)?;
+        let unpruned = options.tolerance.map(|_| {
+            "nothing is pruned: a tolerance holds for the numbers of the model, but some are parameters, which are given \
+             at run time"
+                .to_string()
+        });
+        return Ok(Made { functions, lumped: Some(lumped), warnings: unpruned.into_iter().collect() });
+    }
     let (functions, unpruned) = match trace_model(model, options, passes) {
         Ok(functions) => (functions, None),
         Err(TraceError::Pass(error)) => return Err(error),
@@ -85,7 +105,7 @@ fn functions(
         }
     };
     let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
-    Ok((functions, warnings))
+    Ok(Made { functions, lumped: None, warnings })
 }
 
 fn operations_of(functions: &[TracedFunction]) -> Vec<(Function, OperationCount)> {

@@ -4,6 +4,7 @@
 //! one node, and a − b is b − a seen from the other side. Operands always have smaller indices than the node that
 //! uses them, so every walk over the graph is a loop over indices.
 
+use redysim_runtime::Scalar;
 use rustc_hash::FxHashMap;
 
 /// A value: a node, or its negative.
@@ -54,6 +55,13 @@ pub enum Node {
     },
     /// A positive constant, by its bits.
     Constant(u64),
+    /// A number that is given at run time, once for all calls of the function.
+    Parameter {
+        /// Its index among the numbers that are given.
+        index: u32,
+        /// Its value in the model, by its bits: what stands for it where values are sampled.
+        nominal: u64,
+    },
     /// a + b.
     Add(Edge, Edge),
     /// a − b.
@@ -74,12 +82,50 @@ impl Node {
     /// The operands.
     pub fn operands(self) -> impl Iterator<Item = Edge> {
         let (a, b) = match self {
-            Node::Input { .. } | Node::Constant(_) => (None, None),
+            Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => (None, None),
             Node::Add(a, b) | Node::Subtract(a, b) | Node::Multiply(a, b) | Node::Divide(a, b) => (Some(a), Some(b)),
             Node::Sin(a) | Node::Cos(a) | Node::Sqrt(a) => (Some(a), None),
         };
         a.into_iter().chain(b)
     }
+
+    /// The value of the node, computed with any scalar from the values of its operands; `leaf` gives those of inputs,
+    /// constants and parameters.
+    pub fn evaluate<S: Scalar>(self, at: impl Fn(Edge) -> S, leaf: impl FnOnce(Leaf) -> S) -> S {
+        match self {
+            Node::Input { argument, index } => leaf(Leaf::Input { argument, index }),
+            Node::Constant(bits) => leaf(Leaf::Constant(f64::from_bits(bits))),
+            Node::Parameter { index, nominal } => leaf(Leaf::Parameter { index, nominal: f64::from_bits(nominal) }),
+            Node::Add(a, b) => at(a) + at(b),
+            Node::Subtract(a, b) => at(a) - at(b),
+            Node::Multiply(a, b) => at(a) * at(b),
+            Node::Divide(a, b) => at(a) / at(b),
+            Node::Sin(a) => at(a).sin_cos().0,
+            Node::Cos(a) => at(a).sin_cos().1,
+            Node::Sqrt(a) => at(a).sqrt(),
+        }
+    }
+}
+
+/// A node without operands.
+#[derive(Clone, Copy, Debug)]
+pub enum Leaf {
+    /// Element `index` of argument `argument`.
+    Input {
+        /// Position in the function's list of arguments.
+        argument: u8,
+        /// Index in the array.
+        index: u32,
+    },
+    /// A constant.
+    Constant(f64),
+    /// A number that is given at run time.
+    Parameter {
+        /// Its index among those that are given.
+        index: u32,
+        /// Its value in the model.
+        nominal: f64,
+    },
 }
 
 /// The name of a value in the generated code: a component of a quantity of a body.
@@ -113,6 +159,8 @@ pub struct Graph {
     nodes: Vec<Node>,
     names: Vec<Option<Name>>,
     steps: Vec<Option<Step>>,
+    /// Whether each node depends on parameters and constants alone, so that it is computed once for all calls.
+    fixed: Vec<bool>,
     current_step: Option<Step>,
     indices: FxHashMap<Node, u32>,
 }
@@ -183,6 +231,16 @@ impl Graph {
         }
     }
 
+    /// Whether a value depends on parameters and constants alone.
+    pub fn is_fixed(&self, edge: Edge) -> bool {
+        self.fixed[edge.node()]
+    }
+
+    /// Number `index` of those that are given at run time, whose value in the model is `nominal`.
+    pub fn parameter(&mut self, index: u32, nominal: f64) -> Edge {
+        self.intern(Node::Parameter { index, nominal: nominal.to_bits() })
+    }
+
     /// Element `index` of argument `argument`.
     pub fn input(&mut self, argument: u8, index: u32) -> Edge {
         self.intern(Node::Input { argument, index })
@@ -209,6 +267,12 @@ impl Graph {
             let factor = self.constant(sum_without_noise(x, y));
             return self.multiply(factor, a_base);
         }
+        let ((x, a_base), (y, b_base)) = (self.fixed_coefficient(a), self.fixed_coefficient(b));
+        if a_base == b_base && (x.is_some() || y.is_some()) {
+            let [x, y] = [(x, a), (y, b)].map(|(factor, term)| self.factor_or_sign(factor, term));
+            let factor = self.add(x, y);
+            return self.multiply(factor, a_base);
+        }
         let (a, b) = if a.node < b.node { (a, b) } else { (b, a) };
         let (first, second) = (a.abs(), b.abs());
         let node = if a.negative == b.negative { Node::Add(first, second) } else { Node::Subtract(first, second) };
@@ -220,7 +284,7 @@ impl Graph {
         let (a, b) = match (self.constant_value(a), self.constant_value(b)) {
             (Some(x), Some(y)) => return self.constant(x * y),
             (None, Some(_)) => (b, a),
-            (None, None) if b.node < a.node => (b, a),
+            (None, None) if self.order(b) < self.order(a) => (b, a),
             _ => (a, b),
         };
         if let Some(x) = self.constant_value(a) {
@@ -235,6 +299,13 @@ impl Graph {
                 let factor = self.constant(x * y);
                 return self.multiply(factor, base);
             }
+        }
+        // Factors that are given at run time become one, which costs nothing in a call.
+        if self.is_fixed(a)
+            && let (Some(factor), base) = self.fixed_coefficient(b)
+        {
+            let factor = self.multiply(a, factor);
+            return self.multiply(factor, base);
         }
         self.intern(Node::Multiply(a.abs(), b.abs())).flipped_if(a.negative != b.negative)
     }
@@ -289,11 +360,35 @@ impl Graph {
         (sign, edge.abs())
     }
 
+    /// The value as a factor that is [fixed](Self::is_fixed), but not a constant alone, times a value that is not; `None`
+    /// and the value without its sign if there is no such factor.
+    pub fn fixed_coefficient(&self, edge: Edge) -> (Option<Edge>, Edge) {
+        match self.nodes[edge.node()] {
+            Node::Multiply(factor, base)
+                if self.is_fixed(factor) && self.constant_value(factor).is_none() && !self.is_fixed(base) =>
+            {
+                (Some(factor.flipped_if(edge.negative)), base)
+            }
+            _ => (None, edge.abs()),
+        }
+    }
+
+    /// A factor of `term`, or where it has none, its sign as a constant.
+    pub fn factor_or_sign(&mut self, factor: Option<Edge>, term: Edge) -> Edge {
+        factor.unwrap_or_else(|| self.constant(if term.negative { -1.0 } else { 1.0 }))
+    }
+
+    /// By which the factors of a product are in order: those that are given at run time first.
+    pub fn order(&self, edge: Edge) -> (bool, u32) {
+        (!self.is_fixed(edge), edge.node)
+    }
+
     /// Makes a node of another graph again in this one, from operands already made here.
     pub fn rebuild(&mut self, node: Node, map: impl Fn(Edge) -> Edge) -> Edge {
         match node {
             Node::Input { argument, index } => self.input(argument, index),
             Node::Constant(bits) => self.constant(f64::from_bits(bits)),
+            Node::Parameter { index, nominal } => self.parameter(index, f64::from_bits(nominal)),
             Node::Add(a, b) => self.add(map(a), map(b)),
             Node::Subtract(a, b) => self.add(map(a), -map(b)),
             Node::Multiply(a, b) => self.multiply(map(a), map(b)),
@@ -308,14 +403,24 @@ impl Graph {
     #[cfg(test)]
     pub fn push_unchecked(&mut self, node: Node) {
         let index = self.nodes.len() as u32;
+        self.fixed.push(self.is_fixed_node(node));
         self.nodes.push(node);
         self.names.push(None);
         self.steps.push(None);
         self.indices.entry(node).or_insert(index);
     }
 
+    fn is_fixed_node(&self, node: Node) -> bool {
+        match node {
+            Node::Input { .. } => false,
+            node => node.operands().all(|operand| self.fixed.get(operand.node()).is_some_and(|&fixed| fixed)),
+        }
+    }
+
     fn intern(&mut self, node: Node) -> Edge {
+        let fixed = self.is_fixed_node(node);
         let index = *self.indices.entry(node).or_insert_with(|| {
+            self.fixed.push(fixed);
             self.nodes.push(node);
             self.names.push(None);
             self.steps.push(self.current_step);

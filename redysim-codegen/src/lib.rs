@@ -55,6 +55,7 @@ mod backend;
 mod documentation;
 mod forward_dynamics;
 mod generate;
+mod lumping;
 mod mechanism;
 mod policies;
 mod program;
@@ -66,6 +67,6 @@ mod trees;
 
 #[cfg(feature = "source")]
 pub use backend::rust::source::{SourceError, source_file, source_file_with};
-pub use backend::rust::stub;
+pub use backend::rust::{stub, stub_declaration};
 pub use generate::{Counted, Generated, implementation, implementation_with, operations};
 pub use pruning::Pruning;

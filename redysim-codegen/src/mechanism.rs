@@ -2,6 +2,7 @@
 
 use crate::angles::{Angle, Angles};
 use crate::documentation;
+use crate::expressions::Expressions;
 use crate::functions::TracedFunction;
 use crate::program::{NamingContext, Program, program};
 use redysim_model::{Function, Model, PublicInterface, Tree};
@@ -16,6 +17,9 @@ pub struct MechanismProgram<'a> {
     pub trig: TrigProgram,
     /// The functions, in the order of [`Function::ALL`].
     pub functions: Vec<FunctionProgram>,
+    /// What depends on run-time parameters alone, if there are any: a function of them, whose outputs are the numbers
+    /// that the programs are [given](crate::program::Value::Given).
+    pub lumped: Option<Program>,
 }
 
 /// A function of a mechanism.
@@ -52,6 +56,7 @@ impl<'a> MechanismProgram<'a> {
         model: &Model,
         interface: &'a PublicInterface,
         functions: &[TracedFunction],
+        lumped: Option<&Expressions>,
         reserved: &[&str],
     ) -> MechanismProgram<'a> {
         let tree = Tree::new(model);
@@ -75,6 +80,8 @@ impl<'a> MechanismProgram<'a> {
             interface,
             trig: TrigProgram::new(&angles, &Vec::from_iter(0..angles.len())),
             functions: functions.iter().map(function).collect(),
+            lumped: lumped
+                .map(|expressions| program(expressions, &NamingContext { reserved, bodies: &bodies, angles: &angles })),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The symbolic scalar: run through the recursions, it builds their expression graph.
 
-use crate::graph::{Edge, Graph, Name, Step};
+use crate::graph::{Edge, Graph, Leaf, Name, Step};
+use redysim_model::Tree;
 use redysim_model::denoc::Trace;
 use redysim_model::parameter::{Parameter, ParameterIn};
 use redysim_runtime::{Dual, Scalar};
@@ -9,7 +10,11 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A graph that symbols write to while a recursion runs.
 #[derive(Debug, Default)]
-pub struct Tracer(RefCell<Graph>);
+pub struct Tracer {
+    graph: RefCell<Graph>,
+    /// The values of the first nodes where parameters have those of the model, if no node depends on an argument.
+    nominal: RefCell<Vec<f64>>,
+}
 
 /// A number known now, or a value of the generated function.
 #[derive(Clone, Copy, Debug)]
@@ -20,10 +25,46 @@ pub enum Symbol<'g> {
     Value(&'g Tracer, Edge),
 }
 
+/// A robot of which the numbers that are given at run time are symbols.
+pub type SymbolicTree<'p> = Tree<Symbol<'p>>;
+
 impl Tracer {
     /// Symbols for the elements of argument number `argument`, an array of `len` elements.
     pub fn argument(&self, argument: u8, len: usize) -> Vec<Symbol<'_>> {
-        (0..len).map(|index| Symbol::Value(self, self.0.borrow_mut().input(argument, index as u32))).collect()
+        (0..len).map(|index| Symbol::Value(self, self.graph.borrow_mut().input(argument, index as u32))).collect()
+    }
+
+    /// The symbol of parameter number `index`, whose value in the model is `nominal`.
+    pub fn parameter(&self, index: u32, nominal: f64) -> Symbol<'_> {
+        Symbol::Value(self, self.graph.borrow_mut().parameter(index, nominal))
+    }
+
+    /// The tree for a function that this tracer traces. What the numbers of `tree` are made of was traced by another
+    /// tracer; here each is a parameter, with the index of its node there.
+    pub fn tree(&self, tree: &SymbolicTree<'_>) -> SymbolicTree<'_> {
+        tree.map(|number| match number {
+            Symbol::Constant(value) => Symbol::Constant(value),
+            Symbol::Value(tracer, edge) => {
+                let symbol = self.parameter(edge.node() as u32, tracer.nominal(edge.abs()));
+                if edge.is_negative() { -symbol } else { symbol }
+            }
+        })
+    }
+
+    /// A value that depends on parameters alone, where these have the values of the model.
+    fn nominal(&self, edge: Edge) -> f64 {
+        let (graph, mut values) = (self.graph.borrow(), self.nominal.borrow_mut());
+        for index in values.len()..graph.len() {
+            let value = graph.node(index).evaluate(
+                |edge| if edge.is_negative() { -values[edge.node()] } else { values[edge.node()] },
+                |leaf| match leaf {
+                    Leaf::Constant(value) | Leaf::Parameter { nominal: value, .. } => value,
+                    Leaf::Input { .. } => f64::NAN,
+                },
+            );
+            values.push(value);
+        }
+        if edge.is_negative() { -values[edge.node()] } else { values[edge.node()] }
     }
 
     /// The edges of `outputs` in the graph.
@@ -33,7 +74,7 @@ impl Tracer {
 
     /// The graph traced so far.
     pub fn into_graph(self) -> Graph {
-        self.0.into_inner()
+        self.graph.into_inner()
     }
 }
 
@@ -46,7 +87,7 @@ pub trait Traced: Copy {
 impl Traced for Symbol<'_> {
     fn set_name(self, tracer: &Tracer, name: Name) {
         if let Symbol::Value(_, edge) = self {
-            tracer.0.borrow_mut().set_name(edge, name);
+            tracer.graph.borrow_mut().set_name(edge, name);
         }
     }
 }
@@ -60,9 +101,9 @@ impl<S: Traced> Traced for Dual<S> {
 
 impl<S: Traced> Trace<S> for Tracer {
     fn step<R>(&self, sweep: &'static str, body: usize, work: impl FnOnce() -> R) -> R {
-        self.0.borrow_mut().enter_step(Some(Step { sweep, body }));
+        self.graph.borrow_mut().enter_step(Some(Step { sweep, body }));
         let result = work();
-        self.0.borrow_mut().enter_step(None);
+        self.graph.borrow_mut().enter_step(None);
         result
     }
 
@@ -72,9 +113,17 @@ impl<S: Traced> Trace<S> for Tracer {
 }
 
 impl<'g> Symbol<'g> {
+    /// The number where parameters have the values of the model.
+    pub fn nominal(self) -> f64 {
+        match self {
+            Symbol::Constant(value) => value,
+            Symbol::Value(tracer, edge) => tracer.nominal(edge),
+        }
+    }
+
     fn edge(self, tracer: &Tracer) -> Edge {
         match self {
-            Symbol::Constant(value) => tracer.0.borrow_mut().constant(value),
+            Symbol::Constant(value) => tracer.graph.borrow_mut().constant(value),
             Symbol::Value(_, edge) => edge,
         }
     }
@@ -90,7 +139,7 @@ impl<'g> Symbol<'g> {
             (Symbol::Value(tracer, _), _) | (_, Symbol::Value(tracer, _)) => tracer,
         };
         let (a, b) = (self.edge(tracer), other.edge(tracer));
-        let result = symbols(&mut tracer.0.borrow_mut(), a, b);
+        let result = symbols(&mut tracer.graph.borrow_mut(), a, b);
         Self::folded(tracer, result)
     }
 
@@ -98,14 +147,14 @@ impl<'g> Symbol<'g> {
         match self {
             Symbol::Constant(value) => Symbol::Constant(number(value)),
             Symbol::Value(tracer, edge) => {
-                let result = symbol(&mut tracer.0.borrow_mut(), edge);
+                let result = symbol(&mut tracer.graph.borrow_mut(), edge);
                 Self::folded(tracer, result)
             }
         }
     }
 
     fn folded(tracer: &'g Tracer, edge: Edge) -> Self {
-        let constant = tracer.0.borrow().constant_value(edge);
+        let constant = tracer.graph.borrow().constant_value(edge);
         constant.map_or(Symbol::Value(tracer, edge), Symbol::Constant)
     }
 }

@@ -2,23 +2,23 @@
 
 use crate::expressions::Expressions;
 use crate::passes::{PassError, Passes, simplified};
-use crate::symbol::{Symbol, Tracer};
-use redysim_model::{Function, Tree, denoc};
+use crate::symbol::{Symbol, SymbolicTree, Tracer};
+use redysim_model::{Function, denoc};
 use redysim_runtime::function::Argument;
 
 /// The expressions of `function` on `tree`, forward dynamics by the recursion, simplified.
-pub fn simplified_on(tree: &Tree, function: Function, passes: &Passes) -> Result<Expressions, PassError> {
+pub fn simplified_on(tree: &SymbolicTree, function: Function, passes: &Passes) -> Result<Expressions, PassError> {
     simplified(traced_on(tree, function), passes)
 }
 
 /// The expressions of `function` on `tree`, forward dynamics by the recursion, before any pass over them.
-pub fn traced_on(tree: &Tree, function: Function) -> Expressions {
-    traced(tree, function, |tracer, arguments| denoc::evaluate(function, tree, tracer, arguments))
+pub fn traced_on(tree: &SymbolicTree, function: Function) -> Expressions {
+    traced(tree, function, |tracer, arguments| denoc::evaluate(function, &tracer.tree(tree), tracer, arguments))
 }
 
 /// The expressions of `computed`, which computes `function` on trees of the same joints as `tree`, before any pass.
 pub fn traced(
-    tree: &Tree,
+    tree: &SymbolicTree,
     function: Function,
     computed: impl for<'g> Fn(&'g Tracer, &[&[Symbol<'g>]]) -> Vec<Symbol<'g>>,
 ) -> Expressions {
@@ -44,18 +44,19 @@ pub fn traced_of(
 #[cfg(test)]
 pub mod tests {
     use super::*;
-    use redysim_model::Model;
+    use redysim_model::{Model, Tree};
     use redysim_runtime::Dual;
 
     /// A chain of 40 uniform bodies.
-    pub fn chain_of_40() -> Tree {
+    pub fn chain_of_40() -> SymbolicTree<'static> {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/peers/chain40.toml");
-        Tree::new(&Model::load(path).expect("a valid model").model)
+        Tree::new(&Model::load(path).expect("a valid model").model).map(Symbol::Constant)
     }
 
     /// The slopes of a function of coordinates, velocities, and accelerations or forces, along a direction: the last
     /// three of six arguments.
-    pub fn derivative_on(tree: &Tree, function: Function) -> Expressions {
+    pub fn derivative_on(tree: &SymbolicTree, function: Function) -> Expressions {
+        let tree = &tree.map(Symbol::nominal);
         traced_of([tree.nv(); 6], |tracer, x| {
             let dual = |(&value, &slope)| Dual { value, slope };
             let duals = [0, 1, 2].map(|index| x[index].iter().zip(x[index + 3]).map(dual).collect::<Vec<_>>());

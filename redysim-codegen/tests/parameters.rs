@@ -1,69 +1,126 @@
-//! Inertias that are inputs of a function instead of constants: the same recursions and passes over trees.
+//! Run-time parameters: what they cost, and that a robot with parameters is the robot with these numbers.
 
-use redysim_codegen::expressions::Expressions;
-use redysim_codegen::passes::{Passes, simplified};
-use redysim_codegen::symbol::{Symbol, Tracer};
-use redysim_model::denoc::evaluate;
-use redysim_model::joint::Vanishing;
-use redysim_model::parameter::ParameterIn;
-use redysim_model::pseudo::PseudoInertia;
-use redysim_model::regroup::base_parameters;
-use redysim_model::{Function, Model, Tree};
+use redysim_codegen::functions::{ParametricFunctions, trace_with_parameters};
+use redysim_codegen::passes::Passes;
+use redysim_model::denoc::{Untraced, evaluate};
+use redysim_model::{Function, Inertia, Loaded, Model, Tree};
+use redysim_runtime::function::Argument;
 
-/// The arguments of a function of KR5, and the ten numbers of its last body.
-const ARGUMENTS: [[f64; 6]; 3] =
-    [[0.3, -0.7, 1.1, 0.4, -0.2, 0.9], [1.2, -0.5, 0.8, 2.0, -1.4, 0.6], [0.9, 1.7, -2.2, 0.3, 1.5, -0.8]];
-
-fn kr5() -> Tree {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/peers/kr5.toml");
-    let tree = Tree::new(&Model::load(path).expect("a valid model").model);
-    base_parameters(&tree, Vanishing::SecondMomentZz)
+fn load(model: &str, parameters: &[&str]) -> Loaded {
+    let path = format!("{}/../models/{model}.toml", env!("CARGO_MANIFEST_DIR"));
+    Model::load_with(path, model, format!("parameters = {parameters:?}")).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// A function of three arguments on KR5, of which `payload` is the inertia of the last body.
-fn traced(function: Function, payload: impl for<'g> Fn(&'g Tracer) -> PseudoInertia<Symbol<'g>>) -> Expressions {
-    let tracer = Tracer::default();
-    let outputs = {
-        let mut tree = kr5().map(|value| value.value());
-        tree.bodies.last_mut().expect("six bodies").inertia = payload(&tracer);
-        let tree = base_parameters(&tree, Vanishing::SecondMomentZz);
-        let arguments = [0, 1, 2].map(|argument| tracer.argument(argument, 6));
-        let arguments: Vec<&[Symbol]> = arguments.iter().map(Vec::as_slice).collect();
-        let used = function.signature().arguments.len();
-        tracer.edges(&evaluate(function, &tree, &tracer, &arguments[..used]))
+fn made(model: &Model, loaded: &Loaded, passes: &Passes) -> ParametricFunctions {
+    trace_with_parameters(model, &loaded.options, passes).expect("sound passes")
+}
+
+/// Operations of inverse dynamics, forward dynamics and the mass matrix.
+fn flops(made: &ParametricFunctions) -> [u32; 3] {
+    [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix].map(|wanted| {
+        let found = made.functions.iter().find(|function| function.function == wanted).expect("every function");
+        found.expressions.count().flops()
+    })
+}
+
+fn flops_of_kr5(parameters: &[&str]) -> [u32; 3] {
+    let loaded = load("peers/kr5", parameters);
+    flops(&made(&loaded.model, &loaded, &Passes::all()))
+}
+
+const PAYLOAD: [&str; 3] = ["link6.mass", "link6.com", "link6.inertia"];
+
+#[test]
+fn an_inertia_that_is_given_costs_a_call_what_constants_without_zeros_cost() {
+    let none = load("peers/kr5", &[]);
+    let mut general = none.model.clone();
+    let tool = general.links.last_mut().expect("six links");
+    (tool.mass, tool.com.0) = (3.1, [0.031, -0.042, 0.123]);
+    tool.inertia = Inertia { xx: 0.021, yy: 0.025, zz: 0.018, xy: 0.0021, yz: -0.0017, xz: 0.0013 };
+    let constants = flops(&made(&general, &none, &Passes::all()));
+    assert_eq!((constants, flops_of_kr5(&PAYLOAD)), ([340, 668, 214], [343, 665, 214]));
+}
+
+#[test]
+fn gravity_and_rotors_that_are_given_cost_a_call_few_operations() {
+    let constants = flops_of_kr5(&[]);
+    let more = |parameters: &[&str]| {
+        let found = flops_of_kr5(parameters);
+        [0, 1, 2].map(|i| found[i] - constants[i])
     };
-    simplified(Expressions { graph: tracer.into_graph(), outputs }, &Passes::default()).expect("passes keep values")
+    let armatures = ["link1", "link2", "link3", "link4", "link5", "link6"].map(|joint| format!("{joint}.armature"));
+    assert_eq!(constants, [286, 548, 160]);
+    assert_eq!(more(&["gravity"]), [12, 12, 0]);
+    assert_eq!(more(&armatures.each_ref().map(String::as_str)), [8, 4, 3]);
 }
 
-/// The inertia of ten numbers.
-fn inertia<S: Copy>(numbers: &[S]) -> PseudoInertia<S> {
-    let [mass, x, y, z, xx, yy, zz, xy, yz, xz] = *numbers else { panic!("an inertia has ten numbers") };
-    let second = redysim_model::inertia::Sym3 { xx, yy, zz, xy, yz, xz };
-    PseudoInertia { mass, moment: redysim_model::spatial::Vec3([x, y, z]), second }
+/// A number within ±1 that depends on nothing but `seed`.
+fn share(seed: usize) -> f64 {
+    2.0 * (0.618_033_988_749_895 * (seed + 1) as f64).fract() - 1.0
 }
 
-const PAYLOAD: [f64; 10] = [5.0, 0.2, -0.1, 0.9, 0.11, 0.13, 0.27, 0.01, -0.02, 0.03];
+/// Parameters: all of some links and joints, and gravity.
+const ROBOTS: [(&str, &[&str]); 5] = [
+    ("peers/kr5", &PAYLOAD),
+    (
+        "kr5_drives",
+        &[
+            "gravity",
+            "link3.mass",
+            "link5.com",
+            "link1.inertia",
+            "link1.armature",
+            "link2.damping",
+            "link3.friction",
+            "link3.friction_velocity",
+            "link4.stiffness",
+            "link4.rest",
+        ],
+    ),
+    ("gripper", &["link1.mass", "link3.com", "link4.inertia", "gravity", "link2.damping"]),
+    ("fourbar", &["gravity", "crank.mass", "coupler.mass", "coupler.com"]),
+    ("peers/chain40", &["gravity", "link20.mass", "link20.damping"]),
+];
 
 #[test]
-fn an_inertia_as_an_argument_has_the_values_of_the_same_inertia_as_a_constant() {
-    for function in [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix, Function::Energy] {
-        let constant = traced(function, |_| inertia(&PAYLOAD).map(|value| value.value()));
-        let argument = traced(function, |tracer| inertia(&tracer.argument(3, 10)));
-        let arguments: Vec<&[f64]> = ARGUMENTS.iter().map(|x| x.as_slice()).chain([PAYLOAD.as_slice()]).collect();
-        let [constant, argument] = [constant, argument].map(|expressions| expressions.evaluate(&arguments));
-        let largest = constant.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        for (constant, argument) in constant.iter().zip(&argument) {
-            assert!((constant - argument).abs() < 1e-12 * largest, "{function:?}: {argument} instead of {constant}");
+fn a_robot_with_parameters_is_the_robot_with_these_numbers() {
+    for (name, parameters) in ROBOTS {
+        let loaded = load(name, parameters);
+        let nominal: Vec<f64> =
+            loaded.options.parameters.iter().flat_map(|parameter| parameter.values(&loaded.model)).collect();
+        for passes in [Passes::all(), Passes::none()] {
+            let ParametricFunctions { functions, lumped } = made(&loaded.model, &loaded, &passes);
+            for seed in 0..4 {
+                // Positive, for masses, friction and its velocity; vectors and tensors may be any.
+                let values: Vec<f64> = nominal
+                    .iter()
+                    .enumerate()
+                    .map(|(i, x)| x * (1.0 + 0.5 * share(seed + i)) + 0.1 * (seed as f64))
+                    .collect();
+                let given = lumped.evaluate_with::<f64>(&[], |index, _| values[index as usize]);
+                let robot = Tree::with_parameters(&loaded.model, &loaded.options.parameters, &values);
+                for traced in &functions {
+                    let function = traced.function;
+                    let argument = |(position, argument): (usize, &Argument)| {
+                        let length = robot.argument_length(*argument);
+                        (0..length).map(|i| 3.0 * share(97 * seed + 31 * position + i)).collect::<Vec<f64>>()
+                    };
+                    let arguments: Vec<Vec<f64>> =
+                        function.signature().arguments.iter().enumerate().map(argument).collect();
+                    let arguments: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
+                    let found = traced.expressions.evaluate_with(&arguments, |index, _| given[index as usize]);
+                    let expected = evaluate(function, &robot, &Untraced, &arguments);
+                    assert_eq!(found.len(), expected.len());
+                    let largest = expected.iter().fold(1e-3_f64, |largest, x| largest.max(x.abs()));
+                    // The explicit mass matrix of a chain of 40 is ill-conditioned.
+                    let bound =
+                        if function == Function::ForwardDynamics && name.contains("chain") { 1e-5 } else { 1e-10 };
+                    for (found, expected) in found.iter().zip(&expected) {
+                        let error = (found - expected).abs() / largest;
+                        assert!(error < bound, "{name}, {function:?}: {found} instead of {expected}");
+                    }
+                }
+            }
         }
-    }
-}
-
-/// Of a call that regroups the inertia by itself. The counts are exact and may fall.
-#[test]
-fn an_inertia_as_an_argument_costs_no_more_operations_than_recorded() {
-    for (function, most) in [(Function::InverseDynamics, 408), (Function::MassMatrix, 269)] {
-        let argument = traced(function, |tracer| inertia(&tracer.argument(3, 10)));
-        let flops = argument.count().flops();
-        assert!(flops <= most, "{function:?}: {flops} operations instead of {most}");
     }
 }

@@ -5,29 +5,53 @@ use crate::locate::{model_file, shown};
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use redysim_codegen::passes::Passes;
-use redysim_codegen::{implementation_with, stub};
+use redysim_codegen::{implementation_with, stub, stub_declaration};
 use redysim_model::{Diagnostic, Model, PublicInterface, Severity};
 use syn::Attribute;
 
 /// The struct and its `impl`s.
 pub fn struct_and_impls(declaration: &Declaration) -> TokenStream {
     let Declaration { attributes, visibility, name, .. } = declaration;
+    let Expanded { declaration: body, derives, implementation, .. } = expanded(declaration);
     let derive = if attributes.iter().any(|attribute| attribute.path().is_ident("derive")) {
         None
     } else {
-        Some(quote!(#[derive(Clone, Copy, Debug, Default)]))
+        Some(quote!(#[derive(#derives)]))
     };
-    let implementation = impls(declaration);
     quote! {
         #(#attributes)*
         #derive
-        #visibility struct #name;
+        #visibility struct #name #body
         #implementation
     }
 }
 
-/// The `impl`s of a struct in the caller's code.
+/// The `impl`s of a struct in the caller's code, which cannot have parameters: these take a field.
 pub fn impls(declaration: &Declaration) -> TokenStream {
+    let Expanded { is_parametric, implementation, .. } = expanded(declaration);
+    if is_parametric {
+        let message = format!(
+            "a mechanism with `parameters` has a field for them: declare it by `redysim! {{ struct {}(..); }}` in place of \
+             the derive",
+            declaration.name
+        );
+        return compile_error(declaration, &message, declaration.model.span());
+    }
+    implementation
+}
+
+/// What a declaration becomes.
+struct Expanded {
+    /// What follows the name of the struct.
+    declaration: TokenStream,
+    /// The traits that the struct derives by default.
+    derives: TokenStream,
+    is_parametric: bool,
+    /// Messages and `impl`s.
+    implementation: TokenStream,
+}
+
+fn expanded(declaration: &Declaration) -> Expanded {
     let Declaration { name, model, options, .. } = declaration;
     let runtime = quote!(::redysim::runtime);
     let file = model_file(model);
@@ -37,17 +61,28 @@ pub fn impls(declaration: &Declaration) -> TokenStream {
             const _: &[u8] = ::core::include_bytes!(#path);
         )
     });
-    let (diagnostics, warnings, implementation) = match Model::load_with(&file, shown(&file), options.text.as_str()) {
-        Ok(loaded) => match implementation_with(&loaded.model, name, &runtime, &loaded.options, &Passes::default()) {
-            Ok(generated) => (loaded.warnings, generated.warnings, generated.tokens),
-            Err(error) => {
-                let error = compile_error(declaration, &error.to_string(), model.span());
-                let interface = PublicInterface::new(&loaded.model, &loaded.options);
-                (loaded.warnings, Vec::new(), [error, stub(&interface, name, &runtime)].into_iter().collect())
-            }
-        },
-        Err(faults) => (faults.diagnostics.0, Vec::new(), stub(&faults.interface, name, &runtime)),
+    let stubbed = |interface: &PublicInterface| {
+        let is_parametric = !interface.parameters.is_empty();
+        (stub_declaration(interface), is_parametric, stub(interface, name, &runtime))
     };
+    let (diagnostics, warnings, (struct_body, is_parametric, implementation)) =
+        match Model::load_with(&file, shown(&file), options.text.as_str()) {
+            Ok(loaded) => match implementation_with(&loaded.model, name, &runtime, &loaded.options, &Passes::default())
+            {
+                Ok(generated) => {
+                    let struct_body = (generated.declaration, generated.derives);
+                    let is_parametric = !loaded.options.parameters.is_empty();
+                    (loaded.warnings, generated.warnings, (struct_body, is_parametric, generated.tokens))
+                }
+                Err(error) => {
+                    let error = compile_error(declaration, &error.to_string(), model.span());
+                    let interface = PublicInterface::new(&loaded.model, &loaded.options);
+                    let (struct_body, is_parametric, stub) = stubbed(&interface);
+                    (loaded.warnings, Vec::new(), (struct_body, is_parametric, quote!(#error #stub)))
+                }
+            },
+            Err(faults) => (faults.diagnostics.0, Vec::new(), stubbed(&faults.interface)),
+        };
     let messages = diagnostics.iter().map(|diagnostic| {
         let (message, span) = (message(diagnostic), place(declaration, diagnostic));
         match diagnostic.severity() {
@@ -57,7 +92,7 @@ pub fn impls(declaration: &Declaration) -> TokenStream {
     });
     let warnings = warnings.iter().map(|warning| compile_warning(declaration, warning, model.span()));
     let cfgs = cfgs(declaration);
-    quote! {
+    let implementation = quote! {
         #(#messages)*
         #(#warnings)*
         #(#cfgs)*
@@ -65,7 +100,9 @@ pub fn impls(declaration: &Declaration) -> TokenStream {
             #registered
             #implementation
         };
-    }
+    };
+    let (declaration, derives) = struct_body;
+    Expanded { declaration, derives, is_parametric, implementation }
 }
 
 /// The `cfg` attributes of the struct, which its `impl`s and messages need as well.

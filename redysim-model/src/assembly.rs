@@ -1,11 +1,12 @@
 //! From a checked model to its tree of moving bodies.
 
 use crate::denoc;
-use crate::inertia::Sym3;
 use crate::joint::{Joint, JointPhysics, JointPosition};
 use crate::model::{CutKind, CutSide, Frame, Link, LinkPoint, Model, Spring};
+use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::rotation::{self, align_z};
+use crate::run_time::{LinkNumbers, Numbers, RunTimeParameter};
 use crate::spatial::{Mat3, Pose, Vec3};
 use crate::spring::{BodyPoint, BodySpring};
 use crate::tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Tree};
@@ -13,11 +14,20 @@ use crate::tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Tree};
 impl Tree {
     /// The tree of a checked model.
     pub fn new(model: &Model) -> Tree {
+        Tree::with_parameters(model, &[], &[])
+    }
+}
+
+impl<P: Parameter> Tree<P> {
+    /// The tree of a checked model in which `values` stand in place of the numbers of the `parameters`, in the order
+    /// of their [names](RunTimeParameter::names).
+    pub fn with_parameters(model: &Model, parameters: &[RunTimeParameter], values: &[P]) -> Tree<P> {
+        let numbers = Numbers::of(model).with(parameters, values);
         let mut tree = Tree {
-            gravity: model.gravity,
+            gravity: numbers.gravity,
             ground: PseudoInertia::zero(),
             bodies: Vec::new(),
-            links: model
+            links: numbers
                 .links
                 .iter()
                 .map(|link| Attachment { body: None, pose: Pose::identity(), com: link.com })
@@ -28,17 +38,17 @@ impl Tree {
         };
         let first = first_of_joints(model);
         for index in parents_first(model) {
-            let link = &model.links[index];
+            let (link, own) = (&model.links[index], &numbers.links[index]);
             let (parent, reference) = tree.on_body(link.parent);
             let placement = reference * link.placement;
             let (body, moved) = match Joint::of(link) {
                 None => (parent, placement),
-                Some(joint) => tree.add_body(parent, placement, link, joint, first[index]),
+                Some(joint) => tree.add_body(parent, placement, link, joint, first[index], own.physics),
             };
             let pose = (moved * link.frame).without_roundoff();
             tree.links[index].body = body;
             tree.links[index].pose = pose;
-            let inertia = link_inertia(link).transformed(pose).without_roundoff();
+            let inertia = link_inertia(own).transformed(Pose::constant(pose)).without_roundoff();
             let carrier = match body {
                 Some(body) => &mut tree.bodies[body].inertia,
                 None => &mut tree.ground,
@@ -58,7 +68,7 @@ impl Tree {
             let (a, b) = (self.cut_end(each.joint, &each.a), self.cut_end(each.joint, &each.b));
             self.cuts.push(Cut { joint: each.joint, a, b, rows });
         }
-        let mut kept = denoc::rows_that_vary(self).into_iter();
+        let mut kept = denoc::rows_that_vary(&self.map(|value| value.number().unwrap_or_default())).into_iter();
         for row in self.cuts.iter_mut().flat_map(|cut| &mut cut.rows) {
             *row = kept.next().unwrap_or(true);
         }
@@ -103,6 +113,7 @@ impl Tree {
         link: &Link,
         joint: Joint,
         [q, v]: [usize; 2],
+        physics: JointPhysics<P>,
     ) -> (Option<usize>, Pose<f64>) {
         let aligned = align_z(link.axis);
         let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
@@ -128,7 +139,7 @@ impl Tree {
             q: q..q + joint.nq(),
             v: v..v + joint.nv(),
             inertia: PseudoInertia::zero(),
-            physics: Some(link.physics).filter(JointPhysics::acts),
+            physics: Some(physics).filter(JointPhysics::acts),
         });
         let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)
@@ -167,8 +178,6 @@ fn parents_first(model: &Model) -> Vec<usize> {
     order
 }
 
-fn link_inertia(link: &Link) -> PseudoInertia<f64> {
-    let i = link.inertia;
-    let central = Sym3 { xx: i.xx, yy: i.yy, zz: i.zz, xy: i.xy, yz: i.yz, xz: i.xz };
-    PseudoInertia::from_central(link.mass, link.com, central)
+fn link_inertia<P: Parameter>(link: &LinkNumbers<P>) -> PseudoInertia<P> {
+    PseudoInertia::from_central(link.mass, link.com, link.inertia)
 }

@@ -33,6 +33,7 @@
 //! | [`denoc`] | the recursions over a tree: RNEA, CRBA, ABA and others in the DeNOC form, for any scalar |
 //! | [`frames`], [`regroup`], [`scaling`] | other descriptions of the same robot, for which the recursions cost less |
 //! | [`spatial`], [`inertia`], [`pseudo`], [`rotation`] | vectors, twists, wrenches, inertias and rotations |
+//! | [`RunTimeParameter`], [`Quantity`] | the numbers of a model that compiled code is given at run time |
 //! | [`Mobility`], [`LockError`] | independent velocities of closed loops; joints that are locked |
 
 mod assembly;
@@ -56,6 +57,7 @@ mod public_interface;
 pub mod regroup;
 pub mod rotation;
 mod roundoff;
+mod run_time;
 pub mod scaling;
 mod schema;
 pub mod spatial;
@@ -70,9 +72,10 @@ pub use lock::LockError;
 pub use mobility::Mobility;
 pub use model::{CutKind, CutSide, Frame, Inertia, JointKind, JointRange, Link, LinkPoint, Loop, Model, Spring};
 pub use options::{AccelerationMethod, CodegenOptions};
-pub use public_interface::{MovingJoint, PublicInterface};
+pub use public_interface::{MovingJoint, ParameterNumber, PublicInterface};
 pub use redysim_runtime::{Function, Functions};
 pub use redysim_toml::{Diagnostic, Diagnostics, Severity};
+pub use run_time::{Quantity, RunTimeParameter};
 pub use schema::{key_documentation, option_names};
 pub use spring::{BodyPoint, BodySpring};
 pub use tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Tree};

@@ -1,10 +1,11 @@
 //! Options of code generation: what is traced, generated and compiled.
 
+use crate::run_time::RunTimeParameter;
 use redysim_runtime::Functions;
 
 /// Options of code generation. The default is every function, without pruning.
 ///
-/// A model file may have options, under its keys `functions`, `locked`, `tolerance` and `forward_dynamics`. Each key
+/// A model file may have options, under its keys `functions`, `locked`, `tolerance`, `forward_dynamics` and `parameters`. Each key
 /// that is given to `redysim!` takes precedence over the file's. Locked joints are not among the options: in a loaded
 /// model they are fixed already.
 ///
@@ -16,7 +17,7 @@ use redysim_runtime::Functions;
 /// assert!(options.functions.contains(Function::MassMatrix) && !options.functions.contains(Function::Energy));
 /// assert!(CodegenOptions::default().functions.contains(Function::Energy));
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct CodegenOptions {
     /// The functions that are generated, beside those of `ConfigurationSpace`, which every mechanism has.
     pub functions: Functions,
@@ -25,6 +26,8 @@ pub struct CodegenOptions {
     pub tolerance: Option<f64>,
     /// How forward dynamics is computed.
     pub forward_dynamics: AccelerationMethod,
+    /// The numbers that are given at run time. With any, nothing is pruned.
+    pub parameters: Vec<RunTimeParameter>,
 }
 
 /// How compiled forward dynamics is computed: the key `forward_dynamics` of a model file or a declaration.

@@ -23,13 +23,17 @@ pub struct PseudoInertia<S> {
     pub second: Sym3<S>,
 }
 
-impl PseudoInertia<f64> {
+impl<P: Parameter> PseudoInertia<P> {
     /// The body of the given mass, centre of mass, and inertia tensor J about it: Σ = ½ tr(J) 1 − J + m c cᵀ.
-    pub fn from_central(mass: f64, com: Vec3<f64>, central: Sym3<f64>) -> Self {
+    pub fn from_central(mass: P, com: Vec3<P>, central: Sym3<P>) -> Self {
         let j = central;
         // Halves of sums of three: what is below their roundoff is none.
-        let size = 4.0 * f64::EPSILON * j.xx.abs().max(j.yy.abs()).max(j.zz.abs());
-        let half = |sum: f64| if sum.abs() < size { 0.0 } else { 0.5 * sum };
+        let known = [j.xx, j.yy, j.zz].into_iter().filter_map(Parameter::number);
+        let size = 4.0 * f64::EPSILON * known.fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let half = |sum: P| match sum.number() {
+            Some(number) if number.abs() < size => P::zero(),
+            _ => P::from_f64(0.5) * sum,
+        };
         let own = Sym3 {
             xx: half(j.yy + j.zz - j.xx),
             yy: half(j.zz + j.xx - j.yy),

@@ -3,9 +3,10 @@
 use crate::joint::Joint;
 use crate::model::Model;
 use crate::options::CodegenOptions;
+use crate::run_time::RunTimeParameter;
 use crate::tree::Tree;
-use redysim_runtime::Functions;
 use redysim_runtime::function::Dimension;
+use redysim_runtime::{Functions, ParameterRule};
 
 /// The public interface of a generated type: its names, sizes and functions. A model whose file has faults has one as
 /// far as the file can be read.
@@ -25,6 +26,19 @@ pub struct PublicInterface {
     pub mass: f64,
     /// The functions of the type.
     pub functions: Functions,
+    /// The numbers that the type is given at run time.
+    pub parameters: Vec<ParameterNumber>,
+}
+
+/// A number that a type is given at run time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterNumber {
+    /// Its name.
+    pub name: String,
+    /// Its value in the model; zero if it cannot be read.
+    pub value: f64,
+    /// What it must fulfil.
+    pub rule: ParameterRule,
 }
 
 /// A joint that moves, as users of a generated type see it.
@@ -69,6 +83,10 @@ impl PublicInterface {
     pub fn new(model: &Model, options: &CodegenOptions) -> Self {
         let joints =
             model.moving_links().map(|link| MovingJoint::new(link.joint_name.clone(), Joint::of(link), link.actuated));
+        let numbers = |parameter: &RunTimeParameter| {
+            let (rule, named) = (parameter.quantity.rule(), parameter.names(model).zip(parameter.values(model)));
+            named.map(move |(name, value)| ParameterNumber { name, value, rule })
+        };
         PublicInterface {
             name: model.name.clone(),
             links: model.links.iter().map(|link| link.name.clone()).collect(),
@@ -77,6 +95,7 @@ impl PublicInterface {
             frames: model.frames.iter().map(|frame| frame.name.clone()).collect(),
             mass: model.mass(),
             functions: options.functions.with_frames(model.frames.len()),
+            parameters: options.parameters.iter().flat_map(numbers).collect(),
         }
     }
 }

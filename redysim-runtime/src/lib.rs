@@ -75,6 +75,7 @@ mod linear_algebra;
 mod mechanism;
 mod operational_space;
 mod operations;
+mod parameters;
 #[cfg(feature = "lanes")]
 mod registers;
 mod scalar;
@@ -114,6 +115,7 @@ pub use mechanism::{
 };
 pub use operational_space::{OperationalSpace, OperationalSpaceError, TaskStatus};
 pub use operations::OperationCount;
+pub use parameters::{Lift, ParameterError, ParameterRule, check_parameters};
 pub use scalar::{FUSED, Real, Scalar};
 #[cfg(feature = "simulation")]
 pub use simulate::{ForwardSimulation, SimulationState};

@@ -36,6 +36,12 @@ impl Gripper {
     pub const NC: usize = 0;
     /// Number of frames of interest.
     pub const NF: usize = 0;
+    /// Number of run-time parameters.
+    pub const NP: usize = 0;
+    /// Names of the run-time parameters.
+    pub const PARAMETER_NAMES: [&'static str; 0] = [];
+    /// The values that the run-time parameters have in the model.
+    pub const PARAMETERS: [f64; 0] = [];
     /// Mass of all links, kg.
     pub const MASS: f64 = 1f64;
     /// Names of the links, in the model's order.
@@ -1265,28 +1271,28 @@ impl Gripper {
 }
 impl ::redysim_runtime::Mechanism for Gripper {
     fn name(&self) -> &str {
-        Self::NAME
+        <Gripper>::NAME
     }
     fn nq(&self) -> usize {
-        Self::NQ
+        <Gripper>::NQ
     }
     fn nv(&self) -> usize {
-        Self::NV
+        <Gripper>::NV
     }
     fn nl(&self) -> usize {
-        Self::NL
+        <Gripper>::NL
     }
     fn link_name(&self, index: usize) -> ::core::option::Option<&str> {
-        Self::LINK_NAMES.get(index).copied()
+        <Gripper>::LINK_NAMES.get(index).copied()
     }
     fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
-        Self::JOINT_NAMES.get(index).copied()
+        <Gripper>::JOINT_NAMES.get(index).copied()
     }
     fn nf(&self) -> usize {
-        Self::NF
+        <Gripper>::NF
     }
     fn frame_name(&self, index: usize) -> ::core::option::Option<&str> {
-        Self::FRAME_NAMES.get(index).copied()
+        <Gripper>::FRAME_NAMES.get(index).copied()
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::ConfigurationSpace<S> for Gripper {
@@ -1414,10 +1420,10 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LinkKinematics<S> for Grip
 }
 impl ::redysim_runtime::LoopRows for Gripper {
     fn nc(&self) -> usize {
-        Self::NC
+        <Gripper>::NC
     }
     fn loop_name(&self, row: usize) -> ::core::option::Option<&str> {
-        Self::LOOP_NAMES.get(row).copied()
+        <Gripper>::LOOP_NAMES.get(row).copied()
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LoopClosure<S, Gripper>

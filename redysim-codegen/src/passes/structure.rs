@@ -39,7 +39,7 @@ fn broken_node(before: &Graph, after: &Graph, index: usize) -> Option<PassFault>
 fn is_canonical(graph: &Graph, node: Node) -> bool {
     let constant = |edge: Edge| graph.constant_value(edge);
     match node {
-        Node::Input { .. } => true,
+        Node::Input { .. } | Node::Parameter { .. } => true,
         Node::Constant(bits) => !f64::from_bits(bits).is_sign_negative(),
         Node::Add(a, b) | Node::Subtract(a, b) => {
             !(a.is_negative() || b.is_negative())
@@ -47,7 +47,7 @@ fn is_canonical(graph: &Graph, node: Node) -> bool {
                 && !(constant(a).is_some() && constant(b).is_some())
         }
         Node::Multiply(a, b) => {
-            let is_ordered = constant(a).is_some() || a.node() <= b.node();
+            let is_ordered = constant(a).is_some() || graph.order(a) <= graph.order(b);
             let is_trivial = constant(a).is_some_and(|factor| factor == 0.0 || factor == 1.0);
             !(a.is_negative() || b.is_negative()) && constant(b).is_none() && is_ordered && !is_trivial
         }

@@ -1,13 +1,14 @@
 //! Like terms of a sum become one: x·c + y + x·d is x·(c + d) + y.
 //!
 //! A constructor of the graph sees two terms at a time; this pass sees a whole sum, through all additions whose only
-//! use is the sum. Constants are added, and a coefficient that is only roundoff vanishes.
+//! use is the sum. What is given at run time is one term with the constants, also where a sum with such a
+//! term is used by several that have one of their own. Constants are added, and a coefficient that is only roundoff vanishes.
 //!
 //! In a long function each body is treated by itself, so that uniform bodies stay uniform and their code can be a loop:
 //! a sum does not extend into the steps of other bodies. What other sweeps have computed counts as ready, what the same
 //! sweep has computed at another body as late.
 
-use super::terms::with_sums;
+use super::terms::{inner_sums_and_offsets, with_sums};
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node, Step, sum_without_noise};
 use std::cmp::Reverse;
@@ -16,11 +17,10 @@ use std::collections::{BinaryHeap, HashMap};
 /// The expressions with like terms collected.
 pub fn collected(expressions: &Expressions) -> Expressions {
     let mut depths = Depths { by_body: expressions.is_long(), depths: Vec::new(), in_step: Vec::new() };
-    with_sums(expressions, |graph, terms, mapped| {
+    with_sums(expressions, &inner_sums_and_offsets(expressions), |graph, terms, mapped| {
         let (constant, coefficients) = collect(graph, terms, mapped);
-        let mut terms = vec![graph.constant(constant)];
+        let mut terms = vec![constant];
         for (base, factor) in coefficients {
-            let factor = graph.constant(factor);
             terms.push(graph.multiply(factor, base));
         }
         terms.retain(|&term| graph.constant_value(term) != Some(0.0));
@@ -29,24 +29,54 @@ pub fn collected(expressions: &Expressions) -> Expressions {
     })
 }
 
-/// The constant and, in the order in which they are met, the coefficients of all other terms of a sum.
-fn collect(graph: &Graph, operands: &[Edge], mapped: &dyn Fn(Edge) -> Edge) -> (f64, Vec<(Edge, f64)>) {
-    let mut constant = 0.0;
-    let mut terms: Vec<(Edge, f64)> = Vec::new();
+/// What does not depend on the arguments and, in the order in which they are met, the coefficients of all other terms of
+/// a sum.
+fn collect(graph: &mut Graph, operands: &[Edge], mapped: &dyn Fn(Edge) -> Edge) -> (Edge, Vec<(Edge, Edge)>) {
+    let mut fixed = Coefficient::default();
+    let mut terms: Vec<(Edge, Coefficient)> = Vec::new();
     let mut places: HashMap<Edge, usize> = HashMap::new();
     for edge in operands.iter().map(|&operand| mapped(operand)) {
-        if let Some(value) = graph.constant_value(edge) {
-            constant = sum_without_noise(constant, value);
+        if graph.is_fixed(edge) {
+            fixed.add(graph, edge);
             continue;
         }
-        let (factor, base) = graph.coefficient(edge);
+        let (factor, base) = match graph.fixed_coefficient(edge) {
+            (Some(factor), base) => (factor, base),
+            (None, _) => {
+                let (factor, base) = graph.coefficient(edge);
+                (graph.constant(factor), base)
+            }
+        };
         let place = *places.entry(base).or_insert(terms.len());
         if place == terms.len() {
-            terms.push((base, 0.0));
+            terms.push((base, Coefficient::default()));
         }
-        terms[place].1 = sum_without_noise(terms[place].1, factor);
+        terms[place].1.add(graph, factor);
     }
-    (constant, terms)
+    let mut whole = |coefficient: Coefficient| coefficient.whole(graph);
+    (whole(fixed), terms.into_iter().map(|(base, coefficient)| (base, whole(coefficient))).collect())
+}
+
+/// A sum of numbers that do not depend on the arguments of the function.
+#[derive(Default)]
+struct Coefficient {
+    constant: f64,
+    /// What depends on parameters.
+    given: Option<Edge>,
+}
+
+impl Coefficient {
+    fn add(&mut self, graph: &mut Graph, factor: Edge) {
+        match graph.constant_value(factor) {
+            Some(value) => self.constant = sum_without_noise(self.constant, value),
+            None => self.given = Some(self.given.map_or(factor, |given| graph.add(given, factor))),
+        }
+    }
+
+    fn whole(self, graph: &mut Graph) -> Edge {
+        let constant = graph.constant(self.constant);
+        self.given.map_or(constant, |given| graph.add(constant, given))
+    }
 }
 
 /// The length of the longest chain of operations that each node of a graph waits for.
@@ -66,7 +96,7 @@ impl Depths {
         for index in self.depths.len()..graph.len() {
             // In units of an addition: a division takes several times as long, and sines come before all else.
             let own = match graph.node(index) {
-                Node::Input { .. } | Node::Constant(_) => 0,
+                Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => 0,
                 Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
                 Node::Divide(..) | Node::Sqrt(_) => 4,
             };

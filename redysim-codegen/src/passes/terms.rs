@@ -3,9 +3,10 @@
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 
-/// Additions and subtractions that are only part of one larger sum; if `by_body`, of one in the same step of a
+/// Additions and subtractions that are only part of one larger sum; in a long function, of one in the same step of a
 /// recursion.
-fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
+pub fn inner_sums(expressions: &Expressions) -> Vec<bool> {
+    let (graph, uses, by_body) = (&expressions.graph, expressions.uses(), expressions.is_long());
     let mut inner = vec![false; graph.len()];
     for index in (0..graph.len()).rev() {
         if uses[index] == 0 {
@@ -18,6 +19,31 @@ fn inner_sums(graph: &Graph, uses: &[usize], by_body: bool) -> Vec<bool> {
                 inner[operand] |= is_sum && uses[operand] == 1 && within_reach;
             }
         }
+    }
+    inner
+}
+
+/// [`inner_sums`] with sums of a value and one that is given at run time, where only sums use them that have a fixed term
+/// of their own: the two fixed terms are one, so that nothing has to compute the smaller sum.
+pub fn inner_sums_and_offsets(expressions: &Expressions) -> Vec<bool> {
+    let (graph, uses, by_body) = (&expressions.graph, expressions.uses(), expressions.is_long());
+    let mut inner = inner_sums(expressions);
+    let is_sum = |node: usize| matches!(graph.node(node), Node::Add(..) | Node::Subtract(..));
+    let offset = |node: usize| {
+        let is_given = |operand: Edge| graph.is_fixed(operand) && graph.constant_value(operand).is_none();
+        is_sum(node) && graph.node(node).operands().any(is_given) && !inner[node]
+    };
+    let mut absorbed = vec![0; graph.len()];
+    for root in (0..graph.len()).filter(|&node| uses[node] > 0 && is_sum(node) && !inner[node]) {
+        let terms = terms(graph, root, &inner);
+        if terms.iter().any(|&term| graph.is_fixed(term)) {
+            let within_reach = |node: usize| !by_body || graph.step(node) == graph.step(root);
+            let offsets = terms.iter().map(|term| term.node()).filter(|&node| offset(node) && within_reach(node));
+            offsets.for_each(|node| absorbed[node] += 1);
+        }
+    }
+    for node in (0..graph.len()).filter(|&node| absorbed[node] > 0 && absorbed[node] == uses[node]) {
+        inner[node] = true;
     }
     inner
 }
@@ -40,19 +66,20 @@ fn terms(graph: &Graph, root: usize, inner: &[bool]) -> Vec<Edge> {
     terms
 }
 
-/// The live nodes in a new graph, with sums made by `sum` from their terms in the old graph.
+/// The live nodes in a new graph, with sums made by `sum` from their terms in the old graph; `inner` marks those that are
+/// part of others.
 pub fn with_sums(
     expressions: &Expressions,
+    inner: &[bool],
     mut sum: impl FnMut(&mut Graph, &[Edge], &dyn Fn(Edge) -> Edge) -> Edge,
 ) -> Expressions {
     let old = &expressions.graph;
     let uses = expressions.uses();
-    let inner = inner_sums(old, &uses, expressions.is_long());
     expressions.rebuilt(
         |index| uses[index] > 0 && !inner[index],
         |graph, index, mapped| {
             let edge = match old.node(index) {
-                Node::Add(..) | Node::Subtract(..) => sum(graph, &terms(old, index, &inner), mapped),
+                Node::Add(..) | Node::Subtract(..) => sum(graph, &terms(old, index, inner), mapped),
                 node => graph.rebuild(node, mapped),
             };
             (edge, old.name(index))

@@ -119,6 +119,8 @@ pub enum Value {
     Variable(String),
     /// An element of an argument, which the function's signature numbers.
     Argument(usize, Index),
+    /// A number that is given at run time, once for all calls, by its place.
+    Given(usize),
     /// An element of an array of sines or cosines.
     Trig(Trig, Index),
     /// An element of the array of values that are read after a loop: array, group, column.
@@ -194,6 +196,7 @@ impl Value {
             Value::Constant(_)
             | Value::GroupConstant(_)
             | Value::Argument(..)
+            | Value::Given(_)
             | Value::Trig(..)
             | Value::LiveOut(..) => {}
         }

@@ -43,6 +43,7 @@ impl Run<'_> {
             Value::GroupConstant(column) => self.group.as_ref().expect("a loop").1[*column],
             Value::Variable(name) => *self.variables.get(name).unwrap_or_else(|| panic!("{name} is not defined")),
             Value::Argument(argument, index) => self.arguments[*argument][self.place(*index)],
+            Value::Given(_) => panic!("the robot has no parameters"),
             Value::Trig(array, index) => self.trig(*array)[self.place(*index)],
             Value::LiveOut(array, group, column) => self.arrays[array][*group][*column],
             Value::Negative(a) => -self.value(a),

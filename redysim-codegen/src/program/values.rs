@@ -42,6 +42,7 @@ impl Builder<'_> {
                 let index = self.element(index as usize, scope);
                 signed(Value::Argument(usize::from(argument), index), negative)
             }
+            Node::Parameter { index, .. } => signed(Value::Given(index as usize), negative),
             Node::Sin(_) => signed(self.trig(Trig::Sines, index, scope), negative),
             Node::Cos(_) => signed(self.trig(Trig::Cosines, index, scope), negative),
             Node::Subtract(..) => self.operation(index, edge.is_negative(), scope),
@@ -59,8 +60,8 @@ impl Builder<'_> {
             Node::Multiply(a, b) => Value::Product(boxed(a, 0), boxed(b, 1)),
             Node::Divide(a, b) => Value::Quotient(boxed(a, 0), boxed(b, 1)),
             Node::Sqrt(a) => Value::SquareRoot(boxed(a, 0)),
-            Node::Sin(_) | Node::Cos(_) | Node::Input { .. } | Node::Constant(_) => {
-                unreachable!("sines, cosines, inputs and constants are not operations")
+            Node::Sin(_) | Node::Cos(_) | Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => {
+                unreachable!("sines, cosines, inputs, parameters and constants are not operations")
             }
         }
     }

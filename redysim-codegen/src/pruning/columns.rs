@@ -60,7 +60,7 @@ pub fn evaluate(expressions: &Expressions, live: &[usize], arguments: &[Columns]
             Node::Input { argument, index } => {
                 out.copy_from_slice(arguments[usize::from(argument)].column(index as usize));
             }
-            Node::Constant(bits) => out.fill(f64::from_bits(bits)),
+            Node::Constant(bits) | Node::Parameter { nominal: bits, .. } => out.fill(f64::from_bits(bits)),
             Node::Add(a, b) => sum(out, of(a), of(b)),
             Node::Subtract(a, b) => difference(out, of(a), of(b)),
             Node::Multiply(a, b) => product(out, of(a), of(b)),
@@ -100,7 +100,7 @@ pub fn derivatives(expressions: &Expressions, output: Edge, values: &Columns) ->
             part(derivatives[edge.node()].get_or_insert_with(|| vec![0.0; own.len()]));
         };
         match expressions.graph.node(node) {
-            Node::Input { .. } | Node::Constant(_) => {}
+            Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => {}
             Node::Sin(a) => {
                 let cosines: Vec<f64> = at(a).iter().map(|&x| sign(a) * Scalar::sin_cos(x).1).collect();
                 accumulate(a, &|out| add_product(out, &own, &cosines));

@@ -30,7 +30,7 @@ pub fn candidates(graph: &Graph, live: &[usize], values: &Columns) -> Vec<Replac
         let column = values.column(node);
         let mut offer = |by| found.push(Replacement { node, by });
         match graph.node(node) {
-            Node::Input { .. } | Node::Constant(_) => continue,
+            Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => continue,
             Node::Add(a, b) => [a, b].into_iter().for_each(|edge| offer(Simpler::Operand(edge))),
             Node::Subtract(a, b) => [a, -b].into_iter().for_each(|edge| offer(Simpler::Operand(edge))),
             Node::Multiply(a, b) => {
@@ -154,7 +154,7 @@ impl<'a> Simplification<'a> {
 /// A sine or cosine is half a pair.
 fn price(node: Node) -> u32 {
     match node {
-        Node::Input { .. } | Node::Constant(_) => 0,
+        Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => 0,
         Node::Sin(_) | Node::Cos(_) => PRICE_PER_PAIR / 2,
         Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) | Node::Divide(..) | Node::Sqrt(_) => 1,
     }

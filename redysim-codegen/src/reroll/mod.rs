@@ -292,5 +292,5 @@ fn operations(expressions: &Expressions) -> Vec<bool> {
 
 /// Whether a node is neither an input, a constant, a sine nor a cosine.
 pub fn is_operation(node: Node) -> bool {
-    !matches!(node, Node::Input { .. } | Node::Constant(_) | Node::Sin(_) | Node::Cos(_))
+    !matches!(node, Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } | Node::Sin(_) | Node::Cos(_))
 }

@@ -121,7 +121,10 @@ impl Signs {
 
     /// The element that stands for the sign of an operand: inputs, sines and cosines are what they are.
     fn element(&self, graph: &Graph, edge: Edge) -> usize {
-        let fixed = matches!(graph.node(edge.node()), Node::Input { .. } | Node::Sin(_) | Node::Cos(_));
+        let fixed = matches!(
+            graph.node(edge.node()),
+            Node::Input { .. } | Node::Parameter { .. } | Node::Sin(_) | Node::Cos(_)
+        );
         if fixed { self.plus } else { edge.node() }
     }
 

@@ -47,6 +47,8 @@ enum Operand {
         body: isize,
         position: usize,
     },
+    /// A number that is given at run time, the same at every body.
+    Parameter(u32),
     /// An operation that belongs to no step.
     Outside(usize),
 }
@@ -71,6 +73,7 @@ impl Steps {
             let operand = |edge: Edge| match graph.node(edge.node()) {
                 Node::Constant(_) => Operand::Constant,
                 Node::Input { argument, index } => Operand::Input { argument, index: index as isize - body as isize },
+                Node::Parameter { index, .. } => Operand::Parameter(index),
                 Node::Sin(_) => Operand::Sin(positions[&edge.node()] as isize - body as isize),
                 Node::Cos(_) => Operand::Cos(positions[&edge.node()] as isize - body as isize),
                 _ => match step_of[edge.node()] {

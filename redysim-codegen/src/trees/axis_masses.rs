@@ -6,14 +6,20 @@
 
 use super::neighbourhood::neighbourhood;
 use super::{Cost, KeepsDigits};
+use crate::symbol::{Symbol, SymbolicTree};
 use redysim_model::Tree;
 use redysim_model::joint::AxisMass;
 use redysim_model::parameter::Parameter;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::regroup::take_from_parent;
+use redysim_runtime::Scalar;
 
 /// The tree, of base parameters, with masses on its axes where they lower the cost and cost no digits.
-pub fn placed<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
+pub fn placed<'p>(
+    tree: &SymbolicTree<'p>,
+    cost: Cost<Symbol<'p>>,
+    keeps_digits: KeepsDigits<Symbol<'p>>,
+) -> SymbolicTree<'p> {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
         if tree.bodies[body].parent.is_none() || !tree.bodies[body].joint.shares_axis_mass() {
@@ -54,21 +60,20 @@ enum MomentOrder {
 }
 
 impl MomentOrder {
-    /// The largest known moment of this order in the robot. Base parameters have moved most of the mass to the ground,
+    /// The largest moment of this order in the robot. Base parameters have moved most of the mass to the ground,
     /// whose other moments depend on where the robot stands.
-    fn largest<P: Parameter>(self, tree: &Tree<P>) -> f64 {
-        let ground = if let MomentOrder::Zeroth = self { tree.ground.mass } else { P::zero() };
+    fn largest(self, tree: &SymbolicTree) -> f64 {
+        let ground = if let MomentOrder::Zeroth = self { tree.ground.mass } else { Symbol::zero() };
         let values = tree.bodies.iter().flat_map(|body| match self {
-            MomentOrder::Zeroth => [body.inertia.mass, P::zero(), P::zero()],
+            MomentOrder::Zeroth => [body.inertia.mass, Symbol::zero(), Symbol::zero()],
             MomentOrder::First => body.inertia.moment.0,
             MomentOrder::Second => [body.inertia.second.xx, body.inertia.second.yy, body.inertia.second.zz],
         });
-        let known = values.chain([ground]).filter_map(Parameter::number);
-        known.fold(0.0, |largest, value| largest.max(value.abs()))
+        values.chain([ground]).fold(0.0, |largest, value| largest.max(value.nominal().abs()))
     }
 
-    fn times<P: Parameter>(self, amount: f64) -> AxisMass<P> {
-        let (none, amount) = (AxisMass::zero(), P::from_f64(amount));
+    fn times<P: Parameter>(self, amount: P) -> AxisMass<P> {
+        let none = AxisMass::zero();
         match self {
             MomentOrder::Zeroth => AxisMass { mass: amount, ..none },
             MomentOrder::First => AxisMass { first: amount, ..none },
@@ -77,21 +82,29 @@ impl MomentOrder {
     }
 }
 
-/// The amounts of mass that make one number of the parent vanish. Numbers that are not known before run time stay.
-fn candidates<P: Parameter>(tree: &Tree<P>, body: usize, order: MomentOrder) -> Vec<f64> {
+/// The amounts of mass that make one number of the parent vanish.
+fn candidates<'p>(tree: &SymbolicTree<'p>, body: usize, order: MomentOrder) -> Vec<Symbol<'p>> {
     let Some(parent) = tree.bodies[body].parent else { return Vec::new() };
     let now = numbers(tree, parent);
     let mut changed = tree.clone();
-    take_from_parent(&mut changed, body, order.times(1.0));
+    take_from_parent(&mut changed, body, order.times(Symbol::Constant(1.0)));
     let then = numbers(&changed, parent);
+    // What a unit of mass does to a number does not depend on the number.
+    let mut unit = tree.map(|_| 0.0);
+    take_from_parent(&mut unit, body, order.times(1.0));
+    let changes = numbers(&unit, parent);
     // With a short lever the mass would be large, and cost the others digits.
     let most = order.largest(tree);
-    let mut found: Vec<f64> = Vec::new();
-    for (now, then) in now.into_iter().zip(then) {
-        let (Some(now), Some(then)) = (now, then) else { continue };
-        // The number falls by `now − then` for each unit.
-        let amount = now / (now - then);
-        if now != 0.0 && amount.abs() <= most && !found.contains(&amount) {
+    let mut found: Vec<Symbol> = Vec::new();
+    for ((now, then), change) in now.into_iter().zip(then).zip(changes) {
+        let amount = match (now.number(), then.number()) {
+            (Some(0.0), _) => continue,
+            (Some(now), Some(then)) => Symbol::Constant(now / (now - then)),
+            _ if change == 0.0 => continue,
+            _ => now / Symbol::Constant(-change),
+        };
+        let is_new = |other: &Symbol| amount.number().is_none() || other.number() != amount.number();
+        if amount.nominal().abs() <= most && found.iter().all(is_new) {
             found.push(amount);
         }
     }
@@ -99,7 +112,7 @@ fn candidates<P: Parameter>(tree: &Tree<P>, body: usize, order: MomentOrder) -> 
 }
 
 /// The numbers of a body that no mass on its own axis cancels.
-fn numbers<P: Parameter>(tree: &Tree<P>, body: usize) -> [Option<f64>; 7] {
+fn numbers<P: Parameter>(tree: &Tree<P>, body: usize) -> [P; 7] {
     let PseudoInertia { moment, second: s, .. } = tree.bodies[body].inertia;
-    [moment[0], moment[1], s.xx, s.yy, s.xy, s.xz, s.yz].map(Parameter::number)
+    [moment[0], moment[1], s.xx, s.yy, s.xy, s.xz, s.yz]
 }

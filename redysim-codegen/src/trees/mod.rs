@@ -7,14 +7,13 @@ pub mod axis_masses;
 pub mod frames;
 pub mod neighbourhood;
 pub mod parallel_axes;
-#[cfg(test)]
-mod tests;
 pub mod units;
 
 use crate::accuracy::{MEASURED, Reference};
 use crate::expressions::Expressions;
 use crate::passes::{PassError, Passes};
 use crate::policies::{MOST_LOST_BY_DESCRIPTION, ROUNDINGS};
+use crate::symbol::{Symbol, SymbolicTree};
 use crate::tracing::{simplified_on, traced_on};
 use redysim_model::joint::Vanishing;
 use redysim_model::regroup::move_to_parent;
@@ -22,9 +21,9 @@ use redysim_model::{Function, Tree};
 use std::cell::OnceCell;
 
 /// The cost of a function on a tree, in operations.
-pub type Cost<'a, P = f64> = &'a dyn Fn(&Tree<P>) -> u32;
+pub type Cost<'a, P> = &'a dyn Fn(&Tree<P>) -> u32;
 /// Whether a tree keeps the digits that the model's own description has.
-pub type KeepsDigits<'a, P = f64> = &'a dyn Fn(&Tree<P>) -> bool;
+pub type KeepsDigits<'a, P> = &'a dyn Fn(&Tree<P>) -> bool;
 
 /// The functions on the tree for inverse dynamics.
 const FORCES: &[Function] = &[Function::InverseDynamics, Function::BiasForces];
@@ -34,21 +33,21 @@ const MATRIX: &[Function] = &[Function::MassMatrix, Function::GravityForces];
 /// The descriptions of a robot for its functions, each made when it is first needed.
 ///
 /// A pass is applied to the whole robot. If that costs digits, it is applied body by body, without the steps that do.
-pub struct Trees<'a> {
-    tree: &'a Tree,
+pub struct Trees<'a, 'p> {
+    tree: &'a SymbolicTree<'p>,
     passes: &'a Passes,
     reference: &'a Reference<'a>,
     /// The loss of each function in any description.
     least_losses: [OnceCell<f64>; Function::ALL.len()],
-    plain: OnceCell<Tree>,
-    base: OnceCell<Tree>,
-    matrix: OnceCell<Tree>,
-    bias: OnceCell<Tree>,
+    plain: OnceCell<SymbolicTree<'p>>,
+    base: OnceCell<SymbolicTree<'p>>,
+    matrix: OnceCell<SymbolicTree<'p>>,
+    bias: OnceCell<SymbolicTree<'p>>,
 }
 
-impl<'a> Trees<'a> {
+impl<'a, 'p> Trees<'a, 'p> {
     /// The descriptions that the given passes make of `tree`, of which `reference` has the exact values.
-    pub fn new(tree: &'a Tree, passes: &'a Passes, reference: &'a Reference<'a>) -> Self {
+    pub fn new(tree: &'a SymbolicTree<'p>, passes: &'a Passes, reference: &'a Reference<'a>) -> Self {
         let [plain, base, matrix, bias] = [const { OnceCell::new() }; 4];
         Trees {
             tree,
@@ -68,8 +67,9 @@ impl<'a> Trees<'a> {
     }
 
     /// Whether a description of the robot keeps the digits of the functions.
-    fn keeps_digits(&self, tree: &Tree, functions: &[Function]) -> bool {
-        functions.iter().all(|&function| self.reference.loss_on(tree, function) <= self.allowed_loss(function))
+    fn keeps_digits(&self, tree: &SymbolicTree<'p>, functions: &[Function]) -> bool {
+        let nominal = tree.map(Symbol::nominal);
+        functions.iter().all(|&function| self.reference.loss_on(&nominal, function) <= self.allowed_loss(function))
     }
 
     /// The loss that a function may have.
@@ -81,7 +81,7 @@ impl<'a> Trees<'a> {
     }
 
     /// The descriptions on which a function may be computed, from the cheapest to the model's own.
-    fn descriptions(&self, function: Function) -> [&Tree; 3] {
+    fn descriptions(&self, function: Function) -> [&SymbolicTree<'p>; 3] {
         let cheapest = if FORCES.contains(&function) {
             self.bias()
         } else if MATRIX.contains(&function) {
@@ -106,10 +106,10 @@ impl<'a> Trees<'a> {
     }
 
     /// With the inertias of the model.
-    pub fn plain(&self) -> &Tree {
+    pub fn plain(&self) -> &SymbolicTree<'p> {
         self.plain.get_or_init(|| {
             if self.passes.frames {
-                let cost = |tree: &Tree| inverse_price(tree) + matrix_price(tree);
+                let cost = |tree: &SymbolicTree<'p>| inverse_price(tree) + matrix_price(tree);
                 self.without_loss(&MEASURED, |keeps_digits| frames::chosen(self.tree, &cost, keeps_digits))
             } else {
                 self.tree.clone()
@@ -118,17 +118,21 @@ impl<'a> Trees<'a> {
     }
 
     /// The tree that `pass` makes. If that costs digits, the one that it makes if each of its steps must keep them.
-    fn without_loss(&self, functions: &[Function], pass: impl Fn(KeepsDigits) -> Tree) -> Tree {
+    fn without_loss(
+        &self,
+        functions: &[Function],
+        pass: impl Fn(KeepsDigits<Symbol<'p>>) -> SymbolicTree<'p>,
+    ) -> SymbolicTree<'p> {
         let all = pass(&|_| true);
         if self.keeps_digits(&all, functions) { all } else { pass(&|tree| self.keeps_digits(tree, functions)) }
     }
 
     /// With base parameters, for which joint forces, the mass matrix and the total energies are the same.
-    fn base(&self) -> &Tree {
+    fn base(&self) -> &SymbolicTree<'p> {
         self.base.get_or_init(|| self.regrouped(Vanishing::SecondMomentZz))
     }
 
-    fn regrouped(&self, vanishing: Vanishing) -> Tree {
+    fn regrouped(&self, vanishing: Vanishing) -> SymbolicTree<'p> {
         let plain = self.plain();
         if !self.passes.base_parameters {
             return plain.clone();
@@ -147,28 +151,28 @@ impl<'a> Trees<'a> {
     }
 
     /// The candidates for a function of M(q) and its derivatives.
-    pub fn dynamics(&self) -> Vec<Tree> {
+    pub fn dynamics(&self) -> Vec<SymbolicTree<'p>> {
         [self.matrix(), self.bias(), self.plain()].map(Tree::clone).into()
     }
 
     /// The candidates for the energies.
-    pub fn energy(&self) -> Vec<Tree> {
+    pub fn energy(&self) -> Vec<SymbolicTree<'p>> {
         vec![self.regrouped(Vanishing::TensorYy), self.matrix().clone()]
     }
 
     /// The candidates for the centre of mass: with the inertias of the model, or with mass moved towards the ground.
-    pub fn moments(&self) -> Vec<Tree> {
+    pub fn moments(&self) -> Vec<SymbolicTree<'p>> {
         self.kinematics().into_iter().chain([self.regrouped(Vanishing::TensorYy)]).collect()
     }
 
     /// The candidates for positions and velocities.
-    pub fn kinematics(&self) -> Vec<Tree> {
+    pub fn kinematics(&self) -> Vec<SymbolicTree<'p>> {
         let merged = if self.passes.parallel_axes { parallel_axes::merged_everywhere(self.tree) } else { None };
         std::iter::once(self.tree.clone()).chain(merged).collect()
     }
 
     /// For the mass matrix and gravity forces.
-    pub fn matrix(&self) -> &Tree {
+    pub fn matrix(&self) -> &SymbolicTree<'p> {
         self.matrix.get_or_init(|| {
             let merged = self.merged(MATRIX, &matrix_price);
             self.in_unit(MATRIX, merged, mass_matrix)
@@ -176,7 +180,7 @@ impl<'a> Trees<'a> {
     }
 
     /// For inverse dynamics and bias forces.
-    pub fn bias(&self) -> &Tree {
+    pub fn bias(&self) -> &SymbolicTree<'p> {
         self.bias.get_or_init(|| {
             let mut bias = self.merged(FORCES, &inverse_price);
             if self.passes.base_parameters && self.passes.axis_masses {
@@ -187,7 +191,7 @@ impl<'a> Trees<'a> {
         })
     }
 
-    fn merged(&self, functions: &[Function], cost: Cost) -> Tree {
+    fn merged(&self, functions: &[Function], cost: Cost<Symbol<'p>>) -> SymbolicTree<'p> {
         if self.passes.parallel_axes {
             self.without_loss(functions, |keeps_digits| parallel_axes::merged(self.base(), cost, keeps_digits))
         } else {
@@ -195,7 +199,12 @@ impl<'a> Trees<'a> {
         }
     }
 
-    fn in_unit(&self, functions: &[Function], tree: Tree, expressions: fn(&Tree) -> Expressions) -> Tree {
+    fn in_unit(
+        &self,
+        functions: &[Function],
+        tree: SymbolicTree<'p>,
+        expressions: fn(&SymbolicTree<'p>) -> Expressions,
+    ) -> SymbolicTree<'p> {
         if !self.passes.units {
             return tree;
         }
@@ -204,20 +213,20 @@ impl<'a> Trees<'a> {
     }
 }
 
-fn inverse_price(tree: &Tree) -> u32 {
+fn inverse_price(tree: &SymbolicTree) -> u32 {
     inverse_dynamics(tree).price()
 }
 
-fn matrix_price(tree: &Tree) -> u32 {
+fn matrix_price(tree: &SymbolicTree) -> u32 {
     mass_matrix(tree).price()
 }
 
 /// Costs are counted without the passes over expressions, which would take most of the time and whose gain differs
 /// little between descriptions.
-fn inverse_dynamics(tree: &Tree) -> Expressions {
+fn inverse_dynamics(tree: &SymbolicTree) -> Expressions {
     traced_on(tree, Function::InverseDynamics)
 }
 
-fn mass_matrix(tree: &Tree) -> Expressions {
+fn mass_matrix(tree: &SymbolicTree) -> Expressions {
     traced_on(tree, Function::MassMatrix)
 }

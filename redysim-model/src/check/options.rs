@@ -24,7 +24,18 @@ pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Code
     let forward_dynamics = &document.options.forward_dynamics.value;
     let forward_dynamics =
         if forward_dynamics.is_missing() { AccelerationMethod::Auto } else { *forward_dynamics.value()? };
-    Some(CodegenOptions { functions, tolerance: tolerance(document, findings)?, forward_dynamics })
+    let Entry { text, value: parameters } = &document.options.parameters;
+    for parameter in parameters.value().into_iter().flatten() {
+        let link = parameter.get_ref().link.and_then(|link| document.links.get(link));
+        if let Some(link) = link.filter(|link| parameter.get_ref().quantity.is_of_joint() && link.is_rigid()) {
+            findings.within(*text, |findings| {
+                findings.error(parameter.span(), messages::parameter_of_fixed(&document.item, &link.item));
+            });
+        }
+    }
+    let parameters: Vec<_> =
+        if parameters.is_missing() { Vec::new() } else { parameters.value()?.iter().map(|p| *p.get_ref()).collect() };
+    Some(CodegenOptions { functions, tolerance: tolerance(document, findings)?, forward_dynamics, parameters })
 }
 
 /// Leaves out what only the tree could do, whose mass matrix is singular because of `link`, though closed loops move:

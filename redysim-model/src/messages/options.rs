@@ -2,6 +2,7 @@
 
 use super::message;
 use crate::options::AccelerationMethod;
+use crate::run_time::Quantity;
 use crate::schema::keys;
 use redysim_runtime::Function;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
@@ -132,5 +133,38 @@ pub(crate) fn negative_range(item: &str, path: &KeyPath, largest: f64) -> Messag
         format!("{item}: `{path}` is {}, which is negative", rounded(largest)),
         "negative",
         "give the largest size of it, which holds in both directions",
+    )
+}
+
+pub(crate) fn unknown_parameter(item: &str, name: &str) -> Message {
+    let help = format!(
+        "write `gravity`, or the name of a link or a joint and what it has, as in `{}`",
+        keys::PARAMETERS.example()
+    );
+    message(format!("{item}: unknown parameter {} in `parameters`", quoted(name)), "unknown parameter", help)
+}
+
+pub(crate) fn unknown_quantity(item: &str, name: &str, quantity: &str) -> Message {
+    let names = Quantity::OF_LINKS.map(|(name, _)| name);
+    let meant = did_you_mean(nearest(quantity, names));
+    let help = format!("{meant}Links and joints have: {}", names.join(", "));
+    message(format!("{item}: unknown parameter {} in `parameters`", quoted(name)), "unknown parameter", help)
+}
+
+pub(crate) fn parameter_of_unknown(item: &str, name: &str, owner: &str, owners: &[&str]) -> Message {
+    let meant = did_you_mean(nearest(owner, owners.iter().copied()));
+    let help = format!("{meant}Names that may stand before the dot: {}", owners.join(", "));
+    message(format!("{item}: parameter {} of an unknown link or joint", quoted(name)), "unknown link or joint", help)
+}
+
+pub(crate) fn repeated_parameter(item: &str, name: &str) -> Message {
+    message(format!("{item}: `parameters` names {} twice", quoted(name)), "named before", "remove one of the two")
+}
+
+pub(crate) fn parameter_of_fixed(item: &str, link: &str) -> Message {
+    message(
+        format!("{item}: `parameters` names a quantity of the joint of {link}, which is fixed or locked"),
+        "the joint does not move",
+        "remove the parameter, or let the joint move",
     )
 }

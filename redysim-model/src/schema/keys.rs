@@ -6,7 +6,7 @@ use redysim_toml::{Key, Keys};
 
 pub(crate) const MODEL: Keys = Keys::new(
     "A model",
-    &[NAME, GRAVITY, LINKS, LOOPS, FRAMES, SPRINGS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, ALLOW],
+    &[NAME, GRAVITY, LINKS, LOOPS, FRAMES, SPRINGS, FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, PARAMETERS, ALLOW],
 )
 .with_hints(hints::MODEL);
 pub(crate) const NAME: Key = Key::new("name", "\"arm\"", "").with_default("required");
@@ -24,7 +24,8 @@ pub(crate) const SPRINGS: Key =
 pub(crate) const ALLOW: Key =
     Key::new("allow", "[\"gravity-up\"]", "names of lints that are not reported").with_default("none");
 
-pub(crate) const OPTIONS: Keys = Keys::new("A declaration", &[FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS]);
+pub(crate) const OPTIONS: Keys =
+    Keys::new("A declaration", &[FUNCTIONS, LOCKED, TOLERANCE, FORWARD_DYNAMICS, PARAMETERS]);
 pub(crate) const FUNCTIONS: Key =
     Key::new("functions", "[\"inverse_dynamics\", \"mass_matrix\"]", "only these are generated").with_default("all");
 pub(crate) const LOCKED: Key =
@@ -35,6 +36,13 @@ pub(crate) const TOLERANCE: Key =
         .with_default("none: nothing is left out");
 pub(crate) const FORWARD_DYNAMICS: Key =
     Key::new("forward_dynamics", "\"recursion\"", "`auto`, `recursion` or `factorisation`").with_default("`auto`");
+pub(crate) const PARAMETERS: Key = Key::new(
+    "parameters",
+    "[\"gravity\", \"tool.mass\", \"tool.com\", \"tool.inertia\", \"joint2.damping\"]",
+    "numbers that compiled code is given at run time; of links `mass`, `com`, `inertia`, of joints `armature`, `damping`, \
+     `friction`, `friction_velocity`, `stiffness`, `rest`",
+)
+.with_default("none");
 
 pub(crate) const LINK: Keys = Keys::new(
     "A link",

@@ -23,7 +23,8 @@ pub(crate) use spring::SpringTable;
 use crate::joint::Joint;
 use crate::lint::Lint;
 use crate::messages;
-use crate::public_interface::{MovingJoint, PublicInterface};
+use crate::public_interface::{MovingJoint, ParameterNumber, PublicInterface};
+use crate::run_time::RunTimeParameter;
 use redysim_runtime::Functions;
 use redysim_toml::words::quoted;
 use redysim_toml::{DeValue, Field, Findings, Parsed, Reader, Spanned, TableAt};
@@ -105,6 +106,15 @@ impl Document {
             let joint = link.joint.value().and_then(|&kind| Joint::of_kind(kind, pitch));
             MovingJoint::new(name(link.joint_name(), &link.item), joint, link.actuated.value_or(true).unwrap_or(true))
         };
+        let numbers = |parameter: &Spanned<RunTimeParameter>| {
+            let parameter = *parameter.get_ref();
+            let owner = parameter.link.and_then(|link| self.links.get(link)).and_then(|link| {
+                let joint = link.joint_name().filter(|_| parameter.quantity.is_of_joint());
+                joint.map(Spanned::get_ref).or(link.name.value())
+            });
+            let (names, rule) = (parameter.names_with(owner), parameter.quantity.rule());
+            names.map(move |name| ParameterNumber { name, value: 0.0, rule }).collect::<Vec<_>>()
+        };
         let functions = self.options.functions.value.value().map_or(Functions::ALL, |given| given.set());
         PublicInterface {
             name: self.name.value().cloned().unwrap_or_default(),
@@ -114,6 +124,7 @@ impl Document {
             frames: self.frames.iter().map(|frame| name(frame.name.spanned(), &frame.item)).collect(),
             mass: self.links.iter().filter_map(|link| link.mass.value()).sum(),
             functions: functions.with_frames(self.frames.len()),
+            parameters: self.options.parameters.value.value().into_iter().flatten().flat_map(numbers).collect(),
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::lock::by_name;
 use crate::messages;
 use crate::model::JointKind;
 use crate::options::AccelerationMethod;
+use crate::run_time::{Quantity, RunTimeParameter};
 use redysim_runtime::{Function, Functions};
 use redysim_toml::{DeValue, Field, Findings, Reader, Spanned, Table, Text};
 use std::ops::Range;
@@ -19,6 +20,7 @@ pub(crate) struct OptionsTable {
     pub(crate) locked: Entry<Vec<Lock>>,
     pub(crate) tolerance: Entry<Field<f64>>,
     pub(crate) forward_dynamics: Entry<Field<AccelerationMethod>>,
+    pub(crate) parameters: Entry<Field<Vec<Spanned<RunTimeParameter>>>>,
 }
 
 /// A joint held at a value.
@@ -66,6 +68,7 @@ impl OptionsTable {
             functions: first(beside.functions, in_file.functions),
             tolerance: first(beside.tolerance, in_file.tolerance),
             forward_dynamics: first(beside.forward_dynamics, in_file.forward_dynamics),
+            parameters: first(beside.parameters, in_file.parameters),
             locked: match beside.locked {
                 None => Entry { text: Text::File, value: in_file.locked.unwrap_or_default() },
                 Some(locks) => Entry { text: Text::Beside, value: locks },
@@ -80,6 +83,7 @@ struct OptionFields {
     locked: Option<Vec<Lock>>,
     tolerance: Field<f64>,
     forward_dynamics: Field<AccelerationMethod>,
+    parameters: Field<Vec<Spanned<RunTimeParameter>>>,
 }
 
 impl OptionFields {
@@ -89,6 +93,7 @@ impl OptionFields {
             locked: locked(&mut reader, links),
             tolerance: tolerance(&mut reader),
             forward_dynamics: forward_dynamics(&mut reader),
+            parameters: parameters(&mut reader, links),
         }
     }
 }
@@ -174,6 +179,57 @@ fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option
         Some(())
     });
     (!field.is_missing()).then_some(locks)
+}
+
+/// The parameters that are given at run time. Where links cannot be read, their names are not checked.
+fn parameters(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Field<Vec<Spanned<RunTimeParameter>>> {
+    reader.field(&keys::PARAMETERS, |reader, path, value| {
+        let mut parameters: Vec<Spanned<RunTimeParameter>> = Vec::new();
+        for (index, value) in reader.array(path, value, "an array of names of parameters")?.iter().enumerate() {
+            let DeValue::String(text) = value.get_ref() else {
+                reader.wrong_type::<()>(&path.element(index), value, "the name of a parameter");
+                continue;
+            };
+            let Some(parameter) = parameter(text, value.span(), links?, reader) else { continue };
+            if parameters.iter().any(|other| *other.get_ref() == parameter) {
+                reader.error::<()>(value, messages::repeated_parameter(reader.item(), text));
+            } else {
+                parameters.push(Spanned::new(value.span(), parameter));
+            }
+        }
+        Some(parameters)
+    })
+}
+
+/// The parameter called `text`: `gravity`, or the name of a link or joint and a quantity that it has, with a dot
+/// between them.
+fn parameter(
+    text: &str,
+    place: Range<usize>,
+    links: &[LinkTable],
+    reader: &mut Reader<'_, '_>,
+) -> Option<RunTimeParameter> {
+    if text == Quantity::Gravity.name() {
+        return Some(RunTimeParameter { quantity: Quantity::Gravity, link: None });
+    }
+    let Some((owner, quantity)) = text.rsplit_once('.') else {
+        return reader.error_at(place, messages::unknown_parameter(reader.item(), text));
+    };
+    let Some((_, quantity)) = Quantity::OF_LINKS.into_iter().find(|(name, _)| *name == quantity) else {
+        return reader.error_at(place, messages::unknown_quantity(reader.item(), text, quantity));
+    };
+    let names = links.iter().map(|link| {
+        let joint = link.joint_name().filter(|_| quantity.is_of_joint()).map(|name| name.get_ref().as_str());
+        (joint, link.name.value().map(String::as_str))
+    });
+    match by_name(owner, names.clone()) {
+        Some(link) => Some(RunTimeParameter { quantity, link: Some(link) }),
+        None if links.iter().any(|link| link.name.value().is_none()) => None,
+        None => {
+            let owners: Vec<&str> = names.filter_map(|(joint, link)| joint.or(link)).collect();
+            reader.error_at(place, messages::parameter_of_unknown(reader.item(), text, owner, &owners))
+        }
+    }
 }
 
 /// The link whose joint is meant by `name`, if it is one that moves.

@@ -7,6 +7,8 @@ use quote::quote;
 /// The names of the arguments that have the sines and the cosines of all angles.
 pub const SIN: &str = "sin";
 pub const COS: &str = "cos";
+/// The name of the argument that has the numbers that are given at run time.
+pub const GIVEN: &str = "given";
 /// The local name of `S::from_f64`.
 const FROM_F64: &str = "k";
 /// The variable of a loop: which group of bodies it is at.
@@ -15,7 +17,7 @@ const GROUP: &str = "group";
 const ROW: &str = "constants";
 
 /// Names that variables must not have, beside those of arguments.
-pub const RESERVED: [&str; 5] = [FROM_F64, SIN, COS, GROUP, ROW];
+pub const RESERVED: [&str; 6] = [GIVEN, FROM_F64, SIN, COS, GROUP, ROW];
 
 /// The name of an argument or a local value.
 pub fn local(name: &str) -> Ident {
@@ -164,6 +166,10 @@ impl Printer<'_> {
             Value::Argument(argument, place) => {
                 let (argument, place) = (local(self.arguments[*argument]), index(*place));
                 return quote!(#argument[#place]);
+            }
+            Value::Given(place) => {
+                let (given, place) = (local(GIVEN), Literal::usize_unsuffixed(*place));
+                return quote!(#given[#place]);
             }
             Value::Trig(array, place) => {
                 let (array, place) = (trig(*array), index(*place));

@@ -2,6 +2,7 @@
 
 use super::angles::{angle, without_turns};
 use super::body::{COS, SIN, body, local};
+use super::parametric::Form;
 use super::{length, results};
 use crate::mechanism::{FunctionProgram, TrigProgram};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -71,7 +72,7 @@ impl Writer<'_> {
     /// One function with its documentation, of coordinates and of joint trigonometry. The code after the sines and
     /// cosines is a third function, inlined into both, so that sines and cosines do not go through memory.
     pub fn function(&self, program: &FunctionProgram) -> TokenStream {
-        let body = self.body(program);
+        let (reads, body) = (Form::of(self.interface, self.runtime).reads, self.body(program));
         let FunctionProgram { function, ref documentation, ref trig, .. } = *program;
         let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
@@ -84,12 +85,14 @@ impl Writer<'_> {
         let (inlined, q, argument) = (inlined(function), local("q"), local(TRIG));
         let others: Vec<Ident> = others(function).collect();
         let (computed, sin, cos) = trig_statement(trig);
+        let caller = Form::of(interface, runtime).caller;
         let of_coordinates = with_target_features(&quote! {
             #computed
-            Self::#inlined(#q, #sin, #cos #(, #others)*)
+            #caller #inlined(#q, #sin, #cos #(, #others)*)
         });
-        let of_joint_trig =
-            with_target_features(&quote!(Self::#inlined(&#argument.#q, &#argument.sin, &#argument.cos #(, #others)*)));
+        let of_joint_trig = with_target_features(
+            &quote!(#caller #inlined(&#argument.#q, &#argument.sin, &#argument.cos #(, #others)*)),
+        );
         quote! {
             #(#[doc = #docs])*
             pub #head {
@@ -101,6 +104,7 @@ impl Writer<'_> {
             }
             #[inline(always)]
             #head_inlined {
+                #reads
                 #body
             }
         }
@@ -199,8 +203,9 @@ fn head_inlined(function: Function, interface: &PublicInterface, angles: usize, 
     let (q, others) =
         (parameters(function, interface, runtime).take(1), parameters(function, interface, runtime).skip(1));
     let output = results::output_type(function.signature().result, interface, runtime);
-    quote!(fn #name<S: #runtime::Scalar>(
-        #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)*
+    let Form { function, receiver, .. } = Form::of(interface, runtime);
+    quote!(fn #name #function(
+        #receiver #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)*
     ) -> #output)
 }
 
@@ -208,7 +213,8 @@ fn head_inlined(function: Function, interface: &PublicInterface, angles: usize, 
 pub fn joint_trig_head(interface: &PublicInterface, angles: usize, runtime: &TokenStream) -> TokenStream {
     let (nq, angles) = (length(interface, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
     let q = local("q");
-    quote!(fn joint_trig<S: #runtime::Scalar>(#q: &[S; #nq]) -> #runtime::JointTrig<S, #nq, #angles>)
+    let Form { function, receiver, .. } = Form::of(interface, runtime);
+    quote!(fn joint_trig #function(#receiver #q: &[S; #nq]) -> #runtime::JointTrig<S, #nq, #angles>)
 }
 
 /// Name, arguments and result of a function of the joint trigonometry of `angles` angles.
@@ -222,8 +228,9 @@ pub fn head_with_trig(
     let (nq, angles) = (length(interface, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
     let (trig, others) = (local(TRIG), parameters(function, interface, runtime).skip(1));
     let output = results::output_type(function.signature().result, interface, runtime);
-    quote!(fn #name<S: #runtime::Scalar>(
-        #trig: &#runtime::JointTrig<S, #nq, #angles> #(, #others)*
+    let Form { function, receiver, .. } = Form::of(interface, runtime);
+    quote!(fn #name #function(
+        #receiver #trig: &#runtime::JointTrig<S, #nq, #angles> #(, #others)*
     ) -> #output)
 }
 
@@ -232,5 +239,6 @@ pub fn head(function: Function, interface: &PublicInterface, runtime: &TokenStre
     let name = format_ident!("{}", function.name());
     let parameters = parameters(function, interface, runtime);
     let output = results::output_type(function.signature().result, interface, runtime);
-    quote!(fn #name<S: #runtime::Scalar>(#(#parameters),*) -> #output)
+    let Form { function, receiver, .. } = Form::of(interface, runtime);
+    quote!(fn #name #function(#receiver #(#parameters),*) -> #output)
 }

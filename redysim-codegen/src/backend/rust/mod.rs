@@ -3,6 +3,7 @@
 mod angles;
 mod body;
 mod function;
+mod parametric;
 mod results;
 #[cfg(feature = "source")]
 pub mod source;
@@ -11,6 +12,8 @@ mod traits;
 use crate::mechanism::MechanismProgram;
 pub use body::RESERVED;
 use function::{Writer, head, head_with_trig, joint_trig_head};
+use parametric::{constructors, is_parametric};
+pub use parametric::{declaration, stub_declaration};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, PublicInterface};
@@ -19,7 +22,7 @@ use redysim_runtime::function::Dimension;
 
 /// Prints `mechanism` as the `impl`s of the type `name`.
 pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStream) -> TokenStream {
-    let MechanismProgram { interface, ref trig, ref functions } = *mechanism;
+    let MechanismProgram { interface, ref trig, ref functions, ref lumped } = *mechanism;
     let writer = Writer { interface, trig, runtime };
     let (configuration, own): (Vec<_>, Vec<_>) =
         functions.iter().partition(|program| program.function.is_always_present());
@@ -27,7 +30,9 @@ pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStre
         std::iter::once(writer.joint_trig()).chain(own.into_iter().map(|program| writer.function(program)));
     let configuration = configuration.into_iter().map(|program| (program.function, writer.whole_body(program)));
     let operations: Vec<_> = functions.iter().map(|program| (program.function, program.operations)).collect();
-    type_impls(interface, configuration.collect(), name, runtime, &operations, definitions.collect())
+    let constructors = constructors(interface, lumped.as_ref(), name, runtime);
+    let impls = type_impls(interface, configuration.collect(), name, runtime, &operations, definitions.collect());
+    quote!(#impls #constructors)
 }
 
 /// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
@@ -43,7 +48,9 @@ pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) ->
     let definitions = std::iter::once(joint_trig).chain(heads).map(|head| quote!(pub #head { #body }));
     let configuration = Function::ALL.iter().copied().filter(|function| function.is_always_present());
     let configuration = configuration.map(|function| (function, body.clone()));
-    type_impls(interface, configuration.collect(), name, runtime, &[], definitions.collect())
+    let constructors = constructors(interface, None, name, runtime);
+    let impls = type_impls(interface, configuration.collect(), name, runtime, &[], definitions.collect());
+    quote!(#impls #constructors)
 }
 
 fn type_impls(
@@ -59,12 +66,26 @@ fn type_impls(
     let closure = traits::closure(interface, name, runtime);
     let frames = traits::frames(interface, name, runtime);
     let traits = interface.functions.iter().map(|function| traits::own(function, interface, name, runtime));
+    let definitions = quote!(#(#definitions)*);
+    // Constants do not depend on the scalar: a type over scalars has them in a block of their own.
+    let (beside_constants, block) = if is_parametric(interface) {
+        let block = quote! {
+            #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
+            impl<S: #runtime::Scalar> #name<S> {
+                #definitions
+            }
+        };
+        (None, Some(block))
+    } else {
+        (Some(definitions), None)
+    };
     quote! {
         #[allow(dead_code, unused_variables, non_snake_case, clippy::all, clippy::pedantic)]
         impl #name {
             #constants
-            #(#definitions)*
+            #beside_constants
         }
+        #block
         #mechanism
         #(#traits)*
         #closure
@@ -83,6 +104,7 @@ fn constants(
     runtime: &TokenStream,
 ) -> TokenStream {
     let PublicInterface { name, links, joints, loop_rows, frames, mass, .. } = interface;
+    let parameters = parametric::constants(interface);
     let (nj, joints) = (Literal::usize_unsuffixed(joints.len()), joints.iter().map(|joint| &joint.name));
     let actuated = interface.actuated();
     let sizes =
@@ -109,6 +131,7 @@ fn constants(
         pub const NC: usize = #nc;
         /// Number of frames of interest.
         pub const NF: usize = #nf;
+        #parameters
         /// Mass of all links, kg.
         pub const MASS: f64 = #mass;
         /// Names of the links, in the model's order.

@@ -26,13 +26,13 @@ pub fn source_file_with(model: &Model, name: &str, options: &CodegenOptions) -> 
         return Err(SourceError::InvalidName(name.to_string()));
     }
     let name = format_ident!("{name}");
-    let Generated { tokens, operations, warnings } =
+    let Generated { declaration, derives, tokens, operations, warnings } =
         implementation_with(model, &name, &quote!(::redysim_runtime), options, &Passes::default())?;
     let doc = format!(" The mechanism `{}`.", model.name);
     let file = quote! {
         #[doc = #doc]
-        #[derive(Clone, Copy, Debug, Default)]
-        pub struct #name;
+        #[derive(#derives)]
+        pub struct #name #declaration
         #tokens
     };
     let file = syn::parse2(file).expect("generated code is Rust");

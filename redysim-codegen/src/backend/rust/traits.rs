@@ -1,6 +1,8 @@
 //! The runtime's traits, for a type that has their functions.
 
+use super::body::{GIVEN, local};
 use super::function::{arguments, parameters};
+use super::parametric::is_parametric;
 use super::{length, results};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -11,29 +13,52 @@ use redysim_runtime::function::{Dimension, Interface};
 pub fn own(function: Function, interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TokenStream {
     let (trait_name, tangent) = match function.signature().interface {
         Interface::Own(trait_name) => (trait_name, None),
-        Interface::WithTangent(trait_name) => (trait_name, Some(tangent(function, runtime))),
+        Interface::WithTangent(trait_name) => (trait_name, Some(tangent(function, interface, runtime))),
         Interface::LoopClosure | Interface::Frames | Interface::ConfigurationSpace => return TokenStream::new(),
     };
     let trait_name = format_ident!("{trait_name}");
     let method = own_method(function, interface, runtime);
+    let with_dual = is_parametric(interface) && tangent.is_some();
+    let dual = with_dual.then(|| quote!(+ #runtime::Lift<#runtime::Dual<S>>));
+    let (generics, of) = over_scalars(interface, runtime, &dual.unwrap_or_default());
     quote! {
-        impl<S: #runtime::Scalar> #runtime::#trait_name<S> for #name {
+        impl<S: #runtime::Scalar #generics> #runtime::#trait_name<S> for #name #of {
             #method
             #tangent
         }
     }
 }
 
+/// The generic parameters of an `impl` of functions over the scalar `S`, and the arguments of the type in it: a type
+/// with parameters has its numbers in any `P` that can be lifted to `S`.
+fn over_scalars(interface: &PublicInterface, runtime: &TokenStream, more: &TokenStream) -> (TokenStream, TokenStream) {
+    if is_parametric(interface) {
+        (quote!(, P: #runtime::Scalar + #runtime::Lift<S> #more), quote!(<P>))
+    } else {
+        (TokenStream::new(), TokenStream::new())
+    }
+}
+
 /// The derivative of a function whose trait asks for one: the same code over dual numbers.
-fn tangent(function: Function, runtime: &TokenStream) -> TokenStream {
+fn tangent(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
     let name = format_ident!("{}_tangent", function.name());
+    let derivative = if is_parametric(interface) {
+        let own = format_ident!("{}", function.name());
+        let arguments = [0, 1, 2].map(Literal::usize_unsuffixed).map(|argument| {
+            quote!(&::core::array::from_fn(|i| #runtime::Dual { value: at.#argument[i], slope: slopes.#argument[i] }))
+        });
+        quote!(self.lifted::<#runtime::Dual<S>>().#own(#(#arguments),*).map(|result| result.slope))
+    } else {
+        let name = &name;
+        quote!(#runtime::#name(self, at, slopes))
+    };
     quote! {
         fn #name(
             &self,
             at: #runtime::Arguments<'_, S, Self>,
             slopes: #runtime::Arguments<'_, S, Self>,
         ) -> ::core::option::Option<Self::Velocities> {
-            ::core::option::Option::Some(#runtime::#name(self, at, slopes))
+            ::core::option::Option::Some(#derivative)
         }
     }
 }
@@ -41,7 +66,8 @@ fn tangent(function: Function, runtime: &TokenStream) -> TokenStream {
 /// The method of a trait that is one of the type's own functions.
 fn own_method(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
     let (name, arguments) = (format_ident!("{}", function.name()), arguments(function));
-    method(function, interface, runtime, &quote!(Self::#name(#(#arguments),*)))
+    let caller = if is_parametric(interface) { quote!(self.lifted::<S>().) } else { quote!(Self::) };
+    method(function, interface, runtime, &quote!(#caller #name(#(#arguments),*)))
 }
 
 /// The method of a trait with the given body.
@@ -64,16 +90,17 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
     }
     let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| length(interface, dimension));
     let methods = own.map(|function| own_method(function, interface, runtime));
+    let ((generics, of), (numbers, _)) = (over_scalars(interface, runtime, &none()), of_numbers(interface, runtime));
     quote! {
-        impl #runtime::LoopRows for #name {
+        impl #numbers #runtime::LoopRows for #name #of {
             fn nc(&self) -> usize {
-                Self::NC
+                <#name>::NC
             }
             fn loop_name(&self, row: usize) -> ::core::option::Option<&str> {
-                Self::LOOP_NAMES.get(row).copied()
+                <#name>::LOOP_NAMES.get(row).copied()
             }
         }
-        impl<S: #runtime::Scalar> #runtime::LoopClosure<S, #name> for #name {
+        impl<S: #runtime::Scalar #generics> #runtime::LoopClosure<S, #name #of> for #name #of {
             type Rows = [S; #nc];
             type Jacobian = [[S; #nv]; #nc];
             type Gram = [[S; #nc]; #nc];
@@ -90,8 +117,9 @@ pub fn frames(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) 
     }
     let [nv, nf] = [Dimension::Velocities, Dimension::Frames].map(|dimension| length(interface, dimension));
     let methods = own.map(|function| own_method(function, interface, runtime));
+    let (generics, of) = over_scalars(interface, runtime, &none());
     quote! {
-        impl<S: #runtime::Scalar> #runtime::Frames<S> for #name {
+        impl<S: #runtime::Scalar #generics> #runtime::Frames<S> for #name #of {
             type States = [#runtime::FrameState<S>; #nf];
             type Jacobians = [#runtime::FrameJacobian<[S; #nv]>; #nf];
             type Accelerations = [#runtime::FrameAcceleration<S>; #nf];
@@ -99,6 +127,15 @@ pub fn frames(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) 
             #(#methods)*
         }
     }
+}
+
+fn none() -> TokenStream {
+    TokenStream::new()
+}
+
+/// The generic parameters of an `impl` that does not depend on the scalar, and the arguments of the type in it.
+fn of_numbers(interface: &PublicInterface, runtime: &TokenStream) -> (TokenStream, TokenStream) {
+    if is_parametric(interface) { (quote!(<P: #runtime::Scalar>), quote!(<P>)) } else { (none(), none()) }
 }
 
 /// Sizes, names, and the space of positions with its functions, each with its code.
@@ -114,37 +151,40 @@ pub fn mechanism(
     let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
     let state = Literal::usize_unsuffixed(state);
     let methods = configuration.into_iter().map(|(function, body)| {
-        let method = method(function, interface, runtime, &body);
+        let given = local(GIVEN);
+        let reads = is_parametric(interface).then(|| quote!(let #given = self.lifted::<S>().#given;));
+        let method = method(function, interface, runtime, &quote!(#reads #body));
         quote!(#[allow(unused_variables, clippy::all, clippy::pedantic)] #method)
     });
+    let ((generics, of), (numbers, _)) = (over_scalars(interface, runtime, &none()), of_numbers(interface, runtime));
     quote! {
-        impl #runtime::Mechanism for #name {
+        impl #numbers #runtime::Mechanism for #name #of {
             fn name(&self) -> &str {
-                Self::NAME
+                <#name>::NAME
             }
             fn nq(&self) -> usize {
-                Self::NQ
+                <#name>::NQ
             }
             fn nv(&self) -> usize {
-                Self::NV
+                <#name>::NV
             }
             fn nl(&self) -> usize {
-                Self::NL
+                <#name>::NL
             }
             fn link_name(&self, index: usize) -> ::core::option::Option<&str> {
-                Self::LINK_NAMES.get(index).copied()
+                <#name>::LINK_NAMES.get(index).copied()
             }
             fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
-                Self::JOINT_NAMES.get(index).copied()
+                <#name>::JOINT_NAMES.get(index).copied()
             }
             fn nf(&self) -> usize {
-                Self::NF
+                <#name>::NF
             }
             fn frame_name(&self, index: usize) -> ::core::option::Option<&str> {
-                Self::FRAME_NAMES.get(index).copied()
+                <#name>::FRAME_NAMES.get(index).copied()
             }
         }
-        impl<S: #runtime::Scalar> #runtime::ConfigurationSpace<S> for #name {
+        impl<S: #runtime::Scalar #generics> #runtime::ConfigurationSpace<S> for #name #of {
             type Coordinates = [S; #nq];
             type Velocities = [S; #nv];
             type State = [S; #state];
