@@ -19,7 +19,7 @@ use proc_macro::TokenStream;
 /// The path `"models/kr5.toml"` is found from the package's manifest; `"./kr5.toml"` and `"../kr5.toml"` from the file
 /// that calls the macro. An edited model is compiled again.
 ///
-/// The type has the constants `NAME`, `NQ`, `NV`, `NL`, `NC`, `NF`, `MASS`, `LINK_NAMES`, `JOINT_NAMES`, `LOOP_NAMES`,
+/// The type has the constants `NAME`, `NQ`, `NV`, `NL`, `NC`, `NF`, `NP`, `PARAMETER_NAMES`, `PARAMETERS`, `MASS`, `LINK_NAMES`, `JOINT_NAMES`, `LOOP_NAMES`,
 /// `FRAME_NAMES`, `ACTUATED` and `OPS`, the functions `inverse_dynamics`, `forward_dynamics`, `mass_matrix`,
 /// `bias_forces`, `coriolis_matrix`, `gravity_forces`, `passive_forces`, `energy`, `center_of_mass`, `link_kinematics`,
 /// `loop_residual`, `loop_jacobian` and `loop_bias`, if the model has frames also `frame_kinematics`, `frame_jacobians`,
@@ -44,6 +44,13 @@ use proc_macro::TokenStream;
 ///   scale while every joint stays within the `range` that the model file gives it, and terms that do not matter then
 ///   are left out. The documentation of each function states its operations before and after, the ranges, and the worst
 ///   error of 100,000 sampled states; the compiler warns where the tolerance did not hold and a function is left whole.
+///
+/// - `parameters = ["gravity", "tool.mass", "tool.com", "tool.inertia", "joint2.damping"]`: numbers that the program gives
+///   when it runs: gravity; `mass`, `com` and `inertia` of a link; `armature`, `damping`, `friction`, `friction_velocity`,
+///   `stiffness` and `rest` of a joint. The type is then `Kr5<S = f64>` over the scalar of its numbers, and its functions
+///   are methods. `Kr5::new(&parameters)` computes once what depends on them alone, so that a call pays for the general
+///   numbers only; `try_new` refuses those that no body has; `default` takes the values of the model, `PARAMETERS`, in the
+///   order of `PARAMETER_NAMES`. Only `redysim!` declares such a type, the derive does not.
 ///
 /// A model file may have the same options at its top, with names in quotes: `functions = ["inverse_dynamics"]`. A key
 /// that is given here takes precedence over the file's.

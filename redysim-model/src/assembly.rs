@@ -84,8 +84,9 @@ impl<P: Parameter> Tree<P> {
         BodyFrame { body, pose: (pose * frame.placement).without_roundoff() }
     }
 
-    fn body_spring(&self, spring: &Spring) -> BodySpring {
+    fn body_spring(&self, spring: &Spring) -> BodySpring<P> {
         let &Spring { a, b, stiffness, damping, length, .. } = spring;
+        let [stiffness, damping, length] = [stiffness, damping, length].map(P::from_f64);
         BodySpring { a: self.body_point(a), b: self.body_point(b), stiffness, damping, length }
     }
 
