@@ -137,8 +137,9 @@ pub(crate) fn negative_range(item: &str, path: &KeyPath, largest: f64) -> Messag
 }
 
 pub(crate) fn unknown_parameter(item: &str, name: &str) -> Message {
+    let meant = did_you_mean(nearest(name, [Quantity::Gravity.name()]));
     let help = format!(
-        "write `gravity`, or the name of a link or a joint and what it has, as in `{}`",
+        "{meant}Write `gravity`, or the name of a link or a joint and what it has, as in `{}`",
         keys::PARAMETERS.example()
     );
     message(format!("{item}: unknown parameter {} in `parameters`", quoted(name)), "unknown parameter", help)
