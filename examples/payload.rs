@@ -83,7 +83,9 @@ fn main() -> Result<(), Failure> {
     let mut outputs = Outputs::of("payload")?;
     let series = |run: &'static str, t, rows| Series { name: run, t, rows };
     let [right, wrong] = &runs;
-    let of = |rows: fn(&Run) -> &Rows| [series(right.name, &right.t, rows(right)), series(wrong.name, &wrong.t, rows(wrong))];
+    let of = |rows: fn(&Run) -> &Rows| {
+        [series(right.name, &right.t, rows(right)), series(wrong.name, &wrong.t, rows(wrong))]
+    };
     let torques = joint_grid("torque", "N m", 1.0, &of(|run| &run.feedforward), &[]);
     outputs.picture("torques", "the torques that the path takes", &torques)?;
     let errors = joint_grid("error", "deg", 1_f64.to_degrees(), &of(|run| &run.error), &[]);
@@ -115,7 +117,7 @@ impl Run {
             let desired = path.at(t);
             run.feedforward.push(model.inverse_dynamics(&desired.q, &desired.v, &desired.a).to_vec());
             run.error.push(desired.q.iter().zip(&q).map(|(desired, q)| desired - q).collect());
-            let tau: Joints = controller.torque(t, &q, &v);
+            let tau = TorqueLaw::<f64, Kr5>::torque(&mut controller, t, &q, &v);
             let mut held = ForwardSimulation::new(robot, |_: f64, _: &Joints, _: &Joints| tau);
             let method = Ode45::new().rtol(1e-10).atol(1e-12).max_step(PERIOD);
             let state = held.state(&q, &v);

@@ -168,7 +168,10 @@ fn is_inertia<T: Real>(tensor: &[T]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use super::*;
+    use std::string::ToString;
 
     const NAMES: [&str; 6] = ["i.xx", "i.yy", "i.zz", "i.xy", "i.yz", "i.xz"];
 
@@ -190,7 +193,7 @@ mod tests {
             [1.0, 1.0, 2.1, 0.0, 0.0, 0.0],
             [-1.0, 1.0, 1.0, 0.0, 0.0, 0.0],
             [1.0, 1.0, 1.0, 1.5, 0.0, 0.0],
-            [1.0, 1.0, 1.0, 0.4, 0.4, -0.4],
+            [1.0, 1.0, 1.0, 0.4, 0.4, 0.4],
             [0.0, 0.0, 0.0, 0.1, 0.0, 0.0],
             [f64::NAN, 1.0, 1.0, 0.0, 0.0, 0.0],
             [1.0, 1.0, 1.0, 0.0, f64::INFINITY, 0.0],
