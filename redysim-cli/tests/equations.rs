@@ -16,8 +16,9 @@ use nalgebra::{DMatrix, DVector};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
 
-/// From row to row, s.
+/// From row to row, s, at most, and as a share of the step of the scenario, which fast motions need.
 const STEP: f64 = 5e-4;
+const SHARE_OF_STEP: f64 = 0.1;
 /// Weights of the central difference of order 8.
 const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 
@@ -26,16 +27,21 @@ fn run(folder: &Path, name: &str, command: &str, end: f64) {
     let mut scenario = read(name);
     let model = root().join("scenarios").join(scenario["model"].as_str().unwrap());
     scenario["model"] = model.display().to_string().into();
-    if let Some(file) = scenario.get_mut("trajectory").and_then(|trajectory| trajectory.get_mut("file")) {
-        *file = root().join("scenarios").join(file.as_str().unwrap()).display().to_string().into();
+    for path in [&["trajectory", "file"][..], &["forward", "torque", "file"]] {
+        let start = scenario.get_mut(path[0]);
+        if let Some(file) = path[1..].iter().fold(start, |table, key| table.and_then(|table| table.get_mut(key))) {
+            *file = root().join("scenarios").join(file.as_str().unwrap()).display().to_string().into();
+        }
     }
     if command == "forward" {
+        let step = step(&scenario);
         let method = if stiff(&scenario) { "Radau5" } else { "Dop853" };
         let forward = scenario["forward"].as_table_mut().unwrap();
         let integrator = format!("method = '{method}'\nrtol = 1e-12\natol = 1e-13");
         forward.insert("integrator".into(), toml::Value::Table(integrator.parse().unwrap()));
-        forward.insert("step".into(), STEP.into());
-        forward.insert("end".into(), end.into());
+        forward.insert("step".into(), step.into());
+        let whole = forward["end"].as_float().unwrap();
+        forward.insert("end".into(), end.min(whole).into());
     }
     fs::write(folder.join("trial.toml"), scenario.to_string()).unwrap();
     succeed(folder, &[command, "trial.toml", "-o", "run"]);
@@ -43,6 +49,11 @@ fn run(folder: &Path, name: &str, command: &str, end: f64) {
 
 fn read(name: &str) -> toml::Table {
     fs::read_to_string(root().join(format!("scenarios/{name}.toml"))).unwrap().parse().unwrap()
+}
+
+/// From row to row of a motion, s.
+fn step(scenario: &toml::Table) -> f64 {
+    STEP.min(SHARE_OF_STEP * scenario["forward"]["step"].as_float().unwrap())
 }
 
 /// The scenarios that ship with an implicit method are stiff.
@@ -111,10 +122,11 @@ fn every_shipped_motion_obeys_kanes_equations() {
         let folder = scratch(&format!("equations-of-motion-{name}"));
         run(&folder, &name, "forward", 0.05);
         let written = Written::read(&folder.join("run"));
+        let step = step(&read(&name));
         let difference = |k: usize, joint: usize| {
             let at = |k: usize| written.v[k][joint];
             let pairs = WEIGHTS.iter().zip(1..).map(|(weight, far)| weight * (at(k + far) - at(k - far)));
-            pairs.sum::<f64>() / STEP
+            pairs.sum::<f64>() / step
         };
         // Those that are written take what is written of the forces, whatever led to the state.
         let dof = written.q[0].len();
