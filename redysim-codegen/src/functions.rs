@@ -115,7 +115,7 @@ pub fn trace_with_parameters(
         let pipeline = Pipeline { tree, symbolic, options, passes, reference: &Reference::new(tree), pruning: None };
         pipeline.run()?
     };
-    let lumped = lumped(&mut functions, tracer);
+    let lumped = lumped(functions.iter_mut().map(|function| &mut function.expressions), tracer);
     Ok(ParametricFunctions { functions, lumped })
 }
 

@@ -2,7 +2,6 @@
 //! only.
 
 use crate::expressions::Expressions;
-use crate::functions::TracedFunction;
 use crate::graph::{Edge, Leaf, Node};
 use crate::symbol::{Symbol, SymbolicTree, Tracer};
 use redysim_model::{Model, RunTimeParameter, Tree};
@@ -22,10 +21,10 @@ pub fn tree_with_parameters<'p>(
 /// outputs are the numbers that the functions read in place of it, as their parameters.
 ///
 /// The parameters of the functions are nodes in the graph of `tracer`, whose parameters are those of the mechanism.
-pub fn lumped(functions: &mut [TracedFunction], tracer: Tracer) -> Expressions {
+pub fn lumped<'a>(functions: impl IntoIterator<Item = &'a mut Expressions>, tracer: Tracer) -> Expressions {
     let mut lumped = Expressions { graph: tracer.into_graph(), outputs: Vec::new() };
     for function in functions {
-        function.expressions = without_fixed(&function.expressions, &mut lumped);
+        *function = without_fixed(function, &mut lumped);
     }
     lumped
 }

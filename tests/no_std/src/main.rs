@@ -28,6 +28,11 @@ redysim! {
 }
 
 redysim! {
+    /// The KUKA KR5 with a load.
+    struct Kr5Loaded("../../../models/kr5.toml", parameters = ["gravity", "link6.mass", "link6.com", "link6.inertia"]);
+}
+
+redysim! {
     /// A machine with frames.
     struct Machine(
         "../../../models/test/frames.toml",
@@ -55,6 +60,7 @@ extern "C" fn main() -> i32 {
     let kept = keeps_its_energy_when_it_falls().is_some_and(|kept| kept);
     i32::from(
         !(is_held_by_gravity_forces()
+            && a_load_is_felt()
             && is_held_in_the_vectors_of_nalgebra()
             && wrenches_have_the_power_of_their_joint_forces()
             && kept
@@ -65,6 +71,20 @@ extern "C" fn main() -> i32 {
             && the_crank_carries_the_weight().is_some_and(|carries| carries)
             && implicit_methods_agree().is_some_and(|agree| agree)),
     )
+}
+
+/// A heavier load takes more torque at the shoulder, and one that no body has is refused.
+fn a_load_is_felt() -> bool {
+    let mut numbers = Kr5Loaded::PARAMETERS;
+    if let [_, _, _, mass, ..] = &mut numbers {
+        *mass += 5.0;
+    }
+    let (empty, q) = (Kr5Loaded::<f64>::default(), [0.3; Kr5::NQ]);
+    let Ok(loaded) = Kr5Loaded::try_new(&numbers) else { return false };
+    let ([_, light, ..], [_, heavy, ..]) = (empty.gravity_forces(&q), loaded.gravity_forces(&q));
+    let refused = Kr5Loaded::try_new(&numbers.map(|number| -number)).is_err();
+    let (heavy, light) = (heavy * heavy, light * light);
+    refused && heavy > light
 }
 
 fn is_held_by_gravity_forces() -> bool {
