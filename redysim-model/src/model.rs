@@ -1,6 +1,6 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
-use crate::joint::JointPhysics;
+use crate::joint::physics::JointPhysics;
 use crate::spatial::{Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links, loops, frames and springs stand in the file's order.

@@ -48,3 +48,8 @@ impl<P: Parameter> PseudoInertia<P> {
         self
     }
 }
+
+/// ±1 for what differs from it by roundoff.
+pub(crate) fn exact_one(value: f64) -> f64 {
+    if (value.abs() - 1.0).abs() < 16.0 * f64::EPSILON { value.signum() } else { value }
+}

@@ -6,6 +6,7 @@
 
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
+use crate::roundoff::exact_one;
 use crate::tree::Tree;
 
 /// The tree in the unit of length `unit`, m; `None` if a joint moves along its axis, whose coordinate is a length.
@@ -31,9 +32,4 @@ fn scaled<P: Parameter>(inertia: PseudoInertia<P>, unit: f64) -> PseudoInertia<P
         product.number().map_or(product, |number| P::from_f64(exact_one(number)))
     };
     PseudoInertia { mass: times(mass, unit * unit), moment: moment.map(|moment| times(moment, unit)), second }
-}
-
-/// ±1 for what differs from it by roundoff.
-pub(crate) fn exact_one(value: f64) -> f64 {
-    if (value.abs() - 1.0).abs() < 16.0 * f64::EPSILON { value.signum() } else { value }
 }

@@ -2,7 +2,7 @@
 
 use crate::joint::sum;
 use crate::parameter::{Parameter, ParameterIn, acting};
-use crate::scaling::exact_one;
+use crate::roundoff::exact_one;
 use crate::spatial::Vec3;
 use redysim_runtime::Scalar;
 

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document as Xml, Node};
 
-use super::comments::is_kept;
 use crate::failure::Failure;
 
 /// A URDF file whose form is right: well-formed, with the elements and numbers that a robot needs.
@@ -210,9 +209,9 @@ impl<'a> Document<'a> {
         unread
     }
 
-    /// What is left out, in words: `<visual> in a <link>, 12 of them, the first on line 7`. What is kept as a comment is
-    /// not.
-    pub fn left_out(&self) -> Vec<String> {
+    /// What is left out, in words: `<visual> in a <link>, 12 of them, the first on line 7`. What `is_kept` as a
+    /// comment is not.
+    pub fn left_out(&self, is_kept: impl Fn(&Document, Node) -> bool) -> Vec<String> {
         let mut found = BTreeMap::<String, (usize, u32)>::new();
         for node in self.unread().into_iter().filter(|node| !is_kept(self, *node)) {
             let line = self.line(node);

@@ -5,7 +5,8 @@ use redysim_model::JointKind;
 use redysim_model::spatial::Pose;
 
 use super::inertial::Inertial;
-use super::model_file::{inertial, origin};
+use super::model_file::origin;
+use super::notation::inertial;
 use super::robot::{Link, Origin, Robot};
 
 impl Robot {

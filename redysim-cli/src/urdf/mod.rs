@@ -5,6 +5,7 @@ mod document;
 mod fixed;
 mod inertial;
 mod model_file;
+mod notation;
 mod robot;
 mod visuals;
 
@@ -93,7 +94,7 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
             counted(limited, "joint")
         ));
     }
-    robot.notes.extend(document.left_out().into_iter().map(|what| format!("left out: {what}")));
+    robot.notes.extend(document.left_out(comments::is_kept).into_iter().map(|what| format!("left out: {what}")));
     let fused = robot.links.iter().flat_map(|link| &link.remarks).filter(|remark| !changes.contains(remark)).cloned();
     let notes = robot.notes.iter().cloned().chain(fused).collect();
     let written = model_file::write(&robot, &head(&robot, &changes, path));

@@ -6,7 +6,7 @@ use redysim_model::inertia::Sym3;
 use redysim_model::{JointKind, rotation};
 use urdf_rs::JointLimit;
 
-use super::inertial::Inertial;
+use super::notation::{inertia, vector};
 use super::robot::{Link, Origin, Robot};
 
 /// The text, and the line on which each link begins.
@@ -65,11 +65,6 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
     Ok(())
 }
 
-/// Centre of mass and inertia of what the model does not have.
-pub fn inertial(body: Inertial) -> String {
-    format!("com = {} m, inertia = {} kg m²", vector(body.com.0), inertia(body.inertia))
-}
-
 /// An origin as models have it.
 pub fn origin(Origin { xyz, rpy }: Origin) -> String {
     let xyz = (xyz != [0.0; 3]).then(|| format!("xyz = {}", vector(xyz)));
@@ -85,13 +80,6 @@ fn angle(radians: f64) -> String {
         return format!("\"{} deg\"", (radians.to_degrees() / 90.0).round() * 90.0);
     }
     format!("{:?}", radians + 0.0)
-}
-
-fn inertia(i: Sym3<f64>) -> String {
-    let elements = [("xx", i.xx), ("yy", i.yy), ("zz", i.zz), ("xy", i.xy), ("yz", i.yz), ("xz", i.xz)];
-    let there = elements.into_iter().filter(|(_, value)| *value != 0.0);
-    let entries: Vec<String> = there.map(|(name, value)| format!("{name} = {value:?}")).collect();
-    format!("{{ {} }}", entries.join(", "))
 }
 
 /// Why limits are not a range.
@@ -113,11 +101,6 @@ pub fn range(limit: &JointLimit) -> Result<String, Unfit> {
     let entry = |key: &str, x: f64| if positive(x) { format!(", {key} = {x:?}") } else { String::new() };
     let (acceleration, force) = (entry("acceleration", acceleration), entry("force", effort));
     Ok(format!("range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}{acceleration}{force} }}"))
-}
-
-fn vector(v: [f64; 3]) -> String {
-    let [x, y, z] = v.map(|x| x + 0.0);
-    format!("[{x:?}, {y:?}, {z:?}]")
 }
 
 /// A TOML string.

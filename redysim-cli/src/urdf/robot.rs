@@ -10,7 +10,7 @@ use urdf_rs::{JointLimit, JointType};
 
 use super::document::Document;
 use super::inertial::Inertial;
-use super::model_file::inertial;
+use super::notation::inertial;
 use crate::failure::Failure;
 use crate::number::counted;
 

@@ -16,7 +16,7 @@
 
 mod helical;
 mod linear;
-mod physics;
+pub(crate) mod physics;
 mod position;
 mod prismatic;
 mod revolute;
