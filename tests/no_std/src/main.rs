@@ -76,9 +76,8 @@ extern "C" fn main() -> i32 {
 /// A heavier load takes more torque at the shoulder, and one that no body has is refused.
 fn a_load_is_felt() -> bool {
     let mut numbers = Kr5Loaded::PARAMETERS;
-    if let [_, _, _, mass, ..] = &mut numbers {
-        *mass += 5.0;
-    }
+    let [_, _, _, mass, ..] = &mut numbers;
+    *mass += 5.0;
     let (empty, q) = (Kr5Loaded::<f64>::default(), [0.3; Kr5::NQ]);
     let Ok(loaded) = Kr5Loaded::try_new(&numbers) else { return false };
     let ([_, light, ..], [_, heavy, ..]) = (empty.gravity_forces(&q), loaded.gravity_forces(&q));
