@@ -103,7 +103,7 @@ fn under_a_wrench_the_tool_rests_off_its_place_by_the_inverse_stiffness_times_th
 }
 
 #[test]
-fn without_damping_kinetic_energy_and_that_of_the_spring_stay_together_what_they_are() {
+fn energy_is_conserved_without_damping() {
     let robot = kr5();
     let gains = FrameGains { linear: [900.0, 1600.0, 2500.0], angular: [80.0; 3] };
     let law = Impedance { stiffness: gains, damping: FrameGains::default(), ..held(&robot) };
@@ -188,7 +188,7 @@ fn null_space_damping_slows_the_motions_that_leave_the_task_alone_and_nothing_el
 
 /// With joints 4 and 6 in line, the tool cannot turn about what is square to both axes of the wrist.
 #[test]
-fn a_straight_wrist_leaves_the_tool_five_directions_and_the_status_says_so() {
+fn a_straight_wrist_has_task_rank_five() {
     let robot = kr5();
     let space = |q: &[f64]| {
         let (mass_matrix, jacobians) = (robot.mass_matrix(&q.to_vec()), robot.frame_jacobians(&q.to_vec()));

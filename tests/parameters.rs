@@ -114,7 +114,7 @@ fn a_robot_with_parameters_is_the_generic_robot_with_these_numbers() {
 }
 
 #[test]
-fn a_load_that_is_picked_up_and_put_down_leaves_the_bits_of_the_forces() {
+fn forces_are_bitwise_equal_after_a_load_is_added_and_removed() {
     let before = Carrying::default().inverse_dynamics(&Q, &V, &A);
     let mut parameters = Carrying::PARAMETERS;
     parameters[3] += 5.0;
@@ -242,7 +242,7 @@ fn a_closed_loop_may_have_parameters() {
 }
 
 #[test]
-fn parameters_that_no_robot_has_are_refused_with_the_rule() {
+fn invalid_parameters_are_rejected_with_their_rule() {
     let refused = |index: usize, value: f64| {
         let mut parameters = OTHER;
         parameters[index] = value;

@@ -380,8 +380,8 @@ fn numbers_that_a_model_has_no_place_for_are_comments_beside_their_links() {
             "# calibration: rising = 0.125 rad",
             "# safety_controller: soft_lower_limit = -0.9 rad, soft_upper_limit = 0.9 rad, k_position = 15 1/s, \
              k_velocity = 3 N m s/rad",
-            "# transmission `gear`: motor.mechanicalReduction = -100.5; `armature` is the inertia of the rotor times its \
-             square",
+            "# transmission `gear`: motor.mechanicalReduction = -100.5; `armature` = rotor inertia × \
+             mechanicalReduction²",
         ]
     );
     assert_eq!(
@@ -404,7 +404,7 @@ fn numbers_that_a_model_has_no_place_for_are_comments_beside_their_links() {
     assert_eq!(mechanism.model().links[0].physics.damping, 0.5);
     // Pictures are left out; what is kept is not.
     assert!(head.contains("left out: <visual> in a <link>, on line 5") && !head.contains("left out: <transmission>"));
-    assert!(run.stderr.contains("note: what a model has no place for is kept in comments beside its link: 11 lines"));
+    assert!(run.stderr.contains("note: numbers without a key in the model are kept as comments: 11 lines"));
     // Where a fixed link becomes a part of another, its comments go along.
     let fused = import(RICH, &["--fuse-fixed"]).1.stdout;
     let slide = fused.split("[[link]]\n").nth(2).unwrap();

@@ -32,7 +32,7 @@ fn pendulum(folder: &Path, law: &str) -> std::path::PathBuf {
 
 /// m (s + 1)(s + 2)(s + 3) = m s³ + kd s² + kp s + ki: from rest, ë(0) = −kp/m.
 #[test]
-fn pid_leaves_the_equation_of_its_characteristic_polynomial() {
+fn pid_error_follows_its_characteristic_polynomial() {
     let folder = scratch("pid-polynomial");
     let law = "torque = { law = 'pid', target = [1], kp = 22, ki = 12, kd = 12 }\n";
     let run = run_of(&folder, SLIDER, &format!("[forward]\nend = 4.0\nstep = 0.1\n{AGAINST_CLOSED_FORMS}{law}"));
@@ -141,6 +141,7 @@ fn laws_with_faults_are_refused_where_they_stand() {
     );
     let words = ["`forward.torque.limits[1]` is -2.0, which is not above zero", "trial.toml:6:"];
     refuses("negative", "forward", &pid("ki = 1, limits = [3, -2]"), 1, &words);
+    refuses("windup", "forward", &pid("ki = 1, tracking_rate = -2"), 1, &["a negative rate adds to the windup"]);
     refuses("count", "forward", &pid("ki = 1, limits = [3]"), 1, &["2 values, one for each of joint1, joint2"]);
     refuses(
         "word",
@@ -195,7 +196,8 @@ fn laws_that_carry_the_weight_of_a_tree_are_refused_for_closed_loops() {
     let folder = scratch("laws-loops");
     let law = "initial = { q = [0, 0.9844, 4.3144] }\n[forward]\nend = 1.0\nstep = 0.1\n\
                torque = { law = 'pd-gravity', target = [0], kp = 9, kd = 3 }\n";
-    let words = ["the law `pd-gravity` compensates the gravity of a tree", "computed-torque", "trial.toml:6:"];
+    let words =
+        ["the law `pd-gravity` requires a tree, but the model has closed loops", "computed-torque", "trial.toml:6:"];
     refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", law), 1, &words);
 }
 

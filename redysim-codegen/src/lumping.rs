@@ -2,7 +2,7 @@
 //! only.
 
 use crate::expressions::Expressions;
-use crate::graph::{Edge, Leaf, Node};
+use crate::graph::{Edge, Node};
 use crate::symbol::{Symbol, SymbolicTree, Tracer};
 use redysim_model::{Model, RunTimeParameter, Tree};
 
@@ -49,13 +49,7 @@ fn without_fixed(expressions: &Expressions, lumped: &mut Expressions) -> Express
                 .rebuild(node, |edge| fixed[edge.node()].map_or(edge, |value| value.flipped_if(edge.is_negative()))),
         };
         fixed[index] = Some(edge);
-        nominal[index] = graph.node(index).evaluate(
-            |edge| if edge.is_negative() { -nominal[edge.node()] } else { nominal[edge.node()] },
-            |leaf| match leaf {
-                Leaf::Constant(value) | Leaf::Parameter { nominal: value, .. } => value,
-                Leaf::Input { .. } => f64::NAN,
-            },
-        );
+        nominal[index] = graph.nominal(index, &nominal);
     }
     expressions.rebuilt(
         |index| uses[index] > 0 && (read[index] || !is_fixed(index)),
@@ -66,7 +60,7 @@ fn without_fixed(expressions: &Expressions, lumped: &mut Expressions) -> Express
                     Some(constant) => graph.constant(constant),
                     None => {
                         let place = lumped.place(value.abs());
-                        let nominal = if value.is_negative() { -nominal[index] } else { nominal[index] };
+                        let nominal = value.signed(nominal[index]);
                         graph.parameter(place, nominal).flipped_if(value.is_negative())
                     }
                 },

@@ -1,6 +1,6 @@
 //! The symbolic scalar: run through the recursions, it builds their expression graph.
 
-use crate::graph::{Edge, Graph, Leaf, Name, Step};
+use crate::graph::{Edge, Graph, Name, Step};
 use redysim_model::Tree;
 use redysim_model::denoc::Trace;
 use redysim_model::parameter::{Parameter, ParameterIn};
@@ -46,7 +46,7 @@ impl Tracer {
             Symbol::Constant(value) => Symbol::Constant(value),
             Symbol::Value(tracer, edge) => {
                 let symbol = self.parameter(edge.node() as u32, tracer.nominal(edge.abs()));
-                if edge.is_negative() { -symbol } else { symbol }
+                edge.signed(symbol)
             }
         })
     }
@@ -55,16 +55,10 @@ impl Tracer {
     fn nominal(&self, edge: Edge) -> f64 {
         let (graph, mut values) = (self.graph.borrow(), self.nominal.borrow_mut());
         for index in values.len()..graph.len() {
-            let value = graph.node(index).evaluate(
-                |edge| if edge.is_negative() { -values[edge.node()] } else { values[edge.node()] },
-                |leaf| match leaf {
-                    Leaf::Constant(value) | Leaf::Parameter { nominal: value, .. } => value,
-                    Leaf::Input { .. } => f64::NAN,
-                },
-            );
+            let value = graph.nominal(index, &values);
             values.push(value);
         }
-        if edge.is_negative() { -values[edge.node()] } else { values[edge.node()] }
+        edge.signed(values[edge.node()])
     }
 
     /// The edges of `outputs` in the graph.

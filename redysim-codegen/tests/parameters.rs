@@ -112,12 +112,9 @@ fn a_robot_with_parameters_is_the_robot_with_these_numbers() {
                     let expected = evaluate(function, &robot, &Untraced, &arguments);
                     assert_eq!(found.len(), expected.len());
                     let largest = expected.iter().fold(1e-3_f64, |largest, x| largest.max(x.abs()));
-                    // The explicit mass matrix of a chain of 40 is ill-conditioned.
-                    let bound =
-                        if function == Function::ForwardDynamics && name.contains("chain") { 1e-5 } else { 1e-10 };
                     for (found, expected) in found.iter().zip(&expected) {
                         let error = (found - expected).abs() / largest;
-                        assert!(error < bound, "{name}, {function:?}: {found} instead of {expected}");
+                        assert!(error < 1e-12, "{name}, {function:?}: {found} instead of {expected}");
                     }
                 }
             }

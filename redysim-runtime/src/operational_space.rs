@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::linear_algebra::{
-    MassMetric, NotFinite, NotPositiveDefinite, RowSet, WeightedRows, add_scaled, product, zeros,
+    MassMetric, NotFinite, NotPositiveDefinite, RowSet, WeightedRows, add_scaled, product, rank_tolerance, zeros,
 };
 use crate::vector::entry;
 use crate::{Real, Vector};
@@ -118,16 +118,13 @@ impl From<NotFinite> for OperationalSpaceError {
 }
 
 impl<S: Real, V: Vector<S>, A: Vector<V>, J: Vector<V>> OperationalSpace<S, V, A, J> {
-    /// The part of the longest row below which a row counts as dependent.
-    const TOLERANCE: f64 = 1e-5;
-
     /// The operational space of the mass matrix M, of which the lower triangle is looked at, and the Jacobian J, both by
     /// rows.
     ///
     /// # Errors
     /// If M is not positive definite, or J not finite.
     pub fn new(mass_matrix: A, jacobian: J) -> Result<Self, OperationalSpaceError> {
-        Self::with_tolerance(mass_matrix, jacobian, S::from_f64(Self::TOLERANCE).maximum(S::EPSILON.sqrt()))
+        Self::with_tolerance(mass_matrix, jacobian, rank_tolerance())
     }
 
     /// As [`new`](Self::new), with another part of the longest row below which a row counts as dependent.
@@ -197,7 +194,7 @@ impl<S: Real, V: Vector<S>, A: Vector<V>, J: Vector<V>> OperationalSpace<S, V, A
         decomposition.multipliers(&decomposition.solve(acceleration))
     }
 
-    /// J̄ ẋ: the joint velocities, or accelerations, that move the task by `task`, and no more than that.
+    /// J̄ ẋ: the joint velocities, or accelerations, of least kinetic energy that move the task by `task`.
     pub fn joint_velocity(&self, task: &Rows<S, V, J>) -> V {
         self.weighted.least_norm(task)
     }
@@ -222,7 +219,7 @@ impl<S: Real, V: Vector<S>, A: Vector<V>, J: Vector<V>> OperationalSpace<S, V, A
         product(self.jacobian.as_ref(), v.as_ref())
     }
 
-    /// N v: the part of a velocity, or acceleration, that leaves the task alone.
+    /// N v: the part of a velocity, or acceleration, that does not move the task.
     pub fn null_velocity(&self, v: &V) -> V {
         let part = self.weighted.normal_velocity(v);
         V::from_fn(self.nv(), |i| entry(v, i) - entry(&part, i))

@@ -64,7 +64,7 @@ impl<S: Scalar> Lift<Dual<Dual<S>>> for Dual<S> {
     }
 }
 
-/// What a run-time parameter must fulfil for a body or a joint to exist that has it.
+/// The condition on the value of a run-time parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ParameterRule {
@@ -80,7 +80,7 @@ pub enum ParameterRule {
     Inertia,
 }
 
-/// A run-time parameter that no body or joint has.
+/// A run-time parameter that violates its rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParameterError {
     /// Index of the parameter.
@@ -89,7 +89,7 @@ pub struct ParameterError {
     pub name: &'static str,
     /// The value given.
     pub value: f64,
-    /// The rule that it breaks.
+    /// The rule that it violates.
     pub rule: ParameterRule,
 }
 
@@ -121,28 +121,33 @@ const DEFINITE: f64 = 1e-9;
 ///
 /// # Errors
 ///
-/// The first parameter that breaks its rule; of an inertia tensor, its first element.
+/// The first parameter that violates its rule; of an inertia tensor, its first element.
 pub fn check_parameters<T: Real>(
     values: &[T],
     names: &[&'static str],
     rules: &[ParameterRule],
 ) -> Result<(), ParameterError> {
-    let mut tensor = 0;
-    for (index, ((value, &name), &rule)) in values.iter().zip(names).zip(rules).enumerate() {
-        let error = Err(ParameterError { index, name, value: value.to_f64(), rule });
-        let zero = T::zero();
-        let kept = value.is_finite()
-            && match rule {
-                ParameterRule::Finite => true,
-                ParameterRule::NotNegative => *value >= zero,
-                ParameterRule::Positive => *value > zero,
-                ParameterRule::Inertia => {
-                    tensor = (tensor + 1) % 6;
-                    tensor != 1 || values.get(index..index + 6).is_none_or(is_inertia)
-                }
-            };
-        if !kept {
-            return error;
+    let checked = || values.iter().zip(names).zip(rules).enumerate();
+    let error = |index: usize, value: &T, name: &'static str, rule: ParameterRule| {
+        Err(ParameterError { index, name, value: value.to_f64(), rule })
+    };
+    // All numbers first, so that a tensor is not blamed for an element that is none.
+    for (index, ((value, &name), &rule)) in checked().filter(|(_, ((value, _), _))| !value.is_finite()) {
+        return error(index, value, name, rule);
+    }
+    let mut element = 0;
+    for (index, ((value, &name), &rule)) in checked() {
+        let holds = match rule {
+            ParameterRule::Finite => true,
+            ParameterRule::NotNegative => *value >= T::zero(),
+            ParameterRule::Positive => *value > T::zero(),
+            ParameterRule::Inertia => {
+                element = (element + 1) % 6;
+                element != 1 || values.get(index..index + 6).is_none_or(is_inertia)
+            }
+        };
+        if !holds {
+            return error(index, value, name, rule);
         }
     }
     Ok(())
@@ -211,5 +216,7 @@ mod tests {
         assert_eq!(error([1.0, 0.0, 0.0]).to_string(), "parameter `f` is 0.0: it must be positive");
         assert_eq!(error([1.0, 1.0, f64::NAN]).to_string(), "parameter `g` is NaN: give a finite number");
         assert_eq!(error([1.0, 1.0, f64::NAN]).index, 2);
+        let tensor = [1.0, 1.0, 1.0, 0.0, f64::INFINITY, 0.0];
+        assert_eq!(check_parameters(&tensor, &NAMES, &[ParameterRule::Inertia; 6]).unwrap_err().name, "i.yz");
     }
 }

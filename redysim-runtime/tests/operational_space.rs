@@ -151,7 +151,7 @@ fn functions_of_vectors_are_the_products_with_the_matrices() {
 
 /// Penrose's four conditions for Λ, and those of the inverse that is weighted with M.
 #[test]
-fn where_the_rank_falls_the_status_says_so_and_the_inverses_are_those_of_the_attainable_directions() {
+fn status_and_inverses_are_those_of_the_attainable_directions_at_reduced_rank() {
     let mut random = Random(5);
     for _ in 0..50 {
         let (m, j) = problem::<4, 2>(&mut random);

@@ -168,6 +168,27 @@ fn tracking_rates_are_those_of_the_integral_and_derivative_times() {
     assert_eq!(tracking_rates(&[9.0, 8.0, 7.0], &[4.0, 2.0, 0.0], &[1.0, 0.0, 1.0]), [2.0, 0.25, 0.0]);
 }
 
+/// Kt = ∞ would give ∞ · 0 within the limits.
+#[test]
+fn pure_integral_control_under_limits_has_tracking_rate_zero_and_finite_torques() {
+    let cart = Cart { damping: 4.0, stiffness: 10.0, ..FREE };
+    let [kp, ki, kd] = [[0.0_f64], [6.0], [0.0]];
+    let tracking = tracking_rates(&kp, &ki, &kd);
+    assert_eq!(tracking, [0.0]);
+    let pid = Pid { trajectory: SetPoint::new(&cart, [1.0]), kp, ki, kd, tracking, integral: [0.0] };
+    let mut law = Limited { law: pid, limits: [20.0] };
+    for (z, expected) in [(0.0, 0.0), (30.0, 20.0)] {
+        let mut rates = [f64::NAN];
+        let force = TorqueLaw::<f64, Cart>::torque_with_state(&mut law, 0.0, (&[0.0], &[0.0]), &[z], &mut rates);
+        assert_eq!((force, rates), ([expected], [6.0]));
+    }
+    let mut simulation = ForwardSimulation::new(&cart, law);
+    let start: [f64; 4] = simulation.extended_state(&[0.0], &[0.0]);
+    let end = Ode45::new().rtol(1e-9).atol(1e-10).integrate(&mut simulation, (0.0, 40.0), start).unwrap();
+    let [force] = simulation.torque(40.0, &end.y);
+    assert!((force - cart.stiffness).abs() < 1e-6, "the spring is held at the set point: {force}");
+}
+
 /// Every period of the sampled controller is a step of Euler's method, of first order.
 #[test]
 fn a_sampled_controller_converges_to_the_simulated_one_with_its_period() {

@@ -14,7 +14,8 @@ use crate::page::Page;
 /// length of the mechanism in either direction. Closed loops stay closed: the other joints follow.
 ///
 /// Of a URDF, the page shows the model that `redysim import` makes, and the meshes of its links (STL, DAE and OBJ, without
-/// textures), up to 20 MB. Files of `package://` are looked for above the URDF's folder and on ROS_PACKAGE_PATH.
+/// textures), up to 20 MB. Files of `package://` are looked for above the URDF's folder, on ROS_PACKAGE_PATH and on
+/// AMENT_PREFIX_PATH.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  redysim show models/kr5.toml -o kr5.html")]
 pub struct Arguments {

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::urdf::{self, Visual};
 
 /// The files of a page have at most so many bytes together.
-pub const ROOM: u64 = 20_000_000;
+pub const MAX_BYTES: u64 = 20_000_000;
 /// What the page reads, by the endings of names.
 const FORMATS: [&str; 3] = ["stl", "dae", "obj"];
 
@@ -101,10 +101,11 @@ impl Meshes {
         let unreadable = |error: std::io::Error| (format!("cannot read {}: {error}", path.display()), READABLE.into());
         let bytes = fs::metadata(path).map_err(unreadable)?.len();
         let before: u64 = self.files.iter().map(|file| file.bytes).sum();
-        if before + bytes > ROOM {
+        if before + bytes > MAX_BYTES {
             let megabytes = |bytes: u64| format!("{:.1} MB", bytes as f64 * 1e-6);
-            let why = format!("its {} are too many beside {} of others", megabytes(bytes), megabytes(before));
-            return Err((why, format!("reduce the meshes: a page has room for {} of them", megabytes(ROOM))));
+            let [size, before, limit] = [bytes, before, MAX_BYTES].map(megabytes);
+            let why = format!("its {size} exceed the limit of {limit} together with {before} already embedded");
+            return Err((why, format!("reduce the meshes: a page has room for {limit} of them")));
         }
         let base64 = STANDARD.encode(fs::read(path).map_err(unreadable)?);
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -125,7 +126,7 @@ fn not_found(file: &str, places: &[PathBuf]) -> (String, String) {
             format!("the package `{package}` is not found, or has no such file"),
             format!(
                 "put the folder `{package}` beside the URDF's folder or above, or name the folder that holds it in \
-                 ROS_PACKAGE_PATH"
+                 ROS_PACKAGE_PATH, or the one whose `share` holds it in AMENT_PREFIX_PATH"
             ),
         ),
         None => {

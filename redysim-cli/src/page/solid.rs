@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_uniform_rod_ends_where_it_does() {
+    fn the_end_of_a_uniform_rod_is_exact() {
         // 2 kg, 0.6 m along (0.6, 0, 0.8), from the joint on: m l²/12 = 0.06 across.
         let rod = "mass = 2.0\ncom = [0.18, 0, 0.24]\ninertia = { xx = 0.0384, yy = 0.06, zz = 0.0216, xz = -0.0288 }";
         let ends = solid(rod).ends();

@@ -19,12 +19,14 @@ pub enum Quantity {
     Gain,
     /// Limits of forces: likewise, above zero, and infinite where they are missing.
     Limit,
+    /// Rates of anti-windup: as gains, zero or above.
+    TrackingRate,
 }
 
 impl Quantity {
     /// Whether one number may stand for those of all joints.
     fn may_be_uniform(self) -> bool {
-        matches!(self, Quantity::Gain | Quantity::Limit)
+        matches!(self, Quantity::Gain | Quantity::Limit | Quantity::TrackingRate)
     }
 }
 
@@ -192,7 +194,9 @@ fn one(
             resolved(reader, value.span(), path, angle)
         }
         Quantity::Rate => reader.parse_displacement(path, value, component.turns(), "/s"),
-        Quantity::Coordinate | Quantity::Gain | Quantity::Limit => plain(reader, path, value, quantity),
+        Quantity::Coordinate | Quantity::Gain | Quantity::Limit | Quantity::TrackingRate => {
+            plain(reader, path, value, quantity)
+        }
     }
 }
 
@@ -200,6 +204,19 @@ fn one(
 fn plain(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>, quantity: Quantity) -> Option<f64> {
     match quantity {
         Quantity::Limit => reader.parse_positive(path, value),
+        Quantity::TrackingRate => {
+            not_negative(reader, path, value, "a negative rate adds to the windup: give zero or more")
+        }
         _ => reader.parse_number(path, value),
     }
+}
+
+/// A number that is zero or above. `help` is what to do about a negative one.
+pub fn not_negative(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>, help: &str) -> Option<f64> {
+    let number = reader.parse_number(path, value)?;
+    if number < 0.0 {
+        let title = format!("{}: `{path}` is {number:?}, and must not be negative", reader.item());
+        return reader.error(value, Message { title, label: "negative".into(), help: help.into() });
+    }
+    Some(number)
 }

@@ -64,7 +64,7 @@ pub const ATOL: Key = Key::of_table(
 const ATOL_KEYS: Keys = Keys::new("`atol`", &[POSITION, VELOCITY, WORK]);
 pub const POSITION: Key = Key::new("position", "1e-8", "rad or m");
 pub const VELOCITY: Key = Key::new("velocity", "1e-6", "rad/s or m/s");
-pub const WORK: Key = Key::new("work", "1e-3", "J");
+pub const WORK: Key = Key::new("work", "1e-3", "J; also of integral actions, N m or N");
 pub const MAX_STEP: Key = Key::new("max_step", "0.01", "s");
 
 pub const TORQUE: Key = Key::of_table(

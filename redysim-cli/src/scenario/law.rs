@@ -79,8 +79,8 @@ impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
         self.chosen_mut().torque_with_state(t, at, state, rates)
     }
 
-    fn track(&self, excess: &Vec<f64>, rates: &mut [f64]) {
-        self.chosen().track(excess, rates);
+    fn track(&self, saturation_error: &Vec<f64>, rates: &mut [f64]) {
+        self.chosen().track(saturation_error, rates);
     }
 }
 

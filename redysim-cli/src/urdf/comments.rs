@@ -54,7 +54,7 @@ impl Robot {
         let count = self.links.iter().map(|link| link.comments.len()).sum::<usize>();
         if count > 0 {
             let lines = counted(count, "line");
-            self.notes.push(format!("what a model has no place for is kept in comments beside its link: {lines}"));
+            self.notes.push(format!("numbers without a key in the model are kept as comments: {lines}"));
         }
         self
     }
@@ -149,7 +149,7 @@ fn comment(node: Node, joint: Node) -> Option<String> {
     }
     let name = node.attribute("name").map_or(String::new(), |name| format!(" `{name}`"));
     let rotor = values.iter().any(|value| value.contains("mechanicalReduction"));
-    let rotor = if rotor { "; `armature` is the inertia of the rotor times its square" } else { "" };
+    let rotor = if rotor { "; `armature` = rotor inertia × mechanicalReduction²" } else { "" };
     (!values.is_empty()).then(|| format!("{}{name}: {}{rotor}", node.tag_name().name(), values.join(", ")))
 }
 

@@ -113,6 +113,18 @@ impl Graph {
         }
     }
 
+    /// The value of a node where parameters have those of the model, from the values of the nodes before it; NaN if it
+    /// depends on an argument.
+    pub fn nominal(&self, index: usize, before: &[f64]) -> f64 {
+        self.node(index).evaluate(
+            |edge| edge.signed(before[edge.node()]),
+            |leaf| match leaf {
+                Leaf::Constant(value) | Leaf::Parameter { nominal: value, .. } => value,
+                Leaf::Input { .. } => f64::NAN,
+            },
+        )
+    }
+
     /// Whether a value depends on parameters and constants alone.
     pub fn is_fixed(&self, edge: Edge) -> bool {
         self.fixed[edge.node()]

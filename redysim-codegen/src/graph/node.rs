@@ -1,6 +1,7 @@
 //! Nodes: operations and leaves, and the edges between them.
 
 use redysim_runtime::Scalar;
+use std::ops::Neg;
 
 /// A value: a node, or its negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -99,6 +100,13 @@ impl Node {
             Node::Cos(a) => at(a).sin_cos().1,
             Node::Sqrt(a) => at(a).sqrt(),
         }
+    }
+}
+
+impl Edge {
+    /// A node's value as that of the edge.
+    pub fn signed<S: Neg<Output = S>>(self, value: S) -> S {
+        if self.negative { -value } else { value }
     }
 }
 

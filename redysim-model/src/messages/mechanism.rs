@@ -258,9 +258,9 @@ pub(crate) fn loop_within_body(item: &str, link_a: &str, link_b: &str, locks: Ve
 
 pub(crate) fn negative_of_spring(item: &str, key: &str, value: f64) -> Message {
     let why = match key {
-        _ if key == keys::LENGTH.name => "no distance is",
-        _ if key == keys::SPRING_STIFFNESS.name => "the spring would push its ends further the longer it is",
-        _ => "the damper would drive its ends",
+        _ if key == keys::LENGTH.name => "a length cannot be negative",
+        _ if key == keys::SPRING_STIFFNESS.name => "the spring would be unstable",
+        _ => "the damper would add energy",
     };
     message(format!("{item}: `{key}` is negative: {value:?}; {why}"), "negative", "give zero or a positive number")
 }

@@ -154,7 +154,7 @@ pub(crate) fn unknown_quantity(item: &str, name: &str, quantity: &str) -> Messag
 
 pub(crate) fn parameter_of_unknown(item: &str, name: &str, owner: &str, owners: &[&str]) -> Message {
     let meant = did_you_mean(nearest(owner, owners.iter().copied()));
-    let help = format!("{meant}Names that may stand before the dot: {}", owners.join(", "));
+    let help = format!("{meant}Links and joints: {}", owners.join(", "));
     message(format!("{item}: parameter {} of an unknown link or joint", quoted(name)), "unknown link or joint", help)
 }
 

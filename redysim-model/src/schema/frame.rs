@@ -23,7 +23,7 @@ impl FrameTable {
         FrameTable {
             name: reader.required(&keys::NAME, Reader::text),
             link: reader.required(&keys::FRAME_LINK, Reader::text),
-            origin: reader.table(&keys::ORIGIN, origin),
+            origin: reader.table(&keys::FRAME_ORIGIN, origin),
             item,
         }
     }

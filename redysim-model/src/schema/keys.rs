@@ -70,8 +70,9 @@ pub(crate) const LINK: Keys = Keys::new(
     ],
 )
 .with_hints(hints::LINK);
-pub(crate) const JOINT_NAME: Key = Key::new("joint_name", "\"elbow\"", "what results call the joint, and `locked` too")
-    .with_default("the name of the link");
+pub(crate) const JOINT_NAME: Key =
+    Key::new("joint_name", "\"elbow\"", "name of the joint in results, `locked` and `parameters`")
+        .with_default("the name of the link");
 pub(crate) const PARENT: Key =
     Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground").with_default("required");
 pub(crate) const JOINT: Key =
@@ -126,7 +127,7 @@ pub(crate) const DH_D: Key = Key::new("d", "0.4", "m").with_default("0");
 
 pub(crate) const ORIGIN: Key =
     Key::of_table("origin", "{ xyz = [0.0, 0.0, 0.4], rpy = [\"90 deg\", 0, 0] }", "m and angles", &[&ORIGIN_KEYS])
-        .with_default("one of these three; of a frame: that of its link");
+        .with_default("one of these three");
 const ORIGIN_KEYS: Keys = Keys::new("`origin`", &[XYZ, RPY]).with_hints(hints::ORIGIN_TABLE);
 pub(crate) const XYZ: Key =
     Key::new("xyz", "[0.0, 0.0, 0.4]", "m, in the frame of the parent, or of the link on which a frame stands")
@@ -186,9 +187,10 @@ pub(crate) const POINT_B: Key =
 pub(crate) const AXIS_B: Key =
     Key::new("axis_b", "[0.0, 0.0, 1.0]", "of a revolute cut, in the frame of link b").with_default("z");
 
-pub(crate) const FRAME: Keys = Keys::new("A frame", &[NAME, FRAME_LINK, ORIGIN]);
+pub(crate) const FRAME: Keys = Keys::new("A frame", &[NAME, FRAME_LINK, FRAME_ORIGIN]);
 pub(crate) const FRAME_LINK: Key =
     Key::new("link", "\"link6\"", "the link on which it stands, or `base`").with_default("required");
+pub(crate) const FRAME_ORIGIN: Key = ORIGIN.with_default("the frame of its link");
 
 pub(crate) const SPRING: Keys =
     Keys::new("A spring", &[OPTIONAL_NAME, LINK_A, POINT_A, LINK_B, POINT_B, SPRING_STIFFNESS, SPRING_DAMPING, LENGTH])

@@ -1,14 +1,18 @@
 //! The motions that closed loops allow, by the independent velocities.
 
-use super::constraints::{LoopDecomposition, rank_tolerance, zero_columns};
+use super::constraints::{LoopDecomposition, zero_columns};
 use super::{ClosedLoop, LoopError};
-use crate::linear_algebra::{add_scaled, difference, dot, largest, product, zeros};
+use crate::linear_algebra::{add_scaled, difference, dot, largest, product, rank_tolerance, zeros};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, FrameAcceleration, FrameJacobian, Frames, LoopClosure, Real, Vector};
 
 /// The largest residual of prescribed velocities that counts as rounding, as a part of the largest velocity; likewise
 /// for a force without an actuator.
-pub(super) const SMALL: f64 = 1e-9;
+const SMALL: f64 = 1e-9;
+/// The same for the scalar `S`.
+pub(super) fn roundoff_tolerance<S: Real>() -> S {
+    S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON)
+}
 
 /// Checks that all independent velocities exist, and that none is repeated.
 pub(super) fn check_independent<S>(independent: &[usize], count: usize) -> Result<(), LoopError<S>> {
@@ -76,7 +80,7 @@ impl<'a, S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> Completion<'a,
             x = difference(&x, &self.dependent.combination(&self.dependent.solve(&missing(&x))));
         }
         let (residual, row) = largest(missing(&x).as_ref().iter().copied());
-        let small = S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON);
+        let small = roundoff_tolerance::<S>();
         if residual > small * (S::one() + largest(x.as_ref().iter().chain(bias.as_ref()).copied()).0) {
             return Err(LoopError::InconsistentVelocity { residual, row });
         }

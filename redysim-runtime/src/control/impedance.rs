@@ -8,8 +8,8 @@ use crate::{
     Real, TorqueLaw, Vector, Wrench,
 };
 
-/// Where a frame is to be at every time. Every closure `Fn(S) -> FrameState<S>` is one, and a [`FrameState`] is one that
-/// stays as it is.
+/// The desired motion of a frame. Implemented by closures `Fn(S) -> FrameState<S>` and, as a constant, by
+/// [`FrameState`].
 pub trait FrameTrajectory<S> {
     /// Position and velocity of the frame at time `t`, s, in the base frame.
     fn at(&self, t: S) -> FrameState<S>;
@@ -40,7 +40,8 @@ pub struct FrameGains<S> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compensation {
     /// g(q), the [gravity forces](GravityForces). The robot with the law is passive: its kinetic energy and that of the
-    /// spring change by the work of other forces, less what the damping takes.
+    /// spring change by the work of other forces, less what the damping takes. Springs and other passive forces of the
+    /// robot are not compensated: the static deflection K⁻¹ F holds without springs.
     #[default]
     Gravity,
     /// The whole [bias](BiasForces): Coriolis and centrifugal forces, gravity, and what damping, friction and springs
@@ -151,8 +152,8 @@ where
         + MassMatrix<S>,
     X: FrameTrajectory<S>,
 {
-    /// Not numbers if the mechanism has no such frame, or, with null-space damping, if its mass matrix is not positive
-    /// definite.
+    /// Returns NaN if the frame does not exist or, with null-space damping, if [`OperationalSpace::new`] fails (mass
+    /// matrix not positive definite, or Jacobian not finite).
     fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         let nv = self.mechanism.nv();
         let not_a_number = || M::Velocities::from_fn(nv, |_| S::from_f64(f64::NAN));

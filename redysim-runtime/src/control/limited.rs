@@ -5,13 +5,14 @@ use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Vector};
 
 /// Any law with the limits of the actuators: τ_applied = min(max(τ, −limit), limit) in each joint.
 ///
-/// A law that has states, such as [`Pid`](crate::Pid), is told by how much its forces are cut off
+/// A law that has states, such as [`Pid`](crate::Pid), receives the difference of applied and commanded force
 /// ([`TorqueLaw::track`]), so that its integral action does not wind up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limited<L, V> {
     /// The law.
     pub law: L,
-    /// The largest force in either direction, one for each velocity, N m or N; positive, infinite for none.
+    /// The largest force in either direction, one for each velocity, N m or N; non-negative: zero for an undriven
+    /// joint, infinite for no limit.
     pub limits: V,
 }
 
@@ -76,12 +77,12 @@ where
     ) -> M::Velocities {
         let asked = self.law.torque_with_state(t, at, state, rates);
         let applied = self.applied(&asked);
-        let excess = M::Velocities::from_fn(asked.as_ref().len(), |i| entry(&applied, i) - entry(&asked, i));
-        self.law.track(&excess, rates);
+        let saturation_error = M::Velocities::from_fn(asked.as_ref().len(), |i| entry(&applied, i) - entry(&asked, i));
+        self.law.track(&saturation_error, rates);
         applied
     }
 
-    fn track(&self, excess: &M::Velocities, rates: &mut [S]) {
-        self.law.track(excess, rates);
+    fn track(&self, saturation_error: &M::Velocities, rates: &mut [S]) {
+        self.law.track(saturation_error, rates);
     }
 }

@@ -11,12 +11,12 @@
 //! | [`Impedance`] | springs and dampers on a frame, and gravity forces or the bias of a model |
 //! | [`Limited`] | any law within the limits of the actuators |
 //!
-//! All but [`Impedance`] treat each joint by itself, with one gain for each velocity. [`ComputedTorque`] and [`PdGravity`] take position
-//! errors from the mechanism's `difference`; the others subtract coordinates from coordinates, and are for joints of one
+//! All but [`Impedance`] take one gain for each velocity. [`ComputedTorque`] and [`PdGravity`] take position errors
+//! from the mechanism's `difference`; the others subtract coordinates from coordinates, and are for joints of one
 //! coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint), proportional gains
 //! N m/rad (N/m) and derivative gains N m s/rad (N s/m) by default. One gain for all joints is written
-//! `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation does not begin with gains or targets of wrong
-//! length, nor with a law that the mechanism has too many coordinates for ([`TorqueLaw::check_lengths`]).
+//! `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation checks the lengths of gains and targets before it
+//! starts, and rejects laws of coordinate differences for mechanisms with NQ ≠ NV ([`TorqueLaw::check_lengths`]).
 
 mod computed_torque;
 mod impedance;
@@ -97,10 +97,10 @@ pub trait TorqueLaw<S: Scalar, M: ConfigurationSpace<S>> {
         self.torque(t, at.0, at.1)
     }
 
-    /// Adds to the rates of the states what lets them follow joint forces that differ from those asked for by `excess`,
-    /// τ_applied − τ: anti-windup. [`Limited`] calls it; by default, nothing is added.
-    fn track(&self, excess: &M::Velocities, rates: &mut [S]) {
-        let _ = (excess, rates);
+    /// Adds the anti-windup correction for the saturation error τ_applied − τ to the rates. [`Limited`] calls it; by
+    /// default, nothing is added.
+    fn track(&self, saturation_error: &M::Velocities, rates: &mut [S]) {
+        let _ = (saturation_error, rates);
     }
 }
 
@@ -120,7 +120,7 @@ pub fn uniform<S: Scalar, M: ConfigurationSpace<S>>(mechanism: &M, gain: S) -> M
     M::Velocities::from_fn(mechanism.nv(), |_| gain)
 }
 
-/// No torque at all: τ = 0.
+/// Zero torque: τ = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ZeroTorque;
 

@@ -8,10 +8,11 @@ use crate::{ConfigurationSpace, GravityForces, LengthMismatch, Real, TorqueLaw, 
 /// [`difference`](ConfigurationSpace::difference).
 ///
 /// The gravity forces are those of `mechanism`, the robot as the controller knows it. It may be another type than the
-/// one that moves, for example with the payload that the controller assumes. If the two have the same gravity forces,
-/// every set point is a position of rest, and a stable one for positive gains. Otherwise the robot rests where Kp e
-/// balances the difference: e = Kp⁻¹ (g_robot(q) − g(q)). Source: M. Takegaki and S. Arimoto, *A new feedback method for
-/// dynamic control of manipulators*, J. Dyn. Syst. Meas. Control 103 (1981).
+/// one that moves, for example with the payload that the controller assumes. If the two have the same gravity forces
+/// and the robot has no springs, every set point is an equilibrium. Springs and other passive forces are not
+/// compensated. Otherwise the robot rests where Kp e balances the difference: e = Kp⁻¹ (g_robot(q) − g(q)). Source:
+/// M. Takegaki and S. Arimoto, *A new feedback method for dynamic control of manipulators*, J. Dyn. Syst. Meas. Control
+/// 103 (1981).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PdGravity<'m, M, T, V> {
     /// The mechanism as the controller knows it, with the payload that it assumes.

@@ -66,12 +66,16 @@ pub struct Pid<T, V> {
 }
 
 /// The tracking rates Kt = 1/√(Ti Td) = √(Ki/Kd), and Kt = 1/Ti = Ki/Kp for a joint with Kd = 0, 1/s, with the integral
-/// and derivative times Ti = Kp/Ki and Td = Kd/Kp. Source: Åström and Hägglund, as [`Pid`].
+/// and derivative times Ti = Kp/Ki and Td = Kd/Kp. Zero for a joint with Kp = Kd = 0, which has no integral or
+/// derivative time; set Kt yourself. Source: Åström and Hägglund, as [`Pid`].
 pub fn tracking_rates<S: Real, V: Vector<S>>(kp: &V, ki: &V, kd: &V) -> V {
     V::from_fn(ki.as_ref().len(), |i| {
         let [kp, ki, kd] = [kp, ki, kd].map(|gains| entry(gains, i));
         let (over, root) = if kd == S::zero() { (kp, false) } else { (kd, true) };
-        let ratio = if ki == S::zero() { S::zero() } else { (ki / over).abs() };
+        if ki == S::zero() || over == S::zero() {
+            return S::zero();
+        }
+        let ratio = (ki / over).abs();
         if root { ratio.sqrt() } else { ratio }
     })
 }
@@ -87,8 +91,8 @@ impl<T, V> Pid<T, V> {
         T: Trajectory<S, Q, V>,
     {
         let (asked, mut rates) = self.force_and_rates(t, q, v, self.integral.as_ref());
-        let excess = V::from_fn(v.as_ref().len(), |i| entry(applied, i) - entry(&asked, i));
-        self.follow(&excess, rates.as_mut());
+        let saturation_error = V::from_fn(v.as_ref().len(), |i| entry(applied, i) - entry(&asked, i));
+        self.follow(&saturation_error, rates.as_mut());
         for (integral, &rate) in self.integral.as_mut().iter_mut().zip(rates.as_ref()) {
             *integral += dt * rate;
         }
@@ -115,13 +119,13 @@ impl<T, V> Pid<T, V> {
     }
 
     /// Adds Kt (τ_applied − τ) to the rates of z.
-    fn follow<S: Real>(&self, excess: &V, rates: &mut [S])
+    fn follow<S: Real>(&self, saturation_error: &V, rates: &mut [S])
     where
         V: Vector<S>,
     {
         for (i, rate) in rates.iter_mut().enumerate() {
             if entry(&self.ki, i) != S::zero() {
-                *rate += entry(&self.tracking, i) * entry(excess, i);
+                *rate += entry(&self.tracking, i) * entry(saturation_error, i);
             }
         }
     }
@@ -170,7 +174,7 @@ where
         force
     }
 
-    fn track(&self, excess: &M::Velocities, rates: &mut [S]) {
-        self.follow(excess, rates);
+    fn track(&self, saturation_error: &M::Velocities, rates: &mut [S]) {
+        self.follow(saturation_error, rates);
     }
 }

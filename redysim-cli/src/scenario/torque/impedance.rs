@@ -6,6 +6,7 @@ use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Value};
 
 use super::payload;
 use crate::scenario::initial::Initial;
+use crate::scenario::joints::not_negative;
 use crate::scenario::keys;
 use crate::scenario::subject::given;
 
@@ -46,7 +47,7 @@ impl HeldFrame {
         let [angular_stiffness, angular_damping] =
             [keys::ANGULAR_STIFFNESS, keys::ANGULAR_DAMPING].map(|key| gains(reader, &key).value_or([0.0; 3]));
         let compensation = reader.choice(&keys::COMPENSATION, &COMPENSATIONS).value_or(Compensation::default());
-        let null_space_damping = reader.field(&keys::NULL_SPACE_DAMPING, not_negative).value_or(0.0);
+        let null_space_damping = reader.field(&keys::NULL_SPACE_DAMPING, gain).value_or(0.0);
         let laden = payload::read(reader, model);
         let (origin, rotation) = target?.unwrap_or_default();
         Some(HeldFrame {
@@ -114,21 +115,15 @@ fn frame(reader: &mut Reader<'_, '_>, model: &Model) -> Option<usize> {
 fn gains(reader: &mut Reader<'_, '_>, key: &Key) -> Field<[f64; 3]> {
     reader.field(key, |reader, path, value| {
         let DeValue::Array(array) = value.get_ref() else {
-            return Some([not_negative(reader, path, value)?; 3]);
+            return Some([gain(reader, path, value)?; 3]);
         };
-        let gains = reader.elements(path, array, not_negative)?;
+        let gains = reader.elements(path, array, gain)?;
         let found = gains.len();
         gains.try_into().ok().or_else(|| reader.wrong_length(path, value, "3 numbers", found))
     })
 }
 
-/// A number that is zero or above.
-fn not_negative(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>) -> Option<f64> {
-    let number = reader.parse_number(path, value)?;
-    if number < 0.0 {
-        let title = format!("{}: `{path}` is {number:?}, and must not be negative", reader.item());
-        let help = "a negative gain drives the frame away from its place: give zero or more".to_owned();
-        return reader.error(value, Message { title, label: "negative".into(), help });
-    }
-    Some(number)
+/// A gain, which is zero or above.
+fn gain(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>) -> Option<f64> {
+    not_negative(reader, path, value, "a negative gain drives the frame away from its place: give zero or more")
 }

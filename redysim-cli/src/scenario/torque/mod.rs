@@ -249,8 +249,8 @@ impl<'s> Source<'s, '_, '_> {
         let target = self.targets(&joints);
         let [kp, ki, kd] = [keys::KP, keys::KI, keys::KD].map(|key| self.gains(&key, &joints));
         let layout = self.subject.layout;
-        let velocities = layout.velocities_of(&joints);
-        let rate = values(&mut self.reader, &keys::TRACKING_RATE, Quantity::Gain, &layout.velocities, &velocities);
+        let of = layout.velocities_of(&joints);
+        let rate = values(&mut self.reader, &keys::TRACKING_RATE, Quantity::TrackingRate, &layout.velocities, &of);
         let limits = self.limits(&joints)?;
         let (kp, ki, kd) = (kp?, ki?, kd?);
         let tracking_rate = rate.value_or(tracking_rates(&kp, &ki, &kd))?;
@@ -280,10 +280,7 @@ impl<'s> Source<'s, '_, '_> {
             return Some(());
         }
         self.reader.error_of_table(Message {
-            title: format!(
-                "{}: the law `{name}` compensates the gravity of a tree, and the model has closed loops",
-                self.reader.item()
-            ),
+            title: format!("{}: the law `{name}` requires a tree, but the model has closed loops", self.reader.item()),
             label: "not for this model".into(),
             help: "take the law `computed-torque`, which carries the weight of closed loops, or `pid`".into(),
         })
@@ -304,10 +301,10 @@ impl<'s> Source<'s, '_, '_> {
         let joints = self.driven(usual)?;
         let [kp, kd] = [self.gains(&keys::KP, &joints), self.gains(&keys::KD, &joints)];
         if let Some(&joint) = joints.iter().find(|joint| !trajectory.joints.contains(joint)) {
-            return astray(&mut self.reader, &self.subject.joints()[joint]);
+            return not_prescribed(&mut self.reader, &self.subject.joints()[joint]);
         }
         if joints.is_empty() {
-            return idle(&mut self.reader);
+            return nothing_actuated(&mut self.reader);
         }
         let limits = self.limits(&joints)?;
         Some(limits.of(Torque::TrackingPd { joints, trajectory: trajectory.clone(), kp: kp?, kd: kd? }))
@@ -386,7 +383,7 @@ fn unfollowed<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
     })
 }
 
-fn idle<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
+fn nothing_actuated<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
     reader.error_of_table(Message {
         title: format!("{}: no joint that the trajectory prescribes has an actuator", reader.item()),
         label: "drives nothing".into(),
@@ -394,7 +391,7 @@ fn idle<T>(reader: &mut Reader<'_, '_>) -> Option<T> {
     })
 }
 
-fn astray<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
+fn not_prescribed<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
     reader.error_of_table(Message {
         title: format!(
             "{}: the trajectory does not prescribe the joint `{}` that the torque law drives",

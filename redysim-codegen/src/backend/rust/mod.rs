@@ -105,6 +105,11 @@ fn constants(
 ) -> TokenStream {
     let PublicInterface { name, links, joints, loop_rows, frames, mass, .. } = interface;
     let parameters = parametric::constants(interface);
+    let mass_doc = if is_parametric(interface) {
+        " Mass of all links, kg, with the parameters of the model."
+    } else {
+        " Mass of all links, kg."
+    };
     let (nj, joints) = (Literal::usize_unsuffixed(joints.len()), joints.iter().map(|joint| &joint.name));
     let actuated = interface.actuated();
     let sizes =
@@ -132,7 +137,7 @@ fn constants(
         /// Number of frames of interest.
         pub const NF: usize = #nf;
         #parameters
-        /// Mass of all links, kg.
+        #[doc = #mass_doc]
         pub const MASS: f64 = #mass;
         /// Names of the links, in the model's order.
         pub const LINK_NAMES: [&'static str; #nl] = [#(#links),*];

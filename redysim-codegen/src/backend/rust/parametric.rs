@@ -101,18 +101,20 @@ pub fn constructors(
         impl<S: #runtime::Scalar> #name<S> {
             /// The robot with the given parameters, in the order of `PARAMETER_NAMES`: kg, m, kg m² and so on.
             ///
-            /// What depends on them alone is computed here, once. Parameters are not checked: no body has a negative
-            /// mass, but its equations of motion can be written down. [`try_new`](Self::try_new) checks them.
+            /// What depends on them alone is computed here, once. Parameters are not checked;
+            /// [`try_new`](Self::try_new) checks them.
             pub fn new(#given: &[S; #np]) -> Self {
                 #new
             }
 
-            /// The robot with the given parameters, if there are bodies and joints that have them.
+            /// The robot with the given parameters, if a rigid body and its joint can have them.
             ///
             /// # Errors
             ///
-            /// The first parameter that breaks a rule: one that is not finite, a negative mass, armature, damping,
-            /// friction or stiffness, a friction velocity that is not positive, or an inertia tensor that no body has.
+            /// The first parameter that violates a rule: one that is not finite, a negative mass, armature, damping,
+            /// friction or stiffness, a friction velocity that is not positive, or an inertia tensor that no rigid body
+            /// has. In a model file, a tensor that violates the triangle inequality is reported by the lint
+            /// `inertia-triangle`; here it is an error.
             pub fn try_new(
                 parameters: &[S; #np],
             ) -> ::core::result::Result<Self, #runtime::ParameterError>

@@ -3,20 +3,8 @@
 mod augmentation;
 
 use super::{ClosedLoop, LoopError};
-use crate::linear_algebra::{MassMetric, OrthogonalDecomposition, WeightedRows, largest};
+use crate::linear_algebra::{MassMetric, OrthogonalDecomposition, WeightedRows, largest, rank_tolerance};
 use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
-
-/// A row counts as dependent when what remains of it is at most this part of the longest row.
-///
-/// At a singular position a residual of rounding size leaves the position uncertain by its root, 10⁻⁸, and what is
-/// divided by the remainder σ carries an error of that size over σ. A row left out for one evaluation, on the other
-/// hand, costs little, since σ is as small only within a tiny part of a step. Experiments with the N-four-bar (steps of
-/// 10⁻² to 5·10⁻⁵ s through ten singular positions) are best between 3·10⁻⁶ and 3·10⁻⁵.
-const DEPENDENT: f64 = 1e-5;
-/// The tolerance of ranks.
-pub fn rank_tolerance<S: Real>() -> S {
-    S::from_f64(DEPENDENT).maximum(S::EPSILON.sqrt())
-}
 
 /// Rows of the loops' Jacobian, decomposed.
 pub type LoopDecomposition<S, M, C> = OrthogonalDecomposition<

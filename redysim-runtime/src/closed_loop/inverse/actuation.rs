@@ -2,7 +2,7 @@
 
 use super::LoopForces;
 use crate::closed_loop::constraints::{LoopDecomposition, zero_columns};
-use crate::closed_loop::independent::{Completion, SMALL, check_independent, without_columns};
+use crate::closed_loop::independent::{Completion, check_independent, roundoff_tolerance, without_columns};
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::linear_algebra::{add_scaled, dot, largest, product, zeros};
 use crate::vector::entry;
@@ -84,7 +84,7 @@ impl<M, C> Actuation<'_, M, C> {
         for (row, &multiplier) in jacobian.as_ref().iter().zip(multipliers.as_ref()) {
             add_scaled(forces.as_mut(), -multiplier, row.as_ref());
         }
-        let small = S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON);
+        let small = roundoff_tolerance::<S>();
         let (most, _) = largest(of_tree.as_ref().iter().copied());
         for (velocity, force) in forces.as_mut().iter_mut().enumerate() {
             if !self.actuated.contains(&velocity) {
