@@ -132,7 +132,7 @@ pub fn check_parameters<T: Real>(
         Err(ParameterError { index, name, value: value.to_f64(), rule })
     };
     // All numbers first, so that a tensor is not blamed for an element that is none.
-    for (index, ((value, &name), &rule)) in checked().filter(|(_, ((value, _), _))| !value.is_finite()) {
+    if let Some((index, ((value, &name), &rule))) = checked().find(|(_, ((value, _), _))| !value.is_finite()) {
         return error(index, value, name, rule);
     }
     let mut element = 0;
