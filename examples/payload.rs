@@ -18,22 +18,22 @@ redysim! {
     pub struct Kr5("models/kr5.toml", parameters = ["link6.mass", "link6.com", "link6.inertia"]);
 }
 
-type Joints = [f64; <Kr5>::NV];
+type Joints = [f64; Kr5::NV];
 type Path = Cycloid<f64, Joints>;
 
 /// Time between samples, s, and their number.
 const PERIOD: f64 = 1e-3;
 const SAMPLES: usize = 1000;
 /// Kp, 1/s², and Kd, 1/s: errors of the exact model die out as exp(−20 t).
-const KP: Joints = [400.0; <Kr5>::NV];
-const KD: Joints = [40.0; <Kr5>::NV];
+const KP: Joints = [400.0; Kr5::NV];
+const KD: Joints = [40.0; Kr5::NV];
 
 /// The robot with a cube of steel at its flange: 5 kg, with its centre of mass 60 mm ahead.
 fn loaded() -> Result<Kr5, Failure> {
     const MASS: f64 = 5.0;
     const SIDE: f64 = 0.086;
     const AHEAD: [f64; 3] = [0.0, 0.0, 0.06];
-    let [own, x, y, z, xx, yy, zz, xy, yz, xz] = <Kr5>::PARAMETERS;
+    let [own, x, y, z, xx, yy, zz, xy, yz, xz] = Kr5::PARAMETERS;
     let (com, mass) = ([x, y, z], own + MASS);
     let together: [f64; 3] = std::array::from_fn(|i| (own * com[i] + MASS * AHEAD[i]) / mass);
     // Steiner's theorem, from each body's centre of mass to that of both.
@@ -61,7 +61,7 @@ fn loaded() -> Result<Kr5, Failure> {
 }
 
 fn main() -> Result<(), Failure> {
-    let path = Cycloid::new([0.0; <Kr5>::NQ], [FRAC_PI_3; <Kr5>::NQ], 1.0)?;
+    let path = Cycloid::new([0.0; Kr5::NQ], [FRAC_PI_3; Kr5::NQ], 1.0)?;
     let (empty, loaded) = (Kr5::default(), loaded()?);
     let runs = [Run::of("right payload", &loaded, &loaded, path)?, Run::of("wrong payload", &empty, &loaded, path)?];
     headline("KR5 with 5 kg at its flange: torques along the path, and tracking errors under computed torque at 1 kHz");
@@ -72,7 +72,7 @@ fn main() -> Result<(), Failure> {
         "largest error, deg\nright payload",
         "\nwrong payload",
     ]);
-    for joint in 0..<Kr5>::NV {
+    for joint in 0..Kr5::NV {
         let torque = |run: &Run| format!("{:.1}", peak(column(&run.feedforward, joint).into_iter()));
         let error = |run: &Run| format!("{:.4}", peak(column(&run.error, joint).into_iter()).to_degrees());
         let [right, wrong] = &runs;
@@ -129,7 +129,7 @@ impl Run {
     }
 
     fn csv(&self) -> Csv {
-        let mut csv = Csv::new(&headers(<Kr5>::NV, &[("tau", "N m"), ("error", "rad")]));
+        let mut csv = Csv::new(&headers(Kr5::NV, &[("tau", "N m"), ("error", "rad")]));
         for (k, &t) in self.t.iter().enumerate() {
             csv.row(std::iter::once(t).chain(self.feedforward[k].iter().chain(&self.error[k]).copied()));
         }

@@ -163,8 +163,12 @@ fn laws_with_faults_are_refused_where_they_stand() {
     refuses("light", "forward", &gravity("{ link = 'link1', mass = -0.7 }"), 1, &words);
 
     let impedance = |keys: &str| law(&format!("law = 'impedance', frame = 'tool', {keys}"));
-    let words =
-        ["holds a frame, and the model has none", "add a table `[[frame]]`", "name = \"tool\"", "trial.toml:6:"];
+    let words = [
+        "requires a frame, but the model does not have a `[[frame]]`",
+        "add a table `[[frame]]`",
+        "name = \"tool\"",
+        "trial.toml:6:",
+    ];
     refuses("frames", "forward", &impedance("stiffness = 9, damping = 3"), 1, &words);
     refuses("limits-of-free", "forward", &law("law = 'free', limits = 3"), 1, &["unknown key `forward.torque.limits`"]);
 }

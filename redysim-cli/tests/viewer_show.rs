@@ -261,7 +261,7 @@ fn a_ball_holds_a_point_while_it_is_dragged() {
     shown.look();
 }
 
-/// A box on the ground, one that turns, and one that slides on it; and a file that is no mesh.
+/// A box on the ground, one that turns, and one that slides on it; and a file that is not a mesh.
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn meshes_move_with_their_links() {

@@ -71,7 +71,7 @@ fn without_fixed(expressions: &Expressions, lumped: &mut Expressions) -> Express
 }
 
 impl Expressions {
-    /// The place of a value among the outputs, of which it becomes one if it is none.
+    /// The position of a value among the outputs. A new value is appended.
     fn place(&mut self, value: Edge) -> u32 {
         let place = self.outputs.iter().position(|output| *output == value).unwrap_or(self.outputs.len());
         if place == self.outputs.len() {

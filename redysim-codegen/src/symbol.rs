@@ -3,8 +3,8 @@
 use crate::graph::{Edge, Graph, Name, Step};
 use redysim_model::Tree;
 use redysim_model::denoc::Trace;
-use redysim_model::parameter::{Parameter, ParameterIn};
-use redysim_runtime::{Dual, Scalar};
+use redysim_model::parameter::Parameter;
+use redysim_runtime::{Dual, Lift, Scalar};
 use std::cell::RefCell;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -179,8 +179,8 @@ impl Parameter for Symbol<'_> {
     }
 }
 
-impl<'g> ParameterIn<Symbol<'g>> for Symbol<'g> {
-    fn value(self) -> Symbol<'g> {
+impl<'g> Lift<Symbol<'g>> for Symbol<'g> {
+    fn lift(self) -> Symbol<'g> {
         self
     }
 }

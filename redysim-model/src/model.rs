@@ -1,5 +1,6 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
+use crate::inertia::Sym3;
 use crate::joint::physics::JointPhysics;
 use crate::spatial::{Pose, Vec3};
 
@@ -136,6 +137,12 @@ pub struct Inertia {
     pub yz: f64,
     /// Element xz of the tensor.
     pub xz: f64,
+}
+
+impl From<Inertia> for Sym3<f64> {
+    fn from(Inertia { xx, yy, zz, xy, yz, xz }: Inertia) -> Self {
+        Sym3 { xx, yy, zz, xy, yz, xz }
+    }
 }
 
 /// A cut joint: `point_a` on link a and `point_b` on link b coincide.

@@ -1,8 +1,9 @@
-//! The numbers of a mechanism that may be given at run time: inertias and gravity.
+//! The numbers of a mechanism that may be given at run time: inertias, gravity and what acts in joints.
 
-use redysim_runtime::{Dual, Scalar};
+use redysim_runtime::{Dual, Lift, Scalar};
 
-/// An inertial parameter, or a component of gravity: a constant of the model or a value that is given at run time.
+/// An inertial parameter, a component of gravity or a number of a joint: a constant of the model or a value that is given
+/// at run time.
 ///
 /// A [`Tree`](crate::tree::Tree) has its geometry in `f64` and these in `P`. What is linear in inertias, such as
 /// [regrouping](crate::regroup), holds for any `P`. A pass that compares numbers reads [`number`](Self::number) and
@@ -12,11 +13,16 @@ pub trait Parameter: Scalar {
     fn number(self) -> Option<f64>;
 }
 
-/// A parameter in a computation over the scalar `S`.
-pub trait ParameterIn<S>: Parameter {
+/// A parameter in a computation over the scalar `S`, into which it is [lifted](Lift).
+pub trait ParameterIn<S>: Parameter + Lift<S> {
     /// The parameter as a scalar.
-    fn value(self) -> S;
+    #[inline]
+    fn value(self) -> S {
+        self.lift()
+    }
 }
+
+impl<S, P: Parameter + Lift<S>> ParameterIn<S> for P {}
 
 /// A parameter that may not be zero.
 #[inline]
@@ -31,25 +37,11 @@ impl Parameter for f64 {
     }
 }
 
-impl<S: Scalar> ParameterIn<S> for f64 {
-    #[inline]
-    fn value(self) -> S {
-        S::from_f64(self)
-    }
-}
-
 /// A number with its derivative, for derivatives by inertial parameters.
 impl<S: Scalar> Parameter for Dual<S> {
     #[inline]
     fn number(self) -> Option<f64> {
         None
-    }
-}
-
-impl<S: Scalar> ParameterIn<Dual<S>> for Dual<S> {
-    #[inline]
-    fn value(self) -> Dual<S> {
-        self
     }
 }
 

@@ -4,6 +4,7 @@ use crate::inertia::Sym3;
 use crate::joint::JointPhysics;
 use crate::model::{Link, Model};
 use crate::parameter::Parameter;
+use crate::schema::keys;
 use crate::spatial::Vec3;
 use redysim_runtime::ParameterRule;
 
@@ -49,20 +50,20 @@ const TENSOR: &[&str] = &[".xx", ".yy", ".zz", ".xy", ".yz", ".xz"];
 impl Quantity {
     /// Those of links and joints, with their names in a model file.
     pub const OF_LINKS: [(&'static str, Quantity); 9] = [
-        ("mass", Quantity::Mass),
-        ("com", Quantity::Com),
-        ("inertia", Quantity::Inertia),
-        ("armature", Quantity::Armature),
-        ("damping", Quantity::Damping),
-        ("friction", Quantity::Friction),
-        ("friction_velocity", Quantity::FrictionVelocity),
-        ("stiffness", Quantity::Stiffness),
-        ("rest", Quantity::Rest),
+        (keys::MASS.name, Quantity::Mass),
+        (keys::COM.name, Quantity::Com),
+        (keys::INERTIA.name, Quantity::Inertia),
+        (keys::ARMATURE.name, Quantity::Armature),
+        (keys::DAMPING.name, Quantity::Damping),
+        (keys::FRICTION.name, Quantity::Friction),
+        (keys::FRICTION_VELOCITY.name, Quantity::FrictionVelocity),
+        (keys::STIFFNESS.name, Quantity::Stiffness),
+        (keys::REST.name, Quantity::Rest),
     ];
 
     /// Its name in a model file.
     pub fn name(self) -> &'static str {
-        Quantity::OF_LINKS.iter().find(|(_, quantity)| *quantity == self).map_or("gravity", |(name, _)| name)
+        Quantity::OF_LINKS.iter().find(|(_, quantity)| *quantity == self).map_or(keys::GRAVITY.name, |(name, _)| name)
     }
 
     /// Whether it belongs to a joint that moves, not to a body.
@@ -127,15 +128,11 @@ pub(crate) struct LinkNumbers<P> {
 impl<P: Parameter> Numbers<P> {
     /// The numbers of the model itself.
     pub fn of(model: &Model) -> Self {
-        let link = |link: &Link| {
-            let i = link.inertia;
-            let inertia = Sym3 { xx: i.xx, yy: i.yy, zz: i.zz, xy: i.xy, yz: i.yz, xz: i.xz };
-            LinkNumbers {
-                mass: P::from_f64(link.mass),
-                com: link.com.map(P::from_f64),
-                inertia: inertia.map(P::from_f64),
-                physics: link.physics.map(P::from_f64),
-            }
+        let link = |link: &Link| LinkNumbers {
+            mass: P::from_f64(link.mass),
+            com: link.com.map(P::from_f64),
+            inertia: Sym3::from(link.inertia).map(P::from_f64),
+            physics: link.physics.map(P::from_f64),
         };
         Numbers { gravity: model.gravity.map(P::from_f64), links: model.links.iter().map(link).collect() }
     }

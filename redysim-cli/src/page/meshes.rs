@@ -131,7 +131,7 @@ fn not_found(file: &str, places: &[PathBuf]) -> (String, String) {
         ),
         None => {
             let path = places.first().map_or(String::new(), |path| path.display().to_string());
-            (format!("there is no file {path}"), "paths are taken from the URDF's folder".into())
+            (format!("the file {path} does not exist"), "relative paths start at the URDF's folder".into())
         }
     }
 }

@@ -33,8 +33,7 @@ pub struct Ellipsoid {
 impl Solid {
     /// The solid of a link; without mass or inertia, a point.
     pub fn of(link: &Link) -> Solid {
-        let i = link.inertia;
-        let tensor = Sym3 { xx: i.xx, yy: i.yy, zz: i.zz, xy: i.xy, yz: i.yz, xz: i.xz }.rotated(link.frame.rotation);
+        let tensor = Sym3::from(link.inertia).rotated(link.frame.rotation);
         let com = link.frame.transform(link.com);
         if link.mass <= 0.0 {
             return Solid { com, spread: [0.0; 3], axes: Mat3::identity() };

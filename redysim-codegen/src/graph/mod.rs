@@ -254,8 +254,8 @@ impl Graph {
         (sign, edge.abs())
     }
 
-    /// The value as a factor that is [fixed](Self::is_fixed), but not a constant alone, times a value that is not; `None`
-    /// and the value without its sign if there is no such factor.
+    /// The value as a product of a factor that is [fixed](Self::is_fixed), but not a constant, and a value that is not
+    /// fixed. Returns `None` and the value without its sign for any other value.
     pub fn fixed_coefficient(&self, edge: Edge) -> (Option<Edge>, Edge) {
         match self.nodes[edge.node()] {
             Node::Multiply(factor, base)
@@ -267,7 +267,7 @@ impl Graph {
         }
     }
 
-    /// A factor of `term`, or where it has none, its sign as a constant.
+    /// `factor`, or its default: the sign of `term` as a constant.
     pub fn factor_or_sign(&mut self, factor: Option<Edge>, term: Edge) -> Edge {
         factor.unwrap_or_else(|| self.constant(if term.negative { -1.0 } else { 1.0 }))
     }

@@ -33,14 +33,13 @@ pub(super) fn check(link: &LinkTable, findings: &mut Findings) {
 
 /// The eigenvalues of the tensor, from smallest to largest; `None` for the zero tensor.
 fn principal_moments(inertia: &Inertia) -> Option<[f64; 3]> {
-    let Inertia { xx, yy, zz, xy, yz, xz } = *inertia;
+    let tensor = Sym3::from(*inertia);
     // Scaled, so that the iteration works on numbers near one.
-    let scale = [xx, yy, zz, xy, yz, xz].iter().fold(0.0, |largest: f64, element| largest.max(element.abs()));
+    let scale = tensor.full().0.as_flattened().iter().fold(0.0, |largest: f64, element| largest.max(element.abs()));
     if scale == 0.0 {
         return None;
     }
-    let tensor = Sym3 { xx, yy, zz, xy, yz, xz }.map(|element| element / scale);
-    Some(tensor.eigenvalues().map(|moment| moment * scale))
+    Some(tensor.map(|element| element / scale).eigenvalues().map(|moment| moment * scale))
 }
 
 #[cfg(test)]

@@ -62,7 +62,7 @@ impl<S: Scalar> Springs<S> {
         &mut self.forces
     }
 
-    /// Σ k (ℓ − ℓ₀)², twice the energy of all springs; `None` if there is none.
+    /// Σ k (ℓ − ℓ₀)², twice the energy of all springs; `None` without springs that store energy.
     pub fn twice_energy<P: ParameterIn<S>>(&mut self, tree: &Tree<P>, frames: &[JointFrame<S>]) -> Option<S> {
         let energies = tree.springs.iter().filter_map(|spring| {
             let square = self.measure(spring, tree, frames);
@@ -71,7 +71,7 @@ impl<S: Scalar> Springs<S> {
         energies.reduce(|sum, energy| sum + energy)
     }
 
-    /// Σ c ℓ̇², the power that the dampers of all springs take; `None` if there is none.
+    /// Σ c ℓ̇², the power that the dampers of all springs take; `None` without dampers.
     pub fn dissipated_power<P: ParameterIn<S>>(
         &mut self,
         tree: &Tree<P>,

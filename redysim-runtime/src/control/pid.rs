@@ -71,12 +71,15 @@ pub struct Pid<T, V> {
 pub fn tracking_rates<S: Real, V: Vector<S>>(kp: &V, ki: &V, kd: &V) -> V {
     V::from_fn(ki.as_ref().len(), |i| {
         let [kp, ki, kd] = [kp, ki, kd].map(|gains| entry(gains, i));
-        let (over, root) = if kd == S::zero() { (kp, false) } else { (kd, true) };
-        if ki == S::zero() || over == S::zero() {
-            return S::zero();
+        if ki == S::zero() {
+            S::zero()
+        } else if kd != S::zero() {
+            (ki / kd).abs().sqrt()
+        } else if kp != S::zero() {
+            (ki / kp).abs()
+        } else {
+            S::zero()
         }
-        let ratio = (ki / over).abs();
-        if root { ratio.sqrt() } else { ratio }
     })
 }
 

@@ -88,10 +88,8 @@ impl HeldFrame {
 
     /// What scenarios call a compensation.
     pub fn name_of(compensation: Compensation) -> &'static str {
-        match compensation {
-            Compensation::Gravity => "gravity",
-            Compensation::Bias => "bias",
-        }
+        let named = COMPENSATIONS.iter().find(|(_, other)| *other == compensation);
+        named.map_or("", |(name, _)| name)
     }
 }
 
@@ -100,7 +98,10 @@ fn frame(reader: &mut Reader<'_, '_>, model: &Model) -> Option<usize> {
     let name = reader.required(&keys::FRAME, Reader::text);
     let name = name.spanned()?;
     if model.frames.is_empty() {
-        let title = format!("{}: the law `impedance` holds a frame, and the model has none", reader.item());
+        let title = format!(
+            "{}: the law `impedance` requires a frame, but the model does not have a `[[frame]]`",
+            reader.item()
+        );
         let help = format!(
             "add a table `[[frame]]` to the model, with name = {:?}, the `link` that it stands on and its `origin`",
             name.get_ref()

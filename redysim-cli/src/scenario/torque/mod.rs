@@ -105,9 +105,10 @@ struct Source<'s, 'a, 'f> {
     trajectory: Option<Option<&'s Prescribed>>,
 }
 
-/// The limits of the forces on some joints; `None` if there are none.
+/// The limits of the forces on some joints.
 struct Limits {
     joints: Vec<usize>,
+    /// `None` without the key `limits`.
     forces: Option<Vec<f64>>,
 }
 
@@ -286,7 +287,7 @@ impl<'s> Source<'s, '_, '_> {
         })
     }
 
-    /// The limits of the forces on `joints`, if there are any.
+    /// The limits of the forces on `joints`.
     fn limits(&mut self, joints: &[usize]) -> Option<Limits> {
         let force = |joint: usize| self.subject.model.moving_links().nth(joint)?.range?.force;
         let field = limits(&mut self.reader, &keys::LIMITS, self.subject.layout, joints, force);

@@ -8,7 +8,8 @@ use redysim_toml::{Message, Reader, Spanned};
 use crate::scenario::keys;
 use crate::scenario::subject::given;
 
-/// Reads the table `payload`: `model` with a mass at a point of a link. `Some(None)` if there is no such table.
+/// Reads the table `payload`: `model` with a mass at a point of a link. Returns `Some(None)` without the table, and `None`
+/// if it is invalid, which has been reported.
 pub fn read(reader: &mut Reader<'_, '_>, model: &Model) -> Option<Option<Box<GenericMechanism>>> {
     let field = reader.table(&keys::PAYLOAD, |mut reader| {
         let name = reader.required(&keys::PAYLOAD_LINK, Reader::text);
