@@ -5,17 +5,12 @@
 mod common;
 
 use common::models::{Kr5Drives, generic};
-use redysim::generic::{GenericMechanism, Model};
+use common::text::{flops, mechanism};
+use redysim::generic::GenericMechanism;
 use redysim::{
-    ClosedLoop, ClosedLoopSimulation, ForwardDynamics, ForwardSimulation, Function, Integrator, MechanicalEnergy,
-    Ode45, Radau5, SimulationState, ZeroTorque,
+    ClosedLoop, ClosedLoopSimulation, ForwardDynamics, ForwardSimulation, Integrator, MechanicalEnergy, Ode45, Radau5,
+    SimulationState, ZeroTorque,
 };
-use redysim_codegen::functions::trace;
-use redysim_model::Tree;
-
-fn mechanism(text: &str) -> GenericMechanism {
-    GenericMechanism::new(Model::from_toml(text, "test.toml").unwrap_or_else(|faults| panic!("{faults}")).model)
-}
 
 /// A block of 2 kg on a level rail, with what acts in its joint.
 fn block(physics: &str) -> GenericMechanism {
@@ -113,15 +108,6 @@ fn a_four_bar_with_dampers_in_its_joints_loses_what_they_take() {
     let change: f64 = damped.energy(&q, &v).total() - before;
     assert!(change < -0.1, "{change} J");
     assert!((change - taken).abs() < 1e-7, "{change} J, of which {taken} J are known");
-}
-
-/// Flops of inverse dynamics, forward dynamics and the mass matrix.
-fn flops(text: &str) -> [u32; 3] {
-    let tree = Tree::new(&Model::from_toml(text, "test.toml").expect("a good model").model);
-    let functions = trace(&tree).expect("no pass changes a value");
-    [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix].map(|wanted| {
-        functions.iter().find(|traced| traced.function == wanted).expect("a function").expressions.count().flops()
-    })
 }
 
 /// Constants of M's diagonal are added to others that are there.

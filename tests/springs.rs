@@ -5,20 +5,15 @@
 mod common;
 
 use common::random::Random;
+use common::text::{flops, mechanism};
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
     BiasForces, ClosedLoop, ClosedLoopSimulation, ConfigurationSpace, Dual, ForwardDynamics, ForwardSimulation,
-    Function, Integrator, InverseDynamics, MechanicalEnergy, Ode4, Ode45, PassiveForces, Radau5, Scalar,
-    SimulationState, ZeroTorque, redysim,
+    Integrator, InverseDynamics, MechanicalEnergy, Ode4, Ode45, PassiveForces, Radau5, Scalar, SimulationState,
+    ZeroTorque, redysim,
 };
-use redysim_codegen::functions::trace;
-use redysim_model::Tree;
 
 redysim! { struct Springs("models/test/springs.toml"); }
-
-fn mechanism(text: &str) -> GenericMechanism {
-    GenericMechanism::new(Model::from_toml(text, "test.toml").unwrap_or_else(|faults| panic!("{faults}")).model)
-}
 
 fn shipped(name: &str) -> String {
     let path = format!("{}/models/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -191,15 +186,6 @@ fn a_spring_between_links_that_locked_joints_make_one_body_has_no_effect() {
     assert_eq!(locked.inverse_dynamics(&q, &v, &a), without.inverse_dynamics(&q, &v, &a));
     let options = "locked = { fore = 0.4, upper = 0.2 }";
     assert!(Model::from_toml_with(shipped("test/springs"), "springs.toml", options).is_ok());
-}
-
-/// Flops of inverse dynamics, forward dynamics and the mass matrix.
-fn flops(text: &str) -> [u32; 3] {
-    let tree = Tree::new(&Model::from_toml(text, "test.toml").expect("a good model").model);
-    let functions = trace(&tree).expect("no pass changes a value");
-    [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix].map(|wanted| {
-        functions.iter().find(|traced| traced.function == wanted).expect("a function").expressions.count().flops()
-    })
 }
 
 /// Of a spring over one joint, the line is what the joint turns, and the lever one product across it; of one over all six

@@ -1,6 +1,6 @@
 //! From a model to the code of a mechanism.
 
-use crate::backend::rust;
+use crate::backend::rust::{self, TypeTokens};
 use crate::documentation;
 use crate::expressions::Expressions;
 use crate::functions::{ParametricFunctions, TraceError, TracedFunction, trace_model, trace_of, trace_with_parameters};
@@ -13,13 +13,8 @@ use redysim_runtime::OperationCount;
 /// The code of a mechanism, and its operations.
 #[derive(Clone, Debug)]
 pub struct Generated {
-    /// What follows the name of the struct in its declaration: `;`, or for a mechanism with run-time parameters, its
-    /// scalar and its field.
-    pub declaration: TokenStream,
-    /// The traits that the struct may derive.
-    pub derives: TokenStream,
-    /// `impl` blocks for the struct.
-    pub tokens: TokenStream,
+    /// The type, to be declared where it is used.
+    pub tokens: TypeTokens,
     /// Operations of each function.
     pub operations: Vec<(Function, OperationCount)>,
     /// Options that have no effect, and why.
@@ -56,12 +51,11 @@ pub fn implementation_with(
     options: &CodegenOptions,
     passes: &Passes,
 ) -> Result<Generated, PassError> {
-    let Made { functions, lumped, warnings } = functions(model, options, passes)?;
+    let TracedMechanism { functions, lumped, warnings } = functions(model, options, passes)?;
     let interface = PublicInterface::new(model, options);
     let mechanism = MechanismProgram::new(model, &interface, &functions, lumped.as_ref(), &rust::RESERVED);
     let tokens = rust::mechanism(&mechanism, name, runtime);
-    let (declaration, derives) = rust::declaration(lumped.map(|lumped| lumped.outputs.len()));
-    Ok(Generated { declaration, derives, tokens, operations: operations_of(&functions), warnings })
+    Ok(Generated { tokens, operations: operations_of(&functions), warnings })
 }
 
 /// The operations and warnings of [`implementation_with`], with all passes, without the code.
@@ -70,12 +64,12 @@ pub fn implementation_with(
 ///
 /// As [`implementation`].
 pub fn operations(model: &Model, options: &CodegenOptions) -> Result<Counted, PassError> {
-    let Made { functions, warnings, .. } = functions(model, options, &Passes::default())?;
+    let TracedMechanism { functions, warnings, .. } = functions(model, options, &Passes::default())?;
     Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
-/// What a mechanism is made of.
-struct Made {
+/// The functions of a mechanism before they are printed.
+struct TracedMechanism {
     functions: Vec<TracedFunction>,
     /// What depends on run-time parameters alone, if there are any.
     lumped: Option<Expressions>,
@@ -83,7 +77,7 @@ struct Made {
 }
 
 /// The functions that `options` select and those that every mechanism has, and warnings.
-fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result<Made, PassError> {
+fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result<TracedMechanism, PassError> {
     let always_present = Function::ALL.iter().copied().filter(|function| function.is_always_present());
     let functions = Functions::of(options.functions.iter().chain(always_present));
     let options = &CodegenOptions { functions, ..options.clone() };
@@ -94,7 +88,7 @@ fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result
              at run time"
                 .to_string()
         });
-        return Ok(Made { functions, lumped: Some(lumped), warnings: unpruned.into_iter().collect() });
+        return Ok(TracedMechanism { functions, lumped: Some(lumped), warnings: unpruned.into_iter().collect() });
     }
     let (functions, unpruned) = match trace_model(model, options, passes) {
         Ok(functions) => (functions, None),
@@ -105,7 +99,7 @@ fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result
         }
     };
     let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
-    Ok(Made { functions, lumped: None, warnings })
+    Ok(TracedMechanism { functions, lumped: None, warnings })
 }
 
 fn operations_of(functions: &[TracedFunction]) -> Vec<(Function, OperationCount)> {

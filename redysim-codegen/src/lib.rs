@@ -67,6 +67,6 @@ mod trees;
 
 #[cfg(feature = "source")]
 pub use backend::rust::source::{SourceError, source_file, source_file_with};
-pub use backend::rust::{stub, stub_declaration};
+pub use backend::rust::{TypeTokens, stub};
 pub use generate::{Counted, Generated, implementation, implementation_with, operations};
 pub use pruning::Pruning;

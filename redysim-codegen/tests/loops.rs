@@ -17,7 +17,7 @@ fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
         passes,
     )
     .expect("no pass changes a value");
-    let text = without_spaces(tokens);
+    let text = without_spaces(tokens.impls);
     let start = |name: &str| {
         text.find(&format!("pubfn{name}_with_trig<")).expect("every function takes joint trigonometry, too")
     };

@@ -91,7 +91,7 @@ fn only_selected_functions_and_their_traits_are_generated() {
 fn a_stub_has_the_selected_functions_only() {
     let functions = Functions::named(["energy"]).unwrap();
     let interface = PublicInterface { functions, ..PublicInterface::default() };
-    let stub = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
+    let stub = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).impls.to_string();
     assert!(
         stub.contains("pub fn energy")
             && stub.contains("pub fn energy_with_trig")
@@ -109,7 +109,7 @@ fn sizes_and_actuators_follow_the_joints_own_numbers_of_coordinates_and_velociti
         functions: Functions::named(["mass_matrix", "inverse_dynamics"]).unwrap(),
         ..PublicInterface::default()
     };
-    let text = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).to_string();
+    let text = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).impls.to_string();
     let text: String = text.split_whitespace().collect();
     for part in [
         "constNQ:usize=8;",

@@ -5,53 +5,41 @@ use crate::locate::{model_file, shown};
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use redysim_codegen::passes::Passes;
-use redysim_codegen::{implementation_with, stub, stub_declaration};
+use redysim_codegen::{TypeTokens, implementation_with, stub};
 use redysim_model::{Diagnostic, Model, PublicInterface, Severity};
 use syn::Attribute;
 
 /// The struct and its `impl`s.
 pub fn struct_and_impls(declaration: &Declaration) -> TokenStream {
     let Declaration { attributes, visibility, name, .. } = declaration;
-    let Expanded { declaration: body, derives, implementation, .. } = expanded(declaration);
-    let derive = if attributes.iter().any(|attribute| attribute.path().is_ident("derive")) {
-        None
-    } else {
-        Some(quote!(#[derive(#derives)]))
-    };
+    let tokens = tokens(declaration);
+    let (body, derives, impls) = (tokens.declaration(), tokens.derives(), &tokens.impls);
+    let has_own = attributes.iter().any(|attribute| attribute.path().is_ident("derive"));
+    let derive = (!has_own).then(|| quote!(#[derive(#derives)]));
     quote! {
         #(#attributes)*
         #derive
         #visibility struct #name #body
-        #implementation
+        #impls
     }
 }
 
-/// The `impl`s of a struct in the caller's code, which cannot have parameters: these take a field.
+/// The `impl`s of a unit struct in the caller's code, which cannot have run-time parameters: these take a field.
 pub fn impls(declaration: &Declaration) -> TokenStream {
-    let Expanded { is_parametric, implementation, .. } = expanded(declaration);
-    if is_parametric {
-        let message = format!(
-            "a mechanism with `parameters` has a field for them: declare it by `redysim! {{ struct {}(..); }}` in place of \
-             the derive",
-            declaration.name
-        );
-        return compile_error(declaration, &message, declaration.model.span());
+    let TypeTokens { fields, impls } = tokens(declaration);
+    if fields.is_none() {
+        return impls;
     }
-    implementation
+    let message = format!(
+        "a mechanism with `parameters` has a field for them: declare it by `redysim! {{ struct {}(..); }}` in place of \
+         the derive",
+        declaration.name
+    );
+    compile_error(declaration, &message, declaration.model.span())
 }
 
-/// What a declaration becomes.
-struct Expanded {
-    /// What follows the name of the struct.
-    declaration: TokenStream,
-    /// The traits that the struct derives by default.
-    derives: TokenStream,
-    is_parametric: bool,
-    /// Messages and `impl`s.
-    implementation: TokenStream,
-}
-
-fn expanded(declaration: &Declaration) -> Expanded {
+/// The type, whose `impl`s come with the messages about its model.
+fn tokens(declaration: &Declaration) -> TypeTokens {
     let Declaration { name, model, options, .. } = declaration;
     let runtime = quote!(::redysim::runtime);
     let file = model_file(model);
@@ -61,27 +49,19 @@ fn expanded(declaration: &Declaration) -> Expanded {
             const _: &[u8] = ::core::include_bytes!(#path);
         )
     });
-    let stubbed = |interface: &PublicInterface| {
-        let is_parametric = !interface.parameters.is_empty();
-        (stub_declaration(interface), is_parametric, stub(interface, name, &runtime))
-    };
-    let (diagnostics, warnings, (struct_body, is_parametric, implementation)) =
+    let mut failure = None;
+    let (diagnostics, warnings, TypeTokens { fields, impls }) =
         match Model::load_with(&file, shown(&file), options.text.as_str()) {
             Ok(loaded) => match implementation_with(&loaded.model, name, &runtime, &loaded.options, &Passes::default())
             {
-                Ok(generated) => {
-                    let struct_body = (generated.declaration, generated.derives);
-                    let is_parametric = !loaded.options.parameters.is_empty();
-                    (loaded.warnings, generated.warnings, (struct_body, is_parametric, generated.tokens))
-                }
+                Ok(generated) => (loaded.warnings, generated.warnings, generated.tokens),
                 Err(error) => {
-                    let error = compile_error(declaration, &error.to_string(), model.span());
+                    failure = Some(compile_error(declaration, &error.to_string(), model.span()));
                     let interface = PublicInterface::new(&loaded.model, &loaded.options);
-                    let (struct_body, is_parametric, stub) = stubbed(&interface);
-                    (loaded.warnings, Vec::new(), (struct_body, is_parametric, quote!(#error #stub)))
+                    (loaded.warnings, Vec::new(), stub(&interface, name, &runtime))
                 }
             },
-            Err(faults) => (faults.diagnostics.0, Vec::new(), stubbed(&faults.interface)),
+            Err(faults) => (faults.diagnostics.0, Vec::new(), stub(&faults.interface, name, &runtime)),
         };
     let messages = diagnostics.iter().map(|diagnostic| {
         let (message, span) = (message(diagnostic), place(declaration, diagnostic));
@@ -92,17 +72,17 @@ fn expanded(declaration: &Declaration) -> Expanded {
     });
     let warnings = warnings.iter().map(|warning| compile_warning(declaration, warning, model.span()));
     let cfgs = cfgs(declaration);
-    let implementation = quote! {
+    let impls = quote! {
+        #failure
         #(#messages)*
         #(#warnings)*
         #(#cfgs)*
         const _: () = {
             #registered
-            #implementation
+            #impls
         };
     };
-    let (declaration, derives) = struct_body;
-    Expanded { declaration, derives, is_parametric, implementation }
+    TypeTokens { fields, impls }
 }
 
 /// The `cfg` attributes of the struct, which its `impl`s and messages need as well.

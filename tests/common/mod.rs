@@ -13,3 +13,5 @@ pub mod methods;
 pub mod models;
 pub mod random;
 pub mod styles;
+#[cfg(feature = "generic")]
+pub mod text;

@@ -28,8 +28,11 @@ fn one_loop(
     let a = side(document, table, &table.a, findings);
     let b = side(document, table, &table.b, findings);
     let (a, b) = (a?, b?);
-    if let Some(parents) = parents {
-        joins_two_bodies(document, table, [a.link, b.link], parents, findings);
+    let ends = [(&table.a.at, a.link), (&table.b.at, b.link)];
+    let is_rigid = |link: usize| document.links[link].is_rigid();
+    if let Some([link_a, link_b]) = parents.and_then(|parents| tree::on_one_body(ends, parents, is_rigid)) {
+        let message = messages::loop_within_body(&table.item, link_a.get_ref(), link_b.get_ref(), document.locks());
+        findings.error(link_b.span(), message);
     }
     Some(Loop { name: table.name.value()?.clone(), joint: *table.joint.value()?, a, b })
 }
@@ -48,21 +51,4 @@ fn axis_allowed(table: &LoopTable, side: &CutSideTable, findings: &mut Findings)
         findings.error(axis.span(), messages::axis_on_cut(&table.item, side.axis_key, kind.name()));
     }
     other.is_none()
-}
-
-fn joins_two_bodies(
-    document: &Document,
-    table: &LoopTable,
-    [a, b]: [Option<usize>; 2],
-    parents: &[Option<usize>],
-    findings: &mut Findings,
-) {
-    let is_rigid = |link: usize| document.links[link].is_rigid();
-    if tree::body(a, parents, is_rigid) != tree::body(b, parents, is_rigid) {
-        return;
-    }
-    if let (Some(link_a), Some(link_b)) = (table.a.at.link.spanned(), table.b.at.link.spanned()) {
-        let message = messages::loop_within_body(&table.item, link_a.get_ref(), link_b.get_ref(), document.locks());
-        findings.error(link_b.span(), message);
-    }
 }

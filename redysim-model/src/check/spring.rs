@@ -40,8 +40,12 @@ fn spring(
     let a = point(document, table, &table.a, findings);
     let b = point(document, table, &table.b, findings);
     let (a, b) = (a?, b?);
-    if let Some(parents) = parents {
-        joins_two_bodies(document, table, [a.link, b.link], parents, findings);
+    // Joints that the options lock may be rigid, too: a spring between them stays, and has no effect.
+    let is_fixed = |link: usize| document.links[link].joint.value() == Some(&JointKind::Fixed);
+    let ends = [(&table.a, a.link), (&table.b, b.link)];
+    if let Some([link_a, link_b]) = parents.and_then(|parents| tree::on_one_body(ends, parents, is_fixed)) {
+        let message = messages::spring_within_body(item, link_a.get_ref(), link_b.get_ref());
+        findings.error(link_b.span(), message);
     }
     Some(Spring {
         name: if table.name.is_missing() { None } else { Some(table.name.value()?.clone()) },
@@ -56,23 +60,4 @@ fn spring(
 fn point(document: &Document, table: &SpringTable, end: &PointTable, findings: &mut Findings) -> Option<LinkPoint> {
     let link = tree::carrier(document, &table.item, end.link_key, &end.link, findings);
     Some(LinkPoint { link: link?, point: Vec3(end.point.value_or([0.0; 3])?) })
-}
-
-/// Reports a spring within a body. Joints that the options lock may make it one: a spring between them stays, and has
-/// no effect.
-fn joins_two_bodies(
-    document: &Document,
-    table: &SpringTable,
-    [a, b]: [Option<usize>; 2],
-    parents: &[Option<usize>],
-    findings: &mut Findings,
-) {
-    let is_fixed = |link: usize| document.links[link].joint.value() == Some(&JointKind::Fixed);
-    if tree::body(a, parents, is_fixed) != tree::body(b, parents, is_fixed) {
-        return;
-    }
-    if let (Some(link_a), Some(link_b)) = (table.a.link.spanned(), table.b.link.spanned()) {
-        let message = messages::spring_within_body(&table.item, link_a.get_ref(), link_b.get_ref());
-        findings.error(link_b.span(), message);
-    }
 }

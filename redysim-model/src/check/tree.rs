@@ -2,7 +2,7 @@
 
 use super::names::BASE;
 use crate::messages;
-use crate::schema::Document;
+use crate::schema::{Document, PointTable};
 use redysim_toml::{Field, Findings, Spanned};
 
 /// The link that the key `key` of an item names; `Some(None)` is the ground. A name that is not known is reported.
@@ -38,12 +38,23 @@ fn unknown(document: &Document, item: &str, key: &str, name: &Spanned<String>, f
 }
 
 /// The link that rigid joints make this one a part of; `None` is the ground.
-pub(super) fn body(link: Option<usize>, parents: &[Option<usize>], is_rigid: impl Fn(usize) -> bool) -> Option<usize> {
+fn body(link: Option<usize>, parents: &[Option<usize>], is_rigid: impl Fn(usize) -> bool) -> Option<usize> {
     let mut at = link;
     while let Some(link) = at.filter(|&link| is_rigid(link)) {
         at = parents[link];
     }
     at
+}
+
+/// The names of the links of two ends, if these are on one body: where joints for which `is_rigid` holds connect them.
+pub(super) fn on_one_body<'a>(
+    ends: [(&'a PointTable, Option<usize>); 2],
+    parents: &[Option<usize>],
+    is_rigid: impl Fn(usize) -> bool,
+) -> Option<[&'a Spanned<String>; 2]> {
+    let [(a, link_a), (b, link_b)] = ends;
+    let [body_a, body_b] = [link_a, link_b].map(|link| body(link, parents, &is_rigid));
+    if body_a == body_b { Some([a.link.spanned()?, b.link.spanned()?]) } else { None }
 }
 
 /// Each link's parent (`None` is the ground), if all are known and every link hangs on the ground in the end.

@@ -28,7 +28,7 @@ pub fn code(text: &str, passes: &Passes) -> Code {
     let seconds = begun.elapsed().as_secs_f64();
     let flops = [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix]
         .map(|function| operations.iter().find(|(name, _)| *name == function).map_or(0, |(_, count)| count.flops()));
-    Code { seconds, source: module(&tokens), flops }
+    Code { seconds, source: module(&tokens.impls), flops }
 }
 
 fn module(tokens: &TokenStream) -> String {

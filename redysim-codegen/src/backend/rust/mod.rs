@@ -12,16 +12,16 @@ mod traits;
 use crate::mechanism::MechanismProgram;
 pub use body::RESERVED;
 use function::{Writer, head, head_with_trig, joint_trig_head};
+pub use parametric::TypeTokens;
 use parametric::{constructors, is_parametric};
-pub use parametric::{declaration, stub_declaration};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, PublicInterface};
 use redysim_runtime::OperationCount;
 use redysim_runtime::function::Dimension;
 
-/// Prints `mechanism` as the `impl`s of the type `name`.
-pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStream) -> TokenStream {
+/// Prints `mechanism` as the type `name`.
+pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStream) -> TypeTokens {
     let MechanismProgram { interface, ref trig, ref functions, ref lumped } = *mechanism;
     let writer = Writer { interface, trig, runtime };
     let (configuration, own): (Vec<_>, Vec<_>) =
@@ -32,12 +32,13 @@ pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStre
     let operations: Vec<_> = functions.iter().map(|program| (program.function, program.operations)).collect();
     let constructors = constructors(interface, lumped.as_ref(), name, runtime);
     let impls = type_impls(interface, configuration.collect(), name, runtime, &operations, definitions.collect());
-    quote!(#impls #constructors)
+    let numbers = lumped.as_ref().map_or(0, |program| program.outputs.len());
+    TypeTokens::new(interface, numbers, quote!(#impls #constructors))
 }
 
-/// The `impl`s of a type whose model has faults: every item has its type, but no function a body, so that the faults of
+/// A type whose model has faults: every item has its type, but no function a body, so that the faults of
 /// the model are the only errors.
-pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TokenStream {
+pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TypeTokens {
     let angles = interface.size(Dimension::Coordinates);
     let joint_trig = joint_trig_head(interface, angles, runtime);
     let own = interface.functions.iter().filter(|function| !function.is_always_present());
@@ -50,7 +51,7 @@ pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) ->
     let configuration = configuration.map(|function| (function, body.clone()));
     let constructors = constructors(interface, None, name, runtime);
     let impls = type_impls(interface, configuration.collect(), name, runtime, &[], definitions.collect());
-    quote!(#impls #constructors)
+    TypeTokens::new(interface, 0, quote!(#impls #constructors))
 }
 
 fn type_impls(

@@ -13,24 +13,37 @@ pub fn is_parametric(interface: &PublicInterface) -> bool {
     !interface.parameters.is_empty()
 }
 
-/// What follows the name of the struct in its declaration, and the traits that it may derive. `numbers` is how many
-/// numbers its functions read; `None` for a type without parameters.
-pub fn declaration(numbers: Option<usize>) -> (TokenStream, TokenStream) {
-    match numbers {
-        None => (quote!(;), quote!(Clone, Copy, Debug, Default)),
-        Some(numbers) => {
-            let (given, length) = (local(GIVEN), Literal::usize_unsuffixed(numbers));
-            (quote!(<S = f64> { #given: [S; #length] }), quote!(Clone, Copy, Debug))
-        }
+/// A type: its declaration, and its `impl`s.
+#[derive(Clone, Debug)]
+pub struct TypeTokens {
+    /// The generics and fields of the struct; `None` for a unit struct.
+    pub fields: Option<TokenStream>,
+    /// Its `impl`s.
+    pub impls: TokenStream,
+}
+
+impl TypeTokens {
+    /// The type of `interface` with these `impl`s, whose functions read `numbers` numbers that are given at run time.
+    pub(super) fn new(interface: &PublicInterface, numbers: usize, impls: TokenStream) -> TypeTokens {
+        let (given, length) = (local(GIVEN), Literal::usize_unsuffixed(numbers));
+        let fields = is_parametric(interface).then(|| quote!(<S = f64> { #given: [S; #length] }));
+        TypeTokens { fields, impls }
+    }
+
+    /// What follows the name of the struct in its declaration.
+    pub fn declaration(&self) -> TokenStream {
+        self.fields.clone().unwrap_or(quote!(;))
+    }
+
+    /// The traits that the struct derives by default.
+    pub fn derives(&self) -> TokenStream {
+        // The default of a type with parameters is the robot of the model.
+        if self.fields.is_some() { quote!(Clone, Copy, Debug) } else { quote!(Clone, Copy, Debug, Default) }
     }
 }
 
-/// The same for a type whose model has faults.
-pub fn stub_declaration(interface: &PublicInterface) -> (TokenStream, TokenStream) {
-    declaration(is_parametric(interface).then_some(0))
-}
-
-/// How functions of a type are declared and called.
+/// How the functions of a type are declared and called: associated functions over any scalar, or methods of a type that
+/// has its numbers in one scalar, `P` in traits, where they are lifted to the scalar `S` of the computation.
 pub struct Form {
     /// The generic parameters of an inherent function.
     pub function: TokenStream,
@@ -38,29 +51,57 @@ pub struct Form {
     pub receiver: TokenStream,
     /// What stands before the name of an inherent function that another one calls.
     pub caller: TokenStream,
-    /// The statement by which the code of a function reads the numbers.
+    /// The statement by which an inherent function reads the numbers.
     pub reads: TokenStream,
+    /// The arguments of the type in `impl`s of traits.
+    pub arguments: TokenStream,
+    /// The generic parameters of an `impl` of a trait that does not depend on the scalar.
+    pub generics: TokenStream,
+    /// Those of an `impl` of a trait over the scalar, after it.
+    pub over_scalar: TokenStream,
+    /// A further bound there, for derivatives.
+    pub over_dual: TokenStream,
+    /// What stands before the name of an inherent function that a method of a trait calls.
+    pub caller_in_trait: TokenStream,
+    /// The statement by which a method of a trait reads the numbers.
+    pub reads_in_trait: TokenStream,
 }
 
 impl Form {
     /// The form of the functions of a type.
     pub fn of(interface: &PublicInterface, runtime: &TokenStream) -> Form {
-        let none = TokenStream::new;
         if is_parametric(interface) {
             let given = local(GIVEN);
             Form {
-                function: none(),
+                function: quote!(),
                 receiver: quote!(&self,),
                 caller: quote!(self.),
                 reads: quote!(let #given = &self.#given;),
+                arguments: quote!(<P>),
+                generics: quote!(<P: #runtime::Scalar>),
+                over_scalar: quote!(, P: #runtime::Scalar + #runtime::Lift<S>),
+                over_dual: quote!(+ #runtime::Lift<#runtime::Dual<S>>),
+                caller_in_trait: quote!(self.lifted::<S>().),
+                reads_in_trait: quote!(let #given = self.lifted::<S>().#given;),
             }
         } else {
-            Form { function: quote!(<S: #runtime::Scalar>), receiver: none(), caller: quote!(Self::), reads: none() }
+            Form {
+                function: quote!(<S: #runtime::Scalar>),
+                receiver: quote!(),
+                caller: quote!(Self::),
+                reads: quote!(),
+                arguments: quote!(),
+                generics: quote!(),
+                over_scalar: quote!(),
+                over_dual: quote!(),
+                caller_in_trait: quote!(Self::),
+                reads_in_trait: quote!(),
+            }
         }
     }
 }
 
-/// The constants of the parameters, and with any, the functions that make the type from them.
+/// The constants of the parameters.
 pub fn constants(interface: &PublicInterface) -> TokenStream {
     let np = Literal::usize_unsuffixed(interface.parameters.len());
     let names = interface.parameters.iter().map(|parameter| &parameter.name);

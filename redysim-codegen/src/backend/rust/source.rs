@@ -26,14 +26,15 @@ pub fn source_file_with(model: &Model, name: &str, options: &CodegenOptions) -> 
         return Err(SourceError::InvalidName(name.to_string()));
     }
     let name = format_ident!("{name}");
-    let Generated { declaration, derives, tokens, operations, warnings } =
+    let Generated { tokens, operations, warnings } =
         implementation_with(model, &name, &quote!(::redysim_runtime), options, &Passes::default())?;
+    let (declaration, derives, impls) = (tokens.declaration(), tokens.derives(), &tokens.impls);
     let doc = format!(" The mechanism `{}`.", model.name);
     let file = quote! {
         #[doc = #doc]
         #[derive(#derives)]
         pub struct #name #declaration
-        #tokens
+        #impls
     };
     let file = syn::parse2(file).expect("generated code is Rust");
     let mut header = format!(

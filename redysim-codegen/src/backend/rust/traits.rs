@@ -1,8 +1,7 @@
 //! The runtime's traits, for a type that has their functions.
 
-use super::body::{GIVEN, local};
 use super::function::{arguments, parameters};
-use super::parametric::is_parametric;
+use super::parametric::{Form, is_parametric};
 use super::{length, results};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -18,24 +17,13 @@ pub fn own(function: Function, interface: &PublicInterface, name: &Ident, runtim
     };
     let trait_name = format_ident!("{trait_name}");
     let method = own_method(function, interface, runtime);
-    let with_dual = is_parametric(interface) && tangent.is_some();
-    let dual = with_dual.then(|| quote!(+ #runtime::Lift<#runtime::Dual<S>>));
-    let (generics, of) = over_scalars(interface, runtime, &dual.unwrap_or_default());
+    let Form { over_scalar, over_dual, arguments, .. } = Form::of(interface, runtime);
+    let over_dual = tangent.is_some().then_some(over_dual);
     quote! {
-        impl<S: #runtime::Scalar #generics> #runtime::#trait_name<S> for #name #of {
+        impl<S: #runtime::Scalar #over_scalar #over_dual> #runtime::#trait_name<S> for #name #arguments {
             #method
             #tangent
         }
-    }
-}
-
-/// The generic parameters of an `impl` of functions over the scalar `S`, and the arguments of the type in it: a type
-/// with parameters has its numbers in any `P` that can be lifted to `S`.
-fn over_scalars(interface: &PublicInterface, runtime: &TokenStream, more: &TokenStream) -> (TokenStream, TokenStream) {
-    if is_parametric(interface) {
-        (quote!(, P: #runtime::Scalar + #runtime::Lift<S> #more), quote!(<P>))
-    } else {
-        (TokenStream::new(), TokenStream::new())
     }
 }
 
@@ -66,7 +54,7 @@ fn tangent(function: Function, interface: &PublicInterface, runtime: &TokenStrea
 /// The method of a trait that is one of the type's own functions.
 fn own_method(function: Function, interface: &PublicInterface, runtime: &TokenStream) -> TokenStream {
     let (name, arguments) = (format_ident!("{}", function.name()), arguments(function));
-    let caller = if is_parametric(interface) { quote!(self.lifted::<S>().) } else { quote!(Self::) };
+    let caller = Form::of(interface, runtime).caller_in_trait;
     method(function, interface, runtime, &quote!(#caller #name(#(#arguments),*)))
 }
 
@@ -90,9 +78,9 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
     }
     let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| length(interface, dimension));
     let methods = own.map(|function| own_method(function, interface, runtime));
-    let ((generics, of), (numbers, _)) = (over_scalars(interface, runtime, &none()), of_numbers(interface, runtime));
+    let Form { generics, over_scalar, arguments, .. } = Form::of(interface, runtime);
     quote! {
-        impl #numbers #runtime::LoopRows for #name #of {
+        impl #generics #runtime::LoopRows for #name #arguments {
             fn nc(&self) -> usize {
                 <#name>::NC
             }
@@ -100,7 +88,7 @@ pub fn closure(interface: &PublicInterface, name: &Ident, runtime: &TokenStream)
                 <#name>::LOOP_NAMES.get(row).copied()
             }
         }
-        impl<S: #runtime::Scalar #generics> #runtime::LoopClosure<S, #name #of> for #name #of {
+        impl<S: #runtime::Scalar #over_scalar> #runtime::LoopClosure<S, #name #arguments> for #name #arguments {
             type Rows = [S; #nc];
             type Jacobian = [[S; #nv]; #nc];
             type Gram = [[S; #nc]; #nc];
@@ -117,9 +105,9 @@ pub fn frames(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) 
     }
     let [nv, nf] = [Dimension::Velocities, Dimension::Frames].map(|dimension| length(interface, dimension));
     let methods = own.map(|function| own_method(function, interface, runtime));
-    let (generics, of) = over_scalars(interface, runtime, &none());
+    let Form { over_scalar, arguments, .. } = Form::of(interface, runtime);
     quote! {
-        impl<S: #runtime::Scalar #generics> #runtime::Frames<S> for #name #of {
+        impl<S: #runtime::Scalar #over_scalar> #runtime::Frames<S> for #name #arguments {
             type States = [#runtime::FrameState<S>; #nf];
             type Jacobians = [#runtime::FrameJacobian<[S; #nv]>; #nf];
             type Accelerations = [#runtime::FrameAcceleration<S>; #nf];
@@ -127,15 +115,6 @@ pub fn frames(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) 
             #(#methods)*
         }
     }
-}
-
-fn none() -> TokenStream {
-    TokenStream::new()
-}
-
-/// The generic parameters of an `impl` that does not depend on the scalar, and the arguments of the type in it.
-fn of_numbers(interface: &PublicInterface, runtime: &TokenStream) -> (TokenStream, TokenStream) {
-    if is_parametric(interface) { (quote!(<P: #runtime::Scalar>), quote!(<P>)) } else { (none(), none()) }
 }
 
 /// Sizes, names, and the space of positions with its functions, each with its code.
@@ -150,15 +129,13 @@ pub fn mechanism(
     // Coordinates, velocities, and the energy of the actuators.
     let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
     let state = Literal::usize_unsuffixed(state);
+    let Form { generics, over_scalar, arguments, reads_in_trait, .. } = Form::of(interface, runtime);
     let methods = configuration.into_iter().map(|(function, body)| {
-        let given = local(GIVEN);
-        let reads = is_parametric(interface).then(|| quote!(let #given = self.lifted::<S>().#given;));
-        let method = method(function, interface, runtime, &quote!(#reads #body));
+        let method = method(function, interface, runtime, &quote!(#reads_in_trait #body));
         quote!(#[allow(unused_variables, clippy::all, clippy::pedantic)] #method)
     });
-    let ((generics, of), (numbers, _)) = (over_scalars(interface, runtime, &none()), of_numbers(interface, runtime));
     quote! {
-        impl #numbers #runtime::Mechanism for #name #of {
+        impl #generics #runtime::Mechanism for #name #arguments {
             fn name(&self) -> &str {
                 <#name>::NAME
             }
@@ -184,7 +161,7 @@ pub fn mechanism(
                 <#name>::FRAME_NAMES.get(index).copied()
             }
         }
-        impl<S: #runtime::Scalar #generics> #runtime::ConfigurationSpace<S> for #name #of {
+        impl<S: #runtime::Scalar #over_scalar> #runtime::ConfigurationSpace<S> for #name #arguments {
             type Coordinates = [S; #nq];
             type Velocities = [S; #nv];
             type State = [S; #state];
