@@ -1,12 +1,14 @@
 //! The functions over nalgebra's types are those over arrays.
 
-use nalgebra::{SVector, Vector3, Vector6};
-use redysim::nalgebra as dynamics;
-use redysim::redysim;
+use nalgebra::{Isometry3, SMatrix, SVector, Vector3, Vector5, Vector6};
+use redysim::nalgebra::{self as dynamics, OperationalSpace, Wrench};
+use redysim::{OperationalSpaceError, TaskStatus, redysim};
 
 redysim! { struct Kr5("models/kr5.toml"); }
 redysim! { struct Kr5Drives("models/kr5_drives.toml"); }
+redysim! { struct Kr5Tool("models/kr5_tool.toml"); }
 redysim! { struct Fourbar("models/fourbar.toml"); }
+redysim! { struct Machine("models/test/frames.toml"); }
 
 const Q: [f64; 6] = [0.3, -0.7, 1.1, 0.2, -0.9, 2.0];
 const V: [f64; 6] = [1.0, -2.0, 0.5, 3.0, -1.5, 0.7];
@@ -46,17 +48,21 @@ fn positions_move_by_velocities() {
     assert_eq!(dynamics::neutral::<f64, _, 6>(&Kr5), Vector6::zeros());
 }
 
-/// The pose takes the origin, the axes and the velocities of points of a link to the base frame.
+/// The pose takes the origin and the axes of its frame to where the arrays have them.
+fn assert_pose(pose: &Isometry3<f64>, origin: [f64; 3], rotation: [[f64; 3]; 3]) {
+    assert_eq!(pose.translation.vector, Vector3::from(origin));
+    for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+        let column = Vector3::from(rotation.map(|row| row[axis]));
+        assert!((pose * unit - column).norm() < 1e-15);
+    }
+}
+
 #[test]
 fn the_pose_of_a_link_is_its_origin_and_rotation() {
     let [q, v, _] = state();
     let links = dynamics::link_kinematics(&Kr5, &q, &v);
     for (link, state) in links.iter().zip(Kr5::link_kinematics(&Q, &V)) {
-        assert_eq!(link.pose.translation.vector, Vector3::from(state.origin));
-        for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
-            let column = Vector3::from(state.rotation.map(|row| row[axis]));
-            assert!((link.pose * unit - column).norm() < 1e-15);
-        }
+        assert_pose(&link.pose, state.origin, state.rotation);
         assert_eq!((link.com.coords, link.velocity), (Vector3::from(state.com), Vector3::from(state.velocity)));
         assert_eq!(link.angular_velocity, Vector3::from(state.angular_velocity));
     }
@@ -79,4 +85,124 @@ fn the_jacobian_of_loops_has_a_row_for_each_row_of_the_residual() {
     assert_eq!(dynamics::loop_bias(&Fourbar, &at, &velocity), SVector::from(Fourbar::loop_bias(&q, &v)));
     let ahead = dynamics::loop_residual(&Fourbar, &(at + velocity * 1e-7));
     assert!(((ahead - residual) / 1e-7 - jacobian * velocity).norm() < 1e-6);
+}
+
+/// Coordinates and velocities of the machine.
+const AT: [f64; 5] = [0.4, -0.8, 2.0, 0.5, -2.5];
+const MOVING: [f64; 5] = [0.3, 1.2, -0.7, 2.0, 0.9];
+
+#[test]
+fn a_frame_moves_at_the_velocities_that_its_jacobian_gives() {
+    let (q, v) = (Vector5::from(AT), Vector5::from(MOVING));
+    let frames = dynamics::frame_kinematics(&Machine, &q, &v);
+    let jacobians = dynamics::frame_jacobians(&Machine, &q);
+    let states = Machine::frame_kinematics(&AT, &MOVING);
+    for ((frame, jacobian), state) in frames.iter().zip(jacobians).zip(states) {
+        assert_pose(&frame.pose, state.origin, state.rotation);
+        assert_eq!(frame.velocity, Vector3::from(state.velocity));
+        assert_eq!(frame.angular_velocity, Vector3::from(state.angular_velocity));
+        // Sums of five products of numbers below ten.
+        assert!((jacobian * v - frame.twist()).norm() < 1e-14, "{jacobian} {frame:?}");
+        assert_eq!(frame.twist().fixed_rows::<3>(0), frame.velocity);
+    }
+    assert!(frames[0].velocity.norm() > 0.1 && frames[0].angular_velocity.norm() > 0.1);
+}
+
+#[test]
+fn the_bias_of_a_frame_is_its_acceleration_at_constant_joint_velocities() {
+    let (q, v) = (Vector5::from(AT), Vector5::from(MOVING));
+    let twists = |q: Vector5<f64>| dynamics::frame_kinematics(&Machine, &q, &v).map(|frame| frame.twist());
+    let step = 1e-5;
+    let (before, after) = (twists(q - v * step), twists(q + v * step));
+    let bias = dynamics::frame_bias(&Machine, &q, &v);
+    for ((before, after), bias) in before.iter().zip(&after).zip(&bias) {
+        // Accelerations of some ten m/s²; roundoff of a twist over the step, 1e-10, is more than what is truncated.
+        assert!(((after - before) / (2.0 * step) - bias).norm() < 1e-8, "{bias}");
+    }
+    assert!(bias[0].fixed_rows::<3>(0).norm() > 0.1 && bias[0].fixed_rows::<3>(3).norm() > 0.1);
+}
+
+#[test]
+fn the_joint_forces_of_wrenches_are_those_of_transposed_jacobians() {
+    let q = Vector5::from(AT);
+    let wrenches = [0.0, 1.0, 2.0, 3.0, 4.0]
+        .map(|k| Wrench { force: Vector3::new(5.0 - k, 2.0 * k, -3.0), moment: Vector3::new(0.5, -k, 0.1 * k) });
+    let jacobians = dynamics::frame_jacobians(&Machine, &q);
+    let sum: Vector5<f64> = jacobians.iter().zip(wrenches).map(|(j, wrench)| j.tr_mul(&Vector6::from(wrench))).sum();
+    let found = dynamics::frame_forces(&Machine, &q, &wrenches);
+    assert!((found - sum).norm() < 1e-14 * sum.norm(), "{found} instead of {sum}");
+    let vector = Vector6::from(wrenches[1]);
+    assert_eq!((vector, Wrench::from(vector)), (Vector6::new(4.0, 2.0, -3.0, 0.5, -1.0, 0.1), wrenches[1]));
+}
+
+/// The mass matrix of the robot with a tool, and the Jacobian of the tool.
+fn tool(q: &Vector6<f64>) -> (SMatrix<f64, 6, 6>, SMatrix<f64, 6, 6>) {
+    let [jacobian] = dynamics::frame_jacobians(&Kr5Tool, q);
+    (dynamics::mass_matrix(&Kr5Tool, q), jacobian)
+}
+
+/// `found` and `expected` differ by roundoff of well-conditioned solves.
+fn close<const R: usize, const C: usize>(what: &str, found: SMatrix<f64, R, C>, expected: SMatrix<f64, R, C>) {
+    let scale = expected.amax().max(1.0);
+    assert!((found - expected).amax() < 1e-12 * scale, "{what}: {found} instead of {expected}");
+}
+
+/// M⁻¹ Jᵀ and J M⁻¹ Jᵀ by nalgebra's Cholesky decomposition, which shares nothing with the runtime's.
+#[test]
+fn the_operational_space_of_a_tip_is_that_of_a_cholesky_decomposition() {
+    let [q, v, a] = state();
+    let (m, jacobian) = tool(&q);
+    let j = jacobian.fixed_rows::<3>(0).into_owned();
+    let decomposed = m.cholesky().expect("a mass matrix is positive definite");
+    let mobility = j * decomposed.solve(&j.transpose());
+    let inertia = mobility.cholesky().expect("the tip moves in all directions").inverse();
+    let inverse = decomposed.solve(&j.transpose()) * inertia;
+    let projector = SMatrix::<f64, 6, 6>::identity() - inverse * j;
+    let task = OperationalSpace::new(&m, &j).expect("a good position");
+    assert_eq!((task.rank(), task.status()), (3, TaskStatus::Full));
+    close("Λ", task.inertia(), inertia);
+    close("Λ⁻¹", task.inertia().cholesky().expect("positive definite").inverse(), mobility);
+    close("J̄", task.inverse(), inverse);
+    close("N", task.projector(), projector);
+    let x = Vector3::new(0.3, -1.0, 0.7);
+    close("Λ ẍ", task.force_of_acceleration(&x), inertia * x);
+    close("J̄ ẋ", task.joint_velocity(&x), inverse * x);
+    close("J̄ᵀ τ", task.task_force(&a), inverse.transpose() * a);
+    close("Jᵀ f", task.joint_force(&x), j.transpose() * x);
+    close("J v", task.task_velocity(&v), j * v);
+    close("N v", task.null_velocity(&v), projector * v);
+    close("Nᵀ τ", task.null_force(&a), projector.transpose() * a);
+    close("J J̄ ẋ", task.attainable(&x), x);
+}
+
+#[test]
+fn the_operational_space_reads_the_lower_triangle_of_the_mass_matrix() {
+    let (m, j) = tool(&Vector6::from(Q));
+    let [whole, lower] = [m, m.lower_triangle()].map(|m| OperationalSpace::new(&m, &j).expect("a good position"));
+    assert_eq!(whole.inertia(), lower.inertia());
+}
+
+/// With joint 5 straight, axes 4 and 6 are one line: the wrist is singular.
+#[test]
+fn a_singular_wrist_leaves_the_inertia_of_the_directions_that_are_attainable() {
+    let (m, j) = tool(&Vector6::new(0.3, -0.7, 1.1, 0.2, 0.0, 0.5));
+    let task = OperationalSpace::new(&m, &j).expect("any rank is good");
+    let TaskStatus::Deficient { rank, rows } = task.status() else { panic!("{:?}", task.status()) };
+    assert_eq!((task.rank(), rank, rows.iter().count()), (5, 5, 1));
+    let mobility = j * m.cholesky().expect("a mass matrix is positive definite").solve(&j.transpose());
+    let inertia = task.inertia();
+    close("A Λ A", mobility * inertia * mobility, mobility);
+    close("J N", j * task.projector(), SMatrix::zeros());
+    let coarse = OperationalSpace::with_tolerance(&m, &j, 0.9).expect("any rank is good");
+    assert!(coarse.rank() < 5, "{}", coarse.rank());
+}
+
+#[test]
+fn a_task_without_positive_inertia_or_with_a_jacobian_that_is_not_finite_is_refused() {
+    let (m, j) = tool(&Vector6::from(Q));
+    let error = |m, j| OperationalSpace::new(&m, &j).err();
+    let (mut singular, mut lost) = (m, j);
+    (singular[(4, 4)], lost[(2, 3)]) = (0.0, f64::NAN);
+    assert_eq!(error(singular, j), Some(OperationalSpaceError::SingularInertia { velocity: 4 }));
+    assert_eq!(error(m, lost), Some(OperationalSpaceError::NotFinite));
 }

@@ -5,6 +5,7 @@
 
 use core::ops::ControlFlow;
 
+use redysim::nalgebra as dynamics;
 use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation, Dop853, Event,
     ForwardSimulation, FrameGains, FrameState, Gauss6, Impedance, IndependentMotion, Integrator, Limited, Motion, Ode5,
@@ -62,12 +63,14 @@ extern "C" fn main() -> i32 {
         !(is_held_by_gravity_forces()
             && a_load_is_felt()
             && is_held_in_the_vectors_of_nalgebra()
+            && a_frame_moves_in_the_vectors_of_nalgebra()
             && wrenches_have_the_power_of_their_joint_forces()
             && kept
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
             && rests_under_limited_pid().is_some_and(|rests| rests)
             && holds_its_tool().is_some_and(|holds| holds)
+            && a_tip_rises_in_the_vectors_of_nalgebra().is_some_and(|rises| rises)
             && the_crank_carries_the_weight().is_some_and(|carries| carries)
             && implicit_methods_agree().is_some_and(|agree| agree)),
     )
@@ -96,11 +99,38 @@ fn is_held_by_gravity_forces() -> bool {
 /// The same with nalgebra's vectors.
 fn is_held_in_the_vectors_of_nalgebra() -> bool {
     let q = nalgebra::Vector6::new(0.1, 0.7, -0.4, 0.3, 0.9, -0.2);
-    let torques = redysim::nalgebra::gravity_forces(&Kr5, &q);
+    let torques = dynamics::gravity_forces(&Kr5, &q);
     let at_rest = nalgebra::Vector6::zeros();
-    let accelerations = redysim::nalgebra::forward_dynamics(&Kr5, &q, &at_rest, &torques);
-    let [.., hand] = redysim::nalgebra::link_kinematics(&Kr5, &q, &at_rest);
+    let accelerations = dynamics::forward_dynamics(&Kr5, &q, &at_rest, &torques);
+    let [.., hand] = dynamics::link_kinematics(&Kr5, &q, &at_rest);
     accelerations.norm_squared() < 1e-18 && hand.pose.translation.vector.norm() > 0.1
+}
+
+/// J v is the twist of a frame, and a wrench has the power of its joint forces.
+fn a_frame_moves_in_the_vectors_of_nalgebra() -> bool {
+    let q = nalgebra::Vector5::new(0.1, 0.7, -0.4, 0.3, 0.9);
+    let v = nalgebra::Vector5::new(0.2, -0.3, 0.5, 0.1, -0.6);
+    let [tool, ..] = dynamics::frame_kinematics(&Machine, &q, &v);
+    let [jacobian, ..] = dynamics::frame_jacobians(&Machine, &q);
+    let [bias, ..] = dynamics::frame_bias(&Machine, &q, &v);
+    let mut wrenches = [dynamics::Wrench::default(); Machine::NF];
+    wrenches[0].force.z = -3.0;
+    let power = dynamics::frame_forces(&Machine, &q, &wrenches).dot(&v) + 3.0 * tool.velocity.z;
+    let placed = tool.pose.translation.vector.norm() > 0.1 && bias.norm() > 0.1;
+    placed && (jacobian * v - tool.twist()).norm() < 1e-12 && -1e-12 < power && power < 1e-12
+}
+
+/// The task's force for an upward acceleration of the tip gives it that.
+fn a_tip_rises_in_the_vectors_of_nalgebra() -> Option<bool> {
+    let q = nalgebra::Vector6::new(0.1, 0.7, -0.4, 0.3, 0.9, -0.2);
+    let [jacobian] = dynamics::frame_jacobians(&Kr5Tool, &q);
+    let linear = jacobian.fixed_rows::<3>(0).into_owned();
+    let tip = dynamics::OperationalSpace::new(&dynamics::mass_matrix(&Kr5Tool, &q), &linear).ok()?;
+    let up = nalgebra::Vector3::z();
+    let tau = tip.joint_force(&tip.force_of_acceleration(&up)) + dynamics::gravity_forces(&Kr5Tool, &q);
+    let a = dynamics::forward_dynamics(&Kr5Tool, &q, &nalgebra::Vector6::zeros(), &tau);
+    let of_null_space = tip.inertia() * linear * tip.projector() * tip.inverse();
+    Some(tip.rank() == 3 && (tip.task_velocity(&a) - up).norm() < 1e-12 && of_null_space.norm() < 1e-9)
 }
 
 fn wrenches_have_the_power_of_their_joint_forces() -> bool {

@@ -1,7 +1,8 @@
 //! The functions of compiled mechanisms over the vectors, matrices and isometries of [`::nalgebra`].
 //!
-//! All functions but those of frames are here, each with the name of the one that it calls. Vectors are passed on as the arrays that they hold, and results
-//! are moved into vectors and matrices, so that nothing is copied by hand. Neither `std` nor an allocator is needed.
+//! All functions are here, each with the name of the one that it calls, and [`OperationalSpace`]. Vectors are passed on
+//! as the arrays that they hold, and results are moved into vectors and matrices, so that nothing is copied by hand.
+//! Neither `std` nor an allocator is needed.
 //!
 //! ```
 //! use nalgebra::{SVector, Vector6};
@@ -21,11 +22,17 @@
 //! println!("the tool's frame is at {}, its tip at {}", tool.pose, tool.pose * nalgebra::Point3::new(0.0, 0.0, 0.1));
 //! ```
 
+mod frames;
+mod operational_space;
+
+pub use frames::{Frame, Wrench, frame_bias, frame_forces, frame_jacobians, frame_kinematics};
+pub use operational_space::OperationalSpace;
+
 use crate::{
     BiasForces, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces, InverseDynamics,
     LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, PassiveForces, Scalar,
 };
-use ::nalgebra::{Isometry3, Matrix3, Point3, RealField, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
+use ::nalgebra::{Isometry3, Point3, RealField, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 
 /// A scalar that is a number of nalgebra's too: `f32` and `f64`.
 pub trait Number: Scalar + ::nalgebra::Scalar {}
@@ -48,10 +55,8 @@ pub struct Link<S: RealField> {
 impl<S: RealField + Copy> From<LinkState<S>> for Link<S> {
     fn from(state: LinkState<S>) -> Self {
         let LinkState { rotation, origin, com, velocity, angular_velocity } = state;
-        // The rows of an array are the columns of a matrix.
-        let rotation = Rotation3::from_matrix_unchecked(Matrix3::from(rotation).transpose());
         Link {
-            pose: Isometry3::from_parts(origin.into(), UnitQuaternion::from_rotation_matrix(&rotation)),
+            pose: isometry(rotation, origin),
             com: com.into(),
             velocity: velocity.into(),
             angular_velocity: angular_velocity.into(),
@@ -72,6 +77,22 @@ pub struct CenterOfMass<S: ::nalgebra::Scalar> {
 fn array<S, const N: usize>(vector: &SVector<S, N>) -> &[S; N] {
     let [column] = &vector.data.0;
     column
+}
+
+/// The matrix with these rows, which are columns of its transpose.
+fn matrix<S: ::nalgebra::Scalar, const R: usize, const C: usize>(rows: [[S; C]; R]) -> SMatrix<S, R, C> {
+    SMatrix::<S, C, R>::from(rows).transpose()
+}
+
+/// The rows of a matrix.
+fn rows<S: ::nalgebra::Scalar, const R: usize, const C: usize>(matrix: &SMatrix<S, R, C>) -> [[S; C]; R] {
+    matrix.transpose().data.0
+}
+
+/// The frame whose axes are the columns of `rotation`, with its origin at `origin`.
+fn isometry<S: RealField>(rotation: [[S; 3]; 3], origin: [S; 3]) -> Isometry3<S> {
+    let rotation = Rotation3::from_matrix_unchecked(matrix(rotation));
+    Isometry3::from_parts(origin.into(), UnitQuaternion::from_rotation_matrix(&rotation))
 }
 
 /// [`ConfigurationSpace::coordinate_rates`]: q̇ = N(q) v.
@@ -184,7 +205,7 @@ where
     S: Number,
     M: CoriolisMatrix<S, Coordinates = [S; NQ], Velocities = [S; NV], Matrix = [[S; NV]; NV]>,
 {
-    SMatrix::<S, NV, NV>::from(mechanism.coriolis_matrix(array(q), array(v))).transpose()
+    matrix(mechanism.coriolis_matrix(array(q), array(v)))
 }
 
 /// [`GravityForces::gravity_forces`]: the joint forces of gravity, N m or N.
@@ -267,7 +288,7 @@ where
     S: Number,
     M: ConfigurationSpace<S, Coordinates = [S; NQ], Velocities = [S; NV]> + LoopClosure<S, M, Jacobian = [[S; NV]; NC]>,
 {
-    SMatrix::<S, NV, NC>::from(mechanism.loop_jacobian(array(q))).transpose()
+    matrix(mechanism.loop_jacobian(array(q)))
 }
 
 /// [`LoopClosure::loop_bias`]: J̇ v, the second derivative of the residual at zero joint accelerations.
