@@ -1,6 +1,9 @@
-//! Random trees as URDFs, and where their links are: by quaternions, so that nothing is shared with what is tested.
+//! Random trees as URDFs, and where their links are: by nalgebra's quaternions, so that nothing is shared with
+//! what is tested.
 
 use std::fmt::Write;
+
+use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A joint and the link it carries.
 pub struct Joint {
@@ -86,51 +89,23 @@ pub fn urdf(joints: &[Joint]) -> String {
     text + "</robot>\n"
 }
 
-type Quaternion = [f64; 4];
-
-fn product(a: Quaternion, b: Quaternion) -> Quaternion {
-    [
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    ]
-}
-
-fn about(axis: [f64; 3], angle: f64) -> Quaternion {
-    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let sin = (angle / 2.0).sin() / length;
-    [(angle / 2.0).cos(), sin * axis[0], sin * axis[1], sin * axis[2]]
-}
-
-fn turned(by: Quaternion, v: [f64; 3]) -> [f64; 3] {
-    let conjugate = [by[0], -by[1], -by[2], -by[3]];
-    let [_, x, y, z] = product(product(by, [0.0, v[0], v[1], v[2]]), conjugate);
-    [x, y, z]
-}
-
-fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
 /// Origin and centre of mass of every link, at a coordinate for each joint.
 pub fn positions(joints: &[Joint], q: &[f64]) -> Vec<([f64; 3], [f64; 3])> {
-    let mut frames: Vec<(Quaternion, [f64; 3])> = Vec::new();
+    let mut frames: Vec<Isometry3<f64>> = Vec::new();
     for (joint, &q) in joints.iter().zip(q) {
-        let (rotation, position) = joint.parent.map_or(([1.0, 0.0, 0.0, 0.0], [0.0; 3]), |parent| frames[parent]);
+        let parent = joint.parent.map_or(Isometry3::identity(), |parent| frames[parent]);
         let [roll, pitch, yaw] = joint.rpy;
-        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let own = product(about(z, yaw), product(about(y, pitch), about(x, roll)));
-        let (mut rotation, mut position) = (product(rotation, own), sum(position, turned(rotation, joint.xyz)));
-        match joint.kind {
-            "prismatic" => {
-                let length = joint.axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-                position = sum(position, turned(rotation, joint.axis.map(|x| x * q / length)));
-            }
-            "fixed" => {}
-            _ => rotation = product(rotation, about(joint.axis, q)),
-        }
-        frames.push((rotation, position));
+        let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        let axis = Unit::new_normalize(Vector3::from(joint.axis));
+        let frame = parent * Isometry3::from_parts(joint.xyz.into(), turn);
+        frames.push(match joint.kind {
+            "prismatic" => frame * Translation3::from(*axis * q),
+            "fixed" => frame,
+            _ => frame * UnitQuaternion::from_axis_angle(&axis, q),
+        });
     }
-    joints.iter().zip(frames).map(|(joint, (r, p))| (p, sum(p, turned(r, joint.com)))).collect()
+    let place = |(joint, frame): (&Joint, Isometry3<f64>)| {
+        (frame.translation.vector.into(), (frame * Point3::from(joint.com)).into())
+    };
+    joints.iter().zip(frames).map(place).collect()
 }
