@@ -1,5 +1,6 @@
 //! The looks of a mechanism, from its model: from where to where its links reach, and how they are joined.
 
+use nalgebra::Vector3;
 use redysim_model::joint::{self, Screw};
 use redysim_model::spatial::{Pose, Vec3};
 use redysim_model::{CutKind, CutSide, JointKind, Link, Model};
@@ -117,7 +118,7 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
             ends = if far_end == Vec3::zero() { solid.ends() } else { vec![far_end.0] };
         }
         let tip = model.links.iter().all(|other| other.parent != Some(index));
-        let com = (link.mass > 0.0).then_some(solid.com.0);
+        let com = (link.mass > 0.0).then(|| solid.com.into());
         Body { name: &link.name, joint: Some(joint), ends, tip, com, ellipsoid: solid.ellipsoid() }
     });
     std::iter::once(ground).chain(links).collect()
@@ -132,7 +133,7 @@ impl Body<'_> {
 
 /// The longest way from the base along the joints to the end of a link, m; 1 m where all is in one point.
 pub fn reach(bodies: &[Body]) -> f64 {
-    let length = |vector: [f64; 3]| Vec3(vector).dot(Vec3(vector)).sqrt();
+    let length = |vector: [f64; 3]| Vector3::from(vector).norm();
     let from_joint = |body: &Body| body.ends.iter().map(|&end| length(end)).fold(0.0, f64::max);
     let joint = |body: &usize| bodies[*body].joint.as_ref();
     let to_joint = |body: usize| -> f64 {

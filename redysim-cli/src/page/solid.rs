@@ -1,24 +1,21 @@
 //! How large a link is, as far as its mass and inertia tell.
 
-use nalgebra::{Matrix3, SymmetricEigen};
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 use redysim_model::Link;
 use redysim_model::inertia::Sym3;
-use redysim_model::spatial::{Mat3, Vec3};
 use serde::Serialize;
-
-use super::quaternion;
 
 /// How the mass of a link lies about its centre, in the frame of its body.
 ///
 /// With Σ = ½ tr(I) 1 − I = ∫ r rᵀ dm, the variances of the mass along the principal axes are the eigenvalues of Σ / m.
 pub struct Solid {
     /// Centre of mass, m.
-    pub com: Vec3<f64>,
+    pub com: Vector3<f64>,
     /// Standard deviations along the principal axes, m: √3 of the halves of a uniform box, √5 of the semi-axes of a
     /// uniform ellipsoid go into them.
-    spread: [f64; 3],
-    /// The principal axes, as columns.
-    axes: Mat3<f64>,
+    spread: Vector3<f64>,
+    /// Takes vectors along the principal axes to the frame of the body.
+    axes: Rotation3<f64>,
 }
 
 /// An ellipsoid about a centre of mass.
@@ -34,41 +31,41 @@ impl Solid {
     /// The solid of a link; without mass or inertia, a point.
     pub fn of(link: &Link) -> Solid {
         let tensor = Sym3::from(link.inertia).rotated(link.frame.rotation);
-        let com = link.frame.transform(link.com);
+        let com = Vector3::from(link.frame.transform(link.com).0);
         if link.mass <= 0.0 {
-            return Solid { com, spread: [0.0; 3], axes: Mat3::identity() };
+            return Solid { com, spread: Vector3::zeros(), axes: Rotation3::identity() };
         }
-        let Mat3(full) = tensor.full();
-        let half_trace = 0.5 * (tensor.xx + tensor.yy + tensor.zz);
-        let second = Matrix3::from_fn(|i, j| (if i == j { half_trace } else { 0.0 } - full[i][j]) / link.mass);
+        let inertia = Matrix3::from(tensor.full().0);
+        let second = (Matrix3::from_diagonal_element(0.5 * inertia.trace()) - inertia) / link.mass;
         let SymmetricEigen { eigenvalues, mut eigenvectors } = second.symmetric_eigen();
         if eigenvectors.determinant() < 0.0 {
             eigenvectors.column_mut(0).neg_mut();
         }
         // What roundoff of flat and slender bodies leaves below zero is zero.
-        let spread = [0, 1, 2].map(|axis| eigenvalues[axis].max(0.0).sqrt());
-        Solid { com, spread, axes: Mat3::from_fn(|i, j| eigenvectors[(i, j)]) }
+        let spread = eigenvalues.map(|variance| variance.max(0.0).sqrt());
+        Solid { com, spread, axes: Rotation3::from_matrix_unchecked(eigenvectors) }
     }
 
     /// The uniform ellipsoid with the same mass and inertia; none of a point.
     pub fn ellipsoid(&self) -> Option<Ellipsoid> {
-        let semi_axes = self.spread.map(|spread| 5.0_f64.sqrt() * spread);
-        (self.spread != [0.0; 3]).then(|| Ellipsoid { semi_axes, rotation: quaternion(self.axes) })
+        let rotation = || UnitQuaternion::from_rotation_matrix(&self.axes).coords.into();
+        let semi_axes = (5.0_f64.sqrt() * self.spread).into();
+        (self.spread != Vector3::zeros()).then(|| Ellipsoid { semi_axes, rotation: rotation() })
     }
 
     /// Where the uniform box with the same mass and inertia ends, beyond the centre of mass as seen from the joint: for
     /// a uniform rod, the rod's end. A body whose centre of mass is in its joint has two ends, along the box.
     pub fn ends(&self) -> Vec<[f64; 3]> {
-        let half = self.spread.map(|spread| 3.0_f64.sqrt() * spread);
-        let distance = self.com.dot(self.com).sqrt();
+        let half = 3.0_f64.sqrt() * self.spread;
+        let distance = self.com.norm();
         if distance > 0.0 {
-            let along = self.com.scale(1.0 / distance);
-            let beyond: f64 = (0..3).map(|axis| half[axis] * self.axes.column(axis).dot(along).abs()).sum();
-            return vec![along.scale(distance + beyond).0];
+            let along = self.com / distance;
+            let beyond = half.dot(&self.axes.inverse_transform_vector(&along).abs());
+            return vec![(along * (distance + beyond)).into()];
         }
-        let longest = (0..3).fold(0, |longest, axis| if half[axis] > half[longest] { axis } else { longest });
-        let end = self.axes.column(longest).scale(half[longest]);
-        if half[longest] > 0.0 { vec![end.scale(-1.0).0, end.0] } else { vec![[0.0; 3]] }
+        let longest = half.imax();
+        let end = self.axes.matrix().column(longest) * half[longest];
+        if half[longest] > 0.0 { vec![(-end).into(), end.into()] } else { vec![[0.0; 3]] }
     }
 }
 
