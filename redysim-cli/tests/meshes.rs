@@ -63,7 +63,12 @@ fn a_mesh_that_is_left_out_is_named_with_its_link_and_what_to_do() {
     const LARGE: &str = "its 20.0 MB exceed the limit of 20.0 MB together with 0.0 MB already embedded";
     let relative = "\"../meshes/tool.OBJ\"";
     for (name, to, why, help) in [
-        ("missing", "\"../meshes/hand.stl\"", "the file ", "does not exist\n  = help: relative paths start at the URDF's folder"),
+        (
+            "missing",
+            "\"../meshes/hand.stl\"",
+            "the file ",
+            "does not exist\n  = help: relative paths start at the URDF's folder",
+        ),
         ("package", "\"package://hand/hand.stl\"", "the package `hand` is not found", "ROS_PACKAGE_PATH"),
         ("format", "\"../meshes/tool.ply\"", "`.ply` is not read", "STL, DAE and OBJ"),
         ("large", "\"../meshes/large.stl\"", LARGE, "20.0 MB of them"),
