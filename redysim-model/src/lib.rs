@@ -63,6 +63,7 @@ mod schema;
 pub mod spatial;
 mod spring;
 mod tree;
+mod write;
 
 pub use faults::Faults;
 pub use generic::GenericMechanism;

@@ -238,7 +238,37 @@ impl CutKind {
     }
 }
 
+impl Link {
+    /// A link without mass, whose joint stands in the parent's frame and moves about or along z.
+    pub fn new(name: impl Into<String>, parent: Option<usize>, joint: JointKind) -> Self {
+        let name = name.into();
+        Link {
+            joint_name: name.clone(),
+            name,
+            parent,
+            joint,
+            placement: Pose::identity(),
+            axis: Vec3([0.0, 0.0, 1.0]),
+            frame: Pose::identity(),
+            offset: 0.0,
+            pitch: 0.0,
+            mass: 0.0,
+            com: Vec3::zero(),
+            inertia: Inertia::default(),
+            physics: JointPhysics::default(),
+            actuated: true,
+            range: None,
+        }
+    }
+}
+
 impl Model {
+    /// A model without links, to which they are added; [`check`](Self::check) checks it by the rules for files.
+    pub fn new(name: impl Into<String>, gravity: Vec3<f64>) -> Self {
+        let (links, loops, frames, springs) = (vec![], vec![], vec![], vec![]);
+        Model { name: name.into(), gravity, links, loops, frames, springs }
+    }
+
     /// Number of joint velocities, NV: the sum of the joints' freedoms.
     pub fn dof(&self) -> usize {
         self.links.iter().map(|link| link.joint.dof()).sum()

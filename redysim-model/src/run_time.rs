@@ -92,15 +92,28 @@ impl Quantity {
 }
 
 impl RunTimeParameter {
+    /// Its name in a model file: `gravity`, `tool.mass`, `tool.inertia`, `joint2.damping`.
+    pub fn name(self, model: &Model) -> String {
+        self.name_with(self.owner(model))
+    }
+
     /// The names of its numbers: `gravity.x`, `tool.mass`, `tool.inertia.xx`, `joint2.damping`.
     pub fn names(self, model: &Model) -> impl Iterator<Item = String> {
-        let owner = self.link.and_then(|link| model.links.get(link));
-        self.names_with(owner.map(|link| if self.quantity.is_of_joint() { &link.joint_name } else { &link.name }))
+        self.names_with(self.owner(model))
+    }
+
+    fn owner(self, model: &Model) -> Option<&String> {
+        let link = self.link.and_then(|link| model.links.get(link))?;
+        Some(if self.quantity.is_of_joint() { &link.joint_name } else { &link.name })
+    }
+
+    fn name_with(self, owner: Option<&String>) -> String {
+        owner.map_or(String::new(), |owner| format!("{owner}.")) + self.quantity.name()
     }
 
     /// The names of its numbers, if it belongs to the link or joint `owner`.
     pub(crate) fn names_with(self, owner: Option<&String>) -> impl Iterator<Item = String> {
-        let name = owner.map_or(String::new(), |owner| format!("{owner}.")) + self.quantity.name();
+        let name = self.name_with(owner);
         self.quantity.components().iter().map(move |component| format!("{name}{component}"))
     }
 

@@ -323,13 +323,25 @@ impl<'a, 'f> Reader<'a, 'f> {
         each.collect::<Vec<_>>().into_iter().collect()
     }
 
-    fn three(
+    /// The value as three rows of three numbers.
+    pub fn parse_matrix(&mut self, path: &KeyPath, value: &'a Value<'a>) -> Option<[[f64; 3]; 3]> {
+        // Numbers without rows are one error, not one for each.
+        let array = self.array(path, value, "an array of 3 rows of 3 numbers")?;
+        if array.len() != 3 {
+            return self.wrong_length(path, value, "3 rows of 3 numbers", array.len());
+        }
+        self.three(path, value, "3 rows of 3 numbers", |reader, path, value| {
+            reader.three(path, value, "3 numbers", Self::parse_number)
+        })
+    }
+
+    fn three<T>(
         &mut self,
         path: &KeyPath,
         value: &'a Value<'a>,
         wanted: &str,
-        read: impl Fn(&mut Self, &KeyPath, &'a Value<'a>) -> Option<f64>,
-    ) -> Option<[f64; 3]> {
+        read: impl Fn(&mut Self, &KeyPath, &'a Value<'a>) -> Option<T>,
+    ) -> Option<[T; 3]> {
         let array = self.array(path, value, &format!("an array of {wanted}"))?;
         let elements = self.elements(path, array, read);
         if array.len() != 3 {

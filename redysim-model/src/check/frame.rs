@@ -1,9 +1,9 @@
 //! Frames of interest on links.
 
-use super::placement::placement;
 use super::tree;
 use crate::model::Frame;
-use crate::schema::{Document, FrameTable, Origin, keys};
+use crate::schema::{Document, FrameTable, keys};
+use crate::spatial::Pose;
 use redysim_toml::Findings;
 
 /// The frames; `None` if one of them has a fault.
@@ -15,9 +15,5 @@ pub(super) fn frames(document: &Document, findings: &mut Findings) -> Option<Vec
 
 fn frame(document: &Document, table: &FrameTable, findings: &mut Findings) -> Option<Frame> {
     let link = tree::carrier(document, &table.item, keys::FRAME_LINK.name, &table.link, findings);
-    Some(Frame {
-        name: table.name.value()?.clone(),
-        link: link?,
-        placement: placement(table.origin.value_or(Origin::default())?),
-    })
+    Some(Frame { name: table.name.value()?.clone(), link: link?, placement: table.origin.value_or(Pose::identity())? })
 }

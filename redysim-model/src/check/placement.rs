@@ -2,8 +2,8 @@
 
 use crate::messages;
 use crate::model::JointKind;
-use crate::rotation::{about_x, about_z, roll_pitch_yaw};
-use crate::schema::{Dh, DhStandard, LinkTable, Origin};
+use crate::rotation::{about_x, about_z};
+use crate::schema::{Dh, DhStandard, LinkTable, keys};
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_toml::{Field, Findings, Spanned};
 use std::ops::Range;
@@ -26,6 +26,7 @@ pub(super) struct Placed {
 pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed> {
     placed_once(link, findings);
     axis_beside_origin(link, findings);
+    beside_origin(link, findings);
     let axis_allowed = axis_allowed(link, findings);
     let axis = unit_axis(&link.item, "axis", &link.axis, axis_allowed, findings);
     let joint = *link.joint.value()?;
@@ -39,13 +40,26 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
     if let Some(dh) = link.dh_standard.value() {
         return Some(from_dh_standard(joint, pitch, *dh));
     }
-    let placement = placement(link.origin.value_or(Origin::default())?);
-    Some(Placed { placement, axis: axis?, offset: 0.0, frame: Pose::identity() })
+    let placement = link.origin.value_or(Pose::identity())?;
+    let frame = link.far_end.value_or(Pose::identity())?;
+    Some(Placed { placement, axis: axis?, offset: link.offset.value_or(0.0)?, frame })
 }
 
-/// The pose that `origin` gives.
-pub(super) fn placement(Origin { xyz, rpy }: Origin) -> Pose<f64> {
-    Pose { rotation: roll_pitch_yaw(rpy), position: Vec3(xyz) }.without_negative_zeros()
+/// `offset` and `far_end` belong to a joint that moves, placed by `origin` or `axis`: Denavit-Hartenberg parameters have
+/// both among their numbers.
+fn beside_origin(link: &LinkTable, findings: &mut Findings) {
+    let given = [
+        (&keys::OFFSET, link.offset.spanned().map(Spanned::span)),
+        (&keys::FAR_END, link.far_end.spanned().map(Spanned::span)),
+    ];
+    let dh = [("dh", link.dh.is_missing()), ("dh_standard", link.dh_standard.is_missing())];
+    for (key, span) in given.into_iter().filter_map(|(key, span)| Some((key.name, span?))) {
+        if link.joint.value() == Some(&JointKind::Fixed) {
+            findings.error(span, messages::placement_of_moving(&link.item, key));
+        } else if let Some((parameters, _)) = dh.into_iter().find(|(_, missing)| !missing) {
+            findings.error(span, messages::beside_dh(&link.item, key, parameters));
+        }
+    }
 }
 
 /// By `dh`, by `dh_standard`, or by `origin` and `axis`, of which fixed joints have the first alone, and others may have
@@ -95,6 +109,10 @@ pub(super) fn unit_axis(
         Field::Invalid => return None,
         _ => return Some(Z),
     };
+    // A unit vector stays as it is: normalised once more, it might change by a roundoff.
+    if (given.dot(given) - 1.0).abs() <= 4.0 * f64::EPSILON {
+        return Some(given.map(|x| x + 0.0));
+    }
     // Scaled first, so that the squares neither overflow nor vanish.
     let scale = given.0.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let scaled = Vec3::from_fn(|i| given[i] / scale);

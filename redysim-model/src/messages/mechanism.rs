@@ -2,10 +2,10 @@
 
 use super::{message, with_locks};
 use crate::joint::Joint;
-use crate::schema::keys;
+use crate::schema::{RotationDefect, keys};
 use redysim_runtime::Function;
-use redysim_toml::Message;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
+use redysim_toml::{KeyPath, Message};
 
 pub(crate) fn blank_name(item: &str, key: &str) -> Message {
     message(format!("{item}: `{key}` is blank"), "blank", "give it a name: messages and generated code use it")
@@ -101,6 +101,48 @@ pub(crate) fn two_placements(item: &str, first: &str, second: &str) -> Message {
         format!("{item}: its joint is placed twice, by `{first}` and by `{second}`"),
         format!("already placed by `{first}`"),
         "keep one: `dh`, `dh_standard`, or `origin` and `axis`",
+    )
+}
+
+pub(crate) fn placement_of_moving(item: &str, key: &str) -> Message {
+    message(
+        format!("{item}: has `{key}`, but its joint is fixed"),
+        "the joint does not move",
+        "place a fixed link by `origin` alone",
+    )
+}
+
+pub(crate) fn beside_dh(item: &str, key: &str, parameters: &str) -> Message {
+    let distance = if parameters == keys::DH.name { "b" } else { "d" };
+    let help = if key == keys::OFFSET.name {
+        format!("add it to `theta` of a joint that turns, or to `{distance}` of one that slides")
+    } else {
+        format!("leave `{key}` out, or place the joint by `origin` and `axis`")
+    };
+    message(format!("{item}: has `{key}` beside `{parameters}`"), format!("`{parameters}` includes it"), help)
+}
+
+pub(crate) fn not_a_rotation(item: &str, path: &KeyPath, defect: RotationDefect) -> Message {
+    let help = "give each element with all its digits, or the angles by `rpy`";
+    match defect {
+        RotationDefect::NotOrthonormal(error) => message(
+            format!("{item}: `{path}` is not a rotation: an element of R Rᵀ is off by {error:.1e}"),
+            "not a rotation matrix",
+            help,
+        ),
+        RotationDefect::Reflection => message(
+            format!("{item}: `{path}` is a reflection: its determinant is -1"),
+            "not a rotation matrix",
+            "the columns are the axes x, y and z of a right-handed frame",
+        ),
+    }
+}
+
+pub(crate) fn two_rotations(item: &str) -> Message {
+    message(
+        format!("{item}: its rotation is given twice, by `rpy` and by `rotation`"),
+        "already given by `rpy`",
+        "keep one of the two",
     )
 }
 

@@ -2,7 +2,8 @@
 
 use super::item::item;
 use super::keys;
-use super::link::{Origin, origin};
+use super::origin::origin;
+use crate::spatial::Pose;
 use redysim_toml::{Field, Findings, Reader, TableAt};
 
 /// A `[[frame]]` table.
@@ -12,7 +13,7 @@ pub(crate) struct FrameTable {
     pub(crate) item: String,
     pub(crate) name: Field<String>,
     pub(crate) link: Field<String>,
-    pub(crate) origin: Field<Origin>,
+    pub(crate) origin: Field<Pose<f64>>,
 }
 
 impl FrameTable {

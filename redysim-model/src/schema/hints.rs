@@ -90,7 +90,8 @@ pub(super) const DH_STANDARD_TABLE: &[Hint] = &[
 
 pub(super) const ORIGIN_TABLE: &[Hint] = &[
     Hint::key(&["position", "translation", "pos"], "xyz"),
-    Hint::key(&["rotation", "orientation", "euler", "rot"], "rpy")
+    Hint::key(&["matrix", "R", "rotation_matrix"], "rotation"),
+    Hint::key(&["orientation", "euler", "rot"], "rpy")
         .with_help("Roll, pitch and yaw are angles about the parent's x, y and z axes, in this order"),
     Hint::new(&["axis"], "`axis` stands beside `origin`, as a key of the link"),
 ];

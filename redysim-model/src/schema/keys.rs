@@ -55,6 +55,8 @@ pub(crate) const LINK: Keys = Keys::new(
         DH_STANDARD,
         ORIGIN,
         AXIS,
+        OFFSET,
+        FAR_END,
         PITCH,
         MASS,
         COM,
@@ -77,8 +79,19 @@ pub(crate) const PARENT: Key =
     Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground").with_default("required");
 pub(crate) const JOINT: Key =
     Key::new("joint", "\"revolute\"", "revolute, prismatic, helical or fixed").with_default("required");
-pub(crate) const AXIS: Key = Key::new("axis", "[0.0, 0.0, 1.0]", "the direction of the joint, in the link's frame")
-    .with_default("z; required beside `origin`");
+pub(crate) const AXIS: Key =
+    Key::new("axis", "[0.0, 0.0, 1.0]", "the direction of the joint, in the frame that it moves")
+        .with_default("z; required beside `origin`");
+pub(crate) const OFFSET: Key =
+    Key::new("offset", "\"90 deg\"", "added to the coordinate, beside `origin` or `axis`; without a unit rad or m")
+        .with_default("0");
+pub(crate) const FAR_END: Key = Key::of_table(
+    "far_end",
+    "{ xyz = [0.18, 0.0, 0.0], rpy = [\"90 deg\", 0, 0] }",
+    "the link's frame in the one that the joint moves, beside `origin` or `axis`; m and angles",
+    &[&ORIGIN_KEYS],
+)
+.with_default("the frame that the joint moves");
 pub(crate) const PITCH: Key = Key::new("pitch", "0.005", "m/rad: the translation for a unit of rotation")
     .with_default("required of helical joints");
 pub(crate) const MASS: Key = Key::new("mass", "1.5", "kg").with_default("required");
@@ -128,12 +141,18 @@ pub(crate) const DH_D: Key = Key::new("d", "0.4", "m").with_default("0");
 pub(crate) const ORIGIN: Key =
     Key::of_table("origin", "{ xyz = [0.0, 0.0, 0.4], rpy = [\"90 deg\", 0, 0] }", "m and angles", &[&ORIGIN_KEYS])
         .with_default("one of these three");
-const ORIGIN_KEYS: Keys = Keys::new("`origin`", &[XYZ, RPY]).with_hints(hints::ORIGIN_TABLE);
+const ORIGIN_KEYS: Keys = Keys::new("`origin`", &[XYZ, RPY, ROTATION]).with_hints(hints::ORIGIN_TABLE);
 pub(crate) const XYZ: Key =
-    Key::new("xyz", "[0.0, 0.0, 0.4]", "m, in the frame of the parent, or of the link on which a frame stands")
+    Key::new("xyz", "[0.0, 0.0, 0.4]", "m, in the frame of the parent; of a frame of interest, in that of its link")
         .with_default("[0, 0, 0]");
 pub(crate) const RPY: Key =
     Key::new("rpy", "[\"90 deg\", 0, 0]", "roll, pitch, yaw; without a unit in rad").with_default("[0, 0, 0]");
+pub(crate) const ROTATION: Key = Key::new(
+    "rotation",
+    "[[1, 0, 0], [0, 0, -1], [0, 1, 0]]",
+    "the rotation matrix by rows, in place of `rpy`: its columns are the axes of the frame",
+)
+.with_default("by `rpy`");
 
 pub(crate) const INERTIA: Key = Key::of_table(
     "inertia",

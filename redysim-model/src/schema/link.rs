@@ -2,8 +2,10 @@
 
 use super::item::item;
 use super::keys;
+use super::origin::origin;
 use crate::messages;
 use crate::model::{Inertia, JointKind, JointRange};
+use crate::spatial::Pose;
 use redysim_toml::{Field, Findings, Key, Reader, Spanned, TableAt, name_of};
 use std::ops::Range;
 
@@ -20,8 +22,10 @@ pub(crate) struct LinkTable {
     pub(crate) joint: Field<JointKind>,
     pub(crate) dh: Field<Dh>,
     pub(crate) dh_standard: Field<DhStandard>,
-    pub(crate) origin: Field<Origin>,
+    pub(crate) origin: Field<Pose<f64>>,
     pub(crate) axis: Field<[f64; 3]>,
+    pub(crate) offset: Field<f64>,
+    pub(crate) far_end: Field<Pose<f64>>,
     pub(crate) pitch: Field<f64>,
     pub(crate) mass: Field<f64>,
     pub(crate) com: Field<[f64; 3]>,
@@ -93,13 +97,6 @@ pub(crate) struct DhStandard {
     pub(crate) theta: f64,
 }
 
-/// Place of the link's frame in its parent's, as URDF has it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Origin {
-    pub(crate) xyz: [f64; 3],
-    pub(crate) rpy: [f64; 3],
-}
-
 /// Kinds of joint that are planned.
 const PLANNED: [&str; 3] = ["universal", "spherical", "free"];
 
@@ -125,6 +122,8 @@ impl LinkTable {
             dh_standard: reader.table(&keys::DH_STANDARD, dh_standard),
             origin: reader.table(&keys::ORIGIN, origin),
             axis: reader.vector(&keys::AXIS),
+            offset: displacement(&mut reader, &keys::OFFSET, turns, ""),
+            far_end: reader.table(&keys::FAR_END, origin),
             pitch,
             mass: reader.required(&keys::MASS, Reader::number),
             com: reader.vector(&keys::COM),
@@ -182,13 +181,6 @@ fn dh_standard(mut reader: Reader<'_, '_>) -> DhStandard {
         alpha: reader.angle(&keys::DH_ALPHA).value_or(0.0).unwrap_or_default(),
         d: reader.number(&keys::DH_D).value_or(0.0).unwrap_or_default(),
         theta: reader.angle(&keys::DH_THETA).value_or(0.0).unwrap_or_default(),
-    }
-}
-
-pub(super) fn origin(mut reader: Reader<'_, '_>) -> Origin {
-    Origin {
-        xyz: reader.vector(&keys::XYZ).value_or([0.0; 3]).unwrap_or_default(),
-        rpy: reader.angles(&keys::RPY).value_or([0.0; 3]).unwrap_or_default(),
     }
 }
 

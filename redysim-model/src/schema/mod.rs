@@ -10,13 +10,15 @@ mod item;
 pub(crate) mod keys;
 mod link;
 mod options;
+mod origin;
 mod point;
 mod spring;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
 pub(crate) use frame::FrameTable;
-pub(crate) use link::{Dh, DhStandard, LinkTable, Origin, PhysicsKeys};
+pub(crate) use link::{Dh, DhStandard, LinkTable, PhysicsKeys};
 pub(crate) use options::{Entry, OptionsTable};
+pub(crate) use origin::RotationDefect;
 pub(crate) use point::PointTable;
 pub(crate) use spring::SpringTable;
 
