@@ -60,6 +60,8 @@ mod roundoff;
 mod run_time;
 pub mod scaling;
 mod schema;
+#[cfg(feature = "serde")]
+mod serde;
 pub mod spatial;
 mod spring;
 mod tree;

@@ -6,6 +6,8 @@ use crate::spatial::{Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links, loops, frames and springs stand in the file's order.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self", deny_unknown_fields))]
 pub struct Model {
     /// Name of the mechanism.
     pub name: String,
@@ -14,10 +16,13 @@ pub struct Model {
     /// The links, in the file's order; parents may stand after their children.
     pub links: Vec<Link>,
     /// The cut joints, in the file's order.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub loops: Vec<Loop>,
     /// Frames of interest on links, in the file's order.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub frames: Vec<Frame>,
     /// Springs between points, in the file's order.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub springs: Vec<Spring>,
 }
 
@@ -26,6 +31,8 @@ pub struct Model {
 /// A joint variable q moves the link's frame to `placement · motion(offset + q) · frame`, where the motion is a rotation
 /// about `axis` (revolute), a translation along it (prismatic), both in proportion (helical), or nothing (fixed).
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Link {
     /// Name of the link.
     pub name: String,
@@ -64,6 +71,8 @@ pub struct Link {
 /// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function
 /// is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct JointRange {
     /// The least and the largest coordinate.
     pub position: [f64; 2],
@@ -77,6 +86,8 @@ pub struct JointRange {
 
 /// The kinds of joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum JointKind {
     /// Rotation about the axis.
@@ -124,6 +135,8 @@ impl JointKind {
 
 /// A symmetric inertia tensor, kg m².
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Inertia {
     /// Moment about x.
     pub xx: f64,
@@ -147,6 +160,8 @@ impl From<Inertia> for Sym3<f64> {
 
 /// A cut joint: `point_a` on link a and `point_b` on link b coincide.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Loop {
     /// Name of the loop.
     pub name: String,
@@ -160,6 +175,8 @@ pub struct Loop {
 
 /// One side of a cut joint.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CutSide {
     /// Index of the link in [`Model::links`]; `None` is the ground.
     pub link: Option<usize>,
@@ -171,6 +188,8 @@ pub struct CutSide {
 
 /// A frame of interest on a link, such as that of a tool or a foot: a table `[[frame]]`.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Frame {
     /// Name of the frame.
     pub name: String,
@@ -184,6 +203,8 @@ pub struct Frame {
 ///
 /// It pulls its ends together with the force k (ℓ − ℓ₀) + c ℓ̇ along the line between them, where ℓ is their distance.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Spring {
     /// Name of the spring, if the file gives one.
     pub name: Option<String>,
@@ -201,6 +222,8 @@ pub struct Spring {
 
 /// A point on a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct LinkPoint {
     /// Index of the link in [`Model::links`]; `None` is the ground.
     pub link: Option<usize>,
@@ -210,6 +233,8 @@ pub struct LinkPoint {
 
 /// The kinds of cut joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum CutKind {
     /// Points coincide and axes align.

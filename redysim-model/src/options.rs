@@ -18,6 +18,7 @@ use redysim_runtime::Functions;
 /// assert!(CodegenOptions::default().functions.contains(Function::Energy));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodegenOptions {
     /// The functions that are generated, beside those of `ConfigurationSpace`, which every mechanism has.
     pub functions: Functions,
@@ -32,6 +33,8 @@ pub struct CodegenOptions {
 
 /// How compiled forward dynamics is computed: the key `forward_dynamics` of a model file or a declaration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum AccelerationMethod {
     /// `"auto"`: by the factorisation where that takes fewer operations and keeps the digits that the recursion keeps,
     /// else by the recursion.

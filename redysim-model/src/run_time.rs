@@ -10,6 +10,7 @@ use redysim_runtime::ParameterRule;
 
 /// A quantity of a model that is given at run time: an entry of the option `parameters`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RunTimeParameter {
     /// What is given.
     pub quantity: Quantity,
@@ -19,6 +20,8 @@ pub struct RunTimeParameter {
 
 /// The quantities that may be given at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Quantity {
     /// Acceleration of gravity in the base frame, m/s².

@@ -5,14 +5,18 @@ use std::ops::{Add, Index, IndexMut, Mul, Neg, Sub};
 
 /// Three components in some frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vec3<S>(pub [S; 3]);
 
 /// A 3×3 matrix, by rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mat3<S>(pub [[S; 3]; 3]);
 
 /// Where a frame stands in another: `rotation` has the frame's axes as columns, `position` is its origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Pose<S> {
     /// The frame's axes, as columns.
     pub rotation: Mat3<S>,

@@ -28,6 +28,7 @@ pub trait Frames<S: Scalar>: ConfigurationSpace<S> {
 
 /// Position and velocity of one frame, in the base frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameState<S> {
     /// The frame's axes, as columns, in the base frame; `rotation[row][column]`.
     pub rotation: [[S; 3]; 3],
@@ -42,6 +43,7 @@ pub struct FrameState<S> {
 /// The Jacobian of one frame at its origin, in the axes of the base frame. `Row` has an entry for each joint velocity:
 /// `[S; NV]` for compiled types, `Vec<S>` for the generic path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameJacobian<Row> {
     /// By rows: the velocity of the origin is `linear` · v, m/s.
     pub linear: [Row; 3],
@@ -59,6 +61,7 @@ impl<Row: Clone> FrameJacobian<Row> {
 
 /// The acceleration of one frame, in the base frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameAcceleration<S> {
     /// Acceleration of the origin, the second derivative of its position, m/s².
     pub linear: [S; 3],
@@ -68,6 +71,7 @@ pub struct FrameAcceleration<S> {
 
 /// A wrench on the mechanism at the origin of a frame, in the axes of the base frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Wrench<S> {
     /// Force, N.
     pub force: [S; 3],

@@ -252,6 +252,7 @@ impl<S: Scalar, M> TreeDynamics<S> for M where
 
 /// Energy of a mechanism, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy<S> {
     /// ½ q̇ᵀ M q̇.
     pub kinetic: S,
@@ -268,6 +269,7 @@ impl<S: Scalar> Energy<S> {
 
 /// The centre of mass of a mechanism, in the base frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CenterOfMass<S> {
     /// Σ m c / Σ m, m.
     pub position: [S; 3],
@@ -277,6 +279,7 @@ pub struct CenterOfMass<S> {
 
 /// Position and velocity of one link, in the base frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinkState<S> {
     /// The link's axes, as columns, in the base frame; `rotation[row][column]`.
     pub rotation: [[S; 3]; 3],

@@ -2,6 +2,7 @@
 
 /// Operations of one generated function. Unary minus is free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OperationCount {
     /// Additions and subtractions.
     pub additions: u32,

@@ -38,6 +38,7 @@ pub struct ForwardSimulation<'m, M, L> {
 
 /// The parts of a simulation's state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SimulationState<S, Q, V> {
     /// Joint coordinates, rad or m.
     pub q: Q,

@@ -13,6 +13,8 @@ use redysim_runtime::Scalar;
 /// Friction is smooth: at speeds far above ε it is Coulomb's, and it does not stick. A joint at rest under a load below
 /// f creeps, at about ε times the load's share of f.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct JointPhysics<P = f64> {
     /// Reflected inertia of rotor and gears, kg m² or kg: that of the rotor times the square of the gear ratio.
     pub armature: P,

@@ -8,6 +8,7 @@ use crate::{BiasForces, LoopClosure, MassMatrix, Real, Vector};
 
 /// Accelerations and constraint forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ConstrainedMotion<V, R> {
     /// Joint accelerations, rad/s² or m/s².
     pub accelerations: V,

@@ -29,6 +29,7 @@ impl<S, F: Fn(S) -> FrameState<S>> FrameTrajectory<S> for F {
 
 /// Gains along and about the axes of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameGains<S> {
     /// Of displacements, N/m, or of velocities, N s/m.
     pub linear: [S; 3],
@@ -38,6 +39,8 @@ pub struct FrameGains<S> {
 
 /// What a law adds to its feedback from the model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Compensation {
     /// g(q), the [gravity forces](GravityForces). The robot with the law is passive: its kinetic energy and that of the
     /// spring change by the work of other forces, less what the damping takes. Springs and other passive forces of the

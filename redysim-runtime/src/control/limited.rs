@@ -8,6 +8,7 @@ use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Vector};
 /// A law that has states, such as [`Pid`](crate::Pid), receives the difference of applied and commanded force
 /// ([`TorqueLaw::track`]), so that its integral action does not wind up.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limited<L, V> {
     /// The law.
     pub law: L,

@@ -122,6 +122,7 @@ pub fn uniform<S: Scalar, M: ConfigurationSpace<S>>(mechanism: &M, gain: S) -> M
 
 /// Zero torque: τ = 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ZeroTorque;
 
 impl<S: Scalar, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ZeroTorque {

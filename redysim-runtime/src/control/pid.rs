@@ -50,6 +50,7 @@ use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Trajectory, Vec
 /// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pid<T, V> {
     /// The motion to follow; a [`SetPoint`](crate::SetPoint) for one position.
     pub trajectory: T,

@@ -6,6 +6,7 @@ use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Trajectory, Vec
 
 /// A spring to a set point: τ = Kp (q_d − q).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Proportional<Q, V> {
     /// The set point q_d.
     pub target: Q,
@@ -35,6 +36,7 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Proportional<M::Coor
 
 /// A spring and a damper to a set point: τ = Kp (q_d − q) − Kd q̇.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ProportionalDerivative<Q, V> {
     /// The set point q_d.
     pub target: Q,
@@ -68,6 +70,7 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivati
 
 /// A spring and a damper to a moving target: τ = Kp (q_d(t) − q) + Kd (q̇_d(t) − q̇).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TrackingPd<T, V> {
     /// The motion to follow.
     pub trajectory: T,

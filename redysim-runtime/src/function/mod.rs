@@ -4,6 +4,8 @@
 //! [`Function`](crate::Function) is a function, [`Functions`](crate::Functions) a set of them, and
 //! [`Operations`](crate::Operations) what each costs.
 
+#[cfg(feature = "serde")]
+mod serde;
 pub(crate) mod set;
 mod signature;
 pub(crate) mod table;

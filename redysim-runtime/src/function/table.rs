@@ -13,6 +13,8 @@ macro_rules! functions {
         ///
         /// The enumeration is exhaustive, so that the compiler shows where a new function is to be handled.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
         pub enum Function {
             $(#[doc = $summary] $variant,)*
         }

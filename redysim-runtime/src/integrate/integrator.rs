@@ -156,6 +156,7 @@ pub trait Integrator<S: Real> {
 
 /// Where an integration ended, and what it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solution<S, Y> {
     /// The end of the interval, or the time at which the observer ended the integration.
     pub t: S,
@@ -167,6 +168,7 @@ pub struct Solution<S, Y> {
 
 /// What an integration took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,

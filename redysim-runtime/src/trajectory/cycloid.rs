@@ -24,10 +24,35 @@ use crate::{Real, Vector};
 /// # Ok::<(), redysim_runtime::TrajectoryError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Fields<S, V>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(deserialize = "S: Real + serde::Deserialize<'de>, V: Vector<S> + serde::Deserialize<'de>"))
+)]
 pub struct Cycloid<S, V> {
     from: V,
     to: V,
     duration: S,
+}
+
+/// The fields of a [`Cycloid`], which [`Cycloid::new`] checks.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "Cycloid")]
+struct Fields<S, V> {
+    from: V,
+    to: V,
+    duration: S,
+}
+
+#[cfg(feature = "serde")]
+impl<S: Real, V: Vector<S>> TryFrom<Fields<S, V>> for Cycloid<S, V> {
+    type Error = TrajectoryError<S>;
+
+    fn try_from(Fields { from, to, duration }: Fields<S, V>) -> Result<Self, TrajectoryError<S>> {
+        Cycloid::new(from, to, duration)
+    }
 }
 
 impl<S: Real, V: Vector<S>> Cycloid<S, V> {

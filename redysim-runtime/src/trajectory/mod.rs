@@ -13,6 +13,7 @@ pub use via_points::ViaPoints;
 
 /// A motion at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Motion<Q, V> {
     /// Joint coordinates, rad or m.
     pub q: Q,

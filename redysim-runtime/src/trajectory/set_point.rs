@@ -5,6 +5,7 @@ use crate::{ConfigurationSpace, Scalar, Vector};
 
 /// A position at rest, as a motion for laws that follow one.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SetPoint<Q, V> {
     motion: Motion<Q, V>,
 }

@@ -26,10 +26,38 @@ use crate::{Real, Vector};
 /// # Ok::<(), redysim_runtime::TrajectoryError<f64>>(())
 /// ```
 #[derive(Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Fields<T, T::Of<Motion<V, V>>>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: serde::Serialize, T::Of<Motion<V, V>>: serde::Serialize",
+        deserialize = "S: Real, V: Vector<S>, T: serde::Deserialize<'de>, T::Of<Motion<V, V>>: serde::Deserialize<'de>"
+    ))
+)]
 pub struct ViaPoints<S, V: Clone, T: Vector<S>> {
     times: T,
     points: T::Of<Motion<V, V>>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     scalar: PhantomData<S>,
+}
+
+/// The fields of [`ViaPoints`], which [`ViaPoints::through`] checks.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename = "ViaPoints")]
+struct Fields<T, P> {
+    times: T,
+    points: P,
+}
+
+#[cfg(feature = "serde")]
+impl<S: Real, V: Vector<S>, T: Vector<S>> TryFrom<Fields<T, T::Of<Motion<V, V>>>> for ViaPoints<S, V, T> {
+    type Error = TrajectoryError<S>;
+
+    fn try_from(Fields { times, points }: Fields<T, T::Of<Motion<V, V>>>) -> Result<Self, TrajectoryError<S>> {
+        ViaPoints::through(times, points)
+    }
 }
 
 impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {

@@ -30,6 +30,7 @@ pub struct ClosedLoopInverse<'m, M, Q, C = M> {
 
 /// The motion and the forces at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LoopForces<Q, V, R> {
     /// Coordinates, velocities and accelerations of all joints.
     pub motion: Motion<Q, V>,

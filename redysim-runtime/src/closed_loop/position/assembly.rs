@@ -13,6 +13,7 @@ const SLOW: f64 = 1e-10;
 
 /// A closed position near a guess, and a velocity that keeps it closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Assembly<S, Q, V> {
     /// Joint coordinates.
     pub q: Q,

@@ -12,6 +12,7 @@ const ITERATIONS: usize = 20;
 
 /// A position and a velocity that keep the loops closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Projection<S, Q, V> {
     /// Joint coordinates.
     pub q: Q,

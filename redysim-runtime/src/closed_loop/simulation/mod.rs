@@ -38,6 +38,7 @@ pub struct ClosedLoopSimulation<'m, S, M, L, C = M> {
 
 /// The motion in a state with the joint forces that act there.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ForcedMotion<V, R> {
     /// The joint forces of the torque law, N m or N.
     pub tau: V,

@@ -9,6 +9,8 @@ const LARGEST_PRODUCT: f64 = 1.3;
 
 /// How a simulation keeps its loops closed against the errors of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Stabilisation<S> {
     /// After each accepted step, position and velocity go to the nearest ones that close the loops: at the ends of

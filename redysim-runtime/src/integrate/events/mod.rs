@@ -14,6 +14,8 @@ use crossings::{Crossing, Nodes};
 
 /// Which crossings of zero count, seen in the direction of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Direction {
     /// From negative to positive values.
     Rising,

@@ -26,6 +26,7 @@ use crate::{Real, Vector};
 
 /// The largest stable step of a method, and what limits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StableStep<S> {
     /// The largest size of a step whose errors do not grow, s; infinite if nothing in the equation is damped or swings.
     pub step: S,
