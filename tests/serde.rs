@@ -2,10 +2,10 @@
 
 use redysim::generic::{CodegenOptions, GenericMechanism, Loaded, Model};
 use redysim::{
-    ClosedLoop, Compensation, ConstrainedMotion, Cycloid, Energy, ForwardDynamics,
-    ForwardSimulation, FrameGains, FrameJacobian, FrameState, Frames, Function, Functions, Integrator, LinkKinematics,
-    LinkState, MechanicalEnergy, Motion, Ode45, Solution, OperationCount, Pid, SimulationState, Stabilisation, TorqueLaw,
-    TrackingPd, Trajectory, ViaPoints, redysim,
+    ClosedLoop, Compensation, ConstrainedMotion, Cycloid, Energy, ForwardDynamics, ForwardSimulation, FrameGains,
+    FrameJacobian, FrameState, Frames, Function, Functions, Integrator, LinkKinematics, LinkState, MechanicalEnergy,
+    Motion, Ode45, OperationCount, Pid, SimulationState, Solution, Stabilisation, TorqueLaw, TrackingPd, Trajectory,
+    ViaPoints, redysim,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;

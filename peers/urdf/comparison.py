@@ -11,7 +11,7 @@ import numpy
 from peer import Peer
 
 STATES = 20
-TOLERANCE = 1e-10
+TOLERANCE = 1e-11
 
 
 class Failed(Exception):

@@ -4,75 +4,92 @@
 use redysim_toml::{Key, Keys};
 
 pub const SCENARIO: Keys = Keys::new("A scenario", &[NAME, MODEL, INITIAL, TRAJECTORY, INVERSE, FORWARD, RUN]);
-pub const NAME: Key = Key::new("name", "\"swing\"", "what the results are called");
+pub const NAME: Key = Key::new("name", "\"swing\"", "what the results are called").with_default("the name of the file");
 pub const MODEL: Key =
-    Key::new("model", "\"../models/kr5.toml\"", "a model file or a URDF, from the folder of the scenario");
-const RUN: Key = Key::new("run", "{ redysim = \"0.1.0\" }", "written by a run into the copy in its results; ignored");
+    Key::new("model", "\"../models/kr5.toml\"", "a model file or a URDF, from the folder of the scenario")
+        .with_default("required");
+const RUN: Key = Key::new("run", "{ redysim = \"0.1.0\" }", "written by a run into the copy in its results; ignored")
+    .with_default("none");
 
-pub const INITIAL: Key = Key::of_table("initial", "{ q = [0, \"60 deg\"], v = [0, 0] }", "", &[&INITIAL_KEYS]);
+pub const INITIAL: Key = Key::of_table("initial", "{ q = [0, \"60 deg\"], v = [0, 0] }", "", &[&INITIAL_KEYS])
+    .with_default("the neutral position at rest");
 const INITIAL_KEYS: Keys = Keys::new("`initial`", &[Q, V, ASSEMBLE, HELD]);
 pub const Q: Key =
-    Key::new("q", "[0, \"60 deg\"]", "rad or m, or an angle with a unit; or by name: q = { joint2 = \"60 deg\" }");
-pub const V: Key = Key::new("v", "[0, \"60 deg/s\"]", "rad/s or m/s");
-pub const ASSEMBLE: Key = Key::new("assemble", "false", "start as given, though loops may not be closed");
-pub const HELD: Key = Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed");
+    Key::new("q", "[0, \"60 deg\"]", "rad or m, or an angle with a unit; or by name: q = { joint2 = \"60 deg\" }")
+        .with_default("the neutral position");
+pub const V: Key = Key::new("v", "[0, \"60 deg/s\"]", "rad/s or m/s").with_default("0");
+pub const ASSEMBLE: Key =
+    Key::new("assemble", "false", "start as given, though loops may not be closed").with_default("true");
+pub const HELD: Key = Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed")
+    .with_default("the actuated joints");
 
 pub const TRAJECTORY: Key = Key::of_table(
     "trajectory",
     "{ from = [0, 0], to = [\"60 deg\", 1], duration = 2.0 }",
     "",
     &[&CYCLOID, &CONSTANT_SPEED, &VIA_POINTS, &MOTION_TABLE],
-);
+)
+.with_default("none");
 pub const CYCLOID: Keys = Keys::new("A cycloid", &[MOTION_KIND, PRESCRIBED, FROM, TO, DURATION]);
 pub const CONSTANT_SPEED: Keys = Keys::new("A motion of constant speed", &[MOTION_KIND, PRESCRIBED, FROM, SPEED]);
 pub const VIA_POINTS: Keys = Keys::new("A motion through points", &[MOTION_KIND, PRESCRIBED, TIMES, POINTS]);
 pub const MOTION_TABLE: Keys = Keys::new("A motion from a table", &[MOTION_KIND, PRESCRIBED, MOTION_FILE, THROUGH]);
-pub const MOTION_KIND: Key = Key::new("kind", "\"cycloid\"", "or constant-speed, minimum-jerk, cubic, csv");
-pub const PRESCRIBED: Key = Key::new("joints", "[\"crank\"]", "which are prescribed");
-pub const FROM: Key = Key::new("from", "[0, 0]", "rad or m");
-pub const TO: Key = Key::new("to", "[\"60 deg\", 1]", "rad or m");
-pub const DURATION: Key = Key::new("duration", "2.0", "s");
-pub const SPEED: Key = Key::new("speed", "[\"270 deg/s\"]", "rad/s or m/s");
-pub const TIMES: Key = Key::new("times", "[0.0, 1.0, 3.0]", "s");
-pub const POINTS: Key = Key::new("points", "[[0, 0], [\"30 deg\", 1], [0, 0]]", "the coordinates at each of the times");
-pub const MOTION_FILE: Key = Key::new("file", "\"motion.csv\"", "from the folder of the scenario");
+pub const MOTION_KIND: Key =
+    Key::new("kind", "\"cycloid\"", "or constant-speed, minimum-jerk, cubic, csv").with_default("`cycloid`");
+pub const PRESCRIBED: Key = Key::new("joints", "[\"crank\"]", "which are prescribed")
+    .with_default("all joints; of closed loops the actuated ones");
+pub const FROM: Key = Key::new("from", "[0, 0]", "rad or m").with_default("required");
+pub const TO: Key = Key::new("to", "[\"60 deg\", 1]", "rad or m").with_default("required");
+pub const DURATION: Key = Key::new("duration", "2.0", "s").with_default("required");
+pub const SPEED: Key = Key::new("speed", "[\"270 deg/s\"]", "rad/s or m/s").with_default("required");
+pub const TIMES: Key = Key::new("times", "[0.0, 1.0, 3.0]", "s").with_default("required");
+pub const POINTS: Key = Key::new("points", "[[0, 0], [\"30 deg\", 1], [0, 0]]", "the coordinates at each of the times")
+    .with_default("required");
+pub const MOTION_FILE: Key =
+    Key::new("file", "\"motion.csv\"", "from the folder of the scenario").with_default("required");
 pub const THROUGH: Key =
-    Key::new("through", "\"minimum-jerk\"", "or cubic: how a table without velocities and accelerations is passed");
+    Key::new("through", "\"minimum-jerk\"", "or cubic: how a table without velocities and accelerations is passed")
+        .with_default("`minimum-jerk`");
 
-pub const INVERSE: Key = Key::of_table("inverse", "{ end = 1.0, step = 0.01 }", "s", &[&INVERSE_KEYS]);
+pub const INVERSE: Key = Key::of_table("inverse", "{ end = 1.0, step = 0.01 }", "s", &[&INVERSE_KEYS])
+    .with_default("required by `redysim inverse`");
 const INVERSE_KEYS: Keys = Keys::new("`inverse`", &[START, END, STEP]);
-pub const START: Key = Key::new("start", "0.0", "s");
-pub const END: Key = Key::new("end", "1.0", "s");
-pub const STEP: Key = Key::new("step", "0.01", "s, from one row of the results to the next");
+pub const START: Key = Key::new("start", "0.0", "s").with_default("0");
+pub const END: Key = Key::new("end", "1.0", "s").with_default("required");
+pub const STEP: Key = Key::new("step", "0.01", "s, from one row of the results to the next").with_default("required");
 
-pub const FORWARD: Key = Key::of_table("forward", "{ end = 1.0, step = 0.01 }", "s", &[&FORWARD_KEYS]);
+pub const FORWARD: Key = Key::of_table("forward", "{ end = 1.0, step = 0.01 }", "s", &[&FORWARD_KEYS])
+    .with_default("required by `redysim forward`");
 const FORWARD_KEYS: Keys = Keys::new("`forward`", &[START, END, STEP, INTEGRATOR, TORQUE, STABILISATION]);
 
 pub const INTEGRATOR: Key =
-    Key::of_table("integrator", "{ method = \"Ode45\", rtol = 1e-6, atol = 1e-8 }", "", &[&FIXED_STEP, &ADAPTIVE_STEP]);
+    Key::of_table("integrator", "{ method = \"Ode45\", rtol = 1e-6, atol = 1e-8 }", "", &[&FIXED_STEP, &ADAPTIVE_STEP])
+        .with_default("`Ode45`");
 pub const FIXED_STEP: Keys = Keys::new("An integrator with steps of one size", &[METHOD, INTEGRATOR_STEP]);
 pub const ADAPTIVE_STEP: Keys = Keys::new("An integrator with steps from tolerances", &[METHOD, RTOL, ATOL, MAX_STEP]);
-pub const METHOD: Key = Key::new("method", "\"Ode45\"", "");
-pub const INTEGRATOR_STEP: Key = Key::new("step", "0.001", "s, of the integration");
-pub const RTOL: Key = Key::new("rtol", "1e-6", "");
+pub const METHOD: Key = Key::new("method", "\"Ode45\"", "").with_default("`Ode45`");
+pub const INTEGRATOR_STEP: Key = Key::new("step", "0.001", "s, of the integration").with_default("required");
+pub const RTOL: Key = Key::new("rtol", "1e-6", "").with_default("1e-3");
 pub const ATOL: Key = Key::of_table(
     "atol",
     "1e-8",
     "in the units of the state; or atol = { position = 1e-8, velocity = 1e-6, work = 1e-3 }",
     &[&ATOL_KEYS],
-);
+)
+.with_default("1e-6");
 const ATOL_KEYS: Keys = Keys::new("`atol`", &[POSITION, VELOCITY, WORK]);
-pub const POSITION: Key = Key::new("position", "1e-8", "rad or m");
-pub const VELOCITY: Key = Key::new("velocity", "1e-6", "rad/s or m/s");
-pub const WORK: Key = Key::new("work", "1e-3", "J; also of integral actions, N m or N");
-pub const MAX_STEP: Key = Key::new("max_step", "0.01", "s");
+pub const POSITION: Key = Key::new("position", "1e-8", "rad or m").with_default("1e-6");
+pub const VELOCITY: Key = Key::new("velocity", "1e-6", "rad/s or m/s").with_default("1e-6");
+pub const WORK: Key = Key::new("work", "1e-3", "J; also of integral actions, N m or N").with_default("1e-6");
+pub const MAX_STEP: Key = Key::new("max_step", "0.01", "s").with_default("a tenth of the run");
 
 pub const TORQUE: Key = Key::of_table(
     "torque",
     "{ law = \"pd\", target = [0, 0], kp = 49.0, kd = 14.0 }",
     "",
     &[&ZERO_TORQUE, &P, &PD, &PID, &PD_GRAVITY, &TRACKING_PD, &COMPUTED_TORQUE, &IMPEDANCE, &FORCE_TABLE],
-);
+)
+.with_default("`free`");
 pub const ZERO_TORQUE: Keys = Keys::new("The law `free`", &[LAW]);
 pub const P: Keys = Keys::new("The law `p`", &[LAW, DRIVEN, TARGET, KP, LIMITS]);
 pub const PD: Keys = Keys::new("The law `pd`", &[LAW, DRIVEN, TARGET, KP, KD, LIMITS]);
@@ -99,64 +116,89 @@ pub const IMPEDANCE: Keys = Keys::new(
 );
 pub const FORCE_TABLE: Keys = Keys::new("The law `csv`", &[LAW, DRIVEN, FORCE_FILE, LIMITS]);
 pub const LAW: Key =
-    Key::new("law", "\"free\"", "or p, pd, pid, pd-gravity, tracking-pd, computed-torque, impedance, csv");
-pub const DRIVEN: Key = Key::new("joints", "[\"crank\"]", "which are driven");
-pub const TARGET: Key = Key::new("target", "[0, \"90 deg\"]", "rad or m");
-pub const KP: Key = Key::new("kp", "49.0", "of all joints, or one of each: [49.0, 20.0]");
-pub const KD: Key = Key::new("kd", "14.0", "of all joints, or one of each: [14.0, 8.0]");
-pub const KI: Key = Key::new("ki", "60.0", "of all joints, or one of each: [60.0, 20.0]");
+    Key::new("law", "\"free\"", "or p, pd, pid, pd-gravity, tracking-pd, computed-torque, impedance, csv")
+        .with_default("`free`");
+pub const DRIVEN: Key = Key::new("joints", "[\"crank\"]", "which are driven")
+    .with_default("the actuated joints; of `tracking-pd` those that the trajectory prescribes");
+pub const TARGET: Key = Key::new("target", "[0, \"90 deg\"]", "rad or m").with_default("required");
+pub const KP: Key = Key::new("kp", "49.0", "of all joints, or one of each: [49.0, 20.0]").with_default("required");
+pub const KD: Key = Key::new("kd", "14.0", "of all joints, or one of each: [14.0, 8.0]").with_default("required");
+pub const KI: Key = Key::new("ki", "60.0", "of all joints, or one of each: [60.0, 20.0]").with_default("required");
 pub const TRACKING_RATE: Key =
-    Key::new("tracking_rate", "2.0", "1/s, of anti-windup; √(ki/kd), or ki/kp where kd is 0, by default");
+    Key::new("tracking_rate", "2.0", "1/s, of anti-windup").with_default("√(ki/kd), or ki/kp where kd is 0");
 pub const LIMITS: Key = Key::new(
     "limits",
     "100.0",
     "N m or N, the largest forces, of all joints or one of each; or \"range\": the `force` of each joint's `range`",
-);
+)
+.with_default("none");
 pub const PAYLOAD: Key = Key::of_table(
     "payload",
     "{ link = \"link6\", mass = 5.0, com = [0.0, 0.0, 0.1] }",
     "a mass that the law assumes at a point of a link, beyond those of the model",
     &[&PAYLOAD_KEYS],
-);
+)
+.with_default("none");
 const PAYLOAD_KEYS: Keys = Keys::new("`payload`", &[PAYLOAD_LINK, PAYLOAD_MASS, PAYLOAD_COM]);
-pub const PAYLOAD_LINK: Key = Key::new("link", "\"link6\"", "which link carries it");
-pub const PAYLOAD_MASS: Key = Key::new("mass", "5.0", "kg; negative for a link that is lighter than in the model");
+pub const PAYLOAD_LINK: Key = Key::new("link", "\"link6\"", "which link carries it").with_default("required");
+pub const PAYLOAD_MASS: Key =
+    Key::new("mass", "5.0", "kg; negative for a link that is lighter than in the model").with_default("required");
 pub const PAYLOAD_COM: Key =
-    Key::new("com", "[0.0, 0.0, 0.1]", "m, where it is in the link's frame; its origin by default");
-pub const FRAME: Key = Key::new("frame", "\"tool\"", "which `[[frame]]` of the model is held");
+    Key::new("com", "[0.0, 0.0, 0.1]", "m, where it is in the link's frame").with_default("[0, 0, 0]");
+pub const FRAME: Key = Key::new("frame", "\"tool\"", "which `[[frame]]` of the model is held").with_default("required");
 pub const POSE: Key = Key::of_table(
     "target",
     "{ xyz = [0.5, 0.0, 0.3], rpy = [0, \"90 deg\", 0] }",
-    "where the frame should be in the base frame; where it starts by default",
+    "where the frame should be in the base frame",
     &[&POSE_KEYS],
-);
+)
+.with_default("where the frame starts");
 const POSE_KEYS: Keys = Keys::new("`target`", &[XYZ, RPY]);
-pub const XYZ: Key = Key::new("xyz", "[0.5, 0.0, 0.3]", "m");
-pub const RPY: Key = Key::new("rpy", "[0, \"90 deg\", 0]", "roll, pitch, yaw; without a unit in rad");
+pub const XYZ: Key = Key::new("xyz", "[0.5, 0.0, 0.3]", "m").with_default("where the frame starts");
+pub const RPY: Key =
+    Key::new("rpy", "[0, \"90 deg\", 0]", "roll, pitch, yaw; without a unit in rad").with_default("where the frame starts");
 pub const STIFFNESS: Key =
-    Key::new("stiffness", "[900.0, 900.0, 400.0]", "N/m, along the axes of the desired frame; or one number for all");
-pub const ANGULAR_STIFFNESS: Key = Key::new("angular_stiffness", "50.0", "N m/rad, about these axes; 0 by default");
-pub const DAMPING: Key = Key::new("damping", "60.0", "N s/m, along these axes");
-pub const ANGULAR_DAMPING: Key = Key::new("angular_damping", "5.0", "N m s/rad, about these axes; 0 by default");
+    Key::new("stiffness", "[900.0, 900.0, 400.0]", "N/m, along the axes of the desired frame; or one number for all")
+        .with_default("required");
+pub const ANGULAR_STIFFNESS: Key = Key::new("angular_stiffness", "50.0", "N m/rad, about these axes").with_default("0");
+pub const DAMPING: Key = Key::new("damping", "60.0", "N s/m, along these axes").with_default("required");
+pub const ANGULAR_DAMPING: Key = Key::new("angular_damping", "5.0", "N m s/rad, about these axes").with_default("0");
 pub const COMPENSATION: Key =
-    Key::new("compensation", "\"gravity\"", "or bias: Coriolis forces and the joints' own too");
+    Key::new("compensation", "\"gravity\"", "or bias: Coriolis forces and the joints' own too")
+        .with_default("`gravity`");
 pub const NULL_SPACE_DAMPING: Key =
-    Key::new("null_space_damping", "2.0", "1/s, of what leaves the frame alone; 0 by default");
-pub const FORCE_FILE: Key = Key::new("file", "\"forces.csv\"", "from the folder of the scenario");
+    Key::new("null_space_damping", "2.0", "1/s, of what leaves the frame alone").with_default("0");
+pub const FORCE_FILE: Key =
+    Key::new("file", "\"forces.csv\"", "from the folder of the scenario").with_default("required");
 
 pub const STABILISATION: Key = Key::of_table(
     "stabilisation",
     "{ kind = \"baumgarte\", alpha = 20.0 }",
     "or projection, none",
     &[&PLAIN_STABILISATION, &BAUMGARTE],
-);
+)
+.with_default("`projection`");
 pub const PLAIN_STABILISATION: Keys = Keys::new("This stabilisation", &[STABILISATION_KIND]);
 pub const BAUMGARTE: Keys = Keys::new("Baumgarte's stabilisation", &[STABILISATION_KIND, ALPHA]);
-pub const STABILISATION_KIND: Key = Key::new("kind", "\"projection\"", "or baumgarte, none");
-pub const ALPHA: Key = Key::new("alpha", "20.0", "1/s");
+pub const STABILISATION_KIND: Key =
+    Key::new("kind", "\"projection\"", "or baumgarte, none").with_default("`projection`");
+pub const ALPHA: Key = Key::new("alpha", "20.0", "1/s").with_default("required");
 
 #[cfg(test)]
 mod tests {
+    use redysim_toml::Keys;
+
+    #[test]
+    fn every_key_states_its_default_or_that_it_is_required() {
+        fn check(keys: &Keys) {
+            for key in keys.keys {
+                assert!(!key.default.is_empty(), "`{}` of {}", key.name, keys.owner);
+                key.tables.iter().for_each(|table| check(table));
+            }
+        }
+        check(&super::SCENARIO);
+    }
+
     #[test]
     fn the_documentation_lists_every_key_with_its_example_and_meaning() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenario_keys.md");
