@@ -3,9 +3,9 @@
 use redysim::generic::{CodegenOptions, GenericMechanism, Loaded, Model};
 use redysim::{
     ClosedLoop, Compensation, ConstrainedMotion, Cycloid, Energy, ForwardDynamics, ForwardSimulation, FrameGains,
-    FrameJacobian, FrameState, Frames, Function, Functions, Integrator, LinkKinematics, LinkState, MechanicalEnergy,
-    Motion, Ode45, OperationCount, Pid, SimulationState, Solution, Stabilisation, TorqueLaw, TrackingPd, Trajectory,
-    ViaPoints, redysim,
+    FrameJacobian, FrameState, Frames, Function, Functions, Integrator, Limited, LinkKinematics, LinkState,
+    MechanicalEnergy, Motion, Ode4, Ode45, OperationCount, Pid, SetPoint, SimulationState, Solution, Stabilisation,
+    TorqueLaw, TrackingPd, Trajectory, ViaPoints, redysim,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -139,6 +139,48 @@ fn torque_laws_and_trajectories_ask_for_the_same_forces_after_they_are_read() {
     assert_eq!(to_value(Stabilisation::<f64>::Projection).unwrap(), json!("projection"));
     kept(&Compensation::Gravity);
     kept(&FrameGains { linear: [1.0, 2.0, 3.0], angular: [0.1; 3] });
+}
+
+/// What a program simulates, of parts that serialise.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Scenario<I> {
+    integrator: I,
+    law: Limited<Pid<SetPoint<[f64; 6], [f64; 6]>, [f64; 6]>, [f64; 6]>,
+    start: [[f64; 6]; 2],
+    end: f64,
+}
+
+impl<I: Integrator<f64>> Scenario<I> {
+    fn run(&self) -> Solution<f64, Vec<f64>> {
+        let [q, v] = &self.start;
+        let mut simulation = ForwardSimulation::new(&Kr5, self.law);
+        let start = simulation.extended_state(q, v);
+        self.integrator.integrate(&mut simulation, (0.0, self.end), start).unwrap()
+    }
+}
+
+#[test]
+fn a_scenario_of_a_program_ends_in_the_same_bits_after_it_is_read() {
+    fn check<I: Integrator<f64> + Serialize + DeserializeOwned>(integrator: I) {
+        let trajectory = SetPoint::new(&Kr5, [0.1, -0.2, 0.3, 0.4, 0.5, 0.6]);
+        let [kp, ki, kd, tracking, integral] = [400.0, 60.0, 40.0, 1.2, 0.0].map(|gain| [gain; 6]);
+        let law = Limited { law: Pid { trajectory, kp, ki, kd, tracking, integral }, limits: [30.0; 6] };
+        let scenario = Scenario { integrator, law, start: [[0.0; 6], [0.1; 6]], end: 0.2 };
+        let again: Scenario<I> = from_str(&to_string(&scenario).unwrap()).unwrap();
+        let [expected, found] = [scenario.run(), again.run()];
+        assert!(expected.statistics.steps > 3);
+        assert_eq!(found, expected);
+        kept(&found);
+    }
+    check(Ode45::new().rtol(1e-7).atol(1e-9).max_step(0.01));
+    check(Ode4::new(0.004));
+}
+
+#[test]
+fn tolerances_of_each_component_are_written_but_borrowed_and_cannot_be_read() {
+    let each = to_string(&Ode45::new().atol_each(&[1e-6, 1e-9])).unwrap();
+    assert!(each.contains(r#"{"each":[1e-6,1e-9]}"#), "{each}");
+    assert!(from_str::<Ode45<'static, f64>>(&each).unwrap_err().to_string().contains("`each`"));
 }
 
 #[test]

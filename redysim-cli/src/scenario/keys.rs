@@ -155,8 +155,8 @@ pub const POSE: Key = Key::of_table(
 .with_default("where the frame starts");
 const POSE_KEYS: Keys = Keys::new("`target`", &[XYZ, RPY]);
 pub const XYZ: Key = Key::new("xyz", "[0.5, 0.0, 0.3]", "m").with_default("where the frame starts");
-pub const RPY: Key =
-    Key::new("rpy", "[0, \"90 deg\", 0]", "roll, pitch, yaw; without a unit in rad").with_default("where the frame starts");
+pub const RPY: Key = Key::new("rpy", "[0, \"90 deg\", 0]", "roll, pitch, yaw; without a unit in rad")
+    .with_default("where the frame starts");
 pub const STIFFNESS: Key =
     Key::new("stiffness", "[900.0, 900.0, 400.0]", "N/m, along the axes of the desired frame; or one number for all")
         .with_default("required");

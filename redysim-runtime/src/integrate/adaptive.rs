@@ -34,12 +34,19 @@ const STRETCH: f64 = 1.1;
 /// let end = Adaptive::<f64, RungeKutta4>::new().integrate(&mut decay, (0.0, 1.0), [1.0]);
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "S: serde::Serialize", deserialize = "S: serde::Deserialize<'de>"))
+)]
 pub struct Adaptive<'a, S, A> {
     tolerances: Tolerances<'a, S>,
     initial_step: Option<S>,
     max_step: Option<S>,
     max_steps: u64,
     stiffness_limit: Option<u64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     method: PhantomData<A>,
 }
 

@@ -16,9 +16,16 @@ use crate::{Real, Vector};
 /// h, the last step is shorter, so that the end is hit exactly; a rest of rounding size lengthens the last step
 /// instead. Nothing estimates the error: halve the step and compare.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "S: serde::Serialize", deserialize = "S: serde::Deserialize<'de>"))
+)]
 pub struct FixedStep<S, A> {
     step: S,
     max_steps: u64,
+    #[cfg_attr(feature = "serde", serde(skip))]
     method: PhantomData<A>,
 }
 

@@ -8,14 +8,27 @@ const ROUNDOFF_UNITS: f64 = 1024.0;
 
 /// |e_i| ≤ max(rtol |y_i|, atol_i).
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "S: serde::Serialize", deserialize = "S: serde::Deserialize<'de>"))
+)]
 pub struct Tolerances<'a, S> {
     pub(super) relative: S,
     pub(super) absolute: Absolute<'a, S>,
 }
 
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "S: serde::Serialize", deserialize = "S: serde::Deserialize<'de>"))
+)]
 pub(super) enum Absolute<'a, S> {
     All(S),
+    // A borrowed list has no owner when it is read.
+    #[cfg_attr(feature = "serde", serde(skip_deserializing))]
     Each(&'a [S]),
 }
 
