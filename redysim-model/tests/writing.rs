@@ -161,6 +161,13 @@ fn a_model_built_in_rust_is_the_model_of_its_file() {
     assert_eq!(without_joint_name.check().unwrap().model.links[0].joint_name, "rod");
 }
 
+#[test]
+fn settings_of_friction_and_springs_that_do_not_act_are_kept() {
+    let mut model = pendulum();
+    model.links[0].physics = JointPhysics { friction_velocity: 0.05, rest: 0.3, ..JointPhysics::default() };
+    assert_eq!(bits(&model.check().unwrap_or_else(|faults| panic!("{faults}")).model), bits(&model));
+}
+
 /// A model with a fault, and what its message says.
 fn faulty(change: impl FnOnce(&mut Model), title: &str) {
     let mut model = pendulum();
