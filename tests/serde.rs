@@ -141,11 +141,13 @@ fn torque_laws_and_trajectories_ask_for_the_same_forces_after_they_are_read() {
     kept(&FrameGains { linear: [1.0, 2.0, 3.0], angular: [0.1; 3] });
 }
 
+type HoldingPid = Pid<SetPoint<[f64; 6], [f64; 6]>, [f64; 6]>;
+
 /// What a program simulates, of parts that serialise.
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Scenario<I> {
     integrator: I,
-    law: Limited<Pid<SetPoint<[f64; 6], [f64; 6]>, [f64; 6]>, [f64; 6]>,
+    law: Limited<HoldingPid, [f64; 6]>,
     start: [[f64; 6]; 2],
     end: f64,
 }
