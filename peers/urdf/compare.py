@@ -50,8 +50,10 @@ def ill_conditioned(found: list[Comparison]) -> list[str]:
     judged = [comparison for comparison in found if comparison.by_forces]
     if not judged:
         return []
-    condition, taken = max(c.condition for c in judged), max(c.taken for c in judged)
-    return [f"M has a condition of {condition:.0e}; the accelerations take the right forces to {taken:.0e}"]
+    amplification, taken = max(c.amplification for c in judged), max(c.taken for c in judged)
+    return [
+        f"accelerations have {amplification:.0e} times the error of the forces; they take the right ones to {taken:.0e}"
+    ]
 
 
 def lost(said: list[str]) -> list[str]:

@@ -31,8 +31,8 @@ class Comparison:
     bias: float
     # How far the forces that redysim's accelerations take, by Pinocchio, are from those that made them.
     taken: float
-    # Of the mass matrix with a diagonal of ones: so many times its roundoff is in any program's accelerations.
-    condition: float
+    # So many times the error of the joint forces is in the accelerations that these make.
+    amplification: float
 
     @property
     def largest(self) -> float:
@@ -41,7 +41,7 @@ class Comparison:
 
     @property
     def agrees(self) -> bool:
-        """Where the mass matrix is nearly singular, accelerations are right that take the right forces."""
+        """Where roundoff of the forces alone is too much, accelerations are right that take the right forces."""
         accelerations = self.taken if self.by_forces else self.accelerations
         shares = [self.forces, self.matrices, accelerations, self.jacobians, self.bias]
         return all(share < TOLERANCE for share in shares)
@@ -49,7 +49,8 @@ class Comparison:
     @property
     def by_forces(self) -> bool:
         """Whether the accelerations are judged by the forces that they take."""
-        return self.accelerations > TOLERANCE and self.condition * numpy.finfo(float).eps > TOLERANCE / 100
+        roundoff = max(self.forces, numpy.finfo(float).eps)
+        return self.accelerations > TOLERANCE and self.amplification * roundoff > TOLERANCE
 
 
 def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
@@ -82,8 +83,22 @@ def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
         jacobians=_furthest(jacobians, expected[0], _by_frame(expected[0])),
         bias=_furthest(bias, expected[1], _by_frame(expected[1])),
         taken=_furthest(taken, [tau for _, _, tau, _ in driven]),
-        condition=max(float(numpy.linalg.cond(matrix / scale)) for matrix, scale in zip(matrices, scales)),
+        amplification=_amplification(peer, driven),
     )
+
+
+def _amplification(peer: Peer, driven: list[tuple[numpy.ndarray, ...]]) -> float:
+    """How many times the relative error of τ and of the forces at rest h, in a = M⁻¹ (τ − h), is in an acceleration.
+
+    By components |M⁻¹| (|τ| + |h|), as a share of the largest acceleration of the joint (N. Higham, Accuracy and
+    Stability of Numerical Algorithms, section 7.2).
+    """
+    amplified, accelerations = [], []
+    for q, v, tau, wrenches in driven:
+        rest = peer.forces(q, v, numpy.zeros_like(v), wrenches)
+        amplified.append(numpy.abs(numpy.linalg.inv(peer.matrix(q))) @ (numpy.abs(tau) + numpy.abs(rest)))
+        accelerations.append(peer.accelerations(q, v, tau, wrenches))
+    return float(numpy.max(numpy.max(amplified, axis=0) / numpy.max(numpy.abs(accelerations), axis=0)))
 
 
 def _split(line: numpy.ndarray, shapes: list[tuple[int, ...]]) -> list[numpy.ndarray]:
