@@ -19,12 +19,12 @@ use std::hint::black_box;
 redysim! {
     /// Six joints in a row; the last link's rounded inertia belongs to no body.
     #[allow(deprecated)]
-    struct Kr5("models/peers/kr5.toml");
+    struct Kr5("../models/peers/kr5.toml");
 }
 
 redysim! {
     /// Two fingers in the plane.
-    struct Gripper("models/peers/gripper.toml");
+    struct Gripper("../models/peers/gripper.toml");
 }
 
 /// The most on one thread, and enough for every core.

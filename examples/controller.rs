@@ -22,13 +22,13 @@ use redysim::{ComputedTorque, Cycloid, ForwardSimulation, Integrator, Ode45, Tor
 
 redysim! {
     /// The robot.
-    pub struct Kr5("models/kr5.toml");
+    pub struct Kr5("../models/kr5.toml");
 }
 
 redysim! {
     /// The robot as Table 2 of the paper has it.
     #[allow(deprecated)] // the triangle inequality of link 6 is Table 2's own
-    pub struct Kr5Table2("models/kr5_table2.toml");
+    pub struct Kr5Table2("../models/kr5_table2.toml");
 }
 
 type Joints = [f64; Kr5::NV];

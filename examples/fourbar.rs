@@ -22,7 +22,7 @@ use redysim::{
 
 redysim! {
     /// Crank, rocker and coupler, in the vertical plane.
-    pub struct Fourbar("models/fourbar.toml");
+    pub struct Fourbar("../models/fourbar.toml");
 }
 
 const CRANK: [usize; 1] = [0];
@@ -38,7 +38,7 @@ fn main() -> Result<(), Failure> {
     inverse_dynamics(&mut outputs)?;
     free_fall(&mut outputs)?;
     long_fall(&mut outputs)?;
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/fourbar.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/fourbar.toml");
     let model = Model::load(path).context(|| format!("cannot read {path}"))?.model;
     let turn = Turn { actuated: &CRANK, guess: &SHIPPED, trajectory: crank, period: TAU / SPEED };
     loop_speed::report(&Fourbar, &Fourbar::OPS, &GenericMechanism::new(model), &turn)?;

@@ -16,14 +16,14 @@ use redysim::{Cycloid, redysim};
 
 redysim! {
     /// Two fingers on a common first link, in the vertical plane.
-    pub struct Gripper("models/gripper.toml");
+    pub struct Gripper("../models/gripper.toml");
 }
 
 fn main() -> Result<(), Failure> {
     let mut outputs = Outputs::of("gripper")?;
     inverse_dynamics(&mut outputs)?;
     free_fall(&mut outputs)?;
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/gripper.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/gripper.toml");
     let model = Model::load(path).context(|| format!("cannot read {path}"))?.model;
     speed::report(&Gripper, &Gripper::OPS, &GenericMechanism::new(model));
     outputs.print();

@@ -20,7 +20,7 @@ use redysim::{
 
 redysim! {
     /// The robot with its rotors and the frame of its tool.
-    pub struct Kr5("models/kr5_tool.toml");
+    pub struct Kr5("../models/kr5_tool.toml");
 }
 
 type Joints = [f64; Kr5::NV];

@@ -16,14 +16,14 @@ use redysim::{Cycloid, redysim};
 
 redysim! {
     /// The KUKA KR5, six revolute joints in a row.
-    pub struct Kr5("models/kr5.toml");
+    pub struct Kr5("../models/kr5.toml");
 }
 
 fn main() -> Result<(), Failure> {
     let mut outputs = Outputs::of("kr5")?;
     inverse_dynamics(&mut outputs)?;
     free_fall(&mut outputs)?;
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/kr5.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/kr5.toml");
     let model = Model::load(path).context(|| format!("cannot read {path}"))?.model;
     speed::report(&Kr5, &Kr5::OPS, &GenericMechanism::new(model));
     outputs.print();

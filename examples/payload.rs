@@ -15,7 +15,7 @@ use redysim::{ComputedTorque, Cycloid, ForwardSimulation, Integrator, Ode45, Tor
 
 redysim! {
     /// The KUKA KR5, whose last link is given at run time.
-    pub struct Kr5("models/kr5.toml", parameters = ["link6.mass", "link6.com", "link6.inertia"]);
+    pub struct Kr5("../models/kr5.toml", parameters = ["link6.mass", "link6.com", "link6.inertia"]);
 }
 
 type Joints = [f64; Kr5::NV];

@@ -2,7 +2,7 @@
 
 use redysim::{ForwardSimulation, Integrator, Mechanism, Ode45, ZeroTorque, redysim};
 
-redysim! { struct Kr5("models/kr5.toml"); }
+redysim! { struct Kr5("../models/kr5.toml"); }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hold: [f64; 6] = Kr5::gravity_forces(&[0.0; 6]);

@@ -23,17 +23,17 @@ use redysim::redysim;
 redysim! {
     /// Six joints in a row; the last link's rounded inertia belongs to no body.
     #[allow(deprecated)]
-    pub struct Kr5("models/peers/kr5.toml");
+    pub struct Kr5("../../models/peers/kr5.toml");
 }
 
 redysim! {
     /// Two fingers in the plane.
-    pub struct Gripper("models/peers/gripper.toml");
+    pub struct Gripper("../../models/peers/gripper.toml");
 }
 
 redysim! {
     /// Legs, trunk, arms and head.
-    pub struct Humanoid30("models/peers/humanoid30.toml");
+    pub struct Humanoid30("../../models/peers/humanoid30.toml");
 }
 
 fn kr5<S: Numbers>(criterion: &mut Criterion) {
@@ -64,7 +64,7 @@ fn scalar<S: Numbers>(criterion: &mut Criterion) {
 
 fn generic_path(criterion: &mut Criterion) {
     for name in ["kr5", "gripper", "humanoid30"] {
-        let path = format!("{}/models/peers/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/../models/peers/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let mechanism = GenericMechanism::new(Model::load(path).expect("a good model").model);
         main_functions::<f64, _>(criterion, name, "generic", &mechanism);
         other_functions::<f64, _>(criterion, name, "generic", &mechanism);

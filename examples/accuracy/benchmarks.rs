@@ -14,12 +14,12 @@ use crate::common::{Context, Failure, Outputs};
 
 redysim! {
     /// A point mass of 1 kg on a massless bar of 1 m.
-    pub struct SimplePendulum("models/simple_pendulum.toml");
+    pub struct SimplePendulum("../../models/simple_pendulum.toml");
 }
 
 redysim! {
     /// Three cranks, two couplers.
-    pub struct NFourbar2("models/n_fourbar_2.toml");
+    pub struct NFourbar2("../../models/n_fourbar_2.toml");
 }
 
 /// The precision that the library asks for at the end, m, with low and with high demands.
@@ -100,7 +100,7 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     windows(&mut rows, "N = 2, Ode4, 10 ms", &NFourbar2, &Ode4::new(1e-2), two)?;
     windows(&mut rows, "N = 2, Ode4, 1 ms", &NFourbar2, &Ode4::new(1e-3), two)?;
     windows(&mut rows, "N = 2, Ode45, rtol 1e-6", &NFourbar2, &Ode45::new().rtol(1e-6).atol(1e-8), two)?;
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/n_fourbar_40.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/n_fourbar_40.toml");
     let forty = GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model);
     let end = (20.0, [0.410_901_153_762_945_2, 0.911_679_900_971_981_7]);
     windows(&mut rows, "N = 40, generic, Ode4, 10 ms", &forty, &Ode4::new(1e-2), end)?;

@@ -50,7 +50,7 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
 
 fn robots() -> Result<[(&'static str, Tree); 6], Failure> {
     let model = |name: &str| -> Result<Tree, Failure> {
-        Ok(Tree::new(&Model::load(format!("{}/models/{name}.toml", env!("CARGO_MANIFEST_DIR")))?.model))
+        Ok(Tree::new(&Model::load(format!("{}/../models/{name}.toml", env!("CARGO_MANIFEST_DIR")))?.model))
     };
     let heavy = |index| if index == 5 { 1e6 } else { 1.0 };
     Ok([

@@ -177,7 +177,7 @@ fn per_state(width: usize, mut call: impl FnMut(usize)) -> f64 {
 
 /// KR5 on the generic path.
 fn generic() -> Result<GenericMechanism, Failure> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/test/kr5_ranges.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/test/kr5_ranges.toml");
     Ok(GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model))
 }
 
@@ -234,7 +234,7 @@ fn parsed(line: &str) -> Option<Measured> {
 /// Builds this program again in another way, and runs it for its measurements.
 fn of_build(build: &str) -> Result<Vec<Measured>, Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
     let mut command = Command::new(cargo);
     command.current_dir(root).args(["run", "--release", "--quiet", "--example", "accuracy_vs_speed"]);

@@ -4,7 +4,7 @@ use redysim::redysim;
 
 redysim! {
     /// Six joints in a row, whose ranges the model states.
-    pub struct Kr5("models/test/kr5_ranges.toml");
+    pub struct Kr5("../../models/test/kr5_ranges.toml");
 }
 
 /// The same with less than all digits, for its ranges.
@@ -16,7 +16,7 @@ pub mod pruned {
             redysim! {
                 #[doc = concat!("KR5 to ", $tolerance, " of each joint's largest force.")]
                 pub struct $name(
-                    "models/test/kr5_ranges.toml",
+                    "../../models/test/kr5_ranges.toml",
                     functions = [inverse_dynamics, forward_dynamics],
                     tolerance = $tolerance,
                 );
@@ -35,17 +35,17 @@ pub mod pruned {
 
 redysim! {
     /// Two fingers on a common first link.
-    pub struct Gripper("models/gripper.toml");
+    pub struct Gripper("../../models/gripper.toml");
 }
 
 redysim! {
     /// Crank, rocker and coupler.
-    pub struct Fourbar("models/fourbar.toml");
+    pub struct Fourbar("../../models/fourbar.toml");
 }
 
 redysim! {
     /// Two rods, one hung from the other.
-    pub struct DoublePendulum("models/double_pendulum.toml");
+    pub struct DoublePendulum("../../models/double_pendulum.toml");
 }
 
 /// Joints of KR5.

@@ -7,6 +7,12 @@ use super::figure::Figure;
 use super::table::headline;
 use super::{Context, Failure, plot};
 
+/// The folder of the workspace, in which the package of the examples has a folder.
+fn workspace() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().unwrap_or(package)
+}
+
 /// The files of one example, in a folder of their own.
 pub struct Outputs {
     folder: PathBuf,
@@ -17,7 +23,7 @@ impl Outputs {
     /// The folder `redysim/<example>` in Cargo's target directory, made if it is missing.
     pub fn of(example: &str) -> Result<Self, Failure> {
         let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
-        let target = target.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("target"));
+        let target = target.unwrap_or_else(|| workspace().join("target"));
         let folder = target.join("redysim").join(example);
         std::fs::create_dir_all(&folder).context(|| {
             format!("cannot make the folder {}; set CARGO_TARGET_DIR to one that can be written", folder.display())

@@ -9,7 +9,7 @@ use crate::common::{Failure, instants, peak};
 
 redysim! {
     /// Seven bodies in the plane, three loops cut in one point.
-    pub struct Andrews("models/andrews.toml");
+    pub struct Andrews("../../models/andrews.toml");
 }
 
 /// Moves it for the published 0.03 s, driven by its moment.

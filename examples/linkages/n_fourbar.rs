@@ -14,7 +14,7 @@ use crate::common::{Context, Failure, Outputs, instants, peak};
 
 redysim! {
     /// Two windows: three cranks, two couplers.
-    pub struct NFourbar2("models/n_fourbar_2.toml");
+    pub struct NFourbar2("../../models/n_fourbar_2.toml");
 }
 
 const STEPS: [(f64, &str); 5] = [(1e-2, "10 ms"), (3e-3, "3 ms"), (1e-3, "1 ms"), (3e-4, "0.3 ms"), (1e-4, "0.1 ms")];
@@ -30,7 +30,7 @@ pub fn move_both(studies: &mut Studies) -> Result<(), Failure> {
     let v = std::array::from_fn(rates);
     let plan = Plan { name: "n_fourbar_2", mechanism: &NFourbar2, law, q: [0.0; 5], v, held: &[], t: t() };
     studies.run(plan, &Ode4::new(1e-3))?;
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/n_fourbar_40.toml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/n_fourbar_40.toml");
     let forty = GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model);
     let (q, v) = (vec![0.0; 81], (0..81).map(rates).collect());
     let plan = Plan { name: "n_fourbar_40", mechanism: &forty, law, q, v, held: &[], t: t() };

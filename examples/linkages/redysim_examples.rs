@@ -16,19 +16,19 @@ use crate::common::{Failure, instants, peak};
 
 redysim! {
     /// The four-bar of ReDySim's GUI.
-    pub struct FourbarGui("models/fourbar_gui.toml");
+    pub struct FourbarGui("../../models/fourbar_gui.toml");
 }
 redysim! {
     /// Crank, coupler and a slider.
-    pub struct SliderCrank("models/slider_crank.toml");
+    pub struct SliderCrank("../../models/slider_crank.toml");
 }
 redysim! {
     /// A platform on three legs.
-    pub struct ThreeRrr("models/three_rrr.toml");
+    pub struct ThreeRrr("../../models/three_rrr.toml");
 }
 redysim! {
     /// A straight-line four-bar that drives a pantograph.
-    pub struct Leg("models/leg.toml");
+    pub struct Leg("../../models/leg.toml");
 }
 
 /// 145.54° and 130.54°, where it does not close.
