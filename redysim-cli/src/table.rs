@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use csv::{Position, ReaderBuilder, StringRecord, Trim};
 
 use crate::failure::Failure;
+use redysim_toml::with_decimal_points;
 
 /// Columns over time.
 #[derive(Debug)]
@@ -53,7 +54,8 @@ impl Column {
 }
 
 const TIME: &str = "t [s]";
-const HEADERS: &str = "call the columns `t [s]`, and for example `q joint1 [rad]`, with commas between them";
+const HEADERS: &str = "call the columns `t [s]`, and for example `q joint1 [rad]`, with commas between them; decimals are \
+                       written with a point";
 const ROWS: &str = "every row has a number for each column, with commas between them";
 
 impl Table {
@@ -90,7 +92,11 @@ impl Table {
         for ((header, cell), column) in headers.iter().zip(row).zip(0..) {
             let value: f64 = cell.parse().map_err(|_| {
                 let found = if cell.is_empty() { "nothing".to_owned() } else { format!("`{cell}`") };
-                self.fault(index, format!("`{header}` must be a number, found {found}")).help(ROWS)
+                let fault = self.fault(index, format!("`{header}` must be a number, found {found}"));
+                match with_decimal_points(cell).filter(|written| written.parse::<f64>().is_ok()) {
+                    Some(written) => fault.help(format!("decimals are written with a point: {written}")),
+                    None => fault.help(ROWS),
+                }
             })?;
             match column {
                 0 => self.t.push(self.next_instant(index, value)?),
@@ -148,13 +154,20 @@ fn line(text: &str, position: Option<&Position>) -> usize {
 }
 
 fn unreadable(path: &Path, text: &str, error: &csv::Error) -> Failure {
+    let at = line(text, error.position());
+    let mut help = ROWS.to_owned();
     let what = match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            let written = text.lines().nth(at - 1).and_then(with_decimal_points);
+            // Each decimal comma has made two values of one.
+            if let Some(written) = written.filter(|row| row.split(',').count() as u64 == *expected_len) {
+                help = format!("decimals are written with a point: {written}");
+            }
             format!("the row has {len} values, but the header names {expected_len} columns")
         }
         _ => error.to_string(),
     };
-    Failure::input(format!("{}:{}: {what}", path.display(), line(text, error.position()))).help(ROWS)
+    Failure::input(format!("{}:{at}: {what}", path.display())).help(help)
 }
 
 #[cfg(test)]
@@ -182,6 +195,22 @@ mod tests {
             assert_eq!((&*q.symbol, &*q.name, &*q.unit, &q.values[..]), ("q", "joint 1", "rad", &[1.0, -0.3][..]));
             assert_eq!((kinetic.header(), kinetic.values[1].is_nan()), ("kinetic [J]".to_owned(), true));
         }
+    }
+
+    #[test]
+    fn decimal_commas_of_a_table_are_shown_with_points() {
+        for (rows, written) in [
+            ("0,0,0\n\"0,5\",1,0", "0.5"),
+            ("0,0,0\n1,\"-1,5e-3\",0", "-1.5e-3"),
+            ("0,0,0\n0,5,1,5,0,1", "0.5,1.5,0.1"),
+        ] {
+            let shown = read(&format!("t [s],q a [m],q b [m]\n{rows}\n")).unwrap_err().to_string();
+            assert!(shown.contains("table.csv:3") && shown.ends_with(&format!("with a point: {written}")), "{shown}");
+        }
+        let shown = read("t [s],q a [m]\n0,5,0\n").unwrap_err().to_string();
+        assert!(shown.ends_with("with a point: 0.5,0"), "{shown}");
+        let shown = read("t [s];q a [m]\n0,5;0\n").unwrap_err().to_string();
+        assert!(shown.contains("with a point"), "{shown}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{call, model, root, scratch};
+use common::{call, model, root, scratch, succeed};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::{Function, MassMatrix};
 use serde_json::Value;
@@ -118,6 +118,46 @@ fn faults_are_shown_where_they_stand() {
     assert_eq!((run.code, run.stdout.as_str()), (1, ""));
     assert!(run.stderr.contains("bad_unit.toml:9:25") && run.stderr.contains("^^^^"), "{}", run.stderr);
     assert!(run.stderr.ends_with("bad_unit.toml has 3 errors\n"), "{}", run.stderr);
+}
+
+/// Each of 3,000 links has a fault.
+#[test]
+fn of_very_many_errors_the_first_20_are_shown() {
+    let folder = scratch("check-many");
+    let link = |index: usize| {
+        let parent = if index == 0 { "base".into() } else { format!("link{}", index - 1) };
+        format!(
+            "[[link]]\nname = 'link{index}'\nparent = '{parent}'\njoint = 'revolute'\naxis = [0, 0, 1]\nmass = -1\n"
+        )
+    };
+    let links: String = (0..3000).map(link).collect();
+    std::fs::write(folder.join("many.toml"), format!("name = 'many'\ngravity = [0, 0, -9.81]\n{links}")).unwrap();
+    let scenario = "model = 'many.toml'\n[forward]\nend = 1.0\nstep = 0.1\n";
+    std::fs::write(folder.join("scenario.toml"), scenario).unwrap();
+    for arguments in [["check", "many.toml"], ["forward", "scenario.toml"]] {
+        let output = common::fail(&folder, &arguments, 1);
+        assert_eq!(output.matches("= help: ").count(), 20, "{output}");
+        assert!(output.contains("\n\nand 2980 more errors\n"), "{output}");
+    }
+    let output = common::fail(&folder, &["check", "many.toml"], 1);
+    assert!(output.ends_with("many.toml has 3000 errors\n"), "{output}");
+}
+
+#[test]
+fn a_minus_stands_for_a_model_on_the_standard_input() {
+    let folder = scratch("check-input");
+    let from_input = |options: &str, input: &str| {
+        let run = common::bash(&folder, &format!("printf '%s' \"$1\" | \"$0\" check - {options}"), &[input]);
+        (run.code, run.stdout, run.stderr)
+    };
+    let text = std::fs::read_to_string(model("fourbar.toml")).unwrap();
+    assert_eq!(from_input("", &text).1, succeed(&folder, &["check", &model("fourbar.toml")]));
+    let (code, _, shown) = from_input("", &text.replace("mass", "mas"));
+    assert!(code == 1 && shown.contains("--> <stdin>:") && shown.contains("did you mean `mass`?"), "{shown}");
+    let (code, shown, _) = from_input("--json", "name = 1");
+    assert!(code == 1 && shown.contains("\"file\": \"<stdin>\""), "{shown}");
+    let run = common::bash(&folder, "printf '\\377' | \"$0\" check -", &[]);
+    assert!(run.code == 1 && run.stderr.contains("UTF-8"), "{}", run.stderr);
 }
 
 #[test]

@@ -145,12 +145,36 @@ fn an_unknown_integrator_is_refused() {
         1,
         &["`forward.integrator.method` cannot be `Ode54`", "Ode45", "Radau5"],
     );
-    refuses("number", "forward", &swing("method = 7"), 1, &["cannot be `7`"]);
     refuses("step", "forward", &swing("method = 'Ode4'"), 1, &["`forward.integrator.step` is missing"]);
     let long = "method = 'Ode4', step = 1.1";
     refuses("long", "forward", &swing(long), 1, &["is 1.1 s, and the whole run takes 1.0 s", "trial.toml:6:40"]);
     refuses("tolerance", "forward", &swing("rtol = 0.0"), 1, &["`forward.integrator.rtol` is 0.0", "`rtol = 1e-6`"]);
     refuses("roundoff", "forward", &swing("rtol = 1e-18"), 1, &["at least 2.2", "1e-18"]);
+}
+
+#[test]
+fn an_unknown_number_of_an_integrator_is_answered_with_the_numbers_of_redysim() {
+    for setting in ["7", "{ method = 7 }"] {
+        let folder = scratch("faults-number");
+        let path = scenario(&folder, "two_link.toml", &format!("{SWING}integrator = {setting}\n"));
+        let output = fail(&folder, &["forward", &path], 1);
+        assert!(output.contains("cannot be `7`") && !output.contains("did you mean"), "{output}");
+        assert!(output.contains("; or 0 (Ode45), 1 (Ode15s), 2 (Ode5)\n"), "{output}");
+    }
+    refuses("near", "forward", &format!("{SWING}integrator = 'Ode54'\n"), 1, &["did you mean", "Euler (SemiImplicit"]);
+}
+
+#[test]
+fn decimal_commas_are_refused_with_the_number_that_is_meant() {
+    let swing = |from: &str, to: &str| SWING.replace(from, to);
+    let end = swing("end = 1.0", "end = 1,5");
+    refuses("comma", "forward", &end, 1, &["`1,5` has a decimal comma", "with a point: 1.5"]);
+    let q = swing("[0, 1]", "[0,5, 1,25]");
+    refuses("commas", "forward", &q, 1, &["must have 2 values", "with a point: [0.5, 1.25]"]);
+    let angle = swing("[0, 1]", "[0, '1,5 deg']");
+    refuses("comma-angle", "forward", &angle, 1, &["`initial.q[1]` is \"1,5 deg\"", "with a point: \"1.5 deg\""]);
+    let text = swing("end = 1.0", "end = '1,5'");
+    refuses("comma-text", "forward", &text, 1, &["`forward.end` is \"1,5\"", "with a point: 1.5"]);
 }
 
 #[test]
@@ -227,6 +251,8 @@ fn a_table_with_a_fault_is_refused_with_its_line() {
         &["unit that is not understood", "`tau joint1 [N m]`"],
     );
     refuses_table("twice", "t [s],tau joint1 [N m],tau joint2 [N m],tau joint1 [N m]\n0,0,0,0\n1,0,0,0\n", &["twice"]);
+    refuses_table("comma", &with("0,0,0\n\"0,5\",0,0\n"), &["forces.csv:3", "`0,5`", "with a point: 0.5"]);
+    refuses_table("commas", &with("0,0,0,0,0,0\n1,0,0\n"), &["forces.csv:2", "with a point: 0.0,0.0,0.0"]);
     refuses_table("symbol", "t [s],q joint1 [rad]\n0,0\n1,0\n", &["no forces"]);
 }
 

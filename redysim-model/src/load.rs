@@ -61,12 +61,16 @@ impl Model {
             Err(_) if path.is_dir() => return Err(nothing_of(name, messages::is_directory(), &options, true)),
             Err(error) => return Err(nothing_of(name, messages::unreadable(&error), &options, true)),
         };
-        match String::from_utf8(bytes) {
-            Ok(text) => Model::from_toml_with(text, name, options),
-            Err(error) => {
-                Err(nothing_of(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &options, false))
-            }
-        }
+        of_bytes(bytes, name, options)
+    }
+
+    /// Checks the bytes of a model file as [`from_toml`](Model::from_toml) does its text.
+    ///
+    /// # Errors
+    ///
+    /// As [`from_toml`](Model::from_toml), and if they are not UTF-8.
+    pub fn from_bytes(bytes: Vec<u8>, file_name: impl Into<String>) -> Result<Loaded, Faults> {
+        of_bytes(bytes, file_name.into(), String::new())
     }
 
     /// Checks the text of a model file. Messages call the file `file_name`.
@@ -152,6 +156,13 @@ impl Model {
             }
             None => Err(Faults { diagnostics: found, interface: Box::new(document.public_interface()), unread: false }),
         }
+    }
+}
+
+fn of_bytes(bytes: Vec<u8>, name: String, options: String) -> Result<Loaded, Faults> {
+    match String::from_utf8(bytes) {
+        Ok(text) => Model::from_toml_with(text, name, options),
+        Err(error) => Err(nothing_of(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &options, false)),
     }
 }
 

@@ -149,7 +149,12 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Errors, warnings and notes, in the file's order. Its `Display` shows one below the other.
+/// The number of errors that are shown: a file with more is corrected in several rounds, or wrong in one place of the
+/// program that wrote it.
+const MOST_ERRORS: usize = 20;
+
+/// Errors, warnings and notes, in the file's order. Its `Display` shows one below the other, of more than 20 errors the
+/// first 20 and how many more there are.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
@@ -159,10 +164,15 @@ impl Diagnostics {
         self.iter().filter(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// Those that break none of the rules with the names `allowed`.
-    pub fn without(mut self, allowed: &[&str]) -> Self {
-        self.0.retain(|diagnostic| diagnostic.lint.is_none_or(|lint| !allowed.contains(&lint)));
+    /// Those that `is_kept` accepts.
+    pub fn filtered(mut self, is_kept: impl Fn(&Diagnostic) -> bool) -> Self {
+        self.0.retain(is_kept);
         self
+    }
+
+    /// Those that break none of the rules with the names `allowed`.
+    pub fn without(self, allowed: &[&str]) -> Self {
+        self.filtered(|diagnostic| diagnostic.lint.is_none_or(|lint| !allowed.contains(&lint)))
     }
 }
 
@@ -194,11 +204,21 @@ impl<'a> IntoIterator for &'a Diagnostics {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, diagnostic) in self.iter().enumerate() {
-            let gap = if i == 0 { "" } else { "\n\n" };
+        let mut errors = 0;
+        let mut gap = "";
+        for diagnostic in self {
+            errors += usize::from(diagnostic.severity == Severity::Error);
+            if diagnostic.severity == Severity::Error && errors > MOST_ERRORS {
+                continue;
+            }
             write!(f, "{gap}{diagnostic}")?;
+            gap = "\n\n";
         }
-        Ok(())
+        match errors.saturating_sub(MOST_ERRORS) {
+            0 => Ok(()),
+            1 => write!(f, "{gap}and 1 more error"),
+            more => write!(f, "{gap}and {more} more errors"),
+        }
     }
 }
 

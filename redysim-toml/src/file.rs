@@ -6,6 +6,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, Error};
 
+use crate::decimal::value_with_comma;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::findings::Findings;
 use crate::key::Keys;
@@ -94,7 +95,15 @@ impl<'s> Parsed<'s> {
                 return findings.error(span, messages::more_is_not_toml());
             }
             lines.push(line);
-            findings.error(span, messages::syntax(error.message()));
+            let place = self.source.place(&span);
+            match value_with_comma(place.text) {
+                Some((value, written)) => {
+                    let start = span.start.saturating_sub(place.span.start);
+                    let found = &place.text[value.clone()];
+                    findings.error(start + value.start..start + value.end, messages::comma_in_toml(found, &written));
+                }
+                None => findings.error(span, messages::syntax(error.message())),
+            }
         }
     }
 }

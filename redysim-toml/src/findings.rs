@@ -79,6 +79,11 @@ impl Findings {
         self.source().place(span).line
     }
 
+    /// The text within a range of bytes; empty if there is none.
+    pub(crate) fn text(&self, span: &Range<usize>) -> &str {
+        self.source().text.get(span.clone()).unwrap_or_default()
+    }
+
     /// Everything found: about the file, in its order, then about the text beside it.
     pub fn into_sorted(mut self) -> Diagnostics {
         self.diagnostics.sort_by_key(Diagnostic::order);

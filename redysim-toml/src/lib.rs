@@ -14,6 +14,7 @@
 //! | [`Diagnostic`] | an error or a warning; its `Display` shows the line of the file with a caret |
 //! | [`Message`] | its words: item, rule and value in the title, the rule in the label, the remedy in the help |
 //! | [`read`] | reads a file from its text to a value, with all of these |
+//! | [`with_decimal_points`] | numbers with a decimal comma, as they are to be written |
 //! | [`words`] | quoted values, nearest names, short numbers: for further messages |
 //!
 //! # Example
@@ -41,11 +42,13 @@
 //! println!("{errors}"); // shows both lines with a caret; of the first it asks: did you mean `hands`?
 //! ```
 
+mod decimal;
 mod diagnostic;
 mod field;
 mod file;
 mod findings;
 mod key;
+mod kind;
 mod messages;
 mod reader;
 mod source;
@@ -53,12 +56,14 @@ mod units;
 mod value;
 pub mod words;
 
+pub use decimal::with_decimal_points;
 pub use diagnostic::{Diagnostic, Diagnostics, Message, Severity, Text};
 pub use field::Field;
 pub use file::{Parsed, parse, read};
 pub use findings::Findings;
 pub use key::{Hint, Key, KeyPath, Keys};
-pub use reader::{Kind, Reader, TableAt, name_of};
+pub use kind::Kind;
+pub use reader::{Reader, TableAt, name_of};
 pub use source::Source;
 pub use value::{Array, LARGE_ANGLE, ROUNDED_ANGLE, Table, Value};
 

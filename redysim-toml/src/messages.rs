@@ -21,6 +21,21 @@ pub(crate) fn syntax(reason: &str) -> Message {
     message(format!("TOML: {reason}"), reason, help)
 }
 
+/// `written` is the value `found` with a decimal point.
+pub(crate) fn comma_in_toml(found: &str, written: &str) -> Message {
+    let title = format!("TOML: {} has a decimal comma", quoted(found));
+    message(title, "a decimal comma", format!("TOML writes decimals with a point: {written}"))
+}
+
+/// The number or angle under `path` is the string `found`; `written` is the value with a decimal point.
+pub(crate) fn decimal_comma(item: &str, path: &KeyPath, found: &str, written: &str) -> Message {
+    message(
+        format!("{item}: `{path}` is \"{found}\", which has a decimal comma"),
+        "a decimal comma",
+        format!("TOML writes decimals with a point: {written}"),
+    )
+}
+
 pub(crate) fn more_is_not_toml() -> Message {
     message("TOML: more lines are invalid".into(), "and below", "is this the right file?")
 }
@@ -55,11 +70,15 @@ pub(crate) fn wrong_type(item: &str, path: &KeyPath, wanted: &str, found: &str) 
     message(format!("{item}: `{path}` must be {wanted}, found {found}"), format!("not {wanted}"), help)
 }
 
-pub(crate) fn wrong_length(item: &str, path: &KeyPath, wanted: &str, found: usize) -> Message {
+/// `written` is the array with decimal points, if it then has the right length.
+pub(crate) fn wrong_length(item: &str, path: &KeyPath, wanted: &str, found: usize, written: Option<&str>) -> Message {
     message(
         format!("{item}: `{path}` must have {wanted}, found {found}"),
         format!("{found} instead of {wanted}"),
-        path.example(),
+        match written {
+            Some(written) => format!("TOML writes decimals with a point: {written}"),
+            None => path.example(),
+        },
     )
 }
 
@@ -120,6 +139,22 @@ pub(crate) fn bad_unit(item: &str, path: &KeyPath, found: &str, unit: &str, per:
 pub(crate) fn unknown_choice(item: &str, path: &KeyPath, found: &str, choices: &[&str]) -> Message {
     let meant = did_you_mean(nearest(found, choices.iter().copied()));
     let help = format!("{meant}It must be one of: {}", choices.join(", "));
+    message(format!("{item}: `{path}` cannot be {}", quoted(found)), "not one of the kinds", help)
+}
+
+/// `kinds` are the names, each with the usual name if it is another.
+pub(crate) fn unknown_kind(item: &str, path: &KeyPath, found: &str, kinds: &[(&str, Option<&str>)]) -> Message {
+    let is_number = |name: &str| name.parse::<i64>().is_ok();
+    let usual: Vec<_> = kinds.iter().filter(|(_, same_as)| same_as.is_none()).map(|(name, _)| *name).collect();
+    let others = kinds.iter().filter_map(|(name, same_as)| Some((name, (*same_as)?)));
+    // One number is as near to another as any: all are listed with what they stand for.
+    let (others, meant) = match is_number(found) {
+        true => (others.filter(|(name, _)| is_number(name)).collect::<Vec<_>>(), String::new()),
+        false => (others.collect(), did_you_mean(nearest(found, kinds.iter().map(|(name, _)| *name)))),
+    };
+    let others: Vec<_> = others.iter().map(|(name, same_as)| format!("{name} ({same_as})")).collect();
+    let others = if others.is_empty() { String::new() } else { format!("; or {}", others.join(", ")) };
+    let help = format!("{meant}It must be one of: {}{others}", usual.join(", "));
     message(format!("{item}: `{path}` cannot be {}", quoted(found)), "not one of the kinds", help)
 }
 

@@ -5,10 +5,12 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::decimal::{elements, with_decimal_points};
 use crate::diagnostic::Message;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Key, KeyPath, Keys};
+use crate::kind::Kind;
 use crate::messages;
 use crate::value::{Array, Named, Table, Value};
 use crate::words::nearest;
@@ -20,17 +22,6 @@ pub struct TableAt<'a> {
     pub table: &'a Table<'a>,
     /// The bytes of its header.
     pub header: Range<usize>,
-}
-
-/// A kind of table: its name, its meaning, and its keys.
-#[derive(Clone, Copy, Debug)]
-pub struct Kind<K> {
-    /// The name, as the file has it.
-    pub name: &'static str,
-    /// Its meaning.
-    pub kind: K,
-    /// The keys.
-    pub keys: &'static Keys,
 }
 
 /// Reads the values of one table as [`Field`]s, and reports every error at its place.
@@ -222,15 +213,32 @@ impl<'a, 'f> Reader<'a, 'f> {
         read: impl FnOnce(Reader<'_, '_>, K) -> T,
     ) -> Field<T> {
         let nothing_else = DeTable::new();
-        let choices: Vec<(&str, &Kind<K>)> = kinds.iter().map(|kind| (kind.name, kind)).collect();
         self.field(key, |reader, path, value| {
             if let Some(found) = name_of(value) {
-                let kind = reader.choose(path, value, found, &choices)?;
+                let kind = reader.kind(path, value, found, kinds)?;
                 return Some(read(reader.inside(path, value, &nothing_else), kind.kind));
             }
             let mut inner = reader.within(path, value)?;
-            let kind = inner.choice(tag, &choices).value_or(default)?;
+            let named = inner.field(tag, |inner, path, value| match name_of(value) {
+                Some(found) => inner.kind(path, value, found, kinds),
+                None => inner.wrong_type(path, value, "a string"),
+            });
+            let kind = named.value_or(default)?;
             Some(read(inner.without_unknown_keys(kind.keys), kind.kind))
+        })
+    }
+
+    /// Looks up the kind of the name `found`.
+    fn kind<'k, K>(
+        &mut self,
+        path: &KeyPath,
+        value: &Value<'_>,
+        found: &str,
+        kinds: &'k [Kind<K>],
+    ) -> Option<&'k Kind<K>> {
+        kinds.iter().find(|kind| kind.name == found).or_else(|| {
+            let names: Vec<_> = kinds.iter().map(|kind| (kind.name, kind.same_as)).collect();
+            self.error(value, messages::unknown_kind(self.item, path, found, &names))
         })
     }
 
@@ -362,7 +370,10 @@ impl<'a, 'f> Reader<'a, 'f> {
 
     /// Reports that an array has `found` elements instead of `wanted`, as "3 numbers". Always `None`.
     pub fn wrong_length<T>(&mut self, path: &KeyPath, value: &Value<'_>, wanted: &str, found: usize) -> Option<T> {
-        self.error(value, messages::wrong_length(self.item, path, wanted, found))
+        let written = with_decimal_points(self.findings.text(&value.span()));
+        // Each decimal comma has made two elements of one.
+        let written = written.filter(|written| wanted.starts_with(&format!("{} ", elements(written))));
+        self.error(value, messages::wrong_length(self.item, path, wanted, found, written.as_deref()))
     }
 
     /// Reports an error of a value. Always `None`.

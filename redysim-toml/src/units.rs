@@ -1,5 +1,6 @@
 //! Angles written with a unit: `"90 deg"`, `"1.5 rad"`.
 
+use crate::decimal::with_decimal_points;
 use std::f64::consts::FRAC_PI_2;
 
 /// Why a text is not an angle.
@@ -9,12 +10,17 @@ pub(crate) enum NotAnAngle<'a> {
     Number,
     /// The number is followed by this instead of a unit; empty if nothing follows.
     Unit(&'a str),
+    /// The number has a decimal comma; with a point it is this.
+    Comma(String),
 }
 
 /// Reads an angle with a unit, in radians. Multiples of 90 deg become k · π/2 to the last bit. What the angle is
 /// `per`, as "/s", may follow the unit.
 pub(crate) fn angle<'t>(text: &'t str, per: &str) -> Result<f64, NotAnAngle<'t>> {
     let text = text.trim();
+    if let Some(written) = with_decimal_points(text) {
+        return Err(NotAnAngle::Comma(written));
+    }
     let digits = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c))).unwrap_or(text.len());
     let (number, unit) = text.split_at(digits);
     let number: f64 = number.parse().map_err(|_| NotAnAngle::Number)?;
@@ -42,6 +48,7 @@ mod tests {
         assert_eq!(angle("90 °", ""), Err(NotAnAngle::Unit("°")));
         assert_eq!(angle("90 grad", ""), Err(NotAnAngle::Unit("grad")));
         assert_eq!(angle("90", ""), Err(NotAnAngle::Unit("")));
+        assert_eq!(angle("1,5 deg", ""), Err(NotAnAngle::Comma("1.5 deg".into())));
         assert_eq!(angle("90 deg/s", ""), Err(NotAnAngle::Unit("deg/s")));
         for text in ["", "deg", "nan deg", "ninety deg", "1.2.3 deg", "π rad"] {
             assert_eq!(angle(text, ""), Err(NotAnAngle::Number), "{text}");

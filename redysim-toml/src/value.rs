@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use toml::Spanned;
 use toml::de::{DeArray, DeInteger, DeTable, DeValue};
 
+use crate::decimal::with_decimal_points;
 use crate::diagnostic::Message;
 use crate::key::KeyPath;
 use crate::messages;
@@ -56,8 +57,15 @@ impl Named<'_, '_> {
                 Ok(number) => self.finite(number as f64, integer.as_str()),
                 Err(_) => Err(messages::integer_out_of_range(item, path, integer.as_str(), nearest(integer))),
             },
+            DeValue::String(text) => Err(self.comma(text).unwrap_or_else(|| self.wrong_type("a number"))),
             _ => Err(self.wrong_type("a number")),
         }
+    }
+
+    /// The error of a number that is a string for its decimal comma.
+    fn comma(self, text: &str) -> Option<Message> {
+        let written = with_decimal_points(text).filter(|written| written.trim().parse::<f64>().is_ok())?;
+        Some(messages::decimal_comma(self.item, self.path, text, written.trim()))
     }
 
     /// An angle `per` something, as "/s": a number, or one with a unit.
@@ -66,6 +74,9 @@ impl Named<'_, '_> {
         match value.get_ref() {
             DeValue::String(text) => match units::angle(text, per) {
                 Ok(radians) => Ok(Angle { radians: self.finite(radians, text)?, warning: None }),
+                Err(NotAnAngle::Comma(written)) => {
+                    Err(messages::decimal_comma(item, path, text, &format!("\"{written}\"")))
+                }
                 Err(NotAnAngle::Number) => Err(messages::not_an_angle(item, path, text)),
                 Err(NotAnAngle::Unit(unit)) => Err(messages::bad_unit(item, path, text, unit, per)),
             },

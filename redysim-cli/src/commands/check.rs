@@ -1,5 +1,6 @@
 //! `redysim check MODEL`: every fault, warning and note where it stands, then what the model is.
 
+use std::io::Read;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
@@ -7,7 +8,7 @@ use crate::model::not_a_model;
 use crate::number::counted;
 use crate::output::{print, to_stderr};
 use crate::summary::Summary;
-use redysim_model::{Diagnostic, Faults, Model, Severity};
+use redysim_model::{Diagnostic, Diagnostics, Faults, Loaded, Model, Severity};
 use serde::Serialize;
 
 /// Show every fault, warning and note of a model, then what it is.
@@ -15,6 +16,7 @@ use serde::Serialize;
 #[command(after_help = "\
 Examples:
   redysim check models/kr5.toml
+  redysim import robot.urdf | redysim check -
   redysim check models/fourbar.toml --json | jq .summary.mobility
 
 With --quiet only faults are shown; the exit code is 0 for a model without faults.
@@ -34,11 +36,44 @@ With --quiet only faults are shown; the exit code is 0 for a model without fault
     operations  [{ function, flops, additions, multiplications, divisions,
                    sine_cosine_pairs }]")]
 pub struct Arguments {
-    /// The model file.
+    /// The model file, or - for the standard input.
     model: PathBuf,
     /// Print everything as JSON.
     #[arg(long)]
     json: bool,
+}
+
+/// The model file that stands for the standard input, and what messages call it.
+const STANDARD_INPUT: (&str, &str) = ("-", "<stdin>");
+
+impl Arguments {
+    fn is_standard_input(&self) -> bool {
+        self.model.as_os_str() == STANDARD_INPUT.0
+    }
+
+    /// What messages call the model file.
+    fn name(&self) -> String {
+        if self.is_standard_input() { STANDARD_INPUT.1.into() } else { self.model.display().to_string() }
+    }
+
+    /// The model, or its faults.
+    ///
+    /// # Errors
+    /// If the standard input cannot be read.
+    fn load(&self) -> Result<Result<Loaded, Faults>, Failure> {
+        if !self.is_standard_input() {
+            return Ok(Model::load(&self.model));
+        }
+        let mut bytes = Vec::new();
+        let read = std::io::stdin().lock().read_to_end(&mut bytes);
+        read.map_err(|error| Failure::outside(format!("cannot read the standard input: {error}")))?;
+        Ok(Model::from_bytes(bytes, self.name()))
+    }
+
+    /// The failure of a file that is a scenario.
+    fn not_a_model(&self) -> Option<Failure> {
+        if self.is_standard_input() { None } else { not_a_model(&self.model) }
+    }
 }
 
 /// What `--json` prints.
@@ -79,12 +114,12 @@ impl<'a> Finding<'a> {
 
 /// Checks the model.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
-    let (diagnostics, summary) = match Model::load(&arguments.model) {
+    let (diagnostics, summary) = match arguments.load()? {
         Ok(loaded) => {
             let summary = (arguments.json || !quiet).then(|| Summary::of(&loaded)).transpose();
             ([loaded.warnings, loaded.notes].concat(), summary.map_err(Failure::input))
         }
-        Err(faults) => match not_a_model(&arguments.model) {
+        Err(faults) => match arguments.not_a_model() {
             // Of its keys none is a model's: that goes without saying.
             Some(failure) if !arguments.json => return Err(failure),
             other => {
@@ -96,8 +131,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     if arguments.json {
         print_json(arguments, &diagnostics, summary.as_ref().ok().and_then(Option::as_ref))?;
     } else {
-        let shown = diagnostics.iter().filter(|found| !quiet || found.severity() == Severity::Error);
-        shown.for_each(|found| to_stderr(&format!("{found}\n")));
+        let shown = Diagnostics(diagnostics).filtered(|found| !quiet || found.severity() == Severity::Error);
+        if !shown.is_empty() {
+            to_stderr(&format!("{shown}\n"));
+        }
     }
     match summary {
         Ok(Some(summary)) if !arguments.json => {
@@ -111,7 +148,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 }
 
 fn failure(arguments: &Arguments, faults: &Faults) -> Failure {
-    let file = arguments.model.display();
+    let file = arguments.name();
     match faults.unread {
         true => Failure::outside(format!("{file} could not be read")),
         false => Failure::input(format!("{file} has {}", counted(faults.errors().count(), "error"))),
@@ -121,7 +158,7 @@ fn failure(arguments: &Arguments, faults: &Faults) -> Failure {
 fn print_json(arguments: &Arguments, diagnostics: &[Diagnostic], summary: Option<&Summary>) -> Result<(), Failure> {
     let of = |severity| diagnostics.iter().filter(move |found| found.severity() == severity).map(Finding::of).collect();
     let report = Report {
-        file: arguments.model.display().to_string(),
+        file: arguments.name(),
         valid: summary.is_some(),
         errors: of(Severity::Error),
         warnings: of(Severity::Warning),

@@ -69,8 +69,10 @@ fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
     for (velocity, &most) in layout.velocities.iter().zip(most) {
         if most > 0.0 && !layout.joints[velocity.joint].actuated {
             let (name, unit) = (&velocity.name, velocity.unit_of_force());
-            let warning =
-                format!("the joint `{name}` has no actuator, but the motion takes up to {most:.3e} {unit} there");
+            let warning = format!(
+                "the joint `{name}` has no actuator, but the motion takes up to {} {unit} there",
+                rounded(most)
+            );
             record
                 .warn(&warning, "prescribe a motion that needs none there, or give the joint an actuator in the model");
         }

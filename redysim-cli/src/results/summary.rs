@@ -6,6 +6,7 @@ use redysim_runtime::Statistics;
 
 use super::Balance;
 use crate::failure::Failure;
+use crate::number::size;
 use crate::scenario::Dynamics;
 
 /// How a computation went, of which the [`Record`](super::Record) knows but the rows.
@@ -71,7 +72,8 @@ impl fmt::Display for Summary {
         }
         write!(f, "\n  {:.3} s of computing and writing", self.seconds)?;
         let Balance { drift, exchanged, .. } = self.balance;
-        write!(f, "\n  energy drift {drift:.1e} J, while up to {exchanged:.1e} J were exchanged")?;
-        position_residual.map_or(Ok(()), |residual| write!(f, "\n  worst position residual {residual:.1e} m"))
+        let [drift, exchanged] = [drift, exchanged].map(size);
+        write!(f, "\n  energy drift {drift} J, while up to {exchanged} J were exchanged")?;
+        position_residual.map_or(Ok(()), |residual| write!(f, "\n  worst position residual {} m", size(residual)))
     }
 }

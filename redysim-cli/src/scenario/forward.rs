@@ -63,11 +63,11 @@ fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabil
 }
 
 fn stabilisation(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<Stabilisation<f64>> {
-    let plain = |name, kind| Kind { name, kind: Some(kind), keys: &keys::PLAIN_STABILISATION };
+    let plain = |name, kind| Kind::new(name, Some(kind), &keys::PLAIN_STABILISATION);
     let kinds = [
         plain("projection", Stabilisation::Projection),
         plain("none", Stabilisation::None),
-        Kind { name: "baumgarte", kind: None, keys: &keys::BAUMGARTE },
+        Kind::new("baumgarte", None, &keys::BAUMGARTE),
     ];
     let field =
         reader.table_of_kind(&keys::STABILISATION, &keys::STABILISATION_KIND, &kinds, &kinds[0], |mut reader, kind| {

@@ -103,11 +103,11 @@ enum IntegrationMethod {
 }
 
 const fn fixed(name: &'static str, method: Fixed) -> Kind<IntegrationMethod> {
-    Kind { name, kind: IntegrationMethod::Fixed(method), keys: &keys::FIXED_STEP }
+    Kind::new(name, IntegrationMethod::Fixed(method), &keys::FIXED_STEP)
 }
 
 const fn adaptive(name: &'static str, method: Adaptive) -> Kind<IntegrationMethod> {
-    Kind { name, kind: IntegrationMethod::Adaptive(method), keys: &keys::ADAPTIVE_STEP }
+    Kind::new(name, IntegrationMethod::Adaptive(method), &keys::ADAPTIVE_STEP)
 }
 
 /// The names, and behind them other names of the same: the numbers are those of ReDySim's `int_type`.
@@ -122,10 +122,10 @@ const METHODS: [Kind<IntegrationMethod>; 14] = [
     adaptive("Dop853", Adaptive::Dop853),
     adaptive("Ode15s", Adaptive::Ode15s),
     adaptive("Radau5", Adaptive::Radau5),
-    fixed("Euler", Fixed::SemiImplicitEuler),
-    adaptive("0", Adaptive::Ode45),
-    adaptive("1", Adaptive::Ode15s),
-    fixed("2", Fixed::Ode5),
+    fixed("SemiImplicitEuler", Fixed::SemiImplicitEuler).also("Euler"),
+    adaptive("Ode45", Adaptive::Ode45).also("0"),
+    adaptive("Ode15s", Adaptive::Ode15s).also("1"),
+    fixed("Ode5", Fixed::Ode5).also("2"),
 ];
 
 impl Integrator {

@@ -60,11 +60,11 @@ const SMOOTH: [(&str, Smooth); 2] = [(USUAL_THROUGH, Smooth::LeastJerk), ("cubic
 /// The default of `through`.
 pub const USUAL_THROUGH: &str = "minimum-jerk";
 const KINDS: [Kind<Tag>; 5] = [
-    Kind { name: "cycloid", kind: Tag::Cycloid, keys: &keys::CYCLOID },
-    Kind { name: "constant-speed", kind: Tag::ConstantSpeed, keys: &keys::CONSTANT_SPEED },
-    Kind { name: "minimum-jerk", kind: Tag::Via(Smooth::LeastJerk), keys: &keys::VIA_POINTS },
-    Kind { name: "cubic", kind: Tag::Via(Smooth::Cubic), keys: &keys::VIA_POINTS },
-    Kind { name: "csv", kind: Tag::Table, keys: &keys::MOTION_TABLE },
+    Kind::new("cycloid", Tag::Cycloid, &keys::CYCLOID),
+    Kind::new("constant-speed", Tag::ConstantSpeed, &keys::CONSTANT_SPEED),
+    Kind::new("minimum-jerk", Tag::Via(Smooth::LeastJerk), &keys::VIA_POINTS),
+    Kind::new("cubic", Tag::Via(Smooth::Cubic), &keys::VIA_POINTS),
+    Kind::new("csv", Tag::Table, &keys::MOTION_TABLE),
 ];
 
 impl Prescribed {

@@ -7,6 +7,7 @@ use redysim_runtime::{IntegrationError, Stabilisation};
 
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::number::size;
 use crate::results::{self, Balance, Ended, Outcome, Record};
 use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances, keys, missing};
 use observer::RunObserver;
@@ -108,7 +109,8 @@ fn warn_of_drift(forward: &Forward, record: &Record<'_>) {
             }
         };
         let warning = format!(
-            "the motion is wrong: {drift:.1e} J have come from nowhere, {:.0} % of the energy that was exchanged",
+            "the motion is wrong: {} J have come from nowhere, {:.0} % of the energy that was exchanged",
+            size(*drift),
             100.0 * part
         );
         record.warn(&warning, &help);
@@ -133,8 +135,9 @@ fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System
         }
         IntegrationError::Stiff { t, step, remaining } => {
             let message = format!(
-                "the equation is stiff at t = {t:?} s: stability, not accuracy, keeps the steps at {step:.1e} s, and \
-                 the rest would take about {remaining} of them"
+                "the equation is stiff at t = {t:?} s: stability, not accuracy, keeps the steps at {} s, and \
+                 the rest would take about {remaining} of them",
+                size(step)
             );
             Failure::outside(message)
                 .help(format!("take an implicit method, as in: {}, or lower gains or dampings", implicit()))

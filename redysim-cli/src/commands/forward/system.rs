@@ -8,6 +8,7 @@ use redysim_runtime::{
 
 use crate::failure::Failure;
 use crate::layout::Component;
+use crate::number::rounded;
 use crate::output::to_stdout;
 use crate::results::Sample;
 use crate::scenario::{Forward, Law, Scenario};
@@ -74,7 +75,7 @@ impl<'a> System<'a> {
             let changes = |components: &[Component], to: &[f64], from: &[f64], per: &str| {
                 let changed = components.iter().zip(to.iter().zip(from)).filter(|(_, (to, from))| to != from);
                 let by = |(component, (to, from)): (&Component, (&f64, &f64))| {
-                    format!("{} by {:.3e} {}{per}", component.name, to - from, component.unit())
+                    format!("{} by {} {}{per}", component.name, rounded(to - from), component.unit())
                 };
                 changed.map(by).collect::<Vec<_>>().join(", ")
             };

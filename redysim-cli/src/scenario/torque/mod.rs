@@ -83,15 +83,15 @@ pub enum Torque {
 }
 
 const LAWS: [Kind<ReadLaw>; 9] = [
-    Kind { name: "free", kind: |_| Some(Torque::Zero), keys: &keys::ZERO_TORQUE },
-    Kind { name: "p", kind: |law| law.p(), keys: &keys::P },
-    Kind { name: "pd", kind: |law| law.pd(), keys: &keys::PD },
-    Kind { name: "pid", kind: |law| law.pid(), keys: &keys::PID },
-    Kind { name: "pd-gravity", kind: |law| law.pd_gravity(), keys: &keys::PD_GRAVITY },
-    Kind { name: "tracking-pd", kind: |law| law.tracking_pd(), keys: &keys::TRACKING_PD },
-    Kind { name: "computed-torque", kind: |law| law.computed_torque(), keys: &keys::COMPUTED_TORQUE },
-    Kind { name: "impedance", kind: |law| law.impedance(), keys: &keys::IMPEDANCE },
-    Kind { name: "csv", kind: |law| law.table(), keys: &keys::FORCE_TABLE },
+    Kind::new("free", |_| Some(Torque::Zero), &keys::ZERO_TORQUE),
+    Kind::new("p", |law| law.p(), &keys::P),
+    Kind::new("pd", |law| law.pd(), &keys::PD),
+    Kind::new("pid", |law| law.pid(), &keys::PID),
+    Kind::new("pd-gravity", |law| law.pd_gravity(), &keys::PD_GRAVITY),
+    Kind::new("tracking-pd", |law| law.tracking_pd(), &keys::TRACKING_PD),
+    Kind::new("computed-torque", |law| law.computed_torque(), &keys::COMPUTED_TORQUE),
+    Kind::new("impedance", |law| law.impedance(), &keys::IMPEDANCE),
+    Kind::new("csv", |law| law.table(), &keys::FORCE_TABLE),
 ];
 
 /// How the keys of a law are read.
