@@ -108,3 +108,12 @@ pub mod nalgebra;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The programs of the guides.
+#[cfg(doctest)]
+mod guides {
+    #[doc = include_str!("../docs/own_robot.md")]
+    struct OwnRobot;
+    #[doc = include_str!("../docs/no_std.md")]
+    struct NoStd;
+}

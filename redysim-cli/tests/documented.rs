@@ -51,6 +51,61 @@ fn the_commands_of_the_readme_run() {
 }
 
 #[test]
+fn the_commands_of_the_guide_to_ones_own_robot_run() {
+    run_all("documented-own-robot", "docs/own_robot.md", 5);
+}
+
+/// The names by which links lead to the headings of a document, as web pages of Markdown make them.
+fn anchors(text: &str) -> Vec<String> {
+    let headings =
+        without_code(text).filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim());
+    let of_heading = |heading: &str| -> String {
+        let kept = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+        kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
+    };
+    headings.map(of_heading).collect()
+}
+
+/// The lines outside blocks of code.
+fn without_code(text: &str) -> impl Iterator<Item = &str> {
+    let mut code = false;
+    text.lines().filter(move |line| {
+        let fence = line.trim_start().starts_with("```");
+        code ^= fence;
+        !code && !fence
+    })
+}
+
+#[test]
+fn every_link_of_the_documentation_leads_to_a_file_and_its_heading() {
+    let docs = fs::read_dir(root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let docs = docs.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
+    let others = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "peers/README.md", "tests/reference/README.md"];
+    let (mut broken, mut count) = (Vec::new(), 0);
+    for path in docs.chain(others.map(|name| root().join(name))) {
+        let text = fs::read_to_string(&path).unwrap();
+        let links =
+            without_code(&text).flat_map(|line| line.split("](").skip(1)).filter_map(|rest| rest.split(')').next());
+        for link in links.filter(|link| !link.contains("://")) {
+            count += 1;
+            let (file, anchor) = link.split_once('#').map_or((link, None), |(file, anchor)| (file, Some(anchor)));
+            let target = if file.is_empty() { path.clone() } else { path.with_file_name("").join(file) };
+            let found = match anchor {
+                None => target.exists(),
+                Some(anchor) => {
+                    fs::read_to_string(&target).is_ok_and(|text| anchors(&text).iter().any(|name| name == anchor))
+                }
+            };
+            if !found {
+                broken.push(format!("{}: {link}", path.display()));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+    assert!(count > 50, "{count}");
+}
+
+#[test]
 fn the_commands_of_the_scenarios_run() {
     run_all("documented-scenarios", "docs/scenarios.md", 3);
 }
