@@ -54,14 +54,16 @@ fn legend(svg: &str, names: &[&str]) -> Vec<usize> {
     names.iter().map(|name| svg.lines().filter(|line| line.trim() == *name).count()).collect()
 }
 
-/// Two angles that swing by 0.1 rad cannot be told apart beside one that goes up to 100 rad; their velocities can.
+/// Two angles that swing by 0.1 rad about 50 rad cannot be told apart beside one that goes up to 100 rad; their
+/// velocities can.
 #[test]
 fn every_curve_stands_in_a_legend_by_its_own_name() {
     let folder = scratch("plot-legends");
     let mut motion = "t [s],q a [rad],q b [rad],q c [rad],v a [rad/s],v b [rad/s],v c [rad/s]\n".to_owned();
     for t in (0..=100).map(|k| 0.01 * f64::from(k)) {
         let (sin, cos) = (50.0 * t).sin_cos();
-        motion += &format!("{t},{},{},{},100,{},{}\n", 100.0 * t, 0.1 * sin, 0.1 * cos, 5.0 * cos, -5.0 * sin);
+        motion +=
+            &format!("{t},{},{},{},100,{},{}\n", 100.0 * t, 50.0 + 0.1 * sin, 50.0 + 0.1 * cos, 5.0 * cos, -5.0 * sin);
     }
     fs::write(folder.join("statevar.csv"), motion).unwrap();
     succeed(&folder, &["plot", "."]);

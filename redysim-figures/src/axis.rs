@@ -1,4 +1,4 @@
-//! Axes whose ends and ticks are round numbers.
+//! Axes whose ticks are round numbers.
 
 use std::ops::Range;
 
@@ -13,14 +13,18 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// A linear axis that holds all values, with at most about `ticks` intervals between its ticks.
-    pub fn linear(values: impl Iterator<Item = f64>, ticks: usize) -> Self {
-        let Range { start, end } = extent(values);
-        let step = round_step((end - start) / ticks as f64);
-        // A value that lies past a tick by less than one can see does not open one more interval.
-        let slack = 1e-3;
-        let range = step * (start / step + slack).floor()..step * (end / step - slack).ceil();
+    /// A linear axis from the least of the values to the largest, with at most about `ticks` intervals between ticks.
+    pub fn between(values: impl Iterator<Item = f64>, ticks: usize) -> Self {
+        let range = extent(values);
+        let step = round_step((range.end - range.start) / ticks as f64);
         Axis { range, step, logarithmic: false }
+    }
+
+    /// The same, and a little beyond them, so that no curve lies on its end.
+    pub fn around(values: impl Iterator<Item = f64>, ticks: usize) -> Self {
+        let Range { start, end } = extent(values);
+        let margin = 0.04 * (end - start);
+        Axis::between([start - margin, end + margin].into_iter(), ticks)
     }
 
     /// A logarithmic axis for decimal logarithms of values.
@@ -28,6 +32,32 @@ impl Axis {
         let Range { start, end } = extent(exponents);
         let step = ((end - start) / ticks as f64).ceil().max(1.0);
         Axis { range: step * (start / step).floor()..step * (end / step).ceil(), step, logarithmic: true }
+    }
+
+    /// The linear axis with as few ticks as have room for their labels on a length, of which each takes `width`.
+    pub fn with_room(mut self, length: f64, width: impl Fn(&str) -> f64) -> Self {
+        let Range { start, end } = self.range;
+        loop {
+            let labels = self.labels();
+            let widest = labels.iter().map(|label| width(label)).fold(0.0, f64::max);
+            if labels.len() <= 2 || widest <= length * self.step / (end - start) {
+                return self;
+            }
+            self.step = round_step(1.5 * self.step);
+        }
+    }
+
+    /// What stands at the ticks.
+    pub fn labels(&self) -> Vec<String> {
+        self.ticks().iter().map(|value| self.format_ext(value)).collect()
+    }
+
+    fn ticks(&self) -> Vec<f64> {
+        // A tick past an end by less than one can see is there.
+        let slack = 1e-6;
+        let first = (self.range.start / self.step - slack).ceil();
+        let last = (self.range.end / self.step + slack).floor();
+        (0..=(last - first) as usize).map(|k| (first + k as f64) * self.step).collect()
     }
 
     /// First and last coordinate.
@@ -75,8 +105,7 @@ impl Ranged for Axis {
     }
 
     fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
-        let intervals = ((self.range.end - self.range.start) / self.step).round() as usize;
-        (0..=intervals).map(|k| self.range.start + k as f64 * self.step).collect()
+        self.ticks()
     }
 
     fn range(&self) -> Range<f64> {
@@ -120,12 +149,12 @@ fn superscript(number: i32) -> String {
 mod tests {
     use super::*;
 
-    fn labels(axis: &Axis) -> Vec<String> {
-        axis.key_points(plotters::coord::ranged1d::BoldPoints(10)).iter().map(|value| axis.format_ext(value)).collect()
+    fn linear(values: &[f64]) -> Vec<String> {
+        Axis::around(values.iter().copied(), 5).labels()
     }
 
-    fn linear(values: &[f64]) -> Vec<String> {
-        labels(&Axis::linear(values.iter().copied(), 5))
+    fn between(values: &[f64]) -> Vec<String> {
+        Axis::between(values.iter().copied(), 5).labels()
     }
 
     #[test]
@@ -136,18 +165,39 @@ mod tests {
     }
 
     #[test]
-    fn ticks_are_round_and_hold_all_values() {
-        assert_eq!(linear(&[0.0, 1.0]), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
-        assert_eq!(linear(&[-102.3, 211.0]), ["−200", "−100", "0", "100", "200", "300"]);
-        assert_eq!(linear(&[0.0, 1e-3 * 0.68]), ["0.0000", "0.0002", "0.0004", "0.0006", "0.0008"]);
-        assert_eq!(linear(&[f64::NAN, 3.0, f64::INFINITY, 3.0]), ["2.0", "2.5", "3.0", "3.5", "4.0"]);
-        assert_eq!(linear(&[]), linear(&[0.0, 1.0]));
+    fn ticks_are_round_and_between_the_ends() {
+        assert_eq!(between(&[0.0, 1.0]), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(between(&[-102.3, 211.0]), ["−100", "0", "100", "200"]);
+        assert_eq!(between(&[0.0, 1e-3 * 0.68]), ["0.0000", "0.0002", "0.0004", "0.0006"]);
+        assert_eq!(between(&[f64::NAN, 3.0, f64::INFINITY, 3.0]), ["2.0", "2.5", "3.0", "3.5", "4.0"]);
+        assert_eq!(between(&[]), between(&[0.0, 1.0]));
+    }
+
+    #[test]
+    fn ends_are_those_of_the_values_or_a_little_beyond() {
+        assert_eq!(Axis::between([0.3, 0.0, 0.68].into_iter(), 5).range(), 0.0..0.68);
+        let Range { start, end } = Axis::around([0.3, 0.0, 0.68].into_iter(), 5).range();
+        assert!(-0.05 * 0.68 < start && start < 0.0 && 0.68 < end && end < 1.05 * 0.68, "{start} to {end}");
+    }
+
+    #[test]
+    fn labels_of_any_length_have_the_room_they_need() {
+        for values in [[0.0, 0.68], [12345.0, 12345.9], [-0.00012345, 0.00054321], [1e9, 3e9], [1e-13, 2e-13]] {
+            for length in [100.0, 200.0, 300.0, 700.0] {
+                let axis = Axis::between(values.into_iter(), 5).with_room(length, |label| 8.0 * label.len() as f64);
+                let apart = length * axis.step / (values[1] - values[0]);
+                let labels = axis.labels();
+                let widest = labels.iter().map(|label| 8 * label.len()).max().unwrap_or(0);
+                assert!(widest as f64 <= apart || labels.len() <= 2, "{length}: {labels:?}");
+                assert!(!labels.is_empty());
+            }
+        }
     }
 
     #[test]
     fn values_that_hardly_differ_stand_within_their_axis_however_large_they_are() {
         for values in [[3.0, 3.0], [1e13, 1e13 + 5.0], [-1e13 - 5.0, -1e13], [1e17, 1e17], [-1e299, -1e299]] {
-            let range = Axis::linear(values.into_iter(), 5).range();
+            let range = Axis::around(values.into_iter(), 5).range();
             assert!(range.start < values[0] && values[1] < range.end, "{values:?}: {range:?}");
             let labels = linear(&values);
             assert!(!labels.iter().any(|label| label.contains("NaN")), "{values:?}: {labels:?}");
@@ -156,16 +206,17 @@ mod tests {
     }
 
     #[test]
-    fn a_value_on_a_tick_opens_no_further_interval() {
-        assert_eq!(linear(&[0.0, 1.0 + 1e-12]), linear(&[0.0, 1.0]));
+    fn a_value_on_a_tick_is_labelled() {
+        assert_eq!(between(&[0.0, 1.0 - 1e-12]), between(&[0.0, 1.0]));
         // 0.1 + 0.2 is more than 0.3.
-        assert_eq!(Axis::linear([0.0, 0.1 + 0.2].into_iter(), 3).range().end, 0.1 * 3.0);
+        assert_eq!(between(&[0.1 + 0.2, 1.3]).first().map(String::as_str), Some("0.4"));
+        assert_eq!(Axis::between([0.0, 0.1 + 0.2].into_iter(), 3).labels().last().map(String::as_str), Some("0.3"));
     }
 
     #[test]
     fn powers_of_ten_are_written_as_such() {
         let axis = Axis::logarithmic([-11.2, 2.0].into_iter(), 5);
-        assert_eq!(labels(&axis), ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰", "10³"]);
+        assert_eq!(axis.labels(), ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰", "10³"]);
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub struct Panel {
     pub logarithmic: bool,
     /// What the horizontal axis measures, and whether it is logarithmic.
     pub across: (String, bool),
+    /// Values that its vertical axis holds beside those of its curves, so that it has the limits of another panel.
+    pub held: Vec<f64>,
     /// What is drawn in it.
     pub curves: Vec<Curve>,
 }
@@ -42,6 +44,13 @@ pub struct Curve {
     pub colour: usize,
     /// How it is drawn.
     pub mark: Mark,
+}
+
+impl Curve {
+    /// Its values, in order.
+    pub(crate) fn values(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|point| point.1)
+    }
 }
 
 /// How a curve is drawn.
@@ -79,7 +88,18 @@ impl Panel {
     /// An empty panel whose vertical axis shows `quantity` in `unit`.
     pub fn new(title: impl Into<String>, quantity: &str, unit: &str) -> Self {
         let (title, quantity, unit) = (title.into(), quantity.to_owned(), unit.to_owned());
-        Panel { title, quantity, unit, logarithmic: false, across: ("time [s]".to_owned(), false), curves: Vec::new() }
+        let across = ("time [s]".to_owned(), false);
+        Panel { title, quantity, unit, logarithmic: false, across, held: Vec::new(), curves: Vec::new() }
+    }
+
+    /// The place of a panel that is left empty.
+    pub fn gap() -> Self {
+        Panel::new("", "", "")
+    }
+
+    /// Whether nothing is drawn in its place.
+    pub fn is_gap(&self) -> bool {
+        self.title.is_empty() && self.quantity.is_empty() && self.curves.is_empty()
     }
 
     /// Makes the horizontal axis a logarithmic one that measures `quantity`.
@@ -134,8 +154,7 @@ impl Panel {
 
     /// Makes one of those curves that nobody could tell apart in the picture: it names them all.
     pub fn merged(mut self) -> Self {
-        let columns: Vec<Vec<f64>> =
-            self.curves.iter().map(|curve| curve.points.iter().map(|point| point.1).collect()).collect();
+        let columns: Vec<Vec<f64>> = self.curves.iter().map(|curve| curve.values().collect()).collect();
         let shown = extent(columns.iter().flatten().copied());
         let groups = coincident(&columns, |_| 2e-3 * (shown.end - shown.start));
         let merged = groups.iter().map(|group| {
@@ -148,12 +167,13 @@ impl Panel {
 
     /// Measures the vertical axis in thousandths, millionths, … of the unit where the values are that small.
     pub fn prefixed(mut self) -> Self {
-        let values = self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.1);
+        let values = self.curves.iter().flat_map(Curve::values).chain(self.held.iter().copied());
         let size = peak(values.filter(|value| drawable(*value)));
         let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| size * factor >= 0.5).unwrap_or((1.0, ""));
         for point in self.curves.iter_mut().flat_map(|curve| &mut curve.points) {
             point.1 *= factor;
         }
+        self.held.iter_mut().for_each(|value| *value *= factor);
         self.unit.insert_str(0, prefix);
         self
     }
@@ -162,7 +182,7 @@ impl Panel {
 const PREFIXES: [(f64, &str); 6] = [(1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"), (1e12, "p"), (1e15, "f")];
 
 /// The numbers of those columns that differ from the first of them by no more than its tolerance.
-fn coincident(columns: &[Vec<f64>], tolerance: impl Fn(&[f64]) -> f64) -> Vec<Vec<usize>> {
+pub(crate) fn coincident(columns: &[Vec<f64>], tolerance: impl Fn(&[f64]) -> f64) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (index, values) in columns.iter().enumerate() {
         let same = |first: &[f64]| {
@@ -176,12 +196,15 @@ fn coincident(columns: &[Vec<f64>], tolerance: impl Fn(&[f64]) -> f64) -> Vec<Ve
     groups
 }
 
-/// "a, b", or "a … f" of many that follow each other by their `numbers`.
-fn enumeration(names: &[&str], numbers: &[usize]) -> String {
-    match (names, numbers) {
-        ([first, _, .., last], [from, .., to]) if to - from + 1 == names.len() => format!("{first} … {last}"),
-        _ => names.join(", "),
-    }
+/// "a, b", with "c … f" for those that follow each other by their `numbers`, which ascend.
+pub(crate) fn enumeration(names: &[&str], numbers: &[usize]) -> String {
+    let names: Vec<(usize, &str)> = numbers.iter().copied().zip(names.iter().copied()).collect();
+    let runs = names.chunk_by(|a, b| a.0 + 1 == b.0);
+    let texts = runs.map(|run| match run {
+        [first, _, .., last] => format!("{} … {}", first.1, last.1),
+        few => few.iter().map(|name| name.1).collect::<Vec<_>>().join(", "),
+    });
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 /// "joint 1", "joints 2, 3", "joints 1–6".

@@ -3,9 +3,12 @@
 
 mod axis;
 pub mod figure;
+mod legend;
+mod multiples;
 pub mod plot;
 #[cfg(feature = "png")]
 pub mod png;
+mod text;
 
 use std::fmt;
 

@@ -4,26 +4,35 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::DrawingError;
 use crate::axis::{Axis, drawable};
 use crate::figure::{Curve, Figure, Mark, Panel};
+use crate::legend::{self, Legend};
+use crate::{DrawingError, text};
 
 /// The backend knows whole pixels only. A picture is drawn this many times as large as it is shown, so that curves are
 /// smooth; all lengths below are in shown pixels, times this.
-const FINE: i32 = 4;
+pub(crate) const FINE: i32 = 4;
 
 const WIDTH: i32 = 800;
-/// Height of a panel's coordinate system, of its headline, and of the title of the time axis.
+/// Height of a panel's coordinate system, of its headline with the middle of the letters in it, and of the title of the
+/// time axis.
 const PLOT: i32 = 190;
 const HEAD: i32 = 32;
+pub(crate) const HEADLINE: i32 = HEAD - 13;
 const TIME_TITLE: i32 = 20;
-/// From one row of a legend to the next.
-const LEGEND_ROW: i32 = 22;
+/// Room on the left of a coordinate system, at least.
 const LEFT: i32 = 74;
-/// Room that the turned title of the vertical axis takes on its outer side.
+/// Room that the turned title of the vertical axis takes on its outer side, and from there to the labels.
 const TITLE_INSET: i32 = 14;
+const TITLE_HEIGHT: i32 = 18;
 const RIGHT: i32 = 20;
 const TICK_LABELS: i32 = 24;
+const TICK: i32 = 4;
+/// Size of labels, and room between two of them.
+const LABEL: i32 = 15;
+const APART: i32 = 10;
+/// Room for the title of one of two panels beside each other.
+pub(crate) const HALF: i32 = WIDTH / 2 - LEFT - RIGHT;
 
 /// Black, and the colours of Okabe and Ito, which colour-blind people can tell apart; then two that they may not.
 const PALETTE: [RGBColor; 10] = [
@@ -39,12 +48,15 @@ const PALETTE: [RGBColor; 10] = [
     RGBColor(150, 150, 0),
 ];
 /// When all colours are taken, they come again in dashes.
-const DASH: (i32, i32) = (7, 3);
-const INK: RGBColor = RGBColor(40, 40, 40);
+pub(crate) const DASH: (i32, i32) = (7, 3);
+/// How many colours there are beside black.
+pub(crate) const COLOURS: usize = PALETTE.len() - 1;
+pub(crate) const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), DrawingError>;
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Drawn = Result<(), DrawingError>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
 
 impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for DrawingError {
     fn from(error: DrawingAreaErrorKind<E>) -> Self {
@@ -61,29 +73,28 @@ pub fn svg(figure: &Figure) -> Result<String, DrawingError> {
     if figure.columns == 0 {
         return Err(DrawingError::new("it has panels in no columns: give `columns` 1 or more"));
     }
-    let rows = figure.panels.len().div_ceil(figure.columns) as i32;
     let shared = figure.panels.first().filter(|_| figure.shared_legend);
-    let legend = shared.map_or(0, |panel| legend_height(panel, LEFT));
-    let head = figure.panels.iter().map(|panel| head_height(panel, figure.shared_legend)).max().unwrap_or(HEAD);
-    let row = head + PLOT + TICK_LABELS;
-    let height = legend + rows * row + TIME_TITLE;
+    let left = figure.panels.iter().map(left_room).max().unwrap_or(LEFT);
+    let place = Place { width: WIDTH / figure.columns as i32, left, own_legend: !figure.shared_legend };
+    let legend = shared.map(|panel| Legend::of(panel, left, WIDTH - RIGHT));
+    let legend_height = legend.as_ref().map_or(0, |legend| HEAD + legend::ROW * (legend.rows() - 1).max(0));
+    let rows = rows(figure, &place);
+    let height = legend_height + rows.iter().map(Row::height).sum::<i32>();
     let size = |length: i32| (length * FINE) as u32;
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, (size(WIDTH), size(height))).into_drawing_area();
         root.fill(&WHITE)?;
-        let (top, rest) = root.split_vertically(legend * FINE);
-        if let Some(panel) = shared {
-            draw_legend(&top, panel, LEFT)?;
-        }
+        let (top, rest) = root.split_vertically(legend_height * FINE);
+        legend.iter().try_for_each(|legend| legend.draw(&top, 0))?;
         let columns: Vec<i32> =
             (1..figure.columns).map(|k| (WIDTH * FINE) * k as i32 / figure.columns as i32).collect();
-        let breaks: Vec<i32> = (1..rows).map(|k| k * row * FINE).collect();
-        for (index, (area, panel)) in
-            rest.split_by_breakpoints(&columns, &breaks).iter().zip(&figure.panels).enumerate()
-        {
-            let last = index + figure.columns >= figure.panels.len();
-            draw_panel(area, panel, head, last, figure.shared_legend)?;
+        let breaks: Vec<i32> = (1..rows.len()).map(|k| FINE * rows[..k].iter().map(Row::height).sum::<i32>()).collect();
+        let areas = rest.split_by_breakpoints(&columns, &breaks);
+        for (index, (area, panel)) in areas.iter().zip(&figure.panels).enumerate() {
+            if !panel.is_gap() {
+                draw_panel(area, panel, &rows[index / figure.columns], is_last(figure, index), &place)?;
+            }
         }
         root.present()?;
     }
@@ -91,40 +102,93 @@ pub fn svg(figure: &Figure) -> Result<String, DrawingError> {
     Ok(text.replacen(&drawn, &format!(r#"<svg width="{WIDTH}" height="{height}""#), 1))
 }
 
-fn font(size: i32, colour: &RGBColor) -> TextStyle<'static> {
+/// What is the same for all panels.
+struct Place {
+    width: i32,
+    /// Room on the left of the coordinate systems, which stand exactly below each other.
+    left: i32,
+    own_legend: bool,
+}
+
+/// Panels beside each other.
+struct Row {
+    /// Height above the coordinate systems.
+    head: i32,
+    /// Whether one of them has no panel below, and therefore the title of the horizontal axis.
+    last: bool,
+}
+
+impl Row {
+    fn height(&self) -> i32 {
+        self.head + PLOT + TICK_LABELS + if self.last { TIME_TITLE } else { 0 }
+    }
+}
+
+fn rows(figure: &Figure, place: &Place) -> Vec<Row> {
+    let indices: Vec<usize> = (0..figure.panels.len()).collect();
+    let row = |indices: &[usize]| Row {
+        head: indices.iter().map(|&index| Head::of(&figure.panels[index], place).height).max().unwrap_or(HEAD),
+        last: indices.iter().any(|&index| !figure.panels[index].is_gap() && is_last(figure, index)),
+    };
+    indices.chunks(figure.columns).map(row).collect()
+}
+
+/// Whether no panel stands below this one.
+fn is_last(figure: &Figure, index: usize) -> bool {
+    figure.panels.get(index + figure.columns).is_none_or(Panel::is_gap)
+}
+
+pub(crate) fn font(size: i32, colour: &RGBColor) -> TextStyle<'static> {
     ("sans-serif", size * FINE).into_font().color(colour)
 }
 
-/// Room above a panel's coordinate system for its title and, unless that is shared, its legend.
-fn head_height(panel: &Panel, shared_legend: bool) -> i32 {
-    if shared_legend { HEAD } else { legend_height(panel, legend_start(panel)) }
+/// The room that the labels of a panel's vertical axis need, with the title of the axis.
+fn left_room(panel: &Panel) -> i32 {
+    let label = vertical(panel).labels().iter().map(|label| text::width(label, LABEL)).max().unwrap_or(0);
+    (TITLE_INSET + TITLE_HEIGHT + label + 2 * TICK).max(LEFT)
 }
 
-/// Where the legend begins behind the panel's title.
-fn legend_start(panel: &Panel) -> i32 {
-    LEFT + 30 + text_width(&panel.title)
+/// What stands above a coordinate system: the title and, unless it is shared, the legend: behind the title if there is
+/// room for it, or below.
+struct Head<'a> {
+    legend: Option<Legend<'a>>,
+    legend_top: i32,
+    height: i32,
 }
 
-fn legend_height(panel: &Panel, left: i32) -> i32 {
-    HEAD + LEGEND_ROW * legend_places(panel, left).last().map_or(0, |place| place.2)
-}
-
-fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_legend: bool) -> Drawn {
-    let (head, body) = area.split_vertically(head * FINE);
-    let left_middle = Pos::new(HPos::Left, VPos::Center);
-    let bold = ("sans-serif", 16 * FINE).into_font().style(FontStyle::Bold).color(&INK).pos(left_middle);
-    head.draw(&Text::new(panel.title.clone(), (LEFT * FINE, (HEAD - 13) * FINE), bold))?;
-    if !shared_legend {
-        draw_legend(&head, panel, legend_start(panel))?;
+impl<'a> Head<'a> {
+    fn of(panel: &'a Panel, place: &Place) -> Self {
+        let right = place.width - RIGHT;
+        let behind = place.left + 30 + text::title_width(&panel.title);
+        let legend = Some(Legend::of(panel, behind, right)).filter(Legend::is_row);
+        match (place.own_legend, legend) {
+            (false, _) => Head { legend: None, legend_top: 0, height: HEAD },
+            (true, Some(legend)) => Head { legend: Some(legend), legend_top: 0, height: HEAD },
+            (true, None) => {
+                let legend = Legend::of(panel, place.left, right);
+                let height = HEAD + legend::ROW * legend.rows();
+                Head { legend: Some(legend), legend_top: legend::ROW, height }
+            }
+        }
     }
-    let below = if last { TICK_LABELS + TIME_TITLE } else { TICK_LABELS };
-    let (x, y) = axes(panel);
+}
+
+fn draw_panel(area: &Area<'_>, panel: &Panel, row: &Row, last: bool, place: &Place) -> Drawn {
+    let (head, body) = area.split_vertically(row.head * FINE);
+    let left_middle = Pos::new(HPos::Left, VPos::Center);
+    let bold = ("sans-serif", text::TITLE * FINE).into_font().style(FontStyle::Bold).color(&INK).pos(left_middle);
+    head.draw(&Text::new(panel.title.clone(), (place.left * FINE, HEADLINE * FINE), bold))?;
+    let Head { legend, legend_top, .. } = Head::of(panel, place);
+    legend.iter().try_for_each(|legend| legend.draw(&head, legend_top))?;
+    // Where one panel of the row has the title of the axis, the others have as much room.
+    let below = if row.last { TICK_LABELS + TIME_TITLE } else { TICK_LABELS };
+    let (x, y) = (across(panel, place.width - place.left - RIGHT), vertical(panel));
     let (left, right) = (x.range().start, x.range().end);
     let crosses_zero = !panel.logarithmic && y.range().start < 0.0 && y.range().end > 0.0;
     let mut chart = ChartBuilder::on(&body)
         .margin_right(RIGHT * FINE)
         .margin_left(TITLE_INSET * FINE)
-        .set_label_area_size(LabelAreaPosition::Left, (LEFT - TITLE_INSET) * FINE)
+        .set_label_area_size(LabelAreaPosition::Left, (place.left - TITLE_INSET) * FINE)
         .set_label_area_size(LabelAreaPosition::Bottom, below * FINE)
         .build_cartesian_2d(x, y)?;
     chart
@@ -132,11 +196,11 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_lege
         .light_line_style(TRANSPARENT)
         .bold_line_style(GRID.stroke_width(FINE as u32))
         .axis_style(INK.stroke_width(FINE as u32))
-        .label_style(font(15, &INK))
+        .label_style(font(LABEL, &INK))
         .axis_desc_style(font(16, &INK))
         .x_desc(if last { &panel.across.0 } else { "" })
         .y_desc(format!("{} [{}]", panel.quantity, panel.unit))
-        .set_all_tick_mark_size(4 * FINE)
+        .set_all_tick_mark_size(TICK * FINE)
         .draw()?;
     if crosses_zero {
         chart.draw_series(LineSeries::new(
@@ -145,108 +209,70 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, head: i32, last: bool, shared_lege
         ))?;
     }
     for curve in &panel.curves {
-        let points: Vec<(f64, f64)> = points(panel, curve).collect();
-        // What cannot be drawn leaves a gap.
-        for run in points.split(|point| !drawable(point.0) || !drawable(point.1)) {
-            let dots = |radius: i32, style: ShapeStyle| run.iter().map(move |&at| Circle::new(at, radius, style));
-            if matches!(curve.mark, Mark::Line | Mark::Dots) {
-                let (points, style) = (run.iter().copied(), line_style(curve));
-                if dashed(curve) {
-                    chart.draw_series(DashedLineSeries::new(points, DASH.0 * FINE, DASH.1 * FINE, style))?;
-                } else {
-                    chart.draw_series(LineSeries::new(points, style))?;
-                }
-            }
-            match curve.mark {
-                // A line of one point would not be seen.
-                Mark::Line if run.len() == 1 => chart.draw_series(dots(FINE, line_style(curve).filled()))?,
-                Mark::Line => continue,
-                Mark::Dots | Mark::Scatter => chart.draw_series(dots(3 * FINE, line_style(curve).filled()))?,
-                Mark::Circles => chart.draw_series(dots(3 * FINE, circle_style(curve)))?,
-            };
-        }
+        draw_curve(&mut chart, panel, curve)?;
     }
     Ok(())
 }
 
-fn axes(panel: &Panel) -> (Axis, Axis) {
-    let all = || panel.curves.iter().flat_map(|curve| points(panel, curve));
-    let axis = |values: Vec<f64>, logarithmic: bool, ticks| {
-        if logarithmic { Axis::logarithmic(values.into_iter(), ticks) } else { Axis::linear(values.into_iter(), ticks) }
-    };
-    let x = axis(all().map(|point| point.0).collect(), panel.across.1, 5);
-    (x, axis(all().map(|point| point.1).collect(), panel.logarithmic, 6))
+fn draw_curve(chart: &mut Chart<'_, '_>, panel: &Panel, curve: &Curve) -> Drawn {
+    let points: Vec<(f64, f64)> = points(panel, curve).collect();
+    // What cannot be drawn leaves a gap.
+    for run in points.split(|point| !drawable(point.0) || !drawable(point.1)) {
+        let dots = |radius: i32, style: ShapeStyle| run.iter().map(move |&at| Circle::new(at, radius, style));
+        if matches!(curve.mark, Mark::Line | Mark::Dots) {
+            let (points, style) = (run.iter().copied(), line_style(curve));
+            if dashed(curve) {
+                chart.draw_series(DashedLineSeries::new(points, DASH.0 * FINE, DASH.1 * FINE, style))?;
+            } else {
+                chart.draw_series(LineSeries::new(points, style))?;
+            }
+        }
+        match curve.mark {
+            // A line of one point would not be seen.
+            Mark::Line if run.len() == 1 => chart.draw_series(dots(FINE, line_style(curve).filled()))?,
+            Mark::Line => continue,
+            Mark::Dots | Mark::Scatter => chart.draw_series(dots(3 * FINE, line_style(curve).filled()))?,
+            Mark::Circles => chart.draw_series(dots(3 * FINE, circle_style(curve)))?,
+        };
+    }
+    Ok(())
+}
+
+/// The horizontal axis, which is so long.
+fn across(panel: &Panel, length: i32) -> Axis {
+    let values = panel.curves.iter().flat_map(|curve| points(panel, curve)).map(|point| point.0);
+    if panel.across.1 {
+        return Axis::logarithmic(values, 5);
+    }
+    Axis::between(values, 7).with_room(f64::from(length), |label| f64::from(text::width(label, LABEL) + APART))
+}
+
+fn vertical(panel: &Panel) -> Axis {
+    let held = panel.held.iter().map(|&value| coordinate(value, panel.logarithmic));
+    let values = panel.curves.iter().flat_map(|curve| points(panel, curve)).map(|point| point.1).chain(held);
+    if panel.logarithmic { Axis::logarithmic(values, 6) } else { Axis::around(values, 8) }
+}
+
+fn coordinate(value: f64, logarithmic: bool) -> f64 {
+    if logarithmic { value.log10() } else { value }
 }
 
 /// Where the points of a curve stand on the panel's axes.
 fn points(panel: &Panel, curve: &Curve) -> impl Iterator<Item = (f64, f64)> {
-    let coordinate = |value: f64, logarithmic: bool| if logarithmic { value.log10() } else { value };
     let place = move |&(x, y): &(f64, f64)| (coordinate(x, panel.across.1), coordinate(y, panel.logarithmic));
     curve.points.iter().map(place)
 }
 
-fn line_style(curve: &Curve) -> ShapeStyle {
+pub(crate) fn line_style(curve: &Curve) -> ShapeStyle {
     PALETTE[curve.colour % PALETTE.len()].stroke_width(2 * FINE as u32)
 }
 
-fn dashed(curve: &Curve) -> bool {
+pub(crate) fn dashed(curve: &Curve) -> bool {
     curve.colour / PALETTE.len() % 2 == 1
 }
 
-fn circle_style(curve: &Curve) -> ShapeStyle {
+pub(crate) fn circle_style(curve: &Curve) -> ShapeStyle {
     PALETTE[curve.colour % PALETTE.len()].stroke_width(FINE as u32)
-}
-
-/// Length of a curve's sample in the legend, and room before and behind its name.
-const SAMPLE: i32 = 22;
-const GAP: i32 = 6;
-const BETWEEN: i32 = 14;
-
-/// The curves that have names, once each, with the places of their samples: distance from the left, and row.
-fn legend_places(panel: &Panel, left: i32) -> Vec<(&Curve, i32, i32)> {
-    let mut places: Vec<(&Curve, i32, i32)> = Vec::new();
-    let (mut x, mut row) = (left, 0);
-    for curve in panel.curves.iter().filter(|curve| !curve.name.is_empty()) {
-        if places.iter().any(|(other, ..)| other.name == curve.name) {
-            continue;
-        }
-        let width = SAMPLE + GAP + text_width(&curve.name);
-        if x > left && x + width > WIDTH - RIGHT {
-            (x, row) = (left, row + 1);
-        }
-        places.push((curve, x, row));
-        x += width + BETWEEN;
-    }
-    places
-}
-
-/// Draws the names of the panel's curves in rows that begin at `x`, above the coordinate system, where no data is.
-fn draw_legend(area: &Area<'_>, panel: &Panel, x: i32) -> Drawn {
-    for (curve, x, row) in legend_places(panel, x) {
-        let y = (HEAD - 13 + LEGEND_ROW * row) * FINE;
-        let (from, to) = (x * FINE, (x + SAMPLE) * FINE);
-        if matches!(curve.mark, Mark::Line | Mark::Dots) {
-            let dashes = if dashed(curve) { DASH } else { (SAMPLE, 0) };
-            for start in (from..to).step_by(((dashes.0 + dashes.1) * FINE) as usize) {
-                let end = (start + dashes.0 * FINE).min(to);
-                area.draw(&PathElement::new([(start, y), (end, y)], line_style(curve)))?;
-            }
-        }
-        let middle = ((from + to) / 2, y);
-        match curve.mark {
-            Mark::Line => {}
-            Mark::Dots | Mark::Scatter => area.draw(&Circle::new(middle, 3 * FINE, line_style(curve).filled()))?,
-            Mark::Circles => area.draw(&Circle::new(middle, 3 * FINE, circle_style(curve)))?,
-        }
-        let style = font(15, &INK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new(curve.name.clone(), ((x + SAMPLE + GAP) * FINE, y), style))?;
-    }
-    Ok(())
-}
-
-/// About the width of a text; the backend leaves the true one to the viewer's fonts.
-fn text_width(text: &str) -> i32 {
-    8 * text.chars().count() as i32
 }
 
 #[cfg(test)]
@@ -266,7 +292,7 @@ mod tests {
     #[test]
     fn a_long_legend_gets_the_rows_it_needs() {
         assert_eq!(height(1), height(3));
-        assert!(height(40) > height(3) + 3 * LEGEND_ROW);
+        assert!(height(40) > height(3) + 3 * legend::ROW);
     }
 
     fn drawn(values: &[f64]) -> String {

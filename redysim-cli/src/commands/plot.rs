@@ -11,6 +11,9 @@ use crate::recorded::{Chart, Recorded};
 use crate::results::names::Picture;
 
 /// Draw what a run has written: motion, torques, energy and λ, as SVG and PNG.
+///
+/// Curves share a panel if they have one unit and their sizes are within a factor of ten, six at most; energies always
+/// do.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  redysim plot results/kuka/inverse -o pictures")]
 pub struct Arguments {
@@ -65,23 +68,19 @@ fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<
     })
 }
 
-/// The charts below each other; one legend serves them all where they show the same curves.
+/// The charts below each other: energies together, as parts of one sum; other curves by their sizes.
 fn figure(charts: &[Chart]) -> Option<Figure> {
-    let panels: Vec<Panel> = charts.iter().map(panel).collect();
-    let shared_legend = panels.windows(2).all(|pair| legend(&pair[0]).eq(legend(&pair[1])));
-    (!panels.is_empty()).then_some(Figure { columns: 1, panels, shared_legend })
-}
-
-/// A panel's legend: curves that coincide in one panel may be apart in the next.
-fn legend(panel: &Panel) -> impl Iterator<Item = (&str, usize)> {
-    panel.curves.iter().map(|curve| (curve.name.as_str(), curve.colour))
+    let panels = |chart: &Chart| match chart.picture {
+        Picture::Energy => vec![panel(chart).merged().prefixed()],
+        _ => panel(chart).multiples(),
+    };
+    (!charts.is_empty()).then(|| Figure::of_charts(charts.iter().map(panels).collect()))
 }
 
 fn panel(chart: &Chart) -> Panel {
     let empty = Panel::new(chart.title, chart.quantity, &chart.unit);
-    let panel = chart.curves.iter().fold(empty, |panel, curve| {
+    chart.curves.iter().fold(empty, |panel, curve| {
         // The palette's first colour, black, is for references.
         panel.line(&curve.name, curve.colour + 1, &chart.t, &curve.values)
-    });
-    panel.merged().prefixed()
+    })
 }
