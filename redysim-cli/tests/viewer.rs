@@ -55,6 +55,16 @@ fn the_page_moves_a_long_chain_as_its_kinematics() {
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn numbers_of_any_length_stand_complete_beside_their_axes() {
+    let run = swing(&folder("long_labels"), "kr5.toml", 6, 4.0, 400);
+    let drift = |k: i32| format!("{},{:e}\n", 0.01 * f64::from(k), -1.22e-13 + 2e-15 * (0.05 * f64::from(k)).sin());
+    let drift: String = (0..=400).map(drift).collect();
+    fs::write(run.join("energy.csv"), format!("t [s],drift [J]\n{drift}")).unwrap();
+    plays(&run, None);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn names_that_are_html_do_no_harm() {
     let folder = folder("html_names");
     fs::create_dir_all(&folder).unwrap();

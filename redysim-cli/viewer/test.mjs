@@ -25,6 +25,7 @@ await inBrowser(animation, GL, { width: 1280, height: 800 }, async (page) => {
   await theSpaceBarPlaysAndPauses(page);
   await theKeysStepAndJump(page);
   await aCurveGoesToTheTimePointedAt(page);
+  await noLabelIsCut(page);
   await theViewTurnsByMouseAndKeys(page);
   await aRunEndsOrRepeats(page);
   assert.notEqual(await page.title(), "harm");
@@ -115,6 +116,27 @@ async function aCurveGoesToTheTimePointedAt(page) {
   assert.ok(off < 0.2, `a click into the middle of a curve went to ${await time(page)} s`);
   const line = await page.locator(".now").first().boundingBox();
   assert.ok(Math.abs(line.x - (box.x + box.width / 2)) < 3, "the line of the present time must be at the click");
+}
+
+/** Makes the window narrower, so that the curves are drawn again, and looks where their labels begin and end. */
+async function noLabelIsCut(page) {
+  await page.evaluate(() => {
+    const { fillText } = CanvasRenderingContext2D.prototype;
+    window.labels = [];
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+      const { actualBoundingBoxLeft: left, actualBoundingBoxRight: right } = this.measureText(text);
+      const start = this.getTransform().transformPoint({ x: x - left, y }).x;
+      labels.push({ text, start, end: start + left + right, width: this.canvas.width });
+      return fillText.call(this, text, x, y);
+    };
+  });
+  await page.setViewportSize({ width: 1200, height: 800 });
+  await page.waitForFunction(() => labels.length > 0);
+  const labels = await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => done(labels))));
+  await page.setViewportSize({ width: 1280, height: 800 });
+  for (const { text, start, end, width } of labels) {
+    assert.ok(start >= 0 && end <= width, `the label ${text} goes from ${start} to ${end} on ${width} pixels`);
+  }
 }
 
 async function theViewTurnsByMouseAndKeys(page) {

@@ -191,6 +191,7 @@ mod tests {
     #[test]
     fn sizes_are_cut_where_their_gap_is_widest_into_as_few_groups_as_can_be() {
         assert_eq!(names(&panel(&[100.0, 11.0, 9.0, 8.0]).multiples()), ["j0", "j1 j2 j3"]);
+        assert_eq!(names(&panel(&[100.0, 90.0, 80.0, 12.0, 9.0]).multiples()), ["j0 j1 j2", "j3 j4"]);
         assert_eq!(names(&panel(&[8.0, 100.0, 11.0, 9.0]).multiples()), ["j0 j2 j3", "j1"]);
         // A level curve beside one that swings as far as its value, and one that swings about another value.
         let swing = |k: usize, value: f64, by: f64| {

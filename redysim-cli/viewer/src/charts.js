@@ -37,7 +37,7 @@ class Chart {
       dash: dash(curve.colour),
       width: 1.6,
       points: { show: false },
-      value: (_, value) => (value === null ? "–" : short(value)),
+      value: (_, value) => (value === null ? "–" : written(value, 4)),
     }));
     const axis = { stroke: "#5c6670", grid: GRID, ticks: GRID, font: "11px system-ui, sans-serif" };
     const options = {
@@ -48,8 +48,8 @@ class Chart {
       pxAlign: 0,
       series: [{}, ...series],
       axes: [
-        { ...axis, size: 26, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) },
-        { ...axis, size: 58, space: 22, values: (_, ticks) => ticks.map(short) },
+        { ...axis, size: 26, space: 72, values: (_, ticks) => ticks.map((tick) => `${written(tick, 12)} s`) },
+        { ...axis, size: room, space: 22, values: (_, ticks) => ticks.map((tick) => written(tick, 12)) },
       ],
       padding: [8, 16, 0, 0],
       cursor: { show: false },
@@ -92,10 +92,18 @@ class Chart {
   }
 }
 
-/** A number with four digits, in powers of ten where it is very small or large. */
-function short(value) {
-  const size = Math.abs(value);
+/** The width of a vertical axis: that of its widest label with the tick, but usually the same in all charts. */
+function room(plot, labels, index) {
+  const { ctx, axes: { [index]: { font, ticks, gap } } } = plot;
+  ctx.font = font[0];
+  const widths = (labels ?? []).map((label) => ctx.measureText(label).width / devicePixelRatio);
+  return Math.max(58, ...widths.map((width) => Math.ceil(width + ticks.size + gap + 2)));
+}
+
+/** A number with so many significant digits, in powers of ten where it is very small or large. */
+function written(value, digits) {
+  const number = Number(value.toPrecision(digits));
+  const size = Math.abs(number);
   const usual = size === 0 || (size >= 1e-3 && size < 1e5);
-  const text = usual ? String(Number(value.toPrecision(4))) : value.toExponential(2).replace(/\.?0+e\+?/, "e");
-  return text.replaceAll("-", "−");
+  return (usual ? String(number) : number.toExponential().replace("e+", "e")).replaceAll("-", "−");
 }
