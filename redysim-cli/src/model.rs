@@ -41,13 +41,13 @@ pub fn read(path: &Path, quiet: bool) -> Result<Read, Failure> {
 /// # Errors
 /// If the file cannot be read, or its first fault.
 pub fn of_urdf(path: &Path, quiet: bool) -> Result<Read, Failure> {
-    let Imported { text, model, changes, warnings, .. } =
-        urdf::import(&urdf::read(path)?, path, urdf::Options::default())?;
+    let imported = urdf::import(&urdf::read(path)?, path, urdf::Options::default())?;
     if !quiet {
-        let changes = changes.iter().map(String::as_str);
-        let warnings = changes.chain(warnings.iter().map(|warning| warning.title()));
-        warnings.for_each(|warning| to_stderr(&format!("warning: {warning}")));
+        imported.changes.iter().for_each(|change| to_stderr(&format!("warning: {change}")));
+        let warnings = imported.shown_warnings("a model file by `redysim import --quarter-turns`");
+        warnings.iter().for_each(|line| to_stderr(line));
     }
+    let Imported { text, model, .. } = imported;
     Ok(Read { model, text, urdf: Some(path.to_owned()) })
 }
 

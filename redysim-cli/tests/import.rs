@@ -306,6 +306,34 @@ fn rounded_quarter_turns_are_exact_where_asked_for() {
     assert!(!run.stderr.contains("1.5708 rad"), "{}", run.stderr);
 }
 
+#[test]
+fn warnings_of_rounded_quarter_turns_name_the_option_that_makes_them_exact() {
+    let (_, run) = import(LOSSY, &[]);
+    assert!(run.stderr.contains("1.5708 rad") && run.stderr.contains("help: --quarter-turns makes"), "{}", run.stderr);
+    let (_, run) = import(LOSSY, &["--quarter-turns"]);
+    assert!(!run.stderr.contains("--quarter-turns makes"), "{}", run.stderr);
+    let shown = call(&folder_with(LOSSY), &["show", "robot.urdf", "-o", "page.html"]);
+    assert!(shown.stderr.contains("`redysim import --quarter-turns` makes"), "{}", shown.stderr);
+}
+
+/// The antennas of Tiago, as its makers publish them: their products of inertia exceed what their moments permit.
+#[test]
+fn a_negative_moment_of_a_small_part_is_a_warning() {
+    let antenna = "<inertial><mass value=\"0.000001\"/><inertia ixx=\"2.371e-8\" ixy=\"6.119e-8\" ixz=\"1.179e-8\" \
+                   iyy=\"2.833e-8\" iyz=\"0.774e-8\" izz=\"3.849e-8\"/></inertial>";
+    for carrier in ["world", "rod"] {
+        let fixed = format!(
+            "<link name=\"antenna\">{antenna}</link><joint name=\"mount\" type=\"fixed\">\
+             <parent link=\"{carrier}\"/><child link=\"antenna\"/></joint></robot>"
+        );
+        let urdf = pendulum("", BODY).replace("</robot>", &fixed);
+        let (mechanism, run) = import(&urdf, &[]);
+        assert_eq!(mechanism.model().links.len(), 2);
+        assert!(run.stderr.contains("link `antenna`: `inertia` has a negative principal moment"), "{}", run.stderr);
+        assert!(mechanism.mass_matrix(&vec![0.3])[0][0] > 0.0);
+    }
+}
+
 /// As a program writes zero: no body has products of inertia without moments, but this one is meant to have none.
 #[test]
 fn an_inertia_of_roundoff_is_left_out() {

@@ -206,6 +206,34 @@ fn laws_that_carry_the_weight_of_a_tree_are_refused_for_closed_loops() {
 }
 
 /// The crank rests where it was sent, and the loops stay closed.
+/// A rod of which a wrong gain makes a motion that grows until it is ended.
+#[test]
+fn a_law_that_drives_away_is_named_and_not_the_tolerance() {
+    let folder = scratch("laws-unstable");
+    let output = |law: &str, integrator: &str| {
+        let rest = format!("[forward]\nend = 2.0\nstep = 0.1\ntorque = {{ {law} }}\nintegrator = {{ {integrator} }}\n");
+        let path = common::scenario(&folder, "simple_pendulum.toml", &rest);
+        common::call(&folder, &["forward", &path, "-o", "run", "--force"]).stderr
+    };
+    let adaptive = "method = 'Ode45'";
+    for (law, gain) in [
+        ("law = 'p', target = [1], kp = -400", "`kp` has the sign that drives away"),
+        ("law = 'pd', target = [1], kp = 4, kd = -20, limits = 1e9", "`kd` has the sign that drives away"),
+        ("law = 'pid', target = [1], kp = 1, ki = 9000, kd = 0.1", "may be wrong in size"),
+    ] {
+        for integrator in [adaptive, "method = 'Ode4', step = 1e-4"] {
+            let shown = output(law, integrator);
+            assert!(shown.contains("the motion grows without bound: at t = "), "{law}, {integrator}: {shown}");
+            assert!(shown.contains(gain), "{law}, {integrator}: {shown}");
+            assert!(!shown.contains("below"), "{law}, {integrator}: {shown}");
+        }
+    }
+    assert_eq!(output("law = 'pd', target = [1], kp = 40, kd = 4", adaptive), "");
+    // A law that holds, in steps that are too large.
+    let steps = output("law = 'pd', target = [1], kp = 4000, kd = 400", "method = 'Ode4', step = 0.05");
+    assert!(steps.contains("take a `step` of the integrator below 0.05 s"), "{steps}");
+}
+
 #[test]
 fn pid_drives_closed_loops() {
     let folder = scratch("pid-loops");

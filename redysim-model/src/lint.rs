@@ -22,6 +22,8 @@ pub enum Lint {
     RadiusOfGyration,
     /// A principal moment of inertia exceeds the sum of the other two.
     InertiaTriangle,
+    /// A principal moment of inertia of a link is slightly negative, but none of the rigid body that the link is part of.
+    NegativeMoment,
     /// A heavy link has no inertia, but others have.
     MissingInertia,
     /// Gravity is as if in mm/s², ft/s² or km/s².
@@ -56,7 +58,7 @@ pub enum Lint {
 
 impl Lint {
     /// Every lint.
-    pub const ALL: [Lint; 22] = [
+    pub const ALL: [Lint; 23] = [
         Lint::AngleUnits,
         Lint::RoundedAngle,
         Lint::RangeUnits,
@@ -64,6 +66,7 @@ impl Lint {
         Lint::MassUnits,
         Lint::RadiusOfGyration,
         Lint::InertiaTriangle,
+        Lint::NegativeMoment,
         Lint::MissingInertia,
         Lint::GravityUnits,
         Lint::GravityUp,
@@ -91,6 +94,7 @@ impl Lint {
             Lint::MassUnits => "mass-units",
             Lint::RadiusOfGyration => "radius-of-gyration",
             Lint::InertiaTriangle => "inertia-triangle",
+            Lint::NegativeMoment => "negative-moment",
             Lint::MissingInertia => "missing-inertia",
             Lint::GravityUnits => "gravity-units",
             Lint::GravityUp => "gravity-up",
@@ -126,6 +130,10 @@ impl Lint {
                  than matter"
             }
             Lint::InertiaTriangle => "a principal moment of inertia exceeds the sum of the other two",
+            Lint::NegativeMoment => {
+                "a principal moment of inertia of a link is negative, but the link never moves, or is fixed to others with \
+                 which it is a possible body, beside which it is small"
+            }
             Lint::MissingInertia => "a heavy link has no inertia, but others have",
             Lint::GravityUnits => "gravity is as if in mm/s², ft/s² or km/s²",
             Lint::GravityUp => "gravity points up, along y or z",

@@ -1,7 +1,8 @@
 //! Lints: each is reported of a model that has what it is about, ends with `allow`, and is not reported of the models that
 //! are shipped.
 
-use redysim_model::{Diagnostic, Lint, Loaded, Model};
+use redysim_model::{Diagnostic, GenericMechanism, Lint, Loaded, Model};
+use redysim_runtime::MassMatrix;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -220,6 +221,8 @@ fn cases() -> Vec<(Lint, String)> {
         (Lint::RadiusOfGyration, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 1e4, yy = 1e5, zz = 1e5 }")])),
         (Lint::RadiusOfGyration, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 1e-8, yy = 1e-7, zz = 1e-7 }")])),
         (Lint::InertiaTriangle, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 0.01, yy = 0.1, zz = 0.2 }")])),
+        (Lint::NegativeMoment, with_antenna("wrist", -1e-7)),
+        (Lint::NegativeMoment, with_antenna("base", -0.5)),
         (Lint::MissingInertia, arm(&[("inertia = { xx = 0.01, yy = 0.1, zz = 0.1 }", "")])),
         (Lint::GravityUnits, arm(&[("-9.81", "-9810.0")])),
         (Lint::GravityUnits, arm(&[("-9.81", "-32.174")])),
@@ -267,6 +270,47 @@ fn each_lint_is_reported_once_of_a_model_that_has_it_and_ends_with_allow() {
     }
     for lint in Lint::ALL {
         assert!(cases.iter().any(|(case, _)| *case == lint), "{lint} has no case");
+    }
+}
+
+/// The arm with a link that is fixed to another, and that has a principal moment of `smallest`.
+fn with_antenna(parent: &str, smallest: f64) -> String {
+    format!(
+        "{ARM}\n[[link]]\nname = 'antenna'\nparent = '{parent}'\njoint = 'fixed'\norigin = {{ xyz = [0, 0, 0.1] }}\n\
+         mass = 0.2\ninertia = {{ xx = 1e-3, yy = 1e-3, zz = {smallest:?} }}\n"
+    )
+}
+
+/// The wrist has moments of 5e-4 to 1e-3 kg m²; with the antenna, whose mass is beside it, the largest is about 0.005.
+#[test]
+fn a_negative_moment_of_a_link_that_is_not_small_beside_those_of_its_rigid_body_is_an_error() {
+    load(&with_antenna("wrist", -1e-6));
+    let negative = |text: &str| {
+        let faults = Model::from_toml(text, "model.toml").unwrap_err();
+        let titles: Vec<_> = faults.errors().map(Diagnostic::title).collect();
+        assert!(titles.iter().any(|title| title.contains("has a negative principal moment")), "{titles:?}");
+    };
+    negative(&with_antenna("wrist", -1e-4));
+    // Alone on its joint, it may make the mass matrix indefinite, however small it is.
+    negative(&with_antenna("wrist", -1e-7).replace("'fixed'", "'revolute'\naxis = [0, 0, 1]"));
+    // Also where another fault leaves no tree to look at.
+    negative(&with_antenna("wrst", -1e-7));
+}
+
+/// Every motion of the arm that carries the antenna has kinetic energy: the pivots of its mass matrix are positive.
+#[test]
+fn the_mass_matrix_of_a_model_with_a_negative_moment_that_is_accepted_is_positive_definite() {
+    let mechanism = GenericMechanism::new(load(&with_antenna("wrist", -1e-6)).model);
+    for position in 0..20 {
+        let mut matrix = mechanism.mass_matrix(&mechanism.tree().sample(position));
+        for k in (0..matrix.len()).rev() {
+            assert!(matrix[k][k] > 0.0, "position {position}, pivot {k}: {}", matrix[k][k]);
+            let row = matrix[k].clone();
+            for above in matrix.iter_mut().take(k) {
+                let factor = above[k] / row[k];
+                above.iter_mut().zip(&row).for_each(|(element, pivot)| *element -= factor * pivot);
+            }
+        }
     }
 }
 

@@ -45,15 +45,16 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let path = &arguments.robot;
     let options = Options { fuse_fixed: arguments.fuse_fixed, quarter_turns: arguments.quarter_turns };
-    let Imported { text, changes, notes, warnings, .. } = import(&read(path)?, path, options)?;
+    let imported = import(&read(path)?, path, options)?;
+    let Imported { text, changes, notes, .. } = &imported;
     match &arguments.output {
         Some(output) => write_beside(path, output, text.as_bytes(), arguments.force)?,
-        None => print(&text)?,
+        None => print(text)?,
     }
     if !quiet {
         changes.iter().for_each(|change| to_stderr(&format!("warning: {change}")));
         notes.iter().for_each(|note| to_stderr(&format!("note: {note}")));
-        warnings.iter().for_each(|warning| to_stderr(&format!("warning: {}", warning.title())));
+        imported.shown_warnings("--quarter-turns").iter().for_each(|line| to_stderr(line));
         if let Some(output) = &arguments.output {
             to_stderr(&format!("\nThe model is in {0}: redysim check {0}", output.display()));
         }

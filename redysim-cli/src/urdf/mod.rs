@@ -14,7 +14,7 @@ use std::path::Path;
 
 use document::Document;
 use model_file::ModelFile;
-use redysim_model::{Diagnostic, JointKind, Model};
+use redysim_model::{Diagnostic, JointKind, Lint, Model};
 use robot::Robot;
 pub use visuals::Visual;
 
@@ -33,6 +33,18 @@ pub struct Imported {
     pub notes: Vec<String>,
     /// What the checks of a model find odd.
     pub warnings: Vec<Diagnostic>,
+}
+
+impl Imported {
+    /// What the checks of a model find odd, a line each, and at the end what `option` does about angles that are nearly
+    /// multiples of 90°, if there are any.
+    pub fn shown_warnings(&self, option: &str) -> Vec<String> {
+        let mut shown: Vec<_> = self.warnings.iter().map(|warning| format!("warning: {}", warning.title())).collect();
+        if self.warnings.iter().any(|warning| warning.lint() == Some(Lint::RoundedAngle.name())) {
+            shown.push(format!("  = help: {option} makes angles that are nearly multiples of 90 deg exact"));
+        }
+        shown
+    }
 }
 
 /// What is done with a robot beside writing it down.

@@ -4,8 +4,11 @@ use super::lints;
 use crate::inertia::Sym3;
 use crate::lint::Lint;
 use crate::messages;
-use crate::model::Inertia;
-use crate::schema::LinkTable;
+use crate::model::{Inertia, Link, Model};
+use crate::pseudo::PseudoInertia;
+use crate::schema::{Document, LinkTable};
+use crate::spatial::Vec3;
+use crate::tree::Tree;
 use redysim_toml::Findings;
 
 /// Roundoff allowed below zero, relative to the largest principal moment.
@@ -13,6 +16,10 @@ const DEFINITE: f64 = 1e-12;
 
 /// Excess allowed over the triangle inequality, relative to the largest principal moment: rods lie on its edge.
 const TRIANGLE: f64 = 1e-9;
+
+/// A negative principal moment of a link is small below this share of the largest one of the rigid body that it is part of:
+/// inertias are rarely known to so many digits.
+const SMALL: f64 = 1e-3;
 
 pub(super) fn check(link: &LinkTable, findings: &mut Findings) {
     if let Some(mass) = link.mass.spanned().filter(|mass| *mass.get_ref() < 0.0) {
@@ -23,12 +30,70 @@ pub(super) fn check(link: &LinkTable, findings: &mut Findings) {
         return;
     };
     let excess = largest - (smallest + middle);
-    if smallest < -DEFINITE * largest.abs().max(smallest.abs()) {
-        findings.error(inertia.span(), messages::indefinite_inertia(&link.item, smallest));
-    } else if excess > TRIANGLE * largest {
+    if !is_negative([smallest, middle, largest]) && excess > TRIANGLE * largest {
         let message = messages::triangle(&link.item, largest, excess);
         lints::report(findings, Lint::InertiaTriangle, inertia.span(), message);
     }
+}
+
+/// Reports links with a negative principal moment: an error, for the mass matrix may be indefinite, unless the link is
+/// rigidly joined to others.
+///
+/// What moves is the rigid body that a link and those fixed to it are together. With no negative principal moment about
+/// its centre of mass, the kinetic energy of the body is not negative in any motion, so that the mass matrix is positive
+/// semi-definite whatever the parts are; a part of the ground has no kinetic energy at all. So it is a warning where the
+/// link's negative moment is that small beside those of its body, or the link does not move.
+pub(super) fn check_definite(
+    document: &Document,
+    links: &[Option<Link>],
+    parents: Option<&[Option<usize>]>,
+    findings: &mut Findings,
+) {
+    let negative = document.links.iter().enumerate().filter_map(|(index, table)| {
+        let inertia = table.inertia.spanned()?;
+        let moments = principal_moments(inertia.get_ref()).filter(|moments| is_negative(*moments))?;
+        Some((index, table, inertia.span(), moments[0]))
+    });
+    let mut negative = negative.peekable();
+    if negative.peek().is_none() {
+        return;
+    }
+    let tree = parents.and_then(|parents| Some(Tree::new(&tree_of(document, links, parents)?)));
+    for (index, table, place, smallest) in negative {
+        let Some(tree) = &tree else {
+            findings.error(place, messages::indefinite_inertia(&table.item, smallest));
+            continue;
+        };
+        let whole = tree.links[index].body.map(|body| central_moments(tree.bodies[body].inertia));
+        match whole {
+            None => {
+                let message = messages::negative_moment_of_ground(&table.item, smallest);
+                lints::report(findings, Lint::NegativeMoment, place, message);
+            }
+            Some(whole) if !is_negative(whole) && -smallest <= SMALL * whole[2] => {
+                let message = messages::negative_moment_of_part(&table.item, smallest, whole);
+                lints::report(findings, Lint::NegativeMoment, place, message);
+            }
+            Some(_) => findings.error(place, messages::indefinite_inertia(&table.item, smallest)),
+        }
+    }
+}
+
+/// Links and joints alone, with joints locked.
+fn tree_of(document: &Document, links: &[Option<Link>], parents: &[Option<usize>]) -> Option<Model> {
+    let links: Option<Vec<Link>> = links.iter().cloned().collect();
+    Some(Model { links: super::placed(document, links?, parents), ..Model::new("", Vec3::zero()) })
+}
+
+/// The principal moments of a body about its centre of mass, from smallest to largest.
+fn central_moments(body: PseudoInertia<f64>) -> [f64; 3] {
+    let com = if body.mass == 0.0 { Vec3::zero() } else { body.moment.scale(1.0 / body.mass) };
+    body.translated(com.scale(-1.0)).to_rigid().tensor.eigenvalues()
+}
+
+/// Whether the smallest of principal moments is negative by more than roundoff.
+fn is_negative([smallest, _, largest]: [f64; 3]) -> bool {
+    smallest < -DEFINITE * largest.abs().max(smallest.abs())
 }
 
 /// The eigenvalues of the tensor, from smallest to largest; `None` for the zero tensor.

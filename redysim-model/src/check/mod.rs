@@ -30,6 +30,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     something_moves(document, findings);
     let parents = tree::parents(document, findings);
     let links: Vec<_> = document.links.iter().map(|table| link(table, findings)).collect();
+    inertia::check_definite(document, &links, parents.as_deref(), findings);
     let loops = cut::loops(document, parents.as_deref(), findings);
     let frames = frame::frames(document, findings);
     let springs = spring::springs(document, parents.as_deref(), findings);
@@ -40,13 +41,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
         report(document, &massless, findings);
     }
 
-    let mut links = links.into_iter().collect::<Option<Vec<_>>>()?;
-    for ((link, table), parent) in links.iter_mut().zip(&document.links).zip(parents) {
-        link.parent = parent;
-        if let Some(value) = table.locked {
-            link.lock(value);
-        }
-    }
+    let links = placed(document, links.into_iter().collect::<Option<_>>()?, &parents);
     let gravity = Vec3(*document.gravity.value()?);
     let mut options = options;
     let name = document.name.value()?.clone();
@@ -72,6 +67,17 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     }
     lints::check(document, &model, findings);
     Some((model, options?))
+}
+
+/// The links on their parents, with joints locked.
+fn placed(document: &Document, mut links: Vec<Link>, parents: &[Option<usize>]) -> Vec<Link> {
+    for ((link, table), parent) in links.iter_mut().zip(&document.links).zip(parents) {
+        link.parent = *parent;
+        if let Some(value) = table.locked {
+            link.lock(value);
+        }
+    }
+    links
 }
 
 /// Reports links whose joints meet no inertia.

@@ -226,6 +226,31 @@ pub(crate) fn indefinite_inertia(item: &str, smallest: f64) -> Message {
     )
 }
 
+pub(crate) fn negative_moment_of_ground(item: &str, smallest: f64) -> Message {
+    message(
+        format!(
+            "{item}: `inertia` has a negative principal moment, {} kg m², but the link never moves",
+            rounded(smallest)
+        ),
+        "not an inertia",
+        "the number is without effect; leave the inertia out, or give that about the centre of mass",
+    )
+}
+
+/// `whole` are the principal moments of the rigid body that the link is part of.
+pub(crate) fn negative_moment_of_part(item: &str, smallest: f64, whole: [f64; 3]) -> Message {
+    let [least, _, largest] = whole.map(rounded);
+    message(
+        format!(
+            "{item}: `inertia` has a negative principal moment, {} kg m², which is small beside those of the rigid body that \
+             the link is part of, {least} to {largest} kg m²",
+            rounded(smallest)
+        ),
+        "not an inertia",
+        "the sum over the rigid body is used, which is the inertia of a body; leave this one out, or correct it",
+    )
+}
+
 /// `largest` exceeds the sum of the other two principal moments by `excess`.
 pub(crate) fn triangle(item: &str, largest: f64, excess: f64) -> Message {
     message(

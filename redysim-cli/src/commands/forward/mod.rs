@@ -1,5 +1,6 @@
 //! `redysim forward SCENARIO`.
 
+mod growth;
 mod observer;
 mod system;
 
@@ -10,6 +11,7 @@ use crate::interrupt;
 use crate::number::size;
 use crate::results::{self, Balance, Ended, Outcome, Record};
 use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances, keys, missing};
+use growth::Growth;
 use observer::RunObserver;
 use system::System;
 
@@ -31,38 +33,46 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         .ok_or_else(|| missing(&results.scenario, "which motion is to be computed", &keys::FORWARD))?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Forward, forward.span, quiet)?;
-    let outcome = move_on(&scenario, forward, &mut record, quiet)?;
-    warn_of_drift(forward, &record);
+    let (outcome, growth) = move_on(&scenario, forward, &mut record, quiet)?;
+    warn_of_drift(forward, &record, growth.as_ref());
     record.finish(outcome)
 }
 
-/// The motion from the start to the end, as far as it goes.
+/// The motion from the start to the end, as far as it goes, and whether it grows without bound.
 fn move_on<'a>(
     scenario: &'a Scenario,
     forward: &'a Forward,
     record: &mut Record<'a>,
     quiet: bool,
-) -> Result<Outcome, Failure> {
+) -> Result<(Outcome, Option<Growth>), Failure> {
     let mut system = System::new(scenario, forward);
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
     let mut observer = RunObserver::new(scenario, forward, record, &start)?;
     let integrator = &forward.integrator;
     let solution = integrator.run(&scenario.mechanism, system.ode(), forward.span.interval(), start, &mut observer);
-    let RunObserver { steps, position_residual, failed, .. } = observer;
+    let RunObserver { steps, position_residual, growth, failed, .. } = observer;
     let ended = match (&solution, failed) {
-        (Err(error), _) => Ended::Failed(explained(error, scenario, &system)),
+        (Err(error), _) => {
+            let failure = explained(error, scenario, &system);
+            // The remedies of an integration that fails are those for right motions.
+            Ended::Failed(match &growth {
+                Some(growth) if !growth.from_nowhere => failure.help(&growth.help),
+                _ => failure,
+            })
+        }
         (Ok(_), Some(reason)) => Ended::Failed(reason),
         (Ok(_), None) if record.next().is_some() => Ended::Interrupted,
         (Ok(_), None) => Ended::Complete,
     };
-    Ok(Outcome {
+    let outcome = Outcome {
         ended,
         integrator: Some(forward.integrator.name()),
         steps: Some(steps),
         statistics: solution.ok().map(|solution| solution.statistics),
         position_residual: scenario.loops().then_some(position_residual),
-    })
+    };
+    Ok((outcome, growth))
 }
 
 /// Warns before the run that its steps are too large, if that is so at the start.
@@ -95,9 +105,13 @@ fn two_digits(value: f64) -> f64 {
 }
 
 /// Warns that a motion is wrong, if its energy shows it.
-fn warn_of_drift(forward: &Forward, record: &Record<'_>) {
+fn warn_of_drift(forward: &Forward, record: &Record<'_>, growth: Option<&Growth>) {
     if matches!(forward.stabilisation, Stabilisation::Baumgarte { .. }) {
         // While it closes loops, its feedback does work that is not counted.
+        return;
+    }
+    if growth.is_some_and(|growth| !growth.from_nowhere) {
+        // The energy of a motion without bound says nothing about the integrator.
         return;
     }
     let Balance { drift, .. } = record.balance();
@@ -113,7 +127,8 @@ fn warn_of_drift(forward: &Forward, record: &Record<'_>) {
             size(*drift),
             100.0 * part
         );
-        record.warn(&warning, &help);
+        let gains = growth.map_or(String::new(), |growth| format!("; if it still grows, {}", growth.help));
+        record.warn(&warning, &(help + &gains));
     }
 }
 

@@ -6,6 +6,7 @@ use redysim_runtime::integrate::algorithm::Formula;
 use redysim_runtime::integrate::{ObservedStep, Observer};
 use redysim_runtime::{IntegrationError, Ode, SimulationState, Step};
 
+use super::growth::{Distances, Growth};
 use super::system::System;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -23,6 +24,9 @@ pub struct RunObserver<'a, 'r> {
     pub steps: u64,
     /// The largest component of the loops' residual so far, m.
     pub position_residual: f64,
+    distances: Distances,
+    /// A motion that grows without bound, when it is first seen.
+    pub growth: Option<Growth>,
     /// Why an instant could not be written.
     pub failed: Option<Failure>,
 }
@@ -39,10 +43,19 @@ impl<'a, 'r> RunObserver<'a, 'r> {
         start: &Vec<f64>,
     ) -> Result<Self, Failure> {
         let system = System::new(scenario, forward);
-        let mut observer =
-            RunObserver { scenario, forward, record, system, steps: 0, position_residual: 0.0, failed: None };
+        let mut observer = RunObserver {
+            scenario,
+            forward,
+            record,
+            system,
+            steps: 0,
+            position_residual: 0.0,
+            distances: Distances::new(),
+            growth: None,
+            failed: None,
+        };
         observer.write(forward.span.start, start)?;
-        observer.see(start);
+        observer.see(forward.span.start, start);
         Ok(observer)
     }
 
@@ -50,10 +63,18 @@ impl<'a, 'r> RunObserver<'a, 'r> {
         self.record.add(&self.system.sample(self.forward, t, state)?)
     }
 
-    fn see(&mut self, state: &Vec<f64>) {
+    fn see(&mut self, t: f64, state: &Vec<f64>) {
         let SimulationState { q, v, actuator_energy } = self.system.split(state);
         self.record.see(&q, &v, actuator_energy);
         self.position_residual = self.position_residual.max(self.scenario.position_residual(&q));
+        if self.growth.is_none() {
+            let from_nowhere = self.record.balance().wrong_part().is_some();
+            self.growth = self.distances.see(self.scenario, self.forward, (t, &q), from_nowhere);
+            // At once, for such a motion takes ever smaller steps.
+            if let Some(growth) = self.growth.as_ref().filter(|growth| !growth.from_nowhere) {
+                self.record.warn(&growth.warning, &growth.help);
+            }
+        }
     }
 }
 
@@ -63,9 +84,9 @@ impl Observer<f64, Vec<f64>> for RunObserver<'_, '_> {
     }
 
     fn step(&mut self, step: &Step<'_, f64, Vec<f64>>) -> ControlFlow<()> {
-        let (_, state) = step.end();
+        let (t, state) = step.end();
         self.steps += 1;
-        self.see(state);
+        self.see(t, state);
         self.record.show_progress();
         if self.failed.is_some() || interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
