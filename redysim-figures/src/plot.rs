@@ -328,6 +328,16 @@ mod tests {
     }
 
     #[test]
+    fn coordinate_systems_stand_where_they_are_used_to_unless_labels_are_long() {
+        let left = |values: &[f64], logarithmic: bool| {
+            let panel = Panel { logarithmic, ..Panel::new("", "torque", "N m").line("", 1, &[0.0, 1.0], values) };
+            left_room(&panel)
+        };
+        assert_eq!((left(&[1e-18, 1.0], true), left(&[-300.0, 300.0], false)), (LEFT, LEFT));
+        assert!(left(&[12345.678, 12345.679], false) > LEFT + 20);
+    }
+
+    #[test]
     fn a_figure_without_columns_cannot_be_drawn() {
         let error = svg(&Figure { columns: 0, panels: vec![], shared_legend: false }).unwrap_err();
         assert!(error.to_string().contains("`columns`"), "{error}");

@@ -37,6 +37,7 @@ pub fn png(figure: &Figure) -> Result<Vec<u8>, DrawingError> {
 mod tests {
     use super::*;
     use crate::figure::Panel;
+    use crate::text;
 
     /// The pixels of a picture with one panel of this title.
     fn pixels(title: &str) -> Pixmap {
@@ -58,6 +59,26 @@ mod tests {
         for values in [[f64::MAX, f64::MIN], [5e-324, 0.0], [f64::NAN, f64::INFINITY], [0.0, 0.0], [1.0, 1.0 + 1e-15]] {
             let panels = vec![Panel::new("all", "torque", "N m").line("", 1, &[0.0, 1.0], &values).prefixed()];
             assert!(png(&Figure { columns: 1, panels, shared_legend: false }).is_ok(), "{values:?}");
+        }
+    }
+
+    /// The columns of pixels from the first letter of a title to the last.
+    fn letters(title: &str) -> i32 {
+        let (with, without) = (pixels(title), pixels(""));
+        let columns = |(a, (index, b)): (_, (usize, _))| (a != b).then_some(index as u32 % with.width());
+        let differing: Vec<u32> =
+            with.pixels().iter().zip(without.pixels().iter().enumerate()).filter_map(columns).collect();
+        let ends = differing.iter().min().zip(differing.iter().max());
+        ends.map_or(0, |(first, last)| ((last - first) as f32 / SCALE) as i32)
+    }
+
+    #[test]
+    fn texts_are_no_wider_than_the_room_that_they_are_given() {
+        for text in ["left_hip_pitch_joint", "10⁻¹²", "MWMWMWMW", "illjjfftt", "12345.67890", "−1·10⁻⁹ µN", "λ … ~"]
+        {
+            let (drawn, given) = (letters(text), text::width(text, text::TITLE));
+            assert!((given - 8..=given).contains(&drawn) || text.contains('…'), "{text}: {drawn} in {given}");
+            assert!(drawn <= given, "{text}: {drawn} in {given}");
         }
     }
 }

@@ -14,12 +14,18 @@ const WIDTHS: [u8; 95] = [
     62, 69, 40, 34, 40, 84, 50, 50, 62, 64, 55, 64, 62, 36, 64, 64, 28, 28, 58, 28, 98, 64, 62, 64, 64, 42, 53, 40, 64,
     60, 82, 60, 60, 53, 64, 34, 64, 84,
 ];
+/// Those of others that numbers are written with.
+const OF_NUMBERS: [(&str, u8); 5] = [("⁰¹²³⁴⁵⁶⁷⁸⁹", 41), ("⁻", 53), ("−", 84), ("·", 32), ("µλ", 64)];
 /// That of all others, which few exceed.
 const OTHER: u8 = 100;
 
 /// The width of a text in a font of this size, or a little more.
 pub fn width(text: &str, size: i32) -> i32 {
-    let of = |c: char| (c as usize).checked_sub(32).and_then(|k| WIDTHS.get(k)).copied().unwrap_or(OTHER);
+    let of = |c: char| {
+        let ascii = (c as usize).checked_sub(32).and_then(|k| WIDTHS.get(k)).copied();
+        let of_numbers = || OF_NUMBERS.iter().find(|(all, _)| all.contains(c)).map(|(_, width)| *width);
+        ascii.or_else(of_numbers).unwrap_or(OTHER)
+    };
     let hundredths: u32 = text.chars().map(|c| u32::from(of(c))).sum();
     (f64::from(hundredths) / 100.0 * f64::from(size) / LINE).ceil() as i32
 }
