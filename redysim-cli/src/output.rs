@@ -1,7 +1,8 @@
 //! Files that are there whole or not at all, and what is printed.
 
+use std::borrow::Cow;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
@@ -49,12 +50,14 @@ pub fn check_place(path: &Path, force: bool) -> Result<(), Failure> {
     place(path, force).map(drop)
 }
 
-/// Prints what was asked for. A reader that has seen enough, as `head` does, is not a failure.
+/// Prints what was asked for. A reader that has seen enough, as `head` does, is not a failure. A terminal obeys control
+/// characters: there they are shown, while a file or another program gets the text as it is.
 ///
 /// # Errors
 /// If the output cannot be written.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
+    let text = if out.is_terminal() { visible(text) } else { Cow::Borrowed(text) };
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::outside(format!("cannot write the output: {error}")))
@@ -65,12 +68,30 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints a line beside what was asked for on the standard output. A failure to print is ignored.
 pub fn to_stdout(text: &str) {
-    let _ = print(&format!("{text}\n"));
+    let _ = print(&format!("{}\n", visible(text)));
 }
 
 /// Prints a line on the standard error: a warning, or why something failed. A failure to print is ignored.
 pub fn to_stderr(text: &str) {
-    let _ = io::stderr().write_all(format!("{text}\n").as_bytes());
+    let _ = io::stderr().write_all(format!("{}\n", visible(text)).as_bytes());
+}
+
+/// A text of several lines for people: control characters, which names in a file may have and a terminal obeys, are
+/// shown as `\u{1b}`.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    shown(text, |c| c.is_control() && c != '\n' && c != '\t')
+}
+
+/// A name on one line for people, in which ends of lines are shown, too.
+pub fn visible_name(name: &str) -> Cow<'_, str> {
+    shown(name, char::is_control)
+}
+
+fn shown(text: &str, hides: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&hides) {
+        return text.into();
+    }
+    text.chars().map(|c| if hides(c) { c.escape_debug().to_string() } else { c.into() }).collect()
 }
 
 /// What is there already, and must not be lost.
@@ -141,4 +162,19 @@ fn drafts() -> tempfile::Builder<'static, 'static> {
     let mut drafts = tempfile::Builder::new();
     drafts.suffix(".draft");
     drafts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_are_shown_and_other_characters_stay() {
+        assert_eq!(visible("\u{1b}[2J a\tb\r\n"), "\\u{1b}[2J a\tb\\r\n");
+        assert_eq!(visible("\u{9b}1m\u{7f}"), "\\u{9b}1m\\u{7f}");
+        assert_eq!(visible_name("a\nb\tc"), "a\\nb\\tc");
+        for text in ["Σ ω̇ “ä” '\"\\", ""] {
+            assert!(matches!(visible(text), Cow::Borrowed(same) if same == text));
+        }
+    }
 }

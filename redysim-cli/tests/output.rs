@@ -13,6 +13,38 @@ fn generate(folder: &Path, options: &[&str]) -> String {
     succeed(folder, &[&["generate", &model("two_link.toml"), "--quiet"], options].concat())
 }
 
+/// ESC, the C1 control CSI, a bell and ends of lines in every name of a model and its scenario.
+#[test]
+fn control_characters_of_names_do_not_reach_the_terminal() {
+    const ODD: &str = "\\u001b[31m\\u009b1m\\u0007\\r";
+    let folder = scratch("output-control");
+    let text = fs::read_to_string(model("fourbar.toml")).unwrap();
+    let odd = text.replace("\"crank\"", &format!("\"crank{ODD}\""));
+    assert_ne!(odd, text);
+    let odd = odd.replace("name = \"fourbar\"", &format!("name = \"fourbar{ODD}\""));
+    fs::write(folder.join("model.toml"), &odd).unwrap();
+    fs::write(folder.join("wrong.toml"), odd.replace("mass = ", "mass = -")).unwrap();
+    let rest = "[forward]\nend = 0.1\nstep = 0.05\ninitial = { q = [1, 1] }\n";
+    fs::write(folder.join("trial.toml"), format!("name = \"trial{ODD}\"\nmodel = 'model.toml'\n{rest}")).unwrap();
+    let start = "initial = { q = { \"crank\\u001b\" = 1 } }\n[forward]\nend = 0.1\nstep = 0.05\n";
+    fs::write(folder.join("start.toml"), format!("model = 'model.toml'\n{start}")).unwrap();
+    let mut shown = 0;
+    for arguments in [
+        &["check", "model.toml"][..],
+        &["check", "wrong.toml"],
+        &["forward", "trial.toml", "-o", "run"],
+        &["forward", "start.toml"],
+        &["generate", "model.toml", "-o", "a.rs"],
+        &["plot", "run"],
+        &["show", "model.toml", "-o", "page.html"],
+    ] {
+        let output = common::call(&folder, arguments).output();
+        assert!(!output.contains(|c: char| c.is_control() && c != '\n'), "{arguments:?}: {output:?}");
+        shown += output.matches("\\u{1b}").count();
+    }
+    assert!(shown > 5, "{shown}");
+}
+
 #[test]
 fn the_file_that_a_link_leads_to_is_the_one_that_is_replaced() {
     let folder = scratch("output-link");

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::failure::Failure;
 use crate::model::not_a_model;
 use crate::number::counted;
-use crate::output::{print, to_stderr};
+use crate::output::{print, to_stderr, visible};
 use crate::summary::Summary;
 use redysim_model::{Diagnostic, Diagnostics, Faults, Loaded, Model, Severity};
 use serde::Serialize;
@@ -139,7 +139,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     match summary {
         Ok(Some(summary)) if !arguments.json => {
             summary.generator_warnings.iter().for_each(|warning| to_stderr(&format!("warning: {warning}\n")));
-            print(&summary.to_string())?;
+            print(&visible(&summary.to_string()))?;
         }
         Ok(_) => {}
         Err(failure) => return Err(failure),

@@ -2,6 +2,7 @@
 
 use super::{LinkSummary, Summary};
 use crate::number::{counted, rounded};
+use crate::output::visible_name;
 use redysim_model::JointKind;
 use std::fmt::{Display, Formatter, Result};
 
@@ -11,7 +12,7 @@ type Column = (&'static str, fn(&LinkSummary) -> String);
 impl Display for Summary {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let row = |f: &mut Formatter<'_>, name: &str, value: String| writeln!(f, "  {name:<11}{value}");
-        writeln!(f, "{}", self.name)?;
+        writeln!(f, "{}", visible_name(&self.name))?;
         row(f, "links", format!("{}, {} kg in all", self.links.len(), rounded(self.mass)))?;
         row(f, "joints", self.kinds())?;
         row(f, "mobility", self.mobility.to_string())?;
@@ -20,7 +21,7 @@ impl Display for Summary {
         for each in &self.loops {
             let sides = format!("{} – {}", each.link_a, each.link_b);
             let rank = format!("rank {} of {}", each.rank, counted(each.constraints, "constraint"));
-            row(f, "loop", format!("{}: {}, {sides}, {rank}", each.name, each.kind))?;
+            row(f, "loop", visible_name(&format!("{}: {}, {sides}, {rank}", each.name, each.kind)).into_owned())?;
         }
         if self.loops.len() > 1 {
             row(f, "all loops", format!("rank {} of {} constraints", self.loop_rank, self.loop_constraints))?;
@@ -30,7 +31,7 @@ impl Display for Summary {
             let ends = format!("{} – {}", each.link_a, each.link_b);
             let [stiffness, damping, length] = [each.stiffness, each.damping, each.length].map(rounded);
             let numbers = format!("{stiffness} N/m, {damping} N s/m, relaxed at {length} m");
-            row(f, "spring", format!("{name}{ends}, {numbers}"))?;
+            row(f, "spring", visible_name(&format!("{name}{ends}, {numbers}")).into_owned())?;
         }
         writeln!(f)?;
         self.write_links(f)?;
@@ -67,9 +68,9 @@ impl Summary {
 
     fn write_links(&self, f: &mut Formatter<'_>) -> Result {
         let columns: [Column; 6] = [
-            ("link", |link| link.name.clone()),
-            ("on", |link| link.parent.clone()),
-            ("joint", |link| link.joint.clone()),
+            ("link", |link| visible_name(&link.name).into_owned()),
+            ("on", |link| visible_name(&link.parent).into_owned()),
+            ("joint", |link| visible_name(&link.joint).into_owned()),
             ("kind", |link| link.kind.to_string()),
             ("actuator", |link| link.actuated.map_or("", |actuated| if actuated { "yes" } else { "no" }).to_string()),
             ("mass, kg", |link| rounded(link.mass)),
