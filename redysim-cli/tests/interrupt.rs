@@ -24,6 +24,37 @@ fn shown(name: &str, options: &str) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
+/// While it runs, its draft is none of another run's business; when it is killed, it stays.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_draft_of_a_run_that_was_killed_is_mentioned_by_the_next_run_of_the_same_output() {
+    let folder = scratch("interrupt-killed");
+    let long = scenario(&folder, "two_link.toml", LONG);
+    let short = folder.join("short.toml");
+    fs::write(&short, fs::read_to_string(&long).unwrap().replace("1e5", "0.05")).unwrap();
+    let again = |options: &[&str]| {
+        let run = common::call(&folder, &[&["forward", "short.toml", "-o", "run", "--force"], options].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        run.stderr
+    };
+    let running = Running::begin(&folder, &["forward", &long, "-o", "run"]);
+    assert_eq!(again(&[]), "");
+    // It is killed.
+    drop(running);
+    let draft = names(&folder).into_iter().find(|name| name.ends_with(".draft")).unwrap();
+    fs::create_dir(folder.join("run.4194305.before")).unwrap();
+    for other in ["other.4194305.draft", "run.x.draft", "run.4194305.notes"] {
+        fs::create_dir(folder.join(other)).unwrap();
+    }
+    let shown = again(&[]);
+    assert!(shown.contains(&format!("has left its draft: {draft}\n")), "{shown}");
+    assert!(shown.contains(&format!("delete it: rm -r \"{draft}\"")), "{shown}");
+    assert!(shown.contains("has left the earlier one: run.4194305.before\n"), "{shown}");
+    assert_eq!(shown.matches("warning: ").count(), 2, "{shown}");
+    assert_eq!(again(&["--quiet"]), "");
+    assert!(folder.join(draft).exists());
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_terminal_shows_how_far_a_long_run_is_and_how_long_it_will_take() {

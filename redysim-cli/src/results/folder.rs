@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use super::leftover::{BEFORE, DRAFT};
 use super::replaceable::{is_empty, replaces};
 use crate::failure::Failure;
 use crate::interrupt;
@@ -47,7 +48,7 @@ impl Folder {
         // One that is there already is of a run that was killed, and its files are not this run's.
         let made = fs::create_dir_all(parent).and_then(|()| {
             let own = |count: u64| if count == 1 { String::new() } else { format!("-{count}") };
-            let names = (1..).map(|count| beside(&target, &format!(".{}{}.draft", std::process::id(), own(count))));
+            let names = (1..).map(|count| beside(&target, &format!(".{}.{DRAFT}{}", std::process::id(), own(count))));
             first_free(names, |path| fs::create_dir(path))
         });
         draft.path = made.map_err(|error| {
@@ -99,7 +100,7 @@ impl Folder {
     /// Moves it to its place; `replaces` what is there.
     fn name(&self, replaces: bool) -> Result<(), Failure> {
         let failed = |error| Failure::file("write", &self.target, &error);
-        let before = beside(&self.target, &format!(".{}.before", std::process::id()));
+        let before = beside(&self.target, &format!(".{}.{BEFORE}", std::process::id()));
         if replaces {
             fs::rename(&self.target, &before).map_err(failed)?;
         }

@@ -2,6 +2,7 @@
 
 mod balance;
 mod folder;
+mod leftover;
 pub mod names;
 mod record;
 mod replaceable;

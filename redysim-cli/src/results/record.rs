@@ -5,9 +5,9 @@ use std::time::Instant;
 use redysim_runtime::MechanicalEnergy;
 
 use super::tables::{Row, Tables};
-use super::{Arguments, Balance, Ended, Folder, Outcome, Summary, run_file};
+use super::{Arguments, Balance, Ended, Folder, Outcome, Summary, leftover, run_file};
 use crate::failure::Failure;
-use crate::output::to_stdout;
+use crate::output::{to_stderr, to_stdout};
 use crate::progress::Progress;
 use crate::scenario::{Dynamics, Scenario, Span};
 
@@ -55,7 +55,11 @@ impl<'a> Record<'a> {
         span: Span,
         quiet: bool,
     ) -> Result<Record<'a>, Failure> {
-        let folder = Folder::draft(arguments.folder(scenario, dynamics), arguments.force)?;
+        let target = arguments.folder(scenario, dynamics);
+        if !quiet {
+            leftover::warnings(&target).iter().for_each(|warning| to_stderr(warning));
+        }
+        let folder = Folder::draft(target, arguments.force)?;
         Ok(Record {
             scenario,
             dynamics,
