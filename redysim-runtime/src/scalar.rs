@@ -3,9 +3,11 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Whether [`Scalar::mul_add`] of the numbers of this crate rounds once: where the target that is compiled for has the
-/// instruction (on x86-64 by `-C target-cpu` or `-C target-feature=+fma`, on AArch64 always), unless the feature
-/// `deterministic` asks for the same bits everywhere or the feature `lanes` is off.
+/// Whether [`Scalar::mul_add`] of the numbers of this crate rounds once.
+///
+/// That is so where the target that is compiled for has the instruction (on x86-64 by `-C target-cpu` or
+/// `-C target-feature=+fma`, on AArch64 always), unless the feature `deterministic` asks for the same bits everywhere or
+/// the feature `lanes` is off.
 pub const FUSED: bool = cfg!(all(
     feature = "lanes",
     not(feature = "deterministic"),

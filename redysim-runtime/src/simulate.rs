@@ -3,7 +3,9 @@
 use crate::vector::entry;
 use crate::{ConfigurationSpace, ForwardDynamics, LengthMismatch, Ode, Real, TorqueLaw, Vector};
 
-/// A mechanism moved by a torque law, as an [`Ode`] in the state y = [q, q̇, E_act]:
+/// A mechanism moved by a torque law, as an [`Ode`] in the state y = [q, q̇, E_act].
+///
+/// The equation is
 ///
 /// dq/dt = N(q) q̇, dq̇/dt = M(q)⁻¹ (τ − bias(q, q̇)), dE_act/dt = τ·q̇ − P(q, q̇).
 ///

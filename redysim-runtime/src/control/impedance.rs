@@ -52,8 +52,9 @@ pub enum Compensation {
     Bias,
 }
 
-/// Impedance control: a frame of the robot moves as if springs and dampers tied it to another that is where it should
-/// be (N. Hogan, *Impedance control: an approach to manipulation*, J. Dyn. Syst. Meas. Control 107, 1985):
+/// Impedance control: springs and dampers tie a frame of the robot to another that is where it should be.
+///
+/// The forces are (N. Hogan, *Impedance control: an approach to manipulation*, J. Dyn. Syst. Meas. Control 107, 1985)
 ///
 /// F = K (x_d − x) + D (ẋ_d − ẋ), m = K_r φ + D_r (ω_d − ω), τ = Jᵀ [F; m] + c(q, v) − d Nᵀ M v.
 ///

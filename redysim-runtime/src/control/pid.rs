@@ -4,7 +4,9 @@ use super::{check_coordinates, check_gains, check_motion};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Trajectory, Vector};
 
-/// PID control of each joint: τ = Kp e + z + Kd ė, with the error e = q_d(t) − q and the integral action z,
+/// PID control of each joint: τ = Kp e + z + Kd ė, with the error e = q_d(t) − q and the integral action z.
+///
+/// The integral action changes by
 ///
 /// ż = Ki e + Kt (τ_applied − τ).
 ///
@@ -66,8 +68,10 @@ pub struct Pid<T, V> {
     pub integral: V,
 }
 
-/// The tracking rates Kt = 1/√(Ti Td) = √(Ki/Kd), and Kt = 1/Ti = Ki/Kp for a joint with Kd = 0, 1/s, with the integral
-/// and derivative times Ti = Kp/Ki and Td = Kd/Kp. Zero for a joint with Kp = Kd = 0, which has no integral or
+/// The usual tracking rates Kt of [`Pid`], 1/s, from its gains.
+///
+/// They are 1/√(Ti Td) = √(Ki/Kd), and 1/Ti = Ki/Kp for a joint with Kd = 0, with the integral and derivative times
+/// Ti = Kp/Ki and Td = Kd/Kp. Zero for a joint with Kp = Kd = 0, which has no integral or
 /// derivative time; set Kt yourself. Source: Åström and Hägglund, as [`Pid`].
 pub fn tracking_rates<S: Real, V: Vector<S>>(kp: &V, ki: &V, kd: &V) -> V {
     V::from_fn(ki.as_ref().len(), |i| {

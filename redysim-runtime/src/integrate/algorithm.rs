@@ -1,4 +1,6 @@
-//! A method of integration. Its formula takes one trial step; a [step control](super::step_control), if it has one,
+//! What a method of integration is.
+//!
+//! Its formula takes one trial step; a [step control](super::step_control), if it has one,
 //! chooses the sizes. Times, states, tolerances, corrections and observers belong to the drivers for steps of one size
 //! and for steps from tolerances.
 

@@ -9,7 +9,9 @@ use super::step::Step;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
-/// The semi-implicit (symplectic) method of Euler for mechanical systems, with steps of one given size h:
+/// The semi-implicit (symplectic) method of Euler for mechanical systems, with steps of one given size.
+///
+/// A step of size h is
 ///
 /// v_new = v + h a(t, q, v), q_new = q + h N(q) v_new.
 ///

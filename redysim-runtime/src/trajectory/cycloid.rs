@@ -6,11 +6,13 @@ use super::{Motion, Trajectory, TrajectoryError};
 use crate::vector::entry;
 use crate::{Real, Vector};
 
-/// The cycloidal motion of ReDySim from rest to rest, every joint by
+/// The cycloidal motion of ReDySim from rest to rest.
+///
+/// Every joint moves by
 ///
 /// θ(t) = θ₀ + (θ₁ − θ₀)/T · (t − T/(2π) sin(2πt/T)), 0 ≤ t ≤ T,
 ///
-/// with vanishing velocity and acceleration at both ends, and rest before and after. For joints of one
+/// with vanishing velocity and acceleration at both ends, and rest before and after. It is for joints of one
 /// coordinate, whose velocity is its rate (revolute, prismatic and helical ones). Source: eq. (1) of S. V. Shah, P. V.
 /// Nandihal and S. K. Saha, *Recursive dynamics simulator (ReDySim)*, Theor. Appl. Mech. Lett. 2, 063011 (2012).
 ///

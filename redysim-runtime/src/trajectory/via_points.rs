@@ -8,8 +8,10 @@ use super::{Motion, Trajectory, TrajectoryError};
 use crate::vector::entry;
 use crate::{Real, Vector};
 
-/// A motion through points at given times; between two of them every joint moves by the polynomial of degree 5 that has
-/// both points' coordinates, velocities and accelerations. Before the first point and after the last it stands there.
+/// A motion through points at given times.
+///
+/// Between two points every joint moves by the polynomial of degree 5 that has both points' coordinates, velocities and
+/// accelerations. Before the first point and after the last it stands there.
 ///
 /// [`minimum_jerk`](Self::minimum_jerk) and [`cubic`](Self::cubic) find velocities and accelerations themselves,
 /// [`through`](Self::through) takes them as they are. For joints of one coordinate, whose velocity is its rate

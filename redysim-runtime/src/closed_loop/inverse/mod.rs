@@ -19,9 +19,10 @@ const LARGEST_MOVE: f64 = 0.1;
 const MOST_MOVES: usize = 10_000;
 const ITERATIONS: usize = 100;
 
-/// Finds the joint forces that make a mechanism with closed loops follow a trajectory of its independent coordinates,
-/// instant by instant: positions by Newton's method from the previous instant, velocities and accelerations from the
-/// loops, then the forces of the actuators together with the multipliers.
+/// Finds the joint forces that make a mechanism with closed loops follow a trajectory of its independent coordinates.
+///
+/// Instant by instant, positions follow by Newton's method from the previous instant, velocities and accelerations from
+/// the loops, then the forces of the actuators together with the multipliers.
 #[derive(Debug)]
 pub struct ClosedLoopInverse<'m, M, Q, C = M> {
     actuation: Actuation<'m, M, C>,

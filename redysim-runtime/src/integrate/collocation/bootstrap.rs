@@ -18,9 +18,10 @@ use crate::{Real, Vector};
 const NODES: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 2.0 / 3.0, 5.0 / 6.0];
 const PASSES: u32 = 2;
 
-/// The polynomials w_k of y(t + θ h) = y + h (Σ w_k(θ) (g_k − m) + θ m), with the derivatives g_k at 0, τ and 1 and
+/// The polynomials w_k of the dense output, by their coefficients of θ, θ² and so on.
+///
+/// It is y(t + θ h) = y + h (Σ w_k(θ) (g_k − m) + θ m), with the derivatives g_k at 0, τ and 1 and
 /// their mean m = (y_new − y)/h: ẇ_k is 1 at the node of g_k and 0 at the others, and w_k is 0 at 0 and at 1.
-/// Coefficients of θ, θ², …
 pub const DENSE: [&[f64]; 7] = [
     &[1.0, -881.0 / 85.0, 17881.0 / 340.0, -2367.0 / 17.0, 66069.0 / 340.0, -23031.0 / 170.0, 3159.0 / 85.0],
     &[0.0, 36.0 / 17.0, 2556.0 / 85.0, -3096.0 / 17.0, 30348.0 / 85.0, -5076.0 / 17.0, 7776.0 / 85.0],

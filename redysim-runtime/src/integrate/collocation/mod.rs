@@ -1,5 +1,7 @@
-//! Collocation methods: a step follows the polynomial u that starts at the state and satisfies the equation, u̇ = f(t,
-//! u), at the nodes t + c_i h (E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd
+//! Collocation methods, of Gauss and of Radau.
+//!
+//! A step follows the polynomial u that starts at the state and satisfies the equation, u̇ = f(t, u), at the nodes
+//! t + c_i h (E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd
 //! ed., Springer (1993), section II.7). All stages depend on each other and are found by iteration; continued beyond
 //! the end of the step, u is where the iteration of the next step begins.
 //!

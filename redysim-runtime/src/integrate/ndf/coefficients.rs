@@ -16,7 +16,7 @@ pub const BACKWARD_DIFFERENTIATION: [f64; HIGHEST_ORDER] = [0.0; HIGHEST_ORDER];
 /// γ_k = Σ_{j=1}^k 1/j.
 pub const GAMMA: [f64; HIGHEST_ORDER] = [1.0, 3.0 / 2.0, 11.0 / 6.0, 25.0 / 12.0, 137.0 / 60.0];
 
-/// The formula of one order k for the end of a step, in backward differences ∇ of constant step size h:
+/// The formula of one order k for the end of a step, in backward differences ∇ of constant step size h.
 ///
 /// Σ_{m=1}^k (1/m) ∇^m y_{n+1} − h f(t_{n+1}, y_{n+1}) − κ γ_k (y_{n+1} − ŷ) = 0 with ŷ = Σ_{m=0}^k ∇^m y_n.
 ///

@@ -132,7 +132,7 @@ fn resized<S: Real>(j: usize, r: usize, ratio: S) -> S {
         .fold(S::zero(), |sum, q| sum + newton_polynomial(j, -(number(q) * ratio)) * newton_polynomial(q, -number(r)))
 }
 
-/// sum += factor · y
+/// Adds factor · y to the sum.
 pub fn add<S: Real, Y: Vector<S>>(sum: &mut Y, factor: S, y: &Y) {
     for (sum, &value) in sum.as_mut().iter_mut().zip(y.as_ref()) {
         *sum += factor * value;

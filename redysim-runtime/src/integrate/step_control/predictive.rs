@@ -16,8 +16,10 @@ const WORTH_A_CHANGE: f64 = 1.2;
 /// The largest ratio of tolerance to error in a prediction; a larger one counts as this.
 const LARGEST_RATIO: f64 = 1000.0;
 
-/// The smaller of the size that follows from the error of the last step and the size that the errors of the last two
-/// predict if their change continues (K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
+/// Predictive control of step sizes.
+///
+/// A step has the smaller of the size that follows from the error of the last step and the size that the errors of the
+/// last two predict if their change continues (K. Gustafsson, *Control-theoretic techniques for stepsize selection in implicit
 /// Runge-Kutta methods*, ACM Trans. Math. Softw. 20 (1994)). A step does not grow after one that had to be tried again.
 #[derive(Clone, Copy, Debug)]
 pub struct Predictive<S> {

@@ -7,8 +7,9 @@ const STAGES: usize = 16;
 /// How many stages a step takes, the derivative at its end included.
 const MAIN: usize = 13;
 
-/// The pair of J. R. Dormand and P. J. Prince of order 8 with embedded formulas of orders 5 and 3 and a continuous
-/// extension of order 7: E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
+/// The method of order 8 of Dormand and Prince, with embedded formulas of orders 5 and 3.
+///
+/// Its continuous extension has order 7: E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
 /// Springer (1993), section II.10.
 pub const DORMAND_PRINCE_853: Tableau<STAGES> = Tableau {
     rows: [

@@ -44,7 +44,9 @@ pub enum ErrorEstimate<const STAGES: usize> {
     },
 }
 
-/// The pair of orders 5 and 4 of J. R. Dormand and P. J. Prince, *A family of embedded Runge-Kutta formulae*, J.
+/// The pair of orders 5 and 4 of Dormand and Prince.
+///
+/// J. R. Dormand and P. J. Prince, *A family of embedded Runge-Kutta formulae*, J.
 /// Comput. Appl. Math. 6 (1980), table 2, with the continuous extension of order 4 of L. F. Shampine, *Some practical
 /// Runge-Kutta formulas*, Math. Comp. 46 (1986).
 pub const DORMAND_PRINCE: Tableau<7> = Tableau {
@@ -81,9 +83,10 @@ pub const DORMAND_PRINCE: Tableau<7> = Tableau {
     ],
 };
 
-/// The classical method of order 4 of W. Kutta, *Beitrag zur näherungsweisen Integration totaler
-/// Differentialgleichungen*, Z. Math. Phys. 46 (1901), with the derivative at the end of the step as fifth stage. The
-/// continuous extension is the cubic Hermite polynomial through both ends; there is no estimate of the error.
+/// The classical method of order 4 of Kutta.
+///
+/// W. Kutta, *Beitrag zur näherungsweisen Integration totaler Differentialgleichungen*, Z. Math. Phys. 46 (1901), with
+/// the derivative at the end of the step as fifth stage. The continuous extension is the cubic Hermite polynomial through both ends; there is no estimate of the error.
 pub const RUNGE_KUTTA_4: Tableau<5> = Tableau {
     rows: [&[], &[1.0 / 2.0], &[0.0, 1.0 / 2.0], &[0.0, 0.0, 1.0], &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0]],
     nodes: [0.0, 1.0 / 2.0, 1.0 / 2.0, 1.0, 1.0],
