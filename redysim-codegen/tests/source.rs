@@ -88,10 +88,10 @@ fn only_selected_functions_and_their_traits_are_generated() {
 }
 
 #[test]
-fn a_stub_has_the_selected_functions_only() {
+fn a_stub_of_a_valid_model_has_the_selected_functions_only() {
     let functions = Functions::named(["energy"]).unwrap();
-    let interface = PublicInterface { functions, ..PublicInterface::default() };
-    let stub = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).impls.to_string();
+    let interface = PublicInterface { is_valid: true, functions, ..PublicInterface::default() };
+    let stub = text_of_stub(&interface);
     assert!(
         stub.contains("pub fn energy")
             && stub.contains("pub fn energy_with_trig")
@@ -100,16 +100,35 @@ fn a_stub_has_the_selected_functions_only() {
     assert!(!stub.contains("mass_matrix") && !stub.contains("MassMatrix") && !stub.contains("LoopClosure"));
 }
 
+fn text_of_stub(interface: &PublicInterface) -> String {
+    let (name, runtime) = (quote::format_ident!("Robot"), quote::quote!(::redysim_runtime));
+    stub(interface, &name, &runtime, &quote::quote!(compile_error!("a fault"))).impls.to_string()
+}
+
+#[test]
+fn a_stub_of_a_model_with_faults_has_every_function_and_no_size_but_the_fault() {
+    let functions = Functions::named(["energy"]).unwrap();
+    let text = text_of_stub(&PublicInterface { functions, links: vec!["arm".into()], ..PublicInterface::default() });
+    for function in Function::ALL {
+        assert!(text.contains(&format!("fn {} ", function.name())), "{}", function.name());
+    }
+    assert_eq!(text.matches("compile_error").count(), 1);
+    let lengths = text.split("; ").skip(1).filter_map(|rest| rest.split_once(']')).map(|(length, _)| length.trim());
+    let numbers: Vec<_> = lengths.filter(|length| length.parse::<usize>().is_ok()).collect();
+    assert!(numbers.is_empty(), "{numbers:?} in {text}");
+}
+
 /// A base with the sizes of a free joint, and an arm on it.
 #[test]
 fn sizes_and_actuators_follow_the_joints_own_numbers_of_coordinates_and_velocities() {
     let joint = |name: &str, nq, nv, actuated| MovingJoint { name: name.to_string(), nq, nv, actuated };
     let interface = PublicInterface {
+        is_valid: true,
         joints: vec![joint("base", 7, 6, false), joint("arm", 1, 1, true)],
         functions: Functions::named(["mass_matrix", "inverse_dynamics"]).unwrap(),
         ..PublicInterface::default()
     };
-    let text = stub(&interface, &quote::format_ident!("Robot"), &quote::quote!(::redysim_runtime)).impls.to_string();
+    let text = text_of_stub(&interface);
     let text: String = text.split_whitespace().collect();
     for part in [
         "constNQ:usize=8;",

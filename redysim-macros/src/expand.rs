@@ -1,7 +1,7 @@
 //! From a declaration to code: the mechanism, warnings and errors.
 
 use crate::declaration::Declaration;
-use crate::locate::{model_file, shown};
+use crate::locate::{Located, shown};
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use redysim_codegen::passes::Passes;
@@ -35,54 +35,65 @@ pub fn impls(declaration: &Declaration) -> TokenStream {
          the derive",
         declaration.name
     );
-    compile_error(declaration, &message, declaration.model.span())
+    let error = compile_error(&message, declaration.model.span());
+    let TypeTokens { impls, .. } = stub(&PublicInterface::default(), &declaration.name, &runtime(), &error);
+    quote!(const _: () = { #impls };)
 }
 
 /// The type, whose `impl`s come with the messages about its model.
 fn tokens(declaration: &Declaration) -> TypeTokens {
     let Declaration { name, model, options, .. } = declaration;
-    let runtime = quote!(::redysim::runtime);
-    let file = model_file(model);
+    let runtime = runtime();
+    let located = Located::new(model);
+    let file = &located.path;
     let registered = file.to_str().filter(|_| file.is_file()).map(|path| {
         // So that the compiler tracks the file as a dependency.
         quote!(
             const _: &[u8] = ::core::include_bytes!(#path);
         )
     });
-    let mut failure = None;
+    // The stub has the first error; the others stand beside it.
+    let mut others = Vec::new();
     let (diagnostics, warnings, TypeTokens { fields, impls }) =
-        match Model::load_with(&file, shown(&file), options.text.as_str()) {
+        match Model::load_with(file, shown(file), options.text.as_str()) {
             Ok(loaded) => match implementation_with(&loaded.model, name, &runtime, &loaded.options, &Passes::default())
             {
                 Ok(generated) => (loaded.warnings, generated.warnings, generated.tokens),
                 Err(error) => {
-                    failure = Some(compile_error(declaration, &error.to_string(), model.span()));
+                    let error = compile_error(&error.to_string(), model.span());
                     let interface = PublicInterface::new(&loaded.model, &loaded.options);
-                    (loaded.warnings, Vec::new(), stub(&interface, name, &runtime))
+                    (loaded.warnings, Vec::new(), stub(&interface, name, &runtime, &error))
                 }
             },
-            Err(faults) => (faults.diagnostics.0, Vec::new(), stub(&faults.interface, name, &runtime)),
+            Err(faults) => {
+                let missing = located.missing().map(|message| compile_error(&message, model.span()));
+                let shown = |error: &Diagnostic| compile_error(&message(error), place(declaration, error));
+                let mut errors = missing.map_or_else(|| faults.errors().map(shown).collect(), |error| vec![error]);
+                let first = errors.remove(0);
+                others = errors;
+                (faults.diagnostics.0, Vec::new(), stub(&faults.interface, name, &runtime, &first))
+            }
         };
-    let messages = diagnostics.iter().map(|diagnostic| {
-        let (message, span) = (message(diagnostic), place(declaration, diagnostic));
-        match diagnostic.severity() {
-            Severity::Error => compile_error(declaration, &message, span),
-            _ => compile_warning(declaration, &message, span),
-        }
-    });
+    let odd = diagnostics.iter().filter(|diagnostic| diagnostic.severity() != Severity::Error);
+    let odd = odd.map(|warning| compile_warning(declaration, &message(warning), place(declaration, warning)));
     let warnings = warnings.iter().map(|warning| compile_warning(declaration, warning, model.span()));
     let cfgs = cfgs(declaration);
     let impls = quote! {
-        #failure
-        #(#messages)*
+        #(#odd)*
         #(#warnings)*
         #(#cfgs)*
         const _: () = {
             #registered
             #impls
+            #(#others;)*
         };
     };
     TypeTokens { fields, impls }
+}
+
+/// The path of the crate that generated code uses.
+fn runtime() -> TokenStream {
+    quote!(::redysim::runtime)
 }
 
 /// The `cfg` attributes of the struct, which its `impl`s and messages need as well.
@@ -90,9 +101,9 @@ fn cfgs(declaration: &Declaration) -> impl Iterator<Item = &Attribute> {
     declaration.attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"))
 }
 
-fn compile_error(declaration: &Declaration, message: &str, span: Span) -> TokenStream {
-    let cfgs = cfgs(declaration);
-    quote_spanned!(span=> #(#cfgs)* ::core::compile_error!(#message);)
+/// An expression, or an item before `;`, that is this error.
+fn compile_error(message: &str, span: Span) -> TokenStream {
+    quote_spanned!(span=> ::core::compile_error!(#message))
 }
 
 /// Where the compiler shows a diagnostic: at an option in the declaration, or at the path of the model.

@@ -59,7 +59,7 @@ impl Model {
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
             Err(_) if path.is_dir() => return Err(nothing_of(name, messages::is_directory(), &options, true)),
-            Err(error) => return Err(nothing_of(name, messages::unreadable(&error), &options, true)),
+            Err(error) => return Err(nothing_of(name, messages::unreadable(path, &error), &options, true)),
         };
         of_bytes(bytes, name, options)
     }

@@ -12,6 +12,8 @@ use redysim_runtime::{Functions, ParameterRule};
 /// far as the file can be read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PublicInterface {
+    /// Whether the model is valid. What the sizes of one with faults are meant to be is unknown.
+    pub is_valid: bool,
     /// Name of the mechanism; empty if it cannot be read.
     pub name: String,
     /// Names of the links; "link #2" stands for one that cannot be read.
@@ -26,7 +28,7 @@ pub struct PublicInterface {
     pub mass: f64,
     /// The functions of the type.
     pub functions: Functions,
-    /// The numbers that the type is given at run time.
+    /// The numbers that the type is given at run time; one without a name stands for those that cannot be read.
     pub parameters: Vec<ParameterNumber>,
 }
 
@@ -88,6 +90,7 @@ impl PublicInterface {
             named.map(move |(name, value)| ParameterNumber { name, value, rule })
         };
         PublicInterface {
+            is_valid: true,
             name: model.name.clone(),
             links: model.links.iter().map(|link| link.name.clone()).collect(),
             joints: joints.collect(),

@@ -15,6 +15,7 @@
 //! | [`Message`] | its words: item, rule and value in the title, the rule in the label, the remedy in the help |
 //! | [`read`] | reads a file from its text to a value, with all of these |
 //! | [`with_decimal_points`] | numbers with a decimal comma, as they are to be written |
+//! | [`similar_file`] | the file that a path was probably meant to name |
 //! | [`words`] | quoted values, nearest names, short numbers: for further messages |
 //!
 //! # Example
@@ -50,6 +51,7 @@ mod findings;
 mod key;
 mod kind;
 mod messages;
+mod nearby;
 mod reader;
 mod source;
 mod units;
@@ -63,6 +65,7 @@ pub use file::{Parsed, parse, read};
 pub use findings::Findings;
 pub use key::{Hint, Key, KeyPath, Keys};
 pub use kind::Kind;
+pub use nearby::similar_file;
 pub use reader::{Reader, TableAt, name_of};
 pub use source::Source;
 pub use value::{Array, LARGE_ANGLE, ROUNDED_ANGLE, Table, Value};

@@ -16,4 +16,7 @@ redysim::redysim! {
 fn main() {
     let robot = Loaded::new(&[0.0_f64, 0.0, -9.81]);
     let _: [f64; 2] = robot.inverse_dynamics(&[0.0; 2], &[0.0; 2], &[0.0; 2]);
+    let misspelt = Misspelt::new(&[0.4_f64, 0.2]);
+    let _: [f64; 4] = misspelt.inverse_dynamics(&[0.0; 4], &[0.0; 4], &[0.0; 4]);
+    let _: [f64; 4] = Derived::gravity_forces(&[0.0; 4]);
 }

@@ -1,12 +1,19 @@
 //! Messages about model files that cannot be read.
 
 use super::message;
-use redysim_toml::Message;
+use redysim_toml::{Message, similar_file};
+use std::path::Path;
 
-pub(crate) fn unreadable(error: &std::io::Error) -> Message {
+pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Message {
     let help = match error.kind() {
-        std::io::ErrorKind::PermissionDenied => "its permissions forbid it",
-        _ => "the path must name a TOML file in UTF-8",
+        std::io::ErrorKind::PermissionDenied => "its permissions forbid it".to_string(),
+        std::io::ErrorKind::NotFound => {
+            let folder = path.parent().unwrap_or(path);
+            let similar = similar_file(path, &[folder, Path::new("")]);
+            let similar = similar.map(|file| format!("did you mean `{}`? ", file.display())).unwrap_or_default();
+            format!("{similar}A path is taken from the current folder")
+        }
+        _ => "the path must name a TOML file in UTF-8".to_string(),
     };
     message(format!("cannot read the model file: {error}"), "", help)
 }

@@ -27,7 +27,7 @@ use crate::lint::Lint;
 use crate::messages;
 use crate::public_interface::{MovingJoint, ParameterNumber, PublicInterface};
 use crate::run_time::RunTimeParameter;
-use redysim_runtime::Functions;
+use redysim_runtime::{Functions, ParameterRule};
 use redysim_toml::words::quoted;
 use redysim_toml::{DeValue, Field, Findings, Parsed, Reader, Spanned, TableAt};
 use std::ops::Range;
@@ -117,8 +117,14 @@ impl Document {
             let (names, rule) = (parameter.names_with(owner), parameter.quantity.rule());
             names.map(move |name| ParameterNumber { name, value: 0.0, rule }).collect::<Vec<_>>()
         };
+        let parameters = match &self.options.parameters.value {
+            Field::Missing => Vec::new(),
+            Field::Value(parameters) => parameters.get_ref().iter().flat_map(numbers).collect(),
+            Field::Invalid => vec![ParameterNumber { name: String::new(), value: 0.0, rule: ParameterRule::Finite }],
+        };
         let functions = self.options.functions.value.value().map_or(Functions::ALL, |given| given.set());
         PublicInterface {
+            is_valid: false,
             name: self.name.value().cloned().unwrap_or_default(),
             links: self.links.iter().map(|link| name(link.name.spanned(), &link.item)).collect(),
             joints: self.links.iter().filter(|link| !link.is_rigid()).map(joint).collect(),
@@ -126,7 +132,7 @@ impl Document {
             frames: self.frames.iter().map(|frame| name(frame.name.spanned(), &frame.item)).collect(),
             mass: self.links.iter().filter_map(|link| link.mass.value()).sum(),
             functions: functions.with_frames(self.frames.len()),
-            parameters: self.options.parameters.value.value().into_iter().flatten().flat_map(numbers).collect(),
+            parameters,
         }
     }
 }

@@ -185,7 +185,8 @@ fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option
 fn parameters(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Field<Vec<Spanned<RunTimeParameter>>> {
     reader.field(&keys::PARAMETERS, |reader, path, value| {
         let mut parameters: Vec<Spanned<RunTimeParameter>> = Vec::new();
-        for (index, value) in reader.array(path, value, "an array of names of parameters")?.iter().enumerate() {
+        let names = reader.array(path, value, "an array of names of parameters")?;
+        for (index, value) in names.iter().enumerate() {
             let DeValue::String(text) = value.get_ref() else {
                 reader.wrong_type::<()>(&path.element(index), value, "the name of a parameter");
                 continue;
@@ -197,7 +198,7 @@ fn parameters(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Fi
                 parameters.push(Spanned::new(value.span(), parameter));
             }
         }
-        Some(parameters)
+        (!parameters.is_empty() || names.is_empty()).then_some(parameters)
     })
 }
 

@@ -6,7 +6,7 @@ use super::parametric::Form;
 use super::{length, results};
 use crate::mechanism::{FunctionProgram, TrigProgram};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 use redysim_model::{Function, PublicInterface};
 use redysim_runtime::function::{Argument, Dimension};
 
@@ -25,7 +25,7 @@ pub struct Writer<'a> {
 impl Writer<'_> {
     /// The function that computes the sines and cosines of all angles.
     pub fn joint_trig(&self) -> TokenStream {
-        let head = joint_trig_head(self.interface, self.angles(), self.runtime);
+        let head = joint_trig_head(self.interface, &self.angles(), self.runtime);
         let (q, runtime) = (local("q"), self.runtime);
         let sines_and_cosines = sines_and_cosines(self.trig);
         let body = with_target_features(&quote! {
@@ -43,8 +43,8 @@ impl Writer<'_> {
     }
 
     /// Number of angles of the mechanism.
-    fn angles(&self) -> usize {
-        self.trig.angles.len()
+    fn angles(&self) -> TokenStream {
+        Literal::usize_unsuffixed(self.trig.angles.len()).into_token_stream()
     }
 
     /// The code of a function after the sines and cosines.
@@ -76,8 +76,8 @@ impl Writer<'_> {
         let FunctionProgram { function, ref documentation, ref trig, .. } = *program;
         let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
-            (head(function, interface, runtime), head_with_trig(function, interface, angles, runtime));
-        let head_inlined = head_inlined(function, interface, angles, runtime);
+            (head(function, interface, runtime), head_with_trig(function, interface, &angles, runtime));
+        let head_inlined = head_inlined(function, interface, &angles, runtime);
         let lines = documentation.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
         let docs_with_trig =
@@ -196,9 +196,13 @@ fn inlined(function: Function) -> Ident {
 }
 
 /// Name, arguments and result of the function that is given the sines and cosines of `angles` angles.
-fn head_inlined(function: Function, interface: &PublicInterface, angles: usize, runtime: &TokenStream) -> TokenStream {
+fn head_inlined(
+    function: Function,
+    interface: &PublicInterface,
+    angles: &TokenStream,
+    runtime: &TokenStream,
+) -> TokenStream {
     let name = inlined(function);
-    let angles = Literal::usize_unsuffixed(angles);
     let [sin, cos] = [SIN, COS].map(local);
     let (q, others) =
         (parameters(function, interface, runtime).take(1), parameters(function, interface, runtime).skip(1));
@@ -210,8 +214,8 @@ fn head_inlined(function: Function, interface: &PublicInterface, angles: usize, 
 }
 
 /// Name, argument and result of the function that computes sines and cosines.
-pub fn joint_trig_head(interface: &PublicInterface, angles: usize, runtime: &TokenStream) -> TokenStream {
-    let (nq, angles) = (length(interface, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
+pub fn joint_trig_head(interface: &PublicInterface, angles: &TokenStream, runtime: &TokenStream) -> TokenStream {
+    let nq = length(interface, Dimension::Coordinates);
     let q = local("q");
     let Form { function, receiver, .. } = Form::of(interface, runtime);
     quote!(fn joint_trig #function(#receiver #q: &[S; #nq]) -> #runtime::JointTrig<S, #nq, #angles>)
@@ -221,11 +225,11 @@ pub fn joint_trig_head(interface: &PublicInterface, angles: usize, runtime: &Tok
 pub fn head_with_trig(
     function: Function,
     interface: &PublicInterface,
-    angles: usize,
+    angles: &TokenStream,
     runtime: &TokenStream,
 ) -> TokenStream {
     let name = format_ident!("{}_with_trig", function.name());
-    let (nq, angles) = (length(interface, Dimension::Coordinates), Literal::usize_unsuffixed(angles));
+    let nq = length(interface, Dimension::Coordinates);
     let (trig, others) = (local(TRIG), parameters(function, interface, runtime).skip(1));
     let output = results::output_type(function.signature().result, interface, runtime);
     let Form { function, receiver, .. } = Form::of(interface, runtime);

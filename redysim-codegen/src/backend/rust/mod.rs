@@ -11,12 +11,13 @@ mod traits;
 
 use crate::mechanism::MechanismProgram;
 pub use body::RESERVED;
+use body::local;
 use function::{Writer, head, head_with_trig, joint_trig_head};
 pub use parametric::TypeTokens;
 use parametric::{constructors, is_parametric};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
-use redysim_model::{Function, PublicInterface};
+use quote::{ToTokens, format_ident, quote};
+use redysim_model::{Function, Functions, PublicInterface};
 use redysim_runtime::OperationCount;
 use redysim_runtime::function::Dimension;
 
@@ -36,14 +37,18 @@ pub fn mechanism(mechanism: &MechanismProgram, name: &Ident, runtime: &TokenStre
     TypeTokens::new(interface, numbers, quote!(#impls #constructors))
 }
 
-/// A type whose model has faults: every item has its type, but no function a body, so that the faults of
-/// the model are the only errors.
-pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) -> TypeTokens {
-    let angles = interface.size(Dimension::Coordinates);
-    let joint_trig = joint_trig_head(interface, angles, runtime);
+/// A type that cannot be generated because of `error`, an expression that does not compile, such as
+/// `compile_error!("..")`: it has every item, but no function has a body. If its model has faults, it has all functions,
+/// and `error` is the size of every array: the compiler reports nothing further of such arrays, so that the faults of the
+/// model are the only errors, whatever size the code around it expects.
+pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream, error: &TokenStream) -> TypeTokens {
+    let functions = if interface.is_valid { interface.functions } else { Functions::ALL };
+    let interface = &PublicInterface { functions, ..interface.clone() };
+    let unknown = local(UNKNOWN).into_token_stream();
+    let joint_trig = joint_trig_head(interface, &unknown, runtime);
     let own = interface.functions.iter().filter(|function| !function.is_always_present());
     let heads = own.flat_map(|function| {
-        [head(function, interface, runtime), head_with_trig(function, interface, angles, runtime)]
+        [head(function, interface, runtime), head_with_trig(function, interface, &unknown, runtime)]
     });
     let body = quote!(::core::unreachable!());
     let definitions = std::iter::once(joint_trig).chain(heads).map(|head| quote!(pub #head { #body }));
@@ -51,7 +56,7 @@ pub fn stub(interface: &PublicInterface, name: &Ident, runtime: &TokenStream) ->
     let configuration = configuration.map(|function| (function, body.clone()));
     let constructors = constructors(interface, None, name, runtime);
     let impls = type_impls(interface, configuration.collect(), name, runtime, &[], definitions.collect());
-    TypeTokens::new(interface, 0, quote!(#impls #constructors))
+    TypeTokens::new(interface, 0, quote!(const #unknown: usize = #error; #impls #constructors))
 }
 
 fn type_impls(
@@ -94,9 +99,30 @@ fn type_impls(
     }
 }
 
+/// The constant that stands for every size of a mechanism whose model has faults.
+const UNKNOWN: &str = "UNKNOWN";
+
+/// `value`, which the compiler does not evaluate where the model has faults.
+fn known(interface: &PublicInterface, value: TokenStream) -> TokenStream {
+    if interface.is_valid {
+        return value;
+    }
+    let unknown = local(UNKNOWN);
+    quote!({ let _: usize = #unknown; #value })
+}
+
 /// A size of the mechanism, as the length of an array.
-fn length(interface: &PublicInterface, dimension: Dimension) -> Literal {
-    Literal::usize_unsuffixed(interface.size(dimension))
+fn length(interface: &PublicInterface, dimension: Dimension) -> TokenStream {
+    length_of(interface, interface.size(dimension))
+}
+
+/// The length of an array, which is unknown where the model has faults.
+fn length_of(interface: &PublicInterface, length: usize) -> TokenStream {
+    if interface.is_valid {
+        Literal::usize_unsuffixed(length).into_token_stream()
+    } else {
+        local(UNKNOWN).into_token_stream()
+    }
 }
 
 fn constants(
@@ -111,7 +137,7 @@ fn constants(
     } else {
         " Mass of all links, kg."
     };
-    let (nj, joints) = (Literal::usize_unsuffixed(joints.len()), joints.iter().map(|joint| &joint.name));
+    let (nj, joints) = (length_of(interface, joints.len()), joints.iter().map(|joint| &joint.name));
     let actuated = interface.actuated();
     let sizes =
         [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows, Dimension::Frames];
@@ -124,6 +150,8 @@ fn constants(
             additions: #additions, multiplications: #multiplications, divisions: #divisions, trig: #trig,
         })
     });
+    let mass = known(interface, mass.to_token_stream());
+    let operations = known(interface, quote!(#runtime::Operations { #(#counts,)* ..#runtime::Operations::NONE }));
     quote! {
         /// Name of the model.
         pub const NAME: &'static str = #name;
@@ -151,6 +179,6 @@ fn constants(
         /// Whether each joint velocity has an actuator.
         pub const ACTUATED: [bool; #nv] = [#(#actuated),*];
         /// Operations of each function.
-        pub const OPS: #runtime::Operations = #runtime::Operations { #(#counts,)* ..#runtime::Operations::NONE };
+        pub const OPS: #runtime::Operations = #operations;
     }
 }

@@ -2,6 +2,7 @@
 //! functions are methods, and the scalar is a parameter of the type.
 
 use super::body::{GIVEN, body, constant, local};
+use super::length_of;
 use crate::program::Program;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -103,7 +104,7 @@ impl Form {
 
 /// The constants of the parameters.
 pub fn constants(interface: &PublicInterface) -> TokenStream {
-    let np = Literal::usize_unsuffixed(interface.parameters.len());
+    let np = length_of(interface, interface.parameters.len());
     let names = interface.parameters.iter().map(|parameter| &parameter.name);
     let values = interface.parameters.iter().map(|parameter| constant(parameter.value));
     quote! {
@@ -126,7 +127,7 @@ pub fn constructors(
     if !is_parametric(interface) {
         return TokenStream::new();
     }
-    let (np, given) = (Literal::usize_unsuffixed(interface.parameters.len()), local(GIVEN));
+    let (np, given) = (length_of(interface, interface.parameters.len()), local(GIVEN));
     let new = match lumped {
         Some(program) => body(program, &[], |outputs| quote!(#name { #given: [#(#outputs),*] })),
         None => quote!(::core::unreachable!()),

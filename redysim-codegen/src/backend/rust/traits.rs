@@ -2,7 +2,7 @@
 
 use super::function::{arguments, parameters};
 use super::parametric::{Form, is_parametric};
-use super::{length, results};
+use super::{length, length_of, results};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, PublicInterface};
@@ -128,7 +128,7 @@ pub fn mechanism(
         [Dimension::Coordinates, Dimension::Velocities, Dimension::Links].map(|dimension| length(interface, dimension));
     // Coordinates, velocities, and the energy of the actuators.
     let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
-    let state = Literal::usize_unsuffixed(state);
+    let state = length_of(interface, state);
     let Form { generics, over_scalar, arguments, reads_in_trait, .. } = Form::of(interface, runtime);
     let methods = configuration.into_iter().map(|(function, body)| {
         let method = method(function, interface, runtime, &quote!(#reads_in_trait #body));

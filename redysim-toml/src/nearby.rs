@@ -1,0 +1,71 @@
+//! The file that a path was probably meant to name.
+
+use crate::words::nearest;
+use std::path::{Path, PathBuf};
+
+/// How many folders below one are searched.
+const DEPTH: usize = 2;
+
+/// How many entries are looked at, so that a path into a large folder is reported at once.
+const MOST: usize = 2000;
+
+/// The TOML file in or below `folders` whose name is the nearest to that of the missing file `wanted`; of equally near
+/// ones the first found, in the order of `folders`. Hidden folders, Cargo's `target` and links are not searched.
+pub fn similar_file(wanted: &Path, folders: &[&Path]) -> Option<PathBuf> {
+    let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase());
+    let (mut files, mut left) = (Vec::new(), MOST);
+    for folder in folders {
+        collect(folder, DEPTH, &mut left, &mut files);
+    }
+    let stems: Vec<String> = files.iter().map(|file| stem(file).unwrap_or_default()).collect();
+    let near = nearest(&stem(wanted)?, stems.iter().map(String::as_str))?;
+    files.into_iter().zip(&stems).find(|(_, stem)| *stem == near).map(|(file, _)| file)
+}
+
+/// The TOML files in `folder`, then those in the folders in it, by name.
+fn collect(folder: &Path, depth: usize, left: &mut usize, files: &mut Vec<PathBuf>) {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let Ok(entries) = std::fs::read_dir(here) else { return };
+    let mut entries: Vec<_> = entries.flatten().take(*left).collect();
+    *left -= entries.len();
+    entries.sort_by_key(std::fs::DirEntry::file_name);
+    let mut folders = Vec::new();
+    for entry in entries {
+        let (name, path) = (entry.file_name(), folder.join(entry.file_name()));
+        let Ok(kind) = entry.file_type() else { continue };
+        let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+        if kind.is_dir() && depth > 0 && name != "target" && !name.to_string_lossy().starts_with('.') {
+            folders.push(path);
+        } else if kind.is_file() && is_toml && name != "Cargo.toml" {
+            files.push(path);
+        }
+    }
+    folders.iter().for_each(|folder| collect(folder, depth - 1, left, files));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::similar_file;
+    use std::path::{Path, PathBuf};
+
+    fn repository() -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    }
+
+    #[test]
+    fn the_nearest_name_in_the_folder_is_similar() {
+        let models = repository().join("models");
+        for wanted in ["kr6.toml", "KR5.toml", "kr5", "kr5.tml"] {
+            assert_eq!(similar_file(&models.join(wanted), &[&models]), Some(models.join("kr5.toml")), "{wanted}");
+        }
+        assert_eq!(similar_file(&models.join("centipede.toml"), &[&models]), None);
+    }
+
+    #[test]
+    fn files_in_other_folders_are_similar_too() {
+        let root = repository();
+        assert_eq!(similar_file(Path::new("gripper.toml"), &[&root]), Some(root.join("models/gripper.toml")));
+        assert_eq!(similar_file(&root.join("modles/kr5.toml"), &[&root.join("modles")]), None);
+        assert_eq!(similar_file(&root.join("Cargo.toml"), &[&root.join("redysim-toml")]), None);
+    }
+}
