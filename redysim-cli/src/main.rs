@@ -7,6 +7,7 @@
 // They panic if the pipe is closed; `output` does not.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
+mod closed;
 mod commands;
 mod failure;
 mod interrupt;
@@ -26,7 +27,7 @@ mod urdf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{animate, check, completions, forward, generate, import, inverse, plot, show};
+use commands::{animate, check, completions, forward, generate, import, inverse, new, plot, show};
 
 /// Dynamics of serial, tree-type and closed-loop mechanisms written in TOML.
 #[derive(Parser)]
@@ -41,6 +42,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    New(new::Arguments),
     Check(check::Arguments),
     Inverse(inverse::Arguments),
     Forward(forward::Arguments),
@@ -55,6 +57,7 @@ enum Command {
 fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::parse();
     let done = match command {
+        Command::New(arguments) => new::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Inverse(arguments) => inverse::run(&arguments, quiet),
         Command::Forward(arguments) => forward::run(&arguments, quiet),

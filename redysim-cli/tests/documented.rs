@@ -117,7 +117,7 @@ fn the_examples_of_the_help_run() {
     // What `plot` and `animate` are shown with.
     run(&folder, "inverse scenarios/kuka.toml");
     run(&folder, "forward scenarios/kuka.toml");
-    for command in ["check", "inverse", "forward", "plot", "animate", "show", "generate", "import"] {
+    for command in ["new", "check", "inverse", "forward", "plot", "animate", "show", "generate", "import"] {
         let help = run(&folder, &format!("{command} --help"));
         let examples = help.lines().filter_map(|line| line.strip_prefix("  redysim "));
         let alone: Vec<&str> = examples.filter(|example| !example.contains(['|', '>'])).collect();

@@ -75,7 +75,7 @@ fn load(arguments: &Arguments, quiet: bool) -> Result<Loaded, Failure> {
 
 /// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is not one of a type, such as `3rrr`, is
 /// `Mechanism3rrr`.
-fn type_name(model: &str) -> String {
+pub fn type_name(model: &str) -> String {
     let words = model.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let name: String = words
         .map(|word| {

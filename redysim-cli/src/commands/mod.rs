@@ -7,5 +7,6 @@ pub mod forward;
 pub mod generate;
 pub mod import;
 pub mod inverse;
+pub mod new;
 pub mod plot;
 pub mod show;

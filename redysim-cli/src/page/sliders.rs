@@ -1,19 +1,13 @@
 //! The coordinates of a model that whoever looks at it moves.
 
-use std::cmp::Reverse;
 use std::f64::consts::{PI, TAU};
 
 use redysim_model::{GenericMechanism, JointKind, JointRange, Model};
-use redysim_runtime::{ClosedLoop, LoopRows};
 use serde::Serialize;
 
 use super::bodies;
+use crate::closed::closed_position;
 use crate::layout::{Component, Layout, Measure};
-
-/// As many closed positions are compared where none has as many independent constraints as there are constraints.
-const POSITIONS: usize = 2;
-/// Positions from which loops are closed: the neutral one, and others spread over the coordinates.
-const STARTS: usize = 6;
 
 /// A coordinate, and within what it is moved.
 #[derive(Clone, Debug, Serialize)]
@@ -61,7 +55,7 @@ pub fn of(model: &Model, layout: &Layout) -> (Vec<Slider>, Option<String>) {
     }
     let mechanism = GenericMechanism::new(model.clone());
     let start: Vec<f64> = sliders.iter().map(|slider| slider.start).collect();
-    match closed(&mechanism, start) {
+    match closed_position(&mechanism, start) {
         Ok(q) => {
             for (slider, q) in sliders.iter_mut().zip(q) {
                 let turns = if slider.limits == Limits::Turn { TAU * (q / TAU).round() } else { 0.0 };
@@ -71,24 +65,4 @@ pub fn of(model: &Model, layout: &Layout) -> (Vec<Slider>, Option<String>) {
         }
         Err(why) => (sliders, Some(format!("the loops are shown open: {why}"))),
     }
-}
-
-/// A position with closed loops, where possible one from which they can move.
-fn closed(mechanism: &GenericMechanism, start: Vec<f64>) -> Result<Vec<f64>, String> {
-    let loops = ClosedLoop::new(mechanism);
-    let rest = vec![0.0; mechanism.tree().nv()];
-    let starts = std::iter::once(start).chain((1..STARTS).map(|position| mechanism.tree().sample(position)));
-    let (mut found, mut why) = (Vec::new(), None);
-    for start in starts {
-        match loops.assemble::<f64>(&start, &rest, &[]) {
-            Ok(assembly) => found.push((assembly.q, assembly.rank)),
-            Err(error) => why = why.or(Some(loops.with_names(error).to_string())),
-        }
-        let full = found.last().is_some_and(|(_, rank)| *rank == mechanism.nc());
-        if full || found.len() == POSITIONS {
-            break;
-        }
-    }
-    let best = found.into_iter().min_by_key(|(_, rank)| Reverse(*rank));
-    best.map(|(q, _)| q).ok_or_else(|| why.unwrap_or_default())
 }
