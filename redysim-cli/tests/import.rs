@@ -316,6 +316,23 @@ fn warnings_of_rounded_quarter_turns_name_the_option_that_makes_them_exact() {
     assert!(shown.stderr.contains("`redysim import --quarter-turns` makes"), "{}", shown.stderr);
 }
 
+#[test]
+fn of_very_many_errors_of_a_urdf_the_first_20_are_shown() {
+    let faulty = BODY.replace("<mass value=\"", "<mass value=\"-");
+    assert_ne!(faulty, BODY);
+    let link = |k: usize| {
+        let parent = if k == 0 { "rod".into() } else { format!("part{}", k - 1) };
+        format!(
+            "<link name=\"part{k}\">{faulty}</link><joint name=\"joint{k}\" type=\"continuous\">\
+             <parent link=\"{parent}\"/><child link=\"part{k}\"/></joint>\n"
+        )
+    };
+    let links: String = (0..50).map(link).collect();
+    let run = import_from(&folder_with(pendulum("", BODY).replace("</robot>", &(links + "</robot>"))), &[]);
+    assert_eq!((run.code, run.stderr.matches("error: ").count()), (1, 20), "{}", run.stderr);
+    assert!(run.stderr.ends_with("\nand 30 more errors\n"), "{}", run.stderr);
+}
+
 /// The antennas of Tiago, as its makers publish them: their products of inertia exceed what their moments permit.
 #[test]
 fn a_negative_moment_of_a_small_part_is_a_warning() {

@@ -149,16 +149,25 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// The number of errors that are shown: a file with more is corrected in several rounds, or wrong in one place of the
-/// program that wrote it.
-const MOST_ERRORS: usize = 20;
-
 /// Errors, warnings and notes, in the file's order. Its `Display` shows one below the other, of more than 20 errors the
 /// first 20 and how many more there are.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
+    /// The number of errors that are shown: a file with more is corrected in several rounds, or wrong in one place of
+    /// the program that wrote it.
+    pub const MOST_ERRORS: usize = 20;
+
+    /// What is shown in place of the rest of so many errors: "and 3 more errors"; `None` if all are shown.
+    pub fn more(errors: usize) -> Option<String> {
+        match errors.saturating_sub(Self::MOST_ERRORS) {
+            0 => None,
+            1 => Some("and 1 more error".into()),
+            more => Some(format!("and {more} more errors")),
+        }
+    }
+
     /// The errors alone.
     pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
         self.iter().filter(|diagnostic| diagnostic.severity == Severity::Error)
@@ -208,17 +217,13 @@ impl fmt::Display for Diagnostics {
         let mut gap = "";
         for diagnostic in self {
             errors += usize::from(diagnostic.severity == Severity::Error);
-            if diagnostic.severity == Severity::Error && errors > MOST_ERRORS {
+            if diagnostic.severity == Severity::Error && errors > Diagnostics::MOST_ERRORS {
                 continue;
             }
             write!(f, "{gap}{diagnostic}")?;
             gap = "\n\n";
         }
-        match errors.saturating_sub(MOST_ERRORS) {
-            0 => Ok(()),
-            1 => write!(f, "{gap}and 1 more error"),
-            more => write!(f, "{gap}and {more} more errors"),
-        }
+        Diagnostics::more(errors).map_or(Ok(()), |more| write!(f, "{gap}{more}"))
     }
 }
 

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use document::Document;
 use model_file::ModelFile;
-use redysim_model::{Diagnostic, JointKind, Lint, Model};
+use redysim_model::{Diagnostic, Diagnostics, JointKind, Lint, Model};
 use robot::Robot;
 pub use visuals::Visual;
 
@@ -111,11 +111,12 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     let notes = robot.notes.iter().cloned().chain(fused).collect();
     let written = model_file::write(&robot, &head(&robot, &changes, path));
     let loaded = Model::from_toml(written.text.clone(), file.clone()).map_err(|faults| {
-        let shown = faults.errors().map(|error| {
+        let shown = faults.errors().take(Diagnostics::MOST_ERRORS).map(|error| {
             let line = error.position().map_or(1, |(line, _)| urdf_line(line, &written, &robot, &document));
             format!("{file}:{line}: {}\n  = help: {}", error.title(), error.help())
         });
-        Failure::input(shown.collect::<Vec<_>>().join("\nerror: "))
+        let more = Diagnostics::more(faults.errors().count()).map_or(String::new(), |more| format!("\n{more}"));
+        Failure::input(shown.collect::<Vec<_>>().join("\nerror: ") + &more)
     })?;
     Ok(Imported { text: written.text, model: loaded.model, changes, notes, warnings: loaded.warnings })
 }
