@@ -13,7 +13,8 @@ use redysim_runtime::InverseDynamics;
 const URDF: &str = r#"<robot name="two rods"><link name="ground"/>
   <link name="upper"><inertial><origin xyz="0 0 0.3"/><mass value="2"/>
     <inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <link name="slide"><inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="slide"><inertial><mass value="1"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="shoulder" type="continuous"><parent link="ground"/><child link="upper"/><axis xyz="0 1 0"/></joint>
   <joint name="rail" type="prismatic"><parent link="upper"/><child link="slide"/><axis xyz="0 0 1"/>
     <limit lower="0" upper="1" effort="10" velocity="1"/></joint></robot>"#;

@@ -15,8 +15,8 @@ use robot::Robot;
 
 /// Make a crate with a robot, a program that prints its inverse and forward dynamics, and a test.
 ///
-/// The crate has the robot's model file, which redysim! compiles: what is wrong in it is a compile error. The program of a
-/// robot with closed loops begins where they are closed.
+/// The crate has the robot's model file, which redysim! compiles: what is wrong in it is a compile error. The program of
+/// a robot with closed loops begins where they are closed.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -30,8 +30,8 @@ pub struct Arguments {
     /// The robot: kr5 (an arm), gripper (a tree) or fourbar (a closed loop), a model file, or a URDF.
     #[arg(long, value_name = "ROBOT", default_value = "kr5")]
     robot: PathBuf,
-    /// The checkout of redysim on which the crate depends [default: the one that this command is built from, or if it is
-    /// gone, the published version].
+    /// The checkout of redysim on which the crate depends [default: the one that this command is built from, or if it
+    /// is gone, the published version].
     #[arg(long, value_name = "FOLDER")]
     redysim: Option<PathBuf>,
 }
