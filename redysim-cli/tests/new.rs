@@ -169,7 +169,7 @@ fn names_that_a_crate_cannot_have_are_refused_with_one_that_it_can() {
         [("match", "`match-robot`"), ("my arm", "`my-arm`"), ("3rrr", "`robot-3rrr`"), ("redysim", "`redysim-robot`")];
     for (name, suggested) in names_and_suggestions {
         let refused = fail(&folder, &["new", name], 1);
-        assert!(refused.contains(&format!("a crate cannot be called `{name}`")), "{refused}");
+        assert!(refused.contains(&format!("a crate cannot be named `{name}`")), "{refused}");
         assert!(refused.contains(suggested), "{refused}");
     }
     assert!(fail(&folder, &["new", "nowhere/arm"], 3).contains("nowhere"));
@@ -184,7 +184,7 @@ fn what_is_there_is_never_overwritten() {
     fs::write(folder.join("file"), "mine").unwrap();
     for name in ["empty", "file"] {
         let refused = fail(&folder, &["new", name], 3);
-        assert!(refused.contains(&format!("{name} is there already")), "{refused}");
+        assert!(refused.contains(&format!("{name} exists already")), "{refused}");
     }
     assert!(names(&folder.join("empty")).is_empty());
     assert_eq!(fs::read_to_string(folder.join("file")).unwrap(), "mine");

@@ -41,8 +41,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let folder = &arguments.folder;
     let name = name::of(folder)?;
     if folder.symlink_metadata().is_ok() {
-        let message = format!("{} is there already", folder.display());
-        return Err(Failure::outside(message).help("give another name: nothing is overwritten"));
+        let message = format!("{} exists already", folder.display());
+        return Err(Failure::outside(message).help("choose another name: nothing is overwritten"));
     }
     let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let parent = fs::canonicalize(parent).map_err(|error| Failure::file("read the folder", parent, &error))?;
