@@ -140,10 +140,11 @@ impl Model {
             file.entry(link_key, self.carrier(point.link));
             file.vector_unless_zero(point_key, point.point);
         }
-        file.number_unless(&keys::SPRING_STIFFNESS, *stiffness, 0.0);
-        file.number_unless(&keys::SPRING_DAMPING, *damping, 0.0);
-        if [*stiffness, *length].into_iter().any(|x| !same(x, 0.0)) {
-            file.entry(&keys::LENGTH, number(*length));
+        // A length needs a stiffness beside it, even of zero.
+        for (key, value) in
+            [(&keys::SPRING_STIFFNESS, stiffness), (&keys::SPRING_DAMPING, damping), (&keys::LENGTH, length)]
+        {
+            file.entry(key, number(*value));
         }
     }
 

@@ -168,7 +168,19 @@ fn settings_of_friction_and_springs_that_do_not_act_are_kept() {
     assert_eq!(bits(&model.check().unwrap_or_else(|faults| panic!("{faults}")).model), bits(&model));
 }
 
-/// A model with a fault, and what its message says.
+#[test]
+fn springs_and_dampers_of_any_numbers_are_kept() {
+    for (stiffness, damping, length) in
+        [(3.0, 0.0, 0.2), (0.0, 5.0, 0.0), (0.0, 5.0, 0.3), (0.0, 0.0, 0.3), (2.0, 1.0, 0.0)]
+    {
+        let end = |link, z| LinkPoint { link, point: Vec3([0.1, 0.0, z]) };
+        let spring = Spring { name: None, a: end(None, 1.0), b: end(Some(0), 0.0), stiffness, damping, length };
+        let model = Model { springs: vec![spring], ..pendulum() };
+        assert_eq!(bits(&model.check().unwrap_or_else(|faults| panic!("{faults}")).model), bits(&model));
+    }
+}
+
+/// A model with a fault, and what its message shows.
 fn faulty(change: impl FnOnce(&mut Model), title: &str) {
     let mut model = pendulum();
     change(&mut model);
