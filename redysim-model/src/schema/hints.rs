@@ -54,6 +54,14 @@ pub(super) const LINK: &[Hint] = &[
          `axis` beside it",
     ),
     Hint::new(&["a", "alpha", "b", "d", "theta", "DH", "denavit_hartenberg"], DH),
+    Hint::key(
+        &["mu", "mu_c", "coulomb", "coulomb_friction", "friction_coefficient", "friction_loss", "frictionloss"],
+        "friction",
+    )
+    .with_help("It is the largest friction force in the joint, N m or N, not a coefficient"),
+    Hint::key(&["viscous", "viscous_friction", "viscous_damping", "mu_v"], "damping"),
+    Hint::key(&["rotor_inertia", "motor_inertia", "reflected_inertia", "jm"], "armature")
+        .with_help("It is the inertia of the rotor times the square of the gear ratio"),
     Hint::key(&["mdh", "dh_modified", "modified_dh", "craig"], "dh"),
     Hint::key(&["sdh", "standard_dh", "dh_distal", "distal_dh"], "dh_standard"),
     Hint::key(&["type", "kind", "joint_type"], "joint"),
