@@ -2,6 +2,7 @@
 
 use std::cmp::Reverse;
 
+use nalgebra::{DMatrix, DVector};
 use redysim_model::GenericMechanism;
 use redysim_runtime::{ClosedLoop, LoopClosure, LoopRows};
 
@@ -9,7 +10,7 @@ use redysim_runtime::{ClosedLoop, LoopClosure, LoopRows};
 const POSITIONS: usize = 2;
 /// Positions from which loops are closed: the one that is given, and others spread over the coordinates.
 const STARTS: usize = 6;
-/// Of the largest element of the loops' Jacobian, what is roundoff after its elimination.
+/// Of the largest element of the loops' Jacobian, what is roundoff in the part of a column that others leave.
 const ROUNDOFF: f64 = 1e-9;
 
 /// A position with closed loops, where possible one from which they can move.
@@ -32,25 +33,24 @@ pub fn closed_position(mechanism: &GenericMechanism, start: Vec<f64>) -> Result<
     best.map(|(q, _)| q).ok_or_else(|| why.unwrap_or_default())
 }
 
-/// Velocities that determine all others at the closed position `q`, as far as possible `preferred` ones: what Gaussian
-/// elimination of the loops' Jacobian leaves without a pivot, with the others first.
+/// Velocities that determine all others at the closed position `q`, as far as possible `preferred` ones: those whose
+/// columns of the loops' Jacobian depend on the columns before them, with the preferred ones last.
 pub fn independent_velocities(mechanism: &GenericMechanism, q: &[f64], preferred: &[bool]) -> Vec<usize> {
-    let mut rows: Vec<Vec<f64>> = mechanism.loop_jacobian(&q.to_vec());
-    let largest = |rows: &[Vec<f64>]| rows.iter().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    let least = ROUNDOFF * largest(&rows);
+    let rows: Vec<Vec<f64>> = mechanism.loop_jacobian(&q.to_vec());
+    let jacobian = DMatrix::from_fn(rows.len(), preferred.len(), |row, velocity| rows[row][velocity]);
+    let least = ROUNDOFF * jacobian.amax();
     let mut order: Vec<usize> = (0..preferred.len()).collect();
     order.sort_by_key(|&velocity| (preferred[velocity], Reverse(velocity)));
-    let mut independent = Vec::new();
+    let (mut basis, mut independent) = (Vec::<DVector<f64>>::new(), Vec::new());
     for velocity in order {
-        let pivot = (0..rows.len()).max_by(|&a, &b| rows[a][velocity].abs().total_cmp(&rows[b][velocity].abs()));
-        let Some(pivot) = pivot.filter(|&row| rows[row][velocity].abs() > least) else {
-            independent.push(velocity);
-            continue;
-        };
-        let pivot = rows.swap_remove(pivot);
-        for row in &mut rows {
-            let factor = row[velocity] / pivot[velocity];
-            row.iter_mut().zip(&pivot).for_each(|(x, pivot)| *x -= factor * pivot);
+        let mut column = jacobian.column(velocity).into_owned();
+        // Gram-Schmidt, twice, so that roundoff of the first leaves nothing.
+        for direction in basis.iter().chain(&basis) {
+            column.axpy(-direction.dot(&column), direction, 1.0);
+        }
+        match column.try_normalize(least) {
+            Some(direction) => basis.push(direction),
+            None => independent.push(velocity),
         }
     }
     independent.sort_unstable();

@@ -24,7 +24,7 @@ fn shown(name: &str, options: &str) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// While it runs, its draft is none of another run's business; when it is killed, it stays.
+/// Another run ignores the draft of a run in progress, and reports the draft of a run that was killed.
 #[cfg(target_os = "linux")]
 #[test]
 fn the_draft_of_a_run_that_was_killed_is_mentioned_by_the_next_run_of_the_same_output() {

@@ -152,7 +152,7 @@ impl Panel {
         self
     }
 
-    /// Makes one of those curves that nobody could tell apart in the picture: it names them all.
+    /// Replaces curves that coincide in the picture by one curve with all their names.
     pub fn merged(mut self) -> Self {
         let columns: Vec<Vec<f64>> = self.curves.iter().map(|curve| curve.values().collect()).collect();
         let shown = extent(columns.iter().flatten().copied());

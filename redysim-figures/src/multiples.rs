@@ -47,8 +47,8 @@ fn legend(panel: &Panel) -> Vec<(String, usize)> {
 impl Panel {
     /// The panel's curves in as many panels as they need, in order: six at most in each, whose sizes are within a
     /// factor of ten, in the fewest groups for which this is so, and of these in those that are furthest apart. Panels
-    /// of one group have the same limits. Curves that nobody could tell apart become one, which names them all. A title
-    /// says which curves it has, or, where there is no room for that, which of the panels it is.
+    /// of one group have the same limits. Curves that coincide in the picture become one curve with all their names. The
+    /// title of a panel lists its curves, or where that is too long, the number of the panel.
     pub fn multiples(self) -> Vec<Panel> {
         let parts: Vec<(Vec<Vec<usize>>, Vec<f64>)> =
             self.groups().iter().flat_map(|group| self.parts(group)).collect();

@@ -35,7 +35,7 @@ pub fn title_width(text: &str) -> i32 {
     10 * width(text, TITLE) / 9
 }
 
-/// The text in lines no wider than `room`, broken at spaces; of a word that is wider itself, its ends.
+/// The text in lines of a width of at most `room`, broken at spaces. A wider word is shortened in the middle.
 pub fn wrapped(text: &str, size: i32, room: i32) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split(' ') {
@@ -51,7 +51,7 @@ pub fn wrapped(text: &str, size: i32, room: i32) -> Vec<String> {
     lines
 }
 
-/// The text, or as much of its start and its end as is no wider than `room`.
+/// The text, shortened in the middle to a width of at most `room`.
 fn shortened(text: &str, size: i32, room: i32) -> String {
     let letters: Vec<char> = text.chars().collect();
     let kept = |count: usize| -> String {

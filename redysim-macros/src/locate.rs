@@ -28,7 +28,8 @@ impl Located {
         Located { path: canonical(from.join(path)), written, from, is_beside_caller }
     }
 
-    /// Why there is no such file, with the folder that was searched and a file that may be meant; `None` if it exists.
+    /// The error message for a missing file, with the folder that was searched and a file of similar name; `None` if the
+    /// file exists.
     pub fn missing(&self) -> Option<String> {
         if self.path.exists() {
             return None;

@@ -49,8 +49,17 @@ pub enum AccelerationMethod {
 impl AccelerationMethod {
     /// Every method, with the name it has in a model.
     pub const NAMES: [(&'static str, AccelerationMethod); 3] = [
-        ("auto", AccelerationMethod::Auto),
-        ("recursion", AccelerationMethod::Recursion),
-        ("factorisation", AccelerationMethod::Factorisation),
+        (AccelerationMethod::Auto.name(), AccelerationMethod::Auto),
+        (AccelerationMethod::Recursion.name(), AccelerationMethod::Recursion),
+        (AccelerationMethod::Factorisation.name(), AccelerationMethod::Factorisation),
     ];
+
+    /// Its name in a model.
+    pub const fn name(self) -> &'static str {
+        match self {
+            AccelerationMethod::Auto => "auto",
+            AccelerationMethod::Recursion => "recursion",
+            AccelerationMethod::Factorisation => "factorisation",
+        }
+    }
 }

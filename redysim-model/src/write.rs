@@ -1,5 +1,6 @@
 //! Models as the text of model files.
 
+use crate::check::BASE;
 use crate::faults::Faults;
 use crate::joint::{FRICTION_VELOCITY, JointPhysics};
 use crate::load::Loaded;
@@ -151,7 +152,7 @@ impl Model {
     /// The name of a link, or of the ground. One that is not there gets a name that no link has.
     fn carrier(&self, link: Option<usize>) -> String {
         let name = link.map(|link| self.links.get(link).map_or(format!("links[{link}]"), |link| link.name.clone()));
-        string(name.as_deref().unwrap_or("base"))
+        string(name.as_deref().unwrap_or(BASE))
     }
 }
 
@@ -163,16 +164,14 @@ impl CodegenOptions {
         let CodegenOptions { functions, tolerance, forward_dynamics, parameters } = self;
         let mut text = Text::default();
         if *functions != Functions::ALL {
-            let of_model = functions.with_frames(model.frames.len()).iter();
-            let names = of_model.filter(|function| !function.needs_loops() || !model.loops.is_empty());
-            text.entry(&keys::FUNCTIONS, array(names.map(|function| string(function.name()))));
+            let of_model = functions.with_frames(model.frames.len()).with_loops(model.loops.len());
+            text.entry(&keys::FUNCTIONS, array(of_model.iter().map(|function| string(function.name()))));
         }
         if let Some(tolerance) = tolerance {
             text.entry(&keys::TOLERANCE, number(*tolerance));
         }
         if *forward_dynamics != AccelerationMethod::Auto {
-            let name = AccelerationMethod::NAMES.into_iter().find(|(_, method)| method == forward_dynamics);
-            text.entry(&keys::FORWARD_DYNAMICS, string(name.map_or("", |(name, _)| name)));
+            text.entry(&keys::FORWARD_DYNAMICS, string(forward_dynamics.name()));
         }
         if !parameters.is_empty() {
             text.entry(&keys::PARAMETERS, array(parameters.iter().map(|parameter| string(&parameter.name(model)))));

@@ -79,7 +79,7 @@ impl Findings {
         self.source().place(span).line
     }
 
-    /// The text within a range of bytes; empty if there is none.
+    /// The text within a range of bytes; empty for a range outside the text.
     pub(crate) fn text(&self, span: &Range<usize>) -> &str {
         self.source().text.get(span.clone()).unwrap_or_default()
     }

@@ -6,10 +6,10 @@ use crate::lint::Lint;
 use crate::messages;
 use crate::model::{Inertia, Link, Model};
 use crate::pseudo::PseudoInertia;
-use crate::schema::{Document, LinkTable};
+use crate::schema::Document;
 use crate::spatial::Vec3;
 use crate::tree::Tree;
-use redysim_toml::Findings;
+use redysim_toml::{Findings, Spanned};
 
 /// Roundoff allowed below zero, relative to the largest principal moment.
 const DEFINITE: f64 = 1e-12;
@@ -21,62 +21,56 @@ const TRIANGLE: f64 = 1e-9;
 /// inertias are rarely known to so many digits.
 const SMALL: f64 = 1e-3;
 
-pub(super) fn check(link: &LinkTable, findings: &mut Findings) {
-    if let Some(mass) = link.mass.spanned().filter(|mass| *mass.get_ref() < 0.0) {
-        findings.error(mass.span(), messages::negative_mass(&link.item, *mass.get_ref()));
-    }
-    let Some(inertia) = link.inertia.spanned() else { return };
-    let Some([smallest, middle, largest]) = principal_moments(inertia.get_ref()) else {
-        return;
-    };
-    let excess = largest - (smallest + middle);
-    if !is_negative([smallest, middle, largest]) && excess > TRIANGLE * largest {
-        let message = messages::triangle(&link.item, largest, excess);
-        lints::report(findings, Lint::InertiaTriangle, inertia.span(), message);
-    }
-}
-
-/// Reports links with a negative principal moment: an error, for the mass matrix may be indefinite, unless the link is
-/// rigidly joined to others.
-///
-/// What moves is the rigid body that a link and those fixed to it are together. With no negative principal moment about
-/// its centre of mass, the kinetic energy of the body is not negative in any motion, so that the mass matrix is positive
-/// semi-definite whatever the parts are; a part of the ground has no kinetic energy at all. So it is a warning where the
-/// link's negative moment is that small beside those of its body, or the link does not move.
-pub(super) fn check_definite(
+/// Reports negative masses and inertias that no rigid body has.
+pub(super) fn check(
     document: &Document,
     links: &[Option<Link>],
     parents: Option<&[Option<usize>]>,
     findings: &mut Findings,
 ) {
-    let negative = document.links.iter().enumerate().filter_map(|(index, table)| {
-        let inertia = table.inertia.spanned()?;
-        let moments = principal_moments(inertia.get_ref()).filter(|moments| is_negative(*moments))?;
-        Some((index, table, inertia.span(), moments[0]))
-    });
-    let mut negative = negative.peekable();
-    if negative.peek().is_none() {
-        return;
-    }
-    let tree = parents.and_then(|parents| Some(Tree::new(&tree_of(document, links, parents)?)));
-    for (index, table, place, smallest) in negative {
-        let Some(tree) = &tree else {
-            findings.error(place, messages::indefinite_inertia(&table.item, smallest));
-            continue;
-        };
-        let whole = tree.links[index].body.map(|body| central_moments(tree.bodies[body].inertia));
-        match whole {
-            None => {
-                let message = messages::negative_moment_of_ground(&table.item, smallest);
-                lints::report(findings, Lint::NegativeMoment, place, message);
-            }
-            Some(whole) if !is_negative(whole) && -smallest <= SMALL * whole[2] => {
-                let message = messages::negative_moment_of_part(&table.item, smallest, whole);
-                lints::report(findings, Lint::NegativeMoment, place, message);
-            }
-            Some(_) => findings.error(place, messages::indefinite_inertia(&table.item, smallest)),
+    let mut negative = Vec::new();
+    for (index, table) in document.links.iter().enumerate() {
+        if let Some(mass) = table.mass.spanned().filter(|mass| *mass.get_ref() < 0.0) {
+            findings.error(mass.span(), messages::negative_mass(&table.item, *mass.get_ref()));
+        }
+        let Some(inertia) = table.inertia.spanned() else { continue };
+        let Some(moments) = principal_moments(inertia.get_ref()) else { continue };
+        let [smallest, middle, largest] = moments;
+        let excess = largest - (smallest + middle);
+        if is_negative(moments) {
+            negative.push((index, smallest));
+        } else if excess > TRIANGLE * largest {
+            let message = messages::triangle(&table.item, largest, excess);
+            lints::report(findings, Lint::InertiaTriangle, inertia.span(), message);
         }
     }
+    if !negative.is_empty() {
+        let tree = parents.and_then(|parents| Some(Tree::new(&tree_of(document, links, parents)?)));
+        negative
+            .into_iter()
+            .for_each(|(index, smallest)| report_negative(document, tree.as_ref(), index, smallest, findings));
+    }
+}
+
+/// Reports a link with a negative principal moment: an error, for the mass matrix may be indefinite, unless the link is
+/// rigidly joined to others in `tree`, which is `None` if it has faults itself.
+///
+/// What moves is the rigid body that a link and those fixed to it are together. With no negative principal moment about
+/// its centre of mass, the kinetic energy of the body is not negative in any motion, so that the mass matrix is positive
+/// semi-definite whatever the parts are; a part of the ground has no kinetic energy at all. So it is a warning where the
+/// link's negative moment is that small beside those of its body, or the link does not move.
+fn report_negative(document: &Document, tree: Option<&Tree>, link: usize, smallest: f64, findings: &mut Findings) {
+    let table = &document.links[link];
+    let place = table.inertia.spanned().map_or(table.place(), Spanned::span);
+    let whole = tree.map(|tree| tree.links[link].body.map(|body| central_moments(tree.bodies[body].inertia)));
+    let possible = match whole {
+        Some(None) => messages::negative_moment_of_ground(&table.item, smallest),
+        Some(Some(whole)) if !is_negative(whole) && -smallest <= SMALL * whole[2] => {
+            messages::negative_moment_of_part(&table.item, smallest, whole)
+        }
+        _ => return findings.error(place, messages::indefinite_inertia(&table.item, smallest)),
+    };
+    lints::report(findings, Lint::NegativeMoment, place, possible);
 }
 
 /// Links and joints alone, with joints locked.

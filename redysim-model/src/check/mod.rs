@@ -20,6 +20,7 @@ use crate::model::{JointKind, Link, Model};
 use crate::options::CodegenOptions;
 use crate::schema::{Document, LinkTable};
 use crate::spatial::Vec3;
+pub(crate) use names::BASE;
 use placement::Placed;
 use redysim_toml::{Findings, Message, Spanned};
 
@@ -30,7 +31,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     something_moves(document, findings);
     let parents = tree::parents(document, findings);
     let links: Vec<_> = document.links.iter().map(|table| link(table, findings)).collect();
-    inertia::check_definite(document, &links, parents.as_deref(), findings);
+    inertia::check(document, &links, parents.as_deref(), findings);
     let loops = cut::loops(document, parents.as_deref(), findings);
     let frames = frame::frames(document, findings);
     let springs = spring::springs(document, parents.as_deref(), findings);
@@ -90,7 +91,6 @@ fn report(document: &Document, links: &[(usize, Message)], findings: &mut Findin
 
 /// One link by itself, still without its parent.
 fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
-    inertia::check(table, findings);
     let placed = placement::place(table, findings);
     let physics = physics::check(table, findings);
     let Placed { placement, axis, offset, frame } = placed?;

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 /// The name of the ground.
-pub(super) const BASE: &str = "base";
+pub(crate) const BASE: &str = "base";
 
 pub(super) fn check(document: &Document, findings: &mut Findings) {
     not_blank(&document.item, "name", &document.name, findings);

@@ -5,7 +5,7 @@ use crate::model::JointKind;
 use crate::rotation::{about_x, about_z};
 use crate::schema::{Dh, DhStandard, LinkTable, keys};
 use crate::spatial::{Mat3, Pose, Vec3};
-use redysim_toml::{Field, Findings, Spanned};
+use redysim_toml::{Field, Findings, Key, Spanned};
 use std::ops::Range;
 
 /// The z axis: of every Denavit-Hartenberg joint, and of revolute cuts unless the file says otherwise.
@@ -48,28 +48,29 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
 /// `offset` and `far_end` belong to a joint that moves, placed by `origin` or `axis`: Denavit-Hartenberg parameters have
 /// both among their numbers.
 fn beside_origin(link: &LinkTable, findings: &mut Findings) {
-    let given = [
-        (&keys::OFFSET, link.offset.spanned().map(Spanned::span)),
-        (&keys::FAR_END, link.far_end.spanned().map(Spanned::span)),
-    ];
-    let dh = [("dh", link.dh.is_missing()), ("dh_standard", link.dh_standard.is_missing())];
-    for (key, span) in given.into_iter().filter_map(|(key, span)| Some((key.name, span?))) {
+    let dh = given(&keys::DH, &link.dh).or(given(&keys::DH_STANDARD, &link.dh_standard));
+    for (key, span) in [given(&keys::OFFSET, &link.offset), given(&keys::FAR_END, &link.far_end)].into_iter().flatten()
+    {
+        let Some(span) = span else { continue };
         if link.joint.value() == Some(&JointKind::Fixed) {
             findings.error(span, messages::placement_of_moving(&link.item, key));
-        } else if let Some((parameters, _)) = dh.into_iter().find(|(_, missing)| !missing) {
+        } else if let Some((parameters, _)) = dh {
             findings.error(span, messages::beside_dh(&link.item, key, parameters));
         }
     }
 }
 
+/// The name of a key and the place of its value, `None` if that is invalid; nothing without the key.
+fn given<T>(key: &Key, field: &Field<T>) -> Option<(&'static str, Option<Range<usize>>)> {
+    (!field.is_missing()).then(|| (key.name, field.spanned().map(Spanned::span)))
+}
+
 /// By `dh`, by `dh_standard`, or by `origin` and `axis`, of which fixed joints have the first alone, and others may have
 /// the second alone.
 fn placed_once(link: &LinkTable, findings: &mut Findings) {
-    fn given<T>(name: &'static str, field: &Field<T>) -> Option<(&'static str, Option<Range<usize>>)> {
-        (!field.is_missing()).then(|| (name, field.spanned().map(Spanned::span)))
-    }
-    let by_origin = given("origin", &link.origin).or(given("axis", &link.axis));
-    let mut ways = [given("dh", &link.dh), given("dh_standard", &link.dh_standard), by_origin].into_iter().flatten();
+    let by_origin = given(&keys::ORIGIN, &link.origin).or(given(&keys::AXIS, &link.axis));
+    let ways = [given(&keys::DH, &link.dh), given(&keys::DH_STANDARD, &link.dh_standard), by_origin];
+    let mut ways = ways.into_iter().flatten();
     match (ways.next(), ways.next()) {
         (None, _) => findings.error(link.place(), messages::no_placement(&link.item)),
         (Some((first, _)), Some((second, Some(span)))) => {

@@ -40,8 +40,17 @@ impl Functions {
     /// Those of them that a mechanism with this many frames of interest has: without frames, none of those that need
     /// frames.
     pub fn with_frames(self, frames: usize) -> Functions {
-        let needing = self.iter().filter(|function| frames == 0 && function.needs_frames());
-        needing.fold(self, Functions::without)
+        self.unless(frames == 0, Function::needs_frames)
+    }
+
+    /// Those of them that a mechanism with this many closed loops has: without loops, none of those that need loops.
+    pub fn with_loops(self, loops: usize) -> Functions {
+        self.unless(loops == 0, Function::needs_loops)
+    }
+
+    /// Without those for which `needs` holds, if what they need is `missing`.
+    fn unless(self, missing: bool, needs: impl Fn(Function) -> bool) -> Functions {
+        self.iter().filter(|&function| missing && needs(function)).fold(self, Functions::without)
     }
 
     /// Whether `function` is among them.

@@ -35,7 +35,7 @@ impl Robot {
     /// The shipped robot of that name, or that of a model file or a URDF. Prints warnings unless `quiet`.
     ///
     /// # Errors
-    /// If there is no such robot, or its file has faults.
+    /// If the robot is unknown, or its file has faults.
     pub fn named(robot: &Path, quiet: bool) -> Result<Robot, Failure> {
         if let Some((name, text)) = SHIPPED.into_iter().find(|(name, _)| robot == Path::new(name)) {
             let loaded = model::loaded(robot, Model::from_toml(text, format!("{name}.toml")), quiet)?;

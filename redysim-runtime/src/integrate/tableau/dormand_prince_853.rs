@@ -9,8 +9,8 @@ const MAIN: usize = 13;
 
 /// The method of order 8 of Dormand and Prince, with embedded formulas of orders 5 and 3.
 ///
-/// Its continuous extension has order 7: E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
-/// Springer (1993), section II.10.
+/// Its continuous extension has order 7: E. Hairer, S. P. Nørsett and G. Wanner, *Solving Ordinary Differential Equations
+/// I*, 2nd ed., Springer (1993), section II.10.
 pub const DORMAND_PRINCE_853: Tableau<STAGES> = Tableau {
     rows: [
         &[],

@@ -86,7 +86,8 @@ pub const DORMAND_PRINCE: Tableau<7> = Tableau {
 /// The classical method of order 4 of Kutta.
 ///
 /// W. Kutta, *Beitrag zur näherungsweisen Integration totaler Differentialgleichungen*, Z. Math. Phys. 46 (1901), with
-/// the derivative at the end of the step as fifth stage. The continuous extension is the cubic Hermite polynomial through both ends; there is no estimate of the error.
+/// the derivative at the end of the step as fifth stage. The continuous extension is the cubic Hermite polynomial through
+/// both ends. The method does not estimate its error.
 pub const RUNGE_KUTTA_4: Tableau<5> = Tableau {
     rows: [&[], &[1.0 / 2.0], &[0.0, 1.0 / 2.0], &[0.0, 0.0, 1.0], &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0]],
     nodes: [0.0, 1.0 / 2.0, 1.0 / 2.0, 1.0, 1.0],
