@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// One clear message, what to do about it, and the exit code that scripts see.
+/// One clear message, what to do about it, and the exit code that scripts see. Its `Display` is what the command prints.
 #[derive(Clone, Debug)]
 pub struct Failure {
     kind: Kind,
@@ -25,25 +25,25 @@ enum Kind {
 
 impl Failure {
     /// The exit code of what Ctrl-C has ended.
-    pub const INTERRUPTED: u8 = 130;
+    pub(crate) const INTERRUPTED: u8 = 130;
 
     /// A model, scenario or table is at fault.
-    pub fn input(message: impl fmt::Display) -> Self {
+    pub(crate) fn input(message: impl fmt::Display) -> Self {
         Self { kind: Kind::Input, message: message.to_string(), help: None }
     }
 
     /// Something outside the program is at fault.
-    pub fn outside(message: impl fmt::Display) -> Self {
+    pub(crate) fn outside(message: impl fmt::Display) -> Self {
         Self { kind: Kind::Outside, message: message.to_string(), help: None }
     }
 
     /// Somebody pressed Ctrl-C.
-    pub fn interrupted(message: impl fmt::Display) -> Self {
+    pub(crate) fn interrupted(message: impl fmt::Display) -> Self {
         Self { kind: Kind::Interrupted, message: message.to_string(), help: None }
     }
 
     /// A file or folder could not be read or written (`doing`: "read", "write", "make the folder").
-    pub fn file(doing: &str, path: &Path, error: &io::Error) -> Self {
+    pub(crate) fn file(doing: &str, path: &Path, error: &io::Error) -> Self {
         let failure = Self::outside(format!("cannot {doing} {}: {error}", path.display()));
         match error.kind() {
             io::ErrorKind::NotFound => failure.help("is the path right? It is taken from the current folder"),
@@ -59,13 +59,13 @@ impl Failure {
     }
 
     /// Appends `more` to the message.
-    pub fn and(mut self, more: &str) -> Self {
+    pub(crate) fn and(mut self, more: &str) -> Self {
         self.message += more;
         self
     }
 
     /// Adds what to do.
-    pub fn help(mut self, help: impl fmt::Display) -> Self {
+    pub(crate) fn help(mut self, help: impl fmt::Display) -> Self {
         self.help = Some(help.to_string());
         self
     }
@@ -76,7 +76,7 @@ impl Failure {
     }
 
     /// The same as a warning, where the command goes on without what failed.
-    pub fn warning(&self) -> String {
+    pub(crate) fn warning(&self) -> String {
         self.to_string().replacen("error: ", "warning: ", 1)
     }
 

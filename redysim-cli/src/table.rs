@@ -3,9 +3,11 @@
 //! The first column is `t [s]`; the others are called `<symbol> <name> [<unit>]`, as `q joint1 [rad]`, or `kinetic
 //! [J]`.
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use csv::{Position, ReaderBuilder, StringRecord, Trim};
+use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
 use redysim_toml::with_decimal_points;
@@ -26,7 +28,8 @@ pub struct Table {
 }
 
 /// One quantity over time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Column {
     /// What it is: "q", "tau", "kinetic".
     pub symbol: String,
@@ -125,6 +128,60 @@ impl Table {
     pub fn fault(&self, row: usize, wrong: String) -> Failure {
         Failure::input(format!("{}:{}: {wrong}", self.path.display(), self.lines[row]))
     }
+}
+
+/// The text of the table `name`, which reads back to the same bits.
+///
+/// # Errors
+/// If it has no rows, a column without a value for each instant, or a name that reads as another.
+pub fn to_csv(name: &str, t: &[f64], columns: &[Column]) -> Result<Vec<u8>, Failure> {
+    let fault = |wrong: String, help: &str| Err(Failure::input(format!("the table `{name}`: {wrong}")).help(help));
+    if t.is_empty() {
+        return fault("it has no rows".into(), "a table has at least one instant");
+    }
+    if let Some(row) = (0..t.len()).find(|&row| !t[row].is_finite() || row > 0 && t[row] < t[row - 1]) {
+        return fault(format!("instant {} is {:?} s", row + 1, t[row]), "instants are finite and in order");
+    }
+    for column in columns {
+        let (header, count) = (column.header(), column.values.len());
+        if count != t.len() {
+            let wrong = format!("`{header}` has {count} values, but there are {} instants", t.len());
+            return fault(wrong, "a column has a value for each instant");
+        }
+        let read = Column::of_header(header.trim());
+        if read
+            .is_none_or(|read| (&read.symbol, &read.name, &read.unit) != (&column.symbol, &column.name, &column.unit))
+        {
+            return fault(
+                format!("the column `{header}` reads back as another"),
+                "a symbol is one word, a name has no spaces at its ends, and a unit no brackets",
+            );
+        }
+    }
+    let mut writer = csv::Writer::from_writer(vec![]);
+    let unwritten = |error: csv::Error| Failure::outside(format!("cannot write the table `{name}`: {error}"));
+    let headers = columns.iter().map(Column::header);
+    writer.write_record(std::iter::once(TIME.to_owned()).chain(headers)).map_err(unwritten)?;
+    for (row, t) in t.iter().enumerate() {
+        let values = std::iter::once(t).chain(columns.iter().map(|column| &column.values[row]));
+        write_row(&mut writer, values).map_err(unwritten)?;
+    }
+    writer.into_inner().map_err(|error| unwritten(error.into_error().into()))
+}
+
+/// Writes a row of numbers, each as the shortest decimals that read back as exactly this number.
+pub fn write_row<'v, W: std::io::Write>(
+    writer: &mut csv::Writer<W>,
+    row: impl IntoIterator<Item = &'v f64>,
+) -> csv::Result<()> {
+    let mut shortest = String::new();
+    for value in row {
+        shortest.clear();
+        // A `String` takes everything.
+        let _ = write!(shortest, "{value:?}");
+        writer.write_field(&shortest)?;
+    }
+    writer.write_record(None::<&[u8]>)
 }
 
 fn columns(path: &Path, text: &str, headers: &StringRecord) -> Result<Vec<Column>, Failure> {

@@ -3,8 +3,10 @@
 mod common;
 
 use std::fs;
+use std::path::PathBuf;
 
 use common::{Table, call, deviation, names, root, scenario, scratch, succeed};
+use redysim_cli::{Dynamics, Ending, Results, Run};
 
 fn shipped(name: &str) -> String {
     root().join(format!("scenarios/{name}.toml")).display().to_string()
@@ -248,4 +250,90 @@ fn forces_that_no_actuator_gives_are_warned_of() {
     assert_eq!(run.code, 0, "{}", run.output());
     assert!(run.stderr.contains("the joint `joint2` has no actuator"), "{}", run.stderr);
     assert!(!run.stderr.contains("joint1"), "{}", run.stderr);
+}
+
+/// A run along a table, whose results have all that they can have.
+fn tracked(name: &str) -> PathBuf {
+    let folder = scratch(name);
+    fs::write(folder.join("points.csv"), "t [s],q joint1 [deg],q joint2 [rad]\n0,0,0\n0.5,1,-1\n1,0,1\n").unwrap();
+    let rest = "trajectory = { kind = 'csv', file = 'points.csv' }\n[inverse]\nend = 1.0\nstep = 0.1\n\
+                [forward]\nend = 0.7\nstep = 0.1\ntorque = { law = 'tracking-pd', kp = 30, kd = 3 }\n";
+    let path = scenario(&folder, "two_link.toml", rest);
+    succeed(&folder, &["forward", &path, "-o", "first"]);
+    folder
+}
+
+#[test]
+fn results_are_kept_to_the_bit_and_run_again_from_where_they_are_written() {
+    let folder = tracked("results-data");
+    let first = Results::load(folder.join("first")).unwrap_or_else(|fault| panic!("{fault}"));
+    // What another program reads of them is the same.
+    let text = serde_json::to_string(&first).unwrap();
+    assert_eq!(serde_json::from_str::<Results>(&text).unwrap(), first);
+    assert_eq!((first.run.command, first.run.ended), (Dynamics::Forward, Ending::Complete));
+    assert_eq!((first.run.instants, first.run.from, first.run.until), (8, 0.0, 0.7));
+    assert_eq!((first.scenario.model.as_str(), first.scenario.inverse), ("model.toml", None));
+    let tables: Vec<_> = first.tables.keys().map(String::as_str).collect();
+    assert_eq!(tables, ["energy", "kinematics", "statevar", "timevar", "tor", "traj", "trajectory"]);
+    let state = &first.tables["statevar"];
+    assert_eq!(
+        state.columns.iter().map(|column| column.header()).collect::<Vec<_>>()[..2],
+        ["q joint1 [rad]".to_owned(), "q joint2 [rad]".to_owned()]
+    );
+    assert_eq!(state.columns[2].values[0], first.run.start_v[0]);
+
+    let written = first.write(folder.join("second"), false).unwrap_or_else(|fault| panic!("{fault}"));
+    assert_eq!(Results::load(&written).unwrap(), first);
+    for command in [["plot", "second", "-o", "pictures"], ["forward", "second/run.toml", "-o", "third"]] {
+        succeed(&folder, &command);
+    }
+    let third = Results::load(folder.join("third")).unwrap();
+    assert_eq!(third.tables, first.tables);
+    let outcome = |results: &Results| Run { seconds: 0.0, ..results.run.clone() };
+    assert_eq!((outcome(&third), third.scenario), (outcome(&first), first.scenario));
+}
+
+#[test]
+fn results_that_could_not_be_read_are_not_written() {
+    let folder = tracked("results-data-faults");
+    let good = Results::load(folder.join("first")).unwrap();
+    let bad = |change: &dyn Fn(&mut Results)| {
+        let mut results = good.clone();
+        change(&mut results);
+        let fault = results.write(folder.join("bad"), false).unwrap_err().to_string();
+        assert!(!folder.join("bad").exists() && names(&folder).len() == 3, "nothing is left: {:?}", names(&folder));
+        fault
+    };
+    let state = |results: &mut Results, change: &dyn Fn(&mut redysim_cli::Table)| {
+        change(results.tables.get_mut("statevar").unwrap());
+    };
+    type Change<'c> = &'c dyn Fn(&mut Results);
+    let faults: [(Change<'_>, &str); 8] = [
+        (&|results| results.model.links[0].mass = -1.0, "`mass` is -1.0 kg"),
+        (&|results| results.scenario.forward.as_mut().unwrap().step = -0.1, "`forward.step`"),
+        (&|results| drop(results.tables.remove("trajectory")), "cannot read"),
+        (
+            &|results| state(results, &|table| table.columns[0].values.truncate(7)),
+            "`q joint1 [rad]` has 7 values, but there are 8",
+        ),
+        (&|results| state(results, &|table| table.columns[0].symbol = "q x".into()), "reads back as another"),
+        (&|results| state(results, &|table| table.t[3] = 0.0), "instant 4 is 0.0 s"),
+        (&|results| state(results, &|table| table.t.clear()), "it has no rows"),
+        (
+            &|results| drop(results.tables.insert("state/var".into(), good.tables["tor"].clone())),
+            "no table `state/var`",
+        ),
+    ];
+    for (change, fault) in faults {
+        let shown = bad(change);
+        assert!(shown.contains(fault), "{fault}: {shown}");
+    }
+    let there = good.write(folder.join("first"), false).unwrap_err().to_string();
+    assert!(there.contains("first"), "{there}");
+    let nowhere = Results::load(folder.join("nowhere")).unwrap_err().to_string();
+    assert!(nowhere.contains("nowhere is not there"), "{nowhere}");
+    let run = fs::read_to_string(folder.join("first/run.toml")).unwrap();
+    fs::write(folder.join("first/run.toml"), run.replace("instants = ", "instance = ")).unwrap();
+    let edited = Results::load(folder.join("first")).unwrap_err().to_string();
+    assert!(edited.contains("run.toml: the table `[run]`: unknown field `instance`"), "{edited}");
 }

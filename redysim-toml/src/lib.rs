@@ -15,6 +15,7 @@
 //! | [`Message`] | its words: item, rule and value in the title, the rule in the label, the remedy in the help |
 //! | [`read`] | reads a file from its text to a value, with all of these |
 //! | [`with_decimal_points`] | numbers with a decimal comma, as they are to be written |
+//! | [`radians`] | angles with a unit |
 //! | [`similar_file`] | the file that a path was probably meant to name |
 //! | [`words`] | quoted values, nearest names, short numbers: for further messages |
 //!
@@ -68,6 +69,7 @@ pub use kind::Kind;
 pub use nearby::similar_file;
 pub use reader::{Reader, TableAt, name_of};
 pub use source::Source;
+pub use units::radians;
 pub use value::{Array, LARGE_ANGLE, ROUNDED_ANGLE, Table, Value};
 
 pub use toml::Spanned;

@@ -33,6 +33,20 @@ pub(crate) fn angle<'t>(text: &'t str, per: &str) -> Result<f64, NotAnAngle<'t>>
     }
 }
 
+/// An angle with a unit, in radians, as [`Reader::parse_angle`](crate::Reader::parse_angle) reads it; with `per`, such as
+/// "/s", also a rate. `None` if the text is none.
+///
+/// ```
+/// use redysim_toml::radians;
+///
+/// assert_eq!(radians("180 deg", ""), Some(std::f64::consts::PI));
+/// assert_eq!(radians("2 rad/s", "/s"), Some(2.0));
+/// assert_eq!(radians("180", ""), None);
+/// ```
+pub fn radians(text: &str, per: &str) -> Option<f64> {
+    angle(text, per).ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

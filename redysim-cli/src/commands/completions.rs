@@ -3,7 +3,7 @@
 use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 
-use crate::Cli;
+use super::Cli;
 use crate::failure::Failure;
 use crate::output::print;
 

@@ -60,6 +60,11 @@ impl Folder {
         Ok(Folder { target, force, draft, finished: false })
     }
 
+    /// Where its files are until it is finished.
+    pub fn path(&self) -> &Path {
+        &self.draft.path
+    }
+
     /// Begins a file in it.
     pub fn create(&self, name: &str) -> Result<fs::File, Failure> {
         let path = self.draft.path.join(name);

@@ -6,6 +6,7 @@ mod leftover;
 pub mod names;
 mod record;
 mod replaceable;
+mod run;
 mod run_file;
 mod summary;
 mod tables;
@@ -16,6 +17,7 @@ use crate::scenario::{Dynamics, Scenario};
 pub use balance::Balance;
 pub use folder::Folder;
 pub use record::{Record, Sample};
+pub use run::{Ending, Run};
 pub use summary::{Ended, Outcome, Summary};
 pub use tables::Format;
 

@@ -8,6 +8,8 @@ pub const URDF: &str = "urdf";
 pub const MODEL: &str = "model.toml";
 pub const TRAJECTORY: &str = "trajectory.csv";
 pub const TORQUE: &str = "torque.csv";
+/// The copies of tables, without their ending.
+pub const INPUTS: [&str; 2] = ["trajectory", "torque"];
 /// The page, which by default lies beside the tables it shows.
 pub const PAGE: &str = "animation.html";
 
@@ -22,7 +24,7 @@ pub const ENVAR: &str = "envar";
 pub const KINEMATICS: &str = "kinematics";
 
 /// All tables that there may be.
-const TABLES: [&str; 8] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS];
+pub const TABLES: [&str; 8] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS];
 
 /// What is drawn together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,12 +3,13 @@
 //! It is a scenario itself, beside copies of the model and the tables that it names, so that the run can be done again
 //! from the folder alone.
 
-use toml_edit::{Array, DocumentMut, Item, RawString, Table, value};
+use redysim_runtime::Statistics;
+use toml_edit::{Array, DocumentMut, Item, RawString, value};
 
 use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY, URDF};
-use super::{Ended, Folder, Outcome, Summary};
+use super::{Ended, Ending, Folder, Outcome, Run, Summary};
 use crate::failure::Failure;
-use crate::scenario::{Absolute, HeldFrame, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH};
+use crate::scenario::{Absolute, HeldFrame, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH, keys};
 
 /// Writes it, and copies what it names.
 pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<(), Failure> {
@@ -60,17 +61,13 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
             keep(&mut table["stabilisation"], "kind", value("projection"));
         }
     }
-    // A run that is done again has the URDF of the first one.
-    let before = document.remove("run").and_then(|run| Some(run.get(URDF)?.as_str()?.to_owned()));
+    let before = document.remove(keys::RUN.name).and_then(|run| Some(run.get(URDF)?.as_str()?.to_owned()));
     let urdf = scenario.urdf.as_ref().map(|urdf| {
         let path = std::fs::canonicalize(urdf).unwrap_or_else(|_| urdf.clone());
         path.display().to_string()
     });
-    document["run"] = Item::Table(how_it_went(summary));
-    if let Some(urdf) = urdf.or(before) {
-        document["run"][URDF] = value(urdf);
-    }
-    folder.write(RUN_FILE, document.to_string().as_bytes())
+    let run = how_it_went(summary, urdf.or(before));
+    folder.write(RUN_FILE, format!("{document}\n{}", run.to_toml()).as_bytes())
 }
 
 /// Whether the text of a file is what [`write`] has written.
@@ -131,48 +128,41 @@ fn numbers(values: &[f64]) -> Item {
     value(values.iter().copied().collect::<Array>())
 }
 
-fn how_it_went(summary: &Summary) -> Table {
-    let mut table = Table::new();
-    table.decor_mut().set_prefix("\n# How it went.\n");
-    let Summary { dynamics, instants: (from, until, count), seconds, balance, start, outcome, .. } = summary;
+/// The table of how it went. A run that is done again has the URDF of the first one.
+fn how_it_went(summary: &Summary, urdf: Option<String>) -> Run {
+    let Summary { dynamics, instants: (from, until, count), seconds, balance, start: [q, v], outcome, .. } = summary;
     let Outcome { ended, steps, statistics, position_residual, .. } = outcome;
-    table["command"] = value(dynamics.to_string());
-    table["redysim"] = value(env!("CARGO_PKG_VERSION"));
-    table["ended"] = value(ended.to_string());
-    if let Ended::Failed(reason) = ended {
-        table["reason"] = value(reason.message());
+    let (ended, reason) = match ended {
+        Ended::Complete => (Ending::Complete, None),
+        Ended::Interrupted => (Ending::Interrupted, None),
+        Ended::Failed(reason) => (Ending::Failed, Some(reason.message().to_owned())),
+    };
+    let counted = |count: fn(&Statistics) -> u64| statistics.as_ref().map(count);
+    Run {
+        command: *dynamics,
+        redysim: env!("CARGO_PKG_VERSION").to_owned(),
+        ended,
+        reason,
+        from: *from,
+        until: *until,
+        instants: *count as u64,
+        seconds: *seconds,
+        steps: *steps,
+        rejected: counted(|statistics| statistics.rejected),
+        evaluations: counted(|statistics| statistics.evaluations),
+        corrections: counted(|statistics| statistics.corrections),
+        jacobians: counted(|statistics| statistics.jacobians),
+        decompositions: counted(|statistics| statistics.decompositions),
+        energy_drift: balance.drift,
+        energy_exchanged: balance.exchanged,
+        worst_position_residual: *position_residual,
+        start_q: q.clone(),
+        start_v: v.clone(),
+        urdf,
     }
-    table["from"] = value(*from);
-    table["until"] = value(*until);
-    table["instants"] = integer(*count as u64);
-    table["seconds"] = value(*seconds);
-    if let Some(steps) = steps {
-        table["steps"] = integer(*steps);
-    }
-    if let Some(statistics) = statistics {
-        table["rejected"] = integer(statistics.rejected);
-        table["evaluations"] = integer(statistics.evaluations);
-        table["corrections"] = integer(statistics.corrections);
-        table["jacobians"] = integer(statistics.jacobians);
-        table["decompositions"] = integer(statistics.decompositions);
-    }
-    table["energy_drift"] = number(balance.drift);
-    table["energy_exchanged"] = number(balance.exchanged);
-    if let Some(residual) = position_residual {
-        table["worst_position_residual"] = number(*residual);
-    }
-    let [q, v] = start;
-    table["start_q"] = numbers(q);
-    table["start_v"] = numbers(v);
-    table
 }
 
 /// A number that may be very small, with an exponent.
 fn number(number: f64) -> Item {
     format!("{number:?}").parse().map_or_else(|_| value(number), Item::Value)
-}
-
-/// TOML counts to 2⁶³.
-fn integer(count: u64) -> Item {
-    value(i64::try_from(count).unwrap_or(i64::MAX))
 }

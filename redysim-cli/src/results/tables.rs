@@ -1,6 +1,5 @@
 //! The tables of a run, in this program's form and in ReDySim's, written row by row.
 
-use std::fmt::Write;
 use std::fs::File;
 
 use redysim_model::GenericMechanism;
@@ -10,6 +9,7 @@ use super::{Folder, Sample, names};
 use crate::failure::Failure;
 use crate::layout::{Component, Layout};
 use crate::scenario::{Dynamics, Scenario};
+use crate::table::write_row;
 
 /// How numbers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -75,15 +75,8 @@ impl Tables {
 
     /// Writes a row to each.
     pub fn write(&mut self, rows: &[Vec<f64>]) -> Result<(), Failure> {
-        let mut shortest = String::new();
         for ((table, writer), row) in self.tables.iter_mut().zip(rows) {
-            for value in row {
-                shortest.clear();
-                // A `String` takes everything; these are the shortest decimals that read back as exactly this number.
-                let _ = write!(shortest, "{value:?}");
-                writer.write_field(&shortest).map_err(|error| table.unwritten(error))?;
-            }
-            writer.write_record(None::<&[u8]>).map_err(|error| table.unwritten(error))?;
+            write_row(writer, row).map_err(|error| table.unwritten(error))?;
         }
         self.rows += 1;
         Ok(())

@@ -128,6 +128,12 @@ const METHODS: [Kind<IntegrationMethod>; 14] = [
     fixed("Ode5", Fixed::Ode5).also("2"),
 ];
 
+/// The usual name of an integrator that has others.
+pub fn usual_method(name: &str) -> &str {
+    let named = METHODS.iter().find(|method| method.name == name);
+    named.and_then(|method| method.same_as).unwrap_or(name)
+}
+
 impl Integrator {
     /// Reads the table `integrator` of a run that takes `length`, s.
     pub fn read(reader: &mut Reader<'_, '_>, length: f64) -> Option<Integrator> {

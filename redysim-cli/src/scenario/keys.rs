@@ -8,8 +8,9 @@ pub const NAME: Key = Key::new("name", "\"swing\"", "what the results are called
 pub const MODEL: Key =
     Key::new("model", "\"../models/kr5.toml\"", "a model file or a URDF, from the folder of the scenario")
         .with_default("required");
-const RUN: Key = Key::new("run", "{ redysim = \"0.1.0\" }", "written by a run into the copy in its results; ignored")
-    .with_default("none");
+pub const RUN: Key =
+    Key::new("run", "{ redysim = \"0.1.0\" }", "written by a run into the copy in its results; ignored")
+        .with_default("none");
 
 pub const INITIAL: Key = Key::of_table("initial", "{ q = [0, \"60 deg\"], v = [0, 0] }", "", &[&INITIAL_KEYS])
     .with_default("the neutral position at rest");

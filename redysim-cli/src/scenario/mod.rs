@@ -29,7 +29,7 @@ use crate::model::{self, Read};
 use crate::output::to_stderr;
 pub use forward::Forward;
 pub use initial::Initial;
-pub use integrator::{Absolute, Integrator, Tolerances};
+pub use integrator::{Absolute, Integrator, Tolerances, usual_method};
 pub use law::Law;
 pub use span::Span;
 pub use subject::{Dynamics, Subject};
@@ -37,6 +37,18 @@ use subject::{given, indices};
 use table::InputTable;
 pub use torque::{HeldFrame, Torque};
 pub use trajectory::{Prescribed, USUAL_THROUGH};
+
+/// The text of the scenario file at `path`.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
+    String::from_utf8(bytes).map_err(|_| {
+        Failure::input(format!("{} is not UTF-8", path.display()))
+            .help("save the file as UTF-8; TOML allows no other encoding")
+    })
+}
 
 /// What is to be computed of a model.
 pub struct Scenario {
@@ -75,16 +87,32 @@ impl Scenario {
     /// # Errors
     /// Every fault of the scenario at once; or those of the model, or the first of a table.
     pub fn load(path: &Path, dynamics: Dynamics, quiet: bool) -> Result<Scenario, Failure> {
-        let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
-        let text = String::from_utf8(bytes).map_err(|_| {
-            Failure::input(format!("{} is not UTF-8", path.display()))
-                .help("save the file as UTF-8; TOML allows no other encoding")
-        })?;
+        let text = read_text(path)?;
+        let (scenario, warnings) = Scenario::of_text(text, path, &path.display().to_string(), dynamics, quiet)?;
+        if !quiet {
+            for warning in warnings {
+                to_stderr(&format!("{warning}\n"));
+            }
+        }
+        Ok(scenario)
+    }
+
+    /// The same of the text of a scenario at `path`, whose messages name it `shown`; returns its warnings, and prints
+    /// those of its model unless `quiet`.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn of_text(
+        text: String,
+        path: &Path,
+        shown: &str,
+        dynamics: Dynamics,
+        quiet: bool,
+    ) -> Result<(Scenario, Vec<Diagnostic>), Failure> {
         if let Some(failure) = model::not_a_scenario(path, &text) {
             return Err(failure);
         }
         let mut failure = None;
-        let shown = path.display().to_string();
         let read = redysim_toml::read(text.clone(), shown, &keys::SCENARIO, "the scenario", |reader| {
             read(reader, path, text, dynamics, quiet, &mut failure)
         });
@@ -92,13 +120,8 @@ impl Scenario {
             return Err(failure);
         }
         let (scenario, warnings) = read.map_err(Failure::input)?;
-        if !quiet {
-            for warning in warnings {
-                to_stderr(&format!("{warning}\n"));
-            }
-        }
         scenario.check_tables()?;
-        Ok(scenario)
+        Ok((scenario, warnings))
     }
 
     /// Whether the model has closed loops.

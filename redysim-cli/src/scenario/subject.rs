@@ -6,13 +6,15 @@ use std::path::Path;
 
 use redysim_model::{Mobility, Model};
 use redysim_toml::{Field, Key, Message, Reader};
+use serde::{Deserialize, Serialize};
 
 use super::table::InputTable;
 use crate::failure::Failure;
 use crate::layout::{Component, Joint, Layout};
 
 /// What may be computed of a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Dynamics {
     /// The forces that a prescribed motion takes.
     Inverse,

@@ -1,0 +1,114 @@
+//! What a run leaves.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use redysim_model::Model;
+use serde::{Deserialize, Serialize};
+
+use super::{Scenario, file};
+use crate::failure::Failure;
+use crate::recorded::Recorded;
+use crate::results::{Folder, Run, names};
+use crate::scenario::read_text;
+use crate::table::{self, Column};
+
+/// A folder of results as data: what was run, how it went, and the tables.
+///
+/// # Example
+///
+/// ```no_run
+/// use redysim_cli::{Failure, Results};
+///
+/// let fall = Results::load("results/kuka/forward")?;
+/// let energy = &fall.tables["energy"];
+/// let drift = energy.columns.iter().find(|column| column.symbol == "drift").expect("a run writes it");
+/// println!("{} J after {} s", drift.values.last().unwrap(), energy.t.last().unwrap());
+/// # Ok::<(), Failure>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    /// The model, of which links and joints have the names in the tables.
+    pub model: Model,
+    /// The scenario with every setting that it left open, and nothing of the other run that it may be for.
+    pub scenario: Scenario,
+    /// How it went.
+    pub run: Run,
+    /// The tables by the names of their files without ending, such as `statevar`, `tor`, `energy`; also those that the
+    /// scenario names.
+    pub tables: BTreeMap<String, Table>,
+}
+
+/// Quantities over time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Table {
+    /// The instants, s.
+    pub t: Vec<f64>,
+    /// The quantities, with a value for each instant.
+    pub columns: Vec<Column>,
+}
+
+impl Results {
+    /// Reads the folder of results that `redysim inverse` or `redysim forward` has written.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such folder, or a file of it is missing, cannot be read or has faults. The tables of
+    /// `--format dat` do not name their columns: they are not results that can be read.
+    pub fn load(folder: impl AsRef<Path>) -> Result<Results, Failure> {
+        let recorded = Recorded::open(folder.as_ref())?;
+        let path = folder.as_ref().join(names::RUN_FILE);
+        let text = read_text(&path)?;
+        let run = Run::of_file(&text, &path)?;
+        let scenario = file::read(text, &path, &[run.command])?;
+        let mut tables = BTreeMap::new();
+        for name in names::TABLES.into_iter().chain(names::INPUTS) {
+            if let Some(table::Table { t, columns, .. }) = recorded.table(name)? {
+                tables.insert(name.to_owned(), Table { t, columns });
+            }
+        }
+        if tables.is_empty() {
+            return Err(recorded.lacks("no tables"));
+        }
+        Ok(Results { model: recorded.model()?, scenario, run, tables })
+    }
+
+    /// Writes a folder that [`load`](Self::load) reads to the same bits, and from which the commands plot, animate and
+    /// run again. Returns its path. With `force`, results that are there are replaced.
+    ///
+    /// # Errors
+    ///
+    /// Faults of the model, the scenario or a table, as those of files; or if the folder cannot be written, or is there
+    /// already. It is there whole or not at all.
+    pub fn write(&self, folder: impl Into<PathBuf>, force: bool) -> Result<PathBuf, Failure> {
+        let model = self.model.check().map_err(Failure::input)?.model;
+        let draft = Folder::draft(folder.into(), force)?;
+        draft.write(names::MODEL, model.to_toml().as_bytes())?;
+        for (name, table) in &self.tables {
+            draft.write(&format!("{name}.csv"), &table.to_csv(name)?)?;
+        }
+        let scenario = Scenario { model: names::MODEL.into(), ..self.scenario.clone() }.only(self.run.command);
+        let text = scenario.to_toml();
+        let path = draft.path().join(names::RUN_FILE);
+        file::check(&text, &path, "the scenario of the results, written as TOML", &[self.run.command])?;
+        draft.write(names::RUN_FILE, format!("{text}\n{}", self.run.to_toml()).as_bytes())?;
+        draft.finish(true)
+    }
+}
+
+impl Table {
+    /// The text of the table `name`.
+    ///
+    /// # Errors
+    /// If it is not one that results have, or not one that reads back.
+    fn to_csv(&self, name: &str) -> Result<Vec<u8>, Failure> {
+        let known: Vec<_> = names::TABLES.into_iter().chain(names::INPUTS).collect();
+        if !known.contains(&name) {
+            let message = format!("results have no table `{name}`");
+            return Err(Failure::input(message).help(format!("its name is one of {}", known.join(", "))));
+        }
+        table::to_csv(name, &self.t, &self.columns)
+    }
+}

@@ -1,0 +1,70 @@
+//! Prescribed motions.
+
+use serde::{Deserialize, Serialize};
+
+use super::Values;
+
+/// A motion of some joints that is prescribed to inverse dynamics or followed by a torque law.
+///
+/// `joints` are those that move so, by default all; of closed loops the actuated ones. Values are in their order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Trajectory {
+    /// A cycloid from rest to rest: [`redysim_runtime::Cycloid`].
+    Cycloid {
+        /// The joints.
+        joints: Option<Vec<String>>,
+        /// Where it begins, rad or m.
+        from: Values,
+        /// Where it ends, rad or m.
+        to: Values,
+        /// How long it takes, s.
+        duration: f64,
+    },
+    /// q = `from` + `speed` t.
+    ConstantSpeed {
+        /// The joints.
+        joints: Option<Vec<String>>,
+        /// Where it is at t = 0, rad or m.
+        from: Values,
+        /// The speed, rad/s or m/s.
+        speed: Values,
+    },
+    /// The motion of least jerk through points: [`redysim_runtime::ViaPoints::minimum_jerk`].
+    MinimumJerk {
+        /// The joints.
+        joints: Option<Vec<String>>,
+        /// When it is at each point, s.
+        times: Vec<f64>,
+        /// The points, rad or m.
+        points: Vec<Values>,
+    },
+    /// A cubic spline through points: [`redysim_runtime::ViaPoints::cubic`].
+    Cubic {
+        /// The joints.
+        joints: Option<Vec<String>>,
+        /// When it is at each point, s.
+        times: Vec<f64>,
+        /// The points, rad or m.
+        points: Vec<Values>,
+    },
+    /// The rows of a table.
+    Csv {
+        /// The joints.
+        joints: Option<Vec<String>>,
+        /// The path of the table, from the folder of the scenario.
+        file: String,
+        /// How a table without velocities and accelerations is passed; by default with minimum jerk.
+        through: Option<Through>,
+    },
+}
+
+/// How the rows of a table are passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Through {
+    /// With minimum jerk.
+    MinimumJerk,
+    /// By a cubic spline.
+    Cubic,
+}
