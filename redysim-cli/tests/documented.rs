@@ -75,7 +75,8 @@ fn of_line(line: &str) -> Option<Step> {
     }
 }
 
-/// Takes all steps of a document, each of which uses what those before it have written. Returns the folder and the text.
+/// Takes all steps of a document, each of which uses what those before it have written. Returns the folder and the
+/// text.
 fn run_all(name: &str, document: &str, least: usize) -> (PathBuf, String) {
     let mut folder = folder_with_examples(name);
     let text = fs::read_to_string(root().join(document)).unwrap();
