@@ -112,8 +112,14 @@ struct Readme;
 /// The programs of the guides.
 #[cfg(doctest)]
 mod guides {
+    #[doc = include_str!("../docs/first_steps.md")]
+    struct FirstSteps;
     #[doc = include_str!("../docs/own_robot.md")]
     struct OwnRobot;
+    #[doc = include_str!("../docs/closed_loops.md")]
+    struct ClosedLoops;
+    #[doc = include_str!("../docs/controllers.md")]
+    struct Controllers;
     #[doc = include_str!("../docs/no_std.md")]
     struct NoStd;
 }

@@ -4,9 +4,8 @@ mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
-use common::{Run, call, fail, model, names, root, scratch, succeed};
+use common::{call, cargo, fail, model, names, root, scratch, succeed};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::InverseDynamics;
 
@@ -18,18 +17,6 @@ const URDF: &str = r#"<robot name="two rods"><link name="ground"/>
   <joint name="shoulder" type="continuous"><parent link="ground"/><child link="upper"/><axis xyz="0 1 0"/></joint>
   <joint name="rail" type="prismatic"><parent link="upper"/><child link="slide"/><axis xyz="0 0 1"/>
     <limit lower="0" upper="1" effort="10" velocity="1"/></joint></robot>"#;
-
-/// Cargo in a new crate, with the versions of dependencies that this workspace has, and one target folder for all.
-fn cargo(folder: &Path, command: &str) -> Run {
-    if !folder.join("Cargo.lock").exists() {
-        fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    }
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args([command, "--offline", "--quiet"]).current_dir(folder);
-    cargo.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-target"));
-    cargo.env("CARGO_PROFILE_DEV_DEBUG", "0").env("CARGO_INCREMENTAL", "0");
-    Run::of(&mut cargo)
-}
 
 /// What a new crate prints, after its tests have passed. `name` is that of the crate.
 fn tested(folder: &Path, name: &str, robot: &str) -> String {

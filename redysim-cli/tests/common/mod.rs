@@ -12,7 +12,7 @@ mod table;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-pub use program::{Run, call, fail, program, succeed};
+pub use program::{Run, call, cargo, fail, program, succeed};
 #[cfg(unix)]
 pub use program::{bash, on_a_full_disk};
 pub use refusals::{refuses, refuses_in};

@@ -1,10 +1,13 @@
 //! Calls of the program.
 
+use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
 use std::thread::{sleep, spawn};
 use std::time::{Duration, Instant};
+
+use super::root;
 
 /// A call that takes longer, which none does on a slow machine, is killed, so that its test fails.
 const LONGEST: Duration = Duration::from_secs(120);
@@ -39,6 +42,18 @@ pub fn program(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_redysim"));
     command.args(arguments).current_dir(folder);
     command
+}
+
+/// Cargo in a new crate, with the versions of dependencies that this workspace has, and one target folder for all.
+pub fn cargo(folder: &Path, command: &str) -> Run {
+    if !folder.join("Cargo.lock").exists() {
+        fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    }
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args([command, "--offline", "--quiet"]).current_dir(folder);
+    cargo.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-target"));
+    cargo.env("CARGO_PROFILE_DEV_DEBUG", "0").env("CARGO_INCREMENTAL", "0");
+    Run::of(&mut cargo)
 }
 
 /// Calls the program in `folder`.
