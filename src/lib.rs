@@ -77,6 +77,8 @@
 //!   last places; within one program, lanes and plain numbers agree to the bit either way, and so do batches and
 //!   [`Dispatched`] mechanisms, which fuse where the processor can.
 #![no_std]
+// docs.rs shows which feature an item needs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 /// The runtime under the path by which generated code finds it. Its items are those of this crate.
 #[doc(hidden)]

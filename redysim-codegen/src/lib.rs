@@ -42,6 +42,8 @@
 //! assert!(source.contains("let [cos_rod] = *cos;"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+// docs.rs shows which feature an item needs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod accuracy;
 mod angles;

@@ -1,5 +1,7 @@
 //! Pictures of what mechanisms do: a [`Figure`](figure::Figure) says what is to be seen, [`plot::svg`] draws it, and
 //! `png::png` (feature `png`) does so in pixels.
+// docs.rs shows which feature an item needs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod axis;
 pub mod figure;

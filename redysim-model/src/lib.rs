@@ -35,6 +35,8 @@
 //! | [`spatial`], [`inertia`], [`pseudo`], [`rotation`] | vectors, twists, wrenches, inertias and rotations |
 //! | [`RunTimeParameter`], [`Quantity`] | the numbers of a model that compiled code is given at run time |
 //! | [`Mobility`], [`LockError`] | independent velocities of closed loops; joints that are locked |
+// docs.rs shows which feature an item needs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod assembly;
 mod check;

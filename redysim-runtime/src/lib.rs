@@ -47,6 +47,8 @@
 //! - `alloc`: `Vec` for vectors. `std`: [`batch`] and [`Dispatched`].
 //! - `deterministic`: products and sums are never fused, so that every target gives the same bits.
 #![no_std]
+// docs.rs shows which feature an item needs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 // Parts of the constraint solve serve simulation only.
 #![cfg_attr(not(feature = "simulation"), allow(dead_code, unused_imports))]
 
