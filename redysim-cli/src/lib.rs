@@ -50,6 +50,7 @@ mod results;
 mod scenario;
 mod summary;
 mod table;
+mod text;
 mod urdf;
 
 #[doc(hidden)]

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use common::{names, root, scratch, succeed};
 use redysim_cli::{
-    AbsoluteTolerance, AxisGains, Compensation, FixedStep, Forward, Impedance, Initial, Integrator, Limits, Payload,
-    Results, Scenario, Span, Stabilisation, Target, Through, Tolerances, Torque, Trajectory, Values,
+    AbsoluteTolerance, AxisGains, Compensation, Dynamics, FixedStep, Forward, Impedance, Initial, Integrator, Limits,
+    Payload, Results, Scenario, Span, Stabilisation, Target, Through, Tolerances, Torque, Trajectory, Values,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -17,7 +17,13 @@ use serde::de::DeserializeOwned;
 fn kept<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(value: &T) {
     let text = serde_json::to_string(value).unwrap();
     let again: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
-    assert_eq!(&again, value, "{text}");
+    same(&again, value, &text);
+}
+
+/// Equal, with zeros of the same sign: `Debug` has the digits and signs that tell one number from another.
+fn same<T: PartialEq + std::fmt::Debug>(found: &T, expected: &T, text: &str) {
+    assert_eq!(found, expected, "{text}");
+    assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{text}");
 }
 
 fn models() -> String {
@@ -28,7 +34,7 @@ fn models() -> String {
 fn reads_back(scenario: &Scenario) {
     let text = scenario.to_toml();
     let again = Scenario::from_toml(&*text, format!("{}/trial.toml", models()));
-    assert_eq!(&again.unwrap_or_else(|fault| panic!("{fault}\n{text}")), scenario, "{text}");
+    same(&again.unwrap_or_else(|fault| panic!("{fault}\n{text}")), scenario, &text);
     kept(scenario);
 }
 
@@ -331,6 +337,7 @@ fn a_scenario_built_in_rust_has_the_faults_of_files() {
         let titles =
             |shown: &str| shown.lines().filter(|line| line.starts_with("error")).map(str::to_owned).collect::<Vec<_>>();
         assert_eq!(titles(&shown), titles(&of_file.to_string()));
+        assert!(!titles(&shown).is_empty(), "{shown}");
     }
     let quick = Initial { q: Some([0.0, 90.0].into()), ..Initial::default() };
     let warnings = started(quick).check(models()).unwrap();
@@ -339,6 +346,32 @@ fn a_scenario_built_in_rust_has_the_faults_of_files() {
     assert!(both.check(models()).unwrap_err().to_string().contains("`inverse.step`"));
     let missing = Scenario::load("nowhere.toml").unwrap_err();
     assert!(missing.message().contains("cannot read nowhere.toml"), "{missing}");
+    let first = scratch("data-load-for").join("first.toml");
+    let rest = "inverse = { end = 1, step = 0.1 }\ntrajectory = { from = [0, 0], to = [1, 1], duration = 1 }\n\
+                forward = { end = 1, step = 0.1, torque = { law = 'csv', file = 'not-yet.csv' } }\n";
+    fs::write(&first, format!("model = '{}/two_link.toml'\n{rest}", models())).unwrap();
+    let fault = Scenario::load(&first).unwrap_err().to_string();
+    assert!(fault.contains("not-yet.csv"), "{fault}");
+    let inverse = Scenario::load_for(&first, Dynamics::Inverse).unwrap();
+    assert!(inverse.inverse.is_some() && inverse.forward.is_none());
+}
+
+#[test]
+fn what_another_program_has_misspelt_is_reported() {
+    fn fault<T: DeserializeOwned + std::fmt::Debug>(json: &str) -> String {
+        serde_json::from_str::<T>(json).expect_err(json).to_string()
+    }
+    for (fault, parts) in [
+        (fault::<Tolerances>(r#"{ "atol": { "positon": 1e-9 } }"#), ["a number", "position, velocity and work"]),
+        (fault::<Torque>(r#"{ "law": "free", "kp": 49 }"#), ["`kp`", "unknown field"]),
+        (fault::<Torque>(r#"{ "law": "pdd" }"#), ["`pdd`", "`pd-gravity`"]),
+        (fault::<Stabilisation>(r#"{ "kind": "none", "alpha": 20 }"#), ["`alpha`", "unknown field"]),
+        (fault::<Initial>(r#"{ "q": ["60 deg", 0] }"#), ["an array of numbers", "angles are in rad"]),
+        (fault::<AxisGains>("[1, 2]"), ["a number", "an array of 3 numbers"]),
+    ] {
+        assert!(parts.iter().all(|part| fault.contains(part)), "{fault}");
+    }
+    assert_eq!(serde_json::from_str::<Torque>(r#"{ "law": "free" }"#).unwrap(), Torque::Free);
     let unknown =
         serde_json::from_str::<Scenario>("{ \"model\": \"a.toml\", \"intial\": {} }").unwrap_err().to_string();
     assert!(unknown.contains("`intial`") && unknown.contains("`initial`"), "{unknown}");

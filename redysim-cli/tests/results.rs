@@ -308,10 +308,14 @@ fn results_that_could_not_be_read_are_not_written() {
         change(results.tables.get_mut("statevar").unwrap());
     };
     type Change<'c> = &'c dyn Fn(&mut Results);
-    let faults: [(Change<'_>, &str); 8] = [
+    let faults: [(Change<'_>, &str); 12] = [
         (&|results| results.model.links[0].mass = -1.0, "`mass` is -1.0 kg"),
         (&|results| results.scenario.forward.as_mut().unwrap().step = -0.1, "`forward.step`"),
-        (&|results| drop(results.tables.remove("trajectory")), "cannot read"),
+        (&|results| drop(results.tables.remove("trajectory")), "they have no table `trajectory`"),
+        (&|results| results.tables.retain(|name, _| name == "trajectory"), "they have no table"),
+        (&|results| results.scenario.name = None, "their scenario has no name"),
+        (&|results| results.run.command = Dynamics::Inverse, "of inverse dynamics, which their scenario does not have"),
+        (&|results| results.run.instants = u64::MAX, "integer number overflowed"),
         (
             &|results| state(results, &|table| table.columns[0].values.truncate(7)),
             "`q joint1 [rad]` has 7 values, but there are 8",
@@ -333,7 +337,20 @@ fn results_that_could_not_be_read_are_not_written() {
     let nowhere = Results::load(folder.join("nowhere")).unwrap_err().to_string();
     assert!(nowhere.contains("nowhere is not there"), "{nowhere}");
     let run = fs::read_to_string(folder.join("first/run.toml")).unwrap();
-    fs::write(folder.join("first/run.toml"), run.replace("instants = ", "instance = ")).unwrap();
-    let edited = Results::load(folder.join("first")).unwrap_err().to_string();
-    assert!(edited.contains("run.toml: the table `[run]`: unknown field `instance`"), "{edited}");
+    let run_file = |text: &str| {
+        fs::write(folder.join("first/run.toml"), text).unwrap();
+        Results::load(folder.join("first")).unwrap_err().to_string()
+    };
+    for (text, fault) in [
+        (run.replace("instants = ", "instance = "), "run.toml: the table `[run]`: unknown field `instance`"),
+        (run.split("# How it went.").next().unwrap().to_owned(), "it has no table `[run]`, which a run writes"),
+        (run.replace("seconds = ", "seconds : "), "run.toml: TOML parse error at line"),
+    ] {
+        let shown = run_file(&text);
+        assert!(shown.contains(fault), "{fault}: {shown}");
+    }
+    let path = folder.join("trial.toml").display().to_string();
+    succeed(&folder, &["forward", &path, "-o", "dat", "--format", "dat"]);
+    let dat = Results::load(folder.join("dat")).unwrap_err().to_string();
+    assert!(dat.contains("holds no tables of results") && dat.contains("--format csv"), "{dat}");
 }

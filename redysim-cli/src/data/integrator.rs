@@ -50,7 +50,11 @@ pub struct Tolerances {
 
 /// An absolute tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    deny_unknown_fields,
+    expecting = "expected a number, or numbers under the keys position, velocity and work"
+)]
 pub enum AbsoluteTolerance {
     /// One number for all components of the state.
     Uniform(f64),

@@ -13,6 +13,16 @@ pub use scenario::{Forward, Initial, Scenario, Span, Stabilisation, Values};
 pub use torque::{AxisGains, Compensation, Impedance, Limits, Payload, Target, Torque};
 pub use trajectory::{Through, Trajectory};
 
+use serde::{Deserialize, Deserializer};
+
+/// Reads a kind without keys of its own, beside which nothing may stand: without this, serde ignores what does.
+fn nothing_else<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Nothing {}
+    Nothing::deserialize(deserializer).map(|Nothing {}| ())
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use redysim_model::Model;
 use serde::{Deserialize, Serialize};
 
-use super::{Scenario, file};
+use super::{Scenario, Torque, Trajectory, file};
 use crate::failure::Failure;
 use crate::recorded::Recorded;
 use crate::results::{Folder, Run, names};
@@ -56,7 +56,7 @@ impl Results {
     /// # Errors
     ///
     /// If there is no such folder, or a file of it is missing, cannot be read or has faults. The tables of
-    /// `--format dat` do not name their columns: they are not results that can be read.
+    /// `--format dat` do not name their columns: they are not read.
     pub fn load(folder: impl AsRef<Path>) -> Result<Results, Failure> {
         let recorded = Recorded::open(folder.as_ref())?;
         let path = folder.as_ref().join(names::RUN_FILE);
@@ -69,8 +69,8 @@ impl Results {
                 tables.insert(name.to_owned(), Table { t, columns });
             }
         }
-        if tables.is_empty() {
-            return Err(recorded.lacks("no tables"));
+        if !has_results(&tables) {
+            return Err(recorded.lacks("no tables of results"));
         }
         Ok(Results { model: recorded.model()?, scenario, run, tables })
     }
@@ -78,24 +78,68 @@ impl Results {
     /// Writes a folder that [`load`](Self::load) reads to the same bits, and from which the commands plot, animate and
     /// run again. Returns its path. With `force`, results that are there are replaced.
     ///
+    /// The model is written as `redysim_model::Model::check` returns it. Whatever files the scenario names, it names
+    /// those of the folder there: the model and the tables `trajectory` and `torque`.
+    ///
     /// # Errors
     ///
-    /// Faults of the model, the scenario or a table, as those of files; or if the folder cannot be written, or is there
-    /// already. It is there whole or not at all.
+    /// Faults of the model, the scenario or a table, as those of files; a scenario without a name, or without the run
+    /// that [`run`](Self::run) is about; or if the folder cannot be written, or is there already. It is there whole or
+    /// not at all.
     pub fn write(&self, folder: impl Into<PathBuf>, force: bool) -> Result<PathBuf, Failure> {
         let model = self.model.check().map_err(Failure::input)?.model;
+        let scenario = self.scenario_of_folder()?;
         let draft = Folder::draft(folder.into(), force)?;
         draft.write(names::MODEL, model.to_toml().as_bytes())?;
         for (name, table) in &self.tables {
             draft.write(&format!("{name}.csv"), &table.to_csv(name)?)?;
         }
-        let scenario = Scenario { model: names::MODEL.into(), ..self.scenario.clone() }.only(self.run.command);
-        let text = scenario.to_toml();
+        let text = format!("{}\n{}", scenario.to_toml(), self.run.to_toml());
         let path = draft.path().join(names::RUN_FILE);
         file::check(&text, &path, "the scenario of the results, written as TOML", &[self.run.command])?;
-        draft.write(names::RUN_FILE, format!("{text}\n{}", self.run.to_toml()).as_bytes())?;
+        Run::of_file(&text, &path)?;
+        draft.write(names::RUN_FILE, text.as_bytes())?;
         draft.finish(true)
     }
+
+    /// The scenario for its run alone, as it names the files of a folder of results.
+    fn scenario_of_folder(&self) -> Result<Scenario, Failure> {
+        let fault = |what: &str, help: String| Err(Failure::input(format!("the results: {what}")).help(help));
+        let run = self.run.command;
+        let mut scenario = Scenario { model: names::MODEL.into(), ..self.scenario.clone() }.only(run);
+        if scenario.name.is_none() {
+            return fault("their scenario has no name", "give it one: the results of a run are called by it".into());
+        }
+        if scenario.inverse.is_none() && scenario.forward.is_none() {
+            let what = format!("they are those of {run} dynamics, which their scenario does not have");
+            return fault(&what, format!("give the scenario its `{run}`, or `run.command` what was computed"));
+        }
+        if !has_results(&self.tables) {
+            return fault("they have no table", format!("give at least one of {}", names::TABLES.join(", ")));
+        }
+        let trajectory = match &mut scenario.trajectory {
+            Some(Trajectory::Csv { file, .. }) => Some((file, names::TRAJECTORY)),
+            _ => None,
+        };
+        let torque = match scenario.forward.as_mut().and_then(|forward| forward.torque.as_mut()) {
+            Some(Torque::Csv { file, .. }) => Some((file, names::TORQUE)),
+            _ => None,
+        };
+        for (file, name) in trajectory.into_iter().chain(torque) {
+            let table = name.trim_end_matches(".csv");
+            if !self.tables.contains_key(table) {
+                let what = format!("their scenario names a table, {file}, and they have no table `{table}`");
+                return fault(&what, format!("add its columns as the table `{table}`"));
+            }
+            *file = name.into();
+        }
+        Ok(scenario)
+    }
+}
+
+/// Whether there is a table that a run writes.
+fn has_results(tables: &BTreeMap<String, Table>) -> bool {
+    names::TABLES.iter().any(|name| tables.contains_key(*name))
 }
 
 impl Table {

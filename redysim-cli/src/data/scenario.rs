@@ -6,9 +6,10 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::file;
-use super::{Integrator, Torque, Trajectory};
+use super::{Integrator, Torque, Trajectory, nothing_else};
 use crate::failure::Failure;
 use crate::scenario::{Dynamics, read_text};
+use crate::text::to_toml;
 
 /// What is to be computed of a model: a scenario file as data, with its keys as fields.
 ///
@@ -111,8 +112,10 @@ pub struct Forward {
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Stabilisation {
     /// The state is projected back onto the constraints after each step.
+    #[serde(deserialize_with = "nothing_else")]
     Projection,
     /// Nothing.
+    #[serde(deserialize_with = "nothing_else")]
     None,
     /// Baumgarte's feedback.
     Baumgarte {
@@ -123,7 +126,10 @@ pub enum Stabilisation {
 
 /// Numbers for the joints of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "expected a number, an array of numbers, or numbers by the names of joints; angles are in rad"
+)]
 pub enum Values {
     /// One number for all of them, as gains and limits allow.
     Uniform(f64),
@@ -164,17 +170,30 @@ impl Scenario {
         Scenario { name: None, model: model.into(), initial: None, trajectory: None, inverse: None, forward: None }
     }
 
-    /// Reads a scenario file and checks it. A scenario without a name gets that of the file.
+    /// Reads a scenario file and checks it for each run that it has. A scenario without a name gets that of the file.
+    /// [`check`](Self::check) has the warnings.
     ///
     /// # Errors
     ///
-    /// The faults that `redysim inverse` and `redysim forward` report, for those of the two that the scenario is for.
+    /// The faults that `redysim inverse` and `redysim forward` report. A run may need a table that the other one has
+    /// yet to write: [`load_for`](Self::load_for) reads what there is for one of them.
     pub fn load(path: impl AsRef<Path>) -> Result<Scenario, Failure> {
         let path = path.as_ref();
         Scenario::from_toml(read_text(path)?, path)
     }
 
-    /// The same of the text of a scenario file at `path`: the files that it names are in its folder.
+    /// Reads what a scenario file has for one run, as the command does.
+    ///
+    /// # Errors
+    ///
+    /// The faults that the command reports.
+    pub fn load_for(path: impl AsRef<Path>, run: Dynamics) -> Result<Scenario, Failure> {
+        let path = path.as_ref();
+        file::read(read_text(path)?, path, &[run])
+    }
+
+    /// The same as [`load`](Self::load) of the text of a scenario file at `path`: the files that it names are in its
+    /// folder.
     ///
     /// # Errors
     ///
@@ -185,15 +204,18 @@ impl Scenario {
         file::read(text, path.as_ref(), &runs)
     }
 
-    /// The text of a scenario file that reads back to this scenario, to the same bits.
+    /// The text of a scenario file that reads back to this scenario, to the same bits; without a name, to that of the
+    /// file.
     ///
-    /// A scenario with a fault is written as well, so that [`check`](Self::check) shows where the fault is.
+    /// A scenario with a fault, such as a number that is not finite, is written as well, so that
+    /// [`check`](Self::check) shows where the fault is.
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("TOML has strings, finite and infinite numbers, arrays and tables")
+        to_toml(self)
     }
 
     /// Checks a scenario that was built in Rust by the rules for files; the files that it names are in `folder`.
-    /// Returns the warnings.
+    /// Returns the warnings of the scenario; those of its model are `redysim_model::Model::load`'s. Since all angles
+    /// are plain numbers, one that a file has with a unit may be doubted here, such as `"450 deg"`.
     ///
     /// # Errors
     ///

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Values;
+use super::{Values, nothing_else};
 
 /// What the actuators do.
 ///
@@ -12,6 +12,7 @@ use super::Values;
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Torque {
     /// Nothing.
+    #[serde(deserialize_with = "nothing_else")]
     Free,
     /// A spring: τ = kp (target − q).
     P {
@@ -142,7 +143,7 @@ pub struct Target {
 
 /// Gains along or about three axes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number or an array of 3 numbers")]
 pub enum AxisGains {
     /// One number for all axes.
     Uniform(f64),
@@ -174,6 +175,7 @@ pub struct Payload {
 
 /// The largest forces on the joints that a law drives, N m or N.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(expecting = "expected \"range\", a number, an array of numbers, or numbers by the names of joints")]
 pub enum Limits {
     /// The `force` of each joint's `range` in the model.
     #[serde(rename = "range")]

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
 use crate::scenario::{Dynamics, keys};
+use crate::text::to_toml;
 
 /// How a run went: the table `[run]` of `run.toml`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,20 +70,18 @@ pub enum Ending {
 impl Run {
     /// How the run of the `run.toml` at `path` went.
     pub(crate) fn of_file(text: &str, path: &Path) -> Result<Run, Failure> {
-        #[derive(Deserialize)]
-        struct File {
-            run: Run,
-        }
-        let file: Result<File, _> = toml::from_str(text);
-        file.map(|file| file.run).map_err(|error| {
-            let message = format!("{}: the table `[{}]`: {}", path.display(), keys::RUN.name, error.message());
+        let fault = |what: String| {
+            let message = format!("{}: {what}", path.display());
             Failure::input(message).help("results are read as a run has written them: run the scenario again")
-        })
+        };
+        let mut table: toml::Table = text.parse().map_err(|error: toml::de::Error| fault(error.to_string()))?;
+        let name = keys::RUN.name;
+        let run = table.remove(name).ok_or_else(|| fault(format!("it has no table `[{name}]`, which a run writes")))?;
+        run.try_into().map_err(|error| fault(format!("the table `[{name}]`: {}", error.message())))
     }
 
     /// The table of `run.toml`, with its header.
     pub(crate) fn to_toml(&self) -> String {
-        let table = toml::to_string(self).expect("TOML has strings, numbers and arrays");
-        format!("# How it went.\n[{}]\n{table}", keys::RUN.name)
+        format!("# How it went.\n[{}]\n{}", keys::RUN.name, to_toml(self))
     }
 }
