@@ -6,7 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use common::{Table, call, deviation, names, root, scenario, scratch, succeed};
-use redysim_cli::{Dynamics, Ending, Results, Run};
+use redysim_cli::{Dynamics, Ending, Results, Run, Trajectory};
 
 fn shipped(name: &str) -> String {
     root().join(format!("scenarios/{name}.toml")).display().to_string()
@@ -282,7 +282,14 @@ fn results_are_kept_to_the_bit_and_run_again_from_where_they_are_written() {
     );
     assert_eq!(state.columns[2].values[0], first.run.start_v[0]);
 
-    let written = first.write(folder.join("second"), false).unwrap_or_else(|fault| panic!("{fault}"));
+    // Whatever it named, the scenario is about the folder that is written.
+    let mut moved = first.clone();
+    moved.scenario.model = "../two_link.toml".into();
+    if let Some(Trajectory::Csv { file, .. }) = &mut moved.scenario.trajectory {
+        *file = "../points.csv".into();
+    }
+    assert_ne!(moved.scenario, first.scenario);
+    let written = moved.write(folder.join("second"), false).unwrap_or_else(|fault| panic!("{fault}"));
     assert_eq!(Results::load(&written).unwrap(), first);
     for command in [["plot", "second", "-o", "pictures"], ["forward", "second/run.toml", "-o", "third"]] {
         succeed(&folder, &command);
