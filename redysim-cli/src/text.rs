@@ -1,41 +1,48 @@
 //! Data as TOML.
 
 use serde::Serialize;
-use toml_edit::{DocumentMut, Item, TableLike, Value};
+use toml_edit::visit_mut::VisitMut;
+use toml_edit::{DocumentMut, Formatted, Item, RawString, Value};
 
 /// The text of a file with these data, in which very small and very large numbers have exponents.
 pub fn to_toml(data: &impl Serialize) -> String {
     let plain = toml::to_string(data).expect("TOML has strings, numbers, arrays and tables");
     // A count above 2⁶³ is written, but not read.
     let Ok(mut document) = plain.parse::<DocumentMut>() else { return plain };
-    shorten_table(document.as_table_mut());
+    Shortest.visit_document_mut(&mut document);
     document.to_string()
 }
 
-fn shorten_table(table: &mut dyn TableLike) {
-    for (_, item) in table.iter_mut() {
-        match item {
-            Item::Value(value) => shorten(value),
-            Item::Table(table) => shorten_table(table),
-            Item::ArrayOfTables(tables) => tables.iter_mut().for_each(|table| shorten_table(table)),
-            Item::None => {}
-        }
+/// A number as the shortest decimal that reads back as exactly this.
+pub fn number(number: f64) -> Formatted<f64> {
+    match format!("{number:?}").parse() {
+        Ok(Value::Float(shortest)) => shortest,
+        _ => Formatted::new(number),
     }
 }
 
-/// Replaces numbers by the shortest decimals that read back as exactly these.
-fn shorten(value: &mut Value) {
-    match value {
-        Value::Float(number) if number.value().is_finite() => {
-            let decor = number.decor().clone();
-            if let Ok(short) = format!("{:?}", number.value()).parse::<Value>() {
-                *value = short;
-                *value.decor_mut() = decor;
-            }
-        }
-        Value::Array(values) => values.iter_mut().for_each(shorten),
-        Value::InlineTable(table) => shorten_table(table),
-        _ => {}
+/// Sets a key to `default`, unless the table has it.
+pub fn set_default(table: &mut Item, key: &str, default: Item) {
+    if table.get(key).is_some() {
+        return;
+    }
+    // The blank before the brace that closes an inline table is to stand after the new value.
+    if let Some((_, last)) = table.as_inline_table_mut().and_then(|table| table.iter_mut().last())
+        && last.decor().suffix().and_then(RawString::as_str).is_some_and(|blank| blank.trim().is_empty())
+    {
+        last.decor_mut().set_suffix("");
+    }
+    table[key] = default;
+}
+
+/// Replaces numbers by their shortest decimals.
+struct Shortest;
+
+impl VisitMut for Shortest {
+    fn visit_float_mut(&mut self, float: &mut Formatted<f64>) {
+        let decor = float.decor().clone();
+        *float = number(*float.value());
+        *float.decor_mut() = decor;
     }
 }
 

@@ -34,7 +34,7 @@ pub(crate) fn angle<'t>(text: &'t str, per: &str) -> Result<f64, NotAnAngle<'t>>
 }
 
 /// An angle with a unit, in radians, as [`Reader::parse_angle`](crate::Reader::parse_angle) reads it; with `per`, such as
-/// "/s", also a rate. `None` if the text is none.
+/// "/s", also a rate. Returns `None` if the text is not an angle with a unit.
 ///
 /// ```
 /// use redysim_toml::radians;

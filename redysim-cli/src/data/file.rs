@@ -3,121 +3,113 @@
 use std::path::Path;
 
 use redysim_toml::radians;
-use toml::{Table, Value};
+use toml_edit::visit_mut::{self, VisitMut};
+use toml_edit::{DocumentMut, Item, KeyMut, TableLike, Value};
 
 use super::Scenario;
 use crate::failure::Failure;
-use crate::scenario::{self, Dynamics, keys};
+use crate::scenario::{self, Dynamics, keys, shorthand};
 
-/// The runs that a scenario is for; forward dynamics if it is for none, so that what it has is checked.
-pub fn runs(text: &str) -> Vec<Dynamics> {
-    let table: Table = text.parse().unwrap_or_default();
-    let has = |run: &Dynamics| table.contains_key(&run.to_string());
-    let runs: Vec<_> = [Dynamics::Inverse, Dynamics::Forward].into_iter().filter(has).collect();
-    if runs.is_empty() { vec![Dynamics::Forward] } else { runs }
+/// A scenario that the commands accept.
+pub struct Checked {
+    pub document: DocumentMut,
+    pub warnings: Vec<String>,
 }
 
-/// The warnings of a scenario at `path`, whose messages name it `shown`, for `runs`.
+/// Checks the text of the scenario at `path`, whose messages name it `shown`, for each of `runs`.
 ///
 /// # Errors
 /// The faults for the first run that has any.
-pub fn check(text: &str, path: &Path, shown: &str, runs: &[Dynamics]) -> Result<Vec<String>, Failure> {
-    let mut warnings = Vec::new();
+pub fn check(text: &str, path: &Path, shown: &str, runs: &[Dynamics]) -> Result<Checked, Failure> {
+    let mut checked = Checked { document: DocumentMut::new(), warnings: vec![] };
     for &run in runs {
-        let (_, found) = scenario::Scenario::of_text(text.to_owned(), path, shown, run, true)?;
-        warnings.extend(found.iter().map(ToString::to_string));
+        let (scenario, found) = scenario::Scenario::of_text(text.to_owned(), path, shown, run, true)?;
+        checked.document = scenario.document;
+        for warning in found.iter().map(ToString::to_string) {
+            // What both runs read has its warnings twice.
+            if !checked.warnings.contains(&warning) {
+                checked.warnings.push(warning);
+            }
+        }
     }
-    // What both runs read has its warnings twice.
-    let mut seen = std::collections::HashSet::new();
-    warnings.retain(|warning| seen.insert(warning.clone()));
-    Ok(warnings)
+    Ok(checked)
 }
 
 /// The scenario at `path` with what it has for `runs`.
 ///
 /// # Errors
 /// As [`check`].
-pub fn read(text: String, path: &Path, runs: &[Dynamics]) -> Result<Scenario, Failure> {
-    check(&text, path, &path.display().to_string(), runs)?;
-    let mut table: Table = text.parse().map_err(|error| unread(path, &error))?;
-    table.remove(keys::RUN.name);
+pub fn read(text: &str, path: &Path, runs: &[Dynamics]) -> Result<Scenario, Failure> {
+    let mut document = check(text, path, &path.display().to_string(), runs)?.document;
+    document.remove(keys::RUN.name);
     for run in [Dynamics::Inverse, Dynamics::Forward] {
         if !runs.contains(&run) {
-            table.remove(&run.to_string());
+            document.remove(&run.to_string());
         }
     }
-    spell_out(&mut table);
-    let scenario: Scenario = table.try_into().map_err(|error| unread(path, &error))?;
+    spell_out(&mut document);
+    let scenario: Scenario = toml::from_str(&document.to_string())
+        .map_err(|error| Failure::input(format!("{}: {}", path.display(), error.message())))?;
     let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     Ok(Scenario { name: scenario.name.or_else(stem), ..scenario })
 }
 
-fn unread(path: &Path, error: &toml::de::Error) -> Failure {
-    Failure::input(format!("{}: {}", path.display(), error.message()))
-}
-
 /// Replaces what stands for something longer: names of kinds for tables, other names of integrators, kinds by default,
 /// and angles with a unit.
-fn spell_out(scenario: &mut Table) {
-    kind(scenario, keys::TRAJECTORY.name, keys::MOTION_KIND.name, "cycloid");
-    if let Some(Value::Table(forward)) = scenario.get_mut(keys::FORWARD.name) {
-        kind(forward, keys::TORQUE.name, keys::LAW.name, "free");
-        kind(forward, keys::STABILISATION.name, keys::STABILISATION_KIND.name, "projection");
-        kind(forward, keys::INTEGRATOR.name, keys::METHOD.name, "Ode45");
-        if let Some(Value::Table(integrator)) = forward.get_mut(keys::INTEGRATOR.name)
-            && let Some(method) = integrator.get_mut(keys::METHOD.name)
-        {
-            *method = scenario::usual_method(&named(method)).into();
-        }
+fn spell_out(scenario: &mut DocumentMut) {
+    if let Some(trajectory) = scenario.get_mut(keys::TRAJECTORY.name) {
+        shorthand::TRAJECTORY.expand(trajectory);
     }
-    scenario.iter_mut().for_each(|(_, value)| angles(value));
+    let forward = scenario.get_mut(keys::FORWARD.name).and_then(Item::as_table_like_mut);
+    if let Some(forward) = forward {
+        let tables = [
+            (keys::TORQUE, shorthand::TORQUE),
+            (keys::STABILISATION, shorthand::STABILISATION),
+            (keys::INTEGRATOR, shorthand::INTEGRATOR),
+        ];
+        for (key, shorthand) in tables {
+            forward.get_mut(key.name).into_iter().for_each(|item| shorthand.expand(item));
+        }
+        usual_method(forward);
+    }
+    Radians { within: false }.visit_document_mut(scenario);
 }
 
-/// Makes a table of the kind whose name stands under `key`; without a name it is of the kind `default`.
-fn kind(table: &mut Table, key: &str, tag: &str, default: &str) {
-    match table.get_mut(key) {
-        Some(Value::Table(table)) if table.contains_key(tag) => {}
-        Some(Value::Table(table)) => drop(table.insert(tag.into(), default.into())),
-        Some(name) => {
-            let name = named(name);
-            *table.get_mut(key).expect("it is there") = Value::Table(Table::from_iter([(tag.to_owned(), name.into())]));
-        }
-        None => {}
+/// Gives the integrator of `forward` its usual name.
+fn usual_method(forward: &mut dyn TableLike) {
+    let Some(integrator) = forward.get_mut(keys::INTEGRATOR.name) else { return };
+    let method = &mut integrator[keys::METHOD.name];
+    if let Some(name) = shorthand::name(method) {
+        *method = toml_edit::value(scenario::usual_method(&name));
     }
-}
-
-/// The name of a kind, which may be a number.
-fn named(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
 /// Converts angles with a unit under the keys that may have them.
-fn angles(value: &mut Value) {
-    const KEYS: [&str; 8] = [
-        keys::Q.name,
-        keys::V.name,
-        keys::FROM.name,
-        keys::TO.name,
-        keys::SPEED.name,
-        keys::POINTS.name,
-        keys::TARGET.name,
-        keys::RPY.name,
-    ];
-    let Value::Table(table) = value else { return };
-    for (key, value) in table {
-        if KEYS.contains(&key.as_str()) { in_radians(value) } else { angles(value) }
-    }
+struct Radians {
+    /// Whether the place is under such a key.
+    within: bool,
 }
 
-fn in_radians(value: &mut Value) {
-    match value {
-        Value::String(text) => {
-            if let Some(angle) = radians(text, "/s") {
-                *value = Value::Float(angle);
-            }
+impl VisitMut for Radians {
+    fn visit_table_like_kv_mut(&mut self, key: KeyMut<'_>, item: &mut Item) {
+        const KEYS: [&str; 8] = [
+            keys::Q.name,
+            keys::V.name,
+            keys::FROM.name,
+            keys::TO.name,
+            keys::SPEED.name,
+            keys::POINTS.name,
+            keys::TARGET.name,
+            keys::RPY.name,
+        ];
+        let within = self.within || KEYS.contains(&key.get());
+        visit_mut::visit_table_like_kv_mut(&mut Radians { within }, key, item);
+    }
+
+    fn visit_value_mut(&mut self, value: &mut Value) {
+        match value.as_str().filter(|_| self.within).and_then(|text| radians(text, "/s")) {
+            Some(angle) => *value = angle.into(),
+            None => visit_mut::visit_value_mut(self, value),
         }
-        Value::Array(values) => values.iter_mut().for_each(in_radians),
-        Value::Table(table) => table.iter_mut().for_each(|(_, value)| in_radians(value)),
-        _ => {}
     }
 }

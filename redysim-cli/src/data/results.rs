@@ -55,14 +55,14 @@ impl Results {
     ///
     /// # Errors
     ///
-    /// If there is no such folder, or a file of it is missing, cannot be read or has faults. The tables of
-    /// `--format dat` do not name their columns: they are not read.
+    /// If the folder or one of its files does not exist, cannot be read, or is invalid. The tables of `--format dat` do
+    /// not name their columns: they are not read.
     pub fn load(folder: impl AsRef<Path>) -> Result<Results, Failure> {
         let recorded = Recorded::open(folder.as_ref())?;
         let path = folder.as_ref().join(names::RUN_FILE);
         let text = read_text(&path)?;
         let run = Run::of_file(&text, &path)?;
-        let scenario = file::read(text, &path, &[run.command])?;
+        let scenario = file::read(&text, &path, &[run.command])?;
         let mut tables = BTreeMap::new();
         for name in names::TABLES.into_iter().chain(names::INPUTS) {
             if let Some(table::Table { t, columns, .. }) = recorded.table(name)? {
@@ -92,7 +92,7 @@ impl Results {
         let draft = Folder::draft(folder.into(), force)?;
         draft.write(names::MODEL, model.to_toml().as_bytes())?;
         for (name, table) in &self.tables {
-            draft.write(&format!("{name}.csv"), &table.to_csv(name)?)?;
+            draft.write(&names::csv(name), &table.to_csv(name)?)?;
         }
         let text = format!("{}\n{}", scenario.to_toml(), self.run.to_toml());
         let path = draft.path().join(names::RUN_FILE);
@@ -125,13 +125,12 @@ impl Results {
             Some(Torque::Csv { file, .. }) => Some((file, names::TORQUE)),
             _ => None,
         };
-        for (file, name) in trajectory.into_iter().chain(torque) {
-            let table = name.trim_end_matches(".csv");
+        for (file, table) in trajectory.into_iter().chain(torque) {
             if !self.tables.contains_key(table) {
                 let what = format!("their scenario names a table, {file}, and they have no table `{table}`");
                 return fault(&what, format!("add its columns as the table `{table}`"));
             }
-            *file = name.into();
+            *file = names::csv(table);
         }
         Ok(scenario)
     }

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use toml_edit::DocumentMut;
 
 use super::file;
 use super::{Integrator, Torque, Trajectory, nothing_else};
 use crate::failure::Failure;
-use crate::scenario::{Dynamics, read_text};
+use crate::scenario::{Dynamics, keys, read_text};
 use crate::text::to_toml;
 
 /// What is to be computed of a model: a scenario file as data, with its keys as fields.
@@ -189,7 +190,7 @@ impl Scenario {
     /// The faults that the command reports.
     pub fn load_for(path: impl AsRef<Path>, run: Dynamics) -> Result<Scenario, Failure> {
         let path = path.as_ref();
-        file::read(read_text(path)?, path, &[run])
+        file::read(&read_text(path)?, path, &[run])
     }
 
     /// The same as [`load`](Self::load) of the text of a scenario file at `path`: the files that it names are in its
@@ -200,8 +201,9 @@ impl Scenario {
     /// As [`load`](Self::load).
     pub fn from_toml(text: impl Into<String>, path: impl AsRef<Path>) -> Result<Scenario, Failure> {
         let text = text.into();
-        let runs = file::runs(&text);
-        file::read(text, path.as_ref(), &runs)
+        let document: DocumentMut = text.parse().unwrap_or_default();
+        let [inverse, forward] = [keys::INVERSE, keys::FORWARD].map(|key| document.contains_key(key.name));
+        file::read(&text, path.as_ref(), &runs(inverse, forward))
     }
 
     /// The text of a scenario file that reads back to this scenario, to the same bits; without a name, to that of the
@@ -221,9 +223,9 @@ impl Scenario {
     ///
     /// As [`load`](Self::load); faults of the scenario are shown in [its text](Self::to_toml).
     pub fn check(&self, folder: impl AsRef<Path>) -> Result<Vec<String>, Failure> {
-        let text = self.to_toml();
-        let runs = file::runs(&text);
-        file::check(&text, &folder.as_ref().join("scenario.toml"), "the scenario, written as TOML", &runs)
+        let runs = runs(self.inverse.is_some(), self.forward.is_some());
+        let path = folder.as_ref().join("scenario.toml");
+        Ok(file::check(&self.to_toml(), &path, "the scenario, written as TOML", &runs)?.warnings)
     }
 
     /// The scenario with nothing but what it has for one of its runs.
@@ -232,5 +234,14 @@ impl Scenario {
             Dynamics::Inverse => Scenario { forward: None, ..self },
             Dynamics::Forward => Scenario { inverse: None, ..self },
         }
+    }
+}
+
+/// The runs that a scenario is for; forward dynamics if it is for none, so that what it has is checked.
+fn runs(inverse: bool, forward: bool) -> Vec<Dynamics> {
+    match (inverse, forward) {
+        (true, true) => vec![Dynamics::Inverse, Dynamics::Forward],
+        (true, false) => vec![Dynamics::Inverse],
+        (false, _) => vec![Dynamics::Forward],
     }
 }

@@ -44,7 +44,7 @@ impl Recorded {
     /// # Errors
     /// If it cannot be read, or is not such a table.
     pub fn table(&self, name: &str) -> Result<Option<Table>, Failure> {
-        let path = self.folder.join(format!("{name}.csv"));
+        let path = self.folder.join(names::csv(name));
         if path.exists() { Table::read(&path).map(Some) } else { Ok(None) }
     }
 

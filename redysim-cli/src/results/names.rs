@@ -4,12 +4,12 @@
 pub const RUN_FILE: &str = "run.toml";
 /// The key of its table `run` that names the URDF of which the model was made.
 pub const URDF: &str = "urdf";
-/// The copies of what a scenario names.
+/// The copy of the model.
 pub const MODEL: &str = "model.toml";
-pub const TRAJECTORY: &str = "trajectory.csv";
-pub const TORQUE: &str = "torque.csv";
-/// The copies of tables, without their ending.
-pub const INPUTS: [&str; 2] = ["trajectory", "torque"];
+/// The copies of tables that a scenario names.
+pub const TRAJECTORY: &str = "trajectory";
+pub const TORQUE: &str = "torque";
+pub const INPUTS: [&str; 2] = [TRAJECTORY, TORQUE];
 /// The page, which by default lies beside the tables it shows.
 pub const PAGE: &str = "animation.html";
 
@@ -25,6 +25,11 @@ pub const KINEMATICS: &str = "kinematics";
 
 /// All tables that there may be.
 pub const TABLES: [&str; 8] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS];
+
+/// The file of a table in CSV.
+pub fn csv(table: &str) -> String {
+    format!("{table}.csv")
+}
 
 /// What is drawn together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +59,8 @@ pub fn is_written(name: &str) -> bool {
     let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
     match ending {
         "csv" | "dat" if TABLES.contains(&stem) => true,
+        "csv" if INPUTS.contains(&stem) => true,
         "svg" | "png" => Picture::ALL.iter().any(|(_, picture)| *picture == stem),
-        _ => [RUN_FILE, MODEL, TRAJECTORY, TORQUE, PAGE].contains(&name),
+        _ => [RUN_FILE, MODEL, PAGE].contains(&name),
     }
 }

@@ -47,16 +47,6 @@ pub struct Summary {
     pub outcome: Outcome,
 }
 
-impl fmt::Display for Ended {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Ended::Complete => "complete",
-            Ended::Interrupted => "interrupted",
-            Ended::Failed(_) => "failed",
-        })
-    }
-}
-
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Outcome { integrator, steps, statistics, position_residual, .. } = &self.outcome;

@@ -9,6 +9,7 @@ pub mod keys;
 mod law;
 mod limits;
 mod resolution;
+pub mod shorthand;
 mod span;
 mod subject;
 mod table;
