@@ -9,7 +9,7 @@ fn a_program_without_std_allocator_and_panics_links_and_runs() {
     let status = Command::new(env!("CARGO"))
         .args(["run", "--release", "--quiet", "--manifest-path"])
         .arg(root.join("tests/no_std/Cargo.toml"))
-        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_std"))
+        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("crates"))
         .status()
         .expect("cargo runs");
     assert!(status.success(), "{status}");
@@ -21,7 +21,7 @@ fn the_runtime_builds_without_its_features() {
     let status = Command::new(env!("CARGO"))
         .args(["build", "--quiet", "--package", "redysim-runtime", "--no-default-features"])
         .current_dir(root)
-        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_std"))
+        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("crates"))
         .status()
         .expect("cargo runs");
     assert!(status.success(), "{status}");

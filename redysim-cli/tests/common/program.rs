@@ -51,7 +51,7 @@ pub fn cargo(folder: &Path, command: &str) -> Run {
     }
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args([command, "--offline", "--quiet"]).current_dir(folder);
-    cargo.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-target"));
+    cargo.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("crates"));
     cargo.env("CARGO_PROFILE_DEV_DEBUG", "0").env("CARGO_INCREMENTAL", "0");
     Run::of(&mut cargo)
 }

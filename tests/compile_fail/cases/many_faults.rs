@@ -1,7 +1,7 @@
 //! All faults of a model are found at once.
 
 redysim::redysim! {
-    pub struct Robot("../../models/fail/many_faults.toml");
+    pub struct Robot("../../../models/fail/many_faults.toml");
 }
 
 fn main() {}

@@ -3,7 +3,7 @@
 use redysim::{ClosedLoop, ComputedTorque, Cycloid, ForwardSimulation, Integrator, Mechanism, Ode45, batch, redysim};
 
 redysim! {
-    pub struct Robot("../../models/kr6.toml");
+    pub struct Robot("../../../models/kr6.toml");
 }
 
 redysim! {

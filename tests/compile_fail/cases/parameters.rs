@@ -2,15 +2,15 @@
 //! has its faults as the only errors.
 
 redysim::redysim! {
-    pub struct Misspelt("../../models/gripper.toml", parameters = ["link1.mas", "lnk2.mass"]);
+    pub struct Misspelt("../../../models/gripper.toml", parameters = ["link1.mas", "lnk2.mass"]);
 }
 
 #[derive(redysim::Mechanism)]
-#[mechanism("../../models/gripper.toml", parameters = ["gravity"])]
+#[mechanism("../../../models/gripper.toml", parameters = ["gravity"])]
 pub struct Derived;
 
 redysim::redysim! {
-    pub struct Loaded("../../models/fail/bad_unit.toml", parameters = ["gravity"]);
+    pub struct Loaded("../../../models/fail/bad_unit.toml", parameters = ["gravity"]);
 }
 
 fn main() {

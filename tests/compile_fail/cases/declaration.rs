@@ -1,7 +1,7 @@
 //! The macro says what it needs.
 
 redysim::redysim! {
-    pub struct Robot("../../models/gripper.toml", locked);
+    pub struct Robot("../../../models/gripper.toml", locked);
 }
 
 fn main() {}

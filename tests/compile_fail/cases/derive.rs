@@ -6,13 +6,13 @@ use redysim::Mechanism;
 pub struct NoModel;
 
 #[derive(Mechanism)]
-#[mechanism("../../models/gripper.toml")]
+#[mechanism("../../../models/gripper.toml")]
 pub struct NotUnit {
     field: f64,
 }
 
 #[derive(Mechanism)]
-#[mechanism("../../models/fail/unknown_parent.toml")]
+#[mechanism("../../../models/fail/unknown_parent.toml")]
 pub struct BadModel;
 
 fn main() {}

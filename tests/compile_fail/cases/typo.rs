@@ -1,7 +1,7 @@
 //! One typo in the model is one error, though the type is used, and by other sizes than the file seems to have.
 
 redysim::redysim! {
-    pub struct Robot("../../models/fail/unknown_key.toml");
+    pub struct Robot("../../../models/fail/unknown_key.toml");
 }
 
 fn main() {

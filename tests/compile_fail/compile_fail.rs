@@ -2,5 +2,5 @@
 
 #[test]
 fn faults_are_compile_errors_that_show_the_line_of_the_model() {
-    trybuild::TestCases::new().compile_fail("tests/compile_fail/*.rs");
+    trybuild::TestCases::new().compile_fail("cases/*.rs");
 }
