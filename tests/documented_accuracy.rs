@@ -8,11 +8,11 @@ use std::fmt::Write;
 
 use common::methods::{WithMethod, every_adaptive};
 use common::models::Kr5;
-use redysim::{Dop853, ForwardSimulation, Integrator, Ode, ProportionalDerivative, Radau5, ZeroTorque};
+use redysim::{Dop853, ForwardSimulation, Integrator, Ode, Pd, Radau5, ZeroTorque};
 
 const DOF: usize = Kr5::NV;
 type State = [f64; 2 * DOF + 1];
-type Law = ProportionalDerivative<[f64; DOF], [f64; DOF]>;
+type Law = Pd<[f64; DOF], [f64; DOF]>;
 
 /// Rows of one scene: a second of motion from zero, judged by the joint angles at its end.
 struct Rows<'s, O> {
@@ -55,7 +55,7 @@ fn table(ode: &mut impl Ode<f64, State>, judge: &impl Integrator<f64>) -> String
 fn the_tables_of_steps_and_errors_are_what_the_methods_take() {
     let document = include_str!("../docs/accuracy.md");
     let fall = table(&mut ForwardSimulation::new(&Kr5, ZeroTorque), &Dop853::new().rtol(3e-14).atol(1e-15));
-    let law: Law = ProportionalDerivative { target: [0.5; DOF], kp: [1e3; DOF], kd: [1e2; DOF] };
+    let law: Law = Pd { target: [0.5; DOF], kp: [1e3; DOF], kd: [1e2; DOF] };
     let stiff = table(&mut ForwardSimulation::new(&Kr5, law), &Radau5::new().rtol(3e-14).atol(1e-16));
     for table in [fall, stiff] {
         assert!(document.contains(&table), "docs/accuracy.md should have the rows\n{table}");

@@ -8,17 +8,16 @@ use common::models::Kr5;
 use redysim::integrate::FixedStep;
 use redysim::integrate::stability::{LinearStability, largest_stable_step};
 use redysim::{
-    Dop853, ForwardSimulation, IntegrationError, Integrator, Ode4, Ode5, Ode15s, Ode45, ProportionalDerivative, Radau5,
-    Solution, TorqueLaw,
+    Dop853, ForwardSimulation, IntegrationError, Integrator, Ode4, Ode5, Ode15s, Ode45, Pd, Radau5, Solution, TorqueLaw,
 };
 
 const DOF: usize = Kr5::NV;
 const HOLD: [f64; DOF] = [0.5; DOF];
-type Law = ProportionalDerivative<[f64; DOF], [f64; DOF]>;
+type Law = Pd<[f64; DOF], [f64; DOF]>;
 type State = [f64; 2 * DOF + 1];
 
 fn held(kp: f64, kd: f64) -> ForwardSimulation<'static, Kr5, Law> {
-    ForwardSimulation::new(&Kr5, ProportionalDerivative { target: HOLD, kp: [kp; DOF], kd: [kd; DOF] })
+    ForwardSimulation::new(&Kr5, Pd { target: HOLD, kp: [kp; DOF], kd: [kd; DOF] })
 }
 
 /// KR5 held against its weight, with gains of each joint's size, those of the wrist times `wrist`.

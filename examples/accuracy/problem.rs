@@ -5,7 +5,7 @@ use std::time::Instant;
 use redysim::integrate::Observer;
 use redysim::{
     Assembly, ClosedLoop, ClosedLoopSimulation, ConfigurationSpace, ForwardSimulation, IntegrationError, Integrator,
-    Ode, Ode15s, ProportionalDerivative, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector, ZeroTorque,
+    Ode, Ode15s, Pd, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector, ZeroTorque,
 };
 use std::ops::ControlFlow;
 
@@ -139,10 +139,10 @@ pub fn gripper() -> Result<impl Problem, Failure> {
 }
 
 /// The law of the stiff problem: the same gains on all joints, far too many for the hand of 8 g.
-pub type Pd = ProportionalDerivative<[f64; DOF], [f64; DOF]>;
+pub type SpringsAndDampers = Pd<[f64; DOF], [f64; DOF]>;
 
 /// kp = 1000 N m/rad and kd = 100 N m s/rad towards 0.5 rad.
-pub const STIFF: Pd = ProportionalDerivative { target: [0.5; DOF], kp: [1e3; DOF], kd: [1e2; DOF] };
+pub const STIFF: SpringsAndDampers = Pd { target: [0.5; DOF], kp: [1e3; DOF], kd: [1e2; DOF] };
 
 /// KR5 under a stiff PD control, for a second. As exact counts what two methods of different kinds agree on.
 pub fn stiff() -> Result<impl Problem, Failure> {

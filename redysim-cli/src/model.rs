@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 use crate::output::to_stderr;
 use crate::urdf::{self, Imported};
-use redysim_model::{Faults, Loaded, Model};
+use redysim_model::{Diagnostics, Faults, Loaded, Model};
 
 /// The model of a model file or of a URDF.
 pub struct Read {
@@ -62,10 +62,8 @@ pub fn loaded(path: &Path, read: Result<Loaded, Faults>, quiet: bool) -> Result<
         not_a_model(path)
             .unwrap_or_else(|| if faults.unread { Failure::outside(faults) } else { Failure::input(faults) })
     })?;
-    if !quiet {
-        for warning in &loaded.warnings {
-            to_stderr(&format!("{warning}\n"));
-        }
+    if !quiet && !loaded.warnings.is_empty() {
+        to_stderr(&format!("{}\n", Diagnostics(loaded.warnings.clone())));
     }
     Ok(loaded)
 }

@@ -143,6 +143,28 @@ fn of_very_many_errors_the_first_20_are_shown() {
     assert!(output.ends_with("many.toml has 3000 errors\n"), "{output}");
 }
 
+/// Each of 30 links has an inertia that no body has.
+#[test]
+fn of_very_many_warnings_the_first_20_are_shown() {
+    let folder = scratch("check-warnings");
+    let link = |index: usize| {
+        let parent = if index == 0 { "base".into() } else { format!("link{}", index - 1) };
+        format!(
+            "[[link]]\nname = 'link{index}'\nparent = '{parent}'\njoint = 'prismatic'\naxis = [0, 0, 1]\nmass = 1\n\
+             inertia = {{ xx = 0.1, yy = 0.1, zz = 0.3 }}\n"
+        )
+    };
+    let links: String = (0..30).map(link).collect();
+    std::fs::write(folder.join("many.toml"), format!("name = 'many'\ngravity = [0, 0, 0]\n{links}")).unwrap();
+    let scenario = "model = 'many.toml'\n[forward]\nend = 1.0\nstep = 1.0\n";
+    std::fs::write(folder.join("scenario.toml"), scenario).unwrap();
+    for arguments in [["check", "many.toml"], ["forward", "scenario.toml"]] {
+        let shown = common::call(&folder, &arguments).stderr;
+        assert_eq!(shown.matches("warning[inertia-triangle]").count(), 20, "{shown}");
+        assert!(shown.contains("\n\nand 10 more warnings\n"), "{shown}");
+    }
+}
+
 #[test]
 fn a_minus_stands_for_a_model_on_the_standard_input() {
     let folder = scratch("check-input");

@@ -6,7 +6,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{TypeTokens, implementation_with, stub};
-use redysim_model::{Diagnostic, Model, PublicInterface, Severity};
+use redysim_model::{Diagnostic, Diagnostics, Model, PublicInterface, Severity};
 use syn::Attribute;
 
 /// The struct and its `impl`s.
@@ -67,16 +67,23 @@ fn tokens(declaration: &Declaration) -> TypeTokens {
             },
             Err(faults) => {
                 let missing = located.missing().map(|message| compile_error(&message, model.span()));
-                let shown = |error: &Diagnostic| compile_error(&message(error), place(declaration, error));
-                let mut errors = missing.map_or_else(|| faults.errors().map(shown).collect(), |error| vec![error]);
+                let errors = || {
+                    let (shown, more) = Diagnostics::shown(faults.errors());
+                    let shown = shown.into_iter().map(|error| (message(error), place(declaration, error)));
+                    let all = shown.chain(more.into_iter().map(|more| (more, model.span())));
+                    all.map(|(message, place)| compile_error(&message, place)).collect()
+                };
+                let mut errors: Vec<_> = missing.map_or_else(errors, |error| vec![error]);
                 let first = errors.remove(0);
                 others = errors;
                 (faults.diagnostics.0, Vec::new(), stub(&faults.interface, name, &runtime, &first))
             }
         };
     let odd = diagnostics.iter().filter(|diagnostic| diagnostic.severity() != Severity::Error);
-    let odd = odd.map(|warning| compile_warning(declaration, &message(warning), place(declaration, warning)));
-    let warnings = warnings.iter().map(|warning| compile_warning(declaration, warning, model.span()));
+    let (odd, more) = Diagnostics::shown(odd);
+    let odd =
+        odd.into_iter().map(|warning| compile_warning(declaration, &message(warning), place(declaration, warning)));
+    let warnings = more.iter().chain(&warnings).map(|warning| compile_warning(declaration, warning, model.span()));
     let cfgs = cfgs(declaration);
     let impls = quote! {
         #(#odd)*

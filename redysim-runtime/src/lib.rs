@@ -97,7 +97,7 @@ pub use closed_loop::{
 };
 #[cfg(feature = "simulation")]
 pub use control::{
-    Compensation, ComputedTorque, FrameGains, FrameTrajectory, Impedance, Limited, PdGravity, Pid, Proportional,
+    Compensation, ComputedTorque, FrameGains, FrameTrajectory, Impedance, Limited, Pd, PdGravity, Pid, Proportional,
     ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque, tracking_rates, uniform,
 };
 #[cfg(feature = "std")]

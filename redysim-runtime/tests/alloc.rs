@@ -9,8 +9,8 @@ use mechanisms::Arm;
 use redysim_runtime::integrate::Accepted;
 use redysim_runtime::{
     Arguments, ComputedTorque, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError,
-    Integrator, InverseDynamics, LengthMismatch, Limited, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Pid,
-    Proportional, ProportionalDerivative, Radau5, SetPoint, Solution, TorqueLaw, TrackingPd, ZeroTorque,
+    Integrator, InverseDynamics, LengthMismatch, Limited, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Pd,
+    Pid, Proportional, Radau5, SetPoint, Solution, TorqueLaw, TrackingPd, ZeroTorque,
 };
 
 /// The arm with sizes known only at run time, and as many accelerations as it says.
@@ -78,8 +78,8 @@ fn answers<S: AsRef<[f64]>>(solve: impl FnOnce(&mut dyn FnMut(f64, &S)) -> S) ->
 fn compare(method: impl Integrator<f64>) {
     let times = [0.0, 0.3, 0.7, 1.0];
     let (kp, kd, target) = ([10.0, 20.0], [1.0, 2.0], [1.0, 1.0]);
-    let mut fixed = ForwardSimulation::new(&Arm, ProportionalDerivative { target, kp, kd });
-    let law = ProportionalDerivative { target: target.to_vec(), kp: kp.to_vec(), kd: kd.to_vec() };
+    let mut fixed = ForwardSimulation::new(&Arm, Pd { target, kp, kd });
+    let law = Pd { target: target.to_vec(), kp: kp.to_vec(), kd: kd.to_vec() };
     let mut dynamic = ForwardSimulation::new(&DynamicArm(2), law);
 
     let array = answers(|output: &mut dyn FnMut(f64, &[f64; 5])| {
@@ -116,8 +116,8 @@ fn a_simulation_begins_only_with_gains_and_targets_of_the_right_length() {
     let two = || vec![1.0; 2];
     assert_eq!(refused(Proportional { target: two(), kp: vec![1.0] }), wrong("kp", 1, 2));
     assert_eq!(refused(Proportional { target: vec![0.0; 3], kp: two() }), wrong("target", 3, 2));
-    assert_eq!(refused(ProportionalDerivative { target: two(), kp: two(), kd: vec![] }), wrong("kd", 0, 2));
-    assert_eq!(refused(ProportionalDerivative { target: vec![], kp: two(), kd: two() }), wrong("target", 0, 2));
+    assert_eq!(refused(Pd { target: two(), kp: two(), kd: vec![] }), wrong("kd", 0, 2));
+    assert_eq!(refused(Pd { target: vec![], kp: two(), kd: two() }), wrong("target", 0, 2));
 
     let motion =
         |q: usize, v: usize, a: usize| move |_t: f64| Motion { q: vec![0.0; q], v: vec![0.0; v], a: vec![0.0; a] };

@@ -5,8 +5,8 @@ mod slider_crank;
 
 use redysim_runtime::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ComputedTorque, ConfigurationSpace,
-    IntegrationError, Integrator, LengthMismatch, LoopClosure, LoopError, Mechanism, Motion, Ode45, Proportional,
-    ProportionalDerivative, TorqueLaw, TrackingPd,
+    IntegrationError, Integrator, LengthMismatch, LoopClosure, LoopError, Mechanism, Motion, Ode45, Pd, Proportional,
+    TorqueLaw, TrackingPd,
 };
 use slider_crank::{ByAngle, ByCosine, CRANK, ROD, by_cosine};
 use std::f64::consts::TAU;
@@ -165,7 +165,7 @@ fn computed_torque_of_a_tree_takes_position_errors_on_the_tangent() {
 #[test]
 fn laws_that_subtract_coordinates_are_refused_where_these_outnumber_the_velocities() {
     let mismatch = Err(LengthMismatch { vector: "target", length: 4, expected: 3 });
-    let law = ProportionalDerivative { target: [1.0, 0.0, 0.0, 0.0], kp: [1.0; 3], kd: [1.0; 3] };
+    let law = Pd { target: [1.0, 0.0, 0.0, 0.0], kp: [1.0; 3], kd: [1.0; 3] };
     assert_eq!(law.check_lengths(0.0, &ByCosine), mismatch);
     let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&ByCosine), law);
     let start = simulation.state(&by_cosine(&closed(0.5)), &V);

@@ -5,8 +5,8 @@ mod mechanisms;
 
 use mechanisms::{Arm, GRAVITY, Pendulum, distance};
 use redysim_runtime::{
-    ComputedTorque, Cycloid, ForwardSimulation, Integrator, InverseDynamics, Motion, Ode45, PdGravity, Proportional,
-    ProportionalDerivative, SetPoint, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, uniform,
+    ComputedTorque, Cycloid, ForwardSimulation, Integrator, InverseDynamics, Motion, Ode45, Pd, PdGravity,
+    Proportional, SetPoint, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, uniform,
 };
 
 const Q: [f64; 2] = [0.5, -0.25];
@@ -28,10 +28,7 @@ fn swing(t: f64) -> Motion<[f64; 2], [f64; 2]> {
 fn laws_follow_their_formulas() {
     assert_eq!(torque(ZeroTorque, 1.0), [0.0, 0.0]);
     assert_eq!(torque(Proportional { target: TARGET, kp: KP }, 1.0), [10.0 * 0.5, 20.0 * 1.25]);
-    assert_eq!(
-        torque(ProportionalDerivative { target: TARGET, kp: KP, kd: KD }, 1.0),
-        [10.0 * 0.5 - 2.0, 20.0 * 1.25 - 2.0 * 3.0]
-    );
+    assert_eq!(torque(Pd { target: TARGET, kp: KP, kd: KD }, 1.0), [10.0 * 0.5 - 2.0, 20.0 * 1.25 - 2.0 * 3.0]);
     // At t = 0 the swing passes zero with velocity (1, 2).
     assert_eq!(
         torque(TrackingPd { trajectory: swing, kp: KP, kd: KD }, 0.0),
@@ -58,7 +55,7 @@ fn one_gain_for_all_is_as_long_as_the_velocities() {
 #[test]
 fn a_pendulum_under_pd_comes_to_rest_where_spring_and_weight_balance() {
     let pendulum = Pendulum { mass: 1.0, length: 1.0 };
-    let law = ProportionalDerivative { target: [2.0_f64], kp: [100.0], kd: [20.0] };
+    let law = Pd { target: [2.0_f64], kp: [100.0], kd: [20.0] };
     let mut simulation = ForwardSimulation::new(&pendulum, law);
     let start = simulation.state(&[0.0], &[0.0]);
     let end = Ode45::new().rtol(1e-8).integrate(&mut simulation, (0.0, 10.0), start).unwrap();
@@ -145,7 +142,7 @@ fn pd_with_gravity_rests_off_its_set_point_by_the_weight_that_it_does_not_know_o
 
 #[test]
 fn laws_work_in_single_precision() {
-    let law = ProportionalDerivative { target: [1.0_f32; 2], kp: uniform(&Arm, 2.0), kd: uniform(&Arm, 1.0) };
+    let law = Pd { target: [1.0_f32; 2], kp: uniform(&Arm, 2.0), kd: uniform(&Arm, 1.0) };
     let mut law = law;
     assert_eq!(TorqueLaw::<f32, Arm>::torque(&mut law, 0.0, &[0.5; 2], &[1.0; 2]), [0.0, 0.0]);
 }

@@ -4,7 +4,7 @@
 mod mechanisms;
 
 use mechanisms::{GRAVITY, Pendulum};
-use redysim_runtime::{Dual, ForwardSimulation, Ode, ProportionalDerivative, Scalar, TorqueLaw, ZeroTorque};
+use redysim_runtime::{Dual, ForwardSimulation, Ode, Pd, Scalar, TorqueLaw, ZeroTorque};
 
 fn slope(f: impl Fn(Dual<f64>) -> Dual<f64>, x: f64) -> f64 {
     f(Dual { value: x, slope: 1.0 }).slope
@@ -45,7 +45,7 @@ fn every_operation_has_its_derivative() {
 #[test]
 fn the_tangent_of_a_simulation_is_its_linearisation() {
     let pendulum = Pendulum { mass: 2.0, length: 0.5 };
-    let law = ProportionalDerivative { target: [1.0], kp: [7.0], kd: [3.0] };
+    let law = Pd { target: [1.0], kp: [7.0], kd: [3.0] };
     let (q, v) = (0.4_f64, -1.1);
     let tau = 7.0 * (1.0 - q) - 3.0 * v;
     let expected = |dq: f64, dv: f64| {

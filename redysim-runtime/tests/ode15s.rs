@@ -9,9 +9,7 @@ use mechanisms::{Arm, distance};
 use problems::{error_at, exact, nonlinear, prothero_robinson};
 use redysim_runtime::integrate::step_control::EstimatesErrors;
 use redysim_runtime::integrate::{Adaptive, Bdf, Ndf};
-use redysim_runtime::{
-    ForwardSimulation, Integrator, Ode, Ode15s, Ode45, ProportionalDerivative, Statistics, Step, ZeroTorque,
-};
+use redysim_runtime::{ForwardSimulation, Integrator, Ode, Ode15s, Ode45, Pd, Statistics, Step, ZeroTorque};
 
 /// The reactions of H. H. Robertson, with rates from 0.04 to 3·10⁷.
 fn robertson(_t: f64, y: &[f64; 3], dydt: &mut [f64; 3]) {
@@ -249,7 +247,7 @@ impl<Y, O: Ode<f64, Y>> Ode<f64, Y> for WithoutTangents<O> {
 /// A double pendulum with a stiff law: fast motions with rates of some 10⁴ 1/s.
 #[test]
 fn tangents_and_differences_take_the_same_steps() {
-    let law = ProportionalDerivative { target: [0.5, -0.3], kp: [1e6, 1e6], kd: [1e4, 1e4] };
+    let law = Pd { target: [0.5, -0.3], kp: [1e6, 1e6], kd: [1e4, 1e4] };
     let simulation = ForwardSimulation::new(&Arm, law);
     let start = simulation.state(&[0.1, 0.2], &[0.0, 0.0]);
     let run = |ode: &mut dyn Ode<f64, [f64; 5]>| {

@@ -7,8 +7,8 @@ mod mechanisms;
 use mechanisms::{Arm, Pendulum};
 use redysim_runtime::{
     ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss6, IntegrationError, Integrator, LengthMismatch,
-    Limited, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Pid, ProportionalDerivative, Radau5, Scalar,
-    SetPoint, TorqueLaw, tracking_rates,
+    Limited, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Pd, Pid, Radau5, Scalar, SetPoint, TorqueLaw,
+    tracking_rates,
 };
 
 /// A mass on a rail: m a = τ + d − c v − k x.
@@ -76,7 +76,7 @@ fn integral_action_removes_a_constant_disturbance_that_pd_alone_leaves() {
     let cart = Cart { disturbance: -3.0, ..FREE };
     let method = Ode45::new().rtol(1e-9).atol(1e-12);
     assert!(error_at(&method, cart, 30.0).abs() < 1e-9);
-    let law = ProportionalDerivative { target: [1.0], kp: [22.0], kd: [12.0] };
+    let law = Pd { target: [1.0], kp: [22.0], kd: [12.0] };
     let mut simulation = ForwardSimulation::new(&cart, law);
     let end = method.integrate(&mut simulation, (0.0, 30.0), [0.0; 3]).unwrap();
     assert!((1.0 - end.y[0] - 3.0 / 22.0).abs() < 1e-9, "PD leaves d/Kp: {:?}", end.y);
@@ -148,7 +148,7 @@ fn limits_cut_off_the_forces_of_any_law_in_both_directions_and_keep_nan() {
 
 #[test]
 fn the_slope_of_a_limited_force_is_zero_where_it_is_cut_off() {
-    let pd = ProportionalDerivative { target: [0.0; 2], kp: [10.0; 2], kd: [1.0; 2] };
+    let pd = Pd { target: [0.0; 2], kp: [10.0; 2], kd: [1.0; 2] };
     let mut law = Limited { law: pd, limits: [5.0; 2] };
     let slope = TorqueLaw::<f64, Arm>::torque_tangent(&mut law, 0.0, (&[1.0, 0.1], &[0.0; 2]), (&[1.0; 2], &[1.0; 2]));
     assert_eq!(slope, Some([0.0, -11.0]));

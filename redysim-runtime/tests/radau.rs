@@ -12,9 +12,7 @@ use order_conditions::{defect, dot, values};
 use problems::{error_at, errors_of_steps, exact, nonlinear, prothero_robinson};
 use redysim_runtime::integrate::collocation::RADAU_IIA_5;
 use redysim_runtime::integrate::{Accepted, FixedStep, Ndf, RadauIIA};
-use redysim_runtime::{
-    ForwardSimulation, Integrator, Ode, Ode45, ProportionalDerivative, Radau5, Real, Statistics, ZeroTorque,
-};
+use redysim_runtime::{ForwardSimulation, Integrator, Ode, Ode45, Pd, Radau5, Real, Statistics, ZeroTorque};
 
 #[test]
 fn the_coefficients_satisfy_every_order_condition_up_to_five_and_not_six() {
@@ -274,7 +272,7 @@ fn the_relaxations_of_van_der_pol_are_followed() {
 /// A robot arm with a stiff servo: damping that explicit steps must follow to the end.
 #[test]
 fn a_stiff_servo_costs_far_fewer_evaluations_than_explicit_steps_need() {
-    let law = || ProportionalDerivative { target: [1.0, 1.0], kp: [1e5, 1e5], kd: [1e4, 1e4] };
+    let law = || Pd { target: [1.0, 1.0], kp: [1e5, 1e5], kd: [1e4, 1e4] };
     let start = ForwardSimulation::new(&Arm, law()).state(&[0.0, 0.0], &[0.0, 0.0]);
     let implicit = Radau5::new().rtol(1e-6).atol(1e-8);
     let implicit = implicit.integrate(&mut ForwardSimulation::new(&Arm, law()), (0.0, 1.0), start).unwrap();
@@ -296,7 +294,7 @@ impl<O: Ode<f64, Y>, Y> Ode<f64, Y> for Differences<O> {
 
 #[test]
 fn tangents_and_differences_lead_to_the_same_motion() {
-    let law = || ProportionalDerivative { target: [1.0, 1.0], kp: [1e3, 1e3], kd: [1e2, 1e2] };
+    let law = || Pd { target: [1.0, 1.0], kp: [1e3, 1e3], kd: [1e2, 1e2] };
     let mut exact = ForwardSimulation::new(&Arm, law());
     let start = exact.state(&[0.0, 0.0], &[0.0, 0.0]);
     let with = radau(1e-8).integrate(&mut exact, (0.0, 1.0), start).unwrap();

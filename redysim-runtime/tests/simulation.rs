@@ -4,9 +4,7 @@
 mod mechanisms;
 
 use mechanisms::{Arm, Pendulum, distance};
-use redysim_runtime::{
-    ForwardSimulation, Integrator, MechanicalEnergy, Ode, Ode5, Ode45, ProportionalDerivative, ZeroTorque,
-};
+use redysim_runtime::{ForwardSimulation, Integrator, MechanicalEnergy, Ode, Ode5, Ode45, Pd, ZeroTorque};
 
 #[test]
 fn a_state_is_coordinates_velocities_and_actuator_energy() {
@@ -63,7 +61,7 @@ fn a_double_pendulum_keeps_twelve_digits() {
 #[test]
 fn the_work_of_the_actuators_is_the_change_of_mechanical_energy() {
     let pendulum = Pendulum { mass: 2.0, length: 0.5 };
-    let law = ProportionalDerivative { target: [1.0], kp: [20.0], kd: [1.5] };
+    let law = Pd { target: [1.0], kp: [20.0], kd: [1.5] };
     let mut simulation = ForwardSimulation::new(&pendulum, law);
     let (q0, v0) = ([-0.5], [2.0]);
     let start = simulation.state(&q0, &v0);

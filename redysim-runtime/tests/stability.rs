@@ -7,14 +7,12 @@ use mechanisms::Arm;
 use redysim_runtime::integrate::FixedStep;
 use redysim_runtime::integrate::stability::{LinearStability, StabilityFunction, StableStep, largest_stable_step};
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4};
-use redysim_runtime::{
-    Dop8, ForwardSimulation, Integrator, Ode, Ode4, Ode5, ProportionalDerivative, SemiImplicitEuler, Step,
-};
+use redysim_runtime::{Dop8, ForwardSimulation, Integrator, Ode, Ode4, Ode5, Pd, SemiImplicitEuler, Step};
 
-type Law = ProportionalDerivative<[f64; 2], [f64; 2]>;
+type Law = Pd<[f64; 2], [f64; 2]>;
 
 fn held(kp: [f64; 2], kd: [f64; 2]) -> ForwardSimulation<'static, Arm, Law> {
-    ForwardSimulation::new(&Arm, ProportionalDerivative { target: [0.0, 0.0], kp, kd })
+    ForwardSimulation::new(&Arm, Pd { target: [0.0, 0.0], kp, kd })
 }
 
 /// Whether a small disturbance of the hanging arm stays small.

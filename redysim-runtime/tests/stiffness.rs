@@ -7,7 +7,7 @@ use mechanisms::Arm;
 use redysim_runtime::IntegrationError::{self, Stiff};
 use redysim_runtime::integrate::stability::StabilityFunction;
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4};
-use redysim_runtime::{Dop853, ForwardSimulation, Integrator, Ode45, ProportionalDerivative, Solution, ZeroTorque};
+use redysim_runtime::{Dop853, ForwardSimulation, Integrator, Ode45, Pd, Solution, ZeroTorque};
 
 /// ẏ = λ (y − cos t) − sin t from the smooth solution cos t.
 fn relaxation(rate: f64) -> impl FnMut(f64, &[f64; 1], &mut [f64; 1]) {
@@ -67,7 +67,7 @@ fn the_test_can_be_switched_off() {
 }
 
 fn held(kp: f64, kd: f64, to: f64, rtol: f64) -> Result<Solution<f64, [f64; 5]>, IntegrationError<f64>> {
-    let law = ProportionalDerivative { target: [0.5, 1.0], kp: [kp; 2], kd: [kd; 2] };
+    let law = Pd { target: [0.5, 1.0], kp: [kp; 2], kd: [kd; 2] };
     let mut simulation = ForwardSimulation::new(&Arm, law);
     let start = simulation.state(&[0.0, 0.0], &[0.0, 0.0]);
     Ode45::new().rtol(rtol).atol(1e-3 * rtol).integrate(&mut simulation, (0.0, to), start)

@@ -18,6 +18,16 @@ pub enum Severity {
     Note,
 }
 
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        })
+    }
+}
+
 /// The words of a finding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Message {
@@ -149,23 +159,33 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Errors, warnings and notes, in the file's order. Its `Display` shows one below the other, of more than 20 errors the
-/// first 20 and how many more there are.
+/// Errors, warnings and notes, in the file's order. Its `Display` shows one below the other, of more than 20 of a severity
+/// the first 20 and how many more there are.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// The number of errors that are shown: a file with more is corrected in several rounds, or wrong in one place of
-    /// the program that wrote it.
-    pub const MOST_ERRORS: usize = 20;
+    /// The number of findings of a severity that are shown: a file with more is corrected in several rounds, or wrong in
+    /// one place of the program that wrote it.
+    pub const MOST_SHOWN: usize = 20;
 
-    /// What is shown in place of the rest of so many errors: "and 3 more errors"; `None` if all are shown.
-    pub fn more(errors: usize) -> Option<String> {
-        match errors.saturating_sub(Self::MOST_ERRORS) {
+    /// Those of `found` that are shown, and what is shown in place of the others: "and 3 more errors".
+    pub fn shown<'a>(found: impl IntoIterator<Item = &'a Diagnostic>) -> (Vec<&'a Diagnostic>, Vec<String>) {
+        let mut counts = [(Severity::Error, 0), (Severity::Warning, 0), (Severity::Note, 0)];
+        let is_shown = |diagnostic: &&Diagnostic| {
+            let count = counts.iter_mut().find(|(severity, _)| *severity == diagnostic.severity);
+            count.is_none_or(|(_, count)| {
+                *count += 1;
+                *count <= Self::MOST_SHOWN
+            })
+        };
+        let shown = found.into_iter().filter(is_shown).collect();
+        let more = |(severity, count): (Severity, usize)| match count.saturating_sub(Self::MOST_SHOWN) {
             0 => None,
-            1 => Some("and 1 more error".into()),
-            more => Some(format!("and {more} more errors")),
-        }
+            1 => Some(format!("and 1 more {severity}")),
+            more => Some(format!("and {more} more {severity}s")),
+        };
+        (shown, counts.into_iter().filter_map(more).collect())
     }
 
     /// The errors alone.
@@ -213,17 +233,9 @@ impl<'a> IntoIterator for &'a Diagnostics {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut errors = 0;
-        let mut gap = "";
-        for diagnostic in self {
-            errors += usize::from(diagnostic.severity == Severity::Error);
-            if diagnostic.severity == Severity::Error && errors > Diagnostics::MOST_ERRORS {
-                continue;
-            }
-            write!(f, "{gap}{diagnostic}")?;
-            gap = "\n\n";
-        }
-        Diagnostics::more(errors).map_or(Ok(()), |more| write!(f, "{gap}{more}"))
+        let (shown, more) = Diagnostics::shown(self);
+        let shown: Vec<_> = shown.into_iter().map(ToString::to_string).chain(more).collect();
+        f.write_str(&shown.join("\n\n"))
     }
 }
 

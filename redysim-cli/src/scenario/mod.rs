@@ -19,7 +19,7 @@ mod trajectory;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use redysim_model::{Diagnostic, GenericMechanism, Model};
+use redysim_model::{Diagnostic, Diagnostics, GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
 use redysim_toml::{DeValue, Field, Key, Message, Reader};
 use toml_edit::DocumentMut;
@@ -90,10 +90,8 @@ impl Scenario {
     pub fn load(path: &Path, dynamics: Dynamics, quiet: bool) -> Result<Scenario, Failure> {
         let text = read_text(path)?;
         let (scenario, warnings) = Scenario::of_text(text, path, &path.display().to_string(), dynamics, quiet)?;
-        if !quiet {
-            for warning in warnings {
-                to_stderr(&format!("{warning}\n"));
-            }
+        if !quiet && !warnings.is_empty() {
+            to_stderr(&format!("{}\n", Diagnostics(warnings)));
         }
         Ok(scenario)
     }

@@ -39,7 +39,9 @@ impl Imported {
     /// What the checks of a model find odd, a line each, and at the end what `option` does about angles that are nearly
     /// multiples of 90°, if there are any.
     pub fn shown_warnings(&self, option: &str) -> Vec<String> {
-        let mut shown: Vec<_> = self.warnings.iter().map(|warning| format!("warning: {}", warning.title())).collect();
+        let (shown, more) = Diagnostics::shown(&self.warnings);
+        let shown = shown.into_iter().map(|warning| format!("warning: {}", warning.title()));
+        let mut shown: Vec<_> = shown.chain(more).collect();
         if self.warnings.iter().any(|warning| warning.lint() == Some(Lint::RoundedAngle.name())) {
             shown.push(format!("  = help: {option} makes angles that are nearly multiples of 90 deg exact"));
         }
@@ -111,12 +113,13 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     let notes = robot.notes.iter().cloned().chain(fused).collect();
     let written = model_file::write(&robot, &head(&robot, &changes, path));
     let loaded = Model::from_toml(written.text.clone(), file.clone()).map_err(|faults| {
-        let shown = faults.errors().take(Diagnostics::MOST_ERRORS).map(|error| {
+        let (shown, more) = Diagnostics::shown(faults.errors());
+        let shown = shown.into_iter().map(|error| {
             let line = error.position().map_or(1, |(line, _)| urdf_line(line, &written, &robot, &document));
             format!("{file}:{line}: {}\n  = help: {}", error.title(), error.help())
         });
-        let more = Diagnostics::more(faults.errors().count()).map_or(String::new(), |more| format!("\n{more}"));
-        Failure::input(shown.collect::<Vec<_>>().join("\nerror: ") + &more)
+        let more = more.into_iter().map(|more| format!("\n{more}"));
+        Failure::input(shown.collect::<Vec<_>>().join("\nerror: ") + &more.collect::<String>())
     })?;
     Ok(Imported { text: written.text, model: loaded.model, changes, notes, warnings: loaded.warnings })
 }

@@ -3,7 +3,7 @@
 //! | law | τ |
 //! |---|---|
 //! | [`ZeroTorque`] | 0 |
-//! | [`Proportional`], [`ProportionalDerivative`] | a spring, and a damper, to a set point |
+//! | [`Proportional`], [`Pd`] | a spring, and a damper, to a set point |
 //! | [`TrackingPd`] | the same to a motion |
 //! | [`Pid`] | with integral action, whose state the simulation integrates |
 //! | [`PdGravity`] | a spring and a damper to a motion, and the gravity forces of a model |
@@ -34,7 +34,7 @@ pub use impedance::{Compensation, FrameGains, FrameTrajectory, Impedance};
 pub use limited::Limited;
 pub use pd_gravity::PdGravity;
 pub use pid::{Pid, tracking_rates};
-pub use spring_damper::{Proportional, ProportionalDerivative, TrackingPd};
+pub use spring_damper::{Pd, Proportional, ProportionalDerivative, TrackingPd};
 
 /// What the actuators do. Every closure `FnMut(S, &Coordinates, &Velocities) -> Velocities` is one.
 ///

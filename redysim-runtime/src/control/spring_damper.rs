@@ -5,6 +5,7 @@ use crate::vector::entry;
 use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Trajectory, Vector};
 
 /// A spring to a set point: τ = Kp (q_d − q).
+#[doc(alias = "P")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Proportional<Q, V> {
@@ -37,7 +38,7 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Proportional<M::Coor
 /// A spring and a damper to a set point: τ = Kp (q_d − q) − Kd q̇.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct ProportionalDerivative<Q, V> {
+pub struct Pd<Q, V> {
     /// The set point q_d.
     pub target: Q,
     /// Kp, one for each velocity.
@@ -46,7 +47,7 @@ pub struct ProportionalDerivative<Q, V> {
     pub kd: V,
 }
 
-impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivative<M::Coordinates, M::Velocities> {
+impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Pd<M::Coordinates, M::Velocities> {
     fn torque(&mut self, _t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |i| {
             entry(&self.kp, i) * (entry(&self.target, i) - entry(q, i)) - entry(&self.kd, i) * entry(v, i)
@@ -67,6 +68,9 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ProportionalDerivati
         Some(spring_and_damper(&self.kp, &self.kd, dq, dv))
     }
 }
+
+/// The full name of [`Pd`].
+pub type ProportionalDerivative<Q, V> = Pd<Q, V>;
 
 /// A spring and a damper to a moving target: τ = Kp (q_d(t) − q) + Kd (q̇_d(t) − q̇).
 #[derive(Clone, Copy, Debug, PartialEq)]

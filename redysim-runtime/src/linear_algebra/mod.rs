@@ -1,5 +1,8 @@
 //! Small vectors and matrices by slices, and the solves of any rank that closed loops and operational space stand on;
 //! nothing here can panic.
+//!
+//! A program without panics cannot take these solves from nalgebra: of its decompositions, in version 0.35, `Cholesky` and
+//! `QR` link into one, but none that reveals a rank does (`ColPivQR`, `FullPivLU`, `SVD`, `SymmetricEigen`).
 
 mod mass_metric;
 mod orthogonal_decomposition;

@@ -9,7 +9,7 @@ use redysim::nalgebra as dynamics;
 use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation, Dop853, Event,
     ForwardSimulation, FrameGains, FrameState, Gauss6, Impedance, IndependentMotion, Integrator, Limited, Motion, Ode5,
-    Ode15s, Ode45, OperationalSpace, PdGravity, Pid, ProportionalDerivative, Radau5, SemiImplicitEuler, SetPoint,
+    Ode15s, Ode45, OperationalSpace, PdGravity, Pid, Pd, Radau5, SemiImplicitEuler, SetPoint,
     Wrench, ZeroTorque, redysim, tracking_rates,
 };
 
@@ -178,7 +178,7 @@ fn stops_at_an_event_with_stable_steps() -> Option<bool> {
         )
         .ok()?;
     let stopped = end.t < 0.5 && end.y[1] * end.y[1] - 0.01 < 1e-9;
-    let law = ProportionalDerivative { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
+    let law = Pd { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
     let mut held = ForwardSimulation::new(&Kr5, law);
     let warning = held.step_warning(&SemiImplicitEuler::new(1.0), 0.0, &start).ok()??;
     let method = SemiImplicitEuler::new(0.5 * warning.stable.step);
@@ -235,7 +235,7 @@ fn the_crank_carries_the_weight() -> Option<bool> {
 }
 
 fn implicit_methods_agree() -> Option<bool> {
-    let law = ProportionalDerivative { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
+    let law = Pd { target: [0.0; 6], kp: [100.0; 6], kd: [10.0; 6] };
     let mut held = ForwardSimulation::new(&Kr5, law);
     let start = held.state(&[0.1_f64; 6], &[0.0; 6]);
     let bdf = Ode15s::new().rtol(1e-6).atol(1e-8).integrate(&mut held, (0.0, 0.1), start).ok()?;

@@ -5,8 +5,8 @@ mod payload;
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Limited, PdGravity, Pid, Proportional,
-    ProportionalDerivative, SetPoint, TrackingPd, ZeroTorque, tracking_rates,
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Limited, Pd, PdGravity, Pid, Proportional, SetPoint,
+    TrackingPd, ZeroTorque, tracking_rates,
 };
 use redysim_toml::{Key, Kind, Message, Reader};
 
@@ -180,7 +180,7 @@ impl Torque {
             Torque::Pd { joints, target, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
                 let target = positions(joints, target);
-                Law::total(ProportionalDerivative { target, kp, kd })
+                Law::total(Pd { target, kp, kd })
             }
             Torque::Pid { joints, target, kp, ki, kd, tracking_rate } => {
                 let [kp, ki, kd, tracking] = [kp, ki, kd, tracking_rate].map(|gains| whole(joints, gains));

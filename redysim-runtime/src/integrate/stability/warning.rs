@@ -55,9 +55,9 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     /// # #[allow(dead_code)]
     /// # mod mechanisms { include!("../../../tests/mechanisms/mod.rs"); }
     /// # use mechanisms::Arm;
-    /// use redysim_runtime::{ForwardSimulation, Ode5, ProportionalDerivative};
+    /// use redysim_runtime::{ForwardSimulation, Ode5, Pd};
     ///
-    /// let law = ProportionalDerivative { target: [0.5, 0.5], kp: [100.0, 100.0], kd: [20.0, 60.0] };
+    /// let law = Pd { target: [0.5, 0.5], kp: [100.0, 100.0], kd: [20.0, 60.0] };
     /// let mut simulation = ForwardSimulation::new(&Arm, law);
     /// let state = simulation.state(&[0.0, 0.0], &[0.0, 0.0]);
     /// let warning = simulation.step_warning(&Ode5::new(0.02), 0.0, &state)?.unwrap();
