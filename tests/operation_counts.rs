@@ -7,10 +7,10 @@
 mod linkages;
 
 use linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
+use rayon::prelude::*;
 use redysim::{Function, OperationCount, Operations, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::{Model, Tree};
-use std::fmt::Write;
 
 redysim! {
     /// Six joints in a row.
@@ -83,18 +83,19 @@ fn chain10() {
 /// The longer chains are only counted, not compiled.
 #[test]
 fn longer_chains() {
-    let mut lines = String::new();
-    for name in ["chain20", "chain40", "chain80"] {
+    let lines = |name: &str| {
         let path = format!("{}/models/peers/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let tree = Tree::new(&Model::load(path).expect("a good model").model);
         let counts = trace(&tree)
             .expect("no pass changes a value")
             .into_iter()
             .map(|function| (function.function.name(), function.expressions.count()));
-        for (function, count) in counts.filter(|(_, count)| *count != OperationCount::NONE) {
-            writeln!(lines, "{name} {function:<16} {:>6}", count.flops()).unwrap();
-        }
-    }
+        counts
+            .filter(|(_, count)| *count != OperationCount::NONE)
+            .map(|(function, count)| format!("{name} {function:<16} {:>6}\n", count.flops()))
+            .collect::<String>()
+    };
+    let lines: String = ["chain20", "chain40", "chain80"].par_iter().map(|name| lines(name)).collect();
     insta::assert_snapshot!(lines);
 }
 

@@ -102,7 +102,7 @@ fn ctrl_c_keeps_what_was_computed_of_closed_loops() {
 #[test]
 fn ctrl_c_keeps_what_was_computed_of_inverse_dynamics() {
     let folder = scratch("interrupt-inverse");
-    let rest = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1e4\n[inverse]\nend = 1e4\nstep = 0.001\n";
+    let rest = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1e3\n[inverse]\nend = 1e3\nstep = 0.001\n";
     kept(&folder, "inverse", &scenario(&folder, "two_link.toml", rest));
 }
 

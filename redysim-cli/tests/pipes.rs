@@ -4,6 +4,7 @@
 mod common;
 
 use common::{bash, root, scenario, scratch, succeed};
+use rayon::prelude::*;
 
 /// Calls the program in a folder with results, a model and a URDF, with a reader of `stream` that leaves at once: it
 /// must end with `code`, and print nothing about it on the other stream.
@@ -30,7 +31,7 @@ const ROBOT: &str = "<robot name=\"r\"><material name=\"red\"/><link name=\"a\"/
 #[test]
 fn a_reader_that_closes_the_pipe_is_not_a_failure() {
     for stream in ["stdout", "stderr"] {
-        for arguments in [
+        let calls = [
             "check model.toml",
             "check model.toml --json",
             "inverse trial.toml",
@@ -46,16 +47,15 @@ fn a_reader_that_closes_the_pipe_is_not_a_failure() {
             "completions bash",
             "--help",
             "--version",
-        ] {
-            ends(stream, arguments, 0);
-        }
+        ];
+        calls.par_iter().for_each(|arguments| ends(stream, arguments, 0));
     }
 }
 
 #[test]
 fn a_failure_keeps_its_exit_code_when_the_pipe_is_closed() {
     for stream in ["stdout", "stderr"] {
-        for (arguments, code) in [
+        let calls = [
             ("check nowhere.toml", 3),
             ("forward robot.urdf", 1),
             ("inverse nowhere.toml", 3),
@@ -65,8 +65,7 @@ fn a_failure_keeps_its_exit_code_when_the_pipe_is_closed() {
             ("animate nowhere", 3),
             ("show nowhere.toml", 3),
             ("completions cobol", 2),
-        ] {
-            ends(stream, arguments, code);
-        }
+        ];
+        calls.par_iter().for_each(|(arguments, code)| ends(stream, arguments, *code));
     }
 }

@@ -4,19 +4,19 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{Generated, implementation_with};
-use redysim_model::{CodegenOptions, Model};
+use redysim_model::{CodegenOptions, Function, Functions, Model};
 
 /// The code of a model, without spaces, function by function: name and body. Those that every mechanism has are methods
 /// of a trait, and left out.
 fn functions(model: &Model, passes: &Passes) -> Vec<(String, String)> {
-    let Generated { tokens, operations, .. } = implementation_with(
-        model,
-        &format_ident!("Robot"),
-        &quote!(redysim_runtime),
-        &CodegenOptions::default(),
-        passes,
-    )
-    .expect("no pass changes a value");
+    chosen_functions(model, &CodegenOptions::default(), passes)
+}
+
+/// Those of them that the options choose.
+fn chosen_functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Vec<(String, String)> {
+    let Generated { tokens, operations, .. } =
+        implementation_with(model, &format_ident!("Robot"), &quote!(redysim_runtime), options, passes)
+            .expect("no pass changes a value");
     let text = without_spaces(tokens.impls);
     let start = |name: &str| {
         text.find(&format!("pubfn{name}_with_trig<")).expect("every function takes joint trigonometry, too")
@@ -61,8 +61,9 @@ fn short_functions_and_robots_without_uniform_links_are_unrolled() {
 
 #[test]
 fn inverse_dynamics_of_a_chain_twice_as_long_has_at_most_25_percent_more_code() {
+    let options = CodegenOptions { functions: Functions::of([Function::InverseDynamics]), ..CodegenOptions::default() };
     let length = |name: &str| {
-        let functions = functions(&shipped(name), &Passes::all());
+        let functions = chosen_functions(&shipped(name), &options, &Passes::all());
         let (_, inverse) = functions.into_iter().find(|(name, _)| name == "inverse_dynamics").unwrap();
         // The table of constants is data.
         inverse
