@@ -333,6 +333,22 @@ fn of_very_many_errors_of_a_urdf_the_first_20_are_shown() {
     assert!(run.stderr.ends_with("\nand 30 more errors\n"), "{}", run.stderr);
 }
 
+#[test]
+fn of_very_many_warnings_of_a_urdf_the_first_20_are_shown() {
+    let odd = "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" ixy=\"0\" ixz=\"0\" iyy=\"0.1\" iyz=\"0\" izz=\"0.3\"/></inertial>";
+    let link = |k: usize| {
+        let parent = if k == 0 { "rod".into() } else { format!("part{}", k - 1) };
+        format!(
+            "<link name=\"part{k}\">{odd}</link><joint name=\"joint{k}\" type=\"continuous\">\
+             <parent link=\"{parent}\"/><child link=\"part{k}\"/></joint>\n"
+        )
+    };
+    let links: String = (0..21).map(link).collect();
+    let run = import_from(&folder_with(pendulum("", BODY).replace("</robot>", &(links + "</robot>"))), &[]);
+    assert_eq!((run.code, run.stderr.matches("warning: link `part").count()), (0, 20), "{}", run.stderr);
+    assert!(run.stderr.contains("\nand 1 more warning\n"), "{}", run.stderr);
+}
+
 /// The antennas of Tiago, as its makers publish them: their products of inertia exceed what their moments permit.
 #[test]
 fn a_negative_moment_of_a_small_part_is_a_warning() {

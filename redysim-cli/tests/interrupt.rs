@@ -64,7 +64,7 @@ fn a_terminal_shows_how_far_a_long_run_is_and_how_long_it_will_take() {
     assert!(!none.contains('%') && none.contains("interrupted: "), "{none}");
 }
 
-/// Interrupts a run that would go on for hours, and returns the states that it leaves.
+/// Interrupts a run that would go on for long, and returns the states that it leaves.
 fn kept(folder: &Path, command: &str, path: &str) -> Table {
     let run = Running::begin(folder, &[command, path, "-o", "run"]);
     // Rows are written as they are computed, a buffer at a time.

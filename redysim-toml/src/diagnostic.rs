@@ -2,12 +2,13 @@
 
 use crate::source::Source;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Deref, Range};
 use std::sync::Arc;
 
-/// How bad a finding is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How bad a finding is, the worst first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Severity {
     /// The file cannot be used.
@@ -169,15 +170,14 @@ impl Diagnostics {
     /// one place of the program that wrote it.
     pub const MOST_SHOWN: usize = 20;
 
-    /// Those of `found` that are shown, and what is shown in place of the others: "and 3 more errors".
+    /// Those of `found` that are shown, and for each severity with more of them a line in place of the others: "and 3 more
+    /// errors".
     pub fn shown<'a>(found: impl IntoIterator<Item = &'a Diagnostic>) -> (Vec<&'a Diagnostic>, Vec<String>) {
-        let mut counts = [(Severity::Error, 0), (Severity::Warning, 0), (Severity::Note, 0)];
+        let mut counts = BTreeMap::new();
         let is_shown = |diagnostic: &&Diagnostic| {
-            let count = counts.iter_mut().find(|(severity, _)| *severity == diagnostic.severity);
-            count.is_none_or(|(_, count)| {
-                *count += 1;
-                *count <= Self::MOST_SHOWN
-            })
+            let count = counts.entry(diagnostic.severity).or_insert(0_usize);
+            *count += 1;
+            *count <= Self::MOST_SHOWN
         };
         let shown = found.into_iter().filter(is_shown).collect();
         let more = |(severity, count): (Severity, usize)| match count.saturating_sub(Self::MOST_SHOWN) {

@@ -1,4 +1,4 @@
-//! `redysim check MODEL`: every fault, warning and note where it stands, then what the model is.
+//! `redysim check MODEL`: faults, warnings and notes where they stand, then what the model is.
 
 use std::io::Read;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use crate::summary::Summary;
 use redysim_model::{Diagnostic, Diagnostics, Faults, Loaded, Model, Severity};
 use serde::Serialize;
 
-/// Show every fault, warning and note of a model, then what it is.
+/// Show the faults, warnings and notes of a model, the first 20 of each, then what it is.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -21,7 +21,8 @@ Examples:
 
 With --quiet only faults are shown; the exit code is 0 for a model without faults.
 
---json prints one object, in SI units, whose keys stay as they are:
+--json prints one object, with all of them and in SI units, whose keys stay as
+they are:
   file, valid        the model file, and whether it has no errors
   errors, warnings, notes
                      [{ lint, title, help, file, line, column }]; lint is the name

@@ -6,7 +6,7 @@ pub const RUN_FILE: &str = "run.toml";
 pub const URDF: &str = "urdf";
 /// The copy of the model.
 pub const MODEL: &str = "model.toml";
-/// The copies of tables that a scenario names.
+/// The copies of tables that a scenario names, without their ending.
 pub const TRAJECTORY: &str = "trajectory";
 pub const TORQUE: &str = "torque";
 pub const INPUTS: [&str; 2] = [TRAJECTORY, TORQUE];

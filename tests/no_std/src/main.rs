@@ -9,8 +9,8 @@ use redysim::nalgebra as dynamics;
 use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation, Dop853, Event,
     ForwardSimulation, FrameGains, FrameState, Gauss6, Impedance, IndependentMotion, Integrator, Limited, Motion, Ode5,
-    Ode15s, Ode45, OperationalSpace, PdGravity, Pid, Pd, Radau5, SemiImplicitEuler, SetPoint,
-    Wrench, ZeroTorque, redysim, tracking_rates,
+    Ode15s, Ode45, OperationalSpace, Pd, PdGravity, Pid, Radau5, SemiImplicitEuler, SetPoint, Wrench, ZeroTorque,
+    redysim, tracking_rates,
 };
 
 redysim! {
