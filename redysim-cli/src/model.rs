@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 use crate::output::to_stderr;
 use crate::urdf::{self, Imported};
-use redysim_model::{Diagnostics, Faults, Loaded, Model};
+use redysim_model::{Diagnostic, Diagnostics, Faults, Loaded, Model};
 
 /// The model of a model file or of a URDF.
 pub struct Read {
@@ -62,10 +62,17 @@ pub fn loaded(path: &Path, read: Result<Loaded, Faults>, quiet: bool) -> Result<
         not_a_model(path)
             .unwrap_or_else(|| if faults.unread { Failure::outside(faults) } else { Failure::input(faults) })
     })?;
-    if !quiet && !loaded.warnings.is_empty() {
-        to_stderr(&format!("{}\n", Diagnostics(loaded.warnings.clone())));
+    if !quiet {
+        show(&loaded.warnings);
     }
     Ok(loaded)
+}
+
+/// Prints findings about a file.
+pub fn show(found: &[Diagnostic]) {
+    if !found.is_empty() {
+        to_stderr(&format!("{}\n", Diagnostics(found.to_vec())));
+    }
 }
 
 /// The failure of a file that is a scenario where a model is wanted.

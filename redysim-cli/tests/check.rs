@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::path::Path;
+
 use common::{call, model, root, scratch, succeed};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::{Function, MassMatrix};
@@ -120,20 +122,25 @@ fn faults_are_shown_where_they_stand() {
     assert!(run.stderr.ends_with("bad_unit.toml has 3 errors\n"), "{}", run.stderr);
 }
 
+/// Writes a model of `count` sliders, each with the keys `weights`, and a scenario of it.
+fn write_many(folder: &Path, count: usize, weights: &str) {
+    let link = |index: usize| {
+        let parent = if index == 0 { "base".into() } else { format!("link{}", index - 1) };
+        format!(
+            "[[link]]\nname = 'link{index}'\nparent = '{parent}'\njoint = 'prismatic'\naxis = [0, 0, 1]\n{weights}\n"
+        )
+    };
+    let links: String = (0..count).map(link).collect();
+    std::fs::write(folder.join("many.toml"), format!("name = 'many'\ngravity = [0, 0, 0]\n{links}")).unwrap();
+    let scenario = "model = 'many.toml'\n[forward]\nend = 1.0\nstep = 1.0\n";
+    std::fs::write(folder.join("scenario.toml"), scenario).unwrap();
+}
+
 /// Each of 3,000 links has a fault.
 #[test]
 fn of_very_many_errors_the_first_20_are_shown() {
     let folder = scratch("check-many");
-    let link = |index: usize| {
-        let parent = if index == 0 { "base".into() } else { format!("link{}", index - 1) };
-        format!(
-            "[[link]]\nname = 'link{index}'\nparent = '{parent}'\njoint = 'revolute'\naxis = [0, 0, 1]\nmass = -1\n"
-        )
-    };
-    let links: String = (0..3000).map(link).collect();
-    std::fs::write(folder.join("many.toml"), format!("name = 'many'\ngravity = [0, 0, -9.81]\n{links}")).unwrap();
-    let scenario = "model = 'many.toml'\n[forward]\nend = 1.0\nstep = 0.1\n";
-    std::fs::write(folder.join("scenario.toml"), scenario).unwrap();
+    write_many(&folder, 3000, "mass = -1");
     for arguments in [["check", "many.toml"], ["forward", "scenario.toml"]] {
         let output = common::fail(&folder, &arguments, 1);
         assert_eq!(output.matches("= help: ").count(), 20, "{output}");
@@ -147,17 +154,7 @@ fn of_very_many_errors_the_first_20_are_shown() {
 #[test]
 fn of_very_many_warnings_the_first_20_are_shown() {
     let folder = scratch("check-warnings");
-    let link = |index: usize| {
-        let parent = if index == 0 { "base".into() } else { format!("link{}", index - 1) };
-        format!(
-            "[[link]]\nname = 'link{index}'\nparent = '{parent}'\njoint = 'prismatic'\naxis = [0, 0, 1]\nmass = 1\n\
-             inertia = {{ xx = 0.1, yy = 0.1, zz = 0.3 }}\n"
-        )
-    };
-    let links: String = (0..30).map(link).collect();
-    std::fs::write(folder.join("many.toml"), format!("name = 'many'\ngravity = [0, 0, 0]\n{links}")).unwrap();
-    let scenario = "model = 'many.toml'\n[forward]\nend = 1.0\nstep = 1.0\n";
-    std::fs::write(folder.join("scenario.toml"), scenario).unwrap();
+    write_many(&folder, 30, "mass = 1\ninertia = { xx = 0.1, yy = 0.1, zz = 0.3 }");
     for arguments in [["check", "many.toml"], ["forward", "scenario.toml"]] {
         let shown = common::call(&folder, &arguments).stderr;
         assert_eq!(shown.matches("warning[inertia-triangle]").count(), 20, "{shown}");

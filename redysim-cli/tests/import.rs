@@ -316,19 +316,24 @@ fn warnings_of_rounded_quarter_turns_name_the_option_that_makes_them_exact() {
     assert!(shown.stderr.contains("`redysim import --quarter-turns` makes"), "{}", shown.stderr);
 }
 
+/// Imports the pendulum with a chain of `count` links, each with `body`, at its end.
+fn import_chain(count: usize, body: &str) -> Run {
+    let link = |k: usize| {
+        let parent = if k == 0 { "rod".into() } else { format!("part{}", k - 1) };
+        format!(
+            "<link name=\"part{k}\">{body}</link><joint name=\"joint{k}\" type=\"continuous\">\
+             <parent link=\"{parent}\"/><child link=\"part{k}\"/></joint>\n"
+        )
+    };
+    let links: String = (0..count).map(link).collect();
+    import_from(&folder_with(pendulum("", BODY).replace("</robot>", &(links + "</robot>"))), &[])
+}
+
 #[test]
 fn of_very_many_errors_of_a_urdf_the_first_20_are_shown() {
     let faulty = BODY.replace("<mass value=\"", "<mass value=\"-");
     assert_ne!(faulty, BODY);
-    let link = |k: usize| {
-        let parent = if k == 0 { "rod".into() } else { format!("part{}", k - 1) };
-        format!(
-            "<link name=\"part{k}\">{faulty}</link><joint name=\"joint{k}\" type=\"continuous\">\
-             <parent link=\"{parent}\"/><child link=\"part{k}\"/></joint>\n"
-        )
-    };
-    let links: String = (0..50).map(link).collect();
-    let run = import_from(&folder_with(pendulum("", BODY).replace("</robot>", &(links + "</robot>"))), &[]);
+    let run = import_chain(50, &faulty);
     assert_eq!((run.code, run.stderr.matches("error: ").count()), (1, 20), "{}", run.stderr);
     assert!(run.stderr.ends_with("\nand 30 more errors\n"), "{}", run.stderr);
 }
@@ -336,15 +341,7 @@ fn of_very_many_errors_of_a_urdf_the_first_20_are_shown() {
 #[test]
 fn of_very_many_warnings_of_a_urdf_the_first_20_are_shown() {
     let odd = "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" ixy=\"0\" ixz=\"0\" iyy=\"0.1\" iyz=\"0\" izz=\"0.3\"/></inertial>";
-    let link = |k: usize| {
-        let parent = if k == 0 { "rod".into() } else { format!("part{}", k - 1) };
-        format!(
-            "<link name=\"part{k}\">{odd}</link><joint name=\"joint{k}\" type=\"continuous\">\
-             <parent link=\"{parent}\"/><child link=\"part{k}\"/></joint>\n"
-        )
-    };
-    let links: String = (0..21).map(link).collect();
-    let run = import_from(&folder_with(pendulum("", BODY).replace("</robot>", &(links + "</robot>"))), &[]);
+    let run = import_chain(21, odd);
     assert_eq!((run.code, run.stderr.matches("warning: link `part").count()), (0, 20), "{}", run.stderr);
     assert!(run.stderr.contains("\nand 1 more warning\n"), "{}", run.stderr);
 }

@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::model::not_a_model;
+use crate::model::{not_a_model, show};
 use crate::number::counted;
 use crate::output::{print, to_stderr, visible};
 use crate::summary::Summary;
@@ -132,10 +132,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     if arguments.json {
         print_json(arguments, &diagnostics, summary.as_ref().ok().and_then(Option::as_ref))?;
     } else {
-        let shown = Diagnostics(diagnostics).filtered(|found| !quiet || found.severity() == Severity::Error);
-        if !shown.is_empty() {
-            to_stderr(&format!("{shown}\n"));
-        }
+        show(&Diagnostics(diagnostics).filtered(|found| !quiet || found.severity() == Severity::Error));
     }
     match summary {
         Ok(Some(summary)) if !arguments.json => {

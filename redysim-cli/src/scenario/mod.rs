@@ -19,7 +19,7 @@ mod trajectory;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-use redysim_model::{Diagnostic, Diagnostics, GenericMechanism, Model};
+use redysim_model::{Diagnostic, GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
 use redysim_toml::{DeValue, Field, Key, Message, Reader};
 use toml_edit::DocumentMut;
@@ -27,7 +27,6 @@ use toml_edit::DocumentMut;
 use crate::failure::Failure;
 use crate::layout::Layout;
 use crate::model::{self, Read};
-use crate::output::to_stderr;
 pub use forward::Forward;
 pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances, usual_method};
@@ -90,8 +89,8 @@ impl Scenario {
     pub fn load(path: &Path, dynamics: Dynamics, quiet: bool) -> Result<Scenario, Failure> {
         let text = read_text(path)?;
         let (scenario, warnings) = Scenario::of_text(text, path, &path.display().to_string(), dynamics, quiet)?;
-        if !quiet && !warnings.is_empty() {
-            to_stderr(&format!("{}\n", Diagnostics(warnings)));
+        if !quiet {
+            model::show(&warnings);
         }
         Ok(scenario)
     }
