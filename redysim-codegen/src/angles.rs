@@ -1,4 +1,6 @@
 //! The angles of a mechanism: those whose sine or cosine a function needs, each once for all functions.
+//!
+//! They are sums of coordinates. A sine of anything else is computed where it is needed.
 
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
@@ -26,19 +28,20 @@ pub struct Term {
 }
 
 impl Angle {
-    /// The angle that `edge` of `graph` is.
-    fn of(graph: &Graph, edge: Edge) -> Angle {
+    /// The angle that `edge` of `graph` is; `None` if it is not a sum of coordinates.
+    fn of(graph: &Graph, edge: Edge) -> Option<Angle> {
         let mut angle = Angle { terms: Vec::new(), constant: 0.0 };
-        angle.add(graph, edge, 1.0);
+        angle.add(graph, edge, 1.0)?;
         angle.terms.sort_unstable_by_key(|term| term.coordinate);
         let is_sum = angle.is_sum();
         for term in &mut angle.terms {
             term.without_turns = is_sum && term.factor.fract() == 0.0;
         }
-        angle
+        Some(angle)
     }
 
-    fn add(&mut self, graph: &Graph, edge: Edge, factor: f64) {
+    /// Adds a part of the sum; `None` if it is no part of one.
+    fn add(&mut self, graph: &Graph, edge: Edge, factor: f64) -> Option<()> {
         let factor = if edge.is_negative() { -factor } else { factor };
         match graph.node(edge.node()) {
             Node::Input { index: coordinate, .. } => {
@@ -46,18 +49,19 @@ impl Angle {
             }
             Node::Constant(bits) => self.constant += factor * f64::from_bits(bits),
             Node::Add(a, b) => {
-                self.add(graph, a, factor);
-                self.add(graph, b, factor);
+                self.add(graph, a, factor)?;
+                self.add(graph, b, factor)?;
             }
             Node::Subtract(a, b) => {
-                self.add(graph, a, factor);
-                self.add(graph, b, -factor);
+                self.add(graph, a, factor)?;
+                self.add(graph, b, -factor)?;
             }
-            node => match graph.coefficient(edge.abs()) {
-                (own, base) if base != edge.abs() => self.add(graph, base, factor * own),
-                _ => unreachable!("an angle is a sum of coordinates and a constant, not {node:?}"),
+            _ => match graph.coefficient(edge.abs()) {
+                (own, base) if base != edge.abs() => self.add(graph, base, factor * own)?,
+                _ => return None,
             },
         }
+        Some(())
     }
 
     /// Whether it is more than one coordinate.
@@ -82,11 +86,11 @@ impl Angles {
         for expressions in functions {
             let mut seen = HashSet::new();
             for (_, edge) in trigonometric(expressions) {
-                if seen.insert(edge) {
-                    let angle = Angle::of(&expressions.graph, edge.abs());
-                    if !angles.contains(&angle) {
-                        angles.push(angle);
-                    }
+                if seen.insert(edge)
+                    && let Some(angle) = Angle::of(&expressions.graph, edge.abs())
+                    && !angles.contains(&angle)
+                {
+                    angles.push(angle);
                 }
             }
         }
@@ -105,20 +109,23 @@ impl Angles {
         positions.into_iter().map(|position| &self.0[position])
     }
 
-    /// For each live sine and cosine of a function, where its angle is among these.
+    /// For each live sine and cosine of an angle of the mechanism, where that is among these.
     pub fn positions(&self, expressions: &Expressions) -> HashMap<usize, usize> {
-        let mut known: HashMap<Edge, usize> = HashMap::new();
+        let mut known: HashMap<Edge, Option<usize>> = HashMap::new();
         trigonometric(expressions)
-            .map(|(node, angle)| {
-                (node, *known.entry(angle).or_insert_with(|| self.position(&expressions.graph, angle)))
+            .filter_map(|(node, angle)| {
+                let position = known.entry(angle).or_insert_with(|| self.position(&expressions.graph, angle));
+                Some((node, (*position)?))
             })
             .collect()
     }
 
-    /// Where among the angles `edge` of `graph` is.
-    fn position(&self, graph: &Graph, edge: Edge) -> usize {
-        let wanted = Angle::of(graph, edge.abs());
-        self.0.iter().position(|angle| *angle == wanted).expect("all angles are collected before any is looked up")
+    /// Where among the angles `edge` of `graph` is; `None` if it is not a sum of coordinates.
+    fn position(&self, graph: &Graph, edge: Edge) -> Option<usize> {
+        let wanted = Angle::of(graph, edge.abs())?;
+        Some(
+            self.0.iter().position(|angle| *angle == wanted).expect("all angles are collected before any is looked up"),
+        )
     }
 
     /// The coordinates whose whole turns are taken off for the sums among the angles at the given positions, in order.
@@ -139,7 +146,15 @@ impl Angles {
     }
 }
 
-/// The live sines and cosines of a function, with their angles.
+/// Whether a node is the sine or cosine of an angle of the mechanism, which functions are given.
+pub fn is_given(graph: &Graph, index: usize) -> bool {
+    match graph.node(index) {
+        Node::Sin(angle) | Node::Cos(angle) => Angle::of(graph, angle.abs()).is_some(),
+        _ => false,
+    }
+}
+
+/// The live sines and cosines of a function, with their arguments.
 fn trigonometric(expressions: &Expressions) -> impl Iterator<Item = (usize, Edge)> {
     let uses = expressions.uses();
     (0..expressions.graph.len()).filter(move |&index| uses[index] > 0).filter_map(|index| {

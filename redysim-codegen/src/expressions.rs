@@ -1,5 +1,6 @@
 //! The body of one function: a graph and the values it returns.
 
+use crate::angles::is_given;
 use crate::graph::{Edge, Graph, Leaf, Name, Node};
 use crate::policies::{LONGEST_UNROLLED, PRICE_PER_DIVISION, PRICE_PER_PAIR};
 use redysim_runtime::{OperationCount, Scalar};
@@ -31,15 +32,15 @@ impl Expressions {
         uses
     }
 
-    /// How often each value is read in the code of the function, to which sines and cosines are given.
+    /// How often each value is read in the code of the function, to which sines and cosines of angles are given.
     pub fn uses_in_code(&self) -> Vec<usize> {
         let graph = &self.graph;
         let mut uses = vec![0; graph.len()];
         for output in &self.outputs {
             uses[output.node()] += 1;
         }
-        for index in (0..graph.len()).rev().filter(|&index| !matches!(graph.node(index), Node::Sin(_) | Node::Cos(_))) {
-            if uses[index] > 0 {
+        for index in (0..graph.len()).rev() {
+            if uses[index] > 0 && !is_given(graph, index) {
                 graph.node(index).operands().for_each(|operand| uses[operand.node()] += 1);
             }
         }

@@ -121,7 +121,11 @@ fn a_stub_of_a_model_with_faults_has_every_function_and_no_size_but_the_fault() 
 /// A base with the sizes of a free joint, and an arm on it.
 #[test]
 fn sizes_and_actuators_follow_the_joints_own_numbers_of_coordinates_and_velocities() {
-    let joint = |name: &str, nq, nv, actuated| MovingJoint { name: name.to_string(), nq, nv, actuated };
+    let names = |name: &str, components: usize| (0..components).map(|i| format!("{name}.{i}")).collect();
+    let joint = |name: &str, nq, nv, actuated| {
+        let (coordinates, velocities) = (names(name, nq), names(name, nv));
+        MovingJoint { name: name.to_string(), coordinates, velocities, actuated }
+    };
     let interface = PublicInterface {
         is_valid: true,
         joints: vec![joint("base", 7, 6, false), joint("arm", 1, 1, true)],

@@ -116,20 +116,24 @@ impl<P: Parameter> Tree<P> {
         [q, v]: [usize; 2],
         physics: JointPhysics<P>,
     ) -> (Option<usize>, Pose<f64>) {
-        let aligned = align_z(link.axis);
+        // A joint in space has the link's own frame: its coordinates and velocities are those of that frame.
+        let aligned = if joint.is_on_axis() { align_z(link.axis) } else { Mat3::identity() };
         let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
         let mut offset = 0.0;
-        let JointPosition { angle, displacement } = joint.position(&[link.offset]);
-        if let Some(angle) = angle {
-            let (sin, cos) = rotation::sin_cos(angle);
-            if sin == 0.0 || cos == 0.0 {
-                placement.rotation = placement.rotation * rotation::about_z(angle);
-            } else {
-                offset = angle;
+        if joint.is_on_axis()
+            && let JointPosition::OnAxis { angle, displacement } = joint.position(&[link.offset])
+        {
+            if let Some(angle) = angle {
+                let (sin, cos) = rotation::sin_cos(angle);
+                if sin == 0.0 || cos == 0.0 {
+                    placement.rotation = placement.rotation * rotation::about_z(angle);
+                } else {
+                    offset = angle;
+                }
             }
-        }
-        if let Some(slide) = displacement {
-            placement.position = placement.position + placement.rotation.column(2).scale(slide);
+            if let Some(slide) = displacement {
+                placement.position = placement.position + placement.rotation.column(2).scale(slide);
+            }
         }
         self.bodies.push(Body {
             parent,

@@ -1,7 +1,7 @@
 //! Frames of bodies chosen anew.
 //!
-//! A body's frame may be turned about its joint axis z and slid along it without changing the joint: q stays what it
-//! was. With x along the common normal of the body's axis and a child's, and the origin at its foot, the child's fixed
+//! The frame of a body on a joint of one freedom may be turned about the joint's axis z and slid along it without
+//! changing the joint: q stays what it was. Other joints have coordinates that mean the model's own frame. With x along the common normal of the body's axis and a child's, and the origin at its foot, the child's fixed
 //! rotation is one about x and its arm has no more than two components, wherever the model put its frames (Khalil &
 //! Kleinfinger, "A new geometric notation for open and closed-loop robots", Proc. IEEE Int. Conf. on Robotics and
 //! Automation, 1986).
@@ -23,11 +23,14 @@ const LENGTH_ROUNDOFF: f64 = 16.0 * f64::EPSILON;
 const FARTHEST_FOOT: f64 = 4.0;
 
 /// The tree with every frame in its canonical place, whatever the frames of the model: by the common normal with the
-/// first child's axis, and for a body without children by its inertia. A change after which `keeps` is false is not
+/// first child's axis, and for a body without one by its inertia. A change after which `keeps` is false is not
 /// made.
 pub fn canonical<P: Parameter>(tree: &Tree<P>, keeps: impl Fn(&Tree<P>) -> bool) -> Tree<P> {
     let mut tree = tree.clone();
     for body in (0..tree.bodies.len()).rev() {
+        if !tree.bodies[body].joint.is_on_axis() {
+            continue;
+        }
         let first = tree.children(body).next();
         let turn = first.and_then(|child| turn_to_child(&tree, child)).or_else(|| turn_to_inertia(&tree, body));
         let slide = first.and_then(|child| slide_to_child(&tree, child)).or_else(|| slide_to_parent(&tree, body));
@@ -86,7 +89,7 @@ pub fn reframe<P: Parameter>(tree: &mut Tree<P>, body: usize, angle: f64, distan
 /// By which angle to turn the frame of the parent of `child` so that x is along the common normal of their axes; for
 /// parallel axes, so that x points from one to the other. `None` where the axes coincide.
 pub fn turn_to_child<P: Parameter>(tree: &Tree<P>, child: usize) -> Option<f64> {
-    let Pose { rotation, position: p } = tree.bodies[child].placement;
+    let Pose { rotation, position: p } = placement_on_axis(tree, child)?;
     let u = rotation.column(2);
     let around = tree.bodies[child].parent.map_or(0.0, |parent| reach(tree, parent));
     let (normal, size) = if is_parallel(u) { (p, around) } else { (Vec3([-u[1], u[0], 0.0]), 1.0) };
@@ -96,7 +99,7 @@ pub fn turn_to_child<P: Parameter>(tree: &Tree<P>, child: usize) -> Option<f64> 
 /// How far to slide the frame of the parent of `child` so that its origin is the foot of the common normal of their
 /// axes; for axes that are parallel, or nearly so, that the two origins are at one height.
 pub fn slide_to_child<P: Parameter>(tree: &Tree<P>, child: usize) -> Option<f64> {
-    let Pose { rotation, position: p } = tree.bodies[child].placement;
+    let Pose { rotation, position: p } = placement_on_axis(tree, child)?;
     Some(foot_on_child(tree, child).map_or(p[2], |along| p[2] + along * rotation.column(2)[2]))
 }
 
@@ -106,6 +109,11 @@ pub fn slide_to_parent<P: Parameter>(tree: &Tree<P>, body: usize) -> Option<f64>
     tree.bodies[body].parent?;
     let Pose { rotation, position: p } = tree.bodies[body].placement;
     Some(foot_on_child(tree, body).unwrap_or(-p[2] * rotation.column(2)[2]))
+}
+
+/// The placement of a body; `None` if its joint has more than one axis.
+fn placement_on_axis<P>(tree: &Tree<P>, body: usize) -> Option<Pose<f64>> {
+    Some(&tree.bodies[body]).filter(|body| body.joint.is_on_axis()).map(|body| body.placement)
 }
 
 /// How far along the axis of `child`, from its origin, the foot of the common normal with its parent's axis is. `None`
@@ -147,7 +155,8 @@ fn settle_rotation<P: Parameter>(tree: &mut Tree<P>, body: usize, size: f64) {
     let fixed = simplest_with_axis(whole.column(2));
     let rest = snapped(fixed.transpose() * whole);
     let quarter = rest.0[0].iter().all(|x| x.round() == *x);
-    let turns = tree.bodies[body].joint.screw().turn != 0.0;
+    let joint = tree.bodies[body].joint;
+    let turns = joint.is_on_axis() && joint.screw(0).turn != 0.0;
     let (rotation, offset) = if quarter || !turns {
         (if quarter { fixed * rest } else { whole }, 0.0)
     } else {

@@ -1,8 +1,8 @@
 //! The generic path: the recursions at `f64` (or any other scalar), driven by a model that is read at run time.
 
 use crate::denoc::{self, Method, Untraced, Workspace};
-use crate::joint::Joint;
 use crate::model::Model;
+use crate::public_interface::{MovingJoint, PublicInterface};
 use crate::tree::Tree;
 use redysim_runtime::function::Dimension::{self, Coordinates, Velocities};
 use redysim_runtime::{
@@ -24,19 +24,21 @@ pub struct GenericMechanism {
     tree: Tree,
     coordinate_names: Vec<String>,
     velocity_names: Vec<String>,
+    coordinates_of_velocities: Vec<Option<usize>>,
 }
 
 impl GenericMechanism {
     /// The mechanism of a checked model.
     pub fn new(model: Model) -> Self {
         let tree = Tree::new(&model);
-        let joints: Vec<(&str, Joint)> =
-            model.moving_links().filter_map(|link| Some((link.joint_name.as_str(), Joint::of(link)?))).collect();
-        let names = |components: fn(Joint) -> &'static [&'static str]| {
-            joints.iter().flat_map(|&(name, joint)| component_names(name, components(joint))).collect()
-        };
-        let (coordinate_names, velocity_names) = (names(Joint::coordinate_names), names(Joint::velocity_names));
-        GenericMechanism { model, tree, coordinate_names, velocity_names }
+        let interface = PublicInterface { joints: MovingJoint::all(&model), ..PublicInterface::default() };
+        GenericMechanism {
+            coordinate_names: interface.coordinate_names().map(String::from).collect(),
+            velocity_names: interface.velocity_names().map(String::from).collect(),
+            coordinates_of_velocities: interface.coordinates_of_velocities(),
+            model,
+            tree,
+        }
     }
 
     /// The model.
@@ -148,21 +150,15 @@ impl Mechanism for GenericMechanism {
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.velocity_names.get(index).map(String::as_str)
     }
+    fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
+        *self.coordinates_of_velocities.get(index)?
+    }
     fn nf(&self) -> usize {
         self.size(Dimension::Frames)
     }
     fn frame_name(&self, index: usize) -> Option<&str> {
         self.model.frames.get(index).map(|frame| frame.name.as_str())
     }
-}
-
-/// The names of the coordinates or velocities of the joint `name`. A single one has the joint's name.
-fn component_names<'a>(name: &'a str, components: &'a [&str]) -> impl Iterator<Item = String> + 'a {
-    let of = move |component: &&str| match components.len() {
-        1 => name.to_owned(),
-        _ => format!("{name}.{component}"),
-    };
-    components.iter().map(of)
 }
 
 impl<S: Scalar> ConfigurationSpace<S> for GenericMechanism {
@@ -324,17 +320,5 @@ impl<S: Scalar> LoopClosure<S, GenericMechanism> for GenericMechanism {
     fn loop_bias(&self, q: &Vec<S>, v: &Vec<S>) -> Vec<S> {
         self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::loop_bias(&self.tree, &Untraced, q, v)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::component_names;
-
-    #[test]
-    fn a_joint_of_one_coordinate_gives_it_its_own_name() {
-        let names = |components| component_names("base", components).collect::<Vec<_>>();
-        assert_eq!(names(&["q"]), ["base"]);
-        assert_eq!(names(&["x", "y", "qw"]), ["base.x", "base.y", "base.qw"]);
     }
 }

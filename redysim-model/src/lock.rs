@@ -45,6 +45,9 @@ impl Model {
             if self.links[index].joint == JointKind::Fixed {
                 return Err(LockError::Fixed { joint: joint.into() });
             }
+            if !self.links[index].joint.has_axis() {
+                return Err(LockError::SeveralCoordinates { joint: joint.into() });
+            }
             if model.links[index].joint == JointKind::Fixed {
                 return Err(LockError::Twice { joint: joint.into() });
             }
@@ -62,13 +65,17 @@ impl Link {
     pub(crate) fn lock(&mut self, value: f64) {
         let travel = self.offset + value;
         if let Some(joint) = Joint::of(self) {
-            let JointPosition { angle, displacement } = joint.position(&[travel]);
-            let turn = angle.map_or(Mat3::identity(), |angle| {
-                let aligned = align_z(self.axis);
-                aligned * rotation::about_z(angle) * aligned.transpose()
-            });
-            let slide = displacement.map_or(Vec3::zero(), |slide| self.axis.scale(slide));
-            let motion = Pose { rotation: turn, position: slide };
+            let motion = match joint.position(&[travel]) {
+                JointPosition::OnAxis { angle, displacement } => {
+                    let turn = angle.map_or(Mat3::identity(), |angle| {
+                        let aligned = align_z(self.axis);
+                        aligned * rotation::about_z(angle) * aligned.transpose()
+                    });
+                    let slide = displacement.map_or(Vec3::zero(), |slide| self.axis.scale(slide));
+                    Pose { rotation: turn, position: slide }
+                }
+                in_space => in_space.pose(),
+            };
             self.placement = (self.placement * motion * self.frame).without_negative_zeros();
             self.frame = Pose::identity();
         }
@@ -105,6 +112,11 @@ pub enum LockError {
         /// The name given.
         joint: String,
     },
+    /// The joint has several coordinates, which one value cannot set.
+    SeveralCoordinates {
+        /// The name given.
+        joint: String,
+    },
     /// The joint is named twice, perhaps once by its link.
     Twice {
         /// The name given the second time.
@@ -129,6 +141,9 @@ impl fmt::Display for LockError {
                 write!(f, "unknown joint {} to lock; {meant}The joints are: {}", quoted(joint), joints.join(", "))
             }
             LockError::Fixed { joint } => write!(f, "joint {} is fixed already: do not lock it", quoted(joint)),
+            LockError::SeveralCoordinates { joint } => {
+                write!(f, "joint {} has several coordinates, which one value cannot lock", quoted(joint))
+            }
             LockError::Twice { joint } => write!(f, "joint {} is locked twice: give it one value", quoted(joint)),
             LockError::NotFinite { joint, value } => {
                 write!(f, "joint {} cannot be locked at {value:?}: give a finite value, rad or m", quoted(joint))

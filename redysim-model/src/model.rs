@@ -29,7 +29,9 @@ pub struct Model {
 /// One rigid body and the joint that carries it.
 ///
 /// A joint variable q moves the link's frame to `placement · motion(offset + q) · frame`, where the motion is a rotation
-/// about `axis` (revolute), a translation along it (prismatic), both in proportion (helical), or nothing (fixed).
+/// about `axis` (revolute), a translation along it (prismatic), both in proportion (helical), or nothing (fixed). The
+/// coordinates of a spherical joint are the unit quaternion (x, y, z, w) of the link's axes in the frame at `placement`,
+/// those of a free joint the position of the link's origin in it, m, and then that quaternion.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -45,7 +47,7 @@ pub struct Link {
     /// The frame that the joint moves, in the parent's where the joint's motion is zero. The joint axis passes through
     /// its origin.
     pub placement: Pose<f64>,
-    /// Unit vector of the joint axis, in the frame that the joint moves.
+    /// Unit vector of the joint axis, in the frame that the joint moves; z for a joint without one.
     pub axis: Vec3<f64>,
     /// The link's frame in the one that the joint moves: the identity, or the Tx(a) Rx(alpha) of standard
     /// Denavit-Hartenberg parameters, which have a link's frame at its far end.
@@ -96,16 +98,22 @@ pub enum JointKind {
     Prismatic,
     /// Rotation about the axis with a translation along it in proportion, as a screw moves.
     Helical,
+    /// Rotation about any axis through the joint's origin.
+    Spherical,
+    /// Any motion.
+    Free,
     /// No motion: the link is part of its parent.
     Fixed,
 }
 
 impl JointKind {
     /// Every kind with its name in a model file.
-    pub const ALL: [(&'static str, JointKind); 4] = [
+    pub const ALL: [(&'static str, JointKind); 6] = [
         (JointKind::Revolute.name(), JointKind::Revolute),
         (JointKind::Prismatic.name(), JointKind::Prismatic),
         (JointKind::Helical.name(), JointKind::Helical),
+        (JointKind::Spherical.name(), JointKind::Spherical),
+        (JointKind::Free.name(), JointKind::Free),
         (JointKind::Fixed.name(), JointKind::Fixed),
     ];
 
@@ -115,6 +123,8 @@ impl JointKind {
             JointKind::Revolute => "revolute",
             JointKind::Prismatic => "prismatic",
             JointKind::Helical => "helical",
+            JointKind::Spherical => "spherical",
+            JointKind::Free => "free",
             JointKind::Fixed => "fixed",
         }
     }
@@ -123,8 +133,15 @@ impl JointKind {
     pub fn dof(self) -> usize {
         match self {
             JointKind::Revolute | JointKind::Prismatic | JointKind::Helical => 1,
+            JointKind::Spherical => 3,
+            JointKind::Free => 6,
             JointKind::Fixed => 0,
         }
+    }
+
+    /// Whether it has an axis about or along which its link moves, and one coordinate.
+    pub fn has_axis(self) -> bool {
+        matches!(self, JointKind::Revolute | JointKind::Prismatic | JointKind::Helical)
     }
 
     /// Whether its coordinate is an angle, rad, and its force a moment, N m.

@@ -1,7 +1,7 @@
 //! The public interface of a generated type: its names, sizes and functions.
 
 use crate::joint::Joint;
-use crate::model::Model;
+use crate::model::{Link, Model};
 use crate::options::CodegenOptions;
 use crate::run_time::RunTimeParameter;
 use crate::tree::Tree;
@@ -48,19 +48,38 @@ pub struct ParameterNumber {
 pub struct MovingJoint {
     /// Its name.
     pub name: String,
-    /// Number of its coordinates.
-    pub nq: usize,
-    /// Number of its velocities.
-    pub nv: usize,
+    /// Names of its coordinates.
+    pub coordinates: Vec<String>,
+    /// Names of its velocities.
+    pub velocities: Vec<String>,
     /// Whether it has an actuator.
     pub actuated: bool,
 }
 
 impl MovingJoint {
-    /// The joint `name` with the sizes of `joint`. A joint whose kind cannot be read is `None` and has one coordinate.
+    /// The joint `name` that moves as `joint` does. A joint whose kind cannot be read is `None` and has one coordinate.
     pub(crate) fn new(name: String, joint: Option<Joint>, actuated: bool) -> Self {
-        let [nq, nv] = joint.map_or([1, 1], |joint| [joint.nq(), joint.nv()]);
-        MovingJoint { name, nq, nv, actuated }
+        let joint = joint.unwrap_or(Joint::Revolute);
+        MovingJoint {
+            coordinates: component_names(&name, joint.coordinate_names()),
+            velocities: component_names(&name, joint.velocity_names()),
+            name,
+            actuated,
+        }
+    }
+
+    /// The moving joints of a checked model, in its order.
+    pub(crate) fn all(model: &Model) -> Vec<MovingJoint> {
+        let joint = |link: &Link| MovingJoint::new(link.joint_name.clone(), Joint::of(link), link.actuated);
+        model.moving_links().map(joint).collect()
+    }
+}
+
+/// The names of the coordinates or velocities of the joint `name`. A single one has the joint's name.
+fn component_names(name: &str, components: &[&str]) -> Vec<String> {
+    match components {
+        [_] => vec![name.to_owned()],
+        _ => components.iter().map(|component| format!("{name}.{component}")).collect(),
     }
 }
 
@@ -68,23 +87,42 @@ impl PublicInterface {
     /// A size of the mechanism.
     pub fn size(&self, dimension: Dimension) -> usize {
         match dimension {
-            Dimension::Coordinates => self.joints.iter().map(|joint| joint.nq).sum(),
-            Dimension::Velocities => self.joints.iter().map(|joint| joint.nv).sum(),
+            Dimension::Coordinates => self.coordinate_names().count(),
+            Dimension::Velocities => self.velocity_names().count(),
             Dimension::Links => self.links.len(),
             Dimension::LoopRows => self.loop_rows.len(),
             Dimension::Frames => self.frames.len(),
         }
     }
 
+    /// The names of the coordinates, in the model's order.
+    pub fn coordinate_names(&self) -> impl Iterator<Item = &str> {
+        self.joints.iter().flat_map(|joint| &joint.coordinates).map(String::as_str)
+    }
+
+    /// The names of the velocities, in the model's order.
+    pub fn velocity_names(&self) -> impl Iterator<Item = &str> {
+        self.joints.iter().flat_map(|joint| &joint.velocities).map(String::as_str)
+    }
+
+    /// For each velocity, the coordinate of its joint if that has one.
+    pub fn coordinates_of_velocities(&self) -> Vec<Option<usize>> {
+        let mut first = 0;
+        let of_joint = |joint: &MovingJoint| {
+            let own = Some(first).filter(|_| joint.coordinates.len() == 1);
+            first += joint.coordinates.len();
+            std::iter::repeat_n(own, joint.velocities.len())
+        };
+        self.joints.iter().flat_map(of_joint).collect()
+    }
+
     /// Whether each velocity has an actuator: that of its joint.
     pub fn actuated(&self) -> impl Iterator<Item = bool> {
-        self.joints.iter().flat_map(|joint| std::iter::repeat_n(joint.actuated, joint.nv))
+        self.joints.iter().flat_map(|joint| std::iter::repeat_n(joint.actuated, joint.velocities.len()))
     }
 
     /// The interface of the type that is generated from a checked model with the given options.
     pub fn new(model: &Model, options: &CodegenOptions) -> Self {
-        let joints =
-            model.moving_links().map(|link| MovingJoint::new(link.joint_name.clone(), Joint::of(link), link.actuated));
         let numbers = |parameter: &RunTimeParameter| {
             let (rule, named) = (parameter.quantity.rule(), parameter.names(model).zip(parameter.values(model)));
             named.map(move |(name, value)| ParameterNumber { name, value, rule })
@@ -93,12 +131,32 @@ impl PublicInterface {
             is_valid: true,
             name: model.name.clone(),
             links: model.links.iter().map(|link| link.name.clone()).collect(),
-            joints: joints.collect(),
+            joints: MovingJoint::all(model),
             loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
             frames: model.frames.iter().map(|frame| frame.name.clone()).collect(),
             mass: model.mass(),
             functions: options.functions.with_frames(model.frames.len()),
             parameters: options.parameters.iter().flat_map(numbers).collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_joint_of_one_coordinate_gives_it_its_own_name() {
+        assert_eq!(component_names("base", &["q"]), ["base"]);
+        assert_eq!(component_names("base", &["x", "y", "qw"]), ["base.x", "base.y", "base.qw"]);
+    }
+
+    #[test]
+    fn velocities_of_joints_with_one_coordinate_have_that_coordinate() {
+        let joints = [("tail", Joint::Revolute), ("base", Joint::Free), ("head", Joint::Prismatic)];
+        let joints = joints.map(|(name, joint)| MovingJoint::new(name.into(), Some(joint), true)).into();
+        let interface = PublicInterface { joints, ..PublicInterface::default() };
+        let free = [None; 6];
+        assert_eq!(interface.coordinates_of_velocities(), [&[Some(0)][..], &free, &[Some(8)]].concat());
     }
 }

@@ -31,7 +31,7 @@ pub struct Tree<P = f64> {
     pub springs: Vec<BodySpring<P>>,
 }
 
-/// A moving body with one joint about or along its z axis.
+/// A moving body with its joint: about or along its z axis, or in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body<P = f64> {
     /// The parent's index in [`Tree::bodies`]; `None` is the ground.
@@ -57,9 +57,12 @@ pub struct Body<P = f64> {
 }
 
 impl<P> Body<P> {
-    /// Whether the joint's axis is parallel to the z axis of the parent's frame.
+    /// Whether the joint has one axis, and this is parallel to the z axis of the parent's frame.
     #[inline]
     pub fn is_parallel(&self) -> bool {
+        if !self.joint.is_on_axis() {
+            return false;
+        }
         // The cosine of a tilt of 1e-8 is 1 already.
         let [x, y, _] = self.placement.rotation.column(2).0;
         x == 0.0 && y == 0.0

@@ -77,7 +77,6 @@ impl Model {
     }
 
     fn write_link(&self, link: &Link, file: &mut Text) {
-        let moves = link.joint.dof() > 0;
         file.table(&keys::LINKS);
         file.entry(&keys::NAME, string(&link.name));
         if !link.joint_name.is_empty() && link.joint_name != link.name {
@@ -86,7 +85,7 @@ impl Model {
         file.entry(&keys::PARENT, self.carrier(link.parent));
         file.entry(&keys::JOINT, string(link.joint.name()));
         file.entry(&keys::ORIGIN, pose(link.placement));
-        if moves {
+        if link.joint.has_axis() {
             file.entry(&keys::AXIS, vector(link.axis));
         }
         file.number_unless(&keys::OFFSET, link.offset, 0.0);

@@ -142,7 +142,11 @@ fn invalid_files_have_a_public_interface() {
         let interface = Model::load(models().join(format!("fail/{name}.toml"))).unwrap_err().interface;
         assert_eq!(interface.name, "arm", "{name}");
         assert_eq!(interface.links, links, "{name}");
-        let found: Vec<_> = interface.joints.iter().map(|joint| (joint.name.as_str(), joint.nq, joint.nv)).collect();
+        let found: Vec<_> = interface
+            .joints
+            .iter()
+            .map(|joint| (joint.name.as_str(), joint.coordinates.len(), joint.velocities.len()))
+            .collect();
         assert_eq!(found, joints.map(|joint| (joint, 1, 1)), "{name}");
     }
     let fixed = Model::load(models().join("fail/axis_on_fixed.toml")).unwrap_err().interface;

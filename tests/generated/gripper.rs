@@ -26,6 +26,8 @@ pub struct Gripper;
 impl Gripper {
     /// Name of the model.
     pub const NAME: &'static str = "gripper";
+    /// Number of joints that move.
+    pub const NJ: usize = 4;
     /// Number of joint coordinates.
     pub const NQ: usize = 4;
     /// Number of joint velocities.
@@ -48,6 +50,20 @@ impl Gripper {
     pub const LINK_NAMES: [&'static str; 4] = ["link1", "link2", "link3", "link4"];
     /// Names of the joints that move, in the model's order.
     pub const JOINT_NAMES: [&'static str; 4] = ["joint1", "joint2", "joint3", "joint4"];
+    /// Names of the joint coordinates, in the model's order.
+    pub const COORDINATE_NAMES: [&'static str; 4] = [
+        "joint1",
+        "joint2",
+        "joint3",
+        "joint4",
+    ];
+    /// Names of the joint velocities, in the model's order.
+    pub const VELOCITY_NAMES: [&'static str; 4] = [
+        "joint1",
+        "joint2",
+        "joint3",
+        "joint4",
+    ];
     /// Name of the loop to which each row of the loop constraints belongs.
     pub const LOOP_NAMES: [&'static str; 0] = [];
     /// Names of the frames of interest, in the model's order.
@@ -243,8 +259,8 @@ impl Gripper {
         let t1 = v[0] * v[0];
         let t2 = S::mul_add(k(-2.0), t1, acc_link1_x);
         let t3 = S::mul_add(k(2.0), a[0], acc_link1_y);
-        let w_link2_z = v[0] + v[1];
         let dw_link2_z = a[0] + a[1];
+        let w_link2_z = v[0] + v[1];
         let acc_link3_x = S::mul_add(
             sin_link2,
             t3,
@@ -255,8 +271,8 @@ impl Gripper {
             t3,
             S::mul_add(-sin_link2, t2, dw_link2_z),
         );
-        let w_link3_z = v[2] + w_link2_z;
         let dw_link3_z = a[2] + dw_link2_z;
+        let w_link3_z = v[2] + w_link2_z;
         let t4 = w_link3_z * w_link3_z;
         let t5 = k(0.00025000000000000006) * cos_link3;
         let t6 = k(0.00025000000000000006) * sin_link3;
@@ -277,8 +293,8 @@ impl Gripper {
         );
         let acc_link4_x = acc_link1_x - t1;
         let acc_link4_y = a[0] + acc_link1_y;
-        let w_link4_z = v[0] + v[3];
         let dw_link4_z = a[0] + a[3];
+        let w_link4_z = v[0] + v[3];
         let t7 = k(0.00025000000000000006) * cos_link4;
         let t8 = k(0.00025000000000000006) * sin_link4;
         let moment_link4_z = S::mul_add(
@@ -384,13 +400,13 @@ impl Gripper {
         let t8 = tau[2] + minus_moment_link3_z;
         let t9 = tau[3] - moment_link4_z;
         let t10 = k(0.0001666666666666667) + t6;
-        let t11 = k(0.0005000000000000001) * cos_link3;
         let h_link2_y = k(0.0005000000000000001) * sin_link3;
-        let h_link2_x = t11 + k(0.0015000000000000005);
-        let J_link2_zz = t11 + k(0.0008333333333333335);
+        let t11 = k(0.0005000000000000001) * cos_link3;
         let t12 = t4 + k(0.0001666666666666667);
         let t13 = sin_link2 * h_link2_y;
         let t14 = S::mul_add(cos_link2, t11, t12 - t13);
+        let h_link2_x = t11 + k(0.0015000000000000005);
+        let J_link2_zz = t11 + k(0.0008333333333333335);
         let t15 = S::mul_add(-cos_link2, h_link2_x, t13);
         let t16 = k(5999.999999999999) * t10;
         let t17 = k(5999.999999999999) * t12;
@@ -487,10 +503,8 @@ impl Gripper {
             cos_link4,
             k(0.0001666666666666667),
         );
-        let t2 = k(0.0005000000000000001) * cos_link3;
         let h_link2_y = k(0.0005000000000000001) * sin_link3;
-        let h_link2_x = t2 + k(0.0015000000000000005);
-        let J_link2_zz = t2 + k(0.0008333333333333335);
+        let t2 = k(0.0005000000000000001) * cos_link3;
         let t3 = S::mul_add(
             k(0.00025000000000000006),
             cos_link3,
@@ -498,7 +512,10 @@ impl Gripper {
         );
         let t4 = sin_link2 * h_link2_y;
         let t5 = S::mul_add(cos_link2, t2, t3 - t4);
+        let h_link2_x = t2 + k(0.0015000000000000005);
+        let J_link2_zz = t2 + k(0.0008333333333333335);
         let t6 = S::mul_add(-cos_link2, h_link2_x, t4);
+        let t7 = J_link2_zz - t6;
         let J_link1_zz = S::mul_add(
             k(-2.0),
             t6,
@@ -509,7 +526,6 @@ impl Gripper {
                     k(0.006000000000000001),
                 ),
         );
-        let t7 = J_link2_zz - t6;
         [
             [J_link1_zz, t7, t5, t1],
             [t7, J_link2_zz, t3, k(0.0)],
@@ -1287,6 +1303,12 @@ impl ::redysim_runtime::Mechanism for Gripper {
     }
     fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
         <Gripper>::JOINT_NAMES.get(index).copied()
+    }
+    fn coordinate_name(&self, index: usize) -> ::core::option::Option<&str> {
+        <Gripper>::COORDINATE_NAMES.get(index).copied()
+    }
+    fn velocity_name(&self, index: usize) -> ::core::option::Option<&str> {
+        <Gripper>::VELOCITY_NAMES.get(index).copied()
     }
     fn nf(&self) -> usize {
         <Gripper>::NF

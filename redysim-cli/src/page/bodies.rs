@@ -1,7 +1,7 @@
 //! The looks of a mechanism, from its model: from where to where its links reach, and how they are joined.
 
 use nalgebra::Vector3;
-use redysim_model::joint::{self, Screw};
+use redysim_model::joint;
 use redysim_model::spatial::{Pose, Vec3};
 use redysim_model::{CutKind, CutSide, JointKind, Link, Model};
 use serde::Serialize;
@@ -94,7 +94,8 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
     let mut moving = layout.joints.iter();
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None, ellipsoid: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
-        let screw = joint::Joint::of(link).map_or(Screw { turn: 0.0, slide: 0.0 }, joint::Joint::screw);
+        let screw = joint::Joint::of(link).filter(|joint| joint.is_on_axis()).map(|joint| joint.screw(0));
+        let [turn, slide] = screw.map_or([0.0; 2], |screw| [screw.turn, screw.slide]);
         let placement = frame(model, link.parent) * link.placement;
         let joint = Joint {
             name: &link.joint_name,
@@ -103,8 +104,8 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
             parent: number(link.parent),
             position: placement.position.0,
             rotation: quaternion(placement.rotation),
-            turn: screw.turn,
-            slide: screw.slide,
+            turn,
+            slide,
             offset: link.offset,
             coordinate: if link.joint.dof() > 0 { moving.next().map(|joint| joint.q.start) } else { None },
             rail: (link.joint == JointKind::Prismatic)

@@ -173,8 +173,9 @@ impl State {
         let mut shares = || (0..nv).map(|_| random.share(false)).collect::<Vec<f64>>();
         let [mut displacement, mut v, mut a] = [shares(), shares(), shares()];
         for body in &tree.bodies {
-            let range = if body.joint.screw().turn == 0.0 { 1.0 } else { PI };
-            displacement[body.v.clone()].iter_mut().for_each(|displacement| *displacement *= range);
+            for (displacement, screw) in displacement[body.v.clone()].iter_mut().zip(body.joint.screws()) {
+                *displacement *= if screw.turn == 0.0 { 1.0 } else { PI };
+            }
         }
         let q = denoc::integrate(tree, &denoc::neutral::<f64>(tree), &displacement);
         let diagonal = denoc::mass_matrix(tree, &Untraced, &q).into_iter().enumerate().map(|(i, row)| row[i]);

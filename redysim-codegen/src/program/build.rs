@@ -91,14 +91,14 @@ impl<'a> Builder<'a> {
                 // What another step reads is a variable in every group, as it is in the template.
                 self.fused[index] &= !lasting[place.template];
             }
-            if matches!(node, Node::Sin(_) | Node::Cos(_)) {
+            if self.is_given(index) {
                 // Among loops, sines and cosines are read where they are used.
                 if self.rerolled.is_none() {
                     self.variables[index] = Some(identifiers.make(graph.name(index), false));
                 }
                 continue;
             }
-            if !is_operation(node) || place.is_some_and(|place| place.template != index) {
+            if !self.is_operation(index) || place.is_some_and(|place| place.template != index) {
                 continue;
             }
             sizes[index] = 1 + node.operands().map(|operand| sizes[operand.node()]).sum::<usize>();
@@ -123,9 +123,9 @@ impl<'a> Builder<'a> {
             while let Some((number, _)) = sweeps.next_if(|(_, sweep)| sweep.start <= index) {
                 parts.push((std::mem::take(&mut statements), Some(Statement::Loop(self.sweep(number)))));
             }
-            let (Some(name), node) = (name, self.graph.node(index)) else { continue };
+            let Some(name) = name else { continue };
             let in_loop = self.rerolled.as_ref().is_some_and(|rerolled| rerolled.place(index).is_some());
-            if is_operation(node) && !in_loop {
+            if self.is_operation(index) && !in_loop {
                 statements.push(self.definition(index, name, Scope::Outside));
             }
         }
@@ -146,6 +146,17 @@ impl<'a> Builder<'a> {
             read_later.extend(reads);
         }
         code.into_iter().rev().flatten().collect()
+    }
+
+    /// Whether a value is the sine or cosine of an angle of the mechanism, which the function is given.
+    pub fn is_given(&self, index: usize) -> bool {
+        self.positions.contains_key(&index)
+    }
+
+    /// Whether the code computes a value.
+    fn is_operation(&self, index: usize) -> bool {
+        let node = self.graph.node(index);
+        is_operation(node) || (matches!(node, Node::Sin(_) | Node::Cos(_)) && !self.is_given(index))
     }
 
     /// The `let` of one value.

@@ -139,6 +139,10 @@ pub enum Value {
     MultiplyAdd(Box<Value>, Box<Value>, Box<Value>),
     /// The non-negative square root of a.
     SquareRoot(Box<Value>),
+    /// The sine of a.
+    Sine(Box<Value>),
+    /// The cosine of a.
+    Cosine(Box<Value>),
 }
 
 /// Where an element stands in an array.
@@ -183,7 +187,7 @@ impl Value {
     fn variables<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
         match self {
             Value::Variable(name) => visit(name),
-            Value::Negative(a) | Value::SquareRoot(a) => a.variables(visit),
+            Value::Negative(a) | Value::SquareRoot(a) | Value::Sine(a) | Value::Cosine(a) => a.variables(visit),
             Value::Sum(a, b) | Value::Difference(a, b) | Value::Product(a, b) | Value::Quotient(a, b) => {
                 a.variables(visit);
                 b.variables(visit);

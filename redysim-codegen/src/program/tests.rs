@@ -54,6 +54,8 @@ impl Run<'_> {
             // Rounded twice, as in the graph.
             Value::MultiplyAdd(a, b, c) => self.value(a) * self.value(b) + self.value(c),
             Value::SquareRoot(a) => self.value(a).sqrt(),
+            Value::Sine(a) => Scalar::sin_cos(self.value(a)).0,
+            Value::Cosine(a) => Scalar::sin_cos(self.value(a)).1,
         }
     }
 

@@ -43,8 +43,8 @@ impl Builder<'_> {
                 signed(Value::Argument(usize::from(argument), index), negative)
             }
             Node::Parameter { index, .. } => signed(Value::Given(index as usize), negative),
-            Node::Sin(_) => signed(self.trig(Trig::Sines, index, scope), negative),
-            Node::Cos(_) => signed(self.trig(Trig::Cosines, index, scope), negative),
+            Node::Sin(_) if self.is_given(index) => signed(self.trig(Trig::Sines, index, scope), negative),
+            Node::Cos(_) if self.is_given(index) => signed(self.trig(Trig::Cosines, index, scope), negative),
             Node::Subtract(..) => self.operation(index, edge.is_negative(), scope),
             _ => signed(self.operation(index, false, scope), negative),
         }
@@ -60,8 +60,10 @@ impl Builder<'_> {
             Node::Multiply(a, b) => Value::Product(boxed(a, 0), boxed(b, 1)),
             Node::Divide(a, b) => Value::Quotient(boxed(a, 0), boxed(b, 1)),
             Node::Sqrt(a) => Value::SquareRoot(boxed(a, 0)),
-            Node::Sin(_) | Node::Cos(_) | Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => {
-                unreachable!("sines, cosines, inputs, parameters and constants are not operations")
+            Node::Sin(a) => Value::Sine(boxed(a, 0)),
+            Node::Cos(a) => Value::Cosine(boxed(a, 0)),
+            Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => {
+                unreachable!("inputs, parameters and constants are not operations")
             }
         }
     }

@@ -97,7 +97,12 @@ impl Rerolled {
     /// The longest run of uniform bodies, if the function is long enough for loops. `positions` has the position of the
     /// angle of each sine and cosine.
     pub fn of(expressions: &Expressions, positions: &HashMap<usize, usize>) -> Option<Rerolled> {
-        if !expressions.is_long() {
+        let is_given = |node: usize| positions.contains_key(&node);
+        let uses = expressions.uses();
+        let computes_trig = |node: usize| {
+            uses[node] > 0 && matches!(expressions.graph.node(node), Node::Sin(_) | Node::Cos(_)) && !is_given(node)
+        };
+        if !expressions.is_long() || (0..uses.len()).any(computes_trig) {
             return None;
         }
         let live = &operations(expressions);

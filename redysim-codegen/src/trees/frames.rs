@@ -17,6 +17,9 @@ use redysim_model::regroup::base_parameters;
 pub fn chosen<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
     let mut best = canonical(tree, keeps_digits);
     for body in (0..best.bodies.len()).rev() {
+        if !best.bodies[body].joint.is_on_axis() {
+            continue;
+        }
         for candidates in [turns, slides] {
             let changes = candidates(&best, body);
             improve(&mut best, body, &changes, cost, keeps_digits);

@@ -76,7 +76,8 @@ pub fn neighbourhood<P: Parameter>(tree: &Tree<P>, body: usize) -> Neighbourhood
         places[index] = Some(part.bodies.len());
         let parent =
             if index == top { part.bodies.len().checked_sub(1) } else { original.parent.and_then(|at| places[at]) };
-        let mut copy = Body { parent, q: own(part.bodies.len()), v: own(part.bodies.len()), ..original.clone() };
+        let [q, v] = [own(part.nq(), original.joint.nq()), own(part.nv(), original.joint.nv())];
+        let mut copy = Body { parent, q, v, ..original.clone() };
         if generation == Some(BELOW) && tree.children(index).next().is_some() {
             copy.inertia = full_inertia().map(P::from_f64);
         }
@@ -86,9 +87,9 @@ pub fn neighbourhood<P: Parameter>(tree: &Tree<P>, body: usize) -> Neighbourhood
     Neighbourhood { tree: part, origins }
 }
 
-/// The coordinate of body number `index` of a part.
-fn own(index: usize) -> Range<usize> {
-    index..index + 1
+/// The coordinates or velocities of a joint that has `count` of them, after the `before` of the bodies before it.
+fn own(before: usize, count: usize) -> Range<usize> {
+    before..before + count
 }
 
 /// A massless body on an oblique joint.
@@ -100,8 +101,8 @@ fn stand_in<P: Parameter>(parent: Option<usize>) -> Body<P> {
         joint: Joint::Revolute,
         offset: 0.0,
         merged_parallel: false,
-        q: own(parent.map_or(0, |parent| parent + 1)),
-        v: own(parent.map_or(0, |parent| parent + 1)),
+        q: own(parent.map_or(0, |parent| parent + 1), 1),
+        v: own(parent.map_or(0, |parent| parent + 1), 1),
         inertia: PseudoInertia::zero(),
         physics: None,
     }

@@ -25,7 +25,8 @@ pub fn merged_everywhere<P: Parameter>(tree: &Tree<P>) -> Option<Tree<P>> {
     let mut all = tree.clone();
     for body in 0..tree.bodies.len() {
         let below = tree.bodies[body].parent.is_some() && tree.bodies[body].is_parallel();
-        all.bodies[body].merged_parallel = below || tree.children(body).any(|child| tree.bodies[child].is_parallel());
+        let above = tree.children(body).any(|child| tree.bodies[child].is_parallel());
+        all.bodies[body].merged_parallel = tree.bodies[body].joint.is_on_axis() && (below || above);
     }
     all.bodies.iter().any(|body| body.merged_parallel).then_some(all)
 }
@@ -38,7 +39,7 @@ fn one_by_one<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDi
         let after_merged =
             tree.bodies[body].parent.is_some_and(|parent| tree.bodies[parent].merged_parallel) && beside(body);
         let tip = tree.children(body).next().is_none();
-        if !parallel_child && !after_merged && !tip {
+        if !tree.bodies[body].joint.is_on_axis() || !(parallel_child || after_merged || tip) {
             continue;
         }
         let part = neighbourhood(&tree, body);

@@ -1,5 +1,6 @@
 //! What acts in a joint itself: numbers that a joint can have.
 
+use super::placement::moves_in_space;
 use crate::joint::{FRICTION_VELOCITY, JointPhysics};
 use crate::messages;
 use crate::model::JointKind;
@@ -13,6 +14,13 @@ pub(super) fn check(link: &LinkTable, findings: &mut Findings) -> Option<JointPh
         for (key, field) in link.physics.fields() {
             if let Some(given) = field.spanned() {
                 findings.error(given.span(), messages::physics_of_fixed(&link.item, key.name));
+            }
+        }
+    }
+    if let Some(joint) = moves_in_space(link) {
+        for (key, field) in link.physics.fields() {
+            if let Some(given) = field.spanned() {
+                findings.error(given.span(), messages::needs_one_axis(&link.item, key.name, joint.name()));
             }
         }
     }

@@ -24,6 +24,7 @@ pub(super) struct Placed {
 
 /// Where the link's joint stands, and the link's frame on it.
 pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed> {
+    in_space_by_origin(link, findings);
     placed_once(link, findings);
     axis_beside_origin(link, findings);
     beside_origin(link, findings);
@@ -43,6 +44,29 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
     let placement = link.origin.value_or(Pose::identity())?;
     let frame = link.far_end.value_or(Pose::identity())?;
     Some(Placed { placement, axis: axis?, offset: link.offset.value_or(0.0)?, frame })
+}
+
+/// Whether the joint moves its link in space, not about or along one axis.
+pub(super) fn moves_in_space(link: &LinkTable) -> Option<JointKind> {
+    link.joint.value().copied().filter(|joint| joint.dof() > 0 && !joint.has_axis())
+}
+
+/// A joint that moves its link in space has coordinates of the link's own frame, and no axis that could stand elsewhere.
+fn in_space_by_origin(link: &LinkTable, findings: &mut Findings) {
+    let Some(joint) = moves_in_space(link) else { return };
+    let keys = [
+        given(&keys::DH, &link.dh),
+        given(&keys::DH_STANDARD, &link.dh_standard),
+        given(&keys::AXIS, &link.axis),
+        given(&keys::OFFSET, &link.offset),
+        given(&keys::FAR_END, &link.far_end),
+        given(&keys::RANGE, &link.range),
+    ];
+    for (key, span) in keys.into_iter().flatten() {
+        if let Some(span) = span {
+            findings.error(span, messages::needs_one_axis(&link.item, key, joint.name()));
+        }
+    }
 }
 
 /// `offset` and `far_end` belong to a joint that moves, placed by `origin` or `axis`: Denavit-Hartenberg parameters have
@@ -83,7 +107,7 @@ fn placed_once(link: &LinkTable, findings: &mut Findings) {
 /// A joint that moves has an axis beside its origin: what a missing one means differs from format to format.
 fn axis_beside_origin(link: &LinkTable, findings: &mut Findings) {
     let without_dh = link.dh.is_missing() && link.dh_standard.is_missing();
-    let moving = link.joint.value().filter(|joint| joint.dof() > 0 && without_dh);
+    let moving = link.joint.value().filter(|joint| joint.has_axis() && without_dh);
     if let (Some(joint), Some(origin), true) = (moving, link.origin.spanned(), link.axis.is_missing()) {
         findings.error(origin.span(), messages::origin_without_axis(&link.item, joint.name()));
     }
@@ -155,7 +179,9 @@ fn about_and_along_z(joint: JointKind, pitch: f64, angle: f64, distance: f64) ->
         // The motion of the offset slides, too.
         JointKind::Helical => (moved(0.0, distance - pitch * angle), angle),
         JointKind::Prismatic => (turned(about_z(angle)), distance),
-        JointKind::Fixed => (moved(0.0, distance) * turned(about_z(angle)), 0.0),
+        JointKind::Spherical | JointKind::Free | JointKind::Fixed => {
+            (moved(0.0, distance) * turned(about_z(angle)), 0.0)
+        }
     }
 }
 
@@ -183,7 +209,7 @@ mod tests {
             JointKind::Revolute => turned(about_z(placed.offset + q)),
             JointKind::Prismatic => moved(0.0, placed.offset + q),
             JointKind::Helical => turned(about_z(placed.offset + q)) * moved(0.0, pitch * (placed.offset + q)),
-            JointKind::Fixed => Pose::identity(),
+            JointKind::Spherical | JointKind::Free | JointKind::Fixed => Pose::identity(),
         };
         placed.placement * motion * placed.frame
     }

@@ -44,10 +44,11 @@ impl<S: Scalar> ArticulatedInertia<S> {
         }
     }
 
-    /// I S, the wrench for a unit acceleration of a joint.
+    /// I S, the wrench for a unit acceleration along one freedom of a joint.
     pub fn column(&self, screw: Screw) -> Wrench<S> {
-        let turn = Wrench { moment: self.tensor.full().column(2), force: Vec3(self.coupling.0[2]) };
-        let slide = Wrench { moment: self.coupling.column(2), force: self.mass.full().column(2) };
+        let axis = screw.axis;
+        let turn = Wrench { moment: self.tensor.full().column(axis), force: Vec3(self.coupling.0[axis]) };
+        let slide = Wrench { moment: self.coupling.column(axis), force: self.mass.full().column(axis) };
         screw.combined(turn, slide)
     }
 

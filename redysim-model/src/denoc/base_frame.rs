@@ -3,7 +3,7 @@
 use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
 use crate::parameter::ParameterIn;
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Pose, Twist, Vec3};
 use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
 
@@ -45,6 +45,16 @@ impl<S: Scalar> Placed<S> {
         self.angular_acceleration.cross(arm) + self.derivative(self.derivative(arm))
     }
 
+    /// The frame, so far fixed to `parent`, at the velocity `across` against it, in its own axes.
+    fn moved_across(mut self, parent: &Self, across: Twist<S>) -> Self {
+        let [turn, slide] = [across.angular, across.linear].map(|vector| self.pose.rotation * vector);
+        self.angular_acceleration = self.angular_acceleration + parent.derivative(turn);
+        self.angular = self.angular + turn;
+        self.acceleration = self.acceleration + (parent.angular + self.angular).cross(slide);
+        self.velocity = self.velocity + slide;
+        self
+    }
+
     /// The frame that stands at `pose` on this one and does not move against it.
     pub fn carry(self, pose: Pose<S>, order: Order) -> Self {
         let arm = self.pose.rotation * pose.position;
@@ -83,9 +93,9 @@ impl<S: Scalar> Bodies<S> {
         }
     }
 
-    /// The axis of a body's joint.
-    pub fn axis(&self, body: usize) -> Vec3<S> {
-        self.placed[body].pose.rotation.column(2)
+    /// An axis of a body's frame.
+    pub fn axis(&self, body: usize, axis: usize) -> Vec3<S> {
+        self.placed[body].pose.rotation.column(axis)
     }
 
     /// A vector fixed to a body, in the body's axes; `None` is the ground.
@@ -135,8 +145,13 @@ fn bodies<S: Scalar>(
         let mut placed = parent.carry(Pose { rotation: Mat3::identity(), position: joint.position }, order);
         placed.pose.rotation = Mat3(parent.pose.rotation.0.map(|row| joint.to_body(Vec3(row)).0));
         if order >= Order::Velocities {
+            if !body.joint.is_on_axis() {
+                runs.push(ParallelRun { base: Some(index), rate: S::zero() });
+                bodies.push(placed.moved_across(&parent, body.joint.added(Twist::zero(), &v[body.v.clone()])));
+                return;
+            }
             let axis = placed.pose.rotation.column(2);
-            let (screw, qd) = (body.joint.screw(), v[body.v.start]);
+            let (screw, qd) = (body.joint.screw(0), v[body.v.start]);
             let mut run = match body.parent {
                 Some(parent) if body.is_parallel() => runs[parent].behind(body),
                 _ => ParallelRun { base: body.parent, rate: S::zero() },

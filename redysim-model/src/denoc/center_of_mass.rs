@@ -2,6 +2,7 @@
 
 use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
+use crate::joint::across;
 use crate::parameter::ParameterIn;
 use crate::spatial::Vec3;
 use crate::tree::{Body, Tree};
@@ -9,8 +10,8 @@ use redysim_runtime::{CenterOfMass, Scalar};
 
 /// Position Σ m c / Σ m and velocity Σ m ċ / Σ m of the centre of mass, in the base frame.
 ///
-/// Momentum is linear in the joint velocities: a joint that turns about z adds v (z × h) to that of what it carries,
-/// whose first moment about the joint is h, and one that slides along z adds v m z. So one recursion inwards has both.
+/// Momentum is linear in the joint velocities: a joint that turns about an axis e adds v (e × h) to that of what it
+/// carries, whose first moment about the joint is h, and one that slides along e adds v m e. So one recursion inwards has both.
 pub fn center_of_mass<S: Scalar, P: ParameterIn<S>>(
     tree: &Tree<P>,
     trace: &impl Trace<S>,
@@ -29,13 +30,14 @@ pub fn center_of_mass<S: Scalar, P: ParameterIn<S>>(
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let own = moments[index];
         trace.name_vector(own, "h", index);
-        let (screw, qd) = (body.joint.screw(), v[body.v.start]);
         let mut own_momentum = momenta[index];
-        if let Some(turn) = screw.turn(qd) {
-            own_momentum = own_momentum + Vec3([-own[1], own[0], S::zero()]).scale(turn);
-        }
-        if let Some(slide) = screw.slide(qd) {
-            own_momentum[2] += masses[index].value() * slide;
+        for (screw, &v) in body.joint.screws().zip(&v[body.v.clone()]) {
+            if let Some(turn) = screw.turn(v) {
+                own_momentum = own_momentum + across(screw.axis, own).scale(turn);
+            }
+            if let Some(slide) = screw.slide(v) {
+                own_momentum[screw.axis] += masses[index].value() * slide;
+            }
         }
         trace.name_vector(own_momentum, "p", index);
         let carried = frame.position.scale(masses[index].value()) + frame.to_parent(own);

@@ -48,21 +48,27 @@ pub fn coriolis_matrix<S: Scalar>(
         if let Some(parent) = body.parent {
             composites[parent] = composites[parent].plus(&composite.to_parent(&frames[index], planar[index]));
         }
-        let motion = body.joint.screw().motion();
         let inertia = composite.inertia.to_rigid();
-        let mut momentum = inertia.momentum(motion);
-        let mut own = inertia.momentum(motion.rate_in(velocities[index])) + composite.coriolis(motion);
-        let mut of_others = composite.coriolis_transposed(motion);
-        let column = body.v.start;
-        matrix[column][column] = body.joint.screw().project(own);
-        let mut at = index;
-        while let Some(parent) = tree.bodies[at].parent {
-            [momentum, own, of_others] = [momentum, own, of_others].map(|wrench| frames[at].wrench_to_parent(wrench));
-            let (row, screw) = (tree.bodies[parent].v.start, tree.bodies[parent].joint.screw());
-            let rate = screw.motion().rate_in(velocities[parent]);
-            matrix[row][column] = screw.project(own);
-            matrix[column][row] = momentum.dot(rate) + screw.project(of_others);
-            at = parent;
+        for (column, screw) in body.v.clone().zip(body.joint.screws()) {
+            let motion = screw.motion();
+            let mut momentum = inertia.momentum(motion);
+            let mut own = inertia.momentum(motion.rate_in(velocities[index])) + composite.coriolis(motion);
+            let mut of_others = composite.coriolis_transposed(motion);
+            for (row, screw) in body.v.clone().zip(body.joint.screws()) {
+                matrix[row][column] = screw.project(own);
+            }
+            let mut at = index;
+            while let Some(parent) = tree.bodies[at].parent {
+                [momentum, own, of_others] =
+                    [momentum, own, of_others].map(|wrench| frames[at].wrench_to_parent(wrench));
+                let joint = &tree.bodies[parent];
+                for (row, screw) in joint.v.clone().zip(joint.joint.screws()) {
+                    let rate = screw.motion().rate_in(velocities[parent]);
+                    matrix[row][column] = screw.project(own);
+                    matrix[column][row] = momentum.dot(rate) + screw.project(of_others);
+                }
+                at = parent;
+            }
         }
     }
     matrix

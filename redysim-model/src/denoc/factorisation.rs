@@ -7,24 +7,35 @@ use redysim_runtime::Scalar;
 /// M = U D Uᵀ with U unit upper triangular in the order of bodies and D diagonal.
 ///
 /// Elimination runs from the tips to the ground, so an element of U is zero wherever one joint does not carry the
-/// other, as in M itself: nothing is filled in, and nothing is computed for such pairs.
+/// other, as in M itself: nothing is filled in, and nothing is computed for such pairs. The freedoms of one joint stand
+/// for a chain of joints of one freedom each.
 #[derive(Clone, Debug)]
 pub struct Factorisation<S> {
-    /// Row by row in the order of bodies; only entries (ancestor, body) are used.
+    /// Row by row in the order of bodies; only entries (ancestor, freedom) are used.
     upper: Vec<Vec<S>>,
     /// 1/D.
     inverse_pivots: Vec<S>,
+    /// For each freedom, the one before it on the way to the ground.
     parents: Vec<Option<usize>>,
-    coordinates: Vec<usize>,
+    /// For each freedom, its velocity in the model's order.
+    velocities: Vec<usize>,
 }
 
 impl<S: Scalar> Factorisation<S> {
     /// Factorises the mass matrix of `tree`, given by rows in the model's order.
     pub fn new(tree: &Tree<impl Copy>, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
-        let coordinates: Vec<usize> = tree.bodies.iter().map(|body| body.v.start).collect();
-        let parents: Vec<Option<usize>> = tree.bodies.iter().map(|body| body.parent).collect();
+        let (mut velocities, mut parents, mut last) = (Vec::new(), Vec::new(), Vec::new());
+        for body in &tree.bodies {
+            let mut before = body.parent.map(|parent| last[parent]);
+            for velocity in body.v.clone() {
+                parents.push(before);
+                before = Some(velocities.len());
+                velocities.push(velocity);
+            }
+            last.push(velocities.len() - 1);
+        }
         let mut upper: Vec<Vec<S>> =
-            coordinates.iter().map(|&i| coordinates.iter().map(|&j| matrix[i][j]).collect()).collect();
+            velocities.iter().map(|&i| velocities.iter().map(|&j| matrix[i][j]).collect()).collect();
         let mut inverse_pivots = vec![S::zero(); tree.nv()];
         for k in (0..tree.nv()).rev() {
             let inverse = S::one() / upper[k][k];
@@ -40,12 +51,12 @@ impl<S: Scalar> Factorisation<S> {
                 upper[i][k] = factor;
             }
         }
-        Factorisation { upper, inverse_pivots, parents, coordinates }
+        Factorisation { upper, inverse_pivots, parents, velocities }
     }
 
     /// M⁻¹ b, with b and the result in the model's order.
     pub fn solve(&self, b: &[S]) -> Vec<S> {
-        let mut x: Vec<S> = self.coordinates.iter().map(|&i| b[i]).collect();
+        let mut x: Vec<S> = self.velocities.iter().map(|&i| b[i]).collect();
         for k in (0..x.len()).rev() {
             for i in ancestors(&self.parents, k) {
                 let update = self.upper[i][k] * x[k];
@@ -62,14 +73,14 @@ impl<S: Scalar> Factorisation<S> {
             }
         }
         let mut result = vec![S::zero(); x.len()];
-        for (&coordinate, value) in self.coordinates.iter().zip(x) {
-            result[coordinate] = value;
+        for (&velocity, value) in self.velocities.iter().zip(x) {
+            result[velocity] = value;
         }
         result
     }
 }
 
-/// The bodies on the way from `body` to the ground, without itself.
-fn ancestors(parents: &[Option<usize>], body: usize) -> impl Iterator<Item = usize> {
-    std::iter::successors(parents[body], |&at| parents[at])
+/// The freedoms on the way from `freedom` to the ground, without itself.
+fn ancestors(parents: &[Option<usize>], freedom: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(parents[freedom], |&at| parents[at])
 }

@@ -54,8 +54,8 @@ pub fn forward_dynamics_by_factorisation<S: Scalar>(
 
 /// Accelerations by recursion: inertias and bias wrenches inwards, accelerations outwards.
 ///
-/// The same elimination, M = U D Uᵀ, without the matrix: the pivot D of a joint is what its body and all it carries,
-/// on free joints, set against it. The bias is carried along as a wrench instead of being summed up as joint forces
+/// The same elimination, M = U D Uᵀ, without the matrix: the pivot D of a freedom is what its body and all it carries,
+/// on free joints, set against it; the freedoms of one joint are eliminated one after the other. The bias is carried along as a wrench instead of being summed up as joint forces
 /// first, since their roundoff would be multiplied by the condition of M.
 pub fn forward_dynamics_by_recursion<S: Scalar>(
     tree: &Tree<impl ParameterIn<S>>,
@@ -93,43 +93,54 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     wrenches.clear();
     wrenches.resize(tree.bodies.len(), Wrench::zero());
     pivots.clear();
-    pivots.reserve(tree.bodies.len());
+    pivots.resize(tree.nv(), Pivot::default());
     trace.sweep("inward", tree.inward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let screw = body.joint.screw();
-        let inertia = inertias[index];
-        inertia.name(trace, index);
+        let mut felt = inertias[index];
+        felt.name(trace, index);
         let own = frame.own_inertia(body.inertia).to_rigid();
+        let mut reaction = Wrench::zero();
         let bias = wrenches[index] + centrifugal_wrench(own, biases[index].angular);
         trace.name_wrench(bias, ["bias_n", "bias_f"], index);
-        let column = inertia.column(screw);
         let armature: Option<S> = body.physics.and_then(|physics| physics.armature());
-        let pivot = screw.project(column);
-        let inverse = S::one() / armature.map_or(pivot, |armature| pivot + armature);
-        trace.name(inverse, "inv_D", index, "");
-        let ratio = column.scale(inverse);
-        trace.name_wrench(ratio, ["ratio_n", "ratio_f"], index);
-        let tau = tau[body.v.start];
-        let passive = body.physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start]));
-        let tau = passive.map_or(tau, |passive: S| tau - passive);
-        let drive = tau - screw.project(bias);
-        trace.name(drive, "drive", index, "");
-        if let Some(parent) = body.parent {
+        let passive: Option<S> =
+            body.physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start]));
+        let without_passive;
+        let tau = match passive {
+            Some(passive) => {
+                without_passive = [tau[body.v.start] - passive];
+                &without_passive
+            }
+            None => &tau[body.v.clone()],
+        };
+        // One freedom after the other: each meets the body with those before it free.
+        for (i, (screw, &tau)) in body.joint.screws().zip(tau).enumerate() {
+            let component = body.joint.component(i);
+            let column = felt.column(screw);
+            let pivot = screw.project(column);
+            let inverse = S::one() / armature.map_or(pivot, |armature| pivot + armature);
+            trace.name(inverse, "inv_D", index, component);
+            let ratio = column.scale(inverse);
+            trace.name_wrench(ratio, ["ratio_n", "ratio_f"], index);
+            let drive = tau - screw.project(bias) - screw.project(reaction);
+            trace.name(drive, "drive", index, component);
+            pivots[body.v.start + i] = Pivot { inverse, ratio, drive };
+            if body.parent.is_none() && i + 1 == body.v.len() {
+                return;
+            }
             // The part of the pivot that the rotor has, which the parent meets through the joint as well.
             let rotor_share = armature.map(|armature| armature * inverse);
-            let felt = inertia.project_through_joint(screw, column, ratio, rotor_share);
-            let wrench = bias + felt.apply(biases[index].acceleration) + ratio.scale(drive);
+            felt = felt.project_through_joint(screw, column, ratio, rotor_share);
+            reaction = reaction + ratio.scale(drive);
+        }
+        if let Some(parent) = body.parent {
+            let wrench = bias + felt.apply(biases[index].acceleration) + reaction;
             // What the joint transmits along S is its force, less what accelerates the rotor.
-            let wrench = match rotor_share {
-                None => body.joint.with_forces(wrench, &[tau]),
-                Some(_) => wrench,
-            };
+            let wrench = if armature.is_none() { body.joint.with_forces(wrench, tau) } else { wrench };
             wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
         }
-        pivots.push(Pivot { inverse, ratio, drive });
     });
-    pivots.reverse();
 
     let ground = Twist { angular: Vec3::zero(), linear: (-tree.gravity).map(ParameterIn::value) };
     accelerations.clear();
@@ -137,17 +148,18 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
     trace.sweep("accelerations", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| accelerations[parent]);
-        let acceleration = Twist {
+        let mut acceleration = Twist {
             angular: frame.to_body(parent.angular),
             linear: frame.to_body(parent.linear + parent.angular.cross(frame.position)),
         } + biases[index].acceleration;
-        let screw = body.joint.screw();
-        let Pivot { inverse, ratio, drive } = &pivots[index];
         let has_rotor = body.physics.is_some_and(|physics| physics.armature::<S>().is_some());
-        let qdd = *inverse * *drive - power(screw, *ratio, acceleration, has_rotor);
-        let acceleration = screw.added(acceleration, qdd);
-        trace.name(qdd, "acc", index, "");
-        result[body.v.start] = qdd;
+        for (i, screw) in body.joint.screws().enumerate().rev() {
+            let Pivot { inverse, ratio, drive } = &pivots[body.v.start + i];
+            let qdd = *inverse * *drive - power(screw, *ratio, acceleration, has_rotor);
+            acceleration = screw.added(acceleration, qdd);
+            trace.name(qdd, "acc", index, body.joint.component(i));
+            result[body.v.start + i] = qdd;
+        }
         trace.name_twist(acceleration, ["dw", "acc"], index);
         accelerations.push(acceleration);
     });

@@ -12,7 +12,7 @@ use redysim_runtime::Scalar;
 /// A rotation about z: cosine and sine of its angle.
 type RotationAboutZ<S> = (S, S);
 
-/// The axes in which a body's quantities are computed, in its parent's: a fixed rotation, then the joint's own.
+/// The axes in which a body's quantities are computed, in its parent's: a fixed rotation, then the joint's own about z.
 ///
 /// The two rotations are kept apart, since the fixed one is mostly made of zeros and ones. The axes of a body
 /// may not rotate with its joint ([`Body::merged_parallel`](crate::tree::Body::merged_parallel)); the body then rotates
@@ -22,6 +22,7 @@ pub(super) struct JointFrame<S> {
     /// The rotation of the parent against its axes, where these do not rotate with its joint and the axes are not
     /// parallel.
     parent_rotation: Option<RotationAboutZ<S>>,
+    /// The rotation by the body's placement, and by its joint where that can turn it about any axis.
     fixed: Mat3<S>,
     /// The columns of the product of all rotations between the parent's axes and the body's, for numbers.
     columns: Option<Mat3<S>>,
@@ -62,7 +63,7 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
     frames.clear();
     frames.reserve(tree.bodies.len());
     trace.sweep("frames", tree.outward(), |index| {
-        let (body, AxisPosition { angle, displacement }) = (&tree.bodies[index], positions[index]);
+        let (body, AxisPosition { angle, displacement, in_space }) = (&tree.bodies[index], positions[index]);
         let parent = body.parent.and_then(|parent| frames[parent].body_rotation);
         let joint_rotation = angle.map(|Angle { value, is_sum, rotation }| {
             let (cos, sin) = rotation.unwrap_or_else(|| {
@@ -75,13 +76,20 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
             (cos, sin)
         });
         let Pose { rotation, position } = body.placement;
-        let fixed = Mat3::constant(rotation);
+        let mut fixed = Mat3::constant(rotation);
         let mut position = rotated(parent, Vec3::constant(position));
         let parent_rotation = parent.filter(|_| !body.is_parallel());
+        if let Some((rotation, displacement)) = in_space {
+            if let Some(displacement) = displacement {
+                position = position + rotated(parent_rotation, fixed * displacement);
+            }
+            fixed = fixed * rotation;
+        }
         if let Some(displacement) = displacement {
             position = position + rotated(parent_rotation, fixed.column(2)).scale(displacement);
         }
         let selects_column = !T::WHOLE_ROTATIONS
+            && body.joint.is_on_axis()
             && parent_rotation.is_none()
             && rotation.column(2).0.iter().filter(|x| **x != 0.0).count() == 1;
         let (rotation_about_z, body_rotation) =
@@ -112,7 +120,7 @@ pub(super) struct Angle<S> {
     rotation: Option<RotationAboutZ<S>>,
 }
 
-/// Where a body is on its axis.
+/// Where a body is on its joint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AxisPosition<S> {
     /// Its angle about z: against its parent or, if the joint axes are parallel and the parent's axes do not rotate
@@ -120,16 +128,25 @@ pub(super) struct AxisPosition<S> {
     angle: Option<Angle<S>>,
     /// Its displacement along z against its parent.
     displacement: Option<S>,
+    /// Its rotation and displacement, where these are not about and along z.
+    in_space: Option<(Mat3<S>, Option<Vec3<S>>)>,
 }
 
-/// The position of each body on its axis.
+/// The position of each body on its joint.
 fn find_positions<S: Scalar>(positions: &mut Vec<AxisPosition<S>>, tree: &Tree<impl Copy>, q: &[S]) {
     positions.clear();
     positions.reserve(tree.bodies.len());
     for body in &tree.bodies {
         let merged_parent = body.parent.filter(|&parent| tree.bodies[parent].merged_parallel && body.is_parallel());
         let is_term = body.merged_parallel || merged_parent.is_some() || body.offset != 0.0;
-        let JointPosition { angle, displacement } = body.joint.position(&q[body.q.clone()]);
+        let (angle, displacement) = match body.joint.position(&q[body.q.clone()]) {
+            JointPosition::OnAxis { angle, displacement } => (angle, displacement),
+            JointPosition::InSpace { rotation, displacement } => {
+                let in_space = Some((rotation, displacement));
+                positions.push(AxisPosition { angle: None, displacement: None, in_space });
+                continue;
+            }
+        };
         let own = angle.map(|angle| {
             let [near] = if is_term { S::without_turns([angle]) } else { [angle] };
             if body.offset == 0.0 { near } else { near + S::from_f64(body.offset) }
@@ -141,7 +158,7 @@ fn find_positions<S: Scalar>(positions: &mut Vec<AxisPosition<S>>, tree: &Tree<i
             _ => carried.or(own),
         };
         let angle = value.map(|value| Angle { value, is_sum: carried.is_some(), rotation: None });
-        positions.push(AxisPosition { angle, displacement });
+        positions.push(AxisPosition { angle, displacement, in_space: None });
     }
 }
 
@@ -177,10 +194,10 @@ impl<S: Scalar> JointFrame<S> {
         self.to_parent(point) + self.position
     }
 
-    /// The joint's axis, in the parent's axes.
+    /// An axis of the joint, one of the body's frame, in the parent's axes.
     #[inline(always)]
-    pub fn axis(&self) -> Vec3<S> {
-        rotated(self.parent_rotation, self.fixed.column(2))
+    pub fn axis(&self, axis: usize) -> Vec3<S> {
+        rotated(self.parent_rotation, self.fixed.column(axis))
     }
 
     /// A vector in the parent's axes, in the body's.

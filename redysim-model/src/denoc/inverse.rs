@@ -4,10 +4,10 @@ use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
 use super::workspace::{BodyMotion, Workspace};
 use crate::inertia::Sym3;
-use crate::joint::Screw;
+use crate::joint::Joint;
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
-use crate::spatial::{Mat3, Vec3, Wrench};
+use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
 
@@ -30,29 +30,24 @@ impl<S: Scalar> BodyMotion<S> {
         Self::new(Vec3::zero(), Vec3::zero(), (-gravity).map(ParameterIn::value))
     }
 
-    /// The motion across a joint of velocity `qd` and acceleration `qdd`.
+    /// The motion across a joint of velocities `v` and accelerations `a`.
     #[inline(always)]
-    fn across(self, frame: &JointFrame<S>, screw: Screw, qd: S, qdd: S) -> Self {
-        let mut acceleration = frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position);
-        let mut w = frame.to_body(self.angular);
-        if let (Some(slide), Some(along)) = (screw.slide(qd), screw.slide(qdd)) {
-            let twice = slide + slide;
-            acceleration = acceleration + Vec3([w[1] * twice, -(w[0] * twice), along]);
-        }
-        let before = frame.to_body(self.angular_acceleration);
-        let (Some(turn), Some(about)) = (screw.turn(qd), screw.turn(qdd)) else {
-            return Self::new(w, before, acceleration);
+    fn across(self, frame: &JointFrame<S>, joint: Joint, v: &[S], a: &[S]) -> Self {
+        let w = frame.to_body(self.angular);
+        let carried = Twist {
+            angular: frame.to_body(self.angular_acceleration),
+            linear: frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position),
         };
-        let Some(image) = frame.axis_image(self.angular_acceleration_tensor) else {
-            let angular_acceleration = before + Vec3([w[1] * turn, -(w[0] * turn), about]);
-            w[2] += turn;
-            return Self::new(w, angular_acceleration, acceleration);
+        let acceleration = joint.added(carried + joint.bias(w, v), a);
+        let Twist { angular: w, .. } = joint.added(Twist { angular: w, linear: Vec3::zero() }, v);
+        let Some((image, about)) = frame.axis_image(self.angular_acceleration_tensor).zip(joint.screw(0).turn(a[0]))
+        else {
+            return Self::new(w, acceleration.angular, acceleration.linear);
         };
         // The directions of the axis belong to both bodies, so the third columns of their U are the same vector, and
         // U_xz = ω_x ω_z + ω̇_y, U_yz = ω_y ω_z − ω̇_x give ω̇ without the products of ω and the joint's velocity.
-        w[2] += turn;
-        let angular_acceleration = Vec3([w[1] * w[2] - image[1], image[0] - w[0] * w[2], before[2] + about]);
-        let mut motion = Self::new(w, angular_acceleration, acceleration);
+        let angular_acceleration = Vec3([w[1] * w[2] - image[1], image[0] - w[0] * w[2], carried.angular[2] + about]);
+        let mut motion = Self::new(w, angular_acceleration, acceleration.linear);
         for i in 0..3 {
             motion.angular_acceleration_tensor.0[i][2] = image[i];
         }
@@ -174,7 +169,7 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let parent = body.parent.map_or(ground, |parent| motions[parent]);
-        let motion = parent.across(frame, body.joint.screw(), v[body.v.start], a[body.v.start]);
+        let motion = parent.across(frame, body.joint, &v[body.v.clone()], &a[body.v.clone()]);
         motion.name(trace, index);
         wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), SecondMoments::new(&body.inertia, frame)));
         motions.push(motion);
@@ -190,7 +185,9 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
         if let Some(force) = in_joint(body) {
             tau[body.v.start] += force;
         }
-        trace.name(tau[body.v.start], "tau", index, "");
+        for (i, &tau) in tau[body.v.clone()].iter().enumerate() {
+            trace.name(tau, "tau", index, body.joint.component(i));
+        }
     });
 }
 

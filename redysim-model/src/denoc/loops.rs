@@ -6,6 +6,7 @@
 
 use super::base_frame::{Bodies, Order, Placed};
 use super::trace::{Trace, Untraced};
+use crate::joint::Screw;
 use crate::model::CutKind;
 use crate::parameter::ParameterIn;
 use crate::spatial::{Mat3, Vec3};
@@ -100,51 +101,54 @@ pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
 pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     // A joint that carries both sides turns their difference; one that carries one side moves that side alone.
-    let over_joints = |a: &Side<S>, b: &Side<S>, effect: &dyn Fn(usize, bool, bool) -> S| {
+    let over_joints = |a: &Side<S>, b: &Side<S>, effect: &dyn Fn(usize, Screw, bool, bool) -> S| {
         let mut row = vec![S::zero(); tree.nv()];
         for (index, body) in tree.bodies.iter().enumerate() {
             if a.carried[index] || b.carried[index] {
-                row[body.v.start] = effect(index, a.carried[index], b.carried[index]);
+                for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+                    row[velocity] = effect(index, screw, a.carried[index], b.carried[index]);
+                }
             }
         }
         row
     };
-    let point_effect = |index: usize, a: &Side<S>, b: &Side<S>, on_a: bool, on_b: bool| {
-        let (screw, sign) = (tree.bodies[index].joint.screw(), if on_b { S::one() } else { -S::one() });
+    let point_effect = |index: usize, screw: Screw, a: &Side<S>, b: &Side<S>, on_a: bool, on_b: bool| {
+        let (axis, sign) = (bodies.axis(index, screw.axis), if on_b { S::one() } else { -S::one() });
         let turn = screw.turn(S::one()).map(|turn| {
             let arm = match (on_a, on_b) {
                 (true, true) => b.point() - a.point(),
                 (_, true) => b.point() - bodies.placed[index].pose.position,
                 _ => a.point() - bodies.placed[index].pose.position,
             };
-            let across = bodies.axis(index).cross(arm);
+            let across = axis.cross(arm);
             if on_a && on_b { across.scale(turn) } else { across.scale(sign * turn) }
         });
         // A joint that carries both sides displaces both.
-        let slide =
-            screw.slide(S::one()).filter(|_| !(on_a && on_b)).map(|slide| bodies.axis(index).scale(sign * slide));
+        let slide = screw.slide(S::one()).filter(|_| !(on_a && on_b)).map(|slide| axis.scale(sign * slide));
         match (turn, slide) {
             (Some(turn), Some(slide)) => turn + slide,
             (turn, slide) => turn.or(slide).unwrap_or(Vec3::zero()),
         }
     };
-    let alignment_effect = |index: usize, a: Vec3<S>, b: Vec3<S>, on_a: bool, on_b: bool| {
+    let alignment_effect = |index: usize, screw: Screw, a: Vec3<S>, b: Vec3<S>, on_a: bool, on_b: bool| {
         let across = match (on_a, on_b) {
             (true, true) => return S::zero(),
             (_, true) => b.cross(a),
             _ => a.cross(b),
         };
-        tree.bodies[index].joint.screw().turn(bodies.axis(index).dot(across)).unwrap_or(S::zero())
+        screw.turn(bodies.axis(index, screw.axis).dot(across)).unwrap_or(S::zero())
     };
     rows(
         tree,
         &bodies,
         |a, b| {
-            [0, 1, 2].map(|axis| over_joints(a, b, &|index, on_a, on_b| point_effect(index, a, b, on_a, on_b)[axis]))
+            [0, 1, 2].map(|axis| {
+                over_joints(a, b, &|index, screw, on_a, on_b| point_effect(index, screw, a, b, on_a, on_b)[axis])
+            })
         },
         |a, b, terms| {
-            over_joints(a, b, &|index, on_a, on_b| {
-                weighted(terms, |i, j| alignment_effect(index, a.axis(i), b.axis(j), on_a, on_b))
+            over_joints(a, b, &|index, screw, on_a, on_b| {
+                weighted(terms, |i, j| alignment_effect(index, screw, a.axis(i), b.axis(j), on_a, on_b))
             })
         },
     )

@@ -4,7 +4,7 @@ use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
 use super::workspace::{Composite, Workspace};
 use crate::inertia::{RigidInertia, Sym3};
-use crate::joint::Screw;
+use crate::joint::{Screw, across};
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Vec3, Wrench};
@@ -43,23 +43,31 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     for (index, body) in tree.bodies.iter().enumerate().rev() {
         let composite = &composites[index];
         composite.name(trace, index);
-        let mut wrench = composite.unit_wrench(body.joint.screw());
-        if let Some(parent) = body.parent {
-            let carried = composite.to_parent(&frames[index], planar[index]);
-            composites[parent] = composites[parent].plus(&carried);
-        }
-        let mut at = index;
-        loop {
-            let joint = &tree.bodies[at];
-            let mut element = joint.joint.screw().project(wrench);
-            if let (true, Some(armature)) = (at == index, body.physics.and_then(|physics| physics.armature())) {
-                element += armature;
+        for (column, screw) in body.v.clone().zip(body.joint.screws()) {
+            let mut wrench = composite.unit_wrench(screw);
+            let mut at = index;
+            loop {
+                let joint = &tree.bodies[at];
+                for (row, screw) in joint.v.clone().zip(joint.joint.screws()) {
+                    if at == index && row > column {
+                        break;
+                    }
+                    let mut element = screw.project(wrench);
+                    if let (true, Some(armature)) = (row == column, body.physics.and_then(|physics| physics.armature()))
+                    {
+                        element += armature;
+                    }
+                    matrix[column * nv + row] = element;
+                    matrix[row * nv + column] = element;
+                }
+                let Some(parent) = joint.parent else { break };
+                wrench = frames[at].wrench_to_parent(wrench);
+                at = parent;
             }
-            matrix[body.v.start * nv + joint.v.start] = element;
-            matrix[joint.v.start * nv + body.v.start] = element;
-            let Some(parent) = joint.parent else { break };
-            wrench = frames[at].wrench_to_parent(wrench);
-            at = parent;
+        }
+        if let Some(parent) = body.parent {
+            let carried = composites[index].to_parent(&frames[index], planar[index]);
+            composites[parent] = composites[parent].plus(&carried);
         }
     }
 }
@@ -105,14 +113,26 @@ impl<S: Scalar> Composite<S> {
         RigidInertia { mass, moment, tensor: Sym3 { zz: self.polar, ..tensor } }
     }
 
-    /// The wrench that gives the body a unit acceleration of its joint from rest.
+    /// The wrench that gives the body a unit acceleration along one freedom of its joint from rest.
     #[inline(always)]
     fn unit_wrench(&self, screw: Screw) -> Wrench<S> {
-        let Vec3([x, y, _]) = self.inertia.moment;
-        let (zero, s) = (S::zero(), self.inertia.second);
-        let turn = Wrench { moment: Vec3([-s.xz, -s.yz, self.polar]), force: Vec3([-y, x, zero]) };
-        let slide = Wrench { moment: Vec3([y, -x, zero]), force: Vec3([zero, zero, self.inertia.mass]) };
+        let force = across(screw.axis, self.inertia.moment);
+        let mut along = Vec3::zero();
+        along[screw.axis] = self.inertia.mass;
+        let turn = Wrench { moment: self.tensor_column(screw.axis), force };
+        let slide = Wrench { moment: -force, force: along };
         screw.combined(turn, slide)
+    }
+
+    /// A column of the inertia tensor.
+    #[inline(always)]
+    fn tensor_column(&self, axis: usize) -> Vec3<S> {
+        let Sym3 { xx, yy, zz, xy, yz, xz } = self.inertia.second;
+        match axis {
+            0 => Vec3([yy + zz, -xy, -xz]),
+            1 => Vec3([-xy, zz + xx, -yz]),
+            _ => Vec3([-xz, -yz, self.polar]),
+        }
     }
 
     pub fn name(&self, trace: &impl Trace<S>, body: usize) {

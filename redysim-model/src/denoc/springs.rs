@@ -15,25 +15,34 @@ use redysim_runtime::Scalar;
 /// Buffers for springs.
 #[derive(Clone, Debug)]
 pub(super) struct Springs<S> {
-    /// The joints that move each end of the spring at hand against the other, from the end towards the ground.
+    /// The freedoms that move each end of the spring at hand against the other, from the end towards the ground.
     levers: [Vec<Lever<S>>; 2],
     /// The joint forces of all springs.
     forces: Vec<S>,
 }
 
-/// A joint that moves one end of a spring.
+/// A freedom of a joint that moves one end of a spring.
 #[derive(Clone, Copy, Debug)]
 struct Lever<S> {
     body: usize,
+    /// Which of the joint's velocities it is.
+    freedom: usize,
     /// From the joint's origin to the end, in the axes of the joint's parent.
     arm: Vec3<S>,
     /// d·∂d/∂q.
     value: S,
 }
 
+impl<S> Lever<S> {
+    /// The velocity of the freedom in the model's order.
+    fn velocity<P>(&self, tree: &Tree<P>) -> usize {
+        tree.bodies[self.body].v.start + self.freedom
+    }
+}
+
 impl<S> Springs<S> {
     pub fn for_tree<P>(tree: &Tree<P>) -> Self {
-        let count = if tree.springs.is_empty() { 0 } else { tree.bodies.len() };
+        let count = if tree.springs.is_empty() { 0 } else { tree.nv() };
         Springs { levers: [0; 2].map(|_| Vec::with_capacity(count)), forces: Vec::with_capacity(count) }
     }
 }
@@ -56,7 +65,7 @@ impl<S: Scalar> Springs<S> {
             let density = spring.force_density(square, || self.half_rate(tree, v));
             let Some(density) = density else { continue };
             for lever in self.levers.iter().flatten() {
-                self.forces[tree.bodies[lever.body].v.start] += lever.value * density;
+                self.forces[lever.velocity(tree)] += lever.value * density;
             }
         }
         &mut self.forces
@@ -93,10 +102,12 @@ impl<S: Scalar> Springs<S> {
         let from_b = climb(of_b, tree, frames, spring.b, carrier);
         let line = from_b - from_a;
         for (levers, mut line) in [(of_a, -line), (of_b, line)] {
-            for Lever { body, arm, value } in levers.iter_mut().rev() {
-                let (frame, screw) = (&frames[*body], tree.bodies[*body].joint.screw());
-                *value = screw.project_along(frame.axis(), Wrench { moment: arm.cross(line), force: line });
-                line = frame.to_body(line);
+            for Lever { body, freedom, arm, value } in levers.iter_mut().rev() {
+                let (frame, screw) = (&frames[*body], tree.bodies[*body].joint.screw(*freedom));
+                *value = screw.project_along(frame.axis(screw.axis), Wrench { moment: arm.cross(line), force: line });
+                if *freedom == 0 {
+                    line = frame.to_body(line);
+                }
             }
         }
         line.dot(line)
@@ -104,7 +115,7 @@ impl<S: Scalar> Springs<S> {
 
     /// ℓ ℓ̇ of the spring at hand.
     fn half_rate(&self, tree: &Tree<impl Copy>, v: &[S]) -> S {
-        let terms = self.levers.iter().flatten().map(|lever| lever.value * v[tree.bodies[lever.body].v.start]);
+        let terms = self.levers.iter().flatten().map(|lever| lever.value * v[lever.velocity(tree)]);
         terms.reduce(|sum, term| sum + term).unwrap_or_else(S::zero)
     }
 }
@@ -119,7 +130,7 @@ fn nearest_carrier<P>(tree: &Tree<P>, mut a: Option<usize>, mut b: Option<usize>
     a
 }
 
-/// Collects the joints between a point and the body `carrier`, which carries it; returns the point in its axes.
+/// Collects the freedoms between a point and the body `carrier`, which carries it; returns the point in its axes.
 fn climb<S: Scalar>(
     levers: &mut Vec<Lever<S>>,
     tree: &Tree<impl Copy>,
@@ -134,7 +145,8 @@ fn climb<S: Scalar>(
     while at != carrier {
         let Some(body) = at else { break };
         let arm = frames[body].to_parent(point);
-        levers.push(Lever { body, arm, value: S::zero() });
+        let freedoms = 0..tree.bodies[body].v.len();
+        levers.extend(freedoms.map(|freedom| Lever { body, freedom, arm, value: S::zero() }));
         point = arm + frames[body].position;
         at = tree.bodies[body].parent;
     }

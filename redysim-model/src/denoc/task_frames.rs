@@ -1,13 +1,13 @@
 //! Frames of interest: Jacobians, their derivatives along the motion, and the joint forces of wrenches.
 //!
-//! Results are in the axes of the base frame. The Jacobian has a column for each joint between the ground and the frame:
+//! Results are in the axes of the base frame. The Jacobian has a column for each freedom between the ground and the frame:
 //! one that turns about the axis z moves a point at the arm r from its origin by z × r. In the body's own axes that is
 //! (−r_y, r_x, 0), two products with columns of its rotation, and none for a frame on the axis.
 
 use super::base_frame::{Bodies, Order};
 use super::trace::Trace;
 use crate::parameter::ParameterIn;
-use crate::spatial::{Twist, Wrench};
+use crate::spatial::Wrench;
 use crate::tree::{BodyFrame, Tree};
 use redysim_runtime::{FrameAcceleration, FrameJacobian, Scalar};
 
@@ -25,10 +25,12 @@ pub fn frame_jacobians<S: Scalar>(
         let mut at = frame.body;
         while let Some(index) = at {
             let (body, rotation) = (&tree.bodies[index], bodies.placed[index].pose.rotation);
-            let Twist { linear: velocity, angular: rate } = body.joint.screw().motion_at(arm);
-            let column = [rotation * velocity, rotation * rate];
-            for i in 0..3 {
-                [linear[i][body.v.start], angular[i][body.v.start]] = column.map(|vector| vector[i]);
+            for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+                let motion = screw.motion_at(arm);
+                let column = [rotation * motion.linear, rotation * motion.angular];
+                for i in 0..3 {
+                    [linear[i][velocity], angular[i][velocity]] = column.map(|vector| vector[i]);
+                }
             }
             arm = bodies.joints[index].point_to_parent(arm);
             at = body.parent;
@@ -77,7 +79,9 @@ pub fn frame_forces<S: Scalar>(
         let Some(wrench) = carried[index] else { return };
         let body = &tree.bodies[index];
         trace.name_wrench(wrench, ["moment", "force"], index);
-        forces[body.v.start] = body.joint.screw().project_along(bodies.axis(index), wrench);
+        for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+            forces[velocity] = screw.project_along(bodies.axis(index, screw.axis), wrench);
+        }
         if let Some(parent) = body.parent {
             let wrench = wrench.moved_by(bodies.joint_arm(tree, index));
             carried[parent] = Some(carried[parent].map_or(wrench, |others| others + wrench));

@@ -6,6 +6,7 @@ use super::springs::Springs;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Twist, Vec3, Wrench};
 use crate::tree::Tree;
+use redysim_runtime::Scalar;
 
 /// The buffers of the recursions over a tree.
 ///
@@ -38,7 +39,11 @@ impl<S> Default for Workspace<S> {
 impl<S> Workspace<S> {
     /// Buffers of the size that the recursions over `tree` need.
     pub fn for_tree<P>(tree: &Tree<P>) -> Self {
-        Workspace { springs: Springs::for_tree(tree), ..Workspace::for_bodies(tree.bodies.len()) }
+        Workspace {
+            springs: Springs::for_tree(tree),
+            pivots: Vec::with_capacity(tree.nv()),
+            ..Workspace::for_bodies(tree.bodies.len())
+        }
     }
 
     fn for_bodies(count: usize) -> Self {
@@ -87,6 +92,12 @@ pub(super) struct Pivot<S> {
     pub inverse: S,
     pub ratio: Wrench<S>,
     pub drive: S,
+}
+
+impl<S: Scalar> Default for Pivot<S> {
+    fn default() -> Self {
+        Pivot { inverse: S::zero(), ratio: Wrench::zero(), drive: S::zero() }
+    }
 }
 
 /// A body and all it carries, as one rigid body.

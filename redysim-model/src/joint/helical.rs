@@ -8,13 +8,13 @@ use redysim_runtime::Scalar;
 
 #[inline]
 pub fn screw(pitch: f64) -> Screw {
-    Screw { turn: 1.0, slide: pitch }
+    Screw { axis: 2, turn: 1.0, slide: pitch }
 }
 
 /// The coordinate is the angle.
 #[inline]
 pub fn position<S: Scalar>(pitch: f64, q: S) -> JointPosition<S> {
-    JointPosition { angle: Some(q), displacement: screw(pitch).slide(q) }
+    JointPosition::OnAxis { angle: Some(q), displacement: screw(pitch).slide(q) }
 }
 
 /// Mass on the axis moves along it, so of what a revolute joint shares the second moment alone is left.

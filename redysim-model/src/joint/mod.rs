@@ -1,27 +1,31 @@
 //! What a joint does: one file for each kind, against one interface.
 //!
-//! A joint moves its body along or about the z axis of the body's frame. Its file states
+//! A joint of one freedom moves its body along or about the z axis of the body's frame; others turn it about any axis.
+//! Its file states
 //!
 //! | item | what it is |
 //! |---|---|
 //! | `position` | where the body is at given coordinates, a [`JointPosition`] |
-//! | `SCREW`, or a function of the joint's parameters | the motion subspace S in the body's frame |
+//! | `SCREW`, or a function | the motion subspace S in the body's frame: a [`Screw`] for each velocity |
 //! | `split` | which inertia of the body its parent may carry as well, with the same joint forces |
 //! | `meets` | which inertia alone makes the joint's diagonal element of the mass matrix positive |
 //!
 //! and [`Joint`] has a variant that names them and the functions by which its coordinates move, `coordinate_rates` and
 //! its inverse `velocities`, `integrate`, `difference` and `neutral`, with the names of coordinates and velocities;
-//! those of coordinates that add up are in `linear`. From S follow the velocity S v across the joint, the bias
+//! those of coordinates that add up are in `linear`, those of orientations in `quaternion`. From S follow the velocity S v across the joint, the bias
 //! acceleration, and the joint force Sᵀ w of a wrench. The recursions do not depend on the kind of a joint.
 
+mod free;
 mod helical;
 mod linear;
 pub(crate) mod physics;
 mod position;
 mod prismatic;
+mod quaternion;
 mod revolute;
 mod screw;
 mod shared;
+mod spherical;
 
 use crate::model::{JointKind, Link};
 use crate::parameter::Parameter;
@@ -32,7 +36,7 @@ pub use physics::JointPhysics;
 pub(crate) use physics::sum;
 pub use position::JointPosition;
 use redysim_runtime::Scalar;
-pub use screw::Screw;
+pub use screw::{Screw, across};
 pub use shared::{AxisMass, Vanishing};
 
 /// What a joint of the tree does.
@@ -48,6 +52,10 @@ pub enum Joint {
         /// Displacement for a unit of rotation, m/rad.
         pitch: f64,
     },
+    /// Turns the body about any axis through the joint's origin. Its coordinates are a quaternion.
+    Spherical,
+    /// Leaves the body all six freedoms. Its coordinates are a position and a quaternion.
+    Free,
 }
 
 impl Joint {
@@ -62,7 +70,18 @@ impl Joint {
             JointKind::Revolute => Some(Joint::Revolute),
             JointKind::Prismatic => Some(Joint::Prismatic),
             JointKind::Helical => Some(Joint::Helical { pitch }),
+            JointKind::Spherical => Some(Joint::Spherical),
+            JointKind::Free => Some(Joint::Free),
             JointKind::Fixed => None,
+        }
+    }
+
+    /// Whether it moves its body about and along the z axis of the body's frame alone.
+    #[inline]
+    pub fn is_on_axis(self) -> bool {
+        match self {
+            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => true,
+            Joint::Spherical | Joint::Free => false,
         }
     }
 
@@ -83,6 +102,8 @@ impl Joint {
     pub fn coordinate_names(self) -> &'static [&'static str] {
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::COORDINATE_NAMES,
+            Joint::Spherical => spherical::COORDINATE_NAMES,
+            Joint::Free => free::COORDINATE_NAMES,
         }
     }
 
@@ -91,23 +112,36 @@ impl Joint {
     pub fn velocity_names(self) -> &'static [&'static str] {
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::VELOCITY_NAMES,
+            Joint::Spherical => spherical::VELOCITY_NAMES,
+            Joint::Free => free::VELOCITY_NAMES,
+        }
+    }
+
+    /// Which component a velocity is, for the names of values: "" for the one of a joint that has one.
+    #[inline]
+    pub fn component(self, velocity: usize) -> &'static str {
+        match self.velocity_names() {
+            [_] => "",
+            names => names[velocity],
         }
     }
 
     /// The rates of its coordinates, q̇ = N(q) v.
     pub fn coordinate_rates<S: Scalar>(self, q: &[S], v: &[S], rates: &mut [S]) {
-        let _ = q;
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::coordinate_rates(v, rates),
+            Joint::Spherical => spherical::coordinate_rates(q, v, rates),
+            Joint::Free => free::coordinate_rates(q, v, rates),
         }
     }
 
     /// The velocities at which its coordinates have these rates: the inverse of
     /// [`coordinate_rates`](Joint::coordinate_rates).
     pub fn velocities<S: Scalar>(self, q: &[S], rates: &[S], v: &mut [S]) {
-        let _ = q;
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::velocities(rates, v),
+            Joint::Spherical => spherical::velocities(q, rates, v),
+            Joint::Free => free::velocities(q, rates, v),
         }
     }
 
@@ -115,6 +149,8 @@ impl Joint {
     pub fn integrate<S: Scalar>(self, q: &[S], dv: &[S], moved: &mut [S]) {
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::integrate(q, dv, moved),
+            Joint::Spherical => spherical::integrate(q, dv, moved),
+            Joint::Free => free::integrate(q, dv, moved),
         }
     }
 
@@ -122,6 +158,8 @@ impl Joint {
     pub fn difference<S: Scalar>(self, q0: &[S], q1: &[S], dv: &mut [S]) {
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::difference(q0, q1, dv),
+            Joint::Spherical => spherical::difference(q0, q1, dv),
+            Joint::Free => free::difference(q0, q1, dv),
         }
     }
 
@@ -129,6 +167,8 @@ impl Joint {
     pub fn neutral<S: Scalar>(self, q: &mut [S]) {
         match self {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::neutral(q),
+            Joint::Spherical => spherical::neutral(q),
+            Joint::Free => free::neutral(q),
         }
     }
 
@@ -139,6 +179,8 @@ impl Joint {
             Joint::Revolute => revolute::position(q[0]),
             Joint::Prismatic => prismatic::position(q[0]),
             Joint::Helical { pitch } => helical::position(pitch, q[0]),
+            Joint::Spherical => spherical::position(q),
+            Joint::Free => free::position(q),
         }
     }
 
@@ -150,36 +192,53 @@ impl Joint {
     /// `twist` + S v.
     #[inline]
     pub fn added<S: Scalar>(self, twist: Twist<S>, v: &[S]) -> Twist<S> {
-        self.screw().added(twist, v[0])
+        (0..self.nv()).fold(twist, |twist, i| self.screw(i).added(twist, v[i]))
     }
 
     /// The acceleration of the body against its parent at zero joint acceleration, where the parent's angular velocity
-    /// is `angular` in the body's axes.
+    /// is `angular` in the body's axes: (ω × ω_r; (2 ω + ω_r) × u_r) for the velocity (ω_r; u_r) across the joint.
     #[inline]
     pub fn bias<S: Scalar>(self, angular: Vec3<S>, v: &[S]) -> Twist<S> {
-        self.screw().bias(angular, v[0])
+        if self.is_on_axis() {
+            return self.screw(0).bias(angular, v[0]);
+        }
+        let across = self.added(Twist::zero(), v);
+        Twist {
+            angular: angular.cross(across.angular),
+            linear: (angular + angular + across.angular).cross(across.linear),
+        }
     }
 
     /// Sᵀ w, the joint forces of a wrench.
     #[inline]
     pub fn project<S: Scalar>(self, wrench: Wrench<S>, tau: &mut [S]) {
-        tau[0] = self.screw().project(wrench);
+        for (i, tau) in tau.iter_mut().enumerate() {
+            *tau = self.screw(i).project(wrench);
+        }
     }
 
     /// `wrench` with the joint forces set to `tau`, their exact values.
     #[inline]
     pub fn with_forces<S: Scalar>(self, wrench: Wrench<S>, tau: &[S]) -> Wrench<S> {
-        self.screw().with_force(wrench, tau[0])
+        tau.iter().enumerate().fold(wrench, |wrench, (i, &tau)| self.screw(i).with_force(wrench, tau))
     }
 
-    /// The motion subspace S.
+    /// The column of the motion subspace S for one of its velocities.
     #[inline]
-    pub fn screw(self) -> Screw {
+    pub fn screw(self, velocity: usize) -> Screw {
         match self {
             Joint::Revolute => revolute::SCREW,
             Joint::Prismatic => prismatic::SCREW,
             Joint::Helical { pitch } => helical::screw(pitch),
+            Joint::Spherical => spherical::screw(velocity),
+            Joint::Free => free::screw(velocity),
         }
+    }
+
+    /// The columns of the motion subspace S.
+    #[inline]
+    pub fn screws(self) -> impl DoubleEndedIterator<Item = Screw> + ExactSizeIterator {
+        (0..self.nv()).map(move |velocity| self.screw(velocity))
     }
 
     /// The inertia of the body as what stays with it, in which `vanishing` vanishes, and what its parent may carry:
@@ -193,6 +252,8 @@ impl Joint {
             Joint::Revolute => revolute::split(inertia, vanishing),
             Joint::Prismatic => prismatic::split(inertia),
             Joint::Helical { .. } => helical::split(inertia, vanishing),
+            Joint::Spherical => spherical::split(inertia),
+            Joint::Free => free::split(inertia),
         }
     }
 
@@ -208,14 +269,16 @@ impl Joint {
             Joint::Revolute => revolute::meets(inertia),
             Joint::Prismatic => prismatic::meets(inertia),
             Joint::Helical { pitch } => helical::meets(pitch, inertia),
+            Joint::Spherical => spherical::meets(inertia),
+            Joint::Free => free::meets(inertia),
         }
     }
 
-    /// The same joint in another unit of length, `unit` m; `None` if its coordinate is a length.
+    /// The same joint in another unit of length, `unit` m; `None` if a coordinate is a length.
     pub fn in_unit(self, unit: f64) -> Option<Joint> {
         match self {
-            Joint::Revolute => Some(self),
-            Joint::Prismatic => None,
+            Joint::Revolute | Joint::Spherical => Some(self),
+            Joint::Prismatic | Joint::Free => None,
             Joint::Helical { pitch } => Some(Joint::Helical { pitch: pitch / unit }),
         }
     }
@@ -224,7 +287,10 @@ impl Joint {
 impl Link {
     /// The displacement of the link along its axis where the joint variable is zero, m.
     pub fn offset_along_axis(&self) -> f64 {
-        Joint::of(self).and_then(|joint| joint.position(&[self.offset]).displacement).unwrap_or(0.0)
+        match Joint::of(self).filter(|joint| joint.is_on_axis()).map(|joint| joint.position(&[self.offset])) {
+            Some(JointPosition::OnAxis { displacement: Some(displacement), .. }) => displacement,
+            _ => 0.0,
+        }
     }
 }
 

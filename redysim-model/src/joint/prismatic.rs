@@ -7,12 +7,12 @@ use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
 use redysim_runtime::Scalar;
 
-pub const SCREW: Screw = Screw { turn: 0.0, slide: 1.0 };
+pub const SCREW: Screw = Screw::translation(2);
 
 /// The coordinate is the displacement.
 #[inline]
 pub fn position<S: Scalar>(q: S) -> JointPosition<S> {
-    JointPosition { angle: None, displacement: Some(q) }
+    JointPosition::OnAxis { angle: None, displacement: Some(q) }
 }
 
 /// The body turns with its parent, so its second moments do not depend on the joint.

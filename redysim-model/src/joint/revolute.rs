@@ -7,12 +7,12 @@ use crate::pseudo::PseudoInertia;
 use crate::spatial::Vec3;
 use redysim_runtime::Scalar;
 
-pub const SCREW: Screw = Screw { turn: 1.0, slide: 0.0 };
+pub const SCREW: Screw = Screw::rotation(2);
 
 /// The coordinate is the angle.
 #[inline]
 pub fn position<S: Scalar>(q: S) -> JointPosition<S> {
-    JointPosition { angle: Some(q), displacement: None }
+    JointPosition::OnAxis { angle: Some(q), displacement: None }
 }
 
 /// Mass on the axis belongs to both bodies.

@@ -178,6 +178,15 @@ pub(crate) fn axis_on_fixed(item: &str) -> Message {
     message(format!("{item}: a fixed joint has no axis"), "no axis", "delete `axis`, or make the joint move")
 }
 
+/// The key has a meaning for joints of one axis alone.
+pub(crate) fn needs_one_axis(item: &str, key: &str, kind: &str) -> Message {
+    message(
+        format!("{item}: `{key}` belongs to a joint with one axis, but its joint is {kind}"),
+        "the joint moves about every axis",
+        format!("delete `{key}`: a {kind} joint is placed by `{}` alone", keys::ORIGIN.name),
+    )
+}
+
 pub(crate) fn pitch_on_another_joint(item: &str, kind: &str) -> Message {
     message(
         format!("{item}: a {kind} joint has no `pitch`"),
@@ -280,6 +289,10 @@ pub(crate) fn singular_mass_matrix(link: &str, joint_name: &str, joint: Joint) -
         Joint::Revolute => "all mass that it could turn lies on its axis, or on another free axis that takes its place",
         Joint::Prismatic => "all mass that it could push is as free along another joint",
         Joint::Helical { .. } => "all mass that it could move is as free along or about another joint",
+        Joint::Spherical => "about some axis it turns no mass, or none that is not as free about another joint",
+        Joint::Free => {
+            "along or about some axis it moves no mass, or none that is not as free along or about another joint"
+        }
     };
     message(
         format!("link {}: its joint {} meets no inertia at any position", quoted(link), quoted(joint_name)),

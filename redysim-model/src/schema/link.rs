@@ -98,7 +98,7 @@ pub(crate) struct DhStandard {
 }
 
 /// Kinds of joint that are planned.
-const PLANNED: [&str; 3] = ["universal", "spherical", "free"];
+const PLANNED: [&str; 3] = ["universal", "cylindrical", "planar"];
 
 impl LinkTable {
     /// Reads the `number`-th link of the file.

@@ -191,6 +191,11 @@ impl Printer<'_> {
                 let a = self.value(a, Binding::Lowest);
                 return quote!(S::sqrt(#a));
             }
+            Value::Sine(a) | Value::Cosine(a) => {
+                let (angle, part) = (self.value(a, Binding::Lowest), usize::from(matches!(value, Value::Cosine(_))));
+                let part = Literal::usize_unsuffixed(part);
+                return quote!(S::sin_cos(#angle).#part);
+            }
             Value::Sum(a, b) => {
                 let (a, b) = (self.value(a, Binding::Lowest), self.value(b, Binding::Sum));
                 (Binding::Sum, quote!(#a + #b))

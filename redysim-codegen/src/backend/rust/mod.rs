@@ -138,6 +138,7 @@ fn constants(
         " Mass of all links, kg."
     };
     let (nj, joints) = (length_of(interface, joints.len()), joints.iter().map(|joint| &joint.name));
+    let (coordinates, velocities) = (interface.coordinate_names(), interface.velocity_names());
     let actuated = interface.actuated();
     let sizes =
         [Dimension::Coordinates, Dimension::Velocities, Dimension::Links, Dimension::LoopRows, Dimension::Frames];
@@ -155,6 +156,8 @@ fn constants(
     quote! {
         /// Name of the model.
         pub const NAME: &'static str = #name;
+        /// Number of joints that move.
+        pub const NJ: usize = #nj;
         /// Number of joint coordinates.
         pub const NQ: usize = #nq;
         /// Number of joint velocities.
@@ -172,6 +175,10 @@ fn constants(
         pub const LINK_NAMES: [&'static str; #nl] = [#(#links),*];
         /// Names of the joints that move, in the model's order.
         pub const JOINT_NAMES: [&'static str; #nj] = [#(#joints),*];
+        /// Names of the joint coordinates, in the model's order.
+        pub const COORDINATE_NAMES: [&'static str; #nq] = [#(#coordinates),*];
+        /// Names of the joint velocities, in the model's order.
+        pub const VELOCITY_NAMES: [&'static str; #nv] = [#(#velocities),*];
         /// Name of the loop to which each row of the loop constraints belongs.
         pub const LOOP_NAMES: [&'static str; #nc] = [#(#loop_rows),*];
         /// Names of the frames of interest, in the model's order.

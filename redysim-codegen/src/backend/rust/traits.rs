@@ -130,6 +130,8 @@ pub fn mechanism(
     let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
     let state = length_of(interface, state);
     let Form { generics, over_scalar, arguments, reads_in_trait, .. } = Form::of(interface, runtime);
+    let own_coordinates = own_coordinates(interface);
+    let tangent = rates_tangent(interface, runtime);
     let methods = configuration.into_iter().map(|(function, body)| {
         let method = method(function, interface, runtime, &quote!(#reads_in_trait #body));
         quote!(#[allow(unused_variables, clippy::all, clippy::pedantic)] #method)
@@ -154,6 +156,13 @@ pub fn mechanism(
             fn joint_name(&self, index: usize) -> ::core::option::Option<&str> {
                 <#name>::JOINT_NAMES.get(index).copied()
             }
+            fn coordinate_name(&self, index: usize) -> ::core::option::Option<&str> {
+                <#name>::COORDINATE_NAMES.get(index).copied()
+            }
+            fn velocity_name(&self, index: usize) -> ::core::option::Option<&str> {
+                <#name>::VELOCITY_NAMES.get(index).copied()
+            }
+            #own_coordinates
             fn nf(&self) -> usize {
                 <#name>::NF
             }
@@ -168,6 +177,50 @@ pub fn mechanism(
             type Matrix = [[S; #nv]; #nv];
             type Links = [#runtime::LinkState<S>; #nl];
             #(#methods)*
+            #tangent
         }
     }
+}
+
+/// Which coordinate belongs to each velocity alone, for a mechanism with a joint that has several.
+fn own_coordinates(interface: &PublicInterface) -> Option<TokenStream> {
+    if !has_several_coordinates(interface) {
+        return None;
+    }
+    let nv = length(interface, Dimension::Velocities);
+    let of_velocities = interface.coordinates_of_velocities().into_iter().map(|coordinate| match coordinate {
+        Some(coordinate) => {
+            let coordinate = Literal::usize_unsuffixed(coordinate);
+            quote!(::core::option::Option::Some(#coordinate))
+        }
+        None => quote!(::core::option::Option::None),
+    });
+    Some(quote! {
+        fn coordinate_of_velocity(&self, index: usize) -> ::core::option::Option<usize> {
+            const COORDINATES: [::core::option::Option<usize>; #nv] = [#(#of_velocities),*];
+            *COORDINATES.get(index)?
+        }
+    })
+}
+
+/// The derivative of the rates of coordinates, where they are not the velocities: the same code over dual numbers.
+fn rates_tangent(interface: &PublicInterface, runtime: &TokenStream) -> Option<TokenStream> {
+    if !has_several_coordinates(interface) || is_parametric(interface) {
+        return None;
+    }
+    Some(quote! {
+        fn coordinate_rates_tangent(
+            &self,
+            q: &Self::Coordinates,
+            v: &Self::Velocities,
+            dq: &Self::Coordinates,
+        ) -> ::core::option::Option<Self::Coordinates> {
+            ::core::option::Option::Some(#runtime::coordinate_rates_tangent(self, q, v, dq))
+        }
+    })
+}
+
+/// Whether a joint has more than one coordinate.
+fn has_several_coordinates(interface: &PublicInterface) -> bool {
+    interface.joints.iter().any(|joint| joint.coordinates.len() > 1)
 }

@@ -1,0 +1,147 @@
+//! Rotations as quaternions (x, y, z, w), with the scalar part last, of any length but zero.
+//!
+//! Nothing here branches, so that the same code serves numbers, lanes, dual numbers and symbols: quotients that are 0/0
+//! for a rotation of zero have the square of [`NEARLY_ZERO`] added to their denominator, which changes no digit of any
+//! other.
+
+use crate::spatial::{Mat3, Vec3};
+use redysim_runtime::Scalar;
+
+/// A rotation as a quaternion.
+pub type Quaternion<S> = [S; 4];
+
+/// An angle, rad, whose square is still a normal number in single precision, and which is less than a rounding of any
+/// angle that matters.
+const NEARLY_ZERO: f64 = 1e-18;
+
+/// No rotation.
+pub fn identity<S: Scalar>() -> Quaternion<S> {
+    [S::zero(), S::zero(), S::zero(), S::one()]
+}
+
+fn parts<S: Scalar>([x, y, z, w]: Quaternion<S>) -> (Vec3<S>, S) {
+    (Vec3([x, y, z]), w)
+}
+
+fn whole<S>(Vec3([x, y, z]): Vec3<S>, w: S) -> Quaternion<S> {
+    [x, y, z, w]
+}
+
+fn square<S: Scalar>(q: Quaternion<S>) -> S {
+    let (v, w) = parts(q);
+    w.mul_add(w, v.dot(v))
+}
+
+/// p q: first the rotation q, then the rotation p.
+pub fn product<S: Scalar>(p: Quaternion<S>, q: Quaternion<S>) -> Quaternion<S> {
+    let ((a, s), (b, t)) = (parts(p), parts(q));
+    whole(b.scale(s) + a.scale(t) + a.cross(b), s * t - a.dot(b))
+}
+
+fn conjugate<S: Scalar>(q: Quaternion<S>) -> Quaternion<S> {
+    let (v, w) = parts(q);
+    whole(-v, w)
+}
+
+/// The axes that the rotation gives, as columns: 1 + 2 (w v̂ + v̂²)/|q|².
+pub fn rotation<S: Scalar>(q: Quaternion<S>) -> Mat3<S> {
+    let (v, w) = parts(q);
+    let scaled = v.scale(S::from_f64(2.0) / square(q));
+    let [xx, yy, zz] = [0, 1, 2].map(|i| v[i] * scaled[i]);
+    let [xy, yz, zx] = [0, 1, 2].map(|i| v[i] * scaled[(i + 1) % 3]);
+    let [wx, wy, wz] = scaled.scale(w).0;
+    let one = S::one();
+    Mat3([
+        [one - (yy + zz), xy - wz, zx + wy],
+        [xy + wz, one - (zz + xx), yz - wx],
+        [zx - wy, yz + wx, one - (xx + yy)],
+    ])
+}
+
+/// q̇ = ½ q (ω; 0) at the angular velocity ω in the turned axes.
+pub fn rates<S: Scalar>(q: Quaternion<S>, angular: Vec3<S>) -> Quaternion<S> {
+    let ((v, w), half) = (parts(q), angular.scale(S::from_f64(0.5)));
+    whole(half.scale(w) + v.cross(half), -v.dot(half))
+}
+
+/// ω = 2 q⁻¹ q̇, the angular velocity in the turned axes.
+pub fn angular_velocity<S: Scalar>(q: Quaternion<S>, rates: Quaternion<S>) -> Vec3<S> {
+    let (vector, _) = parts(product(conjugate(q), rates));
+    vector.scale(S::from_f64(2.0) / square(q))
+}
+
+/// The exponential of SO(3), and what a rigid motion needs of it.
+pub struct Exponential<S> {
+    /// The unit quaternion of the rotation by |w| about w.
+    pub quaternion: Quaternion<S>,
+    /// sin(|w|/2)/|w|.
+    sine_share: S,
+    /// |w|².
+    square: S,
+}
+
+/// exp ŵ.
+pub fn exponential<S: Scalar>(w: Vec3<S>) -> Exponential<S> {
+    let square = w.dot(w) + S::from_f64(NEARLY_ZERO * NEARLY_ZERO);
+    let angle = square.sqrt();
+    let (sin, cos) = (S::from_f64(0.5) * angle).sin_cos();
+    let sine_share = sin / angle;
+    Exponential { quaternion: whole(w.scale(sine_share), cos), sine_share, square }
+}
+
+impl<S: Scalar> Exponential<S> {
+    /// V u, the displacement in the axes before it of a motion at the constant velocity (u; w) in moving axes:
+    /// V = 1 + (1 − cos θ)/θ² ŵ + (θ − sin θ)/θ³ ŵ², the left Jacobian of SO(3).
+    pub fn displacement(&self, w: Vec3<S>, u: Vec3<S>) -> Vec3<S> {
+        let Exponential { quaternion: [_, _, _, cos], sine_share, square } = *self;
+        let two = S::from_f64(2.0);
+        let across = w.cross(u);
+        let second = (S::one() - two * (sine_share * cos)) / square;
+        u + across.scale(two * (sine_share * sine_share)) + w.cross(across).scale(second)
+    }
+}
+
+/// The logarithm of SO(3), and what a rigid motion needs of it.
+pub struct Logarithm<S> {
+    /// The rotation vector, of length 0 to π.
+    pub vector: Vec3<S>,
+    /// (θ/2) cot(θ/2).
+    half_cotangent: S,
+}
+
+/// w with exp ŵ = q₀⁻¹ q₁, the shorter way round.
+pub fn difference<S: Scalar>(q0: Quaternion<S>, q1: Quaternion<S>) -> Logarithm<S> {
+    let q = product(conjugate(q0), q1);
+    let (v, w) = parts(q);
+    let (one, length, cos) = (S::one(), square(q).sqrt(), (w * w).sqrt());
+    // Of q and −q the one with a positive scalar part. Half a turn, whose scalar part is zero, keeps its axis.
+    let zero = S::from_f64(NEARLY_ZERO);
+    let sign = (w + zero) / (cos + zero);
+    // tan(θ/4), halved twice to tan(θ/16) ≤ 0.199, for which twelve terms of the arctangent are enough.
+    let mut share = sign / (length + cos);
+    for _ in 0..2 {
+        let tangent = v.scale(share);
+        share = share / (one + (one + tangent.dot(tangent)).sqrt());
+    }
+    let tangent = v.scale(share);
+    let share = S::from_f64(16.0) * (share * arctangent_share(tangent.dot(tangent)));
+    // θ/sin(θ/2) · cos(θ/2), where sin(θ/2) is |v|/|q|.
+    Logarithm { vector: v.scale(share), half_cotangent: S::from_f64(0.5) * (share * sign) * cos }
+}
+
+/// atan(x)/x of a square x² ≤ 0.04, to 1e-18.
+fn arctangent_share<S: Scalar>(square: S) -> S {
+    const TERMS: i32 = 12;
+    let coefficient = |k: i32| S::from_f64(if k % 2 == 0 { 1.0 } else { -1.0 } / f64::from(2 * k + 1));
+    (0..TERMS - 1).rev().fold(coefficient(TERMS - 1), |sum, k| sum.mul_add(square, coefficient(k)))
+}
+
+impl<S: Scalar> Logarithm<S> {
+    /// V⁻¹ d, the velocity that, constant in moving axes, leads to the displacement d in the axes before it.
+    pub fn velocity(&self, d: Vec3<S>) -> Vec3<S> {
+        let w = self.vector;
+        let across = w.cross(d);
+        let second = (S::one() - self.half_cotangent) / (w.dot(w) + S::from_f64(NEARLY_ZERO * NEARLY_ZERO));
+        d - across.scale(S::from_f64(0.5)) + w.cross(across).scale(second)
+    }
+}
