@@ -73,7 +73,7 @@ pub use faults::Faults;
 pub use generic::GenericMechanism;
 pub use lint::Lint;
 pub use load::Loaded;
-pub use lock::LockError;
+pub use lock::{JointCoordinates, LockError};
 pub use mobility::Mobility;
 pub use model::{CutKind, CutSide, Frame, Inertia, JointKind, JointRange, Link, LinkPoint, Loop, Model, Spring};
 pub use options::{AccelerationMethod, CodegenOptions};

@@ -9,14 +9,16 @@ use redysim_toml::words::{did_you_mean, nearest, quoted};
 use std::fmt;
 
 impl Model {
-    /// The model with joints held at these values of their coordinates, rad or m: each as if it were fixed there.
+    /// The model with joints held at these values of their coordinates, rad or m: each as if it were fixed there. A joint
+    /// of one coordinate is held at a number, one of several at an array of them.
     ///
     /// A joint is meant by its name or by that of its link. The link stays among the links; its coordinate is none any
     /// more, and the link becomes part of its parent's body.
     ///
     /// # Errors
     ///
-    /// If there is no such joint, it is fixed or named twice, its value is not finite, or nothing is left that moves.
+    /// If there is no such joint, it is fixed or named twice, its value is not finite or has another number of
+    /// coordinates, or nothing is left that moves.
     ///
     /// # Example
     ///
@@ -34,9 +36,10 @@ impl Model {
     /// );
     /// # Ok::<(), redysim_model::LockError>(())
     /// ```
-    pub fn locked(&self, joints: &[(&str, f64)]) -> Result<Model, LockError> {
+    pub fn locked(&self, joints: &[(&str, impl JointCoordinates)]) -> Result<Model, LockError> {
         let mut model = self.clone();
-        for &(joint, value) in joints {
+        for (joint, value) in joints {
+            let (joint, values) = (*joint, value.coordinates());
             let names = self.links.iter().map(|link| (Some(link.joint_name.as_str()), Some(link.name.as_str())));
             let Some(index) = by_name(joint, names) else {
                 let joints = self.moving_links().map(|link| link.joint_name.clone()).collect();
@@ -45,27 +48,74 @@ impl Model {
             if self.links[index].joint == JointKind::Fixed {
                 return Err(LockError::Fixed { joint: joint.into() });
             }
-            if !self.links[index].joint.has_axis() {
-                return Err(LockError::SeveralCoordinates { joint: joint.into() });
-            }
             if model.links[index].joint == JointKind::Fixed {
                 return Err(LockError::Twice { joint: joint.into() });
             }
-            if !value.is_finite() {
+            let expected = Joint::of(&self.links[index]).map_or(0, Joint::nq);
+            if values.len() != expected {
+                return Err(LockError::WrongCount { joint: joint.into(), expected, found: values.len() });
+            }
+            if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
                 return Err(LockError::NotFinite { joint: joint.into(), value });
             }
-            model.links[index].lock(value);
+            if self.links[index].joint.has_no_orientation_at(values) {
+                return Err(LockError::NoOrientation { joint: joint.into() });
+            }
+            model.links[index].lock(values);
         }
         if model.dof() == 0 { Err(LockError::NothingMoves) } else { Ok(model) }
     }
 }
 
+/// The coordinates of one joint: a number, or several.
+pub trait JointCoordinates {
+    /// The coordinates.
+    fn coordinates(&self) -> &[f64];
+}
+
+impl JointCoordinates for f64 {
+    fn coordinates(&self) -> &[f64] {
+        std::slice::from_ref(self)
+    }
+}
+
+impl<const N: usize> JointCoordinates for [f64; N] {
+    fn coordinates(&self) -> &[f64] {
+        self
+    }
+}
+
+impl JointCoordinates for Vec<f64> {
+    fn coordinates(&self) -> &[f64] {
+        self
+    }
+}
+
+impl JointCoordinates for &[f64] {
+    fn coordinates(&self) -> &[f64] {
+        self
+    }
+}
+
+impl JointKind {
+    /// Whether the coordinates have a quaternion, and that is zero.
+    pub(crate) fn has_no_orientation_at(self, values: &[f64]) -> bool {
+        let quaternion = match self {
+            JointKind::Spherical => values,
+            JointKind::Free => values.get(3..).unwrap_or_default(),
+            JointKind::Revolute | JointKind::Prismatic | JointKind::Helical | JointKind::Fixed => return false,
+        };
+        quaternion.iter().all(|component| *component == 0.0)
+    }
+}
+
 impl Link {
-    /// Fixes the joint where its coordinate is `value`.
-    pub(crate) fn lock(&mut self, value: f64) {
-        let travel = self.offset + value;
+    /// Fixes the joint where its coordinates are `values`, as many as it has.
+    pub(crate) fn lock(&mut self, values: &[f64]) {
         if let Some(joint) = Joint::of(self) {
-            let motion = match joint.position(&[travel]) {
+            // An offset belongs to a joint of one coordinate.
+            let travel: Vec<f64> = values.iter().map(|value| self.offset + value).collect();
+            let motion = match joint.position(&travel) {
                 JointPosition::OnAxis { angle, displacement } => {
                     let turn = angle.map_or(Mat3::identity(), |angle| {
                         let aligned = align_z(self.axis);
@@ -112,8 +162,17 @@ pub enum LockError {
         /// The name given.
         joint: String,
     },
-    /// The joint has several coordinates, which one value cannot set.
-    SeveralCoordinates {
+    /// The joint has another number of coordinates.
+    WrongCount {
+        /// The name given.
+        joint: String,
+        /// How many coordinates the joint has.
+        expected: usize,
+        /// How many are given.
+        found: usize,
+    },
+    /// The joint's quaternion is zero.
+    NoOrientation {
         /// The name given.
         joint: String,
     },
@@ -141,8 +200,11 @@ impl fmt::Display for LockError {
                 write!(f, "unknown joint {} to lock; {meant}The joints are: {}", quoted(joint), joints.join(", "))
             }
             LockError::Fixed { joint } => write!(f, "joint {} is fixed already: do not lock it", quoted(joint)),
-            LockError::SeveralCoordinates { joint } => {
-                write!(f, "joint {} has several coordinates, which one value cannot lock", quoted(joint))
+            LockError::WrongCount { joint, expected, found } => {
+                write!(f, "joint {} has {expected} coordinates, but is locked at {found}", quoted(joint))
+            }
+            LockError::NoOrientation { joint } => {
+                write!(f, "joint {} is locked at the quaternion 0, which is no orientation", quoted(joint))
             }
             LockError::Twice { joint } => write!(f, "joint {} is locked twice: give it one value", quoted(joint)),
             LockError::NotFinite { joint, value } => {

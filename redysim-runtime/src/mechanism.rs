@@ -80,6 +80,9 @@ pub trait ConfigurationSpace<S: Scalar>: Mechanism {
     }
     /// q ⊞ dv, the coordinates that the velocities `dv`, constant over a unit of time, lead to from `q`; q + dv for
     /// revolute, prismatic and helical joints.
+    ///
+    /// Where coordinates are constrained, as those of a unit quaternion, the result is nearer to the constraint than
+    /// `q`: simulations take q ⊞ 0 after each step.
     fn integrate(&self, q: &Self::Coordinates, dv: &Self::Velocities) -> Self::Coordinates;
     /// q₁ ⊟ q₀, the velocities that lead from `q0` to `q1` in a unit of time: the inverse of
     /// [`integrate`](Self::integrate).

@@ -12,7 +12,7 @@ use redysim_toml::Message;
 /// What is odd about the loops and the actuators of a model without errors: each with the index of the loop, or of none
 /// where it is the mechanism as a whole.
 pub(super) fn check(model: &Model) -> Vec<(Lint, Option<usize>, Message)> {
-    let actuated = model.moving_links().filter(|link| link.actuated).count();
+    let actuated = model.moving_links().filter(|link| link.actuated).map(|link| link.joint.dof()).sum();
     let mut findings = Vec::new();
     let mobility = if model.loops.is_empty() { model.dof() } else { closed(model, actuated, &mut findings) };
     if actuated < mobility {

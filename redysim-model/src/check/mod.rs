@@ -74,8 +74,8 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
 fn placed(document: &Document, mut links: Vec<Link>, parents: &[Option<usize>]) -> Vec<Link> {
     for ((link, table), parent) in links.iter_mut().zip(&document.links).zip(parents) {
         link.parent = *parent;
-        if let Some(value) = table.locked {
-            link.lock(value);
+        if let Some(values) = &table.locked {
+            link.lock(values);
         }
     }
     links

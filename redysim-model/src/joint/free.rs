@@ -40,7 +40,7 @@ pub fn integrate<S: Scalar>(q: &[S], dv: &[S], moved: &mut [S]) {
     let ((position, orientation), u, w) = (parts(q), three(dv), three(&dv[3..]));
     let exponential = quaternion::exponential(w);
     let position = position + quaternion::rotation(orientation) * exponential.displacement(w, u);
-    set(moved, position, quaternion::product(orientation, exponential.quaternion));
+    set(moved, position, quaternion::turned(orientation, exponential.quaternion));
 }
 
 /// The logarithm of SE(3).

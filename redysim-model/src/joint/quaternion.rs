@@ -43,6 +43,13 @@ fn conjugate<S: Scalar>(q: Quaternion<S>) -> Quaternion<S> {
     whole(-v, w)
 }
 
+/// The rotation q, then p in the turned axes, of a length nearer to 1 than that of q: q p · 2/(1 + |q|²) for p of
+/// length 1. Near length 1 this is the first-order correction (3 − |q|²)/2, which for others may lead away from 1.
+pub fn turned<S: Scalar>(q: Quaternion<S>, p: Quaternion<S>) -> Quaternion<S> {
+    let toward_one = S::from_f64(2.0) / (S::one() + square(q));
+    product(q.map(|component| component * toward_one), p)
+}
+
 /// The axes that the rotation gives, as columns: 1 + 2 (w v̂ + v̂²)/|q|².
 pub fn rotation<S: Scalar>(q: Quaternion<S>) -> Mat3<S> {
     let (v, w) = parts(q);

@@ -31,7 +31,7 @@ pub fn velocities<S: Scalar>(q: &[S], rates: &[S], v: &mut [S]) {
 }
 
 pub fn integrate<S: Scalar>(q: &[S], dv: &[S], moved: &mut [S]) {
-    moved.copy_from_slice(&quaternion::product(four(q), quaternion::exponential(three(dv)).quaternion));
+    moved.copy_from_slice(&quaternion::turned(four(q), quaternion::exponential(three(dv)).quaternion));
 }
 
 pub fn difference<S: Scalar>(q0: &[S], q1: &[S], dv: &mut [S]) {

@@ -33,8 +33,8 @@ pub(crate) struct LinkTable {
     pub(crate) physics: PhysicsKeys,
     pub(crate) actuated: Field<bool>,
     pub(crate) range: Field<JointRange>,
-    /// The value at which the options hold the joint.
-    pub(crate) locked: Option<f64>,
+    /// The coordinates at which the options hold the joint.
+    pub(crate) locked: Option<Vec<f64>>,
 }
 
 /// The keys of what acts in the joint itself.

@@ -88,7 +88,7 @@ impl Document {
         let springs = entries(springs).map(|(i, table)| SpringTable::read(table, i, findings)).collect();
         let options = OptionsTable::read([root, options.root()], &item, links_complete.then_some(&links), findings);
         for lock in &options.locked.value {
-            links[lock.link].locked = Some(lock.value);
+            links[lock.link].locked = Some(lock.values.clone());
         }
         Document { item, place, name, gravity, links, links_complete, loops, frames, springs, allowed, options }
     }

@@ -2,20 +2,21 @@
 
 use super::keys;
 use super::link::LinkTable;
+use crate::joint::Joint;
 use crate::lock::by_name;
 use crate::messages;
 use crate::model::JointKind;
 use crate::options::AccelerationMethod;
 use crate::run_time::{Quantity, RunTimeParameter};
 use redysim_runtime::{Function, Functions};
-use redysim_toml::{DeValue, Field, Findings, Reader, Spanned, Table, Text};
+use redysim_toml::{DeValue, Field, Findings, KeyPath, Reader, Spanned, Table, Text, Value};
 use std::ops::Range;
 
 /// The options. Each key beside the file takes precedence over the file's.
 #[derive(Debug)]
 pub(crate) struct OptionsTable {
     pub(crate) functions: Entry<Field<RequestedFunctions>>,
-    /// The joints that are locked. One whose value is invalid is locked at zero, so that the interface has the right
+    /// The joints that are locked. One whose value is invalid is locked at its zero position, so that the interface has the right
     /// number of joints.
     pub(crate) locked: Entry<Vec<Lock>>,
     pub(crate) tolerance: Entry<Field<f64>>,
@@ -28,8 +29,8 @@ pub(crate) struct OptionsTable {
 pub(crate) struct Lock {
     /// Index of the link in the document.
     pub(crate) link: usize,
-    /// The coordinate, rad or m.
-    pub(crate) value: f64,
+    /// The coordinates, rad or m.
+    pub(crate) values: Vec<f64>,
     /// The place of the joint's name.
     pub(crate) place: Range<usize>,
 }
@@ -170,15 +171,46 @@ fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option
                 continue;
             }
             let path = path.entry(name);
-            let value = match links[link].joint.value() {
-                Some(JointKind::Prismatic) => reader.parse_number(&path, value),
-                _ => reader.parse_angle(&path, value),
+            let values = match links[link].joint.value() {
+                Some(JointKind::Prismatic) => reader.parse_number(&path, value).map(|value| vec![value]),
+                Some(&kind @ (JointKind::Spherical | JointKind::Free)) => in_space(kind, &path, value, reader),
+                _ => reader.parse_angle(&path, value).map(|value| vec![value]),
             };
-            locks.push(Lock { link, value: value.unwrap_or_default(), place });
+            let values = values.unwrap_or_else(|| neutral(&links[link]));
+            locks.push(Lock { link, values, place });
         }
         Some(())
     });
     (!field.is_missing()).then_some(locks)
+}
+
+/// The coordinates of the zero position of a link's joint.
+fn neutral(link: &LinkTable) -> Vec<f64> {
+    let joint = link.joint.value().and_then(|&kind| Joint::of_kind(kind, 0.0)).unwrap_or(Joint::Revolute);
+    let mut coordinates = vec![0.0; joint.nq()];
+    joint.neutral(&mut coordinates);
+    coordinates
+}
+
+/// The coordinates of a joint that has several: those of a position, then those of a quaternion.
+fn in_space<'a>(
+    kind: JointKind,
+    path: &KeyPath,
+    value: &'a Value<'a>,
+    reader: &mut Reader<'a, '_>,
+) -> Option<Vec<f64>> {
+    let count = Joint::of_kind(kind, 0.0).map_or(0, Joint::nq);
+    let wanted = format!("{count} numbers");
+    let array = reader.array(path, value, &format!("an array of {wanted}"))?;
+    let values = reader.elements(path, array, |reader, path, value| reader.parse_number(path, value));
+    if array.len() != count {
+        return reader.wrong_length(path, value, &wanted, array.len());
+    }
+    let values = values?;
+    if kind.has_no_orientation_at(&values) {
+        return reader.error(value, messages::locked_without_orientation(reader.item(), path));
+    }
+    Some(values)
 }
 
 /// The parameters that are given at run time. Where links cannot be read, their names are not checked.
@@ -224,6 +256,9 @@ fn parameter(
         (joint, link.name.value().map(String::as_str))
     });
     match by_name(owner, names.clone()) {
+        Some(link) if quantity.is_of_joint() && links[link].joint.value().is_some_and(|kind| kind.dof() > 1) => {
+            reader.error_at(place, messages::parameter_of_several_freedoms(reader.item(), text, owner))
+        }
         Some(link) => Some(RunTimeParameter { quantity, link: Some(link) }),
         None if links.iter().any(|link| link.name.value().is_none()) => None,
         None => {

@@ -9,7 +9,7 @@ use super::position::ProjectedPoint;
 use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
 use crate::integrate::Accepted;
 use crate::linear_algebra::{dot, largest, product};
-use crate::simulate::{check_state, extended_state, law_torque};
+use crate::simulate::{check_state, constrain_coordinates, extended_state, law_torque};
 use crate::vector::entry;
 use crate::{
     BiasForces, ConfigurationSpace, ForwardSimulation, LengthMismatch, LoopClosure, MassMatrix, Ode, Real,
@@ -271,6 +271,7 @@ where
     }
 
     fn accepted(&mut self, _t: S, step: S, state: &mut Y) -> Accepted {
+        let constrained = constrain_coordinates(self.loops.mechanism, state);
         let corrected = self.stabilisation.check(step).and_then(|()| match self.stabilisation {
             Stabilisation::Projection => {
                 let SimulationState { q, v, .. } = self.split(state);
@@ -283,7 +284,7 @@ where
                 self.last_error = Some(error);
                 Accepted::Refused
             }
-            Ok(None) => Accepted::Unchanged,
+            Ok(None) => constrained,
             Ok(Some(projection)) => {
                 let values = projection.q.as_ref().iter().chain(projection.v.as_ref());
                 for (state, &value) in state.as_mut().iter_mut().zip(values) {
