@@ -13,7 +13,7 @@ fn model(name: &str) -> Model {
 }
 
 /// `tests/generated/gripper.rs` is compiled by a test of the root package. After a change that is meant, write it anew
-/// with `BLESS=1 cargo test -p redysim-codegen --test source`, and look at the difference.
+/// with `BLESS=1 cargo test -p redysim-codegen --test generator source::`, and look at the difference.
 #[test]
 fn the_source_file_of_the_gripper_is_the_one_in_the_repository() {
     let path = root().join("tests/generated/gripper.rs");

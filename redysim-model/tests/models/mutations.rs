@@ -5,9 +5,9 @@ use proptest::sample::Index;
 use redysim_model::{Diagnostic, Model};
 
 const FILES: [&str; 3] = [
-    include_str!("../../models/kr5.toml"),
-    include_str!("../../models/gripper.toml"),
-    include_str!("../../models/fail/many_faults.toml"),
+    include_str!("../../../models/kr5.toml"),
+    include_str!("../../../models/gripper.toml"),
+    include_str!("../../../models/fail/many_faults.toml"),
 ];
 
 /// Pieces that mean something in a model file.

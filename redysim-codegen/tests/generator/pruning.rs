@@ -1,6 +1,6 @@
 //! Terms that do not matter are left out, and nothing else is.
 
-#[path = "../../tests/common/random.rs"]
+#[path = "../../../tests/common/random.rs"]
 #[allow(dead_code)]
 mod random;
 

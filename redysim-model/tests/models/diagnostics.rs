@@ -1,5 +1,5 @@
 //! Each file in `models/fail` has faults, each in `models/warn` only odd values. Beside it stands the text that a user
-//! sees. After a deliberate change, `BLESS=1 cargo test -p redysim-model --test diagnostics` writes the texts anew.
+//! sees. After a deliberate change, `BLESS=1 cargo test -p redysim-model --test models diagnostics::` writes the texts anew.
 
 use redysim_model::{Diagnostic, Loaded, Model};
 use std::collections::BTreeSet;
