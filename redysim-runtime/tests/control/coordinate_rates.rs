@@ -1,11 +1,7 @@
 //! Tangents of simulations whose coordinates' rates depend on the position: a pendulum whose hinge has cosine and sine
 //! for coordinates.
 
-#[macro_use]
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::GRAVITY;
+use crate::mechanisms::GRAVITY;
 use redysim_runtime::{
     Arguments, ConfigurationSpace, Dual, ForwardDynamics, ForwardSimulation, Integrator, LinkState, Mechanism, Ode,
     Radau5, Scalar, coordinate_rates_tangent, forward_dynamics_tangent,
@@ -147,7 +143,7 @@ fn the_derivative_of_the_rates_by_dual_numbers_is_the_formula() {
 /// An implicit method has its Jacobian from tangents.
 #[test]
 fn an_implicit_method_swings_the_hinge_of_two_coordinates_as_that_of_one() {
-    let reference = mechanisms::Pendulum { mass: 1.0, length: LENGTH };
+    let reference = crate::mechanisms::Pendulum { mass: 1.0, length: LENGTH };
     let mut by_angle = ForwardSimulation::new(&reference, |_: f64, _: &[f64; 1], _: &[f64; 1]| [0.0]);
     let mut by_cosine = ForwardSimulation::new(&Pendulum::<false>, |_: f64, _: &[f64; 2], _: &[f64; 1]| [0.0]);
     let method = || Radau5::new().rtol(1e-10).atol(1e-12);

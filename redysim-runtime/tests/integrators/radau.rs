@@ -1,15 +1,8 @@
 //! Radau IIA of order 5: coefficients, accuracy on stiff and other problems, and what it costs.
 
-#[allow(dead_code)]
-mod mechanisms;
-#[allow(dead_code)]
-mod order_conditions;
-#[allow(dead_code)]
-mod problems;
-
-use mechanisms::{Arm, distance};
-use order_conditions::{defect, dot, values};
-use problems::{error_at, errors_of_steps, exact, nonlinear, prothero_robinson};
+use crate::mechanisms::{Arm, distance};
+use crate::order_conditions::{defect, dot, values};
+use crate::problems::{error_at, errors_of_steps, exact, nonlinear, prothero_robinson};
 use redysim_runtime::integrate::collocation::RADAU_IIA_5;
 use redysim_runtime::integrate::{Accepted, FixedStep, Ndf, RadauIIA};
 use redysim_runtime::{ForwardSimulation, Integrator, Ode, Ode45, Pd, Radau5, Real, Statistics, ZeroTorque};

@@ -1,15 +1,8 @@
 //! The methods of Gauss and Legendre: coefficients, orders, and what they conserve.
 
-#[allow(dead_code)]
-mod mechanisms;
-#[allow(dead_code)]
-mod order_conditions;
-#[allow(dead_code)]
-mod problems;
-
-use mechanisms::{Arm, Pendulum, distance};
-use order_conditions::{defect, dot, values};
-use problems::{error_at, errors_of_steps, exact, nonlinear};
+use crate::mechanisms::{Arm, Pendulum, distance};
+use crate::order_conditions::{defect, dot, values};
+use crate::problems::{error_at, errors_of_steps, exact, nonlinear};
 use redysim_runtime::integrate::collocation::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, GaussTableau};
 use redysim_runtime::{
     ForwardSimulation, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Step, ZeroTorque,

@@ -1,12 +1,9 @@
 //! Events: every crossing once, in order, and when it happens.
 
-#[allow(dead_code)]
-mod mechanisms;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::ControlFlow::{self, Break, Continue};
 
-use mechanisms::{GRAVITY, Pendulum};
+use crate::mechanisms::{GRAVITY, Pendulum};
 use redysim_runtime::integrate::Direction;
 use redysim_runtime::{
     Dop8, Dop853, Event, ForwardSimulation, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5,

@@ -1,12 +1,7 @@
 //! Numerical differentiation formulas: stiff problems with known solutions, and what they cost.
 
-#[allow(dead_code)]
-mod mechanisms;
-#[allow(dead_code)]
-mod problems;
-
-use mechanisms::{Arm, distance};
-use problems::{error_at, exact, nonlinear, prothero_robinson};
+use crate::mechanisms::{Arm, distance};
+use crate::problems::{error_at, exact, nonlinear, prothero_robinson};
 use redysim_runtime::integrate::step_control::EstimatesErrors;
 use redysim_runtime::integrate::{Adaptive, Bdf, Ndf};
 use redysim_runtime::{ForwardSimulation, Integrator, Ode, Ode15s, Ode45, Pd, Statistics, Step, ZeroTorque};

@@ -1,9 +1,6 @@
 //! Measured orders and accuracy, on problems with known solutions.
 
-#[allow(dead_code)]
-mod problems;
-
-use problems::{error_at, exact, nonlinear, order};
+use crate::problems::{error_at, exact, nonlinear, order};
 use redysim_runtime::{Integrator, Ode4, Ode5, Ode45, Step};
 
 fn end_error_of_ode5(h: f64) -> f64 {

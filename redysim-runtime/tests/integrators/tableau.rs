@@ -1,8 +1,6 @@
 //! The coefficients against the order conditions, one for each rooted tree (Butcher's theory).
 
-mod order_conditions;
-
-use order_conditions::{trees, values};
+use crate::order_conditions::{trees, values};
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, ErrorEstimate, RUNGE_KUTTA_4, Tableau};
 
 /// For coefficients of moderate size.
@@ -14,7 +12,7 @@ const THETAS: [f64; 9] = [0.0, 0.1, 0.25, 0.5, 0.7, 0.9, 0.99, 0.9999, 1.0];
 
 /// The largest violation of the order conditions of one order.
 fn defect<const N: usize>(tableau: &Tableau<N>, order: usize, b: &[f64], theta: f64) -> f64 {
-    order_conditions::defect(tableau.rows, order, b, theta)
+    crate::order_conditions::defect(tableau.rows, order, b, theta)
 }
 
 /// Whether a formula satisfies all conditions up to an order, and clearly not those of the next.

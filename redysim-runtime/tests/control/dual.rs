@@ -1,9 +1,6 @@
 //! Derivatives by dual numbers against formulas and against differences.
 
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::{GRAVITY, Pendulum};
+use crate::mechanisms::{GRAVITY, Pendulum};
 use redysim_runtime::{Dual, ForwardSimulation, Ode, Pd, Scalar, TorqueLaw, ZeroTorque};
 
 fn slope(f: impl Fn(Dual<f64>) -> Dual<f64>, x: f64) -> f64 {

@@ -4,7 +4,7 @@ use redysim_runtime::Scalar;
 
 /// Angle, sine and cosine as bits: 1,400-bit arithmetic (mpmath), rounded to `f64`. Angles of all magnitudes, the
 /// nearest numbers to multiples of π/4, and the number nearest to a multiple of π/2 of all (6381956970095103 · 2⁷⁹⁷).
-const REFERENCE: &str = include_str!("reference/sin_cos.txt");
+const REFERENCE: &str = include_str!("../reference/sin_cos.txt");
 
 fn places_between(a: f64, b: f64) -> u64 {
     if a == b { 0 } else { a.to_bits().abs_diff(b.to_bits()) }

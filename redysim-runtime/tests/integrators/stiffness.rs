@@ -1,9 +1,6 @@
 //! Explicit methods say where an equation is stiff, and only there.
 
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::Arm;
+use crate::mechanisms::Arm;
 use redysim_runtime::IntegrationError::{self, Stiff};
 use redysim_runtime::integrate::stability::StabilityFunction;
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4};

@@ -1,9 +1,6 @@
 //! The largest stable step of a method, predicted and observed.
 
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::Arm;
+use crate::mechanisms::Arm;
 use redysim_runtime::integrate::FixedStep;
 use redysim_runtime::integrate::stability::{LinearStability, StabilityFunction, StableStep, largest_stable_step};
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, DORMAND_PRINCE_853, RUNGE_KUTTA_4};

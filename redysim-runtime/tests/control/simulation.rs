@@ -1,9 +1,6 @@
 //! Forward simulation of mechanisms.
 
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::{Arm, Pendulum, distance};
+use crate::mechanisms::{Arm, Pendulum, distance};
 use redysim_runtime::{ForwardSimulation, Integrator, MechanicalEnergy, Ode, Ode5, Ode45, Pd, ZeroTorque};
 
 #[test]

@@ -1,12 +1,7 @@
 //! The pair of order 8: measured orders, work, and one run against another implementation.
 
-#[allow(dead_code)]
-mod mechanisms;
-#[allow(dead_code)]
-mod problems;
-
-use mechanisms::Arm;
-use problems::{error_at, exact, nonlinear};
+use crate::mechanisms::Arm;
+use crate::problems::{error_at, exact, nonlinear};
 use redysim_runtime::{
     Dop8, Dop853, ForwardSimulation, Integrator, MechanicalEnergy, Ode45, Statistics, Step, ZeroTorque,
 };

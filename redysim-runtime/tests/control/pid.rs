@@ -1,10 +1,6 @@
 //! PID control, its integral action and limited forces, against closed forms.
 
-#[macro_use]
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::{Arm, Pendulum};
+use crate::mechanisms::{Arm, Pendulum};
 use redysim_runtime::{
     ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss6, IntegrationError, Integrator, LengthMismatch,
     Limited, LinkState, Mechanism, Motion, Ode, Ode5, Ode15s, Ode45, Pd, Pid, Radau5, Scalar, SetPoint, TorqueLaw,
@@ -229,7 +225,7 @@ fn a_simulation_does_not_begin_without_the_states_of_its_law() {
 #[test]
 fn an_integral_that_starts_with_the_weight_keeps_a_pendulum_at_rest() {
     let pendulum = Pendulum { mass: 1.0, length: 1.0 };
-    let weight = mechanisms::GRAVITY * 0.5_f64.sin();
+    let weight = crate::mechanisms::GRAVITY * 0.5_f64.sin();
     let pid = Pid { integral: [weight], ..with_poles(FREE, SetPoint::new(&pendulum, [0.5])) };
     let mut simulation = ForwardSimulation::new(&pendulum, pid);
     let start: [f64; 4] = simulation.extended_state(&[0.5], &[0.0]);

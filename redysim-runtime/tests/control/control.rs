@@ -1,9 +1,6 @@
 //! Torque laws, by their formulas and in closed loop.
 
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::{Arm, GRAVITY, Pendulum, distance};
+use crate::mechanisms::{Arm, GRAVITY, Pendulum, distance};
 use redysim_runtime::{
     ComputedTorque, Cycloid, ForwardSimulation, Integrator, InverseDynamics, Motion, Ode45, Pd, PdGravity,
     Proportional, SetPoint, TorqueLaw, TrackingPd, Trajectory, ZeroTorque, uniform,

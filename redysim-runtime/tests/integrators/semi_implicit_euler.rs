@@ -1,9 +1,6 @@
 //! The semi-implicit method of Euler: its rule, its order, and what it does with energy.
 
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::{Arm, Pendulum};
+use crate::mechanisms::{Arm, Pendulum};
 use redysim_runtime::{
     ForwardDynamics, ForwardSimulation, IntegrationError, Integrator, MechanicalEnergy, Ode, Ode45, SemiImplicitEuler,
     Step, ZeroTorque,
@@ -33,7 +30,7 @@ fn a_step_moves_the_velocities_first_and_then_the_coordinates_with_them() {
     let v_new = [v[0] + h * a[0], v[1] + h * a[1]];
     let expected = [q[0] + h * v_new[0], q[1] + h * v_new[1], v_new[0], v_new[1], h * (3.0 * v[0] - v[1])];
     let end = SemiImplicitEuler::new(h).integrate(&mut simulation, (0.0, h), start).unwrap();
-    assert!(mechanisms::distance(&end.y, &expected) < 1e-15, "{:?} instead of {expected:?}", end.y);
+    assert!(crate::mechanisms::distance(&end.y, &expected) < 1e-15, "{:?} instead of {expected:?}", end.y);
     assert_eq!((end.statistics.steps, end.statistics.evaluations), (1, 1));
 }
 
@@ -51,7 +48,7 @@ fn the_error_is_of_order_one_also_between_the_steps_and_backward() {
         let end = to + 0.5 * to.signum() * h;
         SemiImplicitEuler::new(h).solve(&mut simulation, (0.0, end), start, times, |_, y| found = *y).unwrap();
         let at_end = SemiImplicitEuler::new(h).integrate(&mut simulation, (0.0, to), start).unwrap().y;
-        mechanisms::distance(&found, &reference).max(mechanisms::distance(&at_end, &reference))
+        crate::mechanisms::distance(&found, &reference).max(crate::mechanisms::distance(&at_end, &reference))
     };
     for to in [1.0, -1.0] {
         let p = (error(1e-3, to) / error(5e-4, to)).log2();

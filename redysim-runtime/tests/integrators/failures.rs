@@ -1,8 +1,5 @@
 //! Every typed error, provoked with every method, with bounded work.
 
-#[macro_use]
-mod methods;
-
 use std::ops::ControlFlow::{Break, Continue};
 
 use redysim_runtime::IntegrationError::{self, *};

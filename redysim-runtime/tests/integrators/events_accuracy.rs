@@ -1,11 +1,8 @@
 //! Events that the methods of Gauss and Radau find are as accurate as the ends of their steps.
 
-#[allow(dead_code)]
-mod problems;
-
 use std::ops::ControlFlow::Continue;
 
-use problems::{errors_of_steps, exact, nonlinear, prothero_robinson};
+use crate::problems::{errors_of_steps, exact, nonlinear, prothero_robinson};
 use redysim_runtime::integrate::{FixedStep, RadauIIA};
 use redysim_runtime::{Event, Gauss4, Gauss6, Integrator, Occurrence, Ode, Radau5};
 

@@ -1,11 +1,7 @@
 //! `Vec` in place of arrays: the same bits, and no panic where lengths are wrong.
 #![cfg(feature = "alloc")]
 
-#[macro_use]
-#[allow(dead_code)]
-mod mechanisms;
-
-use mechanisms::Arm;
+use crate::mechanisms::Arm;
 use redysim_runtime::integrate::Accepted;
 use redysim_runtime::{
     Arguments, ComputedTorque, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Gauss4, IntegrationError,

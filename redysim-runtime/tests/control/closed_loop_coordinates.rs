@@ -1,14 +1,12 @@
 //! Closed loops with more coordinates than velocities: a slider-crank whose crank has cosine and sine for coordinates
 //! does what the one with the angle does.
 
-mod slider_crank;
-
+use crate::slider_crank::{ByAngle, ByCosine, CRANK, ROD, by_cosine};
 use redysim_runtime::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ComputedTorque, ConfigurationSpace,
     IntegrationError, Integrator, LengthMismatch, LoopClosure, LoopError, Mechanism, Motion, Ode45, Pd, Proportional,
     TorqueLaw, TrackingPd,
 };
-use slider_crank::{ByAngle, ByCosine, CRANK, ROD, by_cosine};
 use std::f64::consts::TAU;
 
 /// What roundings in two orders leave of numbers below 100, through a few products and one solve of two rows: measured,
