@@ -99,9 +99,9 @@ fn values_that_are_not_angles_are_refused() {
 #[test]
 fn an_unknown_joint_is_reported_with_the_one_that_was_meant() {
     let words = ["unknown joint `jiont2`", "did you mean `joint2`?", "trial.toml:2:"];
-    refuses("joint", "forward", &SWING.replace("[0, 1]", "{ jiont2 = 1 }"), 1, &words);
+    refuses("misspelt-joint", "forward", &SWING.replace("[0, 1]", "{ jiont2 = 1 }"), 1, &words);
     let several = SWING.replace("[0, 1]", "{ jiont2 = 1, joint1 = '10 dg' }");
-    let folder = scratch("faults-joints");
+    let folder = scratch("faults-misspelt-joints");
     let output = fail(&folder, &["forward", &scenario(&folder, "two_link.toml", &several)], 1);
     assert!(
         output.contains("unknown joint `jiont2`") && output.contains("the unit `dg`"),
