@@ -1,12 +1,16 @@
 //! Input that is refused.
 
+use std::panic::Location;
 use std::path::Path;
 
 use super::{fail, names, scenario, scratch};
 
 /// Runs a scenario of two links that must fail with `code`, print every one of `words`, and leave nothing.
+/// Its folder is named for the file of the test.
+#[track_caller]
 pub fn refuses(name: &str, command: &str, rest: &str, code: i32, words: &[&str]) {
-    let folder = scratch(&format!("{}-{name}", env!("CARGO_CRATE_NAME")));
+    let file = Path::new(Location::caller().file()).file_stem().unwrap().display();
+    let folder = scratch(&format!("{file}-{name}"));
     refuses_in(&folder, command, &scenario(&folder, "two_link.toml", rest), code, words);
 }
 

@@ -1,0 +1,103 @@
+//! The page of `redysim animate` and `redysim show` in a browser: `viewer/check` runs this, and says what it needs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::common::{model, results, robot, scratch, slide, succeed, swing, turn};
+
+/// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of
+/// the same motion at more instants if there are.
+fn plays(folder: &Path, finer: Option<&Path>) {
+    succeed(folder, &["animate", "."]);
+    node("test.mjs", folder, finer);
+}
+
+/// Runs a script of `viewer/` on a folder.
+fn node(script: &str, folder: &Path, more: Option<&Path>) {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("viewer").join(script);
+    let output = Command::new("node").arg(script).arg(folder).args(more).output();
+    let output = output.expect("node, which viewer/check looks for");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    println!("{}", String::from_utf8_lossy(&output.stdout));
+}
+
+/// A folder that stays, so that the screenshots can be looked at.
+fn folder(name: &str) -> PathBuf {
+    scratch(&format!("viewer/{name}"))
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_a_robot_as_its_kinematics() {
+    plays(&swing(&folder("kr5"), "kr5.toml", 6, 4.0, 400), None);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_a_closed_loop_as_its_kinematics() {
+    plays(&turn(&folder("fourbar"), 100), Some(&turn(&folder("fourbar_finer"), 700)));
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_a_slider_as_its_kinematics() {
+    plays(&slide(&folder("slider_crank"), 400), None);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_a_long_chain_as_its_kinematics() {
+    plays(&swing(&folder("chain40"), "peers/chain40.toml", 40, 4.0, 400), None);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn numbers_of_any_length_stand_complete_beside_their_axes() {
+    let run = swing(&folder("long_labels"), "kr5.toml", 6, 4.0, 400);
+    let drift = |k: i32| format!("{},{:e}\n", 0.01 * f64::from(k), -1.22e-13 + 2e-15 * (0.05 * f64::from(k)).sin());
+    let drift: String = (0..=400).map(drift).collect();
+    fs::write(run.join("energy.csv"), format!("t [s],drift [J]\n{drift}")).unwrap();
+    plays(&run, None);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn names_that_are_html_do_no_harm() {
+    let folder = folder("html_names");
+    fs::create_dir_all(&folder).unwrap();
+    let evil = folder.join("evil.toml");
+    let name = "</script><script>document.title='harm'</script><img src=x onerror=document.title='harm'>";
+    let text = fs::read_to_string(model("double_pendulum.toml")).unwrap();
+    fs::write(
+        &evil,
+        text.replace("\"double_pendulum\"", &format!("{name:?}")).replace("\"rod2\"", &format!("{name:?}")),
+    )
+    .unwrap();
+    plays(&swing(&folder, evil.to_str().unwrap(), 2, 2.0, 200), None);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn a_rotor_turns_the_way_it_does_between_instants() {
+    let spin = |name: &str, step: f64| {
+        let motion = format!(
+            "trajectory = {{ kind = 'constant-speed', from = [0], speed = [20] }}\ninverse = {{ end = 4.0, step = {step:?} }}\n"
+        );
+        results(&folder(name), "inverse", "simple_pendulum.toml", &motion)
+    };
+    // By 4 rad from one instant to the next: the short way would be backwards.
+    plays(&spin("rotor", 0.2), Some(&spin("rotor_finer", 0.01)));
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_the_robot_of_a_urdf_with_its_meshes() {
+    let folder = folder("meshes");
+    robot(&folder);
+    let motion =
+        "trajectory = { from = [0, 0], to = [1, 0.2], duration = 1.0 }\ninverse = { end = 1.0, step = 0.01 }\n";
+    fs::write(folder.join("trial.toml"), format!("model = 'arm_description/urdf/robot.urdf'\n{motion}")).unwrap();
+    succeed(&folder, &["inverse", "trial.toml", "-o", "run"]);
+    plays(&folder.join("run"), None);
+}

@@ -1,0 +1,155 @@
+//! The motions and forces of every shipped scenario obey equations of motion that nothing of this program's dynamics is
+//! used for.
+
+#[path = "../../../tests/common/kane.rs"]
+#[allow(dead_code, reason = "of what it evaluates, a part is compared")]
+mod kane;
+
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+
+use crate::common::{Table, root, scratch, succeed};
+use kane::kane;
+use nalgebra::{DMatrix, DVector};
+use redysim_model::{GenericMechanism, Model};
+use redysim_runtime::LoopClosure;
+
+/// From row to row, s, at most, and as a share of the step of the scenario, which fast motions need.
+const STEP: f64 = 5e-4;
+const SHARE_OF_STEP: f64 = 0.1;
+/// Weights of the central difference of order 8.
+const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+
+/// Runs a scenario: of a motion only what it is until `end`, with tolerances that leave little more than rounding.
+fn run(folder: &Path, name: &str, command: &str, end: f64) {
+    let mut scenario = read(name);
+    let model = root().join("scenarios").join(scenario["model"].as_str().unwrap());
+    scenario["model"] = model.display().to_string().into();
+    for path in [&["trajectory", "file"][..], &["forward", "torque", "file"]] {
+        let start = scenario.get_mut(path[0]);
+        if let Some(file) = path[1..].iter().fold(start, |table, key| table.and_then(|table| table.get_mut(key))) {
+            *file = root().join("scenarios").join(file.as_str().unwrap()).display().to_string().into();
+        }
+    }
+    if command == "forward" {
+        let step = step(&scenario);
+        let method = if stiff(&scenario) { "Radau5" } else { "Dop853" };
+        let forward = scenario["forward"].as_table_mut().unwrap();
+        let integrator = format!("method = '{method}'\nrtol = 1e-12\natol = 1e-13");
+        forward.insert("integrator".into(), toml::Value::Table(integrator.parse().unwrap()));
+        forward.insert("step".into(), step.into());
+        let whole = forward["end"].as_float().unwrap();
+        forward.insert("end".into(), end.min(whole).into());
+    }
+    fs::write(folder.join("trial.toml"), scenario.to_string()).unwrap();
+    succeed(folder, &[command, "trial.toml", "-o", "run"]);
+}
+
+fn read(name: &str) -> toml::Table {
+    fs::read_to_string(root().join(format!("scenarios/{name}.toml"))).unwrap().parse().unwrap()
+}
+
+/// From row to row of a motion, s.
+fn step(scenario: &toml::Table) -> f64 {
+    STEP.min(SHARE_OF_STEP * scenario["forward"]["step"].as_float().unwrap())
+}
+
+/// The scenarios that ship with an implicit method are stiff.
+fn stiff(scenario: &toml::Table) -> bool {
+    scenario["forward"]["integrator"]["method"].as_str() == Some("Ode15s")
+}
+
+/// The shipped scenarios that have a table of this name.
+fn shipped(command: &str) -> Vec<String> {
+    let files = fs::read_dir(root().join("scenarios")).unwrap().map(|entry| entry.unwrap().path());
+    let scenarios = files.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    let names = scenarios.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned());
+    names.filter(|name| read(name).contains_key(command)).collect()
+}
+
+/// What a run has written.
+struct Written {
+    mechanism: GenericMechanism,
+    q: Rows,
+    v: Rows,
+    tau: Rows,
+    lambda: Rows,
+}
+
+type Rows = Vec<Vec<f64>>;
+
+impl Written {
+    fn read(folder: &Path) -> Written {
+        let mechanism = GenericMechanism::new(Model::load(folder.join("model.toml")).unwrap().model);
+        let dof = mechanism.model().dof();
+        let read = |table: &str| Table::csv(&folder.join(table));
+        let (states, tau) = (read("statevar.csv"), read("tor.csv").columns(1..1 + dof));
+        let lambda = match mechanism.model().loops.as_slice() {
+            [] => vec![vec![]; tau.len()],
+            _ => read("lambda.csv").rows.iter().map(|row| row[1..].to_vec()).collect(),
+        };
+        let [q, v] = [states.columns(1..1 + dof), states.columns(1 + dof..1 + 2 * dof)];
+        Written { mechanism, q, v, tau, lambda }
+    }
+
+    /// The largest part of M q̈ + h − τ − Jᵀλ over `instants`, as a share of the largest of its terms.
+    fn imbalance(&self, instants: Range<usize>, acceleration: impl Fn(usize, usize) -> f64) -> f64 {
+        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+        for k in instants {
+            let (q, dof) = (&self.q[k], self.q[k].len());
+            let equations = kane(self.mechanism.model(), q, &self.v[k]);
+            let jacobian: Rows = self.mechanism.loop_jacobian(q);
+            let jacobian = DMatrix::from_fn(jacobian.len(), dof, |row, joint| jacobian[row][joint]);
+            let terms = [
+                equations.matrix * DVector::from_fn(dof, |joint, _| acceleration(k, joint)),
+                equations.bias,
+                -DVector::from_vec(self.tau[k].clone()),
+                -jacobian.transpose() * DVector::from_vec(self.lambda[k].clone()),
+            ];
+            largest = terms.iter().fold(largest, |most, term| most.max(term.amax()));
+            worst = worst.max(terms.into_iter().sum::<DVector<f64>>().amax());
+        }
+        worst / largest
+    }
+}
+
+/// Accelerations are those that are written, and differences of the velocities.
+#[test]
+fn every_shipped_motion_obeys_kanes_equations() {
+    for name in shipped("forward") {
+        let folder = scratch(&format!("equations-of-motion-{name}"));
+        run(&folder, &name, "forward", 0.05);
+        let written = Written::read(&folder.join("run"));
+        let step = step(&read(&name));
+        let difference = |k: usize, joint: usize| {
+            let at = |k: usize| written.v[k][joint];
+            let pairs = WEIGHTS.iter().zip(1..).map(|(weight, far)| weight * (at(k + far) - at(k - far)));
+            pairs.sum::<f64>() / step
+        };
+        // Those that are written take what is written of the forces, whatever led to the state.
+        let dof = written.q[0].len();
+        let a = Table::csv(&folder.join("run/traj.csv")).columns(1 + 2 * dof..1 + 3 * dof);
+        let share = written.imbalance(0..a.len(), |k, joint| a[k][joint]);
+        assert!(share < 1e-11, "{name}, as it is written: {share:e}");
+        // What is stiff is over by half the time.
+        let share = written.imbalance(written.q.len() / 2..written.q.len() - 4, difference);
+        println!("{name}: {share:.1e}");
+        // Within the long steps of an implicit method its solution is of order 3.
+        assert!(share < if stiff(&read(&name)) { 2e-8 } else { 1e-10 }, "{name}: {share:e}");
+    }
+}
+
+#[test]
+fn the_forces_of_every_shipped_motion_obey_kanes_equations() {
+    for name in shipped("inverse") {
+        let folder = scratch(&format!("equations-of-forces-{name}"));
+        run(&folder, &name, "inverse", 0.0);
+        let written = Written::read(&folder.join("run"));
+        let dof = written.q[0].len();
+        let a = Table::csv(&folder.join("run/traj.csv")).columns(1 + 2 * dof..1 + 3 * dof);
+        let share = written.imbalance(0..a.len(), |k, joint| a[k][joint]);
+        println!("{name}: {share:.1e}");
+        assert!(share < 1e-13, "{name}: {share:e}");
+    }
+}

@@ -1,0 +1,20 @@
+//! `redysim forward` and `redysim inverse`: what is computed, which files are written, and which input is refused.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod again;
+mod data;
+mod equations;
+mod faults;
+mod folders;
+mod interrupt;
+mod laws;
+mod limits;
+mod loops;
+mod motions;
+mod output;
+mod pipes;
+mod references;
+mod results;
+mod steps;

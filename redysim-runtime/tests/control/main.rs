@@ -1,0 +1,21 @@
+//! Mechanisms in motion and under control, and the arithmetic that they are computed with.
+
+#[macro_use]
+#[path = "../mechanisms/mod.rs"]
+mod mechanisms;
+#[path = "../slider_crank/mod.rs"]
+mod slider_crank;
+
+mod alloc;
+mod closed_loop_coordinates;
+mod control;
+mod coordinate_rates;
+mod documentation;
+mod dual;
+mod lanes;
+mod operational_space;
+mod pid;
+mod simulation;
+mod trajectory;
+mod trigonometry;
+mod via_points;

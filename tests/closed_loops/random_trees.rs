@@ -1,0 +1,269 @@
+//! On random trees with random loops, residual, Jacobian and bias are those of plain homogeneous transforms.
+//!
+//! The other formulation knows the model alone: it multiplies 4×4 matrices from the base to each side of a cut, and
+//! gets Jacobian and bias by differentiating its own residual with dual numbers. From the library it takes only which
+//! rows it keeps and which two directions across the axis of a revolute cut it measures along; both are checked on the
+//! way. Held against it are the generic functions and the expressions of which compiled ones are written.
+#![cfg(feature = "generic")]
+
+use crate::common::call::{constants, loop_bias, loop_jacobian, loop_residual};
+use crate::common::dual::{Dual, moving};
+use crate::common::random::Random;
+use crate::common::styles::{link, offset, placed};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use redysim::Scalar;
+use redysim::generic::{GenericMechanism, Model};
+use redysim_codegen::functions::{TracedFunction, trace};
+use redysim_model::spatial::{Mat3, Vec3};
+use redysim_model::{CutKind, CutSide, Inertia, JointKind, Link, Loop};
+use std::collections::BTreeMap;
+
+const MODELS: u64 = 150;
+const STATES: usize = 3;
+
+/// A homogeneous transform, by rows.
+type Transform<S> = [[S; 4]; 4];
+
+fn constant<S: Scalar>(rotation: &[[f64; 3]; 3], position: [f64; 3]) -> Transform<S> {
+    let at = |i: usize, j: usize| match (i, j) {
+        (3, _) => f64::from(u8::from(j == 3)),
+        (_, 3) => position[i],
+        _ => rotation[i][j],
+    };
+    std::array::from_fn(|i| std::array::from_fn(|j| S::from_f64(at(i, j))))
+}
+
+fn product<S: Scalar>(a: &Transform<S>, b: &Transform<S>) -> Transform<S> {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).fold(S::zero(), |sum, k| sum + a[i][k] * b[k][j])))
+}
+
+/// What a joint variable does: Rodrigues' rotation 1 + sin q [u] + (1 − cos q) [u]² about, or a shift along, the axis.
+fn joint<S: Scalar>(kind: JointKind, pitch: f64, u: [f64; 3], q: S) -> Transform<S> {
+    let mut transform = constant::<S>(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [0.0; 3]);
+    let cross = [[0.0, -u[2], u[1]], [u[2], 0.0, -u[0]], [-u[1], u[0], 0.0]];
+    let (sin, cos) = q.sin_cos();
+    for (i, row) in transform.iter_mut().enumerate().take(3) {
+        match kind {
+            JointKind::Fixed => {}
+            JointKind::Prismatic => row[3] = S::from_f64(u[i]) * q,
+            JointKind::Revolute | JointKind::Helical => {
+                if kind == JointKind::Helical {
+                    row[3] = S::from_f64(pitch * u[i]) * q;
+                }
+                for (j, element) in row.iter_mut().enumerate().take(3) {
+                    let square: f64 = (0..3).map(|k| cross[i][k] * cross[k][j]).sum();
+                    *element += S::from_f64(cross[i][j]) * sin + S::from_f64(square) * (S::one() - cos);
+                }
+            }
+            other => panic!("{other:?} joints are not among the random ones"),
+        }
+    }
+    transform
+}
+
+/// Link `link` in the base frame; without a link, the base.
+fn place<S: Scalar>(model: &Model, link: Option<usize>, q: &[S]) -> Transform<S> {
+    let Some(index) = link else { return joint(JointKind::Fixed, 0.0, [0.0; 3], S::zero()) };
+    let link = &model.links[index];
+    let coordinate = model.links[..index].iter().filter(|link| link.joint != JointKind::Fixed).count();
+    let variable = q.get(coordinate).map_or(S::zero(), |&q| q + S::from_f64(link.offset));
+    let placement = constant(&link.placement.rotation.0, link.placement.position.0);
+    let parent = place(model, link.parent, q);
+    let moved = product(&product(&parent, &placement), &joint(link.joint, link.pitch, link.axis.0, variable));
+    product(&moved, &constant(&link.frame.rotation.0, link.frame.position.0))
+}
+
+/// All rows of all loops, whether they vanish or not. `frames` are the axes of side a, as columns in its link's frame.
+fn residual<S: Scalar>(model: &Model, frames: &[Matrix3<f64>], q: &[S]) -> Vec<S> {
+    let mut rows = Vec::new();
+    for (cut, frame) in model.loops.iter().zip(frames) {
+        let axes_of_b = cut_axes(cut.joint, cut.b.axis.0);
+        let [a, b] = [(&cut.a, frame), (&cut.b, &axes_of_b)].map(|(side, axes)| {
+            let axes = std::array::from_fn(|i| std::array::from_fn(|j| axes[(i, j)]));
+            product(&place(model, side.link, q), &constant(&axes, side.point.0))
+        });
+        rows.extend((0..3).map(|i| b[i][3] - a[i][3]));
+        let dot = |i: usize, j: usize| (0..3).fold(S::zero(), |sum, k| sum + a[k][i] * b[k][j]);
+        let half = S::from_f64(0.5);
+        match cut.joint {
+            CutKind::Spherical => {}
+            CutKind::Revolute => rows.extend([dot(0, 2), dot(1, 2)]),
+            // R is the rotation from a to b; its antisymmetric part has the sine of its angle times its axis.
+            CutKind::Weld => {
+                rows.extend([(2, 1), (0, 2), (1, 0)].map(|(i, j)| half * (dot(i, j) - dot(j, i))));
+            }
+            other => panic!("{other:?} cuts are not among the random ones"),
+        }
+    }
+    rows
+}
+
+/// A frame with the axis as z; for a weld, the link's own.
+fn cut_axes(joint: CutKind, axis: [f64; 3]) -> Matrix3<f64> {
+    let z = Vector3::from(axis);
+    match joint {
+        CutKind::Weld => Matrix3::identity(),
+        _ => {
+            let x = z.cross(&Vector3::new(0.3, -0.5, 0.8)).normalize();
+            Matrix3::from_columns(&[x, z.cross(&x), z])
+        }
+    }
+}
+
+fn unit_vector(random: &mut Random) -> Vector3<f64> {
+    match random.below(3) {
+        0 => [Vector3::x(), -Vector3::y(), Vector3::z()][random.below(3)],
+        _ => Vector3::from_fn(|_, _| random.within(1.0)).normalize(),
+    }
+}
+
+/// A tree of links, and one to three loops between any two of them or the base.
+fn random_model(random: &mut Random) -> Model {
+    let count = 2 + random.below(8);
+    let links = random.tree(count, |random, grown, parent| {
+        let axis = Unit::new_normalize(unit_vector(random));
+        let turned = Rotation3::from_axis_angle(&axis, random.within(3.0));
+        let kinds = [JointKind::Revolute, JointKind::Helical, JointKind::Prismatic, JointKind::Fixed];
+        let joint = kinds[random.below(4)];
+        let at = Vec3::from_fn(|_| random.within(0.5));
+        let tilt = Rotation3::from_axis_angle(&axis, random.within(3.0));
+        Link {
+            axis: Vec3(unit_vector(random).into()),
+            frame: placed(tilt.matrix(), Vec3::from_fn(|_| random.within(0.3))),
+            offset: offset(random),
+            pitch: 0.2,
+            mass: 1.0,
+            inertia: Inertia { xx: 1.0, yy: 1.0, zz: 1.0, ..Inertia::default() },
+            ..link(grown, parent, joint, placed(turned.matrix(), at))
+        }
+    });
+    let mut loops = Vec::new();
+    for number in 0..=random.below(3) {
+        let a = random.below(count + 1);
+        let b = (a + 1 + random.below(count)) % (count + 1);
+        let mut side = |link: usize| CutSide {
+            link: link.checked_sub(1),
+            point: Vec3::from_fn(|_| random.within(0.3)),
+            axis: Vec3(unit_vector(random).into()),
+        };
+        let (a, b) = (side(a), side(b));
+        let joint = [CutKind::Revolute, CutKind::Spherical, CutKind::Weld][random.below(3)];
+        loops.push(Loop { name: format!("loop{number}"), joint, a, b });
+    }
+    Model {
+        name: "random".into(),
+        gravity: Vec3::from_fn(|_| random.within(10.0)),
+        links,
+        loops,
+        frames: Vec::new(),
+        springs: Vec::new(),
+    }
+}
+
+/// The axes of side a of each cut as the library has chosen them, in the link's frame.
+fn frames(mechanism: &GenericMechanism) -> Vec<Matrix3<f64>> {
+    let tree = mechanism.tree();
+    let cuts = tree.cuts.iter().zip(&mechanism.model().loops);
+    cuts.map(|(cut, model)| {
+        let link = model.a.link.map_or(Mat3::identity(), |link| tree.links[link].pose.rotation);
+        let frame = link.transpose() * cut.a.axes;
+        let frame = Matrix3::from_fn(|i, j| frame.0[i][j]);
+        assert!((frame.transpose() * frame - Matrix3::identity()).amax() < 1e-14, "axes are at right angles");
+        match cut.joint {
+            CutKind::Weld => assert!((frame - Matrix3::identity()).amax() < 1e-14, "the link's own axes"),
+            _ => assert!((frame.column(2) - Vector3::from(model.a.axis.0)).amax() < 1e-14, "z is the axis"),
+        }
+        frame
+    })
+    .collect()
+}
+
+/// The largest error of each function.
+#[derive(Default)]
+struct Errors(BTreeMap<&'static str, f64>);
+
+impl Errors {
+    /// Against the largest component expected, or against one where that is less.
+    fn add(&mut self, what: &'static str, computed: &[f64], expected: &[f64], tolerance: f64) {
+        assert_eq!(computed.len(), expected.len(), "{what}");
+        let size = expected.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
+        for (x, y) in computed.iter().zip(expected) {
+            let error = (x - y).abs() / size;
+            assert!(error <= tolerance, "{what}: error {error:.1e}\n{computed:?}\n{expected:?}");
+            let worst = self.0.entry(what).or_default();
+            *worst = worst.max(error);
+        }
+    }
+}
+
+/// The outputs of a traced function.
+fn evaluated(functions: &[TracedFunction], name: &str, arguments: &[&[f64]]) -> Vec<f64> {
+    let function = functions.iter().find(|function| function.function.name() == name).expect("a function");
+    function.expressions.evaluate(arguments)
+}
+
+#[test]
+fn loops_agree_with_homogeneous_transforms() {
+    let mut errors = Errors::default();
+    let (mut kept_rows, mut all_rows, mut with_common_ancestor, mut on_the_base) = (0, 0, 0, 0);
+    for seed in 0..MODELS {
+        let mut random = Random::new(1000 + seed);
+        let mechanism = GenericMechanism::new(random_model(&mut random));
+        let (model, tree) = (mechanism.model(), mechanism.tree());
+        let (frames, traced) = (frames(&mechanism), trace(tree).expect("no pass changes a value"));
+        let kept: Vec<bool> = tree.cuts.iter().flat_map(|cut| cut.rows.clone()).collect();
+        let select = |rows: Vec<f64>| -> Vec<f64> {
+            assert_eq!(rows.len(), kept.len());
+            for (row, kept) in rows.iter().zip(&kept) {
+                assert!(*kept || row.abs() < 1e-12, "model {seed}: a row of {row:e} was left out");
+            }
+            rows.into_iter().zip(&kept).filter(|(_, kept)| **kept).map(|(row, _)| row).collect()
+        };
+        kept_rows += kept.iter().filter(|kept| **kept).count();
+        all_rows += kept.len();
+        on_the_base += model.loops.iter().filter(|cut| cut.a.link.is_none() || cut.b.link.is_none()).count();
+        with_common_ancestor += model.loops.iter().filter(|cut| share_a_joint(model, cut)).count();
+        for _ in 0..STATES {
+            let state = random.state(tree.nv());
+            let (q, v) = (&state.q[..], &state.v[..]);
+            let expected = select(residual(model, &frames, q));
+            errors.add("residual", &loop_residual(&mechanism, q), &expected, 1e-13);
+            errors.add("traced residual", &evaluated(&traced, "loop_residual", &[q]), &expected, 1e-13);
+            let jacobian = loop_jacobian(&mechanism, q);
+            let by_expressions = evaluated(&traced, "loop_jacobian", &[q]);
+            for coordinate in 0..tree.nv() {
+                let mut direction = vec![0.0; tree.nv()];
+                direction[coordinate] = 1.0;
+                let rows = residual(model, &frames, &moving(q, &direction));
+                let expected = select(rows.iter().map(|row| row.rate).collect());
+                let column: Vec<f64> = jacobian.iter().map(|row| row[coordinate]).collect();
+                errors.add("jacobian", &column, &expected, 1e-13);
+                let column: Vec<f64> = by_expressions.iter().skip(coordinate).step_by(tree.nv()).copied().collect();
+                errors.add("traced jacobian", &column, &expected, 1e-13);
+            }
+            // Along q + v t, the second derivative of the residual is J̇ v.
+            let inner: Vec<Dual<f64>> = moving(q, v);
+            let twice = moving(&inner, &constants::<Dual<f64>>(v));
+            let rows = residual(model, &frames, &twice);
+            let expected = select(rows.iter().map(|row| row.rate.rate).collect());
+            errors.add("bias", &loop_bias(&mechanism, q, v), &expected, 1e-13);
+            errors.add("traced bias", &evaluated(&traced, "loop_bias", &[q, v]), &expected, 1e-13);
+        }
+    }
+    println!("{:?}", errors.0);
+    println!(
+        "{kept_rows} of {all_rows} rows kept; {on_the_base} sides on the base; {with_common_ancestor} share a joint"
+    );
+    // The draw has what the test is about.
+    assert!(kept_rows > 500 && on_the_base > 30 && with_common_ancestor > 50);
+}
+
+/// Whether a moving joint carries both sides of the cut.
+fn share_a_joint(model: &Model, cut: &Loop) -> bool {
+    let joints = |side: &CutSide| -> Vec<usize> {
+        let ancestors = std::iter::successors(side.link, |&link| model.links[link].parent);
+        ancestors.filter(|&link| model.links[link].joint != JointKind::Fixed).collect()
+    };
+    let of_b = joints(&cut.b);
+    joints(&cut.a).iter().any(|joint| of_b.contains(joint))
+}

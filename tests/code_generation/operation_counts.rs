@@ -1,0 +1,151 @@
+//! What each function costs, so that no change makes one dearer unseen.
+//!
+//! After a change that is meant to alter the counts, `INSTA_UPDATE=always cargo test --test code_generation operation_counts::`
+//! writes the new ones to `snapshots/`.
+
+use crate::linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
+use rayon::prelude::*;
+use redysim::{Function, OperationCount, Operations, redysim};
+use redysim_codegen::functions::trace;
+use redysim_model::{Model, Tree};
+
+redysim! {
+    /// Six joints in a row.
+    pub struct Kr5("models/kr5.toml");
+}
+
+redysim! {
+    /// The same with the paper's rounded digits, as other programs were given them; the last link's belong to no body.
+    #[allow(deprecated)]
+    pub struct PeersKr5("models/peers/kr5.toml");
+}
+
+redysim! {
+    /// Two fingers in the plane, as other programs were given it.
+    pub struct PeersGripper("models/peers/gripper.toml");
+}
+
+redysim! {
+    /// Legs, trunk, arms and head.
+    pub struct Humanoid30("models/peers/humanoid30.toml");
+}
+
+redysim! {
+    /// Ten links in a row.
+    pub struct Chain10("models/peers/chain10.toml");
+}
+
+redysim! {
+    /// Two fingers in the plane.
+    pub struct Gripper("models/gripper.toml");
+}
+
+/// A row for each function that the mechanism has.
+fn table(operations: &Operations) -> String {
+    let head = format!("{:<16} {:>5} {:>5} {:>4} {:>5} {:>6}", "function", "add", "mul", "div", "trig", "flops");
+    let row = |function: &Function| {
+        let count = operations[*function];
+        let OperationCount { additions, multiplications, divisions, trig } = count;
+        format!("{function:<16} {additions:>5} {multiplications:>5} {divisions:>4} {trig:>5} {:>6}", count.flops())
+    };
+    let present = Function::ALL.iter().filter(|function| operations[**function] != OperationCount::NONE);
+    std::iter::once(head).chain(present.map(row)).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn kr5() {
+    insta::assert_snapshot!(table(&Kr5::OPS));
+}
+
+#[test]
+fn peers_kr5() {
+    insta::assert_snapshot!(table(&PeersKr5::OPS));
+}
+
+#[test]
+fn peers_gripper() {
+    insta::assert_snapshot!(table(&PeersGripper::OPS));
+}
+
+#[test]
+fn humanoid30() {
+    insta::assert_snapshot!(table(&Humanoid30::OPS));
+}
+
+#[test]
+fn chain10() {
+    insta::assert_snapshot!(table(&Chain10::OPS));
+}
+
+/// The longer chains are only counted, not compiled.
+#[test]
+fn longer_chains() {
+    let lines = |name: &str| {
+        let path = format!("{}/models/peers/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let tree = Tree::new(&Model::load(path).expect("a good model").model);
+        let counts = trace(&tree)
+            .expect("no pass changes a value")
+            .into_iter()
+            .map(|function| (function.function.name(), function.expressions.count()));
+        counts
+            .filter(|(_, count)| *count != OperationCount::NONE)
+            .map(|(function, count)| format!("{name} {function:<16} {:>6}\n", count.flops()))
+            .collect::<String>()
+    };
+    let lines: String = ["chain20", "chain40", "chain80"].par_iter().map(|name| lines(name)).collect();
+    insta::assert_snapshot!(lines);
+}
+
+#[test]
+fn gripper() {
+    insta::assert_snapshot!(table(&Gripper::OPS));
+}
+
+/// The best that other generators reach on the same data is 345 (OpenSYMORO), about 725, 236; 153, 253; 5432, 12450.
+#[test]
+fn the_robots_of_the_comparisons_take_no_more_than_was_promised() {
+    const {
+        assert!(PeersKr5::OPS.inverse_dynamics.flops() <= 300);
+        assert!(PeersKr5::OPS.forward_dynamics.flops() <= 600);
+        assert!(PeersKr5::OPS.mass_matrix.flops() <= 190);
+        assert!(PeersGripper::OPS.inverse_dynamics.flops() <= 80);
+        assert!(PeersGripper::OPS.forward_dynamics.flops() <= 150);
+        assert!(Humanoid30::OPS.inverse_dynamics.flops() <= 3000);
+        assert!(Humanoid30::OPS.forward_dynamics.flops() <= 7000);
+    }
+}
+
+#[test]
+fn fourbar() {
+    insta::assert_snapshot!(table(&Fourbar::OPS));
+}
+
+#[test]
+fn fourbar_gui() {
+    insta::assert_snapshot!(table(&FourbarGui::OPS));
+}
+
+#[test]
+fn slider_crank() {
+    insta::assert_snapshot!(table(&SliderCrank::OPS));
+}
+
+#[test]
+fn three_rrr() {
+    insta::assert_snapshot!(table(&ThreeRrr::OPS));
+}
+
+#[test]
+fn leg() {
+    insta::assert_snapshot!(table(&Leg::OPS));
+}
+
+#[test]
+fn andrews() {
+    insta::assert_snapshot!(table(&Andrews::OPS));
+}
+
+#[test]
+fn n_fourbar_2() {
+    insta::assert_snapshot!(table(&NFourbar2::OPS));
+}

@@ -1,0 +1,21 @@
+//! The functions of a tree, compiled, generic and as expressions: against other formulations and other programs, by the
+//! identities of dynamics, and to how many digits.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod digits;
+mod frames;
+mod helical;
+mod identities;
+mod ill_conditioned;
+mod joint_physics;
+mod link_kinematics_identities;
+mod locked;
+mod long_functions;
+mod parameters;
+mod peer_trees;
+mod placement;
+mod random_trees;
+mod roundings;
+mod springs;

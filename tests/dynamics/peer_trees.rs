@@ -1,0 +1,155 @@
+//! On random trees with rotors, dampers and springs, Pinocchio and MuJoCo compute the same, component by component.
+//!
+//! What their numbers are, and where they come from: `tests/reference/README.md`.
+#![cfg(feature = "generic")]
+
+use crate::common::call;
+use crate::common::comparison::Comparison;
+use crate::common::dual::{Dual, moving};
+use redysim::generic::{GenericMechanism, Model};
+use redysim::{
+    ForwardDynamics, Frames, InverseDynamics, MassMatrix, MechanicalEnergy, PassiveForces, Scalar, Vector, Wrench,
+    redysim,
+};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+redysim! { struct Tree07("tests/reference/peer_trees/07.toml"); }
+redysim! { struct Tree10("tests/reference/peer_trees/10.toml"); }
+redysim! { struct Tree18("tests/reference/peer_trees/18.toml"); }
+
+const TREES: usize = 20;
+
+/// A component is held to 1e-11 of itself, or of this part of the quantity's largest component on the tree: what
+/// vanishes for one program is roundoff of the others, up to 1e-14 of the largest.
+const SMALL: f64 = 1e-3;
+
+fn file(tree: usize, extension: &str) -> PathBuf {
+    format!("{}/tests/reference/peer_trees/{tree:02}.{extension}", env!("CARGO_MANIFEST_DIR")).into()
+}
+
+/// The numbers of each quantity at one state.
+type State = BTreeMap<String, Vec<f64>>;
+
+/// The states of a tree with what the other programs compute there. A line is the index of the state, the quantity, and
+/// its numbers.
+fn states(tree: usize) -> Vec<State> {
+    let text = std::fs::read_to_string(file(tree, "csv")).expect("a table");
+    let mut states = Vec::new();
+    for line in text.lines() {
+        let mut words = line.split(',');
+        let index: usize = words.next().expect("an index").parse().expect("an index");
+        let quantity = words.next().expect("a quantity").to_string();
+        states.resize(states.len().max(index + 1), State::new());
+        states[index].insert(quantity, words.map(|word| word.parse().expect("a number")).collect());
+    }
+    states
+}
+
+fn generic(tree: usize) -> GenericMechanism {
+    GenericMechanism::new(Model::load(file(tree, "toml")).expect("a good model").model)
+}
+
+fn wrenches<S: Scalar, W: Vector<Wrench<S>>>(numbers: &[f64]) -> W {
+    let part = |from: usize| [0, 1, 2].map(|axis| S::from_f64(numbers[from + axis]));
+    W::from_fn(numbers.len() / 6, |frame| Wrench { force: part(6 * frame), moment: part(6 * frame + 3) })
+}
+
+fn sum(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + b).collect()
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// What the other programs compute, by the functions of a mechanism.
+///
+/// Pinocchio has neither dampers nor springs, so that their forces are taken off, or given by the actuators.
+fn computed<M>(mechanism: &M, state: &State) -> Vec<(&'static str, Vec<f64>)>
+where
+    M: InverseDynamics<f64>
+        + ForwardDynamics<f64>
+        + MassMatrix<f64>
+        + PassiveForces<f64>
+        + MechanicalEnergy<f64>
+        + Frames<f64, Wrenches: Vector<Wrench<f64>>>
+        + Frames<Dual<f64>, Wrenches: Vector<Wrench<Dual<f64>>>>,
+{
+    let [q, v, a, tau, wrench] = ["q", "v", "a", "tau", "wrenches"].map(|given| state[given].as_slice());
+    let inverse = call::inverse_dynamics(mechanism, q, v, a);
+    let passive = call::passive_forces(mechanism, q, v);
+    let forward = |tau: &[f64]| call::forward_dynamics(mechanism, q, v, tau);
+    let matrix = call::mass_matrix(mechanism, q);
+    let upper: Vec<f64> = matrix.iter().enumerate().flat_map(|(i, row)| row[i..].to_vec()).collect();
+    let [kinematics, jacobians, bias, external] = call::frames(mechanism, q, v, &wrenches(wrench));
+    // J̇ along q̇ = v.
+    let constant = call::constants::<Dual<f64>>(v);
+    let [_, moving_jacobians, _, _] = call::frames(mechanism, &moving(q, v), &constant, &wrenches(wrench));
+    let energy = call::energy(mechanism, q, v);
+    let driven = sum(tau, &passive);
+    let without_passive = difference(&inverse, &passive);
+    vec![
+        ("pinocchio.rnea", without_passive.clone()),
+        ("pinocchio.rnea_wrenches", difference(&without_passive, &external)),
+        ("pinocchio.aba", forward(&driven)),
+        ("pinocchio.aba_wrenches", forward(&sum(&driven, &external))),
+        ("pinocchio.crba", upper.clone()),
+        ("pinocchio.kinematics", kinematics),
+        ("pinocchio.jacobians", jacobians),
+        ("pinocchio.jacobian_rates", moving_jacobians.iter().map(|entry| entry.rate).collect()),
+        ("pinocchio.bias", bias),
+        ("mujoco.inverse", inverse),
+        ("mujoco.passive", passive),
+        ("mujoco.mass_matrix", upper),
+        ("mujoco.forward", forward(tau)),
+        ("mujoco.energy", vec![energy.potential, energy.kinetic]),
+    ]
+}
+
+/// Holds what is `computed` at each state of a tree against the table of that tree. Nothing in the table is left out.
+fn assert_agrees(tree: usize, nv: usize, computed: impl Fn(&State) -> Vec<(&'static str, Vec<f64>)>) {
+    let states = states(tree);
+    let mut comparisons = BTreeMap::new();
+    for state in &states {
+        assert_eq!(state["q"].len(), nv, "tree {tree}");
+        let computed = computed(state);
+        assert_eq!(computed.len() + 5, state.len(), "tree {tree}: quantities");
+        for (quantity, numbers) in computed {
+            let comparison = comparisons
+                .entry(quantity)
+                .or_insert_with(|| Comparison::new(format!("tree {tree}: {quantity}")).with_floor(SMALL));
+            comparison.add(&numbers, &state[quantity]);
+        }
+    }
+    comparisons.values().for_each(|comparison| comparison.assert_within(1e-11));
+}
+
+#[test]
+fn the_run_time_path_agrees_with_pinocchio_and_mujoco_on_random_trees() {
+    for tree in 1..=TREES {
+        let mechanism = generic(tree);
+        assert_agrees(tree, mechanism.tree().nv(), |state| computed(&mechanism, state));
+    }
+}
+
+#[test]
+fn compiled_functions_agree_with_pinocchio_and_mujoco_on_random_trees() {
+    assert_agrees(7, Tree07::NV, |state| computed(&Tree07, state));
+    assert_agrees(10, Tree10::NV, |state| computed(&Tree10, state));
+    assert_agrees(18, Tree18::NV, |state| computed(&Tree18, state));
+}
+
+/// What is not there agrees with everything.
+#[test]
+fn the_random_trees_have_joints_of_both_kinds_with_rotors_dampers_and_springs() {
+    let models: Vec<Model> = (1..=TREES).map(|tree| generic(tree).model().clone()).collect();
+    let count = |is: fn(&redysim::generic::Link) -> bool| {
+        models.iter().flat_map(|model| &model.links).filter(|l| is(l)).count()
+    };
+    assert!(count(|link| link.joint.name() == "revolute") > 50);
+    assert!(count(|link| link.joint.name() == "prismatic") > 30);
+    assert!(count(|link| link.physics.armature > 0.0) > 30);
+    assert!(count(|link| link.physics.damping > 0.0) > 30);
+    assert!(count(|link| link.physics.stiffness > 0.0 && link.physics.rest > 0.0) > 10);
+}

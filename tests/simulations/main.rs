@@ -1,0 +1,11 @@
+//! Trees in motion, free and under control, against references, closed forms and the balance of energy.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod chaotic_pendulums;
+mod extremes;
+mod free_fall_reference;
+mod iftomm_pendulum;
+mod impedance;
+mod stiff_control;

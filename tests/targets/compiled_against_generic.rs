@@ -1,0 +1,174 @@
+//! A compiled mechanism computes what the generic path computes, at a thousand random states of each model.
+//!
+//! Both run in double-double here. In `f64`, a thousand states hold a few components that are small differences of
+//! large terms, of which neither path has twelve digits; in 31 digits, what is left between the two is the roundoff of
+//! the constants that code generation and base parameters have folded. How much `f64` and `f32` add to that is the
+//! matter of `tests/dynamics/roundings.rs`.
+#![cfg(feature = "generic")]
+
+use crate::common::call::*;
+use crate::common::comparison::Comparison;
+use crate::common::double_double::{DoubleDouble, exact, rounded};
+use crate::common::models::{Gantry, Gripper, Kr5, Kr5Drives, generic};
+use crate::common::random::{Random, State};
+use redysim::{LinkState, TreeDynamics, redysim};
+
+redysim! { struct Springs("models/test/springs.toml"); }
+
+const STATES: usize = 1000;
+
+fn states(dof: usize) -> impl Iterator<Item = State> {
+    let mut random = Random::new(1);
+    (0..STATES).map(move |_| random.state(dof))
+}
+
+/// The roundoff of constants is that of the largest terms, 1e-16 of them; the smallest components that count are 1e-6.
+const CONSTANTS: f64 = 1e-12;
+/// Springs add terms of hundreds of N m, which cancel more.
+const CONSTANTS_WITH_SPRINGS: f64 = 1e-11;
+
+/// Compares every function of `compiled` with the one of `generic`.
+fn assert_same_functions(
+    compiled: &impl TreeDynamics<DoubleDouble>,
+    generic: &impl TreeDynamics<DoubleDouble>,
+    constants: f64,
+) {
+    let name = generic.name().to_string();
+    let new = |function: &str| Comparison::new(format!("{name} {function}"));
+    let [mut inverse, mut forward, mut matrix, mut bias, mut coriolis, mut gravity, mut passive] =
+        ["inverse", "forward", "mass matrix", "bias", "coriolis matrix", "gravity", "passive"].map(new);
+    let [mut kinetic, mut potential] = ["kinetic", "potential"].map(new);
+    for State { q, v, a } in states(generic.nv()) {
+        let (q, v, a) = (exact(&q), exact(&v), exact(&a));
+        let tau = inverse_dynamics(generic, &q, &v, &a);
+        inverse.add(&rounded(inverse_dynamics(compiled, &q, &v, &a)), &rounded(&tau));
+        let ours = forward_dynamics(compiled, &q, &v, &tau);
+        forward.add(&rounded(ours), &rounded(forward_dynamics(generic, &q, &v, &tau)));
+        matrix.add(&rounded(mass_matrix(compiled, &q).concat()), &rounded(mass_matrix(generic, &q).concat()));
+        bias.add(&rounded(bias_forces(compiled, &q, &v)), &rounded(bias_forces(generic, &q, &v)));
+        let ours = coriolis_matrix(compiled, &q, &v).concat();
+        coriolis.add(&rounded(ours), &rounded(coriolis_matrix(generic, &q, &v).concat()));
+        gravity.add(&rounded(gravity_forces(compiled, &q)), &rounded(gravity_forces(generic, &q)));
+        passive.add(&rounded(passive_forces(compiled, &q, &v)), &rounded(passive_forces(generic, &q, &v)));
+        let (ours, theirs) = (energy(compiled, &q, &v), energy(generic, &q, &v));
+        kinetic.add(&rounded([ours.kinetic]), &rounded([theirs.kinetic]));
+        potential.add(&rounded([ours.potential]), &rounded([theirs.potential]));
+    }
+    let all = [inverse, matrix, gravity, passive, kinetic, potential];
+    all.iter().for_each(|comparison| comparison.assert_within(constants));
+    // A few components of the bias and elements of the Coriolis matrix are smaller than what their terms cancel to.
+    bias.assert_within(4.0 * constants);
+    coriolis.assert_within(10.0 * constants);
+    // The mass matrix of KR5 has condition 1e7, which is what multiplies the roundoff of constants here.
+    forward.assert_within(1e-10);
+}
+
+/// Compares positions and velocities of all links.
+fn assert_same_kinematics(compiled: &impl TreeDynamics<DoubleDouble>, generic: &impl TreeDynamics<DoubleDouble>) {
+    type Part = fn(&LinkState<DoubleDouble>) -> Vec<DoubleDouble>;
+    let parts: [(&str, Part); 5] = [
+        ("rotation", |link| link.rotation.concat()),
+        ("origin", |link| link.origin.to_vec()),
+        ("com", |link| link.com.to_vec()),
+        ("velocity", |link| link.velocity.to_vec()),
+        ("angular velocity", |link| link.angular_velocity.to_vec()),
+    ];
+    for (part, values) in parts {
+        let mut comparison = Comparison::new(format!("{} {part}", generic.name()));
+        let all = |links: Vec<LinkState<DoubleDouble>>| rounded(links.iter().flat_map(values).collect::<Vec<_>>());
+        for State { q, v, .. } in states(generic.nv()) {
+            let (q, v) = (exact(&q), exact(&v));
+            comparison.add(&all(link_kinematics(compiled, &q, &v)), &all(link_kinematics(generic, &q, &v)));
+        }
+        comparison.assert_within(1e-12);
+    }
+}
+
+/// The same in `f64`, for fifteen samples of a thousand states.
+///
+/// Where a force is a small difference of large terms, neither path has all its digits, and of some 6,000 components of
+/// a sample the worst is a matter of luck: most samples stay below 1e-12 in inverse dynamics, some have one or two
+/// components beyond. What roundoff can do at most is bounded in `tests/dynamics/roundings.rs`.
+fn assert_same_dynamics_in_f64(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDynamics<f64>) {
+    let sample = |seed: u64| {
+        let mut random = Random::new(seed);
+        let mut inverse = Comparison::new(format!("{} inverse in f64, sample {seed}", generic.name()));
+        for State { q, v, a } in (0..STATES).map(|_| random.state(generic.nv())) {
+            inverse.add(&inverse_dynamics(compiled, &q, &v, &a), &inverse_dynamics(generic, &q, &v, &a));
+        }
+        inverse.assert_within(2e-11);
+        inverse.worst().0
+    };
+    let mut errors: Vec<f64> = (1..=15).map(sample).collect();
+    errors.sort_by(f64::total_cmp);
+    println!("{} inverse in f64: median {:.1e}", generic.name(), errors[7]);
+    assert!(errors[7] <= 1e-12, "{}: the typical sample is at {:e}", generic.name(), errors[7]);
+
+    let mut forward = Comparison::new(format!("{} forward in f64", generic.name()));
+    for State { q, v, a } in states(generic.nv()) {
+        let tau = inverse_dynamics(generic, &q, &v, &a);
+        forward.add(&forward_dynamics(compiled, &q, &v, &tau), &forward_dynamics(generic, &q, &v, &tau));
+    }
+    forward.assert_within(1e-10);
+}
+
+fn assert_same_outside(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDynamics<f64>) {
+    assert_eq!(compiled.name(), generic.name());
+    assert_eq!(compiled.nq(), generic.nq());
+    assert_eq!(compiled.nv(), generic.nv());
+    assert_eq!(compiled.nl(), generic.nl());
+    for index in 0..=generic.nl() {
+        assert_eq!(compiled.link_name(index), generic.link_name(index), "link {index}");
+        assert_eq!(compiled.joint_name(index), generic.joint_name(index), "joint {index}");
+    }
+}
+
+#[test]
+fn kr5_compiled_is_kr5_generic() {
+    assert_same_outside(&Kr5, &generic("kr5"));
+    assert_same_functions(&Kr5, &generic("kr5"), CONSTANTS);
+    assert_same_kinematics(&Kr5, &generic("kr5"));
+    assert_same_dynamics_in_f64(&Kr5, &generic("kr5"));
+}
+
+#[test]
+fn kr5_with_drives_compiled_is_kr5_with_drives_generic() {
+    assert_same_outside(&Kr5Drives, &generic("kr5_drives"));
+    assert_same_functions(&Kr5Drives, &generic("kr5_drives"), CONSTANTS);
+}
+
+#[test]
+fn arms_with_springs_between_points_are_compiled_as_they_are_generic() {
+    assert_same_outside(&Springs, &generic("test/springs"));
+    assert_same_functions(&Springs, &generic("test/springs"), CONSTANTS_WITH_SPRINGS);
+}
+
+#[test]
+fn gripper_compiled_is_gripper_generic() {
+    assert_same_outside(&Gripper, &generic("gripper"));
+    assert_same_functions(&Gripper, &generic("gripper"), CONSTANTS);
+    assert_same_kinematics(&Gripper, &generic("gripper"));
+    assert_same_dynamics_in_f64(&Gripper, &generic("gripper"));
+}
+
+#[test]
+fn gantry_compiled_is_gantry_generic() {
+    assert_same_outside(&Gantry, &generic("test/gantry"));
+    assert_same_functions(&Gantry, &generic("test/gantry"), CONSTANTS);
+    assert_same_kinematics(&Gantry, &generic("test/gantry"));
+    assert_same_dynamics_in_f64(&Gantry, &generic("test/gantry"));
+}
+
+#[test]
+fn coordinates_are_in_the_order_of_the_file() {
+    assert_eq!(Gantry::LINK_NAMES[..3], ["gripper", "tool", "carriage"]);
+    assert_eq!(Gantry::JOINT_NAMES, ["gripper", "along", "across", "swivel", "forearm", "camera", "boom"]);
+    let mut v = [0.0; Gantry::NV];
+    v[2] = 1.0;
+    let links: [LinkState<f64>; Gantry::NL] = Gantry::link_kinematics(&[0.0; Gantry::NQ], &v);
+    for (name, link) in Gantry::LINK_NAMES.iter().zip(links) {
+        let speed = link.velocity.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let expected = if *name == "rail" { 0.0 } else { 1.0 };
+        assert!((speed - expected).abs() < 1e-15, "the bridge carries all but the rail, not {name} at {speed}");
+    }
+}
