@@ -2,7 +2,7 @@
 //!
 //! Nothing here branches, so that the same code serves numbers, lanes, dual numbers and symbols: quotients that are 0/0
 //! for a rotation of zero have the square of [`NEARLY_ZERO`] added to their denominator, which changes no digit of any
-//! other.
+//! other, and a [`sign`] is a quotient.
 
 use crate::spatial::{Mat3, Vec3};
 use redysim_runtime::Scalar;
@@ -122,8 +122,7 @@ pub fn difference<S: Scalar>(q0: Quaternion<S>, q1: Quaternion<S>) -> Logarithm<
     let (v, w) = parts(q);
     let (one, length, cos) = (S::one(), square(q).sqrt(), (w * w).sqrt());
     // Of q and −q the one with a positive scalar part. Half a turn, whose scalar part is zero, keeps its axis.
-    let zero = S::from_f64(NEARLY_ZERO);
-    let sign = (w + zero) / (cos + zero);
+    let sign = sign(w / length);
     // tan(θ/4), halved twice to tan(θ/16) ≤ 0.199, for which twelve terms of the arctangent are enough.
     let mut share = sign / (length + cos);
     for _ in 0..2 {
@@ -134,6 +133,15 @@ pub fn difference<S: Scalar>(q0: Quaternion<S>, q1: Quaternion<S>) -> Logarithm<
     let share = S::from_f64(16.0) * (share * arctangent_share(tangent.dot(tangent)));
     // θ/sin(θ/2) · cos(θ/2), where sin(θ/2) is |v|/|q|.
     Logarithm { vector: v.scale(share), half_cotangent: S::from_f64(0.5) * (share * sign) * cos }
+}
+
+/// The sign of a number, 1 or −1; 1 within [`NEARLY_ZERO`].
+///
+/// (x + ε)/(|x| + ε) is 1 for all positive x, but −1 to the last digit only for x far below −ε: of −1e-16 it makes −0.98.
+/// Of that it makes −1, and the third time it does so of whatever the first has left.
+fn sign<S: Scalar>(x: S) -> S {
+    let zero = S::from_f64(NEARLY_ZERO);
+    (0..3).fold(x, |x, _| (x + zero) / ((x * x).sqrt() + zero))
 }
 
 /// atan(x)/x of a square x² ≤ 0.04, to 1e-18.
