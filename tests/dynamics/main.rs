@@ -16,6 +16,7 @@ mod long_functions;
 mod parameters;
 mod peer_trees;
 mod placement;
+mod positions;
 mod random_trees;
 mod roundings;
 mod springs;
