@@ -256,6 +256,7 @@ pub trait TreeDynamics<S: Scalar>:
     + PassiveForces<S>
     + MechanicalEnergy<S>
     + MassCenter<S>
+    + TotalMomentum<S>
     + LinkKinematics<S>
 {
 }
@@ -270,6 +271,7 @@ impl<S: Scalar, M> TreeDynamics<S> for M where
         + PassiveForces<S>
         + MechanicalEnergy<S>
         + MassCenter<S>
+        + TotalMomentum<S>
         + LinkKinematics<S>
 {
 }

@@ -104,11 +104,7 @@ fn an_arm_on_a_free_base_moves_as_given_and_the_base_as_it_must() {
 /// with the angle θ from upright, θ̈ = (m l (g sin θ − ẍ cos θ))/(m l² + J), F = (M + m) ẍ + m l (θ̈ cos θ − θ̇² sin θ).
 #[test]
 fn the_force_on_a_cart_under_a_free_pole_is_that_of_the_closed_form() {
-    let text = "name = 'cart_pole'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'cart'\nparent = 'base'\n\
-                joint = 'prismatic'\naxis = [1, 0, 0]\nmass = 1\n\n[[link]]\nname = 'pole'\nparent = 'cart'\n\
-                joint = 'revolute'\naxis = [0, 1, 0]\nactuated = false\nmass = 0.2\ncom = [0, 0, 0.5]\n\
-                inertia = { xx = 0.01, yy = 0.01, zz = 0.001 }";
-    let model = Model::from_toml(text, "cart_pole.toml").expect("a valid model").model;
+    let model = Model::load("models/cart_pole.toml").expect("a valid model").model;
     let tree = Tree::new(&model);
     let (theta, rate, along) = (0.4_f64, -1.7, 3.0);
     let (moment, inertia) = (0.2 * 0.5, 0.2 * 0.25 + 0.01);
