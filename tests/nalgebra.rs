@@ -5,6 +5,7 @@ use redysim::nalgebra::{self as dynamics, OperationalSpace, Wrench};
 use redysim::{OperationalSpaceError, TaskStatus, redysim};
 
 redysim! { struct Kr5("models/kr5.toml"); }
+redysim! { struct CartPole("models/cart_pole.toml"); }
 redysim! { struct Kr5Drives("models/kr5_drives.toml"); }
 redysim! { struct Kr5Tool("models/kr5_tool.toml"); }
 redysim! { struct Fourbar("models/fourbar.toml"); }
@@ -72,6 +73,18 @@ fn the_pose_of_a_link_is_its_origin_and_rotation() {
         (center.position.coords, center.velocity),
         (Vector3::from(expected.position), Vector3::from(expected.velocity))
     );
+    let momentum = dynamics::momentum(&Kr5, &q, &v);
+    let expected = Kr5::momentum(&Q, &V);
+    assert_eq!((momentum.linear, momentum.angular), (Vector3::from(expected.linear), Vector3::from(expected.angular)));
+}
+
+#[test]
+fn hybrid_dynamics_has_vectors_of_accelerations_and_forces() {
+    let [q, v, u] = [[0.3, 0.4], [0.8, -1.7], [3.0, 0.0]];
+    let [at, velocity, given] = [q, v, u].map(SVector::<f64, 2>::from);
+    let motion = dynamics::hybrid_dynamics(&CartPole, &at, &velocity, &given);
+    let expected = CartPole::hybrid_dynamics(&q, &v, &u);
+    assert_eq!((motion.a, motion.tau), (SVector::from(expected.a), SVector::from(expected.tau)));
 }
 
 #[test]

@@ -5,13 +5,14 @@ use crate::expressions::Expressions;
 use crate::forward_dynamics;
 pub use crate::forward_dynamics::{MethodChoice, MethodFigures};
 use crate::lumping::{lumped, tree_with_parameters};
-use crate::passes::{PassError, Passes};
+use crate::passes::{PassError, Passes, simplified};
+use crate::policies::LONGEST_CHAIN_BY_FACTORISATION;
 use crate::pruning::{Pruning, StateRange, States, pruned};
 use crate::reroll;
 use crate::symbol::{Symbol, SymbolicTree, Tracer};
-use crate::tracing::simplified_on;
+use crate::tracing::{simplified_on, traced};
 use crate::trees::Trees;
-use redysim_model::{CodegenOptions, Function, Link, Model, Tree};
+use redysim_model::{CodegenOptions, Function, Link, Model, Tree, denoc};
 use redysim_runtime::function::Shape;
 use std::cell::{LazyCell, OnceCell};
 
@@ -181,7 +182,8 @@ impl<'p> Pipeline<'_, 'p> {
             let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, self.passes)?;
             Ok(TracedFunction { expressions, pruning: Some(pruning), ..whole })
         };
-        self.options.functions.with_frames(self.tree.frames.len()).iter().map(make).collect()
+        let functions = self.options.functions.with_frames(self.tree.frames.len());
+        functions.with_passive_joints(self.tree.has_passive_joints()).iter().map(make).collect()
     }
 
     /// The function on the description of the robot on which it is best computed.
@@ -201,6 +203,8 @@ impl<'p> Pipeline<'_, 'p> {
             }
             Function::CoriolisMatrix => (cheapest(&trees.dynamics(), function, passes)?, None),
             Function::Energy => (cheapest(&trees.energy(), function, passes)?, None),
+            Function::Momentum => (cheapest(&trees.moments(), function, passes)?, None),
+            Function::HybridDynamics => (hybrid_dynamics(trees, passes)?, None),
             Function::CenterOfMass => (cheapest(&trees.moments(), function, passes)?, None),
             Function::LinkKinematics
             | Function::FrameKinematics
@@ -219,6 +223,22 @@ impl<'p> Pipeline<'_, 'p> {
         };
         Ok(TracedFunction { function, method, expressions, pruning: None })
     }
+}
+
+/// Hybrid dynamics by the method that takes fewer operations: for a few passive joints that is the mass matrix.
+fn hybrid_dynamics(trees: &Trees<'_, '_>, passes: &Passes) -> Result<Expressions, PassError> {
+    let recursion = simplified_on(trees.plain(), Function::HybridDynamics, passes)?;
+    if trees.plain().depth() > LONGEST_CHAIN_BY_FACTORISATION {
+        return Ok(recursion);
+    }
+    let [forces, matrix] = [trees.bias(), trees.matrix()];
+    let traced = traced(matrix, Function::HybridDynamics, |tracer, x| {
+        let trees = [&tracer.tree(forces), &tracer.tree(matrix)];
+        let found = denoc::hybrid_dynamics_by_factorisation(trees, tracer, x[0], x[1], x[2]);
+        [found.a, found.tau].concat()
+    });
+    let factorisation = simplified(traced, passes)?;
+    Ok(if factorisation.price() <= recursion.price() { factorisation } else { recursion })
 }
 
 /// A function on the tree on which it costs least.

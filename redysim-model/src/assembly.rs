@@ -145,6 +145,7 @@ impl<P: Parameter> Tree<P> {
             v: v..v + joint.nv(),
             inertia: PseudoInertia::zero(),
             physics: Some(physics).filter(JointPhysics::acts),
+            actuated: link.actuated,
         });
         let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)

@@ -7,9 +7,9 @@ use crate::tree::Tree;
 use redysim_runtime::function::Dimension::{self, Coordinates, Velocities};
 use redysim_runtime::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics,
-    FrameAcceleration, FrameJacobian, FrameState, Frames, GravityForces, InverseDynamics, LengthMismatch,
-    LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
-    PassiveForces, Scalar, Wrench,
+    FrameAcceleration, FrameJacobian, FrameState, Frames, GravityForces, HybridDynamics, HybridMotion, InverseDynamics,
+    LengthMismatch, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
+    Mechanism, Momentum, PassiveForces, Scalar, TotalMomentum, Wrench,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -259,6 +259,20 @@ impl<S: Scalar> MassCenter<S> for GenericMechanism {
     fn center_of_mass(&self, q: &Vec<S>, v: &Vec<S>) -> CenterOfMass<S> {
         self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
         denoc::center_of_mass(&self.tree, &Untraced, q, v)
+    }
+}
+
+impl<S: Scalar> TotalMomentum<S> for GenericMechanism {
+    fn momentum(&self, q: &Vec<S>, v: &Vec<S>) -> Momentum<S> {
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v)]);
+        denoc::momentum(&self.tree, &Untraced, q, v)
+    }
+}
+
+impl<S: Scalar> HybridDynamics<S> for GenericMechanism {
+    fn hybrid_dynamics(&self, q: &Vec<S>, v: &Vec<S>, u: &Vec<S>) -> HybridMotion<Vec<S>> {
+        self.check(&[("q", Coordinates, q), ("v", Velocities, v), ("u", Velocities, u)]);
+        denoc::hybrid_dynamics(Method::Recursion, &self.tree, &Untraced, q, v, u)
     }
 }
 

@@ -316,6 +316,12 @@ impl Model {
         self.links.iter().map(|link| link.joint.dof()).sum()
     }
 
+    /// Whether some joints have an actuator and some do not, and there are no loops.
+    pub(crate) fn has_passive_joints(&self) -> bool {
+        let actuated = self.moving_links().filter(|link| link.actuated).count();
+        self.loops.is_empty() && (1..self.moving_links().count()).contains(&actuated)
+    }
+
     /// Mass of all links, kg.
     pub fn mass(&self) -> f64 {
         self.links.iter().map(|link| link.mass).sum()

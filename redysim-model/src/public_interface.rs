@@ -135,7 +135,10 @@ impl PublicInterface {
             loop_rows: Tree::new(model).loops_of_rows().map(|index| model.loops[index].name.clone()).collect(),
             frames: model.frames.iter().map(|frame| frame.name.clone()).collect(),
             mass: model.mass(),
-            functions: options.functions.with_frames(model.frames.len()),
+            functions: options
+                .functions
+                .with_frames(model.frames.len())
+                .with_passive_joints(model.has_passive_joints()),
             parameters: options.parameters.iter().flat_map(numbers).collect(),
         }
     }

@@ -54,6 +54,8 @@ pub struct Body<P = f64> {
     pub inertia: PseudoInertia<P>,
     /// What acts in the joint itself; `None` if nothing does.
     pub physics: Option<JointPhysics<P>>,
+    /// Whether the joint has an actuator.
+    pub actuated: bool,
 }
 
 impl<P> Body<P> {
@@ -135,6 +137,13 @@ impl<P> Tree<P> {
         self.bodies.iter().map(|body| body.v.len()).sum()
     }
 
+    /// Whether some joints have an actuator and some do not, and there are no loops: then it has
+    /// [hybrid dynamics](crate::denoc::hybrid_dynamics).
+    pub fn has_passive_joints(&self) -> bool {
+        let actuated = self.bodies.iter().filter(|body| body.actuated).count();
+        self.cuts.is_empty() && (1..self.bodies.len()).contains(&actuated)
+    }
+
     /// For each row of the loops, the index of its cut; NC of them.
     pub fn loops_of_rows(&self) -> impl Iterator<Item = usize> {
         self.cuts.iter().enumerate().flat_map(|(index, cut)| cut.rows.iter().filter(|kept| **kept).map(move |_| index))
@@ -155,6 +164,7 @@ impl<P> Tree<P> {
             v: body.v.clone(),
             inertia: body.inertia.map(&f),
             physics: body.physics.map(|physics| physics.map(&f)),
+            actuated: body.actuated,
         };
         let link = |link: &Attachment<P>| Attachment { body: link.body, pose: link.pose, com: link.com.map(&f) };
         Tree {

@@ -163,7 +163,10 @@ impl CodegenOptions {
         let CodegenOptions { functions, tolerance, forward_dynamics, parameters } = self;
         let mut text = Text::default();
         if *functions != Functions::ALL {
-            let of_model = functions.with_frames(model.frames.len()).with_loops(model.loops.len());
+            let of_model = functions
+                .with_frames(model.frames.len())
+                .with_loops(model.loops.len())
+                .with_passive_joints(model.has_passive_joints());
             text.entry(&keys::FUNCTIONS, array(of_model.iter().map(|function| string(function.name()))));
         }
         if let Some(tolerance) = tolerance {

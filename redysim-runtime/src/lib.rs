@@ -112,8 +112,8 @@ pub use joint_trig::JointTrig;
 pub use linear_algebra::RowSet;
 pub use mechanism::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
-    InverseDynamics, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
-    Mechanism, PassiveForces, TreeDynamics,
+    HybridDynamics, HybridMotion, InverseDynamics, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter,
+    MassMatrix, MechanicalEnergy, Mechanism, Momentum, PassiveForces, TotalMomentum, TreeDynamics,
 };
 pub use operational_space::{OperationalSpace, OperationalSpaceError, TaskStatus};
 pub use operations::OperationCount;

@@ -185,6 +185,27 @@ pub trait MassCenter<S: Scalar>: ConfigurationSpace<S> {
     fn center_of_mass(&self, q: &Self::Coordinates, v: &Self::Velocities) -> CenterOfMass<S>;
 }
 
+/// The momentum of a whole mechanism.
+pub trait TotalMomentum<S: Scalar>: ConfigurationSpace<S> {
+    /// Linear momentum, and angular momentum about the [centre of mass](MassCenter), of all links in the axes of the
+    /// base frame. Without external forces both are constant.
+    fn momentum(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Momentum<S>;
+}
+
+/// Forward dynamics of some joints and inverse dynamics of the others.
+pub trait HybridDynamics<S: Scalar>: ConfigurationSpace<S> {
+    /// Accelerations and joint forces from what `u` gives of each velocity: where the joint has an actuator the
+    /// acceleration, rad/s² or m/s², and else the force, N m or N (Featherstone, *Rigid Body Dynamics Algorithms*,
+    /// Springer 2008, section 9.2). For a free base it is the inverse dynamics of a floating robot, for a cart-pole that
+    /// of the cart under a free pole.
+    fn hybrid_dynamics(
+        &self,
+        q: &Self::Coordinates,
+        v: &Self::Velocities,
+        u: &Self::Velocities,
+    ) -> HybridMotion<Self::Velocities>;
+}
+
 /// Where every link is and how it moves.
 pub trait LinkKinematics<S: Scalar>: ConfigurationSpace<S> {
     /// Position and velocity of every link, in the base frame, in the model's order.
@@ -235,6 +256,7 @@ pub trait TreeDynamics<S: Scalar>:
     + PassiveForces<S>
     + MechanicalEnergy<S>
     + MassCenter<S>
+    + TotalMomentum<S>
     + LinkKinematics<S>
 {
 }
@@ -249,6 +271,7 @@ impl<S: Scalar, M> TreeDynamics<S> for M where
         + PassiveForces<S>
         + MechanicalEnergy<S>
         + MassCenter<S>
+        + TotalMomentum<S>
         + LinkKinematics<S>
 {
 }
@@ -278,6 +301,26 @@ pub struct CenterOfMass<S> {
     pub position: [S; 3],
     /// Σ m ċ / Σ m, m/s: the linear momentum as a share of the mass.
     pub velocity: [S; 3],
+}
+
+/// The momentum of a mechanism, in the axes of the base frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Momentum<S> {
+    /// Σ m ċ, N s.
+    pub linear: [S; 3],
+    /// Σ I ω + m (c − c₀) × ċ about the centre of mass c₀ of the mechanism, N m s.
+    pub angular: [S; 3],
+}
+
+/// What [`HybridDynamics`] finds, for each velocity in the model's order.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct HybridMotion<V> {
+    /// Accelerations, rad/s² or m/s²: those that are given, and those that are found.
+    pub a: V,
+    /// Joint forces, N m or N: those that are found, and those that are given.
+    pub tau: V,
 }
 
 /// Position and velocity of one link, in the base frame.

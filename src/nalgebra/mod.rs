@@ -29,8 +29,9 @@ pub use frames::{Frame, Wrench, frame_bias, frame_forces, frame_jacobians, frame
 pub use operational_space::OperationalSpace;
 
 use crate::{
-    BiasForces, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces, InverseDynamics,
-    LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy, PassiveForces, Scalar,
+    BiasForces, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces, HybridDynamics,
+    HybridMotion, InverseDynamics, LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy,
+    PassiveForces, Scalar, TotalMomentum,
 };
 use ::nalgebra::{Isometry3, Point3, RealField, Rotation3, SMatrix, SVector, UnitQuaternion, Vector3};
 
@@ -62,6 +63,15 @@ impl<S: RealField + Copy> From<LinkState<S>> for Link<S> {
             angular_velocity: angular_velocity.into(),
         }
     }
+}
+
+/// The momentum of a whole mechanism, in the axes of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Momentum<S: ::nalgebra::Scalar> {
+    /// Linear momentum, N s.
+    pub linear: Vector3<S>,
+    /// Angular momentum about the centre of mass, N m s.
+    pub angular: Vector3<S>,
 }
 
 /// Position and velocity of the centre of mass of a whole mechanism, in the base frame.
@@ -255,6 +265,35 @@ where
 {
     let crate::CenterOfMass { position, velocity } = mechanism.center_of_mass(array(q), array(v));
     CenterOfMass { position: position.into(), velocity: velocity.into() }
+}
+
+/// [`TotalMomentum::momentum`]: the linear momentum of the mechanism, and its angular momentum about the centre of mass.
+pub fn momentum<S, M, const NQ: usize, const NV: usize>(
+    mechanism: &M,
+    q: &SVector<S, NQ>,
+    v: &SVector<S, NV>,
+) -> Momentum<S>
+where
+    S: Number,
+    M: TotalMomentum<S, Coordinates = [S; NQ], Velocities = [S; NV]>,
+{
+    let crate::Momentum { linear, angular } = mechanism.momentum(array(q), array(v));
+    Momentum { linear: linear.into(), angular: angular.into() }
+}
+
+/// [`HybridDynamics::hybrid_dynamics`]: accelerations and joint forces from what `u` gives of each velocity.
+pub fn hybrid_dynamics<S, M, const NQ: usize, const NV: usize>(
+    mechanism: &M,
+    q: &SVector<S, NQ>,
+    v: &SVector<S, NV>,
+    u: &SVector<S, NV>,
+) -> HybridMotion<SVector<S, NV>>
+where
+    S: Number,
+    M: HybridDynamics<S, Coordinates = [S; NQ], Velocities = [S; NV]>,
+{
+    let HybridMotion { a, tau } = mechanism.hybrid_dynamics(array(q), array(v), array(u));
+    HybridMotion { a: a.into(), tau: tau.into() }
 }
 
 /// [`LinkKinematics::link_kinematics`]: where every link is and how it moves, in the base frame, in the model's order.

@@ -11,12 +11,14 @@ use crate::common::dual::{Dual, moving};
 use crate::common::random::Random;
 use crate::common::styles::{link, offset, placed};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use redysim::Scalar;
 use redysim::generic::{GenericMechanism, Model};
+use redysim::{ConfigurationSpace, Scalar};
 use redysim_codegen::functions::{TracedFunction, trace};
 use redysim_model::spatial::{Mat3, Vec3};
 use redysim_model::{CutKind, CutSide, Inertia, JointKind, Link, Loop};
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::Range;
 
 const MODELS: u64 = 150;
 const STATES: usize = 3;
@@ -37,9 +39,40 @@ fn product<S: Scalar>(a: &Transform<S>, b: &Transform<S>) -> Transform<S> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..4).fold(S::zero(), |sum, k| sum + a[i][k] * b[k][j])))
 }
 
+/// What the coordinates of a joint do.
+fn joint<S: Scalar>(link: &Link, q: &[S]) -> Transform<S> {
+    match (link.joint, q) {
+        (JointKind::Spherical, &[x, y, z, w]) => turned([x, y, z, w], [S::zero(); 3]),
+        (JointKind::Free, &[x, y, z, qx, qy, qz, qw]) => turned([qx, qy, qz, qw], [x, y, z]),
+        (kind, &[q]) => on_axis(kind, link.pitch, link.axis.0, q + S::from_f64(link.offset)),
+        _ => unit(),
+    }
+}
+
+fn unit<S: Scalar>() -> Transform<S> {
+    constant(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [0.0; 3])
+}
+
+/// The rotation by a quaternion (x, y, z, w), whose columns are those of a unit quaternion divided by its square, and a
+/// shift.
+fn turned<S: Scalar>([x, y, z, w]: [S; 4], position: [S; 3]) -> Transform<S> {
+    let twice = |a: S| a + a;
+    let columns = [
+        [x * x - y * y - z * z + w * w, twice(x * y + z * w), twice(z * x - y * w)],
+        [twice(x * y - z * w), y * y - z * z - x * x + w * w, twice(y * z + x * w)],
+        [twice(z * x + y * w), twice(y * z - x * w), z * z - x * x - y * y + w * w],
+    ];
+    let square = x * x + y * y + z * z + w * w;
+    let mut transform = unit();
+    for (i, row) in transform.iter_mut().enumerate().take(3) {
+        *row = [columns[0][i] / square, columns[1][i] / square, columns[2][i] / square, position[i]];
+    }
+    transform
+}
+
 /// What a joint variable does: Rodrigues' rotation 1 + sin q [u] + (1 − cos q) [u]² about, or a shift along, the axis.
-fn joint<S: Scalar>(kind: JointKind, pitch: f64, u: [f64; 3], q: S) -> Transform<S> {
-    let mut transform = constant::<S>(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [0.0; 3]);
+fn on_axis<S: Scalar>(kind: JointKind, pitch: f64, u: [f64; 3], q: S) -> Transform<S> {
+    let mut transform = unit::<S>();
     let cross = [[0.0, -u[2], u[1]], [u[2], 0.0, -u[0]], [-u[1], u[0], 0.0]];
     let (sin, cos) = q.sin_cos();
     for (i, row) in transform.iter_mut().enumerate().take(3) {
@@ -61,15 +94,30 @@ fn joint<S: Scalar>(kind: JointKind, pitch: f64, u: [f64; 3], q: S) -> Transform
     transform
 }
 
+/// How many coordinates a joint has.
+fn coordinates(joint: JointKind) -> usize {
+    match joint {
+        JointKind::Fixed => 0,
+        JointKind::Spherical => 4,
+        JointKind::Free => 7,
+        _ => 1,
+    }
+}
+
+/// The rates q̇ = N(q) v of the coordinates at the velocities `v`.
+fn rates<S: Scalar>(mechanism: &GenericMechanism, q: &[S], v: &[f64]) -> Vec<S> {
+    mechanism.coordinate_rates(&q.to_vec(), &constants(v))
+}
+
 /// Link `link` in the base frame; without a link, the base.
 fn place<S: Scalar>(model: &Model, link: Option<usize>, q: &[S]) -> Transform<S> {
-    let Some(index) = link else { return joint(JointKind::Fixed, 0.0, [0.0; 3], S::zero()) };
+    let Some(index) = link else { return unit() };
     let link = &model.links[index];
-    let coordinate = model.links[..index].iter().filter(|link| link.joint != JointKind::Fixed).count();
-    let variable = q.get(coordinate).map_or(S::zero(), |&q| q + S::from_f64(link.offset));
+    let first = model.links[..index].iter().map(|link| coordinates(link.joint)).sum::<usize>();
+    let own = &q[first..first + coordinates(link.joint)];
     let placement = constant(&link.placement.rotation.0, link.placement.position.0);
     let parent = place(model, link.parent, q);
-    let moved = product(&product(&parent, &placement), &joint(link.joint, link.pitch, link.axis.0, variable));
+    let moved = product(&product(&parent, &placement), &joint(link, own));
     product(&moved, &constant(&link.frame.rotation.0, link.frame.position.0))
 }
 
@@ -117,25 +165,25 @@ fn unit_vector(random: &mut Random) -> Vector3<f64> {
     }
 }
 
-/// A tree of links, and one to three loops between any two of them or the base.
-fn random_model(random: &mut Random) -> Model {
+/// A tree of links on joints of these kinds, and one to three loops between any two of them or the base.
+fn random_model(random: &mut Random, kinds: &[JointKind]) -> Model {
     let count = 2 + random.below(8);
     let links = random.tree(count, |random, grown, parent| {
         let axis = Unit::new_normalize(unit_vector(random));
         let turned = Rotation3::from_axis_angle(&axis, random.within(3.0));
-        let kinds = [JointKind::Revolute, JointKind::Helical, JointKind::Prismatic, JointKind::Fixed];
-        let joint = kinds[random.below(4)];
+        let joint = kinds[random.below(kinds.len())];
         let at = Vec3::from_fn(|_| random.within(0.5));
         let tilt = Rotation3::from_axis_angle(&axis, random.within(3.0));
-        Link {
-            axis: Vec3(unit_vector(random).into()),
-            frame: placed(tilt.matrix(), Vec3::from_fn(|_| random.within(0.3))),
-            offset: offset(random),
-            pitch: 0.2,
-            mass: 1.0,
-            inertia: Inertia { xx: 1.0, yy: 1.0, zz: 1.0, ..Inertia::default() },
-            ..link(grown, parent, joint, placed(turned.matrix(), at))
+        let inertia = Inertia { xx: 1.0, yy: 1.0, zz: 1.0, ..Inertia::default() };
+        let body = Link { mass: 1.0, inertia, ..link(grown, parent, joint, placed(turned.matrix(), at)) };
+        let axis = Vec3(unit_vector(random).into());
+        let frame = placed(tilt.matrix(), Vec3::from_fn(|_| random.within(0.3)));
+        let offset = offset(random);
+        // Spherical and free joints have none of these.
+        if matches!(joint, JointKind::Spherical | JointKind::Free) {
+            return body;
         }
+        Link { axis, frame, offset, pitch: 0.2, ..body }
     });
     let mut loops = Vec::new();
     for number in 0..=random.below(3) {
@@ -202,13 +250,26 @@ fn evaluated(functions: &[TracedFunction], name: &str, arguments: &[&[f64]]) -> 
     function.expressions.evaluate(arguments)
 }
 
+const OF_ONE_FREEDOM: [JointKind; 4] =
+    [JointKind::Revolute, JointKind::Helical, JointKind::Prismatic, JointKind::Fixed];
+
 #[test]
 fn loops_agree_with_homogeneous_transforms() {
+    loops_agree(1000..1000 + MODELS, &OF_ONE_FREEDOM);
+}
+
+#[test]
+fn loops_through_joints_of_several_freedoms_agree_with_homogeneous_transforms() {
+    let kinds = [&OF_ONE_FREEDOM[..], &[JointKind::Spherical, JointKind::Free]].concat();
+    loops_agree(2000..2000 + MODELS, &kinds);
+}
+
+fn loops_agree(seeds: Range<u64>, kinds: &[JointKind]) {
     let mut errors = Errors::default();
     let (mut kept_rows, mut all_rows, mut with_common_ancestor, mut on_the_base) = (0, 0, 0, 0);
-    for seed in 0..MODELS {
-        let mut random = Random::new(1000 + seed);
-        let mechanism = GenericMechanism::new(random_model(&mut random));
+    for seed in seeds {
+        let mut random = Random::new(seed);
+        let mechanism = GenericMechanism::new(random_model(&mut random, kinds));
         let (model, tree) = (mechanism.model(), mechanism.tree());
         let (frames, traced) = (frames(&mechanism), trace(tree).expect("no pass changes a value"));
         let kept: Vec<bool> = tree.cuts.iter().flat_map(|cut| cut.rows.clone()).collect();
@@ -224,8 +285,8 @@ fn loops_agree_with_homogeneous_transforms() {
         on_the_base += model.loops.iter().filter(|cut| cut.a.link.is_none() || cut.b.link.is_none()).count();
         with_common_ancestor += model.loops.iter().filter(|cut| share_a_joint(model, cut)).count();
         for _ in 0..STATES {
-            let state = random.state(tree.nv());
-            let (q, v) = (&state.q[..], &state.v[..]);
+            // Quaternions within ±π are of any length.
+            let (q, v) = (&random.vector(tree.nq(), PI)[..], &random.vector(tree.nv(), 3.0)[..]);
             let expected = select(residual(model, &frames, q));
             errors.add("residual", &loop_residual(&mechanism, q), &expected, 1e-13);
             errors.add("traced residual", &evaluated(&traced, "loop_residual", &[q]), &expected, 1e-13);
@@ -234,16 +295,16 @@ fn loops_agree_with_homogeneous_transforms() {
             for coordinate in 0..tree.nv() {
                 let mut direction = vec![0.0; tree.nv()];
                 direction[coordinate] = 1.0;
-                let rows = residual(model, &frames, &moving(q, &direction));
+                let rows = residual(model, &frames, &moving(q, &rates(&mechanism, q, &direction)));
                 let expected = select(rows.iter().map(|row| row.rate).collect());
                 let column: Vec<f64> = jacobian.iter().map(|row| row[coordinate]).collect();
                 errors.add("jacobian", &column, &expected, 1e-13);
                 let column: Vec<f64> = by_expressions.iter().skip(coordinate).step_by(tree.nv()).copied().collect();
                 errors.add("traced jacobian", &column, &expected, 1e-13);
             }
-            // Along q + v t, the second derivative of the residual is J̇ v.
-            let inner: Vec<Dual<f64>> = moving(q, v);
-            let twice = moving(&inner, &constants::<Dual<f64>>(v));
+            // Along q̇ = N(q) v at constant v, the second derivative of the residual is J̇ v.
+            let inner: Vec<Dual<f64>> = moving(q, &rates(&mechanism, q, v));
+            let twice = moving(&inner, &rates(&mechanism, &inner, v));
             let rows = residual(model, &frames, &twice);
             let expected = select(rows.iter().map(|row| row.rate.rate).collect());
             errors.add("bias", &loop_bias(&mechanism, q, v), &expected, 1e-13);

@@ -3,7 +3,7 @@
 use redysim::{
     BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, FrameJacobian, Frames,
     GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy,
-    Mechanism, PassiveForces, Scalar, Vector,
+    Mechanism, Momentum, PassiveForces, Scalar, TotalMomentum, Vector,
 };
 
 fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
@@ -51,6 +51,10 @@ pub fn energy<S: Scalar>(m: &impl MechanicalEnergy<S>, q: &[S], v: &[S]) -> Ener
 
 pub fn center_of_mass<S: Scalar>(m: &impl MassCenter<S>, q: &[S], v: &[S]) -> CenterOfMass<S> {
     m.center_of_mass(&vector(q), &vector(v))
+}
+
+pub fn momentum<S: Scalar>(m: &impl TotalMomentum<S>, q: &[S], v: &[S]) -> Momentum<S> {
+    m.momentum(&vector(q), &vector(v))
 }
 
 pub fn link_kinematics<S: Scalar>(m: &impl LinkKinematics<S>, q: &[S], v: &[S]) -> Vec<LinkState<S>> {

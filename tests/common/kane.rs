@@ -8,10 +8,11 @@
 //! where a and α are the accelerations at zero joint accelerations. Source: Kane and Levinson, *Dynamics: Theory and
 //! Applications*, McGraw-Hill 1985.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Pose};
 use redysim_model::{Frame, JointKind, Link, LinkPoint, Model};
+use std::ops::Range;
 
 /// Everything the tests compare, at one state.
 pub struct Kane {
@@ -41,11 +42,11 @@ pub struct Body {
     /// Accelerations at zero joint accelerations, of the origin and of the axes.
     pub acceleration: Vector3<f64>,
     pub angular_acceleration: Vector3<f64>,
-    /// Joints between the ground and the link, with the coordinates.
+    /// What the joints between the ground and the link do, with the number of each velocity.
     joints: Vec<(usize, Screw)>,
 }
 
-/// A joint's motion for a unit of its coordinate.
+/// A joint's motion for a unit of one of its velocities.
 #[derive(Clone, Copy)]
 struct Screw {
     axis: Vector3<f64>,
@@ -88,49 +89,64 @@ impl Body {
         }
     }
 
-    /// The link that a joint with coordinate number `coordinate` carries on this one.
-    fn carry(&self, link: &Link, coordinate: usize, q: f64, v: f64) -> Body {
+    /// The link that a joint with the coordinates `q` and the velocities `v` carries on this one; `first` is the number
+    /// of the first of these velocities.
+    fn carry(&self, link: &Link, first: usize, q: &[f64], v: &[f64]) -> Body {
         let mut body = self.fixed(&link.placement);
         let (at_zero, axis) = (body.rotation, Vector3::from(link.axis.0));
         let z = at_zero * axis;
-        let (w, dw) = (self.angular_velocity, self.angular_acceleration);
         match link.joint {
             JointKind::Revolute => {
-                body.rotation = at_zero * Rotation3::from_axis_angle(&Unit::new_normalize(axis), link.offset + q);
-                body.angular_velocity += z * v;
-                body.angular_acceleration += w.cross(&z) * v;
+                body.rotation = at_zero * Rotation3::from_axis_angle(&Unit::new_normalize(axis), link.offset + q[0]);
+                body.move_on(self, Vector3::zeros(), Vector3::zeros(), z * v[0]);
             }
-            JointKind::Prismatic => {
-                let stroke = z * (link.offset + q);
-                body.origin += stroke;
-                body.velocity += w.cross(&stroke) + z * v;
-                body.acceleration += dw.cross(&stroke) + w.cross(&w.cross(&stroke)) + 2.0 * w.cross(&z) * v;
-            }
+            JointKind::Prismatic => body.move_on(self, z * (link.offset + q[0]), z * v[0], Vector3::zeros()),
             JointKind::Helical => {
-                let turn = link.offset + q;
-                let stroke = z * (link.pitch * turn);
+                let turn = link.offset + q[0];
                 body.rotation = at_zero * Rotation3::from_axis_angle(&Unit::new_normalize(axis), turn);
-                body.origin += stroke;
-                body.velocity += w.cross(&stroke) + z * (link.pitch * v);
-                body.acceleration +=
-                    dw.cross(&stroke) + w.cross(&w.cross(&stroke)) + 2.0 * link.pitch * w.cross(&z) * v;
-                body.angular_velocity += z * v;
-                body.angular_acceleration += w.cross(&z) * v;
+                body.move_on(self, z * (link.pitch * turn), z * (link.pitch * v[0]), z * v[0]);
+            }
+            JointKind::Spherical => {
+                body.rotation = at_zero * orientation(q);
+                body.move_on(self, Vector3::zeros(), Vector3::zeros(), body.rotation * vector(v));
+            }
+            JointKind::Free => {
+                body.rotation = at_zero * orientation(&q[3..]);
+                let (linear, angular) = (body.rotation * vector(v), body.rotation * vector(&v[3..]));
+                body.move_on(self, at_zero * vector(q), linear, angular);
             }
             JointKind::Fixed => {}
             other => panic!("Kane's equations are not written for {other:?} joints"),
         }
-        let on_axis = body.origin;
+        let (point, axes) = (body.origin, body.rotation);
+        let about = |axis| Screw { axis, point, turn: 1.0, slide: 0.0 };
+        let along = |axis| Screw { axis, point, turn: 0.0, slide: 1.0 };
+        let own = |i: usize| axes.column(i).into_owned();
+        let screws = match link.joint {
+            JointKind::Revolute => vec![about(z)],
+            JointKind::Prismatic => vec![along(z)],
+            JointKind::Helical => vec![Screw { slide: link.pitch, ..about(z) }],
+            JointKind::Spherical => (0..3).map(|i| about(own(i))).collect(),
+            JointKind::Free => (0..3).map(|i| along(own(i))).chain((0..3).map(|i| about(own(i)))).collect(),
+            _ => vec![],
+        };
+        body.joints.extend((first..).zip(screws));
         body.stand_on(Matrix3::from_fn(|i, j| link.frame.rotation.0[i][j]), Vector3::from(link.frame.position.0));
         body.com = body.origin + body.rotation * Vector3::from(link.com.0);
-        if link.joint != JointKind::Fixed {
-            let (turn, slide) = match link.joint {
-                JointKind::Prismatic => (0.0, 1.0),
-                _ => (1.0, link.pitch),
-            };
-            body.joints.push((coordinate, Screw { axis: z, point: on_axis, turn, slide }));
-        }
         body
+    }
+
+    /// Moves the origin by `stroke` from where it is at the zero position of its joint on `parent`, against which it has
+    /// these velocities. Both are constant in the axes of this body, so that the derivative of each, u, is ω × u with the
+    /// whole angular velocity ω of this body.
+    fn move_on(&mut self, parent: &Body, stroke: Vector3<f64>, linear: Vector3<f64>, angular: Vector3<f64>) {
+        let (w, dw) = (parent.angular_velocity, parent.angular_acceleration);
+        self.origin += stroke;
+        self.velocity += w.cross(&stroke) + linear;
+        self.acceleration += dw.cross(&stroke) + w.cross(&w.cross(&stroke)) + w.cross(&linear);
+        self.angular_velocity += angular;
+        self.acceleration += self.angular_velocity.cross(&linear);
+        self.angular_acceleration += self.angular_velocity.cross(&angular);
     }
 
     /// Takes a frame fixed to this one, at `position` in it with the axes `rotation`, instead.
@@ -156,7 +172,7 @@ impl Body {
 
 /// Evaluates the model at coordinates `q` and velocities `v`.
 pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
-    let dof = q.len();
+    let dof = v.len();
     let links = bodies(model, q, v);
     let ground = Body::ground();
     let on_link = |frame: &Frame| frame.link.map_or(&ground, |link| &links[link]).fixed(&frame.placement);
@@ -173,15 +189,16 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         links: Vec::new(),
         frames: Vec::new(),
     };
-    let moving = model.links.iter().filter(|link| link.joint != JointKind::Fixed).enumerate();
-    for (joint, link) in moving {
+    for (link, (coordinates, velocities)) in model.links.iter().zip(numbers(model)) {
+        // Joints of several freedoms have no physics of their own.
+        let (&[q], &[v]) = (&q[coordinates], &v[velocities.clone()]) else { continue };
         let JointPhysics { armature, damping, friction, friction_velocity, stiffness, rest } = link.physics;
-        let stretch = q[joint] - rest;
+        let (joint, stretch) = (velocities.start, q - rest);
         sums.matrix[(joint, joint)] += armature;
-        let dissipative = damping * v[joint] + friction * v[joint] / v[joint].hypot(friction_velocity);
+        let dissipative = damping * v + friction * v / v.hypot(friction_velocity);
         sums.passive[joint] += dissipative + stiffness * stretch;
-        sums.dissipated += dissipative * v[joint];
-        sums.kinetic += 0.5 * armature * v[joint].powi(2);
+        sums.dissipated += dissipative * v;
+        sums.kinetic += 0.5 * armature * v.powi(2);
         sums.potential += 0.5 * stiffness * stretch.powi(2);
     }
     for spring in &model.springs {
@@ -219,12 +236,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
 
 /// All links, whatever their order: a link is placed as soon as its parent is.
 fn bodies(model: &Model, q: &[f64], v: &[f64]) -> Vec<Body> {
-    let mut coordinates = Vec::new();
-    let mut next = 0;
-    for link in &model.links {
-        coordinates.push(next);
-        next += usize::from(link.joint != JointKind::Fixed);
-    }
+    let numbers = numbers(model);
     let mut placed: Vec<Option<Body>> = vec![None; model.links.len()];
     while placed.iter().any(Option::is_none) {
         for (index, link) in model.links.iter().enumerate() {
@@ -232,11 +244,43 @@ fn bodies(model: &Model, q: &[f64], v: &[f64]) -> Vec<Body> {
                 None => Some(Body::ground()),
                 Some(parent) => placed[parent].clone(),
             };
-            let at = |values: &[f64]| values.get(coordinates[index]).copied().unwrap_or(0.0);
+            let (coordinates, velocities) = numbers[index].clone();
             if let Some(parent) = parent.filter(|_| placed[index].is_none()) {
-                placed[index] = Some(parent.carry(link, coordinates[index], at(q), at(v)));
+                placed[index] = Some(parent.carry(link, velocities.start, &q[coordinates], &v[velocities]));
             }
         }
     }
     placed.into_iter().flatten().collect()
+}
+
+/// Which coordinates and which velocities the joint of each link has, in the model's order.
+fn numbers(model: &Model) -> Vec<(Range<usize>, Range<usize>)> {
+    let (mut coordinates, mut velocities) = (0..0, 0..0);
+    let next = |(nq, nv)| {
+        coordinates = coordinates.end..coordinates.end + nq;
+        velocities = velocities.end..velocities.end + nv;
+        (coordinates.clone(), velocities.clone())
+    };
+    model.links.iter().map(|link| sizes(link.joint)).map(next).collect()
+}
+
+/// How many coordinates and velocities a joint has.
+fn sizes(joint: JointKind) -> (usize, usize) {
+    match joint {
+        JointKind::Fixed => (0, 0),
+        JointKind::Spherical => (4, 3),
+        JointKind::Free => (7, 6),
+        _ => (1, 1),
+    }
+}
+
+/// The axes that a quaternion (x, y, z, w) of any length gives, as columns.
+fn orientation(q: &[f64]) -> Matrix3<f64> {
+    let unit = UnitQuaternion::new_normalize(Quaternion::new(q[3], q[0], q[1], q[2]));
+    *unit.to_rotation_matrix().matrix()
+}
+
+/// The first three numbers.
+fn vector(numbers: &[f64]) -> Vector3<f64> {
+    Vector3::from_column_slice(&numbers[..3])
 }

@@ -10,7 +10,8 @@ use crate::common::dual::{Dual, moving};
 use crate::common::models::{Gantry, Gripper, Kr5, generic};
 use crate::common::random::{Random, State};
 use redysim::generic::{GenericMechanism, Model};
-use redysim::{CenterOfMass, LinkState, Scalar, TreeDynamics};
+use redysim::{CenterOfMass, LinkState, Momentum, Scalar, TreeDynamics};
+use redysim_model::inertia::Sym3;
 
 const STATES: usize = 300;
 
@@ -39,6 +40,7 @@ struct Links {
     links: Vec<LinkState<Number>>,
     moving: Vec<LinkState<Dual<Number>>>,
     center_of_mass: CenterOfMass<Number>,
+    momentum: Momentum<Number>,
     potential: Number,
 }
 
@@ -49,6 +51,7 @@ impl Links {
             links: link_kinematics(m, &q, &v),
             moving: link_kinematics(m, &moving(&q, &v), &moving(&v, &a)),
             center_of_mass: center_of_mass(m, &q, &v),
+            momentum: momentum(m, &q, &v),
             potential: energy::<Number>(m, &q, &v).potential,
         }
     }
@@ -151,6 +154,37 @@ fn the_centre_of_mass_of_a_mechanism_is_the_mean_of_its_links_and_moves_as_it_do
         // The gantry's oblique rotations are constants, orthonormal to 1e-16 only.
         positions.assert_within(if name.ends_with("gantry") { 1e-11 } else { 1e-12 });
         velocities.assert_within(if name.ends_with("gantry") { 1e-11 } else { 1e-12 });
+    });
+}
+
+#[test]
+fn the_momentum_of_a_mechanism_is_the_sum_of_those_of_its_links() {
+    on_every_mechanism(|name, generic, links_at| {
+        let mut linear = Comparison::new(format!("{name}: p = Σ m ċ"));
+        let mut angular = Comparison::new(format!("{name}: L = Σ I ω + m (c − c₀) × ċ"));
+        let model = generic.model();
+        for links in states(model).map(|state| links_at(&state)) {
+            let center = links.center_of_mass.position;
+            let mut sums = [[Number::zero(); 3]; 2];
+            for ((link, at), moving) in model.links.iter().zip(&links.links).zip(&links.moving) {
+                let (mass, inertia) = (Number::from_f64(link.mass), Sym3::from(link.inertia).full().0);
+                let velocity = moving.com.map(|com| com.rate);
+                let arm = [0, 1, 2].map(|axis| at.com[axis] - center[axis]);
+                let columns = [0, 1, 2].map(|j| at.rotation.map(|row| row[j]));
+                let own_axes = columns.map(|column| dot(column, at.angular_velocity));
+                let own = inertia.map(|row| dot(row.map(Number::from_f64), own_axes));
+                let orbital = cross(arm, velocity);
+                for axis in 0..3 {
+                    sums[0][axis] += mass * velocity[axis];
+                    sums[1][axis] += dot(at.rotation[axis], own) + mass * orbital[axis];
+                }
+            }
+            linear.add(&rounded(links.momentum.linear), &rounded(sums[0]));
+            angular.add(&rounded(links.momentum.angular), &rounded(sums[1]));
+        }
+        // The gantry's oblique rotations are constants, orthonormal to 1e-16 only.
+        linear.assert_within(if name.ends_with("gantry") { 1e-11 } else { 1e-12 });
+        angular.assert_within(if name.ends_with("gantry") { 1e-11 } else { 1e-12 });
     });
 }
 

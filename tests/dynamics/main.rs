@@ -7,6 +7,7 @@ mod common;
 mod digits;
 mod frames;
 mod helical;
+mod hybrid;
 mod identities;
 mod ill_conditioned;
 mod joint_physics;

@@ -2,24 +2,32 @@
 //!
 //! Two hundred trees of up to twelve joints: revolute, prismatic, helical and fixed, branching, oblique, links in
 //! scrambled order; in half of them with rotors, damping, friction and springs in the joints, in half with springs and
-//! dampers between points. Each has three frames of interest, on links or on the ground.
+//! dampers between points. Each has three frames of interest, on links or on the ground. Sixty trees more have spherical
+//! and free joints as well, anywhere, at quaternions of any length.
 
-use crate::common::dual::{Dual, moving};
+mod models;
+
+use crate::common::dual::moving;
 use crate::common::kane::{Kane, kane};
 use crate::common::random::{Random, State};
-use crate::common::styles::{Style, inertia, link, offset, placed};
-use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Unit, Vector3};
+use crate::common::styles::Style;
+use models::{Joints, random_model};
+use nalgebra::{DMatrix, DVector, Vector3};
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
-
 use redysim_model::denoc::{self, Method, Untraced};
-use redysim_model::joint::{JointPhysics, Vanishing};
+use redysim_model::joint::Vanishing;
 use redysim_model::regroup::base_parameters;
-use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{Frame, Function, JointKind, Link, LinkPoint, Model, Spring, Tree};
+use redysim_model::{Function, JointKind, Model, Tree};
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::Range;
 
-const TREES: u64 = 200;
+/// The seeds of trees whose joints have one freedom each: odd ones have rotors, damping, friction and springs in their
+/// joints.
+const OF_ONE_FREEDOM: Range<u64> = 0..200;
+/// The seeds of trees that have spherical and free joints as well.
+const OF_ALL_KINDS: Range<u64> = 1000..1060;
 const STATES: usize = 3;
 
 /// The largest error of each quantity.
@@ -44,102 +52,6 @@ impl Errors {
     fn add_to_one(&mut self, what: &str, computed: &[f64], expected: &[f64], tolerance: f64) {
         let from_one = |values: &[f64]| values.iter().map(|x| x + 1.0).collect::<Vec<_>>();
         self.add(what, &from_one(computed), &from_one(expected), tolerance);
-    }
-}
-
-fn rotation(random: &mut Random) -> Matrix3<f64> {
-    // A third of all rotations are quarter turns, as in most machines.
-    let angle = if random.below(3) == 0 { std::f64::consts::FRAC_PI_2 } else { random.within(3.0) };
-    *Rotation3::from_axis_angle(&Unit::new_normalize(axis(random)), angle).matrix()
-}
-
-fn axis(random: &mut Random) -> Vector3<f64> {
-    match random.below(4) {
-        0 => Vector3::z(),
-        1 => [Vector3::x(), Vector3::y(), -Vector3::x(), -Vector3::y()][random.below(4)],
-        _ => Vector3::from_fn(|_, _| random.within(1.0)).normalize(),
-    }
-}
-
-/// A tree of up to twelve links on joints of all kinds.
-fn random_model(random: &mut Random) -> Model {
-    let count = 1 + random.below(12);
-    let links = random.tree(count, |random, grown, parent| {
-        let joint = match random.below(5) {
-            0 if grown > 0 => JointKind::Fixed,
-            1 => JointKind::Prismatic,
-            2 if grown % 3 != 1 => JointKind::Helical,
-            _ => JointKind::Revolute,
-        };
-        let turned = rotation(random);
-        let at = Vec3::from_fn(|_| random.within(0.5));
-        let frame = if random.below(2) == 0 {
-            Pose::identity()
-        } else {
-            placed(&rotation(random), Vec3::from_fn(|_| random.within(0.3)))
-        };
-        // A body of a few kilogrammes and decimetres.
-        Link {
-            axis: Vec3(axis(random).into()),
-            frame,
-            offset: offset(random),
-            pitch: if joint == JointKind::Helical { 0.4 - 0.1 * grown as f64 } else { 0.0 },
-            mass: 1.5 + random.within(1.0),
-            com: Vec3::from_fn(|_| random.within(0.2)),
-            inertia: {
-                let shares = [0; 3].map(|_| 0.01 + random.within(0.009));
-                inertia(&rotation(random), shares)
-            },
-            ..link(grown, parent, joint, placed(&turned, at))
-        }
-    });
-    Model {
-        name: "random".into(),
-        gravity: Vec3::from_fn(|_| random.within(10.0)),
-        links,
-        loops: Vec::new(),
-        frames: Vec::new(),
-        springs: Vec::new(),
-    }
-}
-
-/// What acts in a joint: each of its parts in half of the joints.
-fn joint_physics(random: &mut Random) -> JointPhysics {
-    let mut some = |largest: f64| if random.below(2) == 0 { 0.0 } else { 0.5 * largest + random.within(0.5 * largest) };
-    JointPhysics {
-        armature: some(0.5),
-        damping: some(2.0),
-        friction: some(4.0),
-        friction_velocity: 0.05 + some(0.2),
-        stiffness: some(20.0),
-        rest: some(1.0),
-    }
-}
-
-/// A frame somewhere on a link, or on the ground; a third of them stand on the origin of the link's frame.
-fn frame(random: &mut Random, model: &Model, index: usize) -> Frame {
-    let link = random.below(model.links.len() + 1).checked_sub(1);
-    let at = if random.below(3) == 0 { Vec3::zero() } else { Vec3::from_fn(|_| random.within(0.3)) };
-    Frame { name: format!("frame{index}"), link, placement: placed(&rotation(random), at) }
-}
-
-/// A spring between points of two links, or of a link and the ground. One in four has no stiffness, one in four no
-/// damping, one in three no free length.
-fn spring(random: &mut Random, model: &Model) -> Spring {
-    let count = model.links.len() + 1;
-    let first = random.below(count);
-    // Another link: between points of one link, Kane's equations know no direction where the points coincide.
-    let second = (first + 1 + random.below(count - 1)) % count;
-    let [a, b] = [first, second]
-        .map(|link| LinkPoint { link: link.checked_sub(1), point: Vec3::from_fn(|_| random.within(0.4)) });
-    let acts = random.below(4);
-    Spring {
-        name: None,
-        a,
-        b,
-        stiffness: if acts == 0 { 0.0 } else { 30.0 + random.within(20.0) },
-        damping: if acts == 1 { 0.0 } else { 3.0 + random.within(2.0) },
-        length: if random.below(3) == 0 { 0.0 } else { 0.5 + random.within(0.4) },
     }
 }
 
@@ -172,29 +84,43 @@ fn frame_functions(expected: &Kane, dof: usize, wrenches: &[f64]) -> [(Function,
 
 /// Calls `check` with each tree and Kane's answer at a few states.
 fn on_random_trees(check: impl FnMut(&Model, &Tree, &State, &Kane)) {
-    on_trees(0..TREES, check);
+    on_trees(OF_ONE_FREEDOM.chain(OF_ALL_KINDS), check);
 }
 
-/// The same with the trees of these seeds: odd ones have rotors, damping, friction and springs in their joints.
+/// The same with the trees of these seeds.
 fn on_trees(seeds: impl Iterator<Item = u64>, mut check: impl FnMut(&Model, &Tree, &State, &Kane)) {
     for seed in seeds {
         let mut random = Random::new(seed);
-        let mut model = random_model(&mut random);
-        if seed % 2 == 1 {
-            let moving = model.links.iter_mut().filter(|link| link.joint != JointKind::Fixed);
-            moving.for_each(|link| link.physics = joint_physics(&mut random));
-        }
-        if seed % 4 >= 2 {
-            model.springs = (0..3).map(|_| spring(&mut random, &model)).collect();
-        }
-        model.frames = (0..3).map(|index| frame(&mut random, &model, index)).collect();
+        let joints = if OF_ALL_KINDS.contains(&seed) { Joints::OfAllKinds } else { Joints::OfOneFreedom };
+        let model = random_model(&mut random, joints, seed % 2 == 1, seed % 4 >= 2);
         let tree = Tree::new(&model);
         for _ in 0..STATES {
-            let state = random.state(model.dof());
+            let state = match joints {
+                Joints::OfOneFreedom => random.state(model.dof()),
+                Joints::OfAllKinds => state_in_space(&mut random, &model),
+            };
             let expected = kane(&model, &state.q, &state.v);
             check(&model, &tree, &state, &expected);
         }
     }
+}
+
+/// A state in the same ranges, with quaternions of lengths from 1e-3 to 1e3.
+fn state_in_space(random: &mut Random, model: &Model) -> State {
+    let mut q = Vec::new();
+    for link in &model.links {
+        q.extend(match link.joint {
+            JointKind::Spherical => quaternion(random),
+            JointKind::Free => [random.vector(3, 1.0), quaternion(random)].concat(),
+            other => random.vector(other.dof(), PI),
+        });
+    }
+    State { q, v: random.vector(model.dof(), 3.0), a: random.vector(model.dof(), 10.0) }
+}
+
+fn quaternion(random: &mut Random) -> Vec<f64> {
+    let size = 10.0_f64.powf(random.within(3.0));
+    random.vector(4, size)
 }
 
 /// The accelerations that Kane's equations give, and how many roundings the condition of M makes of one.
@@ -276,17 +202,16 @@ fn frames_agree_with_kanes_jacobians_and_accelerations() {
     println!("{:?}", errors.0);
 }
 
-/// M(q), and its derivative along `v`, by dual numbers.
-fn mass_matrix_along(tree: &Tree, q: &[f64], v: &[f64]) -> [DMatrix<f64>; 2] {
-    let rows = denoc::mass_matrix(tree, &Untraced, &moving(q, v)).concat();
-    let parts: [fn(&Dual<f64>) -> f64; 2] = [|x| x.value, |x| x.rate];
-    parts.map(|part| DMatrix::from_row_iterator(v.len(), v.len(), rows.iter().map(part)))
+/// The derivative of M(q) at the rates q̇ of the coordinates, by dual numbers.
+fn mass_matrix_along(tree: &Tree, q: &[f64], rates: &[f64]) -> DMatrix<f64> {
+    let rows = denoc::mass_matrix(tree, &Untraced, &moving(q, rates)).concat();
+    DMatrix::from_row_iterator(tree.nv(), tree.nv(), rows.iter().map(|x| x.rate))
 }
 
 /// C_ij = ½ Σ_k (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) v_k.
 fn christoffel(tree: &Tree, q: &[f64], v: &[f64]) -> DMatrix<f64> {
     let unit = |k: usize| (0..v.len()).map(|i| f64::from(u8::from(i == k))).collect::<Vec<_>>();
-    let slopes: Vec<DMatrix<f64>> = (0..v.len()).map(|k| mass_matrix_along(tree, q, &unit(k))[1].clone()).collect();
+    let slopes: Vec<DMatrix<f64>> = (0..v.len()).map(|k| mass_matrix_along(tree, q, &unit(k))).collect();
     DMatrix::from_fn(v.len(), v.len(), |i, j| {
         let term = |k: usize| (slopes[k][(i, j)] + slopes[j][(i, k)] - slopes[i][(j, k)]) * v[k];
         0.5 * (0..v.len()).map(term).sum::<f64>()
@@ -301,10 +226,13 @@ fn the_coriolis_matrix_is_that_of_the_christoffel_symbols() {
         let matrix = DMatrix::from_row_slice(v.len(), v.len(), &rows);
         let mut add =
             |what: &str, computed: &[f64], expected: &[f64]| errors.add_to_one(what, computed, expected, 1e-12);
-        add("Christoffel symbols", matrix.as_slice(), christoffel(tree, q, v).as_slice());
+        // They are of coordinates that are as many as the velocities.
+        if tree.nq() == tree.nv() {
+            add("Christoffel symbols", matrix.as_slice(), christoffel(tree, q, v).as_slice());
+        }
         let forces = &matrix * DVector::from_row_slice(v);
         add("C v", forces.as_slice(), (&expected.bias - &expected.gravity - &expected.passive).as_slice());
-        let skew = &mass_matrix_along(tree, q, v)[1] - 2.0 * &matrix;
+        let skew = &mass_matrix_along(tree, q, &denoc::coordinate_rates(tree, q, v)) - 2.0 * &matrix;
         add("M' - 2 C", skew.as_slice(), (-skew.transpose()).as_slice());
         let base = base_parameters(tree, Vanishing::TensorYy);
         add("base parameters", &denoc::coriolis_matrix(&base, &Untraced, q, v).concat(), &rows);
@@ -320,12 +248,17 @@ fn evaluated(functions: &[TracedFunction], name: &str, arguments: &[&[f64]]) -> 
 
 #[test]
 fn traced_expressions_agree_with_kanes_equations() {
-    traced_expressions_agree((0..TREES).step_by(2));
+    traced_expressions_agree(OF_ONE_FREEDOM.step_by(2));
 }
 
 #[test]
 fn traced_expressions_agree_with_kanes_equations_where_joints_have_physics() {
-    traced_expressions_agree((1..TREES).step_by(2));
+    traced_expressions_agree(OF_ONE_FREEDOM.skip(1).step_by(2));
+}
+
+#[test]
+fn traced_expressions_agree_with_kanes_equations_where_joints_have_several_freedoms() {
+    traced_expressions_agree(OF_ALL_KINDS);
 }
 
 fn traced_expressions_agree(seeds: impl Iterator<Item = u64>) {
@@ -347,7 +280,11 @@ fn traced_expressions_agree(seeds: impl Iterator<Item = u64>) {
         add("passive_forces", &[q, v], expected.passive.as_slice(), of_passive(tree, 1e-15));
         add("dissipated_power", &[q, v], &[expected.dissipated], of_passive(tree, 1e-14));
         let coriolis = evaluated(functions, "coriolis_matrix", &[q, v]);
-        errors.add_to_one("coriolis_matrix", &coriolis, christoffel(tree, q, v).transpose().as_slice(), 1e-12);
+        let wanted = match tree.nq() == tree.nv() {
+            true => christoffel(tree, q, v).transpose().as_slice().to_vec(),
+            false => denoc::coriolis_matrix(tree, &Untraced, q, v).concat(),
+        };
+        errors.add_to_one("coriolis_matrix", &coriolis, &wanted, 1e-12);
         let mut add = |name: &str, arguments: &[&[f64]], expected: &[f64], tolerance| {
             errors.add(name, &evaluated(functions, name, arguments), expected, tolerance);
         };
@@ -363,8 +300,15 @@ fn traced_expressions_agree(seeds: impl Iterator<Item = u64>) {
             rotation.iter().copied().chain(vectors.into_iter().flatten().copied()).collect::<Vec<_>>()
         });
         errors.add("link_kinematics", &links, &wanted.collect::<Vec<_>>(), 1e-13);
+        let moved = denoc::integrate(tree, q, a);
+        let of_positions: [(Function, [&[f64]; 2]); 3] =
+            [(Function::CoordinateRates, [q, v]), (Function::Integrate, [q, v]), (Function::Difference, [q, &moved])];
+        for (function, arguments) in of_positions {
+            let expected = denoc::evaluate(function, tree, &Untraced, &arguments);
+            errors.add(function.name(), &evaluated(functions, function.name(), &arguments), &expected, 1e-14);
+        }
         let wrenches = wrenches(&mut random, tree.frames.len());
-        for (function, expected) in frame_functions(expected, q.len(), &wrenches) {
+        for (function, expected) in frame_functions(expected, v.len(), &wrenches) {
             let second = if function == Function::FrameForces { &wrenches } else { v };
             let arguments = [q.as_slice(), second];
             let arguments = &arguments[..function.signature().arguments.len()];

@@ -9,6 +9,7 @@
 // passive_forces         0 flops,   0 sine-cosine pairs
 // energy                51 flops,   4 sine-cosine pairs
 // center_of_mass        31 flops,   4 sine-cosine pairs
+// momentum              77 flops,   4 sine-cosine pairs
 // link_kinematics       34 flops,   4 sine-cosine pairs
 // loop_residual          0 flops,   0 sine-cosine pairs
 // loop_jacobian          0 flops,   0 sine-cosine pairs
@@ -123,6 +124,12 @@ impl Gripper {
         center_of_mass: ::redysim_runtime::OperationCount {
             additions: 15,
             multiplications: 16,
+            divisions: 0,
+            trig: 4,
+        },
+        momentum: ::redysim_runtime::OperationCount {
+            additions: 32,
+            multiplications: 45,
             divisions: 0,
             trig: 4,
         },
@@ -1013,6 +1020,121 @@ impl Gripper {
             velocity: [-minus_p_link1_x, p_link1_y, k(0.0)],
         }
     }
+    /// Linear momentum (N s) and angular momentum about the centre of mass (N m s) of all links, in the axes of the base frame.
+    ///
+    /// 77 flops: 32 additions, 45 multiplications, 0 divisions; 4 sine-cosine pairs.
+    pub fn momentum<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        v: &[S; 4],
+    ) -> ::redysim_runtime::Momentum<S> {
+        S::with_target_features(
+            #[inline(always)]
+            || {
+                let (sin, cos) = S::sin_cos_all([q[0], q[1], q[2], q[3]]);
+                Self::momentum_inlined(
+                    q,
+                    &[sin[0], sin[1], sin[2], sin[3], S::zero(), S::zero(), S::zero()],
+                    &[cos[0], cos[1], cos[2], cos[3], S::zero(), S::zero(), S::zero()],
+                    v,
+                )
+            },
+        )
+    }
+    /// [`momentum`](Self::momentum) with sines and cosines that are already computed.
+    pub fn momentum_with_trig<S: ::redysim_runtime::Scalar>(
+        trig: &::redysim_runtime::JointTrig<S, 4, 7>,
+        v: &[S; 4],
+    ) -> ::redysim_runtime::Momentum<S> {
+        S::with_target_features(
+            #[inline(always)]
+            || { Self::momentum_inlined(&trig.q, &trig.sin, &trig.cos, v) },
+        )
+    }
+    #[inline(always)]
+    fn momentum_inlined<S: ::redysim_runtime::Scalar>(
+        q: &[S; 4],
+        sin: &[S; 7],
+        cos: &[S; 7],
+        v: &[S; 4],
+    ) -> ::redysim_runtime::Momentum<S> {
+        let k = S::from_f64;
+        let [sin_link1, sin_link2, sin_link3, sin_link4, _, _, _] = *sin;
+        let [cos_link1, cos_link2, cos_link3, cos_link4, _, _, _] = *cos;
+        let t1 = k(0.1) * v[0];
+        let vel_link2_x = sin_link2 * t1;
+        let vel_link2_y = cos_link2 * t1;
+        let w_link2_z = v[0] + v[1];
+        let w_link3_z = v[2] + w_link2_z;
+        let t2 = k(0.005000000000000001) * w_link3_z;
+        let w_link4_z = v[0] + v[3];
+        let t3 = k(0.005000000000000001) * w_link4_z;
+        let minus_p_link4_x = sin_link4 * t3;
+        let p_link4_y = cos_link4 * t3;
+        let minus_p_link3_x = sin_link3 * t2;
+        let p_link3_y = cos_link3 * t2;
+        let t4 = k(0.005000000000000001) * sin_link3;
+        let t5 = S::mul_add(k(0.015000000000000003), w_link2_z, p_link3_y);
+        let t6 = S::mul_add(k(0.005000000000000001), cos_link3, k(0.015000000000000003));
+        let p_link2_y = S::mul_add(cos_link2, t5, -(sin_link2 * minus_p_link3_x));
+        let t7 = S::mul_add(
+            sin_link2,
+            t5,
+            S::mul_add(cos_link2, minus_p_link3_x, minus_p_link4_x),
+        );
+        let t8 = -p_link2_y - S::mul_add(k(0.07), v[0], p_link4_y);
+        let t9 = S::mul_add(
+            cos_link2,
+            t6,
+            S::mul_add(
+                -sin_link2,
+                t4,
+                S::mul_add(k(0.005000000000000001), cos_link4, k(0.07)),
+            ),
+        );
+        let t10 = S::mul_add(
+            sin_link2,
+            t6,
+            S::mul_add(cos_link2, t4, k(0.005000000000000001) * sin_link4),
+        );
+        let p_link1_x = S::mul_add(sin_link1, t8, -(cos_link1 * t7));
+        let minus_p_link1_y = S::mul_add(cos_link1, t8, sin_link1 * t7);
+        let t11 = S::mul_add(
+            cos_link3,
+            S::mul_add(k(0.05), w_link2_z, vel_link2_y),
+            S::mul_add(cos_link4, k(0.05) * v[0], -(sin_link3 * vel_link2_x)),
+        );
+        let t12 = S::mul_add(
+            k(0.0001666666666666667),
+            w_link3_z + w_link4_z,
+            S::mul_add(
+                k(0.015000000000000003),
+                vel_link2_y,
+                S::mul_add(
+                    k(0.0006666666666666668),
+                    w_link2_z,
+                    k(0.0058333333333333345) * v[0],
+                ),
+            ),
+        );
+        let t13 = S::mul_add(
+            k(0.1),
+            -p_link2_y,
+            -S::mul_add(
+                k(0.005000000000000001),
+                t11,
+                S::mul_add(k(0.05), p_link4_y + p_link3_y, t12),
+            ),
+        );
+        let t14 = S::mul_add(
+            minus_p_link1_y,
+            S::mul_add(-sin_link1, t10, cos_link1 * t9),
+            -S::mul_add(-p_link1_x, S::mul_add(cos_link1, t10, sin_link1 * t9), t13),
+        );
+        ::redysim_runtime::Momentum {
+            linear: [p_link1_x, -minus_p_link1_y, k(0.0)],
+            angular: [k(0.0), k(0.0), t14],
+        }
+    }
     /// Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every link, in the base frame.
     ///
     /// 34 flops: 16 additions, 18 multiplications, 0 divisions; 4 sine-cosine pairs.
@@ -1428,6 +1550,12 @@ impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::MassCenter<S> for Gripper 
         v: &[S; 4],
     ) -> ::redysim_runtime::CenterOfMass<S> {
         Self::center_of_mass(q, v)
+    }
+}
+impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::TotalMomentum<S> for Gripper {
+    #[inline]
+    fn momentum(&self, q: &[S; 4], v: &[S; 4]) -> ::redysim_runtime::Momentum<S> {
+        Self::momentum(q, v)
     }
 }
 impl<S: ::redysim_runtime::Scalar> ::redysim_runtime::LinkKinematics<S> for Gripper {

@@ -139,6 +139,8 @@ impl<'a> Reference<'a> {
                 | Shape::Power
                 | Shape::CoriolisMatrix
                 | Shape::CenterOfMass
+                | Shape::Momentum
+                | Shape::HybridMotion
                 | Shape::Links
                 | Shape::LoopRows
                 | Shape::LoopJacobian
@@ -219,7 +221,7 @@ impl State {
             Argument::Coordinates | Argument::Start | Argument::End => self.q.as_slice(),
             Argument::Velocities | Argument::Displacement => &self.v,
             Argument::Accelerations => &self.a,
-            Argument::Forces => &self.tau,
+            Argument::Forces | Argument::Given => &self.tau,
             // No function that is measured takes wrenches.
             Argument::Wrenches => &[],
         };

@@ -16,6 +16,9 @@ pub(super) fn check(document: &Document, findings: &mut Findings) -> Option<Code
         let message = match () {
             _ if function.needs_loops() && document.loops.is_empty() => messages::function_of_loops,
             _ if function.needs_frames() && document.frames.is_empty() => messages::function_of_frames,
+            _ if function.needs_passive_joints() && !document.has_passive_joints() => {
+                messages::function_of_passive_joints
+            }
             _ => continue,
         };
         findings.within(*text, |findings| findings.error(requested.span(), message(&document.item, function)));

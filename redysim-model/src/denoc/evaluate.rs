@@ -3,13 +3,16 @@
 use super::trace::Trace;
 use super::{
     Method, bias_forces, center_of_mass, coordinate_rates, coriolis_matrix, difference, dissipated_power, energy,
-    forward_dynamics, frame_bias, frame_forces, frame_jacobians, frame_kinematics, gravity_forces, integrate,
-    inverse_dynamics, link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix, neutral, passive_forces,
+    forward_dynamics, frame_bias, frame_forces, frame_jacobians, frame_kinematics, gravity_forces, hybrid_dynamics,
+    integrate, inverse_dynamics, link_kinematics, loop_bias, loop_jacobian, loop_residual, mass_matrix, momentum,
+    neutral, passive_forces,
 };
 use crate::parameter::ParameterIn;
 use crate::spatial::{Vec3, Wrench};
 use crate::tree::Tree;
-use redysim_runtime::{CenterOfMass, Energy, FrameAcceleration, FrameState, Function, LinkState, Scalar};
+use redysim_runtime::{
+    CenterOfMass, Energy, FrameAcceleration, FrameState, Function, HybridMotion, LinkState, Momentum, Scalar,
+};
 
 /// The values of `function` in the order of its [`Shape`](redysim_runtime::function::Shape); forward dynamics by the
 /// recursion. `x` are the arguments that its [signature](Function::signature) lists.
@@ -34,6 +37,14 @@ pub fn evaluate<S: Scalar>(
         Function::CenterOfMass => {
             let CenterOfMass { position, velocity } = center_of_mass(tree, trace, x[0], x[1]);
             [position, velocity].concat()
+        }
+        Function::Momentum => {
+            let Momentum { linear, angular } = momentum(tree, trace, x[0], x[1]);
+            [linear, angular].concat()
+        }
+        Function::HybridDynamics => {
+            let HybridMotion { a, tau } = hybrid_dynamics(Method::Recursion, tree, trace, x[0], x[1], x[2]);
+            [a, tau].concat()
         }
         Function::LinkKinematics => {
             let vectors = link_kinematics(tree, trace, x[0], x[1]).into_iter().flat_map(|link: LinkState<S>| {

@@ -24,23 +24,37 @@ pub struct Factorisation<S> {
 impl<S: Scalar> Factorisation<S> {
     /// Factorises the mass matrix of `tree`, given by rows in the model's order.
     pub fn new(tree: &Tree<impl Copy>, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
-        let (mut velocities, mut parents, mut last) = (Vec::new(), Vec::new(), Vec::new());
-        for body in &tree.bodies {
-            let mut before = body.parent.map(|parent| last[parent]);
-            for velocity in body.v.clone() {
+        Factorisation::of_joints(tree, trace, matrix, |_| true)
+    }
+
+    /// Factorises the rows and columns of the joints for whose bodies `wanted` holds: the mass matrix of the tree if the
+    /// others do not move.
+    pub fn of_joints(
+        tree: &Tree<impl Copy>,
+        trace: &impl Trace<S>,
+        matrix: &[Vec<S>],
+        wanted: impl Fn(usize) -> bool,
+    ) -> Self {
+        let (mut velocities, mut parents, mut names) = (Vec::new(), Vec::new(), Vec::new());
+        let mut last: Vec<Option<usize>> = Vec::with_capacity(tree.bodies.len());
+        for (index, body) in tree.bodies.iter().enumerate() {
+            let mut before = body.parent.and_then(|parent| last[parent]);
+            for (i, velocity) in body.v.clone().enumerate().filter(|_| wanted(index)) {
+                names.push((index, body.joint.component(i)));
                 parents.push(before);
                 before = Some(velocities.len());
                 velocities.push(velocity);
             }
-            last.push(velocities.len() - 1);
+            last.push(before);
         }
         let mut upper: Vec<Vec<S>> =
             velocities.iter().map(|&i| velocities.iter().map(|&j| matrix[i][j]).collect()).collect();
-        let mut inverse_pivots = vec![S::zero(); tree.nv()];
-        for k in (0..tree.nv()).rev() {
+        let mut inverse_pivots = vec![S::zero(); velocities.len()];
+        for k in (0..velocities.len()).rev() {
             let inverse = S::one() / upper[k][k];
-            trace.name(upper[k][k], "D", k, "");
-            trace.name(inverse, "inv_D", k, "");
+            let (body, component) = names[k];
+            trace.name(upper[k][k], "D", body, component);
+            trace.name(inverse, "inv_D", body, component);
             inverse_pivots[k] = inverse;
             for i in ancestors(&parents, k) {
                 let factor = inverse * upper[i][k];
@@ -54,7 +68,8 @@ impl<S: Scalar> Factorisation<S> {
         Factorisation { upper, inverse_pivots, parents, velocities }
     }
 
-    /// M⁻¹ b, with b and the result in the model's order.
+    /// M⁻¹ b, with b and the result in the model's order; of joints that are not factorised, b is ignored and the result
+    /// is zero.
     pub fn solve(&self, b: &[S]) -> Vec<S> {
         let mut x: Vec<S> = self.velocities.iter().map(|&i| b[i]).collect();
         for k in (0..x.len()).rev() {
@@ -72,7 +87,7 @@ impl<S: Scalar> Factorisation<S> {
                 x[k] -= update;
             }
         }
-        let mut result = vec![S::zero(); x.len()];
+        let mut result = vec![S::zero(); b.len()];
         for (&velocity, value) in self.velocities.iter().zip(x) {
             result[velocity] = value;
         }

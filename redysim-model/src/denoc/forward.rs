@@ -70,21 +70,43 @@ pub fn forward_dynamics_by_recursion<S: Scalar>(
 }
 
 /// [`forward_dynamics_by_recursion`] with the buffers of `work`, written to `result`.
-pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
+pub fn forward_dynamics_in<S: Scalar>(
     work: &mut Workspace<S>,
-    tree: &Tree<P>,
+    tree: &Tree<impl ParameterIn<S>>,
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
     tau: &[S],
     result: &mut [S],
 ) {
+    articulated_bodies(work, tree, trace, (q, v, tau), |_| false, (result, &mut []));
+}
+
+/// The recursion over articulated bodies. Of a body for which `drives` holds, `given` has the accelerations of the joint,
+/// and its forces are written to `forces`; of each other, `given` has the forces. All accelerations are written to
+/// `result`.
+pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
+    work: &mut Workspace<S>,
+    tree: &Tree<P>,
+    trace: &impl Trace<S>,
+    (q, v, given): (&[S], &[S], &[S]),
+    drives: impl Fn(usize) -> bool,
+    (result, forces): (&mut [S], &mut [S]),
+) {
     let Workspace { positions, frames, biases, inertias, wrenches, pivots, accelerations, springs, .. } = work;
     joint_frames_in(positions, frames, tree, trace, q);
-    let drives = springs.forces(tree, frames, v);
-    drives.iter_mut().zip(tau).for_each(|(drive, &tau)| *drive = tau - *drive);
-    let tau = if drives.is_empty() { tau } else { drives };
+    let of_springs = springs.forces(tree, frames, v);
     bias_accelerations(biases, tree, trace, frames, v);
+    for (index, body) in tree.bodies.iter().enumerate() {
+        if drives(index) {
+            biases[index].acceleration = body.joint.added(biases[index].acceleration, &given[body.v.clone()]);
+        } else if !of_springs.is_empty() {
+            let forces = of_springs[body.v.clone()].iter_mut().zip(&given[body.v.clone()]);
+            forces.for_each(|(force, &tau)| *force = tau - *force);
+        }
+    }
+    let of_springs: &[S] = of_springs;
+    let tau = if of_springs.is_empty() { given } else { of_springs };
     let rigid = |(body, frame): (&Body<P>, &JointFrame<S>)| {
         ArticulatedInertia::rigid(frame.own_inertia(body.inertia).to_rigid())
     };
@@ -102,6 +124,15 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
         let mut reaction = Wrench::zero();
         let bias = wrenches[index] + centrifugal_wrench(own, biases[index].angular);
         trace.name_wrench(bias, ["bias_n", "bias_f"], index);
+        if drives(index) {
+            if let Some(parent) = body.parent {
+                let wrench = bias + felt.apply(biases[index].acceleration);
+                wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
+                inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
+            }
+            wrenches[index] = bias;
+            return;
+        }
         let armature: Option<S> = body.physics.and_then(|physics| physics.armature());
         let passive: Option<S> =
             body.physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start]));
@@ -152,6 +183,21 @@ pub fn forward_dynamics_in<S: Scalar, P: ParameterIn<S>>(
             angular: frame.to_body(parent.angular),
             linear: frame.to_body(parent.linear + parent.angular.cross(frame.position)),
         } + biases[index].acceleration;
+        if drives(index) {
+            let wrench = inertias[index].apply(acceleration) + wrenches[index];
+            for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+                let mut force = screw.project(wrench);
+                let in_joint =
+                    body.physics.and_then(|physics| physics.force(q[body.q.start], v[velocity], given[velocity]));
+                for part in in_joint.into_iter().chain(of_springs.get(velocity).copied()) {
+                    force += part;
+                }
+                forces[velocity] = force;
+                result[velocity] = given[velocity];
+            }
+            accelerations.push(acceleration);
+            return;
+        }
         let has_rotor = body.physics.is_some_and(|physics| physics.armature::<S>().is_some());
         for (i, screw) in body.joint.screws().enumerate().rev() {
             let Pivot { inverse, ratio, drive } = &pivots[body.v.start + i];

@@ -22,10 +22,12 @@ mod evaluate;
 mod factorisation;
 mod forward;
 mod frame;
+mod hybrid;
 mod inverse;
 mod kinematics;
 mod loops;
 mod mass_matrix;
+mod momentum;
 mod passive;
 mod springs;
 mod task_frames;
@@ -41,11 +43,13 @@ pub use factorisation::Factorisation;
 pub use forward::{
     Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion, forward_dynamics_in,
 };
+pub use hybrid::{hybrid_dynamics, hybrid_dynamics_by_factorisation, hybrid_dynamics_by_recursion};
 pub use inverse::{bias_forces, gravity_forces, inverse_dynamics, inverse_dynamics_in};
 pub use kinematics::{frame_kinematics, link_kinematics};
 pub(crate) use loops::rows_that_vary;
 pub use loops::{loop_bias, loop_jacobian, loop_residual};
 pub use mass_matrix::{mass_matrix, mass_matrix_in};
+pub use momentum::momentum;
 pub use passive::{dissipated_power, passive_forces};
 pub use task_frames::{frame_bias, frame_forces, frame_jacobians};
 pub use trace::{Trace, Untraced};

@@ -52,6 +52,15 @@ pub(crate) fn function_of_frames(item: &str, function: Function) -> Message {
     )
 }
 
+pub(crate) fn function_of_passive_joints(item: &str, function: Function) -> Message {
+    let name = function.name();
+    message(
+        format!("{item}: `functions` names `{name}`, but it is not that some joints have an actuator and some do not"),
+        "the joints are all alike, or there are loops",
+        "leave it out, or write `actuated = false` in the links whose joints move freely",
+    )
+}
+
 pub(crate) fn locked_unknown(item: &str, name: &str, joints: &[&str]) -> Message {
     let meant = did_you_mean(nearest(name, joints.iter().copied()));
     message(

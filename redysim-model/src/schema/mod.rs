@@ -100,6 +100,13 @@ impl Document {
     }
 
     /// The interface of the model, whatever is wrong with it.
+    /// Whether some joints have an actuator and some do not, and there are no loops.
+    pub(crate) fn has_passive_joints(&self) -> bool {
+        let moving = self.links.iter().filter(|link| !link.is_rigid());
+        let actuated = moving.clone().filter(|link| link.actuated.value_or(true).unwrap_or(true)).count();
+        self.loops.is_empty() && (1..moving.count()).contains(&actuated)
+    }
+
     pub(crate) fn public_interface(&self) -> PublicInterface {
         let name =
             |name: Option<&Spanned<String>>, item: &String| name.map_or(item.clone(), |name| name.get_ref().clone());
@@ -123,15 +130,17 @@ impl Document {
             Field::Invalid => vec![ParameterNumber { name: String::new(), value: 0.0, rule: ParameterRule::Finite }],
         };
         let functions = self.options.functions.value.value().map_or(Functions::ALL, |given| given.set());
+        let joints: Vec<MovingJoint> = self.links.iter().filter(|link| !link.is_rigid()).map(joint).collect();
+        let functions = functions.with_frames(self.frames.len()).with_passive_joints(self.has_passive_joints());
         PublicInterface {
             is_valid: false,
             name: self.name.value().cloned().unwrap_or_default(),
             links: self.links.iter().map(|link| name(link.name.spanned(), &link.item)).collect(),
-            joints: self.links.iter().filter(|link| !link.is_rigid()).map(joint).collect(),
+            joints,
             loop_rows: Vec::new(),
             frames: self.frames.iter().map(|frame| name(frame.name.spanned(), &frame.item)).collect(),
             mass: self.links.iter().filter_map(|link| link.mass.value()).sum(),
-            functions: functions.with_frames(self.frames.len()),
+            functions,
             parameters,
         }
     }

@@ -8,8 +8,8 @@ use crate::Vector;
 use crate::mechanism::Arguments;
 use crate::{
     BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, Frames, GravityForces,
-    InverseDynamics, LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy, Mechanism,
-    PassiveForces, Scalar,
+    HybridDynamics, HybridMotion, InverseDynamics, LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix,
+    MechanicalEnergy, Mechanism, Momentum, PassiveForces, Scalar, TotalMomentum,
 };
 
 /// A mechanism that, called for one state, chooses at run time between the code that the program is compiled for and
@@ -270,6 +270,21 @@ macro_rules! functions {
             => |found| CenterOfMass {
                 position: found.position.map(|number| number.0),
                 velocity: found.velocity.map(|number| number.0),
+            }
+        }
+        function! { $float, $number:
+            TotalMomentum momentum(q: Coordinates, v: Velocities) -> Momentum<$float>
+            => |found| Momentum {
+                linear: found.linear.map(|number| number.0),
+                angular: found.angular.map(|number| number.0),
+            }
+        }
+        function! { $float, $number:
+            HybridDynamics hybrid_dynamics(q: Coordinates, v: Velocities, u: Velocities)
+                -> HybridMotion<<M as ConfigurationSpace<$float>>::Velocities>
+            => |found| HybridMotion {
+                a: each(&found.a, |number: $number| number.0),
+                tau: each(&found.tau, |number: $number| number.0),
             }
         }
     };

@@ -48,6 +48,12 @@ impl Functions {
         self.unless(loops == 0, Function::needs_loops)
     }
 
+    /// Those of them that a mechanism has of which some joints have an actuator and some do not, if `some` is true and
+    /// it has no loops; else none of those that need that.
+    pub fn with_passive_joints(self, some: bool) -> Functions {
+        self.unless(!some, Function::needs_passive_joints)
+    }
+
     /// Without those for which `needs` holds, if what they need is `missing`.
     fn unless(self, missing: bool, needs: impl Fn(Function) -> bool) -> Functions {
         self.iter().filter(|&function| missing && needs(function)).fold(self, Functions::without)

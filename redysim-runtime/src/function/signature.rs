@@ -49,6 +49,8 @@ pub enum Argument {
     Accelerations,
     /// Joint forces `tau`, N m or N.
     Forces,
+    /// What is given of each joint velocity, `u`: the acceleration where the joint has an actuator, else the force.
+    Given,
     /// A [`Wrench`](crate::Wrench) at each frame, `wrenches`, N and N m.
     Wrenches,
 }
@@ -64,6 +66,7 @@ impl Argument {
             Argument::Displacement => "dv",
             Argument::Accelerations => "a",
             Argument::Forces => "tau",
+            Argument::Given => "u",
             Argument::Wrenches => "wrenches",
         }
     }
@@ -72,9 +75,11 @@ impl Argument {
     pub const fn dimension(self) -> Dimension {
         match self {
             Argument::Coordinates | Argument::Start | Argument::End => Dimension::Coordinates,
-            Argument::Velocities | Argument::Displacement | Argument::Accelerations | Argument::Forces => {
-                Dimension::Velocities
-            }
+            Argument::Velocities
+            | Argument::Displacement
+            | Argument::Accelerations
+            | Argument::Forces
+            | Argument::Given => Dimension::Velocities,
             Argument::Wrenches => Dimension::Frames,
         }
     }
@@ -124,6 +129,10 @@ pub enum Shape {
     Power,
     /// `CenterOfMass<S>`: position, velocity.
     CenterOfMass,
+    /// `Momentum<S>`: linear, angular.
+    Momentum,
+    /// `HybridMotion<[S; NV]>`: accelerations, forces.
+    HybridMotion,
     /// `[LinkState<S>; NL]`: rotation by rows, origin, centre of mass, velocity, angular velocity.
     Links,
     /// Rows of the loop constraints, `[S; NC]`.

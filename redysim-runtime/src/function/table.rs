@@ -101,6 +101,14 @@ functions! {
     CenterOfMass center_of_mass, Interface::Own("MassCenter"),
         (Coordinates, Velocities) -> CenterOfMass,
         "Position (m) and velocity (m/s) of the centre of mass of all links, in the base frame.";
+    Momentum momentum, Interface::Own("TotalMomentum"),
+        (Coordinates, Velocities) -> Momentum,
+        "Linear momentum (N s) and angular momentum about the centre of mass (N m s) of all links, in the axes of the base \
+         frame.";
+    HybridDynamics hybrid_dynamics, Interface::Own("HybridDynamics"),
+        (Coordinates, Velocities, Given) -> HybridMotion,
+        "Accelerations and joint forces where u is given: the acceleration of a velocity whose joint has an actuator, else \
+         its force.";
     LinkKinematics link_kinematics, Interface::Own("LinkKinematics"),
         (Coordinates, Velocities) -> Links,
         "Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every link, in \
@@ -157,6 +165,11 @@ impl Function {
     /// Whether only a mechanism with frames of interest has it.
     pub const fn needs_frames(self) -> bool {
         matches!(self.signature().interface, Interface::Frames)
+    }
+
+    /// Whether only a mechanism without loops has it of which some joints have an actuator and some do not.
+    pub const fn needs_passive_joints(self) -> bool {
+        matches!(self, Function::HybridDynamics)
     }
 
     /// Whether every mechanism has it, whatever functions are selected.

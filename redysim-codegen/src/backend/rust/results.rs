@@ -18,6 +18,8 @@ pub fn output_type(shape: Shape, interface: &PublicInterface, runtime: &TokenStr
         Shape::Energy => quote!(#runtime::Energy<S>),
         Shape::Power => quote!(S),
         Shape::CenterOfMass => quote!(#runtime::CenterOfMass<S>),
+        Shape::Momentum => quote!(#runtime::Momentum<S>),
+        Shape::HybridMotion => quote!(#runtime::HybridMotion<[S; #nv]>),
         Shape::Links => quote!([#runtime::LinkState<S>; #nl]),
         Shape::LoopRows => quote!([S; #nc]),
         Shape::LoopJacobian => quote!([[S; #nv]; #nc]),
@@ -45,6 +47,16 @@ pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream],
             let vectors = rows(outputs, 3);
             let [position, velocity] = [&vectors[0], &vectors[1]];
             quote!(#runtime::CenterOfMass { position: #position, velocity: #velocity })
+        }
+        Shape::Momentum => {
+            let vectors = rows(outputs, 3);
+            let [linear, angular] = [&vectors[0], &vectors[1]];
+            quote!(#runtime::Momentum { linear: #linear, angular: #angular })
+        }
+        Shape::HybridMotion => {
+            let vectors = rows(outputs, interface.size(Dimension::Velocities));
+            let [a, tau] = [&vectors[0], &vectors[1]];
+            quote!(#runtime::HybridMotion { a: #a, tau: #tau })
         }
         Shape::Links => {
             let vectors = rows(outputs, 3);

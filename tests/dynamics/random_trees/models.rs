@@ -1,0 +1,141 @@
+//! Random trees of bodies of a few kilogrammes and decimetres.
+
+use crate::common::random::Random;
+use crate::common::styles::{inertia, link, offset, placed};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use redysim_model::joint::JointPhysics;
+use redysim_model::spatial::{Pose, Vec3};
+use redysim_model::{Frame, JointKind, Link, LinkPoint, Model, Spring};
+
+fn rotation(random: &mut Random) -> Matrix3<f64> {
+    // A third of all rotations are quarter turns, as in most machines.
+    let angle = if random.below(3) == 0 { std::f64::consts::FRAC_PI_2 } else { random.within(3.0) };
+    *Rotation3::from_axis_angle(&Unit::new_normalize(axis(random)), angle).matrix()
+}
+
+fn axis(random: &mut Random) -> Vector3<f64> {
+    match random.below(4) {
+        0 => Vector3::z(),
+        1 => [Vector3::x(), Vector3::y(), -Vector3::x(), -Vector3::y()][random.below(4)],
+        _ => Vector3::from_fn(|_, _| random.within(1.0)).normalize(),
+    }
+}
+
+/// Which joints a tree has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Joints {
+    /// Of one freedom: revolute, prismatic, helical; and fixed ones.
+    OfOneFreedom,
+    /// These, spherical and free ones.
+    OfAllKinds,
+}
+
+/// A tree of up to twelve links, with three frames of interest. `with_physics` are its joints of one freedom,
+/// `with_springs` the tree between points.
+pub fn random_model(random: &mut Random, joints: Joints, with_physics: bool, with_springs: bool) -> Model {
+    let mut model = bare_model(random, joints);
+    if with_physics {
+        let on_axis = model.links.iter_mut().filter(|link| link.joint.has_axis());
+        on_axis.for_each(|link| link.physics = joint_physics(random));
+    }
+    if with_springs {
+        model.springs = (0..3).map(|_| spring(random, &model)).collect();
+    }
+    model.frames = (0..3).map(|index| frame(random, &model, index)).collect();
+    model
+}
+
+/// A tree of up to twelve links with nothing in its joints.
+fn bare_model(random: &mut Random, joints: Joints) -> Model {
+    let count = 1 + random.below(12);
+    // One at least is of several freedoms; others are as often as any kind.
+    let (chosen, kinds) = match joints {
+        Joints::OfOneFreedom => (None, 5),
+        Joints::OfAllKinds => (Some(random.below(count)), 7),
+    };
+    let links = random.tree(count, |random, grown, parent| {
+        let joint = match random.below(kinds) {
+            kind if kind > 4 || chosen == Some(grown) => [JointKind::Spherical, JointKind::Free][kind % 2],
+            0 if grown > 0 => JointKind::Fixed,
+            1 => JointKind::Prismatic,
+            2 if grown % 3 != 1 => JointKind::Helical,
+            _ => JointKind::Revolute,
+        };
+        let turned = rotation(random);
+        let at = Vec3::from_fn(|_| random.within(0.5));
+        let frame = if random.below(2) == 0 {
+            Pose::identity()
+        } else {
+            placed(&rotation(random), Vec3::from_fn(|_| random.within(0.3)))
+        };
+        // A body of a few kilogrammes and decimetres.
+        let body = Link {
+            axis: Vec3(axis(random).into()),
+            frame,
+            offset: offset(random),
+            pitch: if joint == JointKind::Helical { 0.4 - 0.1 * grown as f64 } else { 0.0 },
+            mass: 1.5 + random.within(1.0),
+            com: Vec3::from_fn(|_| random.within(0.2)),
+            inertia: {
+                let shares = [0; 3].map(|_| 0.01 + random.within(0.009));
+                inertia(&rotation(random), shares)
+            },
+            ..link(grown, parent, joint, placed(&turned, at))
+        };
+        // Spherical and free joints have no axis, no offset and no frame beyond.
+        match joint {
+            JointKind::Spherical | JointKind::Free => {
+                Link { axis: Vec3([0.0, 0.0, 1.0]), frame: Pose::identity(), offset: 0.0, ..body }
+            }
+            _ => body,
+        }
+    });
+    Model {
+        name: "random".into(),
+        gravity: Vec3::from_fn(|_| random.within(10.0)),
+        links,
+        loops: Vec::new(),
+        frames: Vec::new(),
+        springs: Vec::new(),
+    }
+}
+
+/// What acts in a joint: each of its parts in half of the joints.
+fn joint_physics(random: &mut Random) -> JointPhysics {
+    let mut some = |largest: f64| if random.below(2) == 0 { 0.0 } else { 0.5 * largest + random.within(0.5 * largest) };
+    JointPhysics {
+        armature: some(0.5),
+        damping: some(2.0),
+        friction: some(4.0),
+        friction_velocity: 0.05 + some(0.2),
+        stiffness: some(20.0),
+        rest: some(1.0),
+    }
+}
+
+/// A frame somewhere on a link, or on the ground; a third of them stand on the origin of the link's frame.
+fn frame(random: &mut Random, model: &Model, index: usize) -> Frame {
+    let link = random.below(model.links.len() + 1).checked_sub(1);
+    let at = if random.below(3) == 0 { Vec3::zero() } else { Vec3::from_fn(|_| random.within(0.3)) };
+    Frame { name: format!("frame{index}"), link, placement: placed(&rotation(random), at) }
+}
+
+/// A spring between points of two links, or of a link and the ground. One in four has no stiffness, one in four no
+/// damping, one in three no free length.
+fn spring(random: &mut Random, model: &Model) -> Spring {
+    let count = model.links.len() + 1;
+    let first = random.below(count);
+    // Another link: between points of one link, Kane's equations know no direction where the points coincide.
+    let second = (first + 1 + random.below(count - 1)) % count;
+    let [a, b] = [first, second]
+        .map(|link| LinkPoint { link: link.checked_sub(1), point: Vec3::from_fn(|_| random.within(0.4)) });
+    let acts = random.below(4);
+    Spring {
+        name: None,
+        a,
+        b,
+        stiffness: if acts == 0 { 0.0 } else { 30.0 + random.within(20.0) },
+        damping: if acts == 1 { 0.0 } else { 3.0 + random.within(2.0) },
+        length: if random.below(3) == 0 { 0.0 } else { 0.5 + random.within(0.4) },
+    }
+}
