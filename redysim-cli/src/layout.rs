@@ -24,6 +24,8 @@ pub struct Joint {
     pub name: String,
     /// Whether it has an actuator.
     pub actuated: bool,
+    /// How it moves.
+    pub motion: joint::Joint,
     /// Its coordinates.
     pub q: Range<usize>,
     /// Its velocities.
@@ -91,43 +93,60 @@ impl Component {
     }
 }
 
-/// The coordinates or velocities of a kind of joint: what follows the joint's name, and what each measures.
-type Parts = &'static [(&'static str, Measure)];
+/// The measures of the coordinates and velocities of a joint.
+fn measures(motion: joint::Joint) -> (&'static [Measure], &'static [Measure]) {
+    use Measure::{Angle, Length, Number};
+    match motion {
+        joint::Joint::Prismatic => (&[Length], &[Length]),
+        joint::Joint::Spherical => (&[Number; 4], &[Angle; 3]),
+        joint::Joint::Free => {
+            (&[Length, Length, Length, Number, Number, Number, Number], &[Length, Length, Length, Angle, Angle, Angle])
+        }
+        _ => (&[Angle], &[Angle]),
+    }
+}
 
-const ANGLE: Parts = &[("", Measure::Angle)];
-const LENGTH: Parts = &[("", Measure::Length)];
+impl Joint {
+    /// Whether it has more coordinates than one: those of an orientation, and maybe of a position before it.
+    pub fn is_in_space(&self) -> bool {
+        self.q.len() > 1
+    }
+
+    /// Which of its coordinates are its orientation, a quaternion x, y, z, w; none of a joint of one coordinate.
+    pub fn orientation(&self) -> Range<usize> {
+        if self.is_in_space() { self.q.end - 4..self.q.end } else { 0..0 }
+    }
+}
 
 impl Layout {
     /// The layout of a model.
     pub fn of(model: &Model) -> Self {
         let mut layout = Layout::default();
         for link in model.moving_links() {
-            let parts = if link.joint.turns() { ANGLE } else { LENGTH };
-            let mut neutral = vec![0.0; parts.len()];
-            if let Some(joint) = joint::Joint::of(link) {
-                joint.neutral(&mut neutral);
+            if let Some(motion) = joint::Joint::of(link) {
+                layout.push(&link.joint_name, link.actuated, motion);
             }
-            layout.push(&link.joint_name, link.actuated, [parts, parts], &neutral);
         }
         layout
     }
 
-    /// Adds a joint with its coordinates and velocities, and the coordinates of its neutral position.
-    fn push(&mut self, name: &str, actuated: bool, [coordinates, velocities]: [Parts; 2], neutral: &[f64]) {
+    /// Adds a joint with its coordinates and velocities. A single one has the name of the joint.
+    fn push(&mut self, name: &str, actuated: bool, motion: joint::Joint) {
         let joint = self.joints.len();
-        let add = |components: &mut Vec<Component>, parts: Parts, neutral: &[f64]| {
+        let add = |components: &mut Vec<Component>, names: &[&str], measures: &[Measure], neutral: &[f64]| {
             let first = components.len();
-            components.extend(parts.iter().zip(neutral).map(|(&(part, measure), &neutral)| Component {
-                name: format!("{name}{part}"),
-                joint,
-                measure,
-                neutral,
+            components.extend(names.iter().zip(measures).zip(neutral).map(|((part, &measure), &neutral)| {
+                let name = if names.len() == 1 { name.to_owned() } else { format!("{name}.{part}") };
+                Component { name, joint, measure, neutral }
             }));
             first..components.len()
         };
-        let q = add(&mut self.coordinates, coordinates, neutral);
-        let v = add(&mut self.velocities, velocities, &vec![0.0; velocities.len()]);
-        self.joints.push(Joint { name: name.to_owned(), actuated, q, v });
+        let (of_q, of_v) = measures(motion);
+        let mut neutral = vec![0.0; motion.nq()];
+        motion.neutral(&mut neutral);
+        let q = add(&mut self.coordinates, motion.coordinate_names(), of_q, &neutral);
+        let v = add(&mut self.velocities, motion.velocity_names(), of_v, &vec![0.0; motion.nv()]);
+        self.joints.push(Joint { name: name.to_owned(), actuated, motion, q, v });
     }
 
     /// How many coordinates there are.
@@ -178,29 +197,11 @@ impl Layout {
 pub mod tests {
     use super::*;
 
-    const POSE: Parts = &[
-        (".x", Measure::Length),
-        (".y", Measure::Length),
-        (".z", Measure::Length),
-        (".qx", Measure::Number),
-        (".qy", Measure::Number),
-        (".qz", Measure::Number),
-        (".qw", Measure::Number),
-    ];
-    const TWIST: Parts = &[
-        (".vx", Measure::Length),
-        (".vy", Measure::Length),
-        (".vz", Measure::Length),
-        (".wx", Measure::Angle),
-        (".wy", Measure::Angle),
-        (".wz", Measure::Angle),
-    ];
-
     /// A free joint `base` with seven coordinates and six velocities, then a revolute joint `arm`.
     pub fn free_base_with_arm() -> Layout {
         let mut layout = Layout::default();
-        layout.push("base", false, [POSE, TWIST], &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-        layout.push("arm", true, [ANGLE, ANGLE], &[0.0]);
+        layout.push("base", false, joint::Joint::Free);
+        layout.push("arm", true, joint::Joint::Revolute);
         layout
     }
 

@@ -202,6 +202,14 @@ impl<'a, 'f> Reader<'a, 'f> {
         })
     }
 
+    /// A reader of the table that `value`, found at `path`, must be; it has `keys`.
+    pub fn table_at<'b>(&'b mut self, path: &KeyPath, value: &'b Value<'_>, keys: &Keys) -> Option<Reader<'b, 'b>> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return self.wrong_type(path, value, "a table");
+        };
+        Some(self.inside(path, value, table).without_unknown_keys(keys))
+    }
+
     /// A table within this one whose kind, named under the key `tag`, determines which keys it has. The name of a kind
     /// alone stands for a table without other keys.
     pub fn table_of_kind<T, K: Copy>(

@@ -62,15 +62,21 @@ fn report_start(scenario: &Scenario, trajectory: &Prescribed, record: &Record<'_
     }
 }
 
+/// A part of the largest force that is its rounding: of a recorded motion, what a free base takes is not exactly zero.
+const ROUNDING: f64 = 1e-12;
+
 /// Warns of forces at joints without an actuator: in a mechanism without loops, such a motion is impossible. `most` has
 /// the largest force along each velocity.
 fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
     let layout = &scenario.layout;
+    let rounding = ROUNDING * most.iter().copied().fold(0.0, f64::max);
     for (velocity, &most) in layout.velocities.iter().zip(most) {
-        if most > 0.0 && !layout.joints[velocity.joint].actuated {
-            let (name, unit) = (&velocity.name, velocity.unit_of_force());
+        let joint = &layout.joints[velocity.joint];
+        if most > rounding && !joint.actuated {
+            let (name, unit) = (&joint.name, velocity.unit_of_force());
+            let there = if joint.v.len() == 1 { "there".to_owned() } else { format!("along `{}`", velocity.name) };
             let warning = format!(
-                "the joint `{name}` has no actuator, but the motion takes up to {} {unit} there",
+                "the joint `{name}` has no actuator, but the motion takes up to {} {unit} {there}",
                 rounded(most)
             );
             record

@@ -7,13 +7,16 @@ use toml_edit::visit_mut::{self, VisitMut};
 use toml_edit::{DocumentMut, Item, KeyMut, TableLike, Value};
 
 use super::Scenario;
+use super::in_space::InSpace;
 use crate::failure::Failure;
+use crate::layout::Layout;
 use crate::scenario::{self, Dynamics, keys, shorthand};
 
 /// A scenario that the commands accept.
 pub struct Checked {
     pub document: DocumentMut,
     pub warnings: Vec<String>,
+    layout: Layout,
 }
 
 /// Checks the text of the scenario at `path`, whose messages name it `shown`, for each of `runs`.
@@ -21,10 +24,11 @@ pub struct Checked {
 /// # Errors
 /// The faults for the first run that has any.
 pub fn check(text: &str, path: &Path, shown: &str, runs: &[Dynamics]) -> Result<Checked, Failure> {
-    let mut checked = Checked { document: DocumentMut::new(), warnings: vec![] };
+    let mut checked = Checked { document: DocumentMut::new(), warnings: vec![], layout: Layout::default() };
     for &run in runs {
         let (scenario, found) = scenario::Scenario::of_text(text.to_owned(), path, shown, run, true)?;
         checked.document = scenario.document;
+        checked.layout = scenario.layout;
         for warning in found.iter().map(ToString::to_string) {
             // What both runs read has its warnings twice.
             if !checked.warnings.contains(&warning) {
@@ -40,14 +44,14 @@ pub fn check(text: &str, path: &Path, shown: &str, runs: &[Dynamics]) -> Result<
 /// # Errors
 /// As [`check`].
 pub fn read(text: &str, path: &Path, runs: &[Dynamics]) -> Result<Scenario, Failure> {
-    let mut document = check(text, path, &path.display().to_string(), runs)?.document;
+    let Checked { mut document, layout, .. } = check(text, path, &path.display().to_string(), runs)?;
     document.remove(keys::RUN.name);
     for run in [Dynamics::Inverse, Dynamics::Forward] {
         if !runs.contains(&run) {
             document.remove(&run.to_string());
         }
     }
-    spell_out(&mut document);
+    spell_out(&mut document, &layout);
     let scenario: Scenario = toml::from_str(&document.to_string())
         .map_err(|error| Failure::input(format!("{}: {}", path.display(), error.message())))?;
     let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -55,8 +59,8 @@ pub fn read(text: &str, path: &Path, runs: &[Dynamics]) -> Result<Scenario, Fail
 }
 
 /// Replaces what stands for something longer: names of kinds for tables, other names of integrators, kinds by default,
-/// and angles with a unit.
-fn spell_out(scenario: &mut DocumentMut) {
+/// angles with a unit, and joints of several coordinates by one name.
+fn spell_out(scenario: &mut DocumentMut, layout: &Layout) {
     if let Some(trajectory) = scenario.get_mut(keys::TRAJECTORY.name) {
         shorthand::TRAJECTORY.expand(trajectory);
     }
@@ -73,6 +77,7 @@ fn spell_out(scenario: &mut DocumentMut) {
         usual_method(forward);
     }
     Radians { within: false }.visit_document_mut(scenario);
+    InSpace { layout, of: None }.visit_document_mut(scenario);
 }
 
 /// Gives the integrator of `forward` its usual name.
@@ -92,7 +97,7 @@ struct Radians {
 
 impl VisitMut for Radians {
     fn visit_table_like_kv_mut(&mut self, key: KeyMut<'_>, item: &mut Item) {
-        const KEYS: [&str; 8] = [
+        const KEYS: [&str; 9] = [
             keys::Q.name,
             keys::V.name,
             keys::FROM.name,
@@ -101,6 +106,7 @@ impl VisitMut for Radians {
             keys::POINTS.name,
             keys::TARGET.name,
             keys::RPY.name,
+            keys::ANGLE.name,
         ];
         let within = self.within || KEYS.contains(&key.get());
         visit_mut::visit_table_like_kv_mut(&mut Radians { within }, key, item);

@@ -1,6 +1,7 @@
 //! Scenarios and results as data: they serialise and deserialise, and are read and written as the command does.
 
 mod file;
+mod in_space;
 mod integrator;
 mod results;
 mod scenario;

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::quaternion;
 use super::solid::{Ellipsoid, Solid};
-use crate::layout::Layout;
+use crate::layout::{self, Layout};
 
 /// A link in the frame that its joint moves, or the ground (the first body) in the base frame.
 #[derive(Serialize)]
@@ -42,10 +42,31 @@ struct Joint<'a> {
     slide: f64,
     /// What is added to its coordinate, rad or m.
     offset: f64,
+    /// How its last coordinates give the orientation of the body, after three of its position if it is free; none for a
+    /// joint of one coordinate.
+    orientation: Option<Orientations>,
     /// Number of its first coordinate, which is that of its colour; none for a joint that does not move.
     coordinate: Option<usize>,
     /// For a prismatic joint, where it slides from.
     rail: Option<Place>,
+}
+
+/// How the page has orientations of spherical and free joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Orientations {
+    /// Of a run, as quaternions x, y, z, w of any length.
+    Quaternion,
+    /// Of a model that is moved by hand, as roll, pitch and yaw.
+    Rpy,
+}
+
+impl Orientations {
+    /// The number of coordinates of a joint on the page.
+    pub fn coordinates(self, joint: &layout::Joint) -> usize {
+        let angles = if joint.is_in_space() && self == Orientations::Rpy { 1 } else { 0 };
+        joint.q.len() - angles
+    }
 }
 
 /// A point on a body.
@@ -90,13 +111,19 @@ pub struct Frame<'a> {
 }
 
 /// The ground, then the links in the model's order.
-pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
-    let mut moving = layout.joints.iter();
+pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> Vec<Body<'a>> {
+    let (mut moving, mut coordinates) = (layout.joints.iter(), 0);
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None, ellipsoid: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let screw = joint::Joint::of(link).filter(|joint| joint.is_on_axis()).map(|joint| joint.screw(0));
         let [turn, slide] = screw.map_or([0.0; 2], |screw| [screw.turn, screw.slide]);
         let placement = frame(model, link.parent) * link.placement;
+        let moves = if link.joint.dof() > 0 { moving.next() } else { None };
+        let coordinate = moves.map(|joint| {
+            let first = coordinates;
+            coordinates += orientations.coordinates(joint);
+            first
+        });
         let joint = Joint {
             name: &link.joint_name,
             kind: link.joint.name(),
@@ -107,7 +134,8 @@ pub fn of<'a>(model: &'a Model, layout: &Layout) -> Vec<Body<'a>> {
             turn,
             slide,
             offset: link.offset,
-            coordinate: if link.joint.dof() > 0 { moving.next().map(|joint| joint.q.start) } else { None },
+            orientation: moves.filter(|joint| joint.is_in_space()).map(|_| orientations),
+            coordinate,
             rail: (link.joint == JointKind::Prismatic)
                 .then(|| Place { body: number(link.parent), point: foot(model, link) }),
         };
@@ -189,9 +217,11 @@ fn number(link: Option<usize>) -> usize {
     link.map_or(0, |index| index + 1)
 }
 
-/// Where the joints of a link's children, and the cut joints on it, stand: in the body's frame.
+/// Where the joints of a link's children, and the cut joints on it, stand: in the body's frame. A free joint stands
+/// nowhere.
 fn ends(model: &Model, link: Option<usize>) -> Vec<[f64; 3]> {
-    let children = model.links.iter().filter(|child| child.parent == link).map(|child| foot(model, child));
+    let children = model.links.iter().filter(|child| child.parent == link && child.joint != JointKind::Free);
+    let children = children.map(|child| foot(model, child));
     let sides = model.loops.iter().flat_map(|cut| [&cut.a, &cut.b]);
     children.chain(sides.filter(|side| side.link == link).map(|side| point(model, side))).collect()
 }
@@ -219,7 +249,7 @@ mod tests {
         let model =
             redysim_model::Model::from_toml(text, "crane.toml").unwrap_or_else(|faults| panic!("{faults}")).model;
         let json = |value: serde_json::Result<Value>| value.expect("numbers and texts");
-        let bodies = json(serde_json::to_value(of(&model, &Layout::of(&model))));
+        let bodies = json(serde_json::to_value(of(&model, &Layout::of(&model), Orientations::Quaternion)));
         (bodies, json(serde_json::to_value(cuts(&model))))
     }
 

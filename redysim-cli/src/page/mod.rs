@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::layout::Layout;
 use crate::output;
 use crate::recorded::{Chart, Recorded};
-use bodies::{Body, Cut, Frame};
+use bodies::{Body, Cut, Frame, Orientations};
 use meshes::Meshes;
 use motion::Keyframes;
 use sliders::Slider;
@@ -50,7 +50,8 @@ impl Page {
         let layout = Layout::of(&model);
         let (motion, notes) = motion::of(recorded, &model, &layout)?;
         let charts = charts.iter().map(Curves::of).collect();
-        Data { charts, ..Data::of(&model, &layout, Moved::Motion(motion), notes) }.page(urdf.as_deref())
+        let names = layout.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect();
+        Data { charts, ..Data::of(&model, &layout, names, Moved::Motion(motion), notes) }.page(urdf.as_deref())
     }
 
     /// The page on which whoever looks at it moves the model, with the meshes of the URDF of which it was made.
@@ -60,7 +61,8 @@ impl Page {
     pub fn of_model(model: &Model, urdf: Option<&Path>) -> Result<Page, Failure> {
         let layout = Layout::of(model);
         let (sliders, note) = sliders::of(model, &layout);
-        Data::of(model, &layout, Moved::Sliders(sliders), note.into_iter().collect()).page(urdf)
+        let names = sliders.iter().map(|slider| slider.name.clone()).collect();
+        Data::of(model, &layout, names, Moved::Sliders(sliders), note.into_iter().collect()).page(urdf)
     }
 
     /// Writes it to `path`, and prints where it is, its notes and what it lacks unless `quiet`.
@@ -119,19 +121,23 @@ enum Moved {
 }
 
 impl<'a> Data<'a> {
-    /// The data of a model without curves.
-    fn of(model: &'a Model, layout: &Layout, moved: Moved, notes: Vec<String>) -> Self {
+    /// The data of a model without curves; its coordinates have `names`.
+    fn of(model: &'a Model, layout: &Layout, names: Vec<String>, moved: Moved, notes: Vec<String>) -> Self {
+        let orientations = match moved {
+            Moved::Motion(_) => Orientations::Quaternion,
+            Moved::Sliders(_) => Orientations::Rpy,
+        };
         Data {
             name: &model.name,
             gravity: model.gravity.0,
-            bodies: bodies::of(model, layout),
+            bodies: bodies::of(model, layout, orientations),
             cuts: bodies::cuts(model),
             frames: bodies::frames(model),
             moved,
             notes,
             charts: Vec::new(),
             drawn: Meshes::default(),
-            joints: layout.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect(),
+            joints: names,
         }
     }
 

@@ -8,7 +8,7 @@ use redysim_runtime::LoopClosure;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::layout::{Component, Layout};
+use crate::layout::{Component, Joint, Layout};
 use crate::number::rounded;
 use crate::recorded::{Recorded, evenly};
 use crate::table::{Column, Table};
@@ -43,7 +43,7 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Keyfra
     if rows.len() < table.t.len() {
         notes.push(format!("{} of {} instants are kept", rows.len(), table.t.len()));
     }
-    notes.extend(layout.coordinates.iter().zip(&motion.q).filter_map(|(coordinate, q)| fast(coordinate, q)));
+    notes.extend(layout.joints.iter().filter_map(|joint| fast(joint, layout, &motion.q)));
     if !model.loops.is_empty() {
         let residual = rounded(motion.residual_between(&GenericMechanism::new(model.clone())));
         notes.push(format!("between instants the loops open by at most {residual} m"));
@@ -51,23 +51,30 @@ pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<(Keyfra
     Ok((motion, notes))
 }
 
-/// The coordinates in a table, and their rates: the velocity of the same name if the joint has one, otherwise the mean
-/// rate between the neighbouring instants.
+/// The coordinates in a table, and their rates: those that belong to the recorded velocities.
 fn recorded_motion(table: &Table, layout: &Layout) -> Result<Keyframes, Failure> {
     let rows = evenly(table.t.len(), NUMBERS / (2 * layout.nq()).max(1));
     let pick = |symbol: &str, component: &Component| -> Result<Vec<f64>, Failure> {
         let column = column(table, symbol, &component.name)?;
         rows.iter().map(|&row| finite(table, column, row)).collect()
     };
+    let all = |symbol: &str, components: &[Component]| -> Result<Vec<Vec<f64>>, Failure> {
+        components.iter().map(|component| pick(symbol, component)).collect()
+    };
     let t: Vec<f64> = rows.iter().map(|&row| table.t[row]).collect();
     let (mut q, mut v) = (Vec::new(), Vec::new());
-    for coordinate in &layout.coordinates {
-        let values = pick("q", coordinate)?;
-        v.push(match layout.velocities.iter().find(|velocity| velocity.name == coordinate.name) {
-            Some(velocity) => rates(&t, &values, &pick("v", velocity)?),
-            None => (0..t.len()).map(|k| mean_rate(&t, &values, k).unwrap_or(0.0)).collect(),
-        });
-        q.push(values);
+    for joint in &layout.joints {
+        let values = all("q", &layout.coordinates[joint.q.clone()])?;
+        let velocities = all("v", &layout.velocities[joint.v.clone()])?;
+        let at = |lists: &[Vec<f64>], k: usize| lists.iter().map(|list| list[k]).collect::<Vec<f64>>();
+        let mut recorded = vec![vec![0.0; t.len()]; values.len()];
+        for k in 0..t.len() {
+            let mut now = vec![0.0; values.len()];
+            joint.motion.coordinate_rates(&at(&values, k), &at(&velocities, k), &mut now);
+            recorded.iter_mut().zip(now).for_each(|(recorded, now)| recorded[k] = now);
+        }
+        v.extend(values.iter().zip(&recorded).map(|(values, recorded)| rates(&t, values, recorded)));
+        q.extend(values);
     }
     Ok(Keyframes { t, q, v })
 }
@@ -116,13 +123,25 @@ fn mean_rate(t: &[f64], q: &[f64], k: usize) -> Option<f64> {
 }
 
 /// That a joint turns so far between instants that its motion cannot be followed.
-fn fast(coordinate: &Component, q: &[f64]) -> Option<String> {
-    let most = q.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
-    let too_fast = coordinate.turns() && most > QUARTER_TURN;
-    too_fast.then(|| {
-        let (name, turns) = (&coordinate.name, rounded(most.to_degrees()));
+fn fast(joint: &Joint, layout: &Layout, q: &[Vec<f64>]) -> Option<String> {
+    let most = match joint.is_in_space() {
+        true => most_turned(&q[joint.orientation()]),
+        false if layout.coordinates[joint.q.start].turns() => {
+            q[joint.q.start].windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max)
+        }
+        false => 0.0,
+    };
+    (most > QUARTER_TURN).then(|| {
+        let (name, turns) = (&joint.name, rounded(most.to_degrees()));
         format!("joint `{name}` turns by up to {turns} deg from one instant to the next: what lies between is a guess")
     })
+}
+
+/// The largest angle between quaternions that follow each other, rad.
+fn most_turned(quaternion: &[Vec<f64>]) -> f64 {
+    let product = |k: usize, l: usize| quaternion.iter().map(|component| component[k] * component[l]).sum::<f64>();
+    let cosine = |k: usize| (product(k - 1, k) / (product(k - 1, k - 1) * product(k, k)).sqrt()).abs().min(1.0);
+    (1..quaternion[0].len()).map(|k| 2.0 * cosine(k).acos()).fold(0.0, f64::max)
 }
 
 impl Keyframes {
@@ -145,7 +164,7 @@ mod tests {
     use crate::layout::tests::free_base_with_arm;
 
     #[test]
-    fn coordinates_of_a_free_joint_move_at_the_rates_that_their_instants_show() {
+    fn coordinates_of_a_free_joint_move_at_the_rates_of_its_velocities() {
         let layout = free_base_with_arm();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("statevar.csv");
@@ -153,19 +172,34 @@ mod tests {
             components.iter().map(|of| format!(",{symbol} {} [1]", of.name)).collect()
         };
         let mut text = format!("t [s]{}{}\n", header("q", &layout.coordinates), header("v", &layout.velocities));
-        for k in 0..5 {
-            // Coordinate i is i · t, and every velocity 7.
-            let t = 0.5 * f64::from(k);
-            let q: String = (0..8).map(|i| format!(",{:?}", f64::from(i) * t)).collect();
-            text += &format!("{t:?}{q}{}\n", ",7".repeat(7));
+        // It turns about z at 1 rad/s, while it moves along its own x axis at 2 m/s.
+        for k in 0..21 {
+            let t = 0.05 * f64::from(k);
+            let ((sin, cos), (s, c)) = (t.sin_cos(), (0.5 * t).sin_cos());
+            let q = [2.0 * sin, 2.0 - 2.0 * cos, 0.0, 0.0, 0.0, s, c, 3.0 * t];
+            let q: String = q.iter().map(|q| format!(",{q:?}")).collect();
+            text += &format!("{t:?}{q},2,0,0,0,0,1,3\n");
         }
         std::fs::write(&path, text).unwrap();
         let motion = recorded_motion(&Table::read(&path).unwrap(), &layout).unwrap();
         assert_eq!((motion.q.len(), motion.v.len()), (8, 8));
-        for (i, v) in motion.v.iter().enumerate() {
-            // The rate of the arm is its velocity, 7.
-            assert_eq!(*v, [i as f64; 5], "coordinate {i}");
+        for (k, &t) in motion.t.iter().enumerate() {
+            let ((sin, cos), (s, c)) = (t.sin_cos(), (0.5 * t).sin_cos());
+            let expected = [2.0 * cos, 2.0 * sin, 0.0, 0.0, 0.0, 0.5 * c, -0.5 * s, 3.0];
+            let found = motion.v.iter().map(|v| v[k]);
+            assert!(found.zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-14), "{:?}", motion.v);
         }
+        assert_eq!(layout.joints.iter().find_map(|joint| fast(joint, &layout, &motion.q)), None);
+    }
+
+    #[test]
+    fn orientations_that_turn_too_far_between_instants_are_reported() {
+        let layout = free_base_with_arm();
+        let mut q = vec![vec![0.0; 3]; 8];
+        q[6] = vec![1.0, 0.6, -0.28];
+        q[3] = vec![0.0, 0.8, 0.96];
+        let note = fast(&layout.joints[0], &layout, &q).unwrap();
+        assert!(note.starts_with("joint `base` turns by up to 106"), "{note}");
     }
 
     #[test]

@@ -2,19 +2,23 @@
 
 use std::f64::consts::{PI, TAU};
 
+use nalgebra::UnitQuaternion;
 use redysim_model::{GenericMechanism, JointKind, JointRange, Model};
 use serde::Serialize;
 
-use super::bodies;
+use super::bodies::{self, Orientations};
 use crate::closed::closed_position;
 use crate::layout::{Component, Layout, Measure};
 
-/// A coordinate, and within what it is moved.
+/// A coordinate on the page, and within what it is moved.
 #[derive(Clone, Debug, Serialize)]
 pub struct Slider {
+    /// What the coordinate is called.
+    #[serde(skip)]
+    pub name: String,
     unit: &'static str,
     limits: Limits,
-    /// rad, m or 1.
+    /// rad or m.
     least: f64,
     largest: f64,
     start: f64,
@@ -32,9 +36,13 @@ enum Limits {
     Size,
 }
 
-/// A slider for each coordinate of a model; and that its loops do not close, if so.
+/// The angles in the place of a quaternion.
+const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
+
+/// A slider for each coordinate of a model, with angles in the place of quaternions; and that its loops do not close, if
+/// so.
 pub fn of(model: &Model, layout: &Layout) -> (Vec<Slider>, Option<String>) {
-    let reach = bodies::reach(&bodies::of(model, layout));
+    let reach = bodies::reach(&bodies::of(model, layout, Orientations::Rpy));
     let kinds: Vec<(JointKind, Option<JointRange>)> =
         model.moving_links().map(|link| (link.joint, link.range)).collect();
     let slider = |coordinate: &Component| {
@@ -42,22 +50,39 @@ pub fn of(model: &Model, layout: &Layout) -> (Vec<Slider>, Option<String>) {
         let (limits, least, largest) = match (range, coordinate.measure) {
             (Some(range), _) => (Limits::Range, range.position[0], range.position[1]),
             (None, Measure::Angle) if kind == JointKind::Revolute => (Limits::Turn, -PI, PI),
-            (None, Measure::Angle) => (Limits::Size, -PI, PI),
+            (None, Measure::Angle | Measure::Number) => (Limits::Size, -PI, PI),
             (None, Measure::Length) => (Limits::Size, -reach, reach),
-            (None, Measure::Number) => (Limits::Size, -1.0, 1.0),
         };
         let start = coordinate.neutral.max(least).min(largest);
-        Slider { unit: coordinate.unit(), limits, least, largest, start }
+        Slider { name: coordinate.name.clone(), unit: coordinate.unit(), limits, least, largest, start }
     };
-    let mut sliders: Vec<Slider> = layout.coordinates.iter().map(slider).collect();
+    let mut sliders: Vec<Slider> = Vec::new();
+    let mut start = Vec::new();
+    for joint in &layout.joints {
+        let own = &layout.coordinates[joint.q.clone()];
+        let (plain, turned) = own.split_at(own.len() - joint.orientation().len());
+        sliders.extend(plain.iter().map(slider));
+        start.extend(sliders[sliders.len() - plain.len()..].iter().map(|slider| slider.start));
+        start.extend(turned.iter().map(|coordinate| coordinate.neutral));
+        if joint.is_in_space() {
+            let angle = |name| Slider {
+                name: format!("{}.{name}", joint.name),
+                unit: Measure::Angle.unit(),
+                limits: Limits::Turn,
+                least: -PI,
+                largest: PI,
+                start: 0.0,
+            };
+            sliders.extend(ANGLES.map(angle));
+        }
+    }
     if model.loops.is_empty() {
         return (sliders, None);
     }
     let mechanism = GenericMechanism::new(model.clone());
-    let start: Vec<f64> = sliders.iter().map(|slider| slider.start).collect();
     match closed_position(&mechanism, start) {
         Ok(q) => {
-            for (slider, q) in sliders.iter_mut().zip(q) {
+            for (slider, q) in sliders.iter_mut().zip(on_sliders(layout, &q)) {
                 let turns = if slider.limits == Limits::Turn { TAU * (q / TAU).round() } else { 0.0 };
                 slider.start = q - turns;
             }
@@ -65,4 +90,17 @@ pub fn of(model: &Model, layout: &Layout) -> (Vec<Slider>, Option<String>) {
         }
         Err(why) => (sliders, Some(format!("the loops are shown open: {why}"))),
     }
+}
+
+/// The values of the sliders at the coordinates `q`.
+fn on_sliders(layout: &Layout, q: &[f64]) -> Vec<f64> {
+    let values = layout.joints.iter().flat_map(|joint| {
+        let (plain, turned) = q[joint.q.clone()].split_at(joint.q.len() - joint.orientation().len());
+        let angles = <[f64; 4]>::try_from(turned).ok().map(|quaternion| {
+            let (roll, pitch, yaw) = UnitQuaternion::from_quaternion(quaternion.into()).euler_angles();
+            [roll, pitch, yaw]
+        });
+        plain.iter().copied().chain(angles.into_iter().flatten()).collect::<Vec<f64>>()
+    });
+    values.collect()
 }

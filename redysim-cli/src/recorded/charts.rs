@@ -49,6 +49,7 @@ impl Recorded {
         if let Some(table) = &motion {
             charts.extend(by_unit(table, Picture::Motion, &["q"], &mut joints, |unit| match unit {
                 "m" => ("Joint displacements", "displacement"),
+                "1" => ("Joint orientations", "quaternion"),
                 _ => ("Joint angles", "angle"),
             }));
         }

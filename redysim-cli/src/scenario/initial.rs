@@ -26,9 +26,9 @@ impl Initial {
         let (layout, actuated) = (subject.layout, subject.actuated());
         let rest = || (neutral(&layout.coordinates), neutral(&layout.velocities));
         let field = reader.table(&keys::INITIAL, |mut reader| {
-            let q = values(&mut reader, &keys::Q, Quantity::Coordinate, &layout.coordinates, &all(layout.nq()));
+            let q = values(&mut reader, &keys::Q, Quantity::Coordinate, layout, &all(layout.nq()));
             let q = q.value_or(rest().0);
-            let v = values(&mut reader, &keys::V, Quantity::Rate, &layout.velocities, &all(layout.nv()));
+            let v = values(&mut reader, &keys::V, Quantity::Rate, layout, &all(layout.nv()));
             let (v, place_of_v) = (v.value_or(rest().1), v.spanned().map_or(0..0, Spanned::span));
             let assemble = reader.flag(&keys::ASSEMBLE);
             subject.expect_loops(&mut reader, "initial.assemble", &assemble);

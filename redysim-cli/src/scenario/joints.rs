@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Spanned, Value};
 
+use super::in_space;
 use super::resolution::resolved;
 use crate::layout::{Component, Joint, Layout};
 
@@ -28,18 +29,30 @@ impl Quantity {
     fn may_be_uniform(self) -> bool {
         matches!(self, Quantity::Gain | Quantity::Limit | Quantity::TrackingRate)
     }
+
+    /// What the values are for: coordinates, or velocities.
+    fn components(self, layout: &Layout) -> &[Component] {
+        if self == Quantity::Coordinate { &layout.coordinates } else { &layout.velocities }
+    }
+
+    /// Those of a joint.
+    fn of_joint(self, joint: &Joint) -> Range<usize> {
+        if self == Quantity::Coordinate { joint.q.clone() } else { joint.v.clone() }
+    }
 }
 
-/// One value for each of `of`, indices into `components`: an array in their order, or a table by their names, in which
-/// missing coordinates are those of the neutral position, missing limits infinite, and other missing values zero.
+/// One value for each of `of`, indices of coordinates or velocities: an array in their order, or a table by their
+/// names, in which missing coordinates are those of the neutral position, missing limits infinite, and other missing
+/// values zero. In a table, all components of a joint that has several may stand under its name. Quaternions have
+/// length 1.
 pub fn values(
     reader: &mut Reader<'_, '_>,
     key: &Key,
     quantity: Quantity,
-    components: &[Component],
+    layout: &Layout,
     of: &[usize],
 ) -> Field<Vec<f64>> {
-    reader.field(key, |reader, path, value| list(reader, path, value, quantity, components, of))
+    reader.field(key, |reader, path, value| list(reader, path, value, quantity, layout, of))
 }
 
 /// Limits of forces, one for each velocity of the joints `of`, which are above zero: as [`values`] reads them, or
@@ -53,7 +66,7 @@ pub fn limits(
 ) -> Field<Vec<f64>> {
     reader.field(key, |reader, path, value| {
         let DeValue::String(name) = value.get_ref() else {
-            return list(reader, path, value, Quantity::Limit, &layout.velocities, &layout.velocities_of(of));
+            return list(reader, path, value, Quantity::Limit, layout, &layout.velocities_of(of));
         };
         reader.choose(path, value, name, &[("range", ())])?;
         let mut limits = Vec::new();
@@ -79,10 +92,10 @@ pub fn limits(
 }
 
 /// Values for every point of a motion: an array of what [`values`] reads.
-pub fn points(reader: &mut Reader<'_, '_>, key: &Key, components: &[Component], of: &[usize]) -> Field<Vec<Vec<f64>>> {
+pub fn points(reader: &mut Reader<'_, '_>, key: &Key, layout: &Layout, of: &[usize]) -> Field<Vec<Vec<f64>>> {
     reader.field(key, |reader, path, value| {
         let array = reader.array(path, value, "an array with the coordinates of each point")?;
-        let read = |reader: &mut _, path: &_, value| list(reader, path, value, Quantity::Coordinate, components, of);
+        let read = |reader: &mut _, path: &_, value| list(reader, path, value, Quantity::Coordinate, layout, of);
         reader.elements(path, array, read)
     })
 }
@@ -140,9 +153,26 @@ fn list(
     path: &KeyPath,
     value: &Value<'_>,
     quantity: Quantity,
-    components: &[Component],
+    layout: &Layout,
     of: &[usize],
 ) -> Option<Vec<f64>> {
+    let mut values = unchecked(reader, path, value, quantity, layout, of)?;
+    if quantity == Quantity::Coordinate {
+        in_space::normalise(reader, path, value, layout, of, &mut values)?;
+    }
+    Some(values)
+}
+
+/// The values as they are given.
+fn unchecked(
+    reader: &mut Reader<'_, '_>,
+    path: &KeyPath,
+    value: &Value<'_>,
+    quantity: Quantity,
+    layout: &Layout,
+    of: &[usize],
+) -> Option<Vec<f64>> {
+    let components = quantity.components(layout);
     match value.get_ref() {
         DeValue::Array(array) if array.len() != of.len() => {
             let names: Vec<_> = of.iter().map(|&index| components[index].name.as_str()).collect();
@@ -161,13 +191,24 @@ fn list(
                 _ => components[index].neutral,
             };
             let mut values: Vec<f64> = of.iter().map(|&index| missing(index)).collect();
+            let in_space: Vec<&Joint> = layout.joints.iter().filter(|joint| joint.is_in_space()).collect();
+            let names = components.iter().map(|component| component.name.as_str());
+            let names: Vec<&str> = names.chain(in_space.iter().map(|joint| joint.name.as_str())).collect();
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
-                let names = components.iter().map(|component| component.name.as_str());
-                let index = index(reader, name.span(), name.get_ref(), names)?;
-                let Some(at) = of.iter().position(|&other| other == index) else {
+                let index = index(reader, name.span(), name.get_ref(), names.iter().copied())?;
+                let whole = index.checked_sub(components.len()).map(|joint| in_space[joint]);
+                let first = whole.map_or(index, |joint| quantity.of_joint(joint).start);
+                let Some(at) = of.iter().position(|&other| other == first) else {
                     return foreign(reader, name.span(), path, name.get_ref());
                 };
-                values[at] = one(reader, &path.entry(name.get_ref()), value, quantity, &components[index])?;
+                let path = path.entry(name.get_ref());
+                match whole {
+                    None => values[at] = one(reader, &path, value, quantity, &components[index])?,
+                    Some(joint) => {
+                        let of_joint = of_joint(reader, &path, value, quantity, layout, joint)?;
+                        values[at..at + of_joint.len()].copy_from_slice(&of_joint);
+                    }
+                }
                 Some(())
             };
             // Every joint is read, so that each error among them is reported.
@@ -178,6 +219,22 @@ fn list(
             Some(vec![plain(reader, path, value, quantity)?; of.len()])
         }
         _ => reader.wrong_type(path, value, "an array with a value for each joint, or a table by their names"),
+    }
+}
+
+/// The values of a joint that has several, under its name: its coordinates as a table, or an array of all.
+fn of_joint(
+    reader: &mut Reader<'_, '_>,
+    path: &KeyPath,
+    value: &Value<'_>,
+    quantity: Quantity,
+    layout: &Layout,
+    joint: &Joint,
+) -> Option<Vec<f64>> {
+    match value.get_ref() {
+        DeValue::Table(_) if quantity == Quantity::Coordinate => in_space::coordinates(reader, path, value, joint),
+        DeValue::Table(_) => reader.wrong_type(path, value, "an array with a value for each component of the joint"),
+        _ => unchecked(reader, path, value, quantity, layout, &quantity.of_joint(joint).collect::<Vec<_>>()),
     }
 }
 

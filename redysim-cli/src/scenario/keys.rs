@@ -15,10 +15,35 @@ pub const RUN: Key =
 pub const INITIAL: Key = Key::of_table("initial", "{ q = [0, \"60 deg\"], v = [0, 0] }", "", &[&INITIAL_KEYS])
     .with_default("the neutral position at rest");
 const INITIAL_KEYS: Keys = Keys::new("`initial`", &[Q, V, ASSEMBLE, HELD]);
-pub const Q: Key =
-    Key::new("q", "[0, \"60 deg\"]", "rad or m, or an angle with a unit; or by name: q = { joint2 = \"60 deg\" }")
-        .with_default("the neutral position");
-pub const V: Key = Key::new("v", "[0, \"60 deg/s\"]", "rad/s or m/s").with_default("0");
+pub const Q: Key = Key::of_table(
+    "q",
+    "[0, \"60 deg\"]",
+    "rad or m, or an angle with a unit; or by name: q = { joint2 = \"60 deg\" }; a spherical joint has the coordinates \
+     qx, qy, qz, qw (a quaternion of any length), a free one x, y, z before them, and by name a table: \
+     q = { base = { xyz = [0, 0, 1], rpy = [0, \"10 deg\", 0] } }",
+    &[&FREE_POSITION, &SPHERICAL_POSITION],
+)
+.with_default("the neutral position");
+pub const V: Key = Key::new(
+    "v",
+    "[0, \"60 deg/s\"]",
+    "rad/s or m/s; a spherical joint has the velocities wx, wy, wz, a free one vx, vy, vz before them, in the link's \
+     frame; by name: v = { base = [0, 0, 0, 0, 0, 1], \"pivot.wz\" = 2 }",
+)
+.with_default("0");
+pub const FREE_POSITION: Keys =
+    Keys::new("The position of a free joint", &[JOINT_XYZ, QUATERNION, JOINT_RPY, AXIS, ANGLE]);
+pub const SPHERICAL_POSITION: Keys =
+    Keys::new("The position of a spherical joint", &[QUATERNION, JOINT_RPY, AXIS, ANGLE]);
+pub const JOINT_XYZ: Key = Key::new("xyz", "[0.0, 0.0, 1.0]", "m").with_default("[0, 0, 0]");
+pub const QUATERNION: Key = Key::new("quaternion", "[0.0, 0.0, 0.0, 1.0]", "x, y, z, w, of any length")
+    .with_default("[0, 0, 0, 1]; or the orientation is given by angles");
+pub const JOINT_RPY: Key =
+    Key::new("rpy", "[0, \"10 deg\", 0]", "roll, pitch, yaw; without a unit in rad").with_default("no rotation");
+pub const AXIS: Key =
+    Key::new("axis", "[0.0, 0.0, 1.0]", "of a rotation by `angle`, of any length").with_default("no rotation");
+pub const ANGLE: Key =
+    Key::new("angle", "\"90 deg\"", "about `axis`; without a unit in rad").with_default("required with `axis`");
 pub const ASSEMBLE: Key =
     Key::new("assemble", "false", "start as given, though loops may not be closed").with_default("true");
 pub const HELD: Key = Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed")

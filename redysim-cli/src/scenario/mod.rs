@@ -2,12 +2,14 @@
 
 mod forces;
 mod forward;
+pub mod in_space;
 mod initial;
 mod integrator;
 mod joints;
 pub mod keys;
 mod law;
 mod limits;
+mod moving;
 mod resolution;
 pub mod shorthand;
 mod span;

@@ -8,6 +8,7 @@ use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 
 use super::joints::{Quantity, points, some, values};
 use super::keys;
+use super::moving::Moving;
 use super::subject::{Dynamics, Subject, given, spread};
 use super::table::InputTable;
 use crate::failure::Failure;
@@ -27,13 +28,19 @@ pub struct Prescribed {
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
     pub table: Option<InputTable>,
+    moving: Moving,
     motion: Path,
 }
 
 #[derive(Clone, Debug)]
 enum Path {
     Cycloid(Cycloid<f64, Vec<f64>>),
-    /// q = q₀ + q̇ t.
+    /// q₀ ⊞ w(t), for joints of several coordinates: a turn about a fixed axis, or a screw motion.
+    Screw {
+        from: Vec<f64>,
+        way: Cycloid<f64, Vec<f64>>,
+    },
+    /// q₀ ⊞ v t.
     ConstantSpeed {
         from: Vec<f64>,
         speed: Vec<f64>,
@@ -78,9 +85,9 @@ impl Prescribed {
             reader.table_of_kind(&keys::TRAJECTORY, &keys::MOTION_KIND, &KINDS, &KINDS[0], |mut reader, tag| {
                 let chosen = some(&mut reader, &keys::PRESCRIBED, joints).value_or(usual.clone())?;
                 let (of_q, of_v) = (layout.coordinates_of(&chosen), layout.velocities_of(&chosen));
+                let moving = Moving::new(layout, &chosen);
                 let coordinates = |reader: &mut Reader<'_, '_>, key: &Key| {
-                    let read =
-                        |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, &layout.coordinates, &of_q);
+                    let read = |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, layout, &of_q);
                     reader.required(key, read).value().cloned()
                 };
                 let mut table = None;
@@ -89,29 +96,38 @@ impl Prescribed {
                         let (from, to) = (coordinates(&mut reader, &keys::FROM), coordinates(&mut reader, &keys::TO));
                         let duration = reader.required(&keys::DURATION, Reader::positive);
                         let spanned = duration.spanned()?;
-                        let cycloid = Cycloid::new(from?, to?, *spanned.get_ref());
-                        Path::Cycloid(accepted(&mut reader, spanned, cycloid)?)
+                        let (from, to, duration) = (from?, to?, *spanned.get_ref());
+                        if moving.is_linear() {
+                            Path::Cycloid(accepted(&mut reader, spanned, Cycloid::new(from, to, duration))?)
+                        } else {
+                            let way = moving.difference(&from, &to);
+                            let way = Cycloid::new(vec![0.0; way.len()], way, duration);
+                            Path::Screw { way: accepted(&mut reader, spanned, way)?, from }
+                        }
                     }
                     Tag::ConstantSpeed => {
                         let from = coordinates(&mut reader, &keys::FROM);
-                        let speed =
-                            |reader: &mut _, key: &_| values(reader, key, Quantity::Rate, &layout.velocities, &of_v);
+                        let speed = |reader: &mut _, key: &_| values(reader, key, Quantity::Rate, layout, &of_v);
                         let speed = reader.required(&keys::SPEED, speed);
                         place = speed.spanned().map(Spanned::span);
                         Path::ConstantSpeed { from: from?, speed: speed.value()?.clone() }
                     }
                     Tag::Via(smooth) => {
                         let times = reader.required(&keys::TIMES, Reader::numbers);
-                        let points = |reader: &mut _, key: &_| points(reader, key, &layout.coordinates, &of_q);
+                        let points = |reader: &mut _, key: &_| points(reader, key, layout, &of_q);
                         let points = reader.required(&keys::POINTS, points);
                         let spanned = times.spanned()?;
-                        let through = smooth.through(spanned.get_ref().clone(), points.value()?.clone());
+                        let mut points = points.value()?.clone();
+                        // Quaternions are not zero: they have length 1.
+                        let _ = follow(&moving, &mut points);
+                        let through = smooth.through(spanned.get_ref().clone(), points);
                         Path::ViaPoints(accepted(&mut reader, spanned, through)?)
                     }
                     Tag::Table => {
                         let smooth = reader.choice(&keys::THROUGH, &SMOOTH).value_or(SMOOTH[0].1);
                         let read = subject.table(&mut reader, &keys::MOTION_FILE, |table| {
-                            let through = from_table(&table, layout, [&of_q, &of_v], smooth.unwrap_or(SMOOTH[0].1))?;
+                            let smooth = smooth.unwrap_or(SMOOTH[0].1);
+                            let through = from_table(&table, layout, &moving, [&of_q, &of_v], smooth)?;
                             Ok((table, through))
                         });
                         let (read, through) = read.filter(|_| smooth.is_some())?;
@@ -119,8 +135,8 @@ impl Prescribed {
                         Path::ViaPoints(through)
                     }
                 };
-                let prescribed =
-                    Prescribed { joints: chosen, coordinates: of_q, velocities: of_v, place: 0..0, table, motion };
+                let (joints, coordinates, velocities) = (chosen, of_q, of_v);
+                let prescribed = Prescribed { joints, coordinates, velocities, place: 0..0, table, moving, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
                     // A law that follows a trajectory checks it by itself.
@@ -179,12 +195,16 @@ impl Trajectory<f64, Vec<f64>, Vec<f64>> for Prescribed {
     fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
         match &self.motion {
             Path::Cycloid(cycloid) => cycloid.at(t),
-            Path::ViaPoints(through) => through.at(t),
-            Path::ConstantSpeed { from, speed } => Motion {
-                q: from.iter().zip(speed).map(|(from, speed)| from + speed * t).collect(),
-                v: speed.clone(),
-                a: vec![0.0; speed.len()],
-            },
+            Path::Screw { from, way } => {
+                let Motion { q, v, a } = way.at(t);
+                Motion { q: self.moving.integrate(from, &q), v, a }
+            }
+            Path::ViaPoints(through) if self.moving.is_linear() => through.at(t),
+            Path::ViaPoints(through) => self.moving.of_coordinates(through.at(t)),
+            Path::ConstantSpeed { from, speed } => {
+                let way: Vec<f64> = speed.iter().map(|speed| speed * t).collect();
+                Motion { q: self.moving.integrate(from, &way), v: speed.clone(), a: vec![0.0; speed.len()] }
+            }
         }
     }
 }
@@ -240,22 +260,39 @@ fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, 
     .ok()
 }
 
+/// Puts the quaternions of each point on the side of those before it; fails with a point whose quaternion is zero.
+fn follow(moving: &Moving, points: &mut [Vec<f64>]) -> Result<(), (usize, usize)> {
+    for k in 0..points.len() {
+        let (before, points) = points.split_at_mut(k);
+        let before = before.last().map(Vec::as_slice);
+        moving.follow(before, &mut points[0]).map_err(|coordinate| (k, coordinate))?;
+    }
+    Ok(())
+}
+
 /// A motion of the given coordinates and velocities through the rows of a table, with its velocities and accelerations;
 /// without them, as `smooth` selects.
 fn from_table(
     table: &InputTable,
     layout: &Layout,
+    moving: &Moving,
     [of_q, of_v]: [&[usize]; 2],
     smooth: Smooth,
 ) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, Failure> {
     let q = table.of_components("q", &layout.coordinates, of_q, Some(""));
     let [v, a] = [("v", "/s"), ("a", "/s^2")]
         .map(|(symbol, per)| table.of_components(symbol, &layout.velocities, of_v, Some(per)));
-    let through = match (q?, v?, a?) {
+    let mut q = q?;
+    if let Err((row, coordinate)) = q.as_deref_mut().map_or(Ok(()), |q| follow(moving, q)) {
+        let (t, joint) = (table.t[row], layout.coordinates[of_q[coordinate]].joint);
+        let message = format!("at t = {t:?} s the quaternion of the joint `{}` is zero", layout.joints[joint].name);
+        return Err(table.fault(&message, "a quaternion is x, y, z, w, of any length but zero: 0, 0, 0, 1 for none"));
+    }
+    let through = match (q, v?, a?) {
         (None, ..) => return Err(table.fault("it has no coordinates", "add a column `q <joint> [rad]` for each joint")),
         (Some(q), None, None) => smooth.through(table.t.clone(), q),
         (Some(q), Some(v), Some(a)) => {
-            let rows = q.into_iter().zip(v).zip(a).map(|((q, v), a)| Motion { q, v, a });
+            let rows = q.into_iter().zip(v).zip(a).map(|((q, v), a)| moving.in_coordinates(Motion { q, v, a }));
             ViaPoints::through(table.t.clone(), rows.collect())
         }
         (Some(_), v, _) => {
@@ -274,7 +311,7 @@ mod tests {
 
     /// Checks a trajectory of `joints`, one of them a free joint, against loops with a mobility of six.
     fn checked(joints: &[&str]) -> (Prescribed, Result<(), (String, String)>) {
-        let (from, to) = (["0"; 8], ["1"; 8]);
+        let (from, to) = (["0.5"; 8], ["1"; 8]);
         let count = joints.iter().map(|joint| if *joint == "base" { 7 } else { 1 }).sum::<usize>();
         let [from, to] = [from, to].map(|values| values[..count].join(", "));
         let text = format!("trajectory = {{ joints = {joints:?}, from = [{from}], to = [{to}], duration = 1.0 }}");

@@ -159,3 +159,31 @@ fn a_page_that_is_there_stays_unless_forced() {
     assert!(output.contains("mine.html is there already"), "{output}");
     assert_eq!(fs::read_to_string(folder.join("mine.html")).unwrap(), "mine");
 }
+
+#[test]
+fn the_page_of_a_free_robot_has_its_quaternion_and_the_rates_of_its_velocities() {
+    let folder = scratch("animate-free");
+    let rest = "[initial]\nq = { base = { rpy = [0.1, 0, 0] } }\nv = { base = [0, 0, 1, 0, 0, 2] }\n\
+                [forward]\nend = 0.5\nstep = 0.01\n";
+    let run = results(&folder, "forward", "kr5_floating.toml", rest);
+    let data = data(&page(&run));
+    let joint = |body: usize| &data["bodies"][body]["joint"];
+    assert_eq!((&joint(1)["kind"], &joint(1)["orientation"]), (&"free".into(), &"quaternion".into()));
+    assert_eq!((&joint(1)["coordinate"], &joint(2)["coordinate"]), (&0.into(), &7.into()));
+    assert_eq!((&joint(2)["orientation"], data["joints"][6].as_str()), (&Value::Null, Some("base.qw")));
+    // The base has no rod to the place where it starts.
+    assert_eq!(data["bodies"][0]["ends"], serde_json::json!([]));
+    let table = Table::csv(&run.join("statevar.csv"));
+    for (coordinate, name) in ["x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]"].iter().enumerate() {
+        assert_eq!(numbers(&data["motion"]["q"][coordinate]), table.column(&format!("q base.{name}")));
+        let rate = numbers(&data["motion"]["v"][coordinate]);
+        assert!(rate.iter().all(|rate| rate.is_finite()));
+    }
+    let upward = [0.0, -(0.1_f64).sin(), (0.1_f64).cos(), 0.0, (0.05_f64).sin() * -1.0, (0.05_f64).cos(), 0.0];
+    for (coordinate, expected) in upward.iter().enumerate() {
+        let found = numbers(&data["motion"]["v"][coordinate])[0];
+        assert!((found - expected).abs() < 1e-15, "{coordinate}: {found}, not {expected}");
+    }
+    assert_eq!(data["notes"], serde_json::json!([]));
+    succeed(&run, &["plot", "."]);
+}

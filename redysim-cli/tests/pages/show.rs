@@ -141,3 +141,16 @@ fn what_is_missing_or_wrong_is_reported() {
     assert_eq!(fs::read_to_string(folder.join("mine.html")).unwrap(), "mine");
     succeed(&folder, &["show", "model.toml", "-o", "mine.html", "--force"]);
 }
+
+#[test]
+fn a_free_base_has_sliders_for_its_position_and_for_roll_pitch_and_yaw() {
+    let data = shown("free", &model("kr5_floating.toml"));
+    let names: Vec<&str> = data["joints"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    assert_eq!(names[..7], ["base.x", "base.y", "base.z", "base.roll", "base.pitch", "base.yaw", "joint1"]);
+    let found = sliders(&data);
+    assert_eq!(found.len(), 12);
+    assert!(found.iter().all(|[least, start, largest]| least < start && *start == 0.0 && start < largest), "{found:?}");
+    assert_eq!(found[3], [-PI, 0.0, PI]);
+    assert_eq!(data["bodies"][1]["joint"]["orientation"], json!("rpy"));
+    assert_eq!(data["bodies"][2]["joint"]["coordinate"], json!(6));
+}

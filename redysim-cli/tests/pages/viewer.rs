@@ -101,3 +101,28 @@ fn the_page_moves_the_robot_of_a_urdf_with_its_meshes() {
     succeed(&folder, &["inverse", "trial.toml", "-o", "run"]);
     plays(&folder.join("run"), None);
 }
+
+/// A forward run with so many rows.
+fn run(name: &str, model: &str, initial: &str, rows: usize) -> PathBuf {
+    let step = 2.0 / rows as f64;
+    let integrator = "integrator = { method = 'Dop853', rtol = 1e-9, atol = 1e-9 }";
+    let rest = format!("[initial]\n{initial}\n[forward]\nend = 2.0\nstep = {step:?}\n{integrator}\n");
+    results(&folder(name), "forward", model, &rest)
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_a_robot_on_a_free_base_as_its_kinematics() {
+    let initial =
+        "q = { base = { rpy = [0.3, 0.2, 0.1] }, joint2 = 1 }\nv = { base = [1, 0, 9, 0.5, 1, 2], joint1 = 1 }";
+    let coarse = run("kr5_floating", "kr5_floating.toml", initial, 200);
+    plays(&coarse, Some(&run("kr5_floating_finer", "kr5_floating.toml", initial, 1400)));
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_moves_a_spherical_pendulum_as_its_kinematics() {
+    let initial = "q = { pivot = { rpy = [1, 0.2, 0.1] } }\nv = [0, 0, 6]";
+    let coarse = run("spherical_pendulum", "spherical_pendulum.toml", initial, 200);
+    plays(&coarse, Some(&run("spherical_pendulum_finer", "spherical_pendulum.toml", initial, 1400)));
+}

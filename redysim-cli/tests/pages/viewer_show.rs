@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::common::{data, model, robot, scratch, succeed};
 use redysim_model::{GenericMechanism, Model};
-use redysim_runtime::LinkKinematics;
+use redysim_runtime::{LinkKinematics, Mechanism};
 use serde_json::{Value, json};
 
 /// A model of this repository on its page, in a folder that stays, so that the screenshots can be looked at.
@@ -45,7 +45,7 @@ impl Shown {
     }
 
     fn links(&self, q: &[f64]) -> Value {
-        let states = self.mechanism.link_kinematics(&q.to_vec(), &vec![0.0; q.len()]);
+        let states = self.mechanism.link_kinematics(&q.to_vec(), &vec![0.0; self.mechanism.nv()]);
         let links = self.mechanism.model().links.iter().zip(states);
         links.map(|(link, state)| json!({ "name": link.name, "origin": state.origin, "com": state.com })).collect()
     }
@@ -284,4 +284,65 @@ fn meshes_move_with_their_links() {
     let along_y = boxed(1, [-0.03, 0.0, 0.07], [0.03, 0.4, 0.15]);
     drag(0, 0.5 * PI, [0.5 * PI, 0.2], along_y, boxed(2, [-0.1, 0.63, 0.08], [0.0, 0.67, 0.12]));
     shown.look_for("the mesh broken.stl cannot be read", &["meshes", "links", "frames"]);
+}
+
+/// The coordinates of a position and of roll, pitch and yaw.
+fn pose(x: &[f64], [roll, pitch, yaw]: [f64; 3]) -> Vec<f64> {
+    let about = |axis: usize, angle: f64| -> [f64; 4] {
+        let mut q = [0.0, 0.0, 0.0, (0.5 * angle).cos()];
+        q[axis] = (0.5 * angle).sin();
+        q
+    };
+    let product = |p: [f64; 4], q: [f64; 4]| {
+        [
+            p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1],
+            p[3] * q[1] + p[1] * q[3] + p[2] * q[0] - p[0] * q[2],
+            p[3] * q[2] + p[2] * q[3] + p[0] * q[1] - p[1] * q[0],
+            p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2],
+        ]
+    };
+    let turned = product(about(2, yaw), product(about(1, pitch), about(0, roll)));
+    x.iter().chain(&turned).copied().collect()
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn sliders_move_a_free_base_by_its_position_and_by_roll_pitch_and_yaw() {
+    let mut shown = Shown::new("kr5_floating.toml");
+    let mut values = [0.0; 12];
+    for (coordinate, value) in [(0, 0.4), (2, -0.3), (3, 0.9), (5, -2.0), (4, 0.6), (7, 1.1)] {
+        values[coordinate] = value;
+        let base = pose(&values[..3], [values[3], values[4], values[5]]);
+        let q: Vec<f64> = base.iter().chain(&values[6..]).copied().collect();
+        let known: Vec<Option<f64>> = values.iter().copied().map(Some).collect();
+        shown.drag(coordinate, value, &known, Some(shown.links(&q)), None);
+    }
+    shown.look();
+}
+
+/// A crank and a rocker about axes that are not parallel, and a coupler between them with a ball at either end.
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_balls_of_a_spatial_four_bar_follow_its_crank() {
+    let folder = scratch("viewer/show-balls");
+    let text = "name = 'balls'\ngravity = [0, 0, -9.81]\nallow = ['under-actuated']\n\
+        [[link]]\nname = 'crank'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 0, 1]\norigin = {}\nmass = 1\n\
+        com = [0.1, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+        [[link]]\nname = 'rocker'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 1, 0]\norigin = { xyz = [1, 0, 0] }\n\
+        mass = 1\nactuated = false\ncom = [0, 0, 0.3]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+        [[link]]\nname = 'coupler'\nparent = 'rocker'\njoint = 'spherical'\norigin = { xyz = [0, 0, 0.6] }\nmass = 1\n\
+        actuated = false\ncom = [-0.5, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+        [[loop]]\nname = 'ball'\njoint = 'spherical'\nlink_a = 'crank'\npoint_a = [0.2, 0, 0]\nlink_b = 'coupler'\n\
+        point_b = [-1, 0, 0]\n";
+    let path = folder.join("balls.toml");
+    fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    let model = Model::load(&path).unwrap().model;
+    let mut shown = Shown::of(folder, &path, model);
+    let mut known = [None; 5];
+    for value in [0.8, 2.0, -2.5] {
+        known[0] = Some(value);
+        shown.drag(0, value, &known, None, None);
+    }
+    shown.look();
 }

@@ -13,7 +13,7 @@ use crate::common::{Table, root, scratch, succeed};
 use kane::kane;
 use nalgebra::{DMatrix, DVector};
 use redysim_model::{GenericMechanism, Model};
-use redysim_runtime::LoopClosure;
+use redysim_runtime::{LoopClosure, Mechanism};
 
 /// From row to row, s, at most, and as a share of the step of the scenario, which fast motions need.
 const STEP: f64 = 5e-4;
@@ -82,22 +82,27 @@ type Rows = Vec<Vec<f64>>;
 impl Written {
     fn read(folder: &Path) -> Written {
         let mechanism = GenericMechanism::new(Model::load(folder.join("model.toml")).unwrap().model);
-        let dof = mechanism.model().dof();
+        let (nq, nv) = (mechanism.nq(), mechanism.nv());
         let read = |table: &str| Table::csv(&folder.join(table));
-        let (states, tau) = (read("statevar.csv"), read("tor.csv").columns(1..1 + dof));
+        let (states, tau) = (read("statevar.csv"), read("tor.csv").columns(1..1 + nv));
         let lambda = match mechanism.model().loops.as_slice() {
             [] => vec![vec![]; tau.len()],
             _ => read("lambda.csv").rows.iter().map(|row| row[1..].to_vec()).collect(),
         };
-        let [q, v] = [states.columns(1..1 + dof), states.columns(1 + dof..1 + 2 * dof)];
+        let [q, v] = [states.columns(1..1 + nq), states.columns(1 + nq..1 + nq + nv)];
         Written { mechanism, q, v, tau, lambda }
+    }
+
+    fn accelerations(&self, folder: &Path) -> Rows {
+        let (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
+        Table::csv(&folder.join("traj.csv")).columns(1 + nq + nv..1 + nq + 2 * nv)
     }
 
     /// The largest part of M q̈ + h − τ − Jᵀλ over `instants`, as a share of the largest of its terms.
     fn imbalance(&self, instants: Range<usize>, acceleration: impl Fn(usize, usize) -> f64) -> f64 {
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
         for k in instants {
-            let (q, dof) = (&self.q[k], self.q[k].len());
+            let (q, dof) = (&self.q[k], self.v[k].len());
             let equations = kane(self.mechanism.model(), q, &self.v[k]);
             let jacobian: Rows = self.mechanism.loop_jacobian(q);
             let jacobian = DMatrix::from_fn(jacobian.len(), dof, |row, joint| jacobian[row][joint]);
@@ -128,8 +133,7 @@ fn every_shipped_motion_obeys_kanes_equations() {
             pairs.sum::<f64>() / step
         };
         // Those that are written take what is written of the forces, whatever led to the state.
-        let dof = written.q[0].len();
-        let a = Table::csv(&folder.join("run/traj.csv")).columns(1 + 2 * dof..1 + 3 * dof);
+        let a = written.accelerations(&folder.join("run"));
         let share = written.imbalance(0..a.len(), |k, joint| a[k][joint]);
         assert!(share < 1e-11, "{name}, as it is written: {share:e}");
         // What is stiff is over by half the time.
@@ -146,8 +150,7 @@ fn the_forces_of_every_shipped_motion_obey_kanes_equations() {
         let folder = scratch(&format!("equations-of-forces-{name}"));
         run(&folder, &name, "inverse", 0.0);
         let written = Written::read(&folder.join("run"));
-        let dof = written.q[0].len();
-        let a = Table::csv(&folder.join("run/traj.csv")).columns(1 + 2 * dof..1 + 3 * dof);
+        let a = written.accelerations(&folder.join("run"));
         let share = written.imbalance(0..a.len(), |k, joint| a[k][joint]);
         println!("{name}: {share:.1e}");
         assert!(share < 1e-13, "{name}: {share:e}");

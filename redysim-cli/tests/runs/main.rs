@@ -8,6 +8,7 @@ mod data;
 mod equations;
 mod faults;
 mod folders;
+mod in_space;
 mod interrupt;
 mod laws;
 mod limits;

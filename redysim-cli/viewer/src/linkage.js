@@ -1,6 +1,11 @@
 // Where every link is: forward kinematics, from the coordinates to the links that the joints carry.
 
-import { Quaternion, Vector3 } from "three";
+import { Euler, Quaternion, Vector3 } from "three";
+
+/** Of a free joint, how many coordinates are those of its position. */
+const LENGTHS = 3;
+/** Roll, pitch and yaw turn about the fixed axes x, y, z one after the other. */
+const ORDER = "ZYX";
 
 export class Linkage {
   /** `bodies`, the ground and the links. */
@@ -17,7 +22,7 @@ export class Linkage {
     this.turn = new Quaternion();
   }
 
-  /** Puts the links where they are at coordinates `q`, rad or m. */
+  /** Puts the links where they are at coordinates `q`: rad, m or parts of quaternions. */
   place(q) {
     for (const link of this.order) this.#carry(link, q);
   }
@@ -29,16 +34,51 @@ export class Linkage {
     return links;
   }
 
+  /** How the body of a link moves for a unit of each of its coordinates, in the base frame: `spin` and, of its origin,
+   * `slide`. Of quaternions there is none. */
+  freedoms(link, q) {
+    const { coordinate, orientation, kind, axis, turn, slide, parent, rotation } = this.joints[link];
+    if (coordinate === null) return [];
+    if (!orientation) {
+      const along = axis.clone().applyQuaternion(this.poses[link + 1].rotation);
+      return [{ coordinate, spin: along.clone().multiplyScalar(turn), slide: along.multiplyScalar(slide) }];
+    }
+    const still = this.poses[parent].rotation.clone().multiply(rotation);
+    const lengths = kind === "free" ? LENGTHS : 0;
+    const [, pitch, yaw] = q.slice(coordinate + lengths);
+    const axes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
+    const [x, y] = [new Euler(0, pitch, yaw, ORDER), new Euler(0, 0, yaw, ORDER)];
+    const spins = [axes[0].clone().applyEuler(x), axes[1].clone().applyEuler(y), axes[2]];
+    const none = new Vector3();
+    return [
+      ...axes.slice(0, lengths).map((slide) => ({ spin: none, slide: slide.clone().applyQuaternion(still) })),
+      ...spins.map((spin) => ({ spin: spin.clone().applyQuaternion(still), slide: none })),
+    ].map((freedom, index) => ({ coordinate: coordinate + index, ...freedom }));
+  }
+
   #carry(link, q) {
-    const { parent, turn, slide, axis, offset, coordinate, position, rotation } = this.joints[link];
+    const { parent, turn, slide, axis, offset, coordinate, orientation, kind, position, rotation } = this.joints[link];
     const [carrier, pose] = [this.poses[parent], this.poses[link + 1]];
-    const value = coordinate === null ? 0 : offset + q[coordinate];
     pose.rotation.copy(rotation);
     pose.position.set(0, 0, 0);
-    if (turn) pose.rotation.multiply(this.turn.setFromAxisAngle(axis, turn * value));
-    if (slide) pose.position.copy(axis).multiplyScalar(slide * value).applyQuaternion(rotation);
+    if (orientation) {
+      const lengths = kind === "free" ? LENGTHS : 0;
+      if (lengths) pose.position.fromArray(q, coordinate).applyQuaternion(rotation);
+      pose.rotation.multiply(this.#turned(orientation, q.slice(coordinate + lengths)));
+    } else {
+      const value = coordinate === null ? 0 : offset + q[coordinate];
+      if (turn) pose.rotation.multiply(this.turn.setFromAxisAngle(axis, turn * value));
+      if (slide) pose.position.copy(axis).multiplyScalar(slide * value).applyQuaternion(rotation);
+    }
     pose.position.add(position).applyQuaternion(carrier.rotation).add(carrier.position);
     pose.rotation.premultiply(carrier.rotation);
+  }
+
+  /** The rotation that the first of `values` give: a quaternion of any length, or roll, pitch and yaw. */
+  #turned(orientation, values) {
+    if (orientation === "quaternion") return this.turn.fromArray(values).normalize();
+    const [roll, pitch, yaw] = values;
+    return this.turn.setFromEuler(new Euler(roll, pitch, yaw, ORDER));
   }
 }
 

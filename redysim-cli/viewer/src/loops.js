@@ -16,7 +16,6 @@ export class Loops {
     this.linkage = linkage;
     this.tolerance = CLOSED * size;
     this.cuts = cuts.map(({ kind, a, b }) => ({ kind, a: this.#side(kind, a), b: this.#side(kind, b) }));
-    this.moving = linkage.joints.map(({ coordinate }) => coordinate);
   }
 
   /** The largest component of the residual, m or a sine. */
@@ -35,7 +34,7 @@ export class Loops {
     let damping = DAMPING;
     for (let iteration = 0; iteration < ITERATIONS && largest(residual) > this.tolerance; iteration++) {
       this.linkage.place(q);
-      const jacobian = this.#jacobian(q.length);
+      const jacobian = this.#jacobian(q);
       const step = leastSquares(jacobian, residual, free, damping);
       const part = Math.min(1, LARGEST_STEP / largest(step));
       const next = q.slice();
@@ -72,32 +71,30 @@ export class Loops {
   }
 
   /** By how much each row of the residual changes with each coordinate. */
-  #jacobian(count) {
+  #jacobian(q) {
     const rows = [];
     for (const { kind, a, b } of this.cuts) {
       const first = rows.length;
-      for (let row = 0; row < 3 + ALIGNED[kind].length; row++) rows.push(new Float64Array(count));
+      for (let row = 0; row < 3 + ALIGNED[kind].length; row++) rows.push(new Float64Array(q.length));
       const [from, to] = [this.#point(a), this.#point(b)];
       const [of, at] = [this.#axes(a), this.#axes(b)];
-      this.moving.forEach((coordinate, link) => {
+      this.linkage.joints.forEach((_, link) => {
         const [onA, onB] = [a.carriers.has(link), b.carriers.has(link)];
-        if (coordinate === null || (!onA && !onB)) return;
-        const { axis, turn, slide } = this.linkage.joints[link];
-        const { position, rotation } = this.linkage.poses[link + 1];
-        const along = axis.clone().applyQuaternion(rotation);
-        const spin = along.clone().multiplyScalar(turn);
-        const velocity = (point) =>
-          new Vector3().crossVectors(spin, point.clone().sub(position)).addScaledVector(along, slide);
-        const change = new Vector3();
-        if (onB) change.add(velocity(to));
-        if (onA) change.sub(velocity(from));
-        change.toArray().forEach((value, axis) => (rows[first + axis][coordinate] = value));
-        if (onA && onB) return;
-        const rate = (i, j) =>
-          onA
-            ? new Vector3().crossVectors(spin, of[i]).dot(at[j])
-            : of[i].dot(new Vector3().crossVectors(spin, at[j]));
-        ALIGNED[kind].forEach((terms, row) => (rows[first + 3 + row][coordinate] = weighted(terms, rate)));
+        if (!onA && !onB) return;
+        const { position } = this.linkage.poses[link + 1];
+        for (const { coordinate, spin, slide } of this.linkage.freedoms(link, q)) {
+          const velocity = (point) => new Vector3().crossVectors(spin, point.clone().sub(position)).add(slide);
+          const change = new Vector3();
+          if (onB) change.add(velocity(to));
+          if (onA) change.sub(velocity(from));
+          change.toArray().forEach((value, axis) => (rows[first + axis][coordinate] = value));
+          if (onA && onB) continue;
+          const rate = (i, j) =>
+            onA
+              ? new Vector3().crossVectors(spin, of[i]).dot(at[j])
+              : of[i].dot(new Vector3().crossVectors(spin, at[j]));
+          ALIGNED[kind].forEach((terms, row) => (rows[first + 3 + row][coordinate] = weighted(terms, rate)));
+        }
       });
     }
     return rows;

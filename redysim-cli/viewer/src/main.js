@@ -129,8 +129,9 @@ function boxed(mesh) {
 
 function facts() {
   const count = (number, one, many = `${one}s`) => `${number} ${number === 1 ? one : many}`;
-  const { bodies, joints, cuts } = data;
-  const parts = [count(bodies.length - 1, "link"), count(joints.length, "joint that moves", "joints that move")];
+  const { bodies, cuts } = data;
+  const moving = bodies.filter(({ joint }) => joint && joint.coordinate !== null).length;
+  const parts = [count(bodies.length - 1, "link"), count(moving, "joint that moves", "joints that move")];
   if (cuts.length) parts.push(count(cuts.length, "cut joint"));
   return parts.join(" · ");
 }

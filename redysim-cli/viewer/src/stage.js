@@ -202,7 +202,8 @@ function firstView({ bodies }, linkage, up) {
     if (joint?.kind !== "revolute") return;
     axes.push(new Vector3(...joint.axis).applyQuaternion(linkage.poses[index].rotation));
   });
-  const planar = axes.length > 0 && axes.every((axis) => Math.abs(axis.dot(axes[0])) > 1 - 1e-6);
+  const inSpace = bodies.some(({ joint }) => joint?.orientation);
+  const planar = !inSpace && axes.length > 0 && axes.every((axis) => Math.abs(axis.dot(axes[0])) > 1 - 1e-6);
   if (!planar) return corner;
   const across = axes[0].clone();
   if (Math.abs(across.dot(up)) > 0.9) return corner.addScaledVector(up, 1);

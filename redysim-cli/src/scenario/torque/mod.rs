@@ -2,11 +2,12 @@
 
 mod impedance;
 mod payload;
+mod tangent;
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Limited, Pd, PdGravity, Pid, Proportional, SetPoint,
-    TrackingPd, ZeroTorque, tracking_rates,
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Limited, Motion, Pd, PdGravity, Pid, Proportional, SetPoint,
+    TrackingPd, Trajectory, ZeroTorque, tracking_rates,
 };
 use redysim_toml::{Key, Kind, Message, Reader};
 
@@ -17,8 +18,9 @@ use super::keys;
 use super::law::Law;
 use super::subject::{Subject, given, spread};
 use super::trajectory::Prescribed;
-use crate::layout::{Component, Joint, Layout};
+use crate::layout::{Joint, Layout};
 pub use impedance::HeldFrame;
+use tangent::OnTangent;
 
 /// A torque law, as the scenario has it: its values are those of the joints that it drives.
 #[derive(Clone, Debug)]
@@ -171,21 +173,37 @@ impl Torque {
             |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, &layout.coordinates);
         let whole =
             |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, &layout.velocities);
+        let rest = || vec![0.0; layout.nv()];
+        // Where coordinates are not as many as velocities, their differences are.
+        let on_tangent = layout.nq() != layout.nv();
         match self {
             Torque::Zero => Law::total(ZeroTorque),
             Torque::P { joints, target, kp } => {
                 let (target, kp) = (positions(joints, target), whole(joints, kp));
+                if on_tangent {
+                    let law = Proportional { target: rest(), kp };
+                    return Law::total(OnTangent { mechanism, target: SetPoint::new(mechanism, target), law });
+                }
                 Law::total(Proportional { target, kp })
             }
             Torque::Pd { joints, target, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
                 let target = positions(joints, target);
+                if on_tangent {
+                    let law = Pd { target: rest(), kp, kd };
+                    return Law::total(OnTangent { mechanism, target: SetPoint::new(mechanism, target), law });
+                }
                 Law::total(Pd { target, kp, kd })
             }
             Torque::Pid { joints, target, kp, ki, kd, tracking_rate } => {
                 let [kp, ki, kd, tracking] = [kp, ki, kd, tracking_rate].map(|gains| whole(joints, gains));
                 let trajectory = SetPoint::new(mechanism, positions(joints, target));
-                Law::total(Pid { trajectory, kp, ki, kd, tracking, integral: vec![0.0; layout.nv()] })
+                if on_tangent {
+                    let origin = SetPoint::new(mechanism, rest());
+                    let law = Pid { trajectory: origin, kp, ki, kd, tracking, integral: rest() };
+                    return Law::total(OnTangent { mechanism, target: trajectory, law });
+                }
+                Law::total(Pid { trajectory, kp, ki, kd, tracking, integral: rest() })
             }
             Torque::PdGravity { joints, target, kp, kd, laden } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
@@ -205,7 +223,12 @@ impl Torque {
             }
             Torque::TrackingPd { joints, trajectory, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
-                Law::total(TrackingPd { trajectory: trajectory.spread(layout), kp, kd })
+                let target = trajectory.spread(layout);
+                if on_tangent {
+                    let rates = move |t: f64| Motion { q: vec![0.0; layout.nv()], ..target.at(t) };
+                    return Law::total(OnTangent { mechanism, target, law: TrackingPd { trajectory: rates, kp, kd } });
+                }
+                Law::total(TrackingPd { trajectory: target, kp, kd })
             }
             Torque::Computed { trajectory, kp, kd, .. } if mechanism.model().loops.is_empty() => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(&trajectory.joints, gains));
@@ -251,7 +274,7 @@ impl<'s> Source<'s, '_, '_> {
         let [kp, ki, kd] = [keys::KP, keys::KI, keys::KD].map(|key| self.gains(&key, &joints));
         let layout = self.subject.layout;
         let of = layout.velocities_of(&joints);
-        let rate = values(&mut self.reader, &keys::TRACKING_RATE, Quantity::TrackingRate, &layout.velocities, &of);
+        let rate = values(&mut self.reader, &keys::TRACKING_RATE, Quantity::TrackingRate, layout, &of);
         let limits = self.limits(&joints)?;
         let (kp, ki, kd) = (kp?, ki?, kd?);
         let tracking_rate = rate.value_or(tracking_rates(&kp, &ki, &kd))?;
@@ -360,18 +383,17 @@ impl<'s> Source<'s, '_, '_> {
     }
 
     fn targets(&mut self, joints: &[usize]) -> Option<Vec<f64>> {
-        let layout = self.subject.layout;
-        self.of(&keys::TARGET, Quantity::Coordinate, &layout.coordinates, &layout.coordinates_of(joints))
+        self.of(&keys::TARGET, Quantity::Coordinate, &self.subject.layout.coordinates_of(joints))
     }
 
     fn gains(&mut self, key: &Key, joints: &[usize]) -> Option<Vec<f64>> {
-        let layout = self.subject.layout;
-        self.of(key, Quantity::Gain, &layout.velocities, &layout.velocities_of(joints))
+        self.of(key, Quantity::Gain, &self.subject.layout.velocities_of(joints))
     }
 
-    /// What stands under `key` for `of`, indices into `components`.
-    fn of(&mut self, key: &Key, quantity: Quantity, components: &[Component], of: &[usize]) -> Option<Vec<f64>> {
-        let field = self.reader.required(key, |reader, key| values(reader, key, quantity, components, of));
+    /// What stands under `key` for `of`, indices of coordinates or velocities.
+    fn of(&mut self, key: &Key, quantity: Quantity, of: &[usize]) -> Option<Vec<f64>> {
+        let layout = self.subject.layout;
+        let field = self.reader.required(key, |reader, key| values(reader, key, quantity, layout, of));
         field.value().cloned()
     }
 }

@@ -1,0 +1,93 @@
+//! Joints of several coordinates that a scenario file gives by one name, component by component.
+
+use std::ops::Range;
+
+use toml_edit::visit_mut::{self, VisitMut};
+use toml_edit::{InlineTable, Item, KeyMut, TableLike, Value};
+
+use crate::layout::{Component, Joint, Layout};
+use crate::scenario::in_space::{Orientation, position_of};
+use crate::scenario::keys;
+
+/// Replaces what stands for all components of a joint, an array or the table of a position, by an entry for each.
+pub struct InSpace<'a> {
+    pub layout: &'a Layout,
+    /// What the values at the place are for, if they are for components of joints.
+    pub of: Option<Of>,
+}
+
+/// What values are for.
+#[derive(Clone, Copy)]
+pub enum Of {
+    Coordinates,
+    Velocities,
+}
+
+const KEYS: [(&str, Of); 12] = [
+    (keys::Q.name, Of::Coordinates),
+    (keys::FROM.name, Of::Coordinates),
+    (keys::TO.name, Of::Coordinates),
+    (keys::POINTS.name, Of::Coordinates),
+    (keys::TARGET.name, Of::Coordinates),
+    (keys::V.name, Of::Velocities),
+    (keys::SPEED.name, Of::Velocities),
+    (keys::KP.name, Of::Velocities),
+    (keys::KI.name, Of::Velocities),
+    (keys::KD.name, Of::Velocities),
+    (keys::TRACKING_RATE.name, Of::Velocities),
+    (keys::LIMITS.name, Of::Velocities),
+];
+
+impl VisitMut for InSpace<'_> {
+    fn visit_table_like_kv_mut(&mut self, key: KeyMut<'_>, item: &mut Item) {
+        let of = KEYS.iter().find(|(name, _)| *name == key.get()).map(|(_, of)| *of);
+        if let (Some(of), Some(table)) = (of, item.as_table_like_mut()) {
+            self.expand(of, table);
+        }
+        visit_mut::visit_table_like_kv_mut(&mut InSpace { of, ..*self }, key, item);
+    }
+
+    fn visit_inline_table_mut(&mut self, table: &mut InlineTable) {
+        // A point of a motion, in an array.
+        if let Some(of) = self.of {
+            self.expand(of, table);
+        }
+        visit_mut::visit_inline_table_mut(self, table);
+    }
+}
+
+impl InSpace<'_> {
+    fn expand(&self, of: Of, table: &mut dyn TableLike) {
+        for joint in self.layout.joints.iter().filter(|joint| joint.is_in_space()) {
+            let (components, range): (&[Component], Range<usize>) = match of {
+                Of::Coordinates => (&self.layout.coordinates, joint.q.clone()),
+                Of::Velocities => (&self.layout.velocities, joint.v.clone()),
+            };
+            let Some(values) = table.get(&joint.name).and_then(|item| values(item, joint)) else { continue };
+            table.remove(&joint.name);
+            for (component, value) in components[range].iter().zip(values) {
+                table.insert(&component.name, toml_edit::value(value));
+            }
+        }
+    }
+}
+
+/// The values of all components of a joint; none of what is not the short form of a position or of an array.
+fn values(item: &Item, joint: &Joint) -> Option<Vec<f64>> {
+    let Some(table) = item.as_table_like() else { return numbers(item) };
+    let three = |name: &str| -> Option<[f64; 3]> { numbers(table.get(name)?)?.try_into().ok() };
+    let quaternion = || numbers(table.get(keys::QUATERNION.name)?)?.try_into().ok().map(Orientation::Quaternion);
+    let rpy = || three(keys::JOINT_RPY.name).map(Orientation::Rpy);
+    let axis_angle =
+        || Some(Orientation::AxisAngle(three(keys::AXIS.name)?, number(table.get(keys::ANGLE.name)?.as_value()?)?));
+    let orientation = quaternion().or_else(rpy).or_else(axis_angle);
+    Some(position_of(joint, three(keys::JOINT_XYZ.name), orientation))
+}
+
+fn numbers(item: &Item) -> Option<Vec<f64>> {
+    item.as_array()?.iter().map(number).collect()
+}
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_float().or(value.as_integer().map(|number| number as f64))
+}
