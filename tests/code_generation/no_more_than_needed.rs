@@ -47,7 +47,9 @@ fn a_planar_mechanism_in_space_costs_planar_code() {
             link.inertia = Inertia { xx: 0.7 * zz + 0.01, yy: 0.9 * zz + 0.02, zz, xy: 1e-3, yz: -2e-3, xz: 3e-3 };
         });
         let [planar, spatial] = [planar, spatial].map(|model| counts(&model));
-        for ((function, planar), (_, spatial)) in planar.iter().zip(&spatial) {
+        // Angular momentum has three components: what stands out of the plane has some in it, too.
+        let in_plane = planar.iter().zip(&spatial).filter(|((function, _), _)| *function != "momentum");
+        for ((function, planar), (_, spatial)) in in_plane {
             assert_eq!(spatial, planar, "{name}, {function}");
         }
         assert!(of(&planar, "inverse_dynamics").flops() > 0, "{name}");

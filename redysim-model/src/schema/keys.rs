@@ -78,10 +78,14 @@ pub(crate) const JOINT_NAME: Key =
 pub(crate) const PARENT: Key =
     Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground").with_default("required");
 pub(crate) const JOINT: Key =
-    Key::new("joint", "\"revolute\"", "revolute, prismatic, helical or fixed").with_default("required");
-pub(crate) const AXIS: Key =
-    Key::new("axis", "[0.0, 0.0, 1.0]", "the direction of the joint, in the frame that it moves")
-        .with_default("z; required beside `origin`");
+    Key::new("joint", "\"revolute\"", "revolute, prismatic, helical, spherical, free or fixed")
+        .with_default("required");
+pub(crate) const AXIS: Key = Key::new(
+    "axis",
+    "[0.0, 0.0, 1.0]",
+    "the direction of the joint, in the frame that it moves; spherical and free joints have none",
+)
+.with_default("z; required beside `origin`");
 pub(crate) const OFFSET: Key =
     Key::new("offset", "\"90 deg\"", "added to the coordinate, beside `origin` or `axis`; without a unit rad or m")
         .with_default("0");
