@@ -311,7 +311,7 @@ fn quaternions_keep_their_length_under_loose_methods() {
     }
 }
 
-/// Implicit methods need ∂(N(q) v)/∂q in their Jacobian: with a wrong one they take more evaluations, or fail.
+/// Their Jacobian has ∂(N(q) v)/∂q, which the test of tangents below holds against differences.
 #[test]
 fn implicit_methods_agree_about_a_nodding_top() {
     let top = Top::new();
