@@ -1,6 +1,6 @@
 """Imports and compiles robots, computes at random states by redysim and by Pinocchio, and prints how far they differ.
 
-Both read the same URDF. Joints that redysim fixes (floating bases, joints that move no mass) are locked at zero in
+Both read the same URDF. Joints that redysim fixes (planar ones, joints that move no mass) are locked at zero in
 Pinocchio; joints that mimic others are free in both. The base is fixed in both. Frames on the tips, wrenches on them,
 and rotors are added to both.
 """

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use crate::failure::Failure;
 use crate::output::{print, to_stderr, write_beside};
-use crate::urdf::{Imported, Options, import, read};
+use crate::urdf::{Base, Imported, Options, import, read};
 
 /// Make a model file from a URDF, and report what changes.
 ///
-/// Joints keep their order, names, origins and axes. The root link becomes the ground. Inertias are turned into the
-/// links' axes. Continuous joints become revolute. Floating, planar and spherical joints become fixed at zero. Joints
-/// that mimic others move by themselves. Joints that move no mass become fixed. Limits of positions and velocity become
+/// Joints keep their order, names, origins and axes. The root link becomes the ground, or with `--base free` a link on a
+/// free joint `base` without an actuator. Inertias are turned into the links' axes. Continuous joints become revolute.
+/// Floating joints become free, without an actuator. Planar and spherical joints become fixed at zero. Joints that mimic
+/// others move by themselves. Joints that move no mass become fixed. Limits of positions and velocity become
 /// a `range`. Damping and friction are kept. Other numbers, such as transmission ratios, other limits and what a joint
 /// that becomes fixed had, stay as comments beside their links; those of the root stay in the model's head. Visuals and
 /// collisions are left out. Whatever changes or is left out is reported, here and in the model's head.
@@ -19,6 +20,7 @@ use crate::urdf::{Imported, Options, import, read};
 Examples:
   redysim import panda.urdf -o panda.toml
   redysim import ur5.urdf --fuse-fixed | less
+  redysim import satellite.urdf --base free -o satellite.toml
   xacro robot.urdf.xacro > robot.urdf && redysim import robot.urdf -o robot.toml && redysim check robot.toml")]
 pub struct Arguments {
     /// The URDF file.
@@ -26,6 +28,9 @@ pub struct Arguments {
     /// Write to this file instead of printing.
     #[arg(long, short)]
     output: Option<PathBuf>,
+    /// What the root link is: the ground, or a link that floats on a free joint.
+    #[arg(long, value_enum, default_value_t)]
+    base: Base,
     /// Keep fixed links as links of their own (the default).
     #[arg(long, conflicts_with = "fuse_fixed")]
     keep_fixed: bool,
@@ -44,7 +49,8 @@ pub struct Arguments {
 /// Imports the robot.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let path = &arguments.robot;
-    let options = Options { fuse_fixed: arguments.fuse_fixed, quarter_turns: arguments.quarter_turns };
+    let &Arguments { fuse_fixed, quarter_turns, base, .. } = arguments;
+    let options = Options { fuse_fixed, quarter_turns, base };
     let imported = import(&read(path)?, path, options)?;
     let Imported { text, changes, notes, .. } = &imported;
     match &arguments.output {

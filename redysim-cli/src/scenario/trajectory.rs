@@ -164,6 +164,13 @@ impl Prescribed {
             let help = "name all joints among its `joints`: without loops nothing else determines how they move";
             return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
         }
+        if let Some(joint) = self.joints.iter().map(|&joint| &joints[joint]).find(|joint| joint.is_in_space()) {
+            let fault = format!(
+                "the trajectory prescribes the joint `{}`, which has several coordinates, in a mechanism with closed loops",
+                joint.name
+            );
+            return Err((fault, "prescribe joints with one coordinate: the others follow from the loops".into()));
+        }
         let Mobility { mobility: free, position_residual, .. } = *subject.mobility();
         let prescribed = self.velocities.len();
         // Loops that were not closed from anywhere may leave another number free where they are.
@@ -326,14 +333,21 @@ mod tests {
     }
 
     #[test]
-    fn what_loops_leave_free_is_compared_with_the_velocities_of_a_free_joint() {
-        let (base, checked_base) = checked(&["base"]);
-        assert_eq!((base.velocities, checked_base), (vec![0, 1, 2, 3, 4, 5], Ok(())));
+    fn what_loops_leave_free_is_compared_with_the_velocities_of_a_trajectory_behind_a_free_joint() {
         let (arm, checked_arm) = checked(&["arm"]);
         assert_eq!(arm.velocities, [6]);
         let (title, help) = checked_arm.unwrap_err();
         assert_eq!(title, "the trajectory prescribes 1 degree of freedom (arm), but the loops leave 6 free");
         assert_eq!(help, "name joints of 6 degrees of freedom among its `joints`: the others follow from the loops");
+    }
+
+    #[test]
+    fn a_trajectory_of_loops_prescribes_no_joint_of_several_coordinates() {
+        let (base, checked_base) = checked(&["base"]);
+        assert_eq!(base.velocities, [0, 1, 2, 3, 4, 5]);
+        let (title, help) = checked_base.unwrap_err();
+        assert!(title.contains("the joint `base`, which has several coordinates"), "{title}");
+        assert_eq!(help, "prescribe joints with one coordinate: the others follow from the loops");
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use redysim_model::JointKind;
 use roxmltree::Node;
 
 use super::document::{Document, child};
@@ -71,7 +70,7 @@ fn of_joint(joint: Node, link: &Link) -> Vec<String> {
     if is_fixed(joint) {
         return Vec::new();
     }
-    let moves = link.kind != JointKind::Fixed;
+    let moves = link.kind.has_axis();
     let mut comments = Vec::new();
     let mut keep = |tag: &str, is_written: &dyn Fn(&str) -> bool, why: &str| {
         let Some(node) = child(joint, tag) else { return };

@@ -56,6 +56,18 @@ pub struct Options {
     pub fuse_fixed: bool,
     /// Angles that are nearly multiples of 90° are made so.
     pub quarter_turns: bool,
+    /// What the root link is.
+    pub base: Base,
+}
+
+/// What the root link of a robot is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Base {
+    /// The ground.
+    #[default]
+    Fixed,
+    /// A link on a free joint `base`, which has no actuator.
+    Free,
 }
 
 /// The text of the URDF file at `path`.
@@ -85,7 +97,7 @@ pub fn visuals(path: &Path) -> Result<Vec<Visual>, Failure> {
 pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Failure> {
     let file = path.display().to_string();
     let document = Document::parse(text, &file)?;
-    let mut robot = Robot::read(&document)?;
+    let mut robot = Robot::read(&document, options.base)?;
     if robot.name.trim().is_empty() {
         robot.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         robot.notes.push(format!("the robot has no name: it is called `{}` after its file", robot.name));
@@ -130,7 +142,11 @@ fn urdf_line(line: usize, written: &ModelFile, robot: &Robot, document: &Documen
     let text = written.text.lines().nth(line - 1).unwrap_or_default();
     let link = &robot.links[index];
     let weighs = ["name", "mass", "com", "inertia"].iter().any(|key| text.starts_with(key));
-    if weighs { document.line_of("link", &link.name) } else { document.line_of("joint", &link.joint_name) }
+    if weighs || link.is_root {
+        document.line_of("link", &link.name)
+    } else {
+        document.line_of("joint", &link.joint_name)
+    }
 }
 
 /// What stands at the head of the model file.

@@ -24,6 +24,9 @@ pub fn write(robot: &Robot, head: &[String]) -> ModelFile {
     }
     text += &format!("name = {}\n", quoted(&robot.name));
     text += "gravity = [0.0, 0.0, -9.81]    # m/s², in the base frame: not from the URDF, which has none\n";
+    if robot.links.iter().any(|link| link.kind == JointKind::Free) {
+        text += "allow = [\"under-actuated\"]    # what floats has no actuator\n";
+    }
     let mut lines = Vec::new();
     for link in &robot.links {
         text += "\n";
@@ -44,8 +47,11 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
     writeln!(text, "parent = {}", quoted(link.parent.map_or("base", |parent| &robot.links[parent].name)))?;
     writeln!(text, "joint = \"{}\"", link.kind.name())?;
     writeln!(text, "origin = {}", origin(link.origin))?;
-    if link.kind != JointKind::Fixed {
+    if link.kind.has_axis() {
         writeln!(text, "axis = {}", vector(link.axis))?;
+    }
+    if link.kind == JointKind::Free {
+        writeln!(text, "actuated = false")?;
     }
     if let Some(Ok(range)) = link.limit.as_ref().map(range) {
         writeln!(text, "{range}")?;

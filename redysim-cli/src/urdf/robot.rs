@@ -8,6 +8,7 @@ use redysim_model::rotation::{roll_pitch_yaw, sin_cos};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use urdf_rs::{JointLimit, JointType};
 
+use super::Base;
 use super::document::Document;
 use super::inertial::Inertial;
 use super::notation::inertial;
@@ -17,11 +18,11 @@ use crate::number::counted;
 /// An angle this close to a multiple of 90° was probably rounded.
 const NEARLY: f64 = 1e-5;
 
-/// A robot whose root is the ground.
+/// A robot whose root is the ground, or floats.
 pub struct Robot {
     /// Its name; empty if the file gives none.
     pub name: String,
-    /// All links but the root, in the order of the file's joints.
+    /// All links but a root that is the ground: a root that floats, then the others in the order of the file's joints.
     pub links: Vec<Link>,
     /// What is left out or written otherwise, beside the remarks of the links.
     pub notes: Vec<String>,
@@ -35,6 +36,8 @@ pub struct Link {
     /// `None` is the ground.
     pub parent: Option<usize>,
     pub kind: JointKind,
+    /// Whether it is the root of the URDF, which no joint of it carries.
+    pub is_root: bool,
     pub origin: Origin,
     pub axis: [f64; 3],
     pub inertial: Inertial,
@@ -80,7 +83,7 @@ impl Robot {
     ///
     /// # Errors
     /// If the links and joints are not a tree.
-    pub fn read(document: &Document) -> Result<Robot, Failure> {
+    pub fn read(document: &Document, base: Base) -> Result<Robot, Failure> {
         let urdf = urdf_rs::read_from_string(&document.text_to_read())
             .map_err(|error| document.fault_at("robot", "", format!("URDF: {error}")))?;
         unique(document, "link", urdf.links.iter().map(|link| link.name.as_str()))?;
@@ -94,7 +97,10 @@ impl Robot {
             urdf.joints.iter().enumerate().map(|(index, joint)| (joint.child.link.as_str(), index)).collect();
         let mut notes = Vec::new();
         let fixed = inertial_of(root);
-        notes.push(if fixed.is_none() {
+        let floats = base == Base::Free;
+        notes.push(if floats {
+            format!("the root link `{root}` floats on a free joint without an actuator")
+        } else if fixed.is_none() {
             format!("the root link `{root}` is the ground, called `base` here")
         } else {
             format!(
@@ -107,8 +113,12 @@ impl Robot {
         let link = |joint: &urdf_rs::Joint| Link {
             name: joint.child.link.clone(),
             joint_name: joint.name.clone(),
-            parent: carried_by.get(joint.parent.link.as_str()).copied(),
+            parent: match carried_by.get(joint.parent.link.as_str()) {
+                Some(carrier) => Some(carrier + usize::from(floats)),
+                None => floats.then_some(0),
+            },
             kind: kind(joint),
+            is_root: false,
             origin: Origin { xyz: joint.origin.xyz.0, rpy: joint.origin.rpy.0 },
             axis: joint.axis.xyz.0,
             inertial: inertial_of(&joint.child.link),
@@ -118,7 +128,9 @@ impl Robot {
             remarks: not_here(joint).into_iter().collect(),
             comments: Vec::new(),
         };
-        let links: Vec<Link> = urdf.joints.iter().map(link).collect();
+        let taken = |name: &str| urdf.joints.iter().any(|joint| joint.name == name);
+        let root = floats.then(|| Link::floating(root, free_name("base", taken), inertial_of(root)));
+        let links: Vec<Link> = root.into_iter().chain(urdf.joints.iter().map(link)).collect();
         Ok(Robot { name: urdf.name.clone(), links, notes }.without_noise())
     }
 
@@ -155,7 +167,11 @@ impl Robot {
     pub fn with_remarks_on_mimics(mut self) -> Self {
         for link in &mut self.links {
             let Some(mimics) = &link.mimics else { continue };
-            let here = if link.kind == JointKind::Fixed { "fixed" } else { "free here, with an actuator of its own" };
+            let here = match link.kind {
+                JointKind::Fixed => "fixed",
+                JointKind::Free => "free here, without an actuator",
+                _ => "free here, with an actuator of its own",
+            };
             link.remarks.push(format!("joint `{}` {mimics}: it is {here}", link.joint_name));
         }
         self
@@ -165,26 +181,52 @@ impl Robot {
     pub fn without_reserved_name(mut self) -> Self {
         let taken = |name: &str| self.links.iter().any(|link| link.name == name);
         let Some(index) = self.links.iter().position(|link| link.name == "base") else { return self };
-        let free = (0..).map(|n| if n == 0 { "base_link".into() } else { format!("base_link{n}") }).find(|n| !taken(n));
-        let name = free.unwrap_or_default();
+        let name = free_name("base_link", taken);
         self.notes.push(format!("link `base` is called `{name}` here: `base` is the ground"));
         self.links[index].name = name;
         self
     }
 }
 
+impl Link {
+    /// The root of a robot, on a free joint.
+    fn floating(name: &str, joint_name: String, inertial: Inertial) -> Self {
+        Link {
+            name: name.to_owned(),
+            joint_name,
+            parent: None,
+            kind: JointKind::Free,
+            is_root: true,
+            origin: Origin { xyz: [0.0; 3], rpy: [0.0; 3] },
+            axis: [0.0, 0.0, 1.0],
+            inertial,
+            limit: None,
+            resistance: [0.0; 2],
+            mimics: None,
+            remarks: Vec::new(),
+            comments: Vec::new(),
+        }
+    }
+}
+
+/// The name, or the first with a number that is not taken.
+fn free_name(name: &str, taken: impl Fn(&str) -> bool) -> String {
+    let names = (0..).map(|n| if n == 0 { name.to_owned() } else { format!("{name}{n}") });
+    names.into_iter().find(|name| !taken(name)).unwrap_or_default()
+}
+
 fn kind(joint: &urdf_rs::Joint) -> JointKind {
     match joint.joint_type {
         JointType::Revolute | JointType::Continuous => JointKind::Revolute,
         JointType::Prismatic => JointKind::Prismatic,
-        JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => JointKind::Fixed,
+        JointType::Floating => JointKind::Free,
+        JointType::Fixed | JointType::Planar | JointType::Spherical => JointKind::Fixed,
     }
 }
 
 /// The kind that a joint has in the URDF and cannot have here.
 fn not_here(joint: &urdf_rs::Joint) -> Option<String> {
     let kind = match joint.joint_type {
-        JointType::Floating => "floating",
         JointType::Planar => "planar",
         JointType::Spherical => "spherical",
         _ => return None,
@@ -201,13 +243,13 @@ fn mimics(joint: &urdf_rs::Joint) -> Option<String> {
 
 /// Damping and friction.
 fn resistance(joint: &urdf_rs::Joint) -> [f64; 2] {
-    let given = joint.dynamics.as_ref().filter(|_| kind(joint) != JointKind::Fixed);
+    let given = joint.dynamics.as_ref().filter(|_| kind(joint).has_axis());
     given.map_or([0.0; 2], |dynamics| [dynamics.damping, dynamics.friction])
 }
 
 /// The limits, of which a continuous joint has no positions.
 fn limit(joint: &urdf_rs::Joint) -> Option<JointLimit> {
-    if kind(joint) == JointKind::Fixed || joint.limit == JointLimit::default() {
+    if !kind(joint).has_axis() || joint.limit == JointLimit::default() {
         return None;
     }
     let mut limit = joint.limit.clone();

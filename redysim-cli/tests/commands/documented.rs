@@ -19,6 +19,9 @@ fn folder_with_examples(name: &str) -> PathBuf {
     }
     fs::create_dir(folder.join("src")).unwrap();
     fs::write(folder.join("panda.urdf"), PANDA).unwrap();
+    let inertial = &PANDA[PANDA.find("<inertial>").unwrap()..PANDA.find("</link><joint").unwrap()];
+    let root = format!("<link name=\"base\">{inertial}</link>");
+    fs::write(folder.join("satellite.urdf"), PANDA.replace("<link name=\"base\"/>", &root)).unwrap();
     folder
 }
 

@@ -8,7 +8,7 @@ use faults::BODY;
 use kinematics::{Numbers, positions, tree, urdf};
 use redysim_model::joint::JointPhysics;
 use redysim_model::{GenericMechanism, JointRange, Model};
-use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy};
+use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy, Mechanism};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -205,7 +205,6 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
         "link `base` is called `base_link` here",
         "joint `knuckle` mimics `waist` in the URDF (2 times its value, plus 0 rad)",
         "joint `spin` moves no mass",
-        "joint `loose` is floating in the URDF: it is fixed at zero here",
         "the limits of 1 joint limit nothing",
         "left out: <gazebo>, on line 21",
         "left out: <material>, on line 3",
@@ -223,17 +222,17 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
     assert!(run.stderr.contains("warning: link `base_link`: `origin.rpy[1]` is 1.5708 rad"), "{}", run.stderr);
     assert!(run.stdout.contains("range = { position = [-1.0, 1.0], velocity = 2.0, force = 40.0 }"), "{}", run.stdout);
     // What moves otherwise is no side note, and heads the model.
-    for change in ["joint `loose` is floating", "joint `spin` moves no mass", "joint `knuckle` mimics `waist`"] {
+    for change in ["joint `spin` moves no mass", "joint `knuckle` mimics `waist`"] {
         assert!(run.stderr.contains(&format!("warning: {change}")), "{change}: {}", run.stderr);
         let head = run.stdout.split("[[link]]").next().unwrap();
         assert!(head.contains(&format!("# - {change}")), "{change}: {head}");
     }
     let fused = import(LOSSY, &["--fuse-fixed"]).1;
-    for report in reports.iter().chain(&["link `tool` is a part of `finger`", "link `puck` is a part of the ground"]) {
+    for report in reports.iter().chain(&["link `tool` is a part of `finger`"]) {
         assert!(fused.stdout.contains(report) && fused.stderr.contains(report), "{report}:\n{}", fused.stdout);
     }
     let kinds: Vec<usize> = mechanism.model().links.iter().map(|link| link.joint.dof()).collect();
-    assert_eq!(kinds, [1, 1, 0, 0]);
+    assert_eq!(kinds, [1, 1, 0, 6]);
     let quiet = import(LOSSY, &["--quiet"]).1;
     assert_eq!((quiet.stderr.as_str(), quiet.stdout), ("", run.stdout));
 }
@@ -255,17 +254,17 @@ fn the_help_of_import_states_what_import_does() {
     };
     let imported = kinds.map(of_kind);
     let first_joint = |index: usize| imported[index].0.model().links[0].joint.name();
-    assert!(
-        help.contains("Continuous joints become revolute. Floating, planar and spherical joints become fixed at zero.")
-    );
-    assert_eq!([0, 1, 2, 3].map(first_joint), ["revolute", "fixed", "fixed", "fixed"]);
-    for (kind, (_, run)) in kinds.iter().zip(&imported).skip(1) {
+    assert!(help.contains("Continuous joints become revolute. Floating joints become free, without an actuator."));
+    assert!(help.contains("Planar and spherical joints become fixed at zero."));
+    assert_eq!([0, 1, 2, 3].map(first_joint), ["revolute", "free", "fixed", "fixed"]);
+    assert!(!imported[1].0.model().links[0].actuated);
+    for (kind, (_, run)) in kinds.iter().zip(&imported).skip(2) {
         assert!(run.stderr.contains(&format!("is {kind} in the URDF: it is fixed at zero here")), "{}", run.stderr);
     }
 
     let (mechanism, run) = import(LOSSY, &[]);
     let link = |joint: &str| mechanism.model().links.iter().find(|link| link.joint_name == joint).unwrap();
-    assert!(help.contains("The root link becomes the ground."));
+    assert!(help.contains("The root link becomes the ground, or with `--base free` a link on a free joint `base`"));
     assert_eq!(link("waist").parent, None);
     assert!(help.contains("Joints that mimic others move by themselves."));
     assert_eq!((link("knuckle").joint.dof(), link("knuckle").actuated), (1, true));
@@ -489,4 +488,45 @@ fn an_existing_model_stays_unless_forced() {
     succeed(&folder, &["import", "robot.urdf", "-o", "robot.toml", "--force"]);
     assert!(Model::load(&model).is_ok());
     succeed(&folder, &["check", "--quiet", "robot.toml"]);
+}
+
+/// A satellite of 5 kg with an arm of 1 kg on an axis through (0.3, 0, 0).
+const SATELLITE: &str = r#"<robot name="satellite">
+  <link name="bus"><inertial><origin xyz="0.1 0 0"/><mass value="5"/><inertia ixx="0.1" iyy="0.2" izz="0.3" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="boom"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="panel"><inertial><mass value="2"/><inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="hinge" type="revolute"><parent link="bus"/><child link="boom"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="weld" type="fixed"><parent link="bus"/><child link="panel"/><origin xyz="-1 0 0"/></joint>
+</robot>
+"#;
+
+#[test]
+fn the_root_of_a_robot_with_a_free_base_floats_on_a_joint_without_an_actuator() {
+    for options in [&["--base", "free"][..], &["--base", "free", "--fuse-fixed"]] {
+        let (mechanism, run) = import(SATELLITE, options);
+        let [bus, boom, ..] = &mechanism.model().links[..] else { panic!("{}", run.stdout) };
+        assert_eq!((bus.name.as_str(), bus.joint_name.as_str(), bus.joint.name()), ("bus", "base", "free"));
+        assert_eq!((bus.parent, boom.parent, bus.actuated, boom.actuated), (None, Some(0), false, true));
+        assert_eq!((mechanism.nq(), mechanism.nv(), mechanism.model().mass()), (8, 7, 8.0));
+        assert!(run.stderr.contains("the root link `bus` floats on a free joint"), "{}", run.stderr);
+        assert!(!run.stderr.contains("warning"), "{}", run.stderr);
+        // All of it moves along x like one body, whatever is fused.
+        let matrix = mechanism.mass_matrix(&vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+        assert!(close(matrix[0][0], 8.0) && close(matrix[5][1], 5.0 * 0.1 + 0.3 - 2.0), "{matrix:?}");
+    }
+    let (fixed, _) = import(SATELLITE, &["--base", "fixed"]);
+    assert_eq!(fixed.model().dof(), 1);
+}
+
+#[test]
+fn the_free_joint_of_a_base_has_a_name_that_no_other_joint_has() {
+    let (mechanism, _) = import(&SATELLITE.replace("hinge", "base"), &["--base", "free"]);
+    assert_eq!(mechanism.model().links[0].joint_name, "base1");
+}
+
+#[test]
+fn a_fault_of_the_root_link_of_a_floating_robot_is_reported_on_its_line() {
+    let folder = folder_with(SATELLITE.replacen("ixx=\"0.1\"", "ixx=\"-1\"", 1));
+    let run = import_from(&folder, &["--base", "free"]);
+    assert!(run.code == 1 && run.stderr.contains("robot.urdf:2: link `bus`"), "{}", run.output());
 }

@@ -59,6 +59,7 @@ fn every_kind_of_robot_has_a_crate_that_passes_its_tests() {
         ("new-asks", "asks.toml", loops),
         ("new-slider-crank", &model("slider_crank.toml"), loops),
         ("new-three-rrr", &model("three_rrr.toml"), loops),
+        ("new-floating", &model("kr5_floating.toml"), "base.wz"),
     ] {
         let found = tested(&folder, name, robot);
         assert!(found.contains(printed), "{robot}: {found}");

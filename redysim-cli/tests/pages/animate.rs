@@ -179,7 +179,7 @@ fn the_page_of_a_free_robot_has_its_quaternion_and_the_rates_of_its_velocities()
         let rate = numbers(&data["motion"]["v"][coordinate]);
         assert!(rate.iter().all(|rate| rate.is_finite()));
     }
-    let upward = [0.0, -(0.1_f64).sin(), (0.1_f64).cos(), 0.0, (0.05_f64).sin() * -1.0, (0.05_f64).cos(), 0.0];
+    let upward = [0.0, -(0.1_f64).sin(), (0.1_f64).cos(), 0.0, -(0.05_f64).sin(), (0.05_f64).cos(), 0.0];
     for (coordinate, expected) in upward.iter().enumerate() {
         let found = numbers(&data["motion"]["v"][coordinate])[0];
         assert!((found - expected).abs() < 1e-15, "{coordinate}: {found}, not {expected}");

@@ -74,7 +74,7 @@ fn a_start_may_be_given_by_a_quaternion_by_angles_or_by_an_axis() {
     ] {
         let found = start(&folder, TOP, &format!("{given}\nv = {{ pivot = [0, 0, '180 deg/s'] }}"));
         let expected = [sin, 0.0, 0.0, cos, 0.0, 0.0, std::f64::consts::PI];
-        assert!(deviation(&[found.clone()], &[expected.to_vec()]) < 1e-15, "{given}: {found:?}");
+        assert!(deviation(std::slice::from_ref(&found), &[expected.to_vec()]) < 1e-15, "{given}: {found:?}");
     }
 }
 
@@ -175,9 +175,7 @@ fn the_centre_of_mass_of_a_free_robot_falls_like_a_stone_under_every_law_on_its_
         "law = 'csv', joints = ['joint2'], file = 'tau.csv'".to_owned(),
     ] {
         let start = "[initial]\nq = { base = { xyz = [0, 0, 1], rpy = [0.1, 0.2, 0.3] } }\nv = { 'base.vx' = 1 }\n";
-        let run = format!(
-            "[forward]\nend = 1.0\nstep = 0.1\nintegrator = {{ method = 'Dop853', rtol = 1e-10, atol = 1e-11 }}\n"
-        );
+        let run = "[forward]\nend = 1.0\nstep = 0.1\nintegrator = { method = 'Dop853', rtol = 1e-10, atol = 1e-11 }\n";
         let rest = format!("{start}{trajectory}{run}torque = {{ {law} }}\n");
         let table = moved(&folder, ROBOT, &rest, "kinematics");
         let total: f64 = masses.iter().sum();
@@ -188,9 +186,9 @@ fn the_centre_of_mass_of_a_free_robot_falls_like_a_stone_under_every_law_on_its_
             (0..3).map(|axis| center(&table.rows[10], axis) - center(&table.rows[0], axis)).collect();
         for row in &table.rows {
             let t = row[0];
-            for axis in 0..3 {
+            for (axis, velocity) in velocity.iter().enumerate() {
                 let fall = if axis == 2 { -0.5 * 9.81 * (t * t - t) } else { 0.0 };
-                let expected = center(&table.rows[0], axis) + velocity[axis] * t + fall;
+                let expected = center(&table.rows[0], axis) + velocity * t + fall;
                 let found = center(row, axis);
                 assert!((found - expected).abs() < 1e-8, "{law}: {found}, not {expected} at {t} s");
             }
@@ -331,4 +329,46 @@ fn data_have_the_components_of_a_joint_that_a_file_gives_by_one_name() {
     assert_eq!((q.len(), q["base.y"], q["base.qz"]), (7, 2.0, 1.0));
     assert_eq!((v.len(), v["base.wz"], v["joint1"]), (7, 6.0, 7.0));
     assert_eq!(Scenario::from_toml(read.to_toml(), &file).unwrap(), read);
+}
+
+/// A crank and a rocker, and a coupler between them with a ball at either end.
+const BALLS: &str = "name = 'balls'\ngravity = [0, 0, -9.81]\n\
+    [[link]]\nname = 'crank'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 0, 1]\norigin = {}\nmass = 1\n\
+    com = [0.1, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+    [[link]]\nname = 'rocker'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 1, 0]\norigin = { xyz = [1, 0, 0] }\n\
+    mass = 1\nactuated = false\ncom = [0, 0, 0.3]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+    [[link]]\nname = 'coupler'\nparent = 'rocker'\njoint = 'spherical'\norigin = { xyz = [0, 0, 0.6] }\nmass = 1\n\
+    actuated = false\ncom = [-0.5, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+    [[loop]]\nname = 'ball'\njoint = 'spherical'\nlink_a = 'crank'\npoint_a = [0.2, 0, 0]\nlink_b = 'coupler'\n\
+    point_b = [-1, 0, 0]\n";
+
+#[test]
+fn a_loop_through_a_spherical_joint_stays_closed_and_keeps_its_energy() {
+    let folder = scratch("in-space-loop");
+    fs::write(folder.join("balls.toml"), BALLS).unwrap();
+    let law = "torque = { law = 'pd', target = [1], kp = 20, kd = 0 }";
+    let rest = format!(
+        "model = 'balls.toml'\n[initial]\nv = {{ crank = 3, 'coupler.wx' = 1 }}\n\
+         [forward]\nend = 1.0\nstep = 0.1\n{AGAINST_CLOSED_FORMS}{law}\n"
+    );
+    fs::write(folder.join("trial.toml"), rest).unwrap();
+    let printed = succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
+    assert!(printed.contains("coupler.qy by -0.3162 1"), "{printed}");
+    let text = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    let run: toml::Table = text.parse().unwrap();
+    let number = |key: &str| run["run"][key].as_float().unwrap();
+    assert!(number("worst_position_residual") < 1e-12 && number("energy_drift") < 1e-9, "{text}");
+    assert!(number("energy_exchanged") > 0.5, "{text}");
+}
+
+#[test]
+fn prescribing_a_spherical_joint_of_a_loop_is_refused() {
+    let folder = scratch("in-space-loop-prescribed");
+    fs::write(folder.join("balls.toml"), BALLS).unwrap();
+    let rest = "model = 'balls.toml'\n[trajectory]\njoints = ['coupler']\nfrom = [0, 0, 0, 1]\nto = [0, 0, 1, 1]\n\
+                duration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
+    fs::write(folder.join("trial.toml"), rest).unwrap();
+    let shown = fail(&folder, &["inverse", "trial.toml"], 1);
+    assert!(shown.contains("the joint `coupler`, which has several coordinates"), "{shown}");
+    assert!(shown.contains("trial.toml:2:1") && shown.contains("prescribe joints with one coordinate"), "{shown}");
 }

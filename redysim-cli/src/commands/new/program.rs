@@ -32,6 +32,12 @@ pub fn of(robot: &Robot) -> Result<String, Failure> {
     if robot.model.loops.is_empty() {
         return Ok(filled(TREE, &general));
     }
+    if let Some(joint) = layout.joints.iter().find(|joint| joint.is_in_space()) {
+        let name = quoted(&joint.name);
+        let message = format!("the robot has closed loops, and the joint {name} has several coordinates");
+        let help = "no program is made for both together: take `redysim generate`, and ClosedLoop of redysim-runtime";
+        return Err(Failure::input(message).help(help));
+    }
     let mechanism = GenericMechanism::new(robot.model.clone());
     let start = layout.coordinates.iter().map(|coordinate| coordinate.neutral).collect();
     let q = closed_position(&mechanism, start).map_err(|why| Failure::input(format!("the loops stay open: {why}")))?;
