@@ -57,6 +57,22 @@ pub fn momentum<S: Scalar>(m: &impl TotalMomentum<S>, q: &[S], v: &[S]) -> Momen
     m.momentum(&vector(q), &vector(v))
 }
 
+pub fn coordinate_rates<S: Scalar>(m: &impl ConfigurationSpace<S>, q: &[S], v: &[S]) -> Vec<S> {
+    m.coordinate_rates(&vector(q), &vector(v)).as_ref().to_vec()
+}
+
+pub fn integrate<S: Scalar>(m: &impl ConfigurationSpace<S>, q: &[S], dv: &[S]) -> Vec<S> {
+    m.integrate(&vector(q), &vector(dv)).as_ref().to_vec()
+}
+
+pub fn difference<S: Scalar>(m: &impl ConfigurationSpace<S>, q0: &[S], q1: &[S]) -> Vec<S> {
+    m.difference(&vector(q0), &vector(q1)).as_ref().to_vec()
+}
+
+pub fn neutral<S: Scalar>(m: &impl ConfigurationSpace<S>) -> Vec<S> {
+    m.neutral().as_ref().to_vec()
+}
+
 pub fn link_kinematics<S: Scalar>(m: &impl LinkKinematics<S>, q: &[S], v: &[S]) -> Vec<LinkState<S>> {
     m.link_kinematics(&vector(q), &vector(v)).as_ref().to_vec()
 }

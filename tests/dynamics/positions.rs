@@ -2,11 +2,12 @@
 //! the generic path, against the quaternions of nalgebra and by their own identities.
 #![cfg(feature = "generic")]
 
+use crate::common::call;
 use crate::common::dual::{Dual, moving};
 use crate::common::models::generic;
 use crate::common::random::Random;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use redysim::{ConfigurationSpace, Scalar, Vector, redysim};
+use redysim::{ConfigurationSpace, Scalar, redysim};
 use std::f64::consts::PI;
 
 redysim! {
@@ -34,18 +35,15 @@ struct Space<S> {
 
 impl<S: Scalar> Space<S> {
     fn new<M: ConfigurationSpace<S> + Clone + 'static>(name: &str, mechanism: M) -> Self {
-        fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
-            V::from_fn(values.len(), |i| values[i])
-        }
         let [first, second, third] = [(); 3].map(|()| mechanism.clone());
         Space {
             name: name.into(),
             nq: mechanism.nq(),
             nv: mechanism.nv(),
-            integrate: Box::new(move |q, dv| first.integrate(&vector(q), &vector(dv)).as_ref().to_vec()),
-            difference: Box::new(move |q0, q1| second.difference(&vector(q0), &vector(q1)).as_ref().to_vec()),
-            rates: Box::new(move |q, v| third.coordinate_rates(&vector(q), &vector(v)).as_ref().to_vec()),
-            neutral: mechanism.neutral().as_ref().to_vec(),
+            integrate: Box::new(move |q, dv| call::integrate(&first, q, dv)),
+            difference: Box::new(move |q0, q1| call::difference(&second, q0, q1)),
+            rates: Box::new(move |q, v| call::coordinate_rates(&third, q, v)),
+            neutral: call::neutral(&mechanism),
         }
     }
 

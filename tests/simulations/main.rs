@@ -5,6 +5,7 @@ mod common;
 
 mod chaotic_pendulums;
 mod extremes;
+mod free_bodies;
 mod free_fall_reference;
 mod iftomm_pendulum;
 mod impedance;

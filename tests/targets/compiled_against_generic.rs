@@ -11,21 +11,32 @@ use crate::common::comparison::Comparison;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::models::{Gantry, Gripper, Kr5, Kr5Drives, generic};
 use crate::common::random::{Random, State};
-use redysim::{LinkState, TreeDynamics, redysim};
+use redysim::{LinkState, Mechanism, TreeDynamics, redysim};
+use std::f64::consts::PI;
 
 redysim! { struct Springs("models/test/springs.toml"); }
+redysim! { struct Floating("models/kr5_floating.toml"); }
+redysim! { struct Pendulum("models/spherical_pendulum.toml"); }
 
 const STATES: usize = 1000;
 
-fn states(dof: usize) -> impl Iterator<Item = State> {
+fn states(mechanism: &impl Mechanism) -> impl Iterator<Item = State> {
     let mut random = Random::new(1);
-    (0..STATES).map(move |_| random.state(dof))
+    (0..STATES).map(move |_| state(&mut random, mechanism))
+}
+
+/// In the ranges of [`Random::state`]; quaternions are of any length.
+fn state(random: &mut Random, mechanism: &impl Mechanism) -> State {
+    let (nq, nv) = (mechanism.nq(), mechanism.nv());
+    State { q: random.vector(nq, PI), v: random.vector(nv, 3.0), a: random.vector(nv, 10.0) }
 }
 
 /// The roundoff of constants is that of the largest terms, 1e-16 of them; the smallest components that count are 1e-6.
 const CONSTANTS: f64 = 1e-12;
 /// Springs add terms of hundreds of N m, which cancel more.
 const CONSTANTS_WITH_SPRINGS: f64 = 1e-11;
+/// The mass matrix of an arm on a platform has elements from 1e2 to those of its wrist.
+const CONSTANTS_WITH_PLATFORM: f64 = 1e-11;
 
 /// Compares every function of `compiled` with the one of `generic`.
 fn assert_same_functions(
@@ -38,7 +49,7 @@ fn assert_same_functions(
     let [mut inverse, mut forward, mut matrix, mut bias, mut coriolis, mut gravity, mut passive] =
         ["inverse", "forward", "mass matrix", "bias", "coriolis matrix", "gravity", "passive"].map(new);
     let [mut kinetic, mut potential] = ["kinetic", "potential"].map(new);
-    for State { q, v, a } in states(generic.nv()) {
+    for State { q, v, a } in states(generic) {
         let (q, v, a) = (exact(&q), exact(&v), exact(&a));
         let tau = inverse_dynamics(generic, &q, &v, &a);
         inverse.add(&rounded(inverse_dynamics(compiled, &q, &v, &a)), &rounded(&tau));
@@ -76,7 +87,7 @@ fn assert_same_kinematics(compiled: &impl TreeDynamics<DoubleDouble>, generic: &
     for (part, values) in parts {
         let mut comparison = Comparison::new(format!("{} {part}", generic.name()));
         let all = |links: Vec<LinkState<DoubleDouble>>| rounded(links.iter().flat_map(values).collect::<Vec<_>>());
-        for State { q, v, .. } in states(generic.nv()) {
+        for State { q, v, .. } in states(generic) {
             let (q, v) = (exact(&q), exact(&v));
             comparison.add(&all(link_kinematics(compiled, &q, &v)), &all(link_kinematics(generic, &q, &v)));
         }
@@ -93,7 +104,7 @@ fn assert_same_dynamics_in_f64(compiled: &impl TreeDynamics<f64>, generic: &impl
     let sample = |seed: u64| {
         let mut random = Random::new(seed);
         let mut inverse = Comparison::new(format!("{} inverse in f64, sample {seed}", generic.name()));
-        for State { q, v, a } in (0..STATES).map(|_| random.state(generic.nv())) {
+        for State { q, v, a } in (0..STATES).map(|_| state(&mut random, generic)) {
             inverse.add(&inverse_dynamics(compiled, &q, &v, &a), &inverse_dynamics(generic, &q, &v, &a));
         }
         inverse.assert_within(2e-11);
@@ -105,7 +116,7 @@ fn assert_same_dynamics_in_f64(compiled: &impl TreeDynamics<f64>, generic: &impl
     assert!(errors[7] <= 1e-12, "{}: the typical sample is at {:e}", generic.name(), errors[7]);
 
     let mut forward = Comparison::new(format!("{} forward in f64", generic.name()));
-    for State { q, v, a } in states(generic.nv()) {
+    for State { q, v, a } in states(generic) {
         let tau = inverse_dynamics(generic, &q, &v, &a);
         forward.add(&forward_dynamics(compiled, &q, &v, &tau), &forward_dynamics(generic, &q, &v, &tau));
     }
@@ -120,6 +131,11 @@ fn assert_same_outside(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDyn
     for index in 0..=generic.nl() {
         assert_eq!(compiled.link_name(index), generic.link_name(index), "link {index}");
         assert_eq!(compiled.joint_name(index), generic.joint_name(index), "joint {index}");
+    }
+    for index in 0..=generic.nq() {
+        assert_eq!(compiled.coordinate_name(index), generic.coordinate_name(index), "coordinate {index}");
+        assert_eq!(compiled.velocity_name(index), generic.velocity_name(index), "velocity {index}");
+        assert_eq!(compiled.coordinate_of_velocity(index), generic.coordinate_of_velocity(index), "velocity {index}");
     }
 }
 
@@ -157,6 +173,38 @@ fn gantry_compiled_is_gantry_generic() {
     assert_same_functions(&Gantry, &generic("test/gantry"), CONSTANTS);
     assert_same_kinematics(&Gantry, &generic("test/gantry"));
     assert_same_dynamics_in_f64(&Gantry, &generic("test/gantry"));
+}
+
+/// How coordinates move: as both paths run the same code, they agree to the roundoff of double-double.
+fn assert_same_positions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &impl TreeDynamics<DoubleDouble>) {
+    let [mut rates, mut integrated, mut differences] = ["coordinate rates", "integrate", "difference"]
+        .map(|what| Comparison::new(format!("{} {what}", generic.name())));
+    for State { q, v, a } in states(generic) {
+        let (q, v, a) = (exact(&q), exact(&v), exact(&a));
+        rates.add(&rounded(coordinate_rates(compiled, &q, &v)), &rounded(coordinate_rates(generic, &q, &v)));
+        let moved = integrate(generic, &q, &a);
+        integrated.add(&rounded(integrate(compiled, &q, &a)), &rounded(moved.clone()));
+        differences.add(&rounded(difference(compiled, &q, &moved)), &rounded(difference(generic, &q, &moved)));
+    }
+    [rates, integrated, differences].iter().for_each(|comparison| comparison.assert_within(1e-15));
+    assert_eq!(rounded(neutral(compiled)), rounded(neutral(generic)));
+}
+
+#[test]
+fn a_floating_arm_compiled_is_the_same_generic() {
+    assert_same_outside(&Floating, &generic("kr5_floating"));
+    assert_same_functions(&Floating, &generic("kr5_floating"), CONSTANTS_WITH_PLATFORM);
+    assert_same_kinematics(&Floating, &generic("kr5_floating"));
+    assert_same_positions(&Floating, &generic("kr5_floating"));
+}
+
+#[test]
+fn a_spherical_pendulum_compiled_is_the_same_generic() {
+    assert_same_outside(&Pendulum, &generic("spherical_pendulum"));
+    assert_same_functions(&Pendulum, &generic("spherical_pendulum"), CONSTANTS);
+    assert_same_kinematics(&Pendulum, &generic("spherical_pendulum"));
+    assert_same_positions(&Pendulum, &generic("spherical_pendulum"));
+    assert_same_dynamics_in_f64(&Pendulum, &generic("spherical_pendulum"));
 }
 
 #[test]

@@ -7,10 +7,10 @@ use core::ops::ControlFlow;
 
 use redysim::nalgebra as dynamics;
 use redysim::{
-    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation, Dop853, Event,
-    ForwardSimulation, FrameGains, FrameState, Gauss6, Impedance, IndependentMotion, Integrator, Limited, Motion, Ode5,
-    Ode15s, Ode45, OperationalSpace, Pd, PdGravity, Pid, Radau5, SemiImplicitEuler, SetPoint, Wrench, ZeroTorque,
-    redysim, tracking_rates,
+    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation, ConfigurationSpace,
+    Dop853, Event, ForwardSimulation, FrameGains, FrameState, Gauss6, Impedance, IndependentMotion, Integrator,
+    Limited, Motion, Ode5, Ode15s, Ode45, OperationalSpace, Pd, PdGravity, Pid, Radau5, SemiImplicitEuler, SetPoint,
+    Wrench, ZeroTorque, redysim, tracking_rates,
 };
 
 redysim! {
@@ -31,6 +31,19 @@ redysim! {
 redysim! {
     /// The KUKA KR5 with a load.
     struct Kr5Loaded("../../../models/kr5.toml", parameters = ["gravity", "link6.mass", "link6.com", "link6.inertia"]);
+}
+
+redysim! {
+    /// A body that turns about a point.
+    struct Top(
+        "../../../models/spherical_pendulum.toml",
+        functions = [forward_dynamics, energy, momentum]
+    );
+}
+
+redysim! {
+    /// A pole that turns freely on a cart.
+    struct CartPole("../../../models/cart_pole.toml", functions = [inverse_dynamics, hybrid_dynamics]);
 }
 
 redysim! {
@@ -66,6 +79,8 @@ extern "C" fn main() -> i32 {
             && a_frame_moves_in_the_vectors_of_nalgebra()
             && wrenches_have_the_power_of_their_joint_forces()
             && kept
+            && a_free_pole_takes_no_force()
+            && a_top_keeps_its_energy_and_its_quaternion_its_length().is_some_and(|kept| kept)
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
             && rests_under_limited_pid().is_some_and(|rests| rests)
@@ -161,6 +176,30 @@ fn keeps_its_energy_when_it_falls() -> Option<bool> {
         -1e-5 < gained && gained < 1e-5
     });
     Some(kept)
+}
+
+/// A top falls over, and where it is is the difference of its positions.
+fn a_top_keeps_its_energy_and_its_quaternion_its_length() -> Option<bool> {
+    let mut fall = ForwardSimulation::new(&Top, ZeroTorque);
+    let (upright, spin) = (Top.neutral(), [0.3_f64, -0.2, 40.0]);
+    let start = fall.state(&upright, &spin);
+    let energy = Top::energy(&upright, &spin).total();
+    let end = Ode45::new().rtol(1e-9).atol(1e-9).integrate(&mut fall, (0.0, 0.5), start).ok()?;
+    let end = fall.split(&end.y);
+    let gained = Top::energy(&end.q, &end.v).total() - energy;
+    let length = end.q.iter().fold(-1.0, |sum, component| sum + component * component);
+    let again = Top.integrate(&upright, &Top.difference(&upright, &end.q));
+    let sign: f64 = if again[3] * end.q[3] < 0.0 { -1.0 } else { 1.0 };
+    let apart = (0..4).fold(0.0, |sum, i| sum + (sign * again[i] - end.q[i]) * (sign * again[i] - end.q[i]));
+    let turns = Top::momentum(&end.q, &end.v).angular.iter().any(|component| component * component > 1e-3);
+    Some(-1e-5 < gained && gained < 1e-5 && -1e-9 < length && length < 1e-9 && apart < 1e-18 && turns)
+}
+
+fn a_free_pole_takes_no_force() -> bool {
+    let (q, v) = ([0.3_f64, 0.4], [0.8, -1.7]);
+    let motion = CartPole::hybrid_dynamics(&q, &v, &[3.0, 0.0]);
+    let [_, on_pole] = CartPole::inverse_dynamics(&q, &v, &motion.a);
+    on_pole * on_pole < 1e-24
 }
 
 fn stops_at_an_event_with_stable_steps() -> Option<bool> {

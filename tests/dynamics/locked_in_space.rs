@@ -1,0 +1,142 @@
+//! Spherical and free joints that are locked: a floating arm is one that stands where its base is held.
+#![cfg(feature = "generic")]
+
+use crate::common::comparison::Comparison;
+use crate::common::models::generic;
+use crate::common::random::{Random, State};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use redysim::generic::{GenericMechanism, Model, Vec3};
+use redysim::{
+    BiasForces, ForwardDynamics, InverseDynamics, LinkKinematics, LinkState, MassMatrix, MechanicalEnergy, redysim,
+};
+use redysim_model::LockError;
+
+redysim! {
+    /// KR5 whose platform is held, at a quaternion of another length than 1.
+    struct Held("models/kr5_floating.toml", locked = { base = [0.3, -0.2, 0.5, 0.1, -0.4, 0.2, 0.7] });
+}
+
+const POSITION: [f64; 3] = [0.3, -0.2, 0.5];
+/// (w, x, y, z).
+const QUATERNION: [f64; 4] = [0.7, 0.1, -0.4, 0.2];
+
+/// The axes of the platform.
+fn axes() -> Matrix3<f64> {
+    let [w, x, y, z] = QUATERNION;
+    *UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)).to_rotation_matrix().matrix()
+}
+
+/// KR5 as it stands on the ground, with gravity as the platform has it.
+fn standing() -> GenericMechanism {
+    let mut model = Model::load("models/kr5.toml").expect("a valid model").model;
+    model.gravity = Vec3((axes().transpose() * Vector3::from(model.gravity.0)).into());
+    GenericMechanism::new(model)
+}
+
+#[test]
+fn a_floating_arm_held_at_its_base_is_a_standing_one_in_turned_gravity() {
+    let (standing, mut random) = (standing(), Random::new(1));
+    assert_eq!((Held::NQ, Held::NV, Held::NL, Held::NJ), (6, 6, 7, 6));
+    let model = Model::load("models/kr5_floating.toml").expect("a valid model").model;
+    let [w, x, y, z] = QUATERNION;
+    let base = [POSITION[0], POSITION[1], POSITION[2], x, y, z, w];
+    let held = GenericMechanism::new(model.locked(&[("base", base)]).expect("seven numbers"));
+    let [mut forces, mut masses, mut biases, mut accelerations, mut energies, mut generic] =
+        ["inverse dynamics", "mass matrix", "bias", "forward dynamics", "kinetic energy", "generic path"]
+            .map(Comparison::new);
+    for _ in 0..200 {
+        let State { q, v, a } = random.state(6);
+        let [fixed_q, fixed_v, fixed_a] = [&q, &v, &a].map(|x| <[f64; 6]>::try_from(&x[..]).expect("six"));
+        let tau = Held::inverse_dynamics(&fixed_q, &fixed_v, &fixed_a);
+        forces.add(&tau, &standing.inverse_dynamics(&q, &v, &a));
+        generic.add(&held.inverse_dynamics(&q, &v, &a), &tau);
+        masses.add(Held::mass_matrix(&fixed_q).as_flattened(), &standing.mass_matrix(&q).concat());
+        biases.add(&Held::bias_forces(&fixed_q, &fixed_v), &standing.bias_forces(&q, &v));
+        let found = Held::forward_dynamics(&fixed_q, &fixed_v, &tau);
+        accelerations.add(&found, &standing.forward_dynamics(&q, &v, &tau.to_vec()));
+        energies.add(&[Held::energy(&fixed_q, &fixed_v).kinetic], &[standing.energy(&q, &v).kinetic]);
+    }
+    // A few roundings, of which small components keep fewer digits; accelerations by the condition of the matrix, 1e7.
+    [forces, masses, biases, energies, generic].iter().for_each(|comparison| comparison.assert_within(1e-11));
+    accelerations.assert_within(1e-8);
+}
+
+#[test]
+fn links_stand_where_the_platform_is_held() {
+    let (standing, axes, mut random) = (standing(), axes(), Random::new(2));
+    let mut links = Comparison::new("links");
+    for _ in 0..50 {
+        let State { q, v, .. } = random.state(6);
+        let array = |x: &[f64]| <[f64; 6]>::try_from(x).expect("six");
+        let (held, expected) = (Held::link_kinematics(&array(&q), &array(&v)), standing.link_kinematics(&q, &v));
+        let turned = |vector: [f64; 3]| axes * Vector3::from(vector);
+        let numbers = |link: &LinkState<f64>| {
+            let vectors = [link.origin, link.com, link.velocity, link.angular_velocity];
+            [link.rotation.concat(), vectors.concat()].concat()
+        };
+        assert_eq!(held[0].origin, POSITION, "the platform");
+        for (held, expected) in held[1..].iter().zip(&expected) {
+            let rotation = axes * Matrix3::from_fn(|i, j| expected.rotation[i][j]);
+            let at = |vector| turned(vector) + Vector3::from(POSITION);
+            let vectors =
+                [at(expected.origin), at(expected.com), turned(expected.velocity), turned(expected.angular_velocity)];
+            let expected: Vec<f64> = rotation.transpose().iter().chain(vectors.iter().flatten()).copied().collect();
+            links.add(&numbers(held), &expected);
+        }
+    }
+    // Numbers of up to a few metres and metres per second, in which small ones keep fewer digits.
+    links.assert_within(1e-9);
+}
+
+#[test]
+fn a_wrong_number_of_coordinates_is_refused() {
+    let (floating, pendulum) = (generic("kr5_floating"), generic("spherical_pendulum"));
+    let refused = |joint: &str, values: &[f64], mechanism: &GenericMechanism| {
+        mechanism.model().locked(&[(joint, values)]).expect_err("another count")
+    };
+    let fault = refused("base", &[0.0; 6], &floating);
+    assert_eq!(fault, LockError::WrongCount { joint: "base".into(), expected: 7, found: 6 });
+    assert_eq!(fault.to_string(), "joint `base` has 7 coordinates, but is locked at 6");
+    let fault = floating.model().locked(&[("base", 0.5)]).expect_err("one number");
+    assert_eq!(fault, LockError::WrongCount { joint: "base".into(), expected: 7, found: 1 });
+    let fault = refused("pivot", &[0.0, 0.0, 1.0], &pendulum);
+    assert_eq!(fault, LockError::WrongCount { joint: "pivot".into(), expected: 4, found: 3 });
+    let fault = refused("joint1", &[0.1, 0.2], &floating);
+    assert_eq!(fault, LockError::WrongCount { joint: "joint1".into(), expected: 1, found: 2 });
+}
+
+#[test]
+fn a_quaternion_of_zero_is_refused() {
+    let (floating, pendulum) = (generic("kr5_floating"), generic("spherical_pendulum"));
+    let fault = floating.model().locked(&[("base", [1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0])]).expect_err("no orientation");
+    assert_eq!(fault, LockError::NoOrientation { joint: "base".into() });
+    assert_eq!(fault.to_string(), "joint `base` is locked at the quaternion 0, which is no orientation");
+    let fault = pendulum.model().locked(&[("pivot", [0.0; 4])]).expect_err("no orientation");
+    assert_eq!(fault, LockError::NoOrientation { joint: "pivot".into() });
+}
+
+#[test]
+fn what_is_not_finite_is_refused_before_it_is_an_orientation() {
+    let floating = generic("kr5_floating");
+    for value in [f64::NAN, f64::INFINITY] {
+        let fault =
+            floating.model().locked(&[("base", [0.0, 0.0, 0.0, 0.0, value, 0.0, 1.0])]).expect_err("not finite");
+        assert!(matches!(fault, LockError::NotFinite { .. }), "{fault:?}");
+    }
+}
+
+/// The same in a model's file, with the place.
+#[test]
+fn files_that_lock_at_no_orientation_or_at_a_wrong_count_are_refused() {
+    let text = std::fs::read_to_string("models/kr5_floating.toml").expect("it is there");
+    let refused = |value: &str| {
+        let options = format!("locked = {{ base = {value} }}");
+        Model::from_toml_with(text.clone(), "kr5_floating.toml", &options).expect_err("not valid").to_string()
+    };
+    let message = refused("[0, 0, 0, 0, 0, 0, 0]");
+    assert!(message.contains("quaternion"), "{message}");
+    let message = refused("[0, 0, 0, 1]");
+    assert!(message.contains('7') && message.contains('4'), "{message}");
+    let message = refused("0.5");
+    assert!(message.contains('7'), "{message}");
+}

@@ -1,0 +1,361 @@
+//! Bodies on spherical and free joints in motion: free ones against Jacobi's elliptic functions, tops against their
+//! integrals and steady precession, a floating arm by the conservation of momentum.
+#![cfg(feature = "generic")]
+
+use crate::common::models::generic;
+use nalgebra::{Matrix3, Vector3};
+use redysim::generic::Inertia;
+use redysim::{
+    Dop8, Dop853, ForwardSimulation, Gauss6, Integrator, LinkState, Ode, Ode45, Radau5, SimulationState, ZeroTorque,
+    redysim,
+};
+
+redysim! {
+    /// A body that turns about a point.
+    pub struct Body(
+        "models/spherical_pendulum.toml",
+        functions = [forward_dynamics, energy, link_kinematics],
+        parameters = ["gravity", "bob.mass", "bob.com", "bob.inertia"]
+    );
+}
+
+redysim! {
+    /// KR5 on a platform that floats.
+    pub struct Floating(
+        "models/kr5_floating.toml",
+        functions = [forward_dynamics, energy, link_kinematics],
+        parameters = ["gravity"]
+    );
+}
+
+/// The tensor about the joint's origin of a body: that about the centre of mass and the mass there.
+fn about_origin(mass: f64, com: [f64; 3], inertia: Inertia) -> Matrix3<f64> {
+    let com = Vector3::from(com);
+    tensor(inertia) + mass * (Matrix3::identity() * com.norm_squared() - com * com.transpose())
+}
+
+fn tensor(Inertia { xx, yy, zz, xy, yz, xz }: Inertia) -> Matrix3<f64> {
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+fn rotation(link: &LinkState<f64>) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| link.rotation[i][j])
+}
+
+/// sn, cn and dn of `u`, where `complement` is k' = √(1 − k²), by the arithmetic-geometric mean (Abramowitz and Stegun,
+/// *Handbook of Mathematical Functions*, 16.4).
+fn jacobi(u: f64, complement: f64) -> [f64; 3] {
+    let k_squared = 1.0 - complement * complement;
+    let (mut a, mut b) = (1.0_f64, complement);
+    let mut ratios = Vec::new();
+    // Each step squares the difference of the two: seven are enough for k' = 0.03.
+    for _ in 0..7 {
+        let (mean, half_difference) = (0.5 * (a + b), 0.5 * (a - b));
+        (b, a) = ((a * b).sqrt(), mean);
+        ratios.push(half_difference / mean);
+    }
+    let turned = f64::from(1_u32 << ratios.len()) * a * u;
+    let amplitude = ratios.iter().rev().fold(turned, |phi, ratio| 0.5 * (phi + (ratio * phi.sin()).asin()));
+    let (sn, cn) = amplitude.sin_cos();
+    [sn, cn, (complement * complement + k_squared * cn * cn).sqrt()]
+}
+
+#[test]
+fn the_elliptic_functions_are_those_of_the_tables() {
+    // Circular functions for k = 0; k² = 1/2 in 30 digits, rounded.
+    let [sn, cn, dn] = jacobi(0.7, 1.0);
+    assert!((sn - 0.7_f64.sin()).abs() < 1e-15 && (cn - 0.7_f64.cos()).abs() < 1e-15 && dn == 1.0);
+    let found = jacobi(1.0, 0.5_f64.sqrt());
+    for (found, expected) in found.iter().zip(SN_CN_DN_OF_ONE) {
+        assert!((found - expected).abs() < 1e-15, "{found} instead of {expected}");
+    }
+}
+
+const SN_CN_DN_OF_ONE: [f64; 3] = [0.803_001_824_895_643_9, 0.595_976_567_672_140_7, 0.823_161_001_631_596_3];
+
+/// Euler's equations without a moment: where the rotation about the middle axis is nearly all, the body turns over again
+/// and again (Landau and Lifshitz, *Mechanics*, § 37).
+#[test]
+fn a_body_without_a_moment_turns_over_as_jacobis_functions_do() {
+    let link = generic("spherical_pendulum").model().links[0].clone();
+    let mut parameters = Body::PARAMETERS;
+    parameters[..3].fill(0.0);
+    let body = Body::new(&parameters);
+    let tensor = about_origin(link.mass, link.com.0, link.inertia);
+    let eigen = tensor.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let [i1, i2, i3] = order.map(|i| eigen.eigenvalues[i]);
+    let [e1, e2, _] = order.map(|i| eigen.eigenvectors.column(i).into_owned());
+    let principal = Matrix3::from_columns(&[e1, e2, e1.cross(&e2)]);
+
+    // An error of the start grows by 1/(1 − k²), fifty, until the body turns over.
+    let k_squared: f64 = 0.98;
+    let about_third = 8.0;
+    let about_first = about_third * (k_squared * (i3 - i2) * i3 / ((i2 - i1) * i1)).sqrt();
+    let rate = about_third * ((i3 - i2) * (i3 - i1) / (i1 * i2)).sqrt();
+    let about_second = about_first * (i1 * (i3 - i1) / (i2 * (i3 - i2))).sqrt();
+    let expected = |t: f64| {
+        let [sn, cn, dn] = jacobi(rate * t, (1.0 - k_squared).sqrt());
+        principal * Vector3::new(about_first * cn, about_second * sn, about_third * dn)
+    };
+    // Where sn is 0.999: near the middle axis.
+    let start = 3.2 / rate;
+    let (q, w) = ([0.1, -0.3, 0.5, 0.8], expected(start));
+    assert!(w.dot(&principal.column(1)) > 0.95 * w.norm(), "{w}");
+
+    let length = q.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+    let q = q.map(|x| x / length);
+    let mut simulation = ForwardSimulation::new(&body, ZeroTorque);
+    let copy = simulation;
+    let state = simulation.state(&q, &w.into());
+    let momentum = |state: &SimulationState<f64, [f64; 4], [f64; 3]>| {
+        rotation(&body.link_kinematics(&state.q, &state.v)[0]) * tensor * Vector3::from(state.v)
+    };
+    let before = momentum(&copy.split(&state));
+    let (mut worst, mut turned, mut turnovers, mut side) = (0.0_f64, 0.0_f64, 0, 1.0);
+    let on_step = |step: &redysim::Step<'_, f64, _>| {
+        let (t, state) = step.end();
+        let now = copy.split(state);
+        let v = Vector3::from(now.v);
+        worst = worst.max((v - expected(t)).norm());
+        turned = turned.max((momentum(&now) - before).norm() / before.norm());
+        let along = v.dot(&principal.column(1));
+        if along * side < -0.5 * about_second {
+            (turnovers, side) = (turnovers + 1, -side);
+        }
+    };
+    // Of order 8, with steps so short that roundings are left.
+    let method = Dop8::new(2.0_f64.powi(-8));
+    method.each_step(&mut simulation, (start, start + 20.0), state, on_step).expect("it turns for 20 s");
+    println!("error {worst:.1e} of {:.1} rad/s, momentum {turned:.1e}, {turnovers} turnovers", w.norm());
+    assert!(turnovers >= 3, "{turnovers}");
+    // Roundings of the moments, which differ by a twentieth, are phases of 46 rad and ten turnovers later.
+    assert!(worst <= 1e-11 * w.norm(), "{worst:e} rad/s");
+    assert!(turned <= 1e-12, "the angular momentum turned in space by {turned:e}");
+}
+
+/// A symmetric top on its tip: moments across and about its axis, and m g l.
+struct Top {
+    body: Body,
+    across: f64,
+    about: f64,
+    weight: f64,
+}
+
+const TILT: f64 = 0.6;
+const SPIN: f64 = 60.0;
+
+impl Top {
+    fn new() -> Top {
+        let (mass, height, gravity, across, about) = (0.5, 0.08, 9.81, 0.0011, 0.002);
+        let parameters = [0.0, 0.0, -gravity, mass, 0.0, 0.0, height, across, across, about, 0.0, 0.0, 0.0];
+        let across = across + mass * height * height;
+        Top { body: Body::new(&parameters), across, about, weight: mass * gravity * height }
+    }
+
+    /// The slower rate of steady precession: A Ω² cos θ − C ω₃ Ω + m g l = 0.
+    fn precession(&self) -> f64 {
+        let (momentum, twice) = (self.about * SPIN, 2.0 * self.across * TILT.cos());
+        let root = (momentum * momentum - 2.0 * twice * self.weight).sqrt();
+        // The difference of the two large terms without cancellation.
+        2.0 * self.weight / (momentum + root)
+    }
+
+    /// Tilted about x, turning about the vertical and spinning about its axis.
+    fn start(&self, precession: f64) -> ([f64; 4], [f64; 3]) {
+        let (sin, cos) = (0.5 * TILT).sin_cos();
+        ([sin, 0.0, 0.0, cos], [0.0, precession * TILT.sin(), SPIN])
+    }
+
+    fn tilt(&self, q: &[f64; 4], v: &[f64; 3]) -> f64 {
+        let axis = rotation(&self.body.link_kinematics(q, v)[0]) * Vector3::z();
+        axis.xy().norm().atan2(axis.z)
+    }
+
+    /// Energy, angular momentum about the vertical, and spin.
+    fn integrals(&self, q: &[f64; 4], v: &[f64; 3]) -> [f64; 3] {
+        let inertia = Matrix3::from_diagonal(&Vector3::new(self.across, self.across, self.about));
+        let momentum = rotation(&self.body.link_kinematics(q, v)[0]) * inertia * Vector3::from(*v);
+        [self.body.energy(q, v).total(), momentum.z, v[2]]
+    }
+}
+
+#[test]
+fn a_heavy_top_keeps_energy_vertical_angular_momentum_and_spin() {
+    let top = Top::new();
+    // Let go without precession: it falls, and rises again.
+    let (q, v) = top.start(0.0);
+    let before = top.integrals(&q, &v);
+    let mut simulation = ForwardSimulation::new(&top.body, ZeroTorque);
+    let copy = simulation;
+    let state = simulation.state(&q, &v);
+    let (mut worst, mut tilts) = ([0.0_f64; 3], [f64::INFINITY, 0.0_f64]);
+    let on_step = |step: &redysim::Step<'_, f64, _>| {
+        let now = copy.split(step.end().1);
+        let after = top.integrals(&now.q, &now.v);
+        for ((worst, before), after) in worst.iter_mut().zip(before).zip(after) {
+            *worst = worst.max((after / before - 1.0).abs());
+        }
+        let tilt = top.tilt(&now.q, &now.v);
+        tilts = [tilts[0].min(tilt), tilts[1].max(tilt)];
+    };
+    let method = Dop853::new().rtol(1e-13).atol(1e-15);
+    method.each_step(&mut simulation, (0.0, 30.0), state, on_step).expect("it spins for 30 s");
+    println!("energy, momentum, spin {worst:?}; tilts {tilts:?}");
+    assert!(tilts[1] - tilts[0] > 0.1, "it nods: {tilts:?}");
+    assert!(worst.iter().all(|error| *error <= 1e-12), "{worst:?}");
+}
+
+#[test]
+fn a_top_that_precesses_steadily_does_not_nod() {
+    let top = Top::new();
+    let precession = top.precession();
+    let (q, v) = top.start(precession);
+    let mut simulation = ForwardSimulation::new(&top.body, ZeroTorque);
+    let copy = simulation;
+    let state = simulation.state(&q, &v);
+    let (mut nodded, mut turned) = (0.0_f64, 0.0_f64);
+    let times = (0..=300).map(|i| 0.1 * f64::from(i));
+    Dop853::new()
+        .rtol(1e-13)
+        .atol(1e-15)
+        .solve(&mut simulation, (0.0, 30.0), state, times, |t, state| {
+            let now = copy.split(state);
+            nodded = nodded.max((top.tilt(&now.q, &now.v) - TILT).abs());
+            // The axis goes round the vertical at the rate of precession, from where it was at first: −y.
+            let axis = rotation(&top.body.link_kinematics(&now.q, &now.v)[0]) * Vector3::z();
+            let (sin, cos) = (precession * t).sin_cos();
+            turned = turned.max((axis - Vector3::new(TILT.sin() * sin, -TILT.sin() * cos, TILT.cos())).norm());
+        })
+        .expect("it spins for 30 s");
+    println!("precession {precession:.3} rad/s, nodded {nodded:.1e} rad, off {turned:.1e}");
+    assert!(nodded <= 1e-11, "{nodded:e} rad");
+    // 30 s at several rad/s.
+    assert!(turned <= 1e-10, "{turned:e}");
+}
+
+/// Momentum of all links and, as the scale of each, the sum of the parts' sizes.
+fn momentum(links: &[LinkState<f64>], bodies: &[(f64, Inertia)]) -> ([Vector3<f64>; 2], [f64; 2]) {
+    let (mut sums, mut sizes) = ([Vector3::zeros(); 2], [0.0; 2]);
+    for (link, (mass, inertia)) in links.iter().zip(bodies) {
+        let [origin, com, velocity, w] =
+            [link.origin, link.com, link.velocity, link.angular_velocity].map(Vector3::from);
+        let linear = *mass * (velocity + w.cross(&(com - origin)));
+        let own = rotation(link) * tensor(*inertia) * rotation(link).transpose() * w;
+        let angular = com.cross(&linear) + own;
+        sums = [sums[0] + linear, sums[1] + angular];
+        sizes = [sizes[0] + linear.norm(), sizes[1] + angular.norm()];
+    }
+    (sums, sizes)
+}
+
+const ARM: ([f64; 13], [f64; 12]) = (
+    [0.2, -0.1, 0.4, 0.1, 0.3, -0.2, 0.927_361_849_549_570_4, 0.3, -0.8, 1.1, 0.7, -0.4, 0.9],
+    [0.02, -0.03, 0.01, 0.1, -0.2, 0.15, 0.5, -0.4, 0.6, 0.8, -0.7, 0.3],
+);
+
+#[test]
+fn a_floating_arm_without_gravity_keeps_its_momentum_and_its_energy() {
+    let (arm, (q, v)) = (Floating::new(&[0.0; 3]), ARM);
+    let model = generic("kr5_floating");
+    let bodies: Vec<(f64, Inertia)> = model.model().links.iter().map(|link| (link.mass, link.inertia)).collect();
+    let mut simulation = ForwardSimulation::new(&arm, ZeroTorque);
+    let copy = simulation;
+    let state = simulation.state(&q, &v);
+    let at = |q: &[f64; 13], v: &[f64; 12]| (momentum(&arm.link_kinematics(q, v), &bodies), arm.energy(q, v).kinetic);
+    let ((before, _), energy) = at(&q, &v);
+    let (mut worst, mut moved, mut lengths) = ([0.0_f64; 3], 0.0_f64, 0.0_f64);
+    let on_step = |step: &redysim::Step<'_, f64, _>| {
+        let now = copy.split(step.end().1);
+        let ((after, sizes), kinetic) = at(&now.q, &now.v);
+        let errors = [0, 1].map(|i| (after[i] - before[i]).norm() / sizes[i]);
+        for (worst, error) in worst.iter_mut().zip([errors[0], errors[1], (kinetic / energy - 1.0).abs()]) {
+            *worst = worst.max(error);
+        }
+        moved = now.q[7..].iter().zip(&q[7..]).fold(moved, |most, (now, then)| most.max((now - then).abs()));
+        let length = now.q[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
+        lengths = lengths.max((length - 1.0).abs());
+    };
+    let method = Dop853::new().rtol(1e-13).atol(1e-15);
+    let end = method.each_step(&mut simulation, (0.0, 30.0), state, on_step).expect("it floats for 30 s");
+    println!(
+        "momenta and energy {worst:?}, lengths {lengths:.1e}, joints moved by {moved:.1} rad, {:?}",
+        end.statistics
+    );
+    assert!(moved > 3.0, "joints move: {moved} rad");
+    assert!(worst.iter().all(|error| *error <= 1e-12), "{worst:?}");
+    // Beyond 4096 roundings of a component, at most twice that of the length, a step corrects it.
+    assert!(lengths <= 2e-12, "{lengths:e}");
+}
+
+/// The worst length of the quaternion at the steps of a second and a half of the nodding top, by a loose method.
+#[test]
+fn quaternions_keep_their_length_under_loose_methods() {
+    let top = Top::new();
+    let (q, v) = top.start(0.0);
+    for tolerance in [1e-3, 1e-6] {
+        let mut simulation = ForwardSimulation::new(&top.body, ZeroTorque);
+        let copy = simulation;
+        let state = simulation.state(&q, &v);
+        let mut worst = 0.0_f64;
+        let on_step = |step: &redysim::Step<'_, f64, _>| {
+            let length = copy.split(step.end().1).q.iter().map(|x| x * x).sum::<f64>().sqrt();
+            worst = worst.max((length - 1.0).abs());
+        };
+        let method = Ode45::new().rtol(tolerance).atol(1e-3 * tolerance);
+        let end = method.each_step(&mut simulation, (0.0, 30.0), state, on_step).expect("it spins");
+        println!("{tolerance:e}: {worst:.1e} in {:?}", end.statistics);
+        // A correction leaves half the square of the local error, which the tolerance bounds.
+        assert!(worst <= 10.0 * tolerance * tolerance + 2e-12, "{tolerance:e}: {worst:e}");
+    }
+}
+
+/// Implicit methods need ∂(N(q) v)/∂q in their Jacobian: with a wrong one they take more evaluations, or fail.
+#[test]
+fn implicit_methods_agree_about_a_nodding_top() {
+    let top = Top::new();
+    let (q, v) = top.start(0.0);
+    let mut simulation = ForwardSimulation::new(&top.body, ZeroTorque);
+    let state = simulation.state(&q, &v);
+    let mut end = |method: &dyn Fn(&mut ForwardSimulation<'_, Body, ZeroTorque>) -> [f64; 8]| method(&mut simulation);
+    let exact =
+        end(&|ode| Dop853::new().rtol(1e-13).atol(1e-15).integrate(ode, (0.0, 2.0), state).expect("explicit").y);
+    let radau = end(&|ode| Radau5::new().rtol(1e-11).atol(1e-13).integrate(ode, (0.0, 2.0), state).expect("Radau").y);
+    let gauss = end(&|ode| Gauss6::new(1e-3).integrate(ode, (0.0, 2.0), state).expect("Gauss").y);
+    for (found, name) in [(radau, "Radau5"), (gauss, "Gauss6")] {
+        let error = found.iter().zip(&exact).fold(0.0_f64, |worst, (x, y)| worst.max((x - y).abs()));
+        println!("{name}: {error:.1e}");
+        // Of velocities of 60 rad/s after 19 turns.
+        assert!(error <= 1e-7, "{name}: {error:e}");
+    }
+}
+
+#[test]
+fn the_tangent_of_a_simulation_is_its_derivative_along_a_direction() {
+    let (arm, (q, v)) = (Floating::new(&[0.3, -1.0, -9.0]), ARM);
+    let mut simulation = ForwardSimulation::new(&arm, ZeroTorque);
+    let state: [f64; 26] = simulation.state(&q, &v);
+    // Each coordinate and velocity on its own.
+    for element in 0..25 {
+        let mut direction = [0.0; 26];
+        direction[element] = 1.0;
+        let mut slope = [0.0; 26];
+        assert!(simulation.tangent(0.0, &state, &direction, &mut slope), "a compiled type has tangents");
+        let mut rate = |step: f64| {
+            let mut rate = [0.0; 26];
+            let mut moved = state;
+            moved[element] += step;
+            simulation.derivative(0.0, &moved, &mut rate);
+            rate
+        };
+        const STEP: f64 = 1e-5;
+        let (ahead, behind) = (rate(STEP), rate(-STEP));
+        let size = slope.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
+        for i in 0..26 {
+            let difference = (ahead[i] - behind[i]) / (2.0 * STEP);
+            // Central differences are right to the square of the step, times third derivatives of some hundreds.
+            assert!((slope[i] - difference).abs() <= 1e-6 * size, "{i} along {element}: {} or {difference}", slope[i]);
+        }
+    }
+}
