@@ -68,7 +68,7 @@ pub struct Scenario {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
-    /// Coordinates, rad or m; by default the neutral position.
+    /// Coordinates, rad, m or components of quaternions; by default the neutral position.
     pub q: Option<Values>,
     /// Velocities, rad/s or m/s; by default zero.
     pub v: Option<Values>,

@@ -130,7 +130,7 @@ pub mod tests {
     use crate::layout::tests::free_base_with_arm;
 
     /// What `read` makes of a forward run of a free joint `base` and a revolute joint `arm`, whose loops have a
-    /// mobility of six. No model has a free joint: layout and mobility are made by hand.
+    /// mobility of six. Layout and mobility are made by hand.
     pub fn with_free_base<T>(read: impl FnOnce(&Subject<'_>) -> T) -> T {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/fourbar.toml");
         let model = Model::load(path).unwrap().model;

@@ -53,7 +53,8 @@ pub struct LinkSummary {
     pub parent: String,
     /// Name of the joint.
     pub joint: String,
-    /// The name of its [`JointKind`](redysim_model::JointKind): "revolute", "prismatic", "helical" or "fixed".
+    /// The name of its [`JointKind`](redysim_model::JointKind): "revolute", "prismatic",
+    /// "helical", "spherical", "free" or "fixed".
     pub kind: &'static str,
     /// Whether the joint has an actuator; null where it does not move.
     pub actuated: Option<bool>,

@@ -496,6 +496,8 @@ const SATELLITE: &str = r#"<robot name="satellite">
   <link name="boom"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <link name="panel"><inertial><mass value="2"/><inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="hinge" type="revolute"><parent link="bus"/><child link="boom"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/></joint>
+  <link name="tip"/>
+  <joint name="end" type="fixed"><parent link="boom"/><child link="tip"/></joint>
   <joint name="weld" type="fixed"><parent link="bus"/><child link="panel"/><origin xyz="-1 0 0"/></joint>
 </robot>
 "#;
@@ -508,6 +510,8 @@ fn the_root_of_a_robot_with_a_free_base_floats_on_a_joint_without_an_actuator() 
         assert_eq!((bus.name.as_str(), bus.joint_name.as_str(), bus.joint.name()), ("bus", "base", "free"));
         assert_eq!((bus.parent, boom.parent, bus.actuated, boom.actuated), (None, Some(0), false, true));
         assert_eq!((mechanism.nq(), mechanism.nv(), mechanism.model().mass()), (8, 7, 8.0));
+        let tip = mechanism.model().links.iter().find(|link| link.name == "tip");
+        assert!(tip.is_none_or(|tip| tip.parent == Some(1)), "{}", run.stdout);
         assert!(run.stderr.contains("the root link `bus` floats on a free joint"), "{}", run.stderr);
         assert!(!run.stderr.contains("warning"), "{}", run.stderr);
         // All of it moves along x like one body, whatever is fused.
