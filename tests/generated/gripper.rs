@@ -407,13 +407,13 @@ impl Gripper {
         let t8 = tau[2] + minus_moment_link3_z;
         let t9 = tau[3] - moment_link4_z;
         let t10 = k(0.0001666666666666667) + t6;
-        let h_link2_y = k(0.0005000000000000001) * sin_link3;
         let t11 = k(0.0005000000000000001) * cos_link3;
+        let h_link2_y = k(0.0005000000000000001) * sin_link3;
+        let h_link2_x = t11 + k(0.0015000000000000005);
+        let J_link2_zz = t11 + k(0.0008333333333333335);
         let t12 = t4 + k(0.0001666666666666667);
         let t13 = sin_link2 * h_link2_y;
         let t14 = S::mul_add(cos_link2, t11, t12 - t13);
-        let h_link2_x = t11 + k(0.0015000000000000005);
-        let J_link2_zz = t11 + k(0.0008333333333333335);
         let t15 = S::mul_add(-cos_link2, h_link2_x, t13);
         let t16 = k(5999.999999999999) * t10;
         let t17 = k(5999.999999999999) * t12;
@@ -510,8 +510,10 @@ impl Gripper {
             cos_link4,
             k(0.0001666666666666667),
         );
-        let h_link2_y = k(0.0005000000000000001) * sin_link3;
         let t2 = k(0.0005000000000000001) * cos_link3;
+        let h_link2_y = k(0.0005000000000000001) * sin_link3;
+        let h_link2_x = t2 + k(0.0015000000000000005);
+        let J_link2_zz = t2 + k(0.0008333333333333335);
         let t3 = S::mul_add(
             k(0.00025000000000000006),
             cos_link3,
@@ -519,10 +521,7 @@ impl Gripper {
         );
         let t4 = sin_link2 * h_link2_y;
         let t5 = S::mul_add(cos_link2, t2, t3 - t4);
-        let h_link2_x = t2 + k(0.0015000000000000005);
-        let J_link2_zz = t2 + k(0.0008333333333333335);
         let t6 = S::mul_add(-cos_link2, h_link2_x, t4);
-        let t7 = J_link2_zz - t6;
         let J_link1_zz = S::mul_add(
             k(-2.0),
             t6,
@@ -533,6 +532,7 @@ impl Gripper {
                     k(0.006000000000000001),
                 ),
         );
+        let t7 = J_link2_zz - t6;
         [
             [J_link1_zz, t7, t5, t1],
             [t7, J_link2_zz, t3, k(0.0)],

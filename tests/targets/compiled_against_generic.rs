@@ -204,7 +204,6 @@ fn a_spherical_pendulum_compiled_is_the_same_generic() {
     assert_same_functions(&Pendulum, &generic("spherical_pendulum"), CONSTANTS);
     assert_same_kinematics(&Pendulum, &generic("spherical_pendulum"));
     assert_same_positions(&Pendulum, &generic("spherical_pendulum"));
-    assert_same_dynamics_in_f64(&Pendulum, &generic("spherical_pendulum"));
 }
 
 #[test]

@@ -11,6 +11,9 @@ use crate::spatial::{Vec3, Wrench};
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
 
+/// The most freedoms of a joint.
+const MOST_FREEDOMS: usize = 6;
+
 /// M(q), by rows: element (i, j) is the force on joint i for a unit acceleration of joint j.
 ///
 /// Body j and all it carries, taken as one rigid body, meet the acceleration with a wrench; what joint i on the way to
@@ -43,18 +46,26 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     for (index, body) in tree.bodies.iter().enumerate().rev() {
         let composite = &composites[index];
         composite.name(trace, index);
-        for (column, screw) in body.v.clone().zip(body.joint.screws()) {
-            let mut wrench = composite.unit_wrench(screw);
+        let mut columns = [Wrench::zero(); MOST_FREEDOMS];
+        for (wrench, screw) in columns.iter_mut().zip(body.joint.screws()) {
+            *wrench = composite.unit_wrench(screw);
+        }
+        if let Some(parent) = body.parent {
+            let carried = composite.to_parent(&frames[index], planar[index]);
+            composites[parent] = composites[parent].plus(&carried);
+        }
+        for (column, mut wrench) in body.v.clone().zip(columns) {
             let mut at = index;
             loop {
                 let joint = &tree.bodies[at];
                 for (row, screw) in joint.v.clone().zip(joint.joint.screws()) {
+                    // Of the body's own freedoms, each pair once.
                     if at == index && row > column {
                         break;
                     }
                     let mut element = screw.project(wrench);
-                    if let (true, Some(armature)) = (row == column, body.physics.and_then(|physics| physics.armature()))
-                    {
+                    let armature = body.physics.filter(|_| row == column).and_then(|physics| physics.armature());
+                    if let Some(armature) = armature {
                         element += armature;
                     }
                     matrix[column * nv + row] = element;
@@ -64,10 +75,6 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
                 wrench = frames[at].wrench_to_parent(wrench);
                 at = parent;
             }
-        }
-        if let Some(parent) = body.parent {
-            let carried = composites[index].to_parent(&frames[index], planar[index]);
-            composites[parent] = composites[parent].plus(&carried);
         }
     }
 }
