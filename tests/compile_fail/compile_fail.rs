@@ -1,4 +1,8 @@
-//! What a person reads who gets a model or a declaration wrong. The expected messages stand beside the cases.
+//! The crates as other programs build them: what a person reads who gets a model or a declaration wrong, which is in the
+//! expected messages beside the cases; without `std`; and after a change of a model.
+
+mod no_std;
+mod rebuild;
 
 #[test]
 fn faults_are_compile_errors_that_show_the_line_of_the_model() {

@@ -1,4 +1,5 @@
-//! The figures that the README and `docs/` state are those of the runs that they tell of.
+//! The figures that the README and `docs/` state are those of the runs that they tell of, and the crates have the metadata
+//! that their publication needs.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -9,3 +10,4 @@ mod accuracy;
 mod benchmarks;
 mod counts;
 mod figures;
+mod packages;

@@ -41,7 +41,7 @@ fn package(name: &str) -> PathBuf {
     let package = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(package.join("src")).unwrap();
     fs::create_dir_all(package.join("models")).unwrap();
-    let root = env!("CARGO_MANIFEST_DIR");
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     fs::write(package.join("Cargo.toml"), MANIFEST.replace("NAME", name).replace("REDYSIM", &root.replace('\\', "/")))
         .unwrap();
     fs::write(package.join("src/main.rs"), PROGRAM).unwrap();

@@ -5,7 +5,7 @@ use std::process::Command;
 
 #[test]
 fn a_program_without_std_allocator_and_panics_links_and_runs() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let status = Command::new(env!("CARGO"))
         .args(["run", "--release", "--quiet", "--manifest-path"])
         .arg(root.join("tests/no_std/Cargo.toml"))
@@ -17,7 +17,7 @@ fn a_program_without_std_allocator_and_panics_links_and_runs() {
 
 #[test]
 fn the_runtime_builds_without_its_features() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let status = Command::new(env!("CARGO"))
         .args(["build", "--quiet", "--package", "redysim-runtime", "--no-default-features"])
         .current_dir(root)
