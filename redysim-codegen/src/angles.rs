@@ -40,7 +40,7 @@ impl Angle {
         Some(angle)
     }
 
-    /// Adds a part of the sum; `None` if it is no part of one.
+    /// Adds a part of the sum; `None` if it is neither a coordinate nor a constant, nor a sum of these.
     fn add(&mut self, graph: &Graph, edge: Edge, factor: f64) -> Option<()> {
         let factor = if edge.is_negative() { -factor } else { factor };
         match graph.node(edge.node()) {

@@ -17,8 +17,8 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// If there is no such joint, it is fixed or named twice, its value is not finite or has another number of
-    /// coordinates, or nothing is left that moves.
+    /// If the joint does not exist, is fixed or is named twice; if its value is not finite, has the wrong number of
+    /// coordinates, or has a zero quaternion; or if no joint is left that moves.
     ///
     /// # Example
     ///
@@ -162,7 +162,7 @@ pub enum LockError {
         /// The name given.
         joint: String,
     },
-    /// The joint has another number of coordinates.
+    /// The value has the wrong number of coordinates.
     WrongCount {
         /// The name given.
         joint: String,
@@ -204,7 +204,7 @@ impl fmt::Display for LockError {
                 write!(f, "joint {} has {expected} coordinates, but is locked at {found}", quoted(joint))
             }
             LockError::NoOrientation { joint } => {
-                write!(f, "joint {} is locked at the quaternion 0, which is no orientation", quoted(joint))
+                write!(f, "joint {} cannot be locked at a zero quaternion: give one that is not zero", quoted(joint))
             }
             LockError::Twice { joint } => write!(f, "joint {} is locked twice: give it one value", quoted(joint)),
             LockError::NotFinite { joint, value } => {

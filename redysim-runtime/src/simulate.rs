@@ -184,7 +184,7 @@ const DRIFT: f64 = 4096.0;
 
 /// Takes the coordinates of a state nearer to their constraint, if they have one, as the length of a quaternion is.
 ///
-/// A method that is not made for it leaves the constraint by its local error. This changes no orientation, but adds up.
+/// Most methods drift from the constraint by their local error. The drift does not change an orientation, but it adds up.
 pub(crate) fn constrain_coordinates<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
     mechanism: &M,
     state: &mut Y,

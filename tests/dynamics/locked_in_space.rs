@@ -108,10 +108,11 @@ fn a_wrong_number_of_coordinates_is_refused() {
 #[test]
 fn a_quaternion_of_zero_is_refused() {
     let (floating, pendulum) = (generic("kr5_floating"), generic("spherical_pendulum"));
-    let fault = floating.model().locked(&[("base", [1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0])]).expect_err("no orientation");
+    let fault =
+        floating.model().locked(&[("base", [1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0])]).expect_err("a zero quaternion");
     assert_eq!(fault, LockError::NoOrientation { joint: "base".into() });
-    assert_eq!(fault.to_string(), "joint `base` is locked at the quaternion 0, which is no orientation");
-    let fault = pendulum.model().locked(&[("pivot", [0.0; 4])]).expect_err("no orientation");
+    assert_eq!(fault.to_string(), "joint `base` cannot be locked at a zero quaternion: give one that is not zero");
+    let fault = pendulum.model().locked(&[("pivot", [0.0; 4])]).expect_err("a zero quaternion");
     assert_eq!(fault, LockError::NoOrientation { joint: "pivot".into() });
 }
 

@@ -72,7 +72,7 @@ impl InSpace<'_> {
     }
 }
 
-/// The values of all components of a joint; none of what is not the short form of a position or of an array.
+/// The values of all components of a joint; `None` unless the value is an array or the short form of a position.
 fn values(item: &Item, joint: &Joint) -> Option<Vec<f64>> {
     let Some(table) = item.as_table_like() else { return numbers(item) };
     let three = |name: &str| -> Option<[f64; 3]> { numbers(table.get(name)?)?.try_into().ok() };

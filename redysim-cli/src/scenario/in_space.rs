@@ -36,7 +36,7 @@ impl Orientation {
     }
 }
 
-/// The coordinates of a joint with the orientation, at the position if the joint has one; what is not given is neutral.
+/// The coordinates of a joint with the orientation, at the position if the joint has one; the default of each part is neutral.
 pub fn position_of(joint: &Joint, xyz: Option<[f64; 3]>, orientation: Option<Orientation>) -> Vec<f64> {
     let orientation = orientation.map_or([0.0, 0.0, 0.0, 1.0], Orientation::quaternion);
     let position = xyz.unwrap_or_default();
@@ -110,17 +110,15 @@ pub fn normalise(
         let square: f64 = quaternion.iter().map(|component| component * component).sum();
         if square == 0.0 {
             let name = &joint.name;
-            let title = format!(
-                "{}: `{path}` gives the joint `{name}` the quaternion [0, 0, 0, 0], which is no orientation",
-                reader.item()
-            );
+            let title =
+                format!("{}: `{path}` gives the joint `{name}` a zero quaternion, which is invalid", reader.item());
             let help = format!(
-                "a quaternion is x, y, z, w: write 0, 0, 0, 1 for none, or give the orientation by angles, as in {} = \
+                "a quaternion is x, y, z, w, and 0, 0, 0, 1 by default: give one that is not zero, or give the orientation by angles, as in {} = \
                  {{ {name} = {{ {} }} }}",
                 keys::Q.name,
                 keys::JOINT_RPY.example()
             );
-            return reader.error(value, Message { title, label: "no orientation".into(), help });
+            return reader.error(value, Message { title, label: "a zero quaternion".into(), help });
         }
         if (square - 1.0).abs() > ROUNDING {
             let length = square.sqrt();

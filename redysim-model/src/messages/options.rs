@@ -55,8 +55,10 @@ pub(crate) fn function_of_frames(item: &str, function: Function) -> Message {
 pub(crate) fn function_of_passive_joints(item: &str, function: Function) -> Message {
     let name = function.name();
     message(
-        format!("{item}: `functions` names `{name}`, but it is not that some joints have an actuator and some do not"),
-        "the joints are all alike, or there are loops",
+        format!(
+            "{item}: `functions` names `{name}`, which needs joints with an actuator and joints without one, and no loops"
+        ),
+        "not available for this model",
         "leave it out, or write `actuated = false` in the links whose joints move freely",
     )
 }
@@ -100,9 +102,9 @@ pub(crate) fn parameter_of_several_freedoms(item: &str, parameter: &str, owner: 
 
 pub(crate) fn locked_without_orientation(item: &str, path: &KeyPath) -> Message {
     message(
-        format!("{item}: the quaternion of `{path}` is zero, which is no orientation"),
-        "no orientation",
-        "the last four coordinates are a quaternion x, y, z, w: write 0, 0, 0, 1 for none",
+        format!("{item}: the quaternion of `{path}` is zero, which is invalid"),
+        "a zero quaternion",
+        "the last four coordinates are a quaternion x, y, z, w: the default orientation is 0, 0, 0, 1",
     )
 }
 
