@@ -1,6 +1,7 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
 use crate::inertia::Sym3;
+use crate::joint::Joint;
 use crate::joint::physics::JointPhysics;
 use crate::spatial::{Pose, Vec3};
 
@@ -131,17 +132,12 @@ impl JointKind {
 
     /// Number of joint velocities.
     pub fn dof(self) -> usize {
-        match self {
-            JointKind::Revolute | JointKind::Prismatic | JointKind::Helical => 1,
-            JointKind::Spherical => 3,
-            JointKind::Free => 6,
-            JointKind::Fixed => 0,
-        }
+        Joint::of_kind(self, 0.0).map_or(0, Joint::nv)
     }
 
     /// Whether it has an axis about or along which its link moves, and one coordinate.
     pub fn has_axis(self) -> bool {
-        matches!(self, JointKind::Revolute | JointKind::Prismatic | JointKind::Helical)
+        Joint::of_kind(self, 0.0).is_some_and(Joint::is_on_axis)
     }
 
     /// Whether its coordinate is an angle, rad, and its force a moment, N m.

@@ -60,14 +60,7 @@ impl Style {
             let inertia = self.inertia(random, mass, length);
             Link { offset, mass, com, inertia, ..link(grown, parent, joint, placed(&turned, at)) }
         });
-        Model {
-            name: "random".into(),
-            gravity: Vec3::from_fn(|_| random.within(10.0)),
-            links,
-            loops: Vec::new(),
-            frames: Vec::new(),
-            springs: Vec::new(),
-        }
+        Model { links, ..Model::new("random", Vec3::from_fn(|_| random.within(10.0))) }
     }
 
     fn mass(self, random: &mut Random) -> f64 {

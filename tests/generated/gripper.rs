@@ -1072,32 +1072,32 @@ impl Gripper {
         let p_link4_y = cos_link4 * t3;
         let minus_p_link3_x = sin_link3 * t2;
         let p_link3_y = cos_link3 * t2;
-        let t4 = k(0.005000000000000001) * sin_link3;
-        let t5 = S::mul_add(k(0.015000000000000003), w_link2_z, p_link3_y);
-        let t6 = S::mul_add(k(0.005000000000000001), cos_link3, k(0.015000000000000003));
-        let p_link2_y = S::mul_add(cos_link2, t5, -(sin_link2 * minus_p_link3_x));
-        let t7 = S::mul_add(
+        let t4 = S::mul_add(k(0.015000000000000003), w_link2_z, p_link3_y);
+        let p_link2_y = S::mul_add(cos_link2, t4, -(sin_link2 * minus_p_link3_x));
+        let t5 = S::mul_add(
             sin_link2,
-            t5,
+            t4,
             S::mul_add(cos_link2, minus_p_link3_x, minus_p_link4_x),
         );
-        let t8 = -p_link2_y - S::mul_add(k(0.07), v[0], p_link4_y);
+        let t6 = -p_link2_y - S::mul_add(k(0.07), v[0], p_link4_y);
+        let p_link1_x = S::mul_add(sin_link1, t6, -(cos_link1 * t5));
+        let minus_p_link1_y = S::mul_add(cos_link1, t6, sin_link1 * t5);
+        let t7 = k(0.005000000000000001) * sin_link3;
+        let t8 = S::mul_add(k(0.005000000000000001), cos_link3, k(0.015000000000000003));
         let t9 = S::mul_add(
             cos_link2,
-            t6,
+            t8,
             S::mul_add(
                 -sin_link2,
-                t4,
+                t7,
                 S::mul_add(k(0.005000000000000001), cos_link4, k(0.07)),
             ),
         );
         let t10 = S::mul_add(
             sin_link2,
-            t6,
-            S::mul_add(cos_link2, t4, k(0.005000000000000001) * sin_link4),
+            t8,
+            S::mul_add(cos_link2, t7, k(0.005000000000000001) * sin_link4),
         );
-        let p_link1_x = S::mul_add(sin_link1, t8, -(cos_link1 * t7));
-        let minus_p_link1_y = S::mul_add(cos_link1, t8, sin_link1 * t7);
         let t11 = S::mul_add(
             cos_link3,
             S::mul_add(k(0.05), w_link2_z, vel_link2_y),

@@ -116,3 +116,14 @@ fn dae(corners: Corners) -> String {
         indices.join(" ")
     )
 }
+
+/// A crank and a rocker about axes that are not parallel, and a coupler between them with a ball at either end.
+pub const BALLS: &str = "name = 'balls'\ngravity = [0, 0, -9.81]\nallow = ['under-actuated']\n\
+    [[link]]\nname = 'crank'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 0, 1]\norigin = {}\nmass = 1\n\
+    com = [0.1, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+    [[link]]\nname = 'rocker'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 1, 0]\norigin = { xyz = [1, 0, 0] }\n\
+    mass = 1\nactuated = false\ncom = [0, 0, 0.3]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+    [[link]]\nname = 'coupler'\nparent = 'rocker'\njoint = 'spherical'\norigin = { xyz = [0, 0, 0.6] }\nmass = 1\n\
+    actuated = false\ncom = [-0.5, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
+    [[loop]]\nname = 'ball'\njoint = 'spherical'\nlink_a = 'crank'\npoint_a = [0.2, 0, 0]\nlink_b = 'coupler'\n\
+    point_b = [-1, 0, 0]\n";

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::common::{data, model, robot, scratch, succeed};
+use crate::common::{BALLS, data, model, robot, scratch, succeed};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::{LinkKinematics, Mechanism};
 use serde_json::{Value, json};
@@ -320,22 +320,12 @@ fn sliders_move_a_free_base_by_its_position_and_by_roll_pitch_and_yaw() {
     shown.look();
 }
 
-/// A crank and a rocker about axes that are not parallel, and a coupler between them with a ball at either end.
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_balls_of_a_spatial_four_bar_follow_its_crank() {
     let folder = scratch("viewer/show-balls");
-    let text = "name = 'balls'\ngravity = [0, 0, -9.81]\nallow = ['under-actuated']\n\
-        [[link]]\nname = 'crank'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 0, 1]\norigin = {}\nmass = 1\n\
-        com = [0.1, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
-        [[link]]\nname = 'rocker'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 1, 0]\norigin = { xyz = [1, 0, 0] }\n\
-        mass = 1\nactuated = false\ncom = [0, 0, 0.3]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
-        [[link]]\nname = 'coupler'\nparent = 'rocker'\njoint = 'spherical'\norigin = { xyz = [0, 0, 0.6] }\nmass = 1\n\
-        actuated = false\ncom = [-0.5, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
-        [[loop]]\nname = 'ball'\njoint = 'spherical'\nlink_a = 'crank'\npoint_a = [0.2, 0, 0]\nlink_b = 'coupler'\n\
-        point_b = [-1, 0, 0]\n";
     let path = folder.join("balls.toml");
-    fs::write(&path, text).unwrap();
+    fs::write(&path, BALLS).unwrap();
     let path = path.to_str().unwrap().to_owned();
     let model = Model::load(&path).unwrap().model;
     let mut shown = Shown::of(folder, &path, model);

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use redysim_cli::{Initial, Scenario, Values};
 
-use crate::common::{AGAINST_CLOSED_FORMS, Table, call, deviation, fail, root, scenario, scratch, succeed};
+use crate::common::{AGAINST_CLOSED_FORMS, BALLS, Table, call, deviation, fail, root, scenario, scratch, succeed};
 
 const TOP: &str = "spherical_pendulum.toml";
 const ROBOT: &str = "kr5_floating.toml";
@@ -97,7 +97,7 @@ fn orientations_that_are_none_are_refused_with_what_to_do() {
             "q = [0, 0, 0, 0]",
             &["trial.toml:3:5", "`initial.q` gives the joint `pivot` the quaternion [0, 0, 0, 0]", "0, 0, 0, 1"][..],
         ),
-        (TOP, "q = { pivot = { quaternion = [0, 0, 0, 0] } }", &["which is no orientation"]),
+        (TOP, "q = { pivot = { quaternion = [0, 0, 0, 0] } }", &["a zero quaternion, which is invalid"]),
         (
             TOP,
             "q = { pivot = { quaternion = [0, 0, 1] } }",
@@ -330,17 +330,6 @@ fn data_have_the_components_of_a_joint_that_a_file_gives_by_one_name() {
     assert_eq!((v.len(), v["base.wz"], v["joint1"]), (7, 6.0, 7.0));
     assert_eq!(Scenario::from_toml(read.to_toml(), &file).unwrap(), read);
 }
-
-/// A crank and a rocker, and a coupler between them with a ball at either end.
-const BALLS: &str = "name = 'balls'\ngravity = [0, 0, -9.81]\n\
-    [[link]]\nname = 'crank'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 0, 1]\norigin = {}\nmass = 1\n\
-    com = [0.1, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
-    [[link]]\nname = 'rocker'\nparent = 'base'\njoint = 'revolute'\naxis = [0, 1, 0]\norigin = { xyz = [1, 0, 0] }\n\
-    mass = 1\nactuated = false\ncom = [0, 0, 0.3]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
-    [[link]]\nname = 'coupler'\nparent = 'rocker'\njoint = 'spherical'\norigin = { xyz = [0, 0, 0.6] }\nmass = 1\n\
-    actuated = false\ncom = [-0.5, 0, 0]\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n\
-    [[loop]]\nname = 'ball'\njoint = 'spherical'\nlink_a = 'crank'\npoint_a = [0.2, 0, 0]\nlink_b = 'coupler'\n\
-    point_b = [-1, 0, 0]\n";
 
 #[test]
 fn a_loop_through_a_spherical_joint_stays_closed_and_keeps_its_energy() {

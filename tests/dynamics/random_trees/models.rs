@@ -90,14 +90,7 @@ fn bare_model(random: &mut Random, joints: Joints) -> Model {
             _ => body,
         }
     });
-    Model {
-        name: "random".into(),
-        gravity: Vec3::from_fn(|_| random.within(10.0)),
-        links,
-        loops: Vec::new(),
-        frames: Vec::new(),
-        springs: Vec::new(),
-    }
+    Model { links, ..Model::new("random", Vec3::from_fn(|_| random.within(10.0))) }
 }
 
 /// What acts in a joint: each of its parts in half of the joints.
