@@ -110,8 +110,10 @@ pub fn normalise(
         let square: f64 = quaternion.iter().map(|component| component * component).sum();
         if square == 0.0 {
             let name = &joint.name;
-            let title =
-                format!("{}: `{path}` gives the joint `{name}` a zero quaternion, which is invalid", reader.item());
+            let title = format!(
+                "{}: `{path}` gives the joint `{name}` the quaternion [0, 0, 0, 0], which is invalid",
+                reader.item()
+            );
             let help = format!(
                 "a quaternion is x, y, z, w, and 0, 0, 0, 1 by default: give one that is not zero, or give the orientation by angles, as in {} = \
                  {{ {name} = {{ {} }} }}",

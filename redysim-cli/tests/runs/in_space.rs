@@ -97,7 +97,7 @@ fn orientations_that_are_none_are_refused_with_what_to_do() {
             "q = [0, 0, 0, 0]",
             &["trial.toml:3:5", "`initial.q` gives the joint `pivot` the quaternion [0, 0, 0, 0]", "0, 0, 0, 1"][..],
         ),
-        (TOP, "q = { pivot = { quaternion = [0, 0, 0, 0] } }", &["a zero quaternion, which is invalid"]),
+        (TOP, "q = { pivot = { quaternion = [0, 0, 0, 0] } }", &["the quaternion [0, 0, 0, 0], which is invalid"]),
         (
             TOP,
             "q = { pivot = { quaternion = [0, 0, 1] } }",
