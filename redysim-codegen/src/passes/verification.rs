@@ -211,5 +211,7 @@ mod tests {
     fn a_quotient_by_what_may_be_zero_may_be_anything() {
         let nothing = Rounded::given(0.1) + Rounded::given(0.2) - Rounded::given(0.3);
         assert!((Rounded::given(1.0) / nothing).may_equal(Rounded::given(7.0)));
+        let unbounded = Rounded::given(1.0) / (nothing - Rounded::given(5e-17));
+        assert!((Rounded::given(0.0) * unbounded).may_equal(Rounded::given(7.0)));
     }
 }
