@@ -4,7 +4,8 @@
 use std::ops::Range;
 
 use redysim_model::Model;
-use redysim_model::joint;
+use redysim_model::joint::LinkJoint;
+pub use redysim_model::joint::Measure;
 
 /// The joints that move, with their coordinates and velocities, all in the model's order.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +26,7 @@ pub struct Joint {
     /// Whether it has an actuator.
     pub actuated: bool,
     /// How it moves.
-    pub motion: joint::Joint,
+    pub motion: LinkJoint,
     /// Its coordinates.
     pub q: Range<usize>,
     /// Its velocities.
@@ -45,37 +46,6 @@ pub struct Component {
     pub neutral: f64,
 }
 
-/// What a coordinate measures, or the integral of a velocity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
-    /// An angle, rad.
-    Angle,
-    /// A length, m.
-    Length,
-    /// A number, as of a unit quaternion.
-    Number,
-}
-
-impl Measure {
-    /// Its unit.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Measure::Angle => "rad",
-            Measure::Length => "m",
-            Measure::Number => "1",
-        }
-    }
-
-    /// The unit of a force that works along it.
-    pub fn unit_of_force(self) -> &'static str {
-        match self {
-            Measure::Angle => "N m",
-            Measure::Length => "N",
-            Measure::Number => "J",
-        }
-    }
-}
-
 impl Component {
     /// Whether it is an angle.
     pub fn turns(&self) -> bool {
@@ -93,28 +63,16 @@ impl Component {
     }
 }
 
-/// The measures of the coordinates and velocities of a joint.
-fn measures(motion: joint::Joint) -> (&'static [Measure], &'static [Measure]) {
-    use Measure::{Angle, Length, Number};
-    match motion {
-        joint::Joint::Prismatic => (&[Length], &[Length]),
-        joint::Joint::Spherical => (&[Number; 4], &[Angle; 3]),
-        joint::Joint::Free => {
-            (&[Length, Length, Length, Number, Number, Number, Number], &[Length, Length, Length, Angle, Angle, Angle])
-        }
-        _ => (&[Angle], &[Angle]),
-    }
-}
-
 impl Joint {
-    /// Whether it has more coordinates than one: those of an orientation, and maybe of a position before it.
+    /// Whether it moves in space: its coordinates are an orientation, and maybe a position before it.
     pub fn is_in_space(&self) -> bool {
-        self.q.len() > 1
+        !self.motion.is_linear()
     }
 
     /// Which of its coordinates are its orientation, a quaternion x, y, z, w; none of a joint of one coordinate.
     pub fn orientation(&self) -> Range<usize> {
-        if self.is_in_space() { self.q.end - 4..self.q.end } else { 0..0 }
+        let Range { start, end } = self.motion.quaternion();
+        self.q.start + start..self.q.start + end
     }
 }
 
@@ -123,7 +81,7 @@ impl Layout {
     pub fn of(model: &Model) -> Self {
         let mut layout = Layout::default();
         for link in model.moving_links() {
-            if let Some(motion) = joint::Joint::of(link) {
+            if let Some(motion) = LinkJoint::of(link) {
                 layout.push(&link.joint_name, link.actuated, motion);
             }
         }
@@ -131,7 +89,7 @@ impl Layout {
     }
 
     /// Adds a joint with its coordinates and velocities. A single one has the name of the joint.
-    fn push(&mut self, name: &str, actuated: bool, motion: joint::Joint) {
+    fn push(&mut self, name: &str, actuated: bool, motion: LinkJoint) {
         let joint = self.joints.len();
         let add = |components: &mut Vec<Component>, names: &[&str], measures: &[Measure], neutral: &[f64]| {
             let first = components.len();
@@ -141,7 +99,7 @@ impl Layout {
             }));
             first..components.len()
         };
-        let (of_q, of_v) = measures(motion);
+        let (of_q, of_v) = (&motion.coordinate_measures(), &motion.velocity_measures());
         let mut neutral = vec![0.0; motion.nq()];
         motion.neutral(&mut neutral);
         let q = add(&mut self.coordinates, motion.coordinate_names(), of_q, &neutral);
@@ -195,13 +153,15 @@ impl Layout {
 
 #[cfg(test)]
 pub mod tests {
+    use redysim_model::joint;
+
     use super::*;
 
     /// A free joint `base` with seven coordinates and six velocities, then a revolute joint `arm`.
     pub fn free_base_with_arm() -> Layout {
         let mut layout = Layout::default();
-        layout.push("base", false, joint::Joint::Free);
-        layout.push("arm", true, joint::Joint::Revolute);
+        layout.push("base", false, joint::Joint::Free.into());
+        layout.push("arm", true, joint::Joint::Revolute.into());
         layout
     }
 

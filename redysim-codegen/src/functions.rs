@@ -80,8 +80,8 @@ pub fn trace_model(
     };
     let pruning = match options.tolerance {
         Some(tolerance) => {
-            let ranges = model.moving_links().map(range).collect::<Result<Vec<_>, _>>()?;
-            Some((tolerance, tree.per_velocity(ranges)))
+            let links = tree.links_of_velocities().into_iter().map(|link| &model.links[link]);
+            Some((tolerance, links.map(range).collect::<Result<_, _>>()?))
         }
         None => None,
     };

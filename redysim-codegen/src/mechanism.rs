@@ -5,7 +5,8 @@ use crate::documentation;
 use crate::expressions::Expressions;
 use crate::functions::TracedFunction;
 use crate::program::{NamingContext, Program, program};
-use redysim_model::{Function, Model, PublicInterface, Tree};
+use redysim_model::joint::LinkJoint;
+use redysim_model::{Body, Function, Model, PublicInterface, Tree};
 use redysim_runtime::OperationCount;
 
 /// A mechanism for a backend. Every choice is made: a backend only prints it.
@@ -102,10 +103,22 @@ impl TrigProgram {
     }
 }
 
-/// The names of the bodies of `tree`: each is that of its moving link.
+/// The names of the bodies of `tree`: each is that of its link. Of a link whose joint is several in series, the bodies but
+/// the last are named by their joint's component too.
 fn body_names(model: &Model, tree: &Tree) -> Vec<String> {
-    let links = tree.per_velocity(model.moving_links());
-    tree.bodies.iter().map(|body| links[body.v.start].name.clone()).collect()
+    let name = |(index, body): (usize, &Body)| {
+        let link = &model.links[body.link];
+        match tree.links.get(body.link).and_then(|attachment| attachment.body) {
+            Some(last) if last != index => {
+                let first = tree.bodies.iter().filter(|other| other.link == body.link).map(|other| other.v.start).min();
+                let component = body.v.start - first.unwrap_or(body.v.start);
+                let names = LinkJoint::of(link).map_or(&[][..], LinkJoint::velocity_names);
+                format!("{}_{}", link.name, names.get(component).unwrap_or(&""))
+            }
+            _ => link.name.clone(),
+        }
+    };
+    tree.bodies.iter().enumerate().map(name).collect()
 }
 
 #[cfg(test)]

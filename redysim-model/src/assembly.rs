@@ -1,7 +1,7 @@
 //! From a checked model to its tree of moving bodies.
 
 use crate::denoc;
-use crate::joint::{Joint, JointPhysics, JointPosition};
+use crate::joint::{Element, JointPhysics, JointPosition, LinkJoint};
 use crate::model::{CutKind, CutSide, Frame, Link, LinkPoint, Model, Spring};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
@@ -41,9 +41,12 @@ impl<P: Parameter> Tree<P> {
             let (link, own) = (&model.links[index], &numbers.links[index]);
             let (parent, reference) = tree.on_body(link.parent);
             let placement = reference * link.placement;
-            let (body, moved) = match Joint::of(link) {
+            let (body, moved) = match LinkJoint::of(link) {
                 None => (parent, placement),
-                Some(joint) => tree.add_body(parent, placement, link, joint, first[index], own.physics),
+                Some(joint) => {
+                    let moving = BodyLink { index, link, physics: own.physics };
+                    tree.add_bodies(parent, placement, moving, joint, first[index])
+                }
             };
             let pose = (moved * link.frame).without_roundoff();
             tree.links[index].body = body;
@@ -106,19 +109,32 @@ impl<P: Parameter> Tree<P> {
         CutEnd { body, point: end.position, axes: end.rotation }
     }
 
-    /// Adds a body for a moving link; returns its index and the frame that the joint moves, on it.
-    fn add_body(
+    /// Adds the bodies of a moving link, one for each joint of the tree that its joint is; returns the index of the last
+    /// and the frame that the joint moves, on it.
+    fn add_bodies(
         &mut self,
         parent: Option<usize>,
         placement: Pose<f64>,
-        link: &Link,
-        joint: Joint,
-        [q, v]: [usize; 2],
-        physics: JointPhysics<P>,
+        link: BodyLink<'_, P>,
+        joint: LinkJoint,
+        first: [usize; 2],
     ) -> (Option<usize>, Pose<f64>) {
-        // A joint in space has the link's own frame: its coordinates and velocities are those of that frame.
-        let aligned = if joint.is_on_axis() { align_z(link.axis) } else { Mat3::identity() };
-        let mut placement = placement * Pose { rotation: aligned, position: Vec3::zero() };
+        let elements = joint.elements(link.link.axis).into_iter().enumerate();
+        elements.fold((parent, placement), |moved, (index, element)| {
+            self.add_body(moved, link, element, first.map(|first| first + index))
+        })
+    }
+
+    /// Adds a body whose joint stands at a place on its parent and has its z axis in the axes of `element`; returns the
+    /// body's index and the frame that the joint moves, on it.
+    fn add_body(
+        &mut self,
+        (parent, placement): (Option<usize>, Pose<f64>),
+        BodyLink { index, link, physics }: BodyLink<'_, P>,
+        Element { joint, axes }: Element,
+        [q, v]: [usize; 2],
+    ) -> (Option<usize>, Pose<f64>) {
+        let mut placement = placement * Pose { rotation: axes, position: Vec3::zero() };
         let mut offset = 0.0;
         if joint.is_on_axis()
             && let JointPosition::OnAxis { angle, displacement } = joint.position(&[link.offset])
@@ -139,6 +155,7 @@ impl<P: Parameter> Tree<P> {
             parent,
             placement: placement.without_roundoff(),
             joint,
+            link: index,
             offset,
             merged_parallel: false,
             q: q..q + joint.nq(),
@@ -147,9 +164,17 @@ impl<P: Parameter> Tree<P> {
             physics: Some(physics).filter(JointPhysics::acts),
             actuated: link.actuated,
         });
-        let pose = Pose { rotation: aligned.transpose(), position: Vec3::zero() };
+        let pose = Pose { rotation: axes.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)
     }
+}
+
+/// A moving link, its index in the model, and what acts in its joint.
+#[derive(Clone, Copy)]
+struct BodyLink<'m, P> {
+    index: usize,
+    link: &'m Link,
+    physics: JointPhysics<P>,
 }
 
 /// For each link, the first of its joint's coordinates and of its velocities (for fixed links, of the next joint's).
@@ -159,7 +184,7 @@ fn first_of_joints(model: &Model) -> Vec<[usize; 2]> {
         .iter()
         .scan([0, 0], |[q, v], link| {
             let first = [*q, *v];
-            if let Some(joint) = Joint::of(link) {
+            if let Some(joint) = LinkJoint::of(link) {
                 (*q, *v) = (*q + joint.nq(), *v + joint.nv());
             }
             Some(first)

@@ -1,9 +1,8 @@
 //! Joints held at a value: as if the file had them fixed there.
 
-use crate::joint::{Joint, JointPhysics, JointPosition};
+use crate::joint::{Element, JointPhysics, JointPosition, LinkJoint};
 use crate::model::{JointKind, Link, Model};
 use crate::rotation;
-use crate::rotation::align_z;
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_toml::words::{did_you_mean, nearest, quoted};
 use std::fmt;
@@ -45,20 +44,20 @@ impl Model {
                 let joints = self.moving_links().map(|link| link.joint_name.clone()).collect();
                 return Err(LockError::Unknown { joint: joint.into(), joints });
             };
-            if self.links[index].joint == JointKind::Fixed {
+            let Some(motion) = LinkJoint::of(&self.links[index]) else {
                 return Err(LockError::Fixed { joint: joint.into() });
-            }
+            };
             if model.links[index].joint == JointKind::Fixed {
                 return Err(LockError::Twice { joint: joint.into() });
             }
-            let expected = Joint::of(&self.links[index]).map_or(0, Joint::nq);
+            let expected = motion.nq();
             if values.len() != expected {
                 return Err(LockError::WrongCount { joint: joint.into(), expected, found: values.len() });
             }
             if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
                 return Err(LockError::NotFinite { joint: joint.into(), value });
             }
-            if self.links[index].joint.has_no_orientation_at(values) {
+            if motion.has_no_orientation_at(values) {
                 return Err(LockError::NoOrientation { joint: joint.into() });
             }
             model.links[index].lock(values);
@@ -97,41 +96,42 @@ impl JointCoordinates for &[f64] {
     }
 }
 
-impl JointKind {
+impl LinkJoint {
     /// Whether the coordinates have a quaternion, and that is zero.
     pub(crate) fn has_no_orientation_at(self, values: &[f64]) -> bool {
-        let quaternion = match self {
-            JointKind::Spherical => values,
-            JointKind::Free => values.get(3..).unwrap_or_default(),
-            JointKind::Revolute | JointKind::Prismatic | JointKind::Helical | JointKind::Fixed => return false,
-        };
-        quaternion.iter().all(|component| *component == 0.0)
+        let quaternion = values.get(self.quaternion()).unwrap_or_default();
+        !quaternion.is_empty() && quaternion.iter().all(|component| *component == 0.0)
+    }
+}
+
+/// The frame that a joint of the tree moves, at its coordinates `q` and the offset, in the frame where its motion is zero;
+/// exact at quarter turns. An offset belongs to a joint of one coordinate.
+fn held(Element { joint, axes }: Element, offset: f64, q: &[f64]) -> Pose<f64> {
+    let travel: Vec<f64> = q.iter().map(|q| offset + q).collect();
+    let JointPosition::OnAxis { angle, displacement } = joint.position(&travel) else {
+        return joint.transform(&travel);
+    };
+    let turned = |angle| axes * rotation::about_z(angle) * axes.transpose();
+    Pose {
+        rotation: angle.map_or(Mat3::identity(), turned),
+        position: displacement.map_or(Vec3::zero(), |slide| axes.column(2).scale(slide)),
     }
 }
 
 impl Link {
     /// Fixes the joint where its coordinates are `values`, as many as it has.
     pub(crate) fn lock(&mut self, values: &[f64]) {
-        if let Some(joint) = Joint::of(self) {
-            // An offset belongs to a joint of one coordinate.
-            let travel: Vec<f64> = values.iter().map(|value| self.offset + value).collect();
-            let motion = match joint.position(&travel) {
-                JointPosition::OnAxis { angle, displacement } => {
-                    let turn = angle.map_or(Mat3::identity(), |angle| {
-                        let aligned = align_z(self.axis);
-                        aligned * rotation::about_z(angle) * aligned.transpose()
-                    });
-                    let slide = displacement.map_or(Vec3::zero(), |slide| self.axis.scale(slide));
-                    Pose { rotation: turn, position: slide }
-                }
-                in_space => in_space.pose(),
-            };
+        if let Some(joint) = LinkJoint::of(self) {
+            let elements = joint.elements(self.axis);
+            // Each has one coordinate, but a joint in space, which has all.
+            let of_each = elements.iter().zip(values.chunks((values.len() / elements.len()).max(1)));
+            let motion = of_each.fold(Pose::identity(), |moved, (element, q)| moved * held(*element, self.offset, q));
             self.placement = (self.placement * motion * self.frame).without_negative_zeros();
             self.frame = Pose::identity();
         }
         self.joint = JointKind::Fixed;
         self.axis = Vec3([0.0, 0.0, 1.0]);
-        (self.offset, self.pitch) = (0.0, 0.0);
+        (self.offset, self.pitch, self.coordinates) = (0.0, 0.0, None);
         self.physics = JointPhysics::default();
     }
 }

@@ -1,8 +1,8 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
 use crate::inertia::Sym3;
-use crate::joint::Joint;
 use crate::joint::physics::JointPhysics;
+use crate::joint::{EulerSequence, LinkJoint};
 use crate::spatial::{Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links, loops, frames and springs stand in the file's order.
@@ -57,6 +57,9 @@ pub struct Link {
     pub offset: f64,
     /// Translation along the axis for a unit of rotation, m/rad, of a helical joint; zero for others.
     pub pitch: f64,
+    /// The Euler angles that are the coordinates of a spherical or free joint; `None` for a quaternion.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub coordinates: Option<EulerSequence>,
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass from the link's frame, in it, m.
@@ -99,6 +102,12 @@ pub enum JointKind {
     Prismatic,
     /// Rotation about the axis with a translation along it in proportion, as a screw moves.
     Helical,
+    /// A rotation about x of the joint's frame, then one about y of the frame turned so.
+    Universal,
+    /// Translation along the axis, and rotation about it.
+    Cylindrical,
+    /// Translations along x and y of the joint's frame, then rotation about z.
+    Planar,
     /// Rotation about any axis through the joint's origin.
     Spherical,
     /// Any motion.
@@ -109,10 +118,13 @@ pub enum JointKind {
 
 impl JointKind {
     /// Every kind with its name in a model file.
-    pub const ALL: [(&'static str, JointKind); 6] = [
+    pub const ALL: [(&'static str, JointKind); 9] = [
         (JointKind::Revolute.name(), JointKind::Revolute),
         (JointKind::Prismatic.name(), JointKind::Prismatic),
         (JointKind::Helical.name(), JointKind::Helical),
+        (JointKind::Universal.name(), JointKind::Universal),
+        (JointKind::Cylindrical.name(), JointKind::Cylindrical),
+        (JointKind::Planar.name(), JointKind::Planar),
         (JointKind::Spherical.name(), JointKind::Spherical),
         (JointKind::Free.name(), JointKind::Free),
         (JointKind::Fixed.name(), JointKind::Fixed),
@@ -124,6 +136,9 @@ impl JointKind {
             JointKind::Revolute => "revolute",
             JointKind::Prismatic => "prismatic",
             JointKind::Helical => "helical",
+            JointKind::Universal => "universal",
+            JointKind::Cylindrical => "cylindrical",
+            JointKind::Planar => "planar",
             JointKind::Spherical => "spherical",
             JointKind::Free => "free",
             JointKind::Fixed => "fixed",
@@ -132,12 +147,22 @@ impl JointKind {
 
     /// Number of joint velocities.
     pub fn dof(self) -> usize {
-        Joint::of_kind(self, 0.0).map_or(0, Joint::nv)
+        LinkJoint::of_kind(self, 0.0, None).map_or(0, LinkJoint::nv)
     }
 
-    /// Whether it has an axis about or along which its link moves, and one coordinate.
+    /// Whether it has an axis, about or along which its link moves.
     pub fn has_axis(self) -> bool {
-        Joint::of_kind(self, 0.0).is_some_and(Joint::is_on_axis)
+        match self {
+            JointKind::Revolute | JointKind::Prismatic | JointKind::Helical | JointKind::Cylindrical => true,
+            JointKind::Universal | JointKind::Planar | JointKind::Spherical | JointKind::Free | JointKind::Fixed => {
+                false
+            }
+        }
+    }
+
+    /// Whether it turns its link about every axis: its coordinates have an orientation.
+    pub fn moves_in_space(self) -> bool {
+        matches!(self, JointKind::Spherical | JointKind::Free)
     }
 
     /// Whether its coordinate is an angle, rad, and its force a moment, N m.
@@ -290,6 +315,7 @@ impl Link {
             frame: Pose::identity(),
             offset: 0.0,
             pitch: 0.0,
+            coordinates: None,
             mass: 0.0,
             com: Vec3::zero(),
             inertia: Inertia::default(),

@@ -1,6 +1,6 @@
 //! The public interface of a generated type: its names, sizes and functions.
 
-use crate::joint::Joint;
+use crate::joint::{Joint, LinkJoint};
 use crate::model::{Link, Model};
 use crate::options::CodegenOptions;
 use crate::run_time::RunTimeParameter;
@@ -58,8 +58,8 @@ pub struct MovingJoint {
 
 impl MovingJoint {
     /// The joint `name` that moves as `joint` does. A joint whose kind cannot be read is `None` and has one coordinate.
-    pub(crate) fn new(name: String, joint: Option<Joint>, actuated: bool) -> Self {
-        let joint = joint.unwrap_or(Joint::Revolute);
+    pub(crate) fn new(name: String, joint: Option<LinkJoint>, actuated: bool) -> Self {
+        let joint = joint.unwrap_or(Joint::Revolute.into());
         MovingJoint {
             coordinates: component_names(&name, joint.coordinate_names()),
             velocities: component_names(&name, joint.velocity_names()),
@@ -70,7 +70,7 @@ impl MovingJoint {
 
     /// The moving joints of a checked model, in its order.
     pub(crate) fn all(model: &Model) -> Vec<MovingJoint> {
-        let joint = |link: &Link| MovingJoint::new(link.joint_name.clone(), Joint::of(link), link.actuated);
+        let joint = |link: &Link| MovingJoint::new(link.joint_name.clone(), LinkJoint::of(link), link.actuated);
         model.moving_links().map(joint).collect()
     }
 }
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn velocities_of_joints_with_one_coordinate_have_that_coordinate() {
         let joints = [("tail", Joint::Revolute), ("base", Joint::Free), ("head", Joint::Prismatic)];
-        let joints = joints.map(|(name, joint)| MovingJoint::new(name.into(), Some(joint), true)).into();
+        let joints = joints.map(|(name, joint)| MovingJoint::new(name.into(), Some(joint.into()), true)).into();
         let interface = PublicInterface { joints, ..PublicInterface::default() };
         let free = [None; 6];
         assert_eq!(interface.coordinates_of_velocities(), [&[Some(0)][..], &free, &[Some(8)]].concat());

@@ -40,6 +40,9 @@ pub struct Body<P = f64> {
     pub placement: Pose<f64>,
     /// What the joint does.
     pub joint: Joint,
+    /// The link that the joint moves, in [`Tree::links`]. The joint of a link may be several joints in series, each of a body
+    /// of its own: the last has the link's mass.
+    pub link: usize,
     /// What is added to the joint variable, rad.
     pub offset: f64,
     /// Whether the body's quantities are computed in axes that do not rotate with its joint: those of the parent, after
@@ -158,6 +161,7 @@ impl<P> Tree<P> {
             parent: body.parent,
             placement: body.placement,
             joint: body.joint,
+            link: body.link,
             offset: body.offset,
             merged_parallel: body.merged_parallel,
             q: body.q.clone(),
@@ -229,17 +233,13 @@ impl<P> Tree<P> {
         }
     }
 
-    /// The bodies in the model's order of joints.
-    fn bodies_by_joint(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.bodies.len()).collect();
-        order.sort_by_key(|&body| self.bodies[body].v.start);
-        order
-    }
-
-    /// For each velocity, the value of its joint. `of_joints` has one for each moving joint, in the model's order.
-    pub fn per_velocity<T: Clone>(&self, of_joints: impl IntoIterator<Item = T>) -> Vec<T> {
-        let joints = self.bodies_by_joint().into_iter().zip(of_joints);
-        joints.flat_map(|(body, value)| std::iter::repeat_n(value, self.bodies[body].v.len())).collect()
+    /// For each velocity, the link that its joint moves, in [`Tree::links`].
+    pub fn links_of_velocities(&self) -> Vec<usize> {
+        let mut links = vec![0; self.nv()];
+        for body in &self.bodies {
+            links[body.v.clone()].fill(body.link);
+        }
+        links
     }
 }
 
@@ -261,10 +261,12 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn each_velocity_has_what_belongs_to_its_joint() {
+    fn each_velocity_has_the_link_that_its_joint_moves() {
         let mut tree = arm();
         let [upper, fore] = &mut tree.bodies[..] else { panic!("two bodies") };
         (fore.v, upper.v) = (0..3, 3..5);
-        assert_eq!(tree.per_velocity(["fore", "upper"]), ["fore", "fore", "fore", "upper", "upper"]);
+        let names = ["fore", "upper"];
+        let names: Vec<&str> = tree.links_of_velocities().into_iter().map(|link| names[link]).collect();
+        assert_eq!(names, ["fore", "fore", "fore", "upper", "upper"]);
     }
 }

@@ -97,6 +97,9 @@ impl Model {
         } else {
             file.number_unless(&keys::PITCH, link.pitch, 0.0);
         }
+        if let Some(sequence) = link.coordinates {
+            file.entry(&keys::COORDINATES, string(sequence.name()));
+        }
         file.entry(&keys::MASS, number(link.mass));
         file.vector_unless_zero(&keys::COM, link.com);
         file.inertia(link.inertia);

@@ -1,6 +1,5 @@
 //! Chains of rods, in numbers and proportions that make dynamics ill-conditioned.
 
-use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_model::{Inertia, JointKind, Link, Model, Tree};
 
@@ -32,21 +31,13 @@ pub fn oblique(index: usize) -> [f64; 3] {
 fn link(index: usize, parent: Option<usize>, start: [f64; 3], Rod { axis, mass, length }: Rod) -> Link {
     let inertia = mass * length * length;
     Link {
-        name: format!("link{index}"),
         joint_name: format!("joint{index}"),
-        parent,
-        joint: JointKind::Revolute,
         placement: Pose { rotation: Mat3::identity(), position: Vec3(start) },
         axis: Vec3(axis),
-        frame: Pose::identity(),
-        offset: 0.0,
-        pitch: 0.0,
-        physics: JointPhysics::default(),
         mass,
         com: Vec3([length / 2.0, 0.0, 0.0]),
         inertia: Inertia { xx: 0.01 * inertia, yy: 0.09 * inertia, zz: 0.09 * inertia, ..Inertia::default() },
-        actuated: true,
-        range: None,
+        ..Link::new(format!("link{index}"), parent, JointKind::Revolute)
     }
 }
 

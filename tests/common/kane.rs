@@ -95,7 +95,22 @@ impl Body {
         let mut body = self.fixed(&link.placement);
         let (at_zero, axis) = (body.rotation, Vector3::from(link.axis.0));
         let z = at_zero * axis;
+        let mut in_series = Vec::new();
+        let steps = steps(link);
+        for ((&(kind, axis), &q), &v) in steps.iter().zip(q).zip(v) {
+            let (before, z) = (body.clone(), body.rotation * axis);
+            let point = body.origin;
+            if kind == JointKind::Revolute {
+                body.rotation *= Rotation3::from_axis_angle(&Unit::new_normalize(axis), q);
+                body.move_on(&before, Vector3::zeros(), Vector3::zeros(), z * v);
+                in_series.push(Screw { axis: z, point, turn: 1.0, slide: 0.0 });
+            } else {
+                body.move_on(&before, z * q, z * v, Vector3::zeros());
+                in_series.push(Screw { axis: z, point, turn: 0.0, slide: 1.0 });
+            }
+        }
         match link.joint {
+            _ if !steps.is_empty() => {}
             JointKind::Revolute => {
                 body.rotation = at_zero * Rotation3::from_axis_angle(&Unit::new_normalize(axis), link.offset + q[0]);
                 body.move_on(self, Vector3::zeros(), Vector3::zeros(), z * v[0]);
@@ -123,6 +138,7 @@ impl Body {
         let along = |axis| Screw { axis, point, turn: 0.0, slide: 1.0 };
         let own = |i: usize| axes.column(i).into_owned();
         let screws = match link.joint {
+            _ if !steps.is_empty() => in_series,
             JointKind::Revolute => vec![about(z)],
             JointKind::Prismatic => vec![along(z)],
             JointKind::Helical => vec![Screw { slide: link.pitch, ..about(z) }],
@@ -261,12 +277,36 @@ fn numbers(model: &Model) -> Vec<(Range<usize>, Range<usize>)> {
         velocities = velocities.end..velocities.end + nv;
         (coordinates.clone(), velocities.clone())
     };
-    model.links.iter().map(|link| sizes(link.joint)).map(next).collect()
+    model.links.iter().map(sizes).map(next).collect()
+}
+
+/// The motions along and about axes that a joint of several freedoms is in series; none of others.
+fn steps(link: &Link) -> Vec<(JointKind, Vector3<f64>)> {
+    let (slide, turn) = (|axis| (JointKind::Prismatic, axis), |axis| (JointKind::Revolute, axis));
+    let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let angles = link.coordinates.map(|sequence| {
+        let axis = |letter| match letter {
+            'x' => x,
+            'y' => y,
+            _ => z,
+        };
+        sequence.name().chars().map(|letter| turn(axis(letter))).collect::<Vec<_>>()
+    });
+    let axis = Vector3::from(link.axis.0);
+    match (link.joint, angles) {
+        (JointKind::Universal, _) => vec![turn(x), turn(y)],
+        (JointKind::Cylindrical, _) => vec![slide(axis), turn(axis)],
+        (JointKind::Planar, _) => vec![slide(x), slide(y), turn(z)],
+        (JointKind::Spherical, Some(angles)) => angles,
+        (JointKind::Free, Some(angles)) => [x, y, z].into_iter().map(slide).chain(angles).collect(),
+        _ => vec![],
+    }
 }
 
 /// How many coordinates and velocities a joint has.
-fn sizes(joint: JointKind) -> (usize, usize) {
-    match joint {
+fn sizes(link: &Link) -> (usize, usize) {
+    match link.joint {
+        _ if !steps(link).is_empty() => (steps(link).len(), steps(link).len()),
         JointKind::Fixed => (0, 0),
         JointKind::Spherical => (4, 3),
         JointKind::Free => (7, 6),

@@ -128,24 +128,7 @@ fn power_of_ten(random: &mut Random, least: f64, largest: f64) -> f64 {
 
 /// The link `link<number>` without mass, on a joint about or along z.
 pub fn link(number: usize, parent: Option<usize>, joint: JointKind, placement: Pose<f64>) -> Link {
-    let name = format!("link{number}");
-    Link {
-        joint_name: name.clone(),
-        name,
-        parent,
-        joint,
-        placement,
-        axis: Vec3([0.0, 0.0, 1.0]),
-        frame: Pose::identity(),
-        offset: 0.0,
-        pitch: 0.0,
-        physics: JointPhysics::default(),
-        mass: 0.0,
-        com: Vec3([0.0; 3]),
-        inertia: Inertia::default(),
-        actuated: true,
-        range: None,
-    }
+    Link { placement, ..Link::new(format!("link{number}"), parent, joint) }
 }
 
 /// A frame with the axes `turned`, at `position`.

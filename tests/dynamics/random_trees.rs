@@ -3,7 +3,8 @@
 //! Two hundred trees of up to twelve joints: revolute, prismatic, helical and fixed, branching, oblique, links in
 //! scrambled order; in half of them with rotors, damping, friction and springs in the joints, in half with springs and
 //! dampers between points. Each has three frames of interest, on links or on the ground. Sixty trees more have spherical
-//! and free joints as well, anywhere, at quaternions of any length.
+//! and free joints as well, anywhere, at quaternions of any length; and sixty more joints of every kind, with quaternions
+//! and with Euler angles of any sequence.
 
 mod models;
 
@@ -16,7 +17,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
 use redysim_model::denoc::{self, Method, Untraced};
-use redysim_model::joint::Vanishing;
+use redysim_model::joint::{LinkJoint, Measure, Vanishing};
 use redysim_model::regroup::base_parameters;
 use redysim_model::{Function, JointKind, Model, Tree};
 use std::collections::BTreeMap;
@@ -27,7 +28,9 @@ use std::ops::Range;
 /// joints.
 const OF_ONE_FREEDOM: Range<u64> = 0..200;
 /// The seeds of trees that have spherical and free joints as well.
-const OF_ALL_KINDS: Range<u64> = 1000..1060;
+const IN_SPACE: Range<u64> = 1000..1060;
+/// The seeds of trees that have joints of every kind, spherical and free ones in quaternions and in Euler angles.
+const IN_SERIES: Range<u64> = 2000..2060;
 const STATES: usize = 3;
 
 /// The largest error of each quantity.
@@ -84,20 +87,24 @@ fn frame_functions(expected: &Kane, dof: usize, wrenches: &[f64]) -> [(Function,
 
 /// Calls `check` with each tree and Kane's answer at a few states.
 fn on_random_trees(check: impl FnMut(&Model, &Tree, &State, &Kane)) {
-    on_trees(OF_ONE_FREEDOM.chain(OF_ALL_KINDS), check);
+    on_trees(OF_ONE_FREEDOM.chain(IN_SPACE).chain(IN_SERIES), check);
 }
 
 /// The same with the trees of these seeds.
 fn on_trees(seeds: impl Iterator<Item = u64>, mut check: impl FnMut(&Model, &Tree, &State, &Kane)) {
     for seed in seeds {
         let mut random = Random::new(seed);
-        let joints = if OF_ALL_KINDS.contains(&seed) { Joints::OfAllKinds } else { Joints::OfOneFreedom };
+        let joints = match seed {
+            seed if IN_SERIES.contains(&seed) => Joints::InSeries,
+            seed if IN_SPACE.contains(&seed) => Joints::InSpace,
+            _ => Joints::OfOneFreedom,
+        };
         let model = random_model(&mut random, joints, seed % 2 == 1, seed % 4 >= 2);
         let tree = Tree::new(&model);
         for _ in 0..STATES {
             let state = match joints {
                 Joints::OfOneFreedom => random.state(model.dof()),
-                Joints::OfAllKinds => state_in_space(&mut random, &model),
+                Joints::InSpace | Joints::InSeries => state_in_space(&mut random, &model),
             };
             let expected = kane(&model, &state.q, &state.v);
             check(&model, &tree, &state, &expected);
@@ -110,6 +117,13 @@ fn state_in_space(random: &mut Random, model: &Model) -> State {
     let mut q = Vec::new();
     for link in &model.links {
         q.extend(match link.joint {
+            _ if link.joint.dof() > 1 && LinkJoint::of(link).is_some_and(LinkJoint::is_linear) => {
+                let measures = LinkJoint::of(link).map(LinkJoint::coordinate_measures).unwrap_or_default();
+                measures
+                    .iter()
+                    .map(|&measure| random.within(if measure == Measure::Angle { PI } else { 1.0 }))
+                    .collect()
+            }
             JointKind::Spherical => quaternion(random),
             JointKind::Free => [random.vector(3, 1.0), quaternion(random)].concat(),
             other => random.vector(other.dof(), PI),
@@ -258,7 +272,12 @@ fn traced_expressions_agree_with_kanes_equations_where_joints_have_physics() {
 
 #[test]
 fn traced_expressions_agree_with_kanes_equations_where_joints_have_several_freedoms() {
-    traced_expressions_agree(OF_ALL_KINDS);
+    traced_expressions_agree(IN_SPACE);
+}
+
+#[test]
+fn traced_expressions_agree_with_kanes_equations_where_joints_are_several_in_series() {
+    traced_expressions_agree(IN_SERIES);
 }
 
 fn traced_expressions_agree(seeds: impl Iterator<Item = u64>) {

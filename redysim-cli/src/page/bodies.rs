@@ -1,7 +1,7 @@
 //! The looks of a mechanism, from its model: from where to where its links reach, and how they are joined.
 
 use nalgebra::Vector3;
-use redysim_model::joint;
+use redysim_model::joint::{Element, LinkJoint, Screw};
 use redysim_model::spatial::{Pose, Vec3};
 use redysim_model::{CutKind, CutSide, JointKind, Link, Model};
 use serde::Serialize;
@@ -37,9 +37,8 @@ struct Joint<'a> {
     /// The body's frame in that body's where the joint's motion is zero: origin, m, and quaternion x, y, z, w.
     position: [f64; 3],
     rotation: [f64; 4],
-    /// Rotation about the axis and displacement along it for a unit of its coordinate.
-    turn: f64,
-    slide: f64,
+    /// What the link does for a unit of each of its coordinates, one after the other; none of a joint in space.
+    motions: Vec<AxisMotion>,
     /// What is added to its coordinate, rad or m.
     offset: f64,
     /// How its last coordinates give the orientation of the body, after three of its position if it is free; none for a
@@ -49,6 +48,16 @@ struct Joint<'a> {
     coordinate: Option<usize>,
     /// For a prismatic joint, where it slides from.
     rail: Option<Place>,
+}
+
+/// A motion about or along an axis.
+#[derive(Serialize)]
+struct AxisMotion {
+    /// Unit vector, in the frame that the motions before have moved.
+    axis: [f64; 3],
+    /// Rotation about the axis and displacement along it for a unit of the coordinate.
+    turn: f64,
+    slide: f64,
 }
 
 /// How the page has orientations of spherical and free joints.
@@ -115,8 +124,6 @@ pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> 
     let (mut moving, mut coordinates) = (layout.joints.iter(), 0);
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None, ellipsoid: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
-        let screw = joint::Joint::of(link).filter(|joint| joint.is_on_axis()).map(|joint| joint.screw(0));
-        let [turn, slide] = screw.map_or([0.0; 2], |screw| [screw.turn, screw.slide]);
         let placement = frame(model, link.parent) * link.placement;
         let moves = if link.joint.dof() > 0 { moving.next() } else { None };
         let coordinate = moves.map(|joint| {
@@ -131,8 +138,7 @@ pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> 
             parent: number(link.parent),
             position: placement.position.0,
             rotation: quaternion(placement.rotation),
-            turn,
-            slide,
+            motions: motions(link),
             offset: link.offset,
             orientation: moves.filter(|joint| joint.is_in_space()).map(|_| orientations),
             coordinate,
@@ -151,6 +157,18 @@ pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> 
         Body { name: &link.name, joint: Some(joint), ends, tip, com, ellipsoid: solid.ellipsoid() }
     });
     std::iter::once(ground).chain(links).collect()
+}
+
+/// The motions of a link about and along axes of its joint's frame.
+fn motions(link: &Link) -> Vec<AxisMotion> {
+    let elements = LinkJoint::of(link).map(|joint| joint.elements(link.axis)).unwrap_or_default();
+    let on_axis = elements.into_iter().filter(|element| element.joint.is_on_axis());
+    on_axis
+        .map(|Element { joint, axes }| {
+            let Screw { turn, slide, .. } = joint.screw(0);
+            AxisMotion { axis: axes.column(2).0, turn, slide }
+        })
+        .collect()
 }
 
 impl Body<'_> {

@@ -126,10 +126,11 @@ fn mean_rate(t: &[f64], q: &[f64], k: usize) -> Option<f64> {
 fn fast(joint: &Joint, layout: &Layout, q: &[Vec<f64>]) -> Option<String> {
     let most = match joint.is_in_space() {
         true => most_turned(&q[joint.orientation()]),
-        false if layout.coordinates[joint.q.start].turns() => {
-            q[joint.q.start].windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max)
+        false => {
+            let angles = joint.q.clone().filter(|&coordinate| layout.coordinates[coordinate].turns());
+            let turned = angles.flat_map(|angle| q[angle].windows(2)).map(|pair| (pair[1] - pair[0]).abs());
+            turned.fold(0.0, f64::max)
         }
-        false => 0.0,
     };
     (most > QUARTER_TURN).then(|| {
         let (name, turns) = (&joint.name, rounded(most.to_degrees()));

@@ -191,12 +191,12 @@ fn unchecked(
                 _ => components[index].neutral,
             };
             let mut values: Vec<f64> = of.iter().map(|&index| missing(index)).collect();
-            let in_space: Vec<&Joint> = layout.joints.iter().filter(|joint| joint.is_in_space()).collect();
+            let several: Vec<&Joint> = layout.joints.iter().filter(|joint| joint.q.len() > 1).collect();
             let names = components.iter().map(|component| component.name.as_str());
-            let names: Vec<&str> = names.chain(in_space.iter().map(|joint| joint.name.as_str())).collect();
+            let names: Vec<&str> = names.chain(several.iter().map(|joint| joint.name.as_str())).collect();
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
                 let index = index(reader, name.span(), name.get_ref(), names.iter().copied())?;
-                let whole = index.checked_sub(components.len()).map(|joint| in_space[joint]);
+                let whole = index.checked_sub(components.len()).map(|joint| several[joint]);
                 let first = whole.map_or(index, |joint| quantity.of_joint(joint).start);
                 let Some(at) = of.iter().position(|&other| other == first) else {
                     return foreign(reader, name.span(), path, name.get_ref());
@@ -232,7 +232,9 @@ fn of_joint(
     joint: &Joint,
 ) -> Option<Vec<f64>> {
     match value.get_ref() {
-        DeValue::Table(_) if quantity == Quantity::Coordinate => in_space::coordinates(reader, path, value, joint),
+        DeValue::Table(_) if quantity == Quantity::Coordinate && joint.is_in_space() => {
+            in_space::coordinates(reader, path, value, joint)
+        }
         DeValue::Table(_) => reader.wrong_type(path, value, "an array with a value for each component of the joint"),
         _ => unchecked(reader, path, value, quantity, layout, &quantity.of_joint(joint).collect::<Vec<_>>()),
     }

@@ -16,7 +16,7 @@ pub struct Moving {
 /// A joint, and where its coordinates and velocities stand.
 #[derive(Clone, Debug)]
 struct Part {
-    motion: joint::Joint,
+    motion: joint::LinkJoint,
     q: Range<usize>,
     v: Range<usize>,
 }
@@ -34,9 +34,9 @@ impl Moving {
         Moving { joints: chosen.iter().map(part).collect() }
     }
 
-    /// Whether each has one coordinate, whose rate is its velocity.
+    /// Whether the velocities of each are the rates of its coordinates.
     pub fn is_linear(&self) -> bool {
-        self.joints.iter().all(|part| part.q.len() == 1)
+        self.joints.iter().all(|part| part.motion.is_linear())
     }
 
     fn velocities(&self, mut write: impl FnMut(&Part, &mut [f64])) -> Vec<f64> {
@@ -119,7 +119,7 @@ impl Moving {
     /// Turns quaternions round that are on the other side of those `before` them: a quaternion and its negative are the
     /// same orientation, but not the same way apart. Fails with the first coordinate of one that is zero.
     pub fn follow(&self, before: Option<&[f64]>, q: &mut [f64]) -> Result<(), usize> {
-        for part in self.joints.iter().filter(|part| part.q.len() > 1) {
+        for part in self.joints.iter().filter(|part| !part.motion.is_linear()) {
             let at = part.q.end - 4..part.q.end;
             let length = dot(&q[at.clone()], &q[at.clone()]).sqrt();
             if length == 0.0 {
@@ -135,7 +135,7 @@ impl Moving {
 
 /// The quaternion among coordinates of a joint, or their rates, if it has one.
 fn orientation<'q>(part: &Part, q: &'q [f64]) -> Option<&'q [f64]> {
-    (part.q.len() > 1).then(|| &q[q.len() - 4..])
+    Some(&q[part.motion.quaternion()]).filter(|quaternion| !quaternion.is_empty())
 }
 
 /// ω × v; nothing of a joint without linear velocities.

@@ -12,7 +12,7 @@ export class Linkage {
   constructor(bodies) {
     this.joints = bodies.slice(1).map(({ joint }) => ({
       ...joint,
-      axis: new Vector3(...joint.axis),
+      motions: joint.motions.map((motion) => ({ ...motion, axis: new Vector3(...motion.axis) })),
       position: new Vector3(...joint.position),
       rotation: new Quaternion(...joint.rotation),
     }));
@@ -37,13 +37,17 @@ export class Linkage {
   /** How the body of a link moves for a unit of each of its coordinates, in the base frame: `spin` and, of its origin,
    * `slide`. Of quaternions there is none. */
   freedoms(link, q) {
-    const { coordinate, orientation, kind, axis, turn, slide, parent, rotation } = this.joints[link];
+    const { coordinate, orientation, kind, motions, offset, parent, rotation } = this.joints[link];
     if (coordinate === null) return [];
-    if (!orientation) {
-      const along = axis.clone().applyQuaternion(this.poses[link + 1].rotation);
-      return [{ coordinate, spin: along.clone().multiplyScalar(turn), slide: along.multiplyScalar(slide) }];
-    }
     const still = this.poses[parent].rotation.clone().multiply(rotation);
+    if (!orientation) {
+      return motions.map(({ axis, turn, slide }, index) => {
+        const along = axis.clone().applyQuaternion(still);
+        if (turn) still.multiply(this.turn.setFromAxisAngle(axis, turn * (offset + q[coordinate + index])));
+        const [spin, shift] = [along.clone().multiplyScalar(turn), along.multiplyScalar(slide)];
+        return { coordinate: coordinate + index, spin, slide: shift };
+      });
+    }
     const lengths = kind === "free" ? LENGTHS : 0;
     const [, pitch, yaw] = q.slice(coordinate + lengths);
     const axes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
@@ -57,7 +61,7 @@ export class Linkage {
   }
 
   #carry(link, q) {
-    const { parent, turn, slide, axis, offset, coordinate, orientation, kind, position, rotation } = this.joints[link];
+    const { parent, motions, offset, coordinate, orientation, kind, position, rotation } = this.joints[link];
     const [carrier, pose] = [this.poses[parent], this.poses[link + 1]];
     pose.rotation.copy(rotation);
     pose.position.set(0, 0, 0);
@@ -66,9 +70,11 @@ export class Linkage {
       if (lengths) pose.position.fromArray(q, coordinate).applyQuaternion(rotation);
       pose.rotation.multiply(this.#turned(orientation, q.slice(coordinate + lengths)));
     } else {
-      const value = coordinate === null ? 0 : offset + q[coordinate];
-      if (turn) pose.rotation.multiply(this.turn.setFromAxisAngle(axis, turn * value));
-      if (slide) pose.position.copy(axis).multiplyScalar(slide * value).applyQuaternion(rotation);
+      motions.forEach(({ axis, turn, slide }, index) => {
+        const value = coordinate === null ? 0 : offset + q[coordinate + index];
+        if (slide) pose.position.add(axis.clone().multiplyScalar(slide * value).applyQuaternion(pose.rotation));
+        if (turn) pose.rotation.multiply(this.turn.setFromAxisAngle(axis, turn * value));
+      });
     }
     pose.position.add(position).applyQuaternion(carrier.rotation).add(carrier.position);
     pose.rotation.premultiply(carrier.rotation);

@@ -85,7 +85,7 @@ export class Mechanism {
     if (!of_link) this.#add("names", group, label(name, position));
   }
 
-  /** A pin or block along the axis, and the axis as a line; a ball for a spherical joint. */
+  /** A pin or block along the axis, and the axis as a line; a ball for a joint about several axes. */
   #joint(kind, axis, at) {
     const group = new Group();
     group.position.copy(at);
@@ -95,6 +95,8 @@ export class Mechanism {
       revolute: () => new CylinderGeometry(1.35 * r, 1.35 * r, 3.4 * r, 28),
       helical: () => new CylinderGeometry(1.35 * r, 1.35 * r, 3.4 * r, 28),
       prismatic: () => new BoxGeometry(3 * r, 4.4 * r, 3 * r),
+      cylindrical: () => new CylinderGeometry(1.35 * r, 1.35 * r, 4.4 * r, 28),
+      universal: () => new SphereGeometry(1.6 * r, 24, 16),
       spherical: () => new SphereGeometry(1.6 * r, 24, 16),
     };
     const shape = shapes[kind];
@@ -103,7 +105,7 @@ export class Mechanism {
       solid.castShadow = true;
       this.#add("links", group, solid);
     }
-    if (["revolute", "prismatic", "helical"].includes(kind)) {
+    if (["revolute", "prismatic", "helical", "cylindrical"].includes(kind)) {
       const thread = new CylinderGeometry(0.12 * r, 0.12 * r, 13 * r, 8);
       const line = new Mesh(thread, new MeshStandardMaterial({ color: JOINT }));
       this.#add("axes", group, line);

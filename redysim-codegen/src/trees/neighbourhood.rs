@@ -99,6 +99,7 @@ fn stand_in<P: Parameter>(parent: Option<usize>) -> Body<P> {
         parent,
         placement: Pose { rotation, position: Vec3([0.3, 0.5, 0.2]) },
         joint: Joint::Revolute,
+        link: parent.map_or(0, |parent| parent + 1),
         offset: 0.0,
         merged_parallel: false,
         q: own(parent.map_or(0, |parent| parent + 1), 1),

@@ -104,6 +104,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
         frame,
         offset,
         pitch: table.pitch.value_or(0.0)?,
+        coordinates: if table.coordinates.is_missing() { None } else { Some(*table.coordinates.value()?) },
         mass: *table.mass.value()?,
         com: Vec3(table.com.value_or([0.0; 3])?),
         inertia: table.inertia.value_or(Default::default())?,

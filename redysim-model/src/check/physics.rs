@@ -1,6 +1,6 @@
 //! What acts in a joint itself: numbers that a joint can have.
 
-use super::placement::moves_in_space;
+use super::placement::of_several_freedoms;
 use crate::joint::{FRICTION_VELOCITY, JointPhysics};
 use crate::messages;
 use crate::model::JointKind;
@@ -17,10 +17,10 @@ pub(super) fn check(link: &LinkTable, findings: &mut Findings) -> Option<JointPh
             }
         }
     }
-    if let Some(joint) = moves_in_space(link) {
+    if let Some(joint) = of_several_freedoms(link) {
         for (key, field) in link.physics.fields() {
             if let Some(given) = field.spanned() {
-                findings.error(given.span(), messages::needs_one_axis(&link.item, key.name, joint.name()));
+                findings.error(given.span(), messages::needs_one_coordinate(&link.item, key.name, joint));
             }
         }
     }

@@ -24,7 +24,7 @@ pub(super) struct Placed {
 
 /// Where the link's joint stands, and the link's frame on it.
 pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed> {
-    in_space_by_origin(link, findings);
+    several_freedoms_by_origin(link, findings);
     placed_once(link, findings);
     axis_beside_origin(link, findings);
     beside_origin(link, findings);
@@ -33,6 +33,9 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
     let joint = *link.joint.value()?;
     if let Some(pitch) = link.pitch.spanned().filter(|_| joint != JointKind::Helical) {
         findings.error(pitch.span(), messages::pitch_on_another_joint(&link.item, joint.name()));
+    }
+    if let Some(sequence) = link.coordinates.spanned().filter(|_| !joint.moves_in_space()) {
+        findings.error(sequence.span(), messages::coordinates_on_another_joint(&link.item, joint.name()));
     }
     let pitch = link.pitch.value_or(0.0)?;
     if let Some(dh) = link.dh.value() {
@@ -46,25 +49,29 @@ pub(super) fn place(link: &LinkTable, findings: &mut Findings) -> Option<Placed>
     Some(Placed { placement, axis: axis?, offset: link.offset.value_or(0.0)?, frame })
 }
 
-/// Whether the joint moves its link in space, not about or along one axis.
-pub(super) fn moves_in_space(link: &LinkTable) -> Option<JointKind> {
-    link.joint.value().copied().filter(|joint| joint.dof() > 0 && !joint.has_axis())
+/// The kind of the link's joint, if it has several freedoms.
+pub(super) fn of_several_freedoms(link: &LinkTable) -> Option<JointKind> {
+    link.joint.value().copied().filter(|joint| joint.dof() > 1)
 }
 
-/// A joint that moves its link in space has coordinates of the link's own frame, and no axis that could stand elsewhere.
-fn in_space_by_origin(link: &LinkTable, findings: &mut Findings) {
-    let Some(joint) = moves_in_space(link) else { return };
+/// A joint of several freedoms has neither an offset nor Denavit-Hartenberg parameters, which are of one coordinate; if
+/// its freedoms are not all about one axis, it has no axis; and one with coordinates of the link's own frame has none
+/// that could stand elsewhere.
+fn several_freedoms_by_origin(link: &LinkTable, findings: &mut Findings) {
+    let Some(joint) = of_several_freedoms(link) else { return };
+    let axis = given(&keys::AXIS, &link.axis).filter(|_| !joint.has_axis());
+    let far_end = given(&keys::FAR_END, &link.far_end).filter(|_| joint.moves_in_space());
     let keys = [
         given(&keys::DH, &link.dh),
         given(&keys::DH_STANDARD, &link.dh_standard),
-        given(&keys::AXIS, &link.axis),
+        axis,
         given(&keys::OFFSET, &link.offset),
-        given(&keys::FAR_END, &link.far_end),
+        far_end,
         given(&keys::RANGE, &link.range),
     ];
     for (key, span) in keys.into_iter().flatten() {
         if let Some(span) = span {
-            findings.error(span, messages::needs_one_axis(&link.item, key, joint.name()));
+            findings.error(span, messages::needs_one_coordinate(&link.item, key, joint));
         }
     }
 }
@@ -179,9 +186,7 @@ fn about_and_along_z(joint: JointKind, pitch: f64, angle: f64, distance: f64) ->
         // The motion of the offset slides, too.
         JointKind::Helical => (moved(0.0, distance - pitch * angle), angle),
         JointKind::Prismatic => (turned(about_z(angle)), distance),
-        JointKind::Spherical | JointKind::Free | JointKind::Fixed => {
-            (moved(0.0, distance) * turned(about_z(angle)), 0.0)
-        }
+        _ => (moved(0.0, distance) * turned(about_z(angle)), 0.0),
     }
 }
 
@@ -209,7 +214,7 @@ mod tests {
             JointKind::Revolute => turned(about_z(placed.offset + q)),
             JointKind::Prismatic => moved(0.0, placed.offset + q),
             JointKind::Helical => turned(about_z(placed.offset + q)) * moved(0.0, pitch * (placed.offset + q)),
-            JointKind::Spherical | JointKind::Free | JointKind::Fixed => Pose::identity(),
+            _ => Pose::identity(),
         };
         placed.placement * motion * placed.frame
     }

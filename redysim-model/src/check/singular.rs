@@ -15,11 +15,8 @@ const ROUNDOFF: f64 = 1e-12;
 /// The links whose joints make the mass matrix singular, each with its message. Called for a model without errors.
 pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
     let tree = Tree::new(model);
-    let moving = (0..model.links.len()).filter(|&link| model.links[link].joint.dof() > 0);
-    let link_of_velocity = tree.per_velocity(moving);
     let report = |body: usize| {
-        let Body { joint, ref v, .. } = tree.bodies[body];
-        let link = link_of_velocity[v.start];
+        let Body { joint, link, .. } = tree.bodies[body];
         (link, messages::singular_mass_matrix(&model.links[link].name, &model.links[link].joint_name, joint))
     };
     without_inertia(&tree).into_iter().map(report).collect()

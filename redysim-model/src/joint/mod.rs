@@ -14,29 +14,38 @@
 //! its inverse `velocities`, `integrate`, `difference` and `neutral`, with the names of coordinates and velocities;
 //! those of coordinates that add up are in `linear`, those of orientations in `quaternion`. From S follow the velocity S v across the joint, the bias
 //! acceleration, and the joint force Sᵀ w of a wrench. The recursions do not depend on the kind of a joint.
+//!
+//! The joint of a link, a [`LinkJoint`], is one of these or a [`Series`] of them, each with a body of its own in the tree.
 
+mod euler;
 mod free;
 mod helical;
 mod linear;
+mod link_joint;
+mod measure;
 pub(crate) mod physics;
 mod position;
 mod prismatic;
 mod quaternion;
 mod revolute;
 mod screw;
+mod series;
 mod shared;
 mod spherical;
 
-use crate::model::{JointKind, Link};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
+pub use euler::EulerSequence;
+pub use link_joint::LinkJoint;
+pub use measure::Measure;
 pub(crate) use physics::FRICTION_VELOCITY;
 pub use physics::JointPhysics;
 pub(crate) use physics::sum;
 pub use position::JointPosition;
 use redysim_runtime::Scalar;
 pub use screw::{Screw, across};
+pub use series::{Element, Series};
 pub use shared::{AxisMass, Vanishing};
 
 /// What a joint of the tree does.
@@ -59,23 +68,6 @@ pub enum Joint {
 }
 
 impl Joint {
-    /// What the joint of a link does; `None` if it is fixed.
-    pub fn of(link: &Link) -> Option<Joint> {
-        Joint::of_kind(link.joint, link.pitch)
-    }
-
-    /// The joint of the given kind, `None` if it is fixed. A helical joint has the pitch `pitch`, m/rad.
-    pub(crate) fn of_kind(kind: JointKind, pitch: f64) -> Option<Joint> {
-        match kind {
-            JointKind::Revolute => Some(Joint::Revolute),
-            JointKind::Prismatic => Some(Joint::Prismatic),
-            JointKind::Helical => Some(Joint::Helical { pitch }),
-            JointKind::Spherical => Some(Joint::Spherical),
-            JointKind::Free => Some(Joint::Free),
-            JointKind::Fixed => None,
-        }
-    }
-
     /// Whether it moves its body about and along the z axis of the body's frame alone.
     #[inline]
     pub fn is_on_axis(self) -> bool {
@@ -114,6 +106,30 @@ impl Joint {
             Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::VELOCITY_NAMES,
             Joint::Spherical => spherical::VELOCITY_NAMES,
             Joint::Free => free::VELOCITY_NAMES,
+        }
+    }
+
+    /// What its coordinates measure.
+    #[inline]
+    pub fn coordinate_measures(self) -> &'static [Measure] {
+        use Measure::{Angle, Length, Number};
+        match self {
+            Joint::Revolute | Joint::Helical { .. } => &[Angle],
+            Joint::Prismatic => &[Length],
+            Joint::Spherical => &[Number; 4],
+            Joint::Free => &[Length, Length, Length, Number, Number, Number, Number],
+        }
+    }
+
+    /// What the integrals of its velocities measure.
+    #[inline]
+    pub fn velocity_measures(self) -> &'static [Measure] {
+        use Measure::{Angle, Length};
+        match self {
+            Joint::Revolute | Joint::Helical { .. } => &[Angle],
+            Joint::Prismatic => &[Length],
+            Joint::Spherical => &[Angle; 3],
+            Joint::Free => &[Length, Length, Length, Angle, Angle, Angle],
         }
     }
 
@@ -280,16 +296,6 @@ impl Joint {
             Joint::Revolute | Joint::Spherical => Some(self),
             Joint::Prismatic | Joint::Free => None,
             Joint::Helical { pitch } => Some(Joint::Helical { pitch: pitch / unit }),
-        }
-    }
-}
-
-impl Link {
-    /// The displacement of the link along its axis where the joint variable is zero, m.
-    pub fn offset_along_axis(&self) -> f64 {
-        match Joint::of(self).filter(|joint| joint.is_on_axis()).map(|joint| joint.position(&[self.offset])) {
-            Some(JointPosition::OnAxis { displacement: Some(displacement), .. }) => displacement,
-            _ => 0.0,
         }
     }
 }

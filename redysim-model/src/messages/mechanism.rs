@@ -2,6 +2,7 @@
 
 use super::{message, with_locks};
 use crate::joint::Joint;
+use crate::model::JointKind;
 use crate::schema::{RotationDefect, keys};
 use redysim_runtime::Function;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
@@ -179,11 +180,29 @@ pub(crate) fn axis_on_fixed(item: &str) -> Message {
 }
 
 /// The key has a meaning for joints of one axis alone.
-pub(crate) fn needs_one_axis(item: &str, key: &str, kind: &str) -> Message {
+/// `key` belongs to a joint of one coordinate, or with one axis, and the link's is another.
+pub(crate) fn needs_one_coordinate(item: &str, key: &str, kind: JointKind) -> Message {
+    let (name, origin) = (kind.name(), keys::ORIGIN.name);
+    let (owner, label, placed_by) = match kind {
+        JointKind::Cylindrical => {
+            ("of one coordinate", "the joint has two", format!("`{origin}` and `{}`", keys::AXIS.name))
+        }
+        JointKind::Universal => ("with one axis", "the joint turns about two axes", format!("`{origin}` alone")),
+        JointKind::Planar => ("with one axis", "the joint moves in a plane", format!("`{origin}` alone")),
+        _ => ("with one axis", "the joint moves about every axis", format!("`{origin}` alone")),
+    };
     message(
-        format!("{item}: `{key}` belongs to a joint with one axis, but its joint is {kind}"),
-        "the joint moves about every axis",
-        format!("delete `{key}`: a {kind} joint is placed by `{}` alone", keys::ORIGIN.name),
+        format!("{item}: `{key}` belongs to a joint {owner}, but its joint is {name}"),
+        label,
+        format!("delete `{key}`: a {name} joint is placed by {placed_by}"),
+    )
+}
+
+pub(crate) fn coordinates_on_another_joint(item: &str, kind: &str) -> Message {
+    message(
+        format!("{item}: a {kind} joint has no `{}`", keys::COORDINATES.name),
+        "neither spherical nor free",
+        format!("delete `{}`, or make the joint spherical or free", keys::COORDINATES.name),
     )
 }
 
@@ -192,14 +211,6 @@ pub(crate) fn pitch_on_another_joint(item: &str, kind: &str) -> Message {
         format!("{item}: a {kind} joint has no `pitch`"),
         "not helical",
         "delete `pitch`, or make the joint helical",
-    )
-}
-
-pub(crate) fn unsupported_joint(item: &str, found: &str, choices: &[&str]) -> Message {
-    message(
-        format!("{item}: joints of the kind `{found}` are not supported yet"),
-        "not supported yet",
-        format!("supported are: {}; chain several, with massless links in between", choices.join(", ")),
     )
 }
 

@@ -58,6 +58,7 @@ pub(crate) const LINK: Keys = Keys::new(
         OFFSET,
         FAR_END,
         PITCH,
+        COORDINATES,
         MASS,
         COM,
         INERTIA,
@@ -77,13 +78,16 @@ pub(crate) const JOINT_NAME: Key =
         .with_default("the name of the link");
 pub(crate) const PARENT: Key =
     Key::new("parent", "\"base\"", "the link that carries this one; `base` is the ground").with_default("required");
-pub(crate) const JOINT: Key =
-    Key::new("joint", "\"revolute\"", "revolute, prismatic, helical, spherical, free or fixed")
-        .with_default("required");
+pub(crate) const JOINT: Key = Key::new(
+    "joint",
+    "\"revolute\"",
+    "revolute, prismatic, helical, universal, cylindrical, planar, spherical, free or fixed",
+)
+.with_default("required");
 pub(crate) const AXIS: Key = Key::new(
     "axis",
     "[0.0, 0.0, 1.0]",
-    "the direction of the joint, in the frame that it moves; spherical and free joints have none",
+    "the direction of the joint, in the frame that it moves; universal, planar, spherical and free joints have none",
 )
 .with_default("z; required beside `origin`");
 pub(crate) const OFFSET: Key =
@@ -98,6 +102,12 @@ pub(crate) const FAR_END: Key = Key::of_table(
 .with_default("the frame that the joint moves");
 pub(crate) const PITCH: Key = Key::new("pitch", "0.005", "m/rad: the translation for a unit of rotation")
     .with_default("required of helical joints");
+pub(crate) const COORDINATES: Key = Key::new(
+    "coordinates",
+    "\"zxy\"",
+    "Euler angles of a spherical or free joint: axes of the link about which it turns, one after the other",
+)
+.with_default("a quaternion");
 pub(crate) const MASS: Key = Key::new("mass", "1.5", "kg").with_default("required");
 pub(crate) const COM: Key = Key::new("com", "[0.0, 0.0, 0.1]", "m, in the link's frame").with_default("[0, 0, 0]");
 pub(crate) const ARMATURE: Key = Key::new(

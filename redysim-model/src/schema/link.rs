@@ -3,6 +3,7 @@
 use super::item::item;
 use super::keys;
 use super::origin::origin;
+use crate::joint::{EulerSequence, LinkJoint};
 use crate::messages;
 use crate::model::{Inertia, JointKind, JointRange};
 use crate::spatial::Pose;
@@ -27,6 +28,7 @@ pub(crate) struct LinkTable {
     pub(crate) offset: Field<f64>,
     pub(crate) far_end: Field<Pose<f64>>,
     pub(crate) pitch: Field<f64>,
+    pub(crate) coordinates: Field<EulerSequence>,
     pub(crate) mass: Field<f64>,
     pub(crate) com: Field<[f64; 3]>,
     pub(crate) inertia: Field<Inertia>,
@@ -97,9 +99,6 @@ pub(crate) struct DhStandard {
     pub(crate) theta: f64,
 }
 
-/// Kinds of joint that are planned.
-const PLANNED: [&str; 3] = ["universal", "cylindrical", "planar"];
-
 impl LinkTable {
     /// Reads the `number`-th link of the file.
     pub(super) fn read(at: TableAt<'_>, number: usize, findings: &mut Findings) -> LinkTable {
@@ -107,7 +106,7 @@ impl LinkTable {
         let mut reader = Reader::new(at.table, at.header.clone(), &item, &keys::LINK, findings);
         let name = reader.required(&keys::NAME, Reader::text);
         let parent = reader.required(&keys::PARENT, Reader::text);
-        let joint = reader.required(&keys::JOINT, joint);
+        let joint = reader.required(&keys::JOINT, |reader, key| named(reader, key, &JointKind::ALL));
         let pitch = match joint.value() {
             Some(JointKind::Helical) => reader.required(&keys::PITCH, Reader::number),
             _ => reader.number(&keys::PITCH),
@@ -125,6 +124,7 @@ impl LinkTable {
             offset: displacement(&mut reader, &keys::OFFSET, turns, ""),
             far_end: reader.table(&keys::FAR_END, origin),
             pitch,
+            coordinates: named(&mut reader, &keys::COORDINATES, &EulerSequence::ALL),
             mass: reader.required(&keys::MASS, Reader::number),
             com: reader.vector(&keys::COM),
             inertia: reader.table(&keys::INERTIA, inertia),
@@ -142,6 +142,12 @@ impl LinkTable {
         self.locked.is_some() || self.joint.value() == Some(&JointKind::Fixed)
     }
 
+    /// What the joint does, as far as it can be read; `None` if it is fixed or of an unreadable kind.
+    pub(crate) fn motion(&self) -> Option<LinkJoint> {
+        let pitch = self.pitch.value().copied().unwrap_or_default();
+        LinkJoint::of_kind(*self.joint.value()?, pitch, self.coordinates.value().copied())
+    }
+
     /// Where faults of the link as a whole are shown.
     pub(crate) fn place(&self) -> Range<usize> {
         self.name.spanned().map_or(self.header.clone(), Spanned::span)
@@ -153,14 +159,11 @@ impl LinkTable {
     }
 }
 
-fn joint(reader: &mut Reader<'_, '_>, key: &Key) -> Field<JointKind> {
+/// One of several names, each of which stands for something.
+fn named<T: Copy>(reader: &mut Reader<'_, '_>, key: &Key, choices: &[(&'static str, T)]) -> Field<T> {
     reader.field(key, |reader, path, value| {
         let Some(found) = name_of(value) else { return reader.wrong_type(path, value, "a string") };
-        if PLANNED.contains(&found) {
-            let supported: Vec<_> = JointKind::ALL.iter().map(|(name, _)| *name).collect();
-            return reader.error(value, messages::unsupported_joint(reader.item(), found, &supported));
-        }
-        reader.choose(path, value, found, &JointKind::ALL)
+        reader.choose(path, value, found, choices)
     })
 }
 

@@ -22,7 +22,6 @@ pub(crate) use origin::RotationDefect;
 pub(crate) use point::PointTable;
 pub(crate) use spring::SpringTable;
 
-use crate::joint::Joint;
 use crate::lint::Lint;
 use crate::messages;
 use crate::public_interface::{MovingJoint, ParameterNumber, PublicInterface};
@@ -111,9 +110,11 @@ impl Document {
         let name =
             |name: Option<&Spanned<String>>, item: &String| name.map_or(item.clone(), |name| name.get_ref().clone());
         let joint = |link: &LinkTable| {
-            let pitch = link.pitch.value().copied().unwrap_or_default();
-            let joint = link.joint.value().and_then(|&kind| Joint::of_kind(kind, pitch));
-            MovingJoint::new(name(link.joint_name(), &link.item), joint, link.actuated.value_or(true).unwrap_or(true))
+            MovingJoint::new(
+                name(link.joint_name(), &link.item),
+                link.motion(),
+                link.actuated.value_or(true).unwrap_or(true),
+            )
         };
         let numbers = |parameter: &Spanned<RunTimeParameter>| {
             let parameter = *parameter.get_ref();

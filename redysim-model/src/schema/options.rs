@@ -2,7 +2,7 @@
 
 use super::keys;
 use super::link::LinkTable;
-use crate::joint::Joint;
+use crate::joint::{Joint, LinkJoint, Measure};
 use crate::lock::by_name;
 use crate::messages;
 use crate::model::JointKind;
@@ -171,12 +171,8 @@ fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option
                 continue;
             }
             let path = path.entry(name);
-            let values = match links[link].joint.value() {
-                Some(JointKind::Prismatic) => reader.parse_number(&path, value).map(|value| vec![value]),
-                Some(&kind @ (JointKind::Spherical | JointKind::Free)) => in_space(kind, &path, value, reader),
-                _ => reader.parse_angle(&path, value).map(|value| vec![value]),
-            };
-            let values = values.unwrap_or_else(|| neutral(&links[link]));
+            let joint = links[link].motion().unwrap_or(Joint::Revolute.into());
+            let values = held(joint, &path, value, reader).unwrap_or_else(|| neutral(joint));
             locks.push(Lock { link, values, place });
         }
         Some(())
@@ -184,30 +180,34 @@ fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option
     (!field.is_missing()).then_some(locks)
 }
 
-/// The coordinates of the zero position of a link's joint.
-fn neutral(link: &LinkTable) -> Vec<f64> {
-    let joint = link.joint.value().and_then(|&kind| Joint::of_kind(kind, 0.0)).unwrap_or(Joint::Revolute);
+/// The coordinates of the zero position of a joint.
+fn neutral(joint: LinkJoint) -> Vec<f64> {
     let mut coordinates = vec![0.0; joint.nq()];
     joint.neutral(&mut coordinates);
     coordinates
 }
 
-/// The coordinates of a joint that has several: those of a position, then those of a quaternion.
-fn in_space<'a>(
-    kind: JointKind,
-    path: &KeyPath,
-    value: &'a Value<'a>,
-    reader: &mut Reader<'a, '_>,
-) -> Option<Vec<f64>> {
-    let count = Joint::of_kind(kind, 0.0).map_or(0, Joint::nq);
+/// The coordinates of a joint: a number, or an array of several.
+fn held<'a>(joint: LinkJoint, path: &KeyPath, value: &'a Value<'a>, reader: &mut Reader<'a, '_>) -> Option<Vec<f64>> {
+    let angles: Vec<bool> = joint.coordinate_measures().iter().map(|measure| *measure == Measure::Angle).collect();
+    if let [turns] = angles[..] {
+        return reader.parse_displacement(path, value, turns, "").map(|value| vec![value]);
+    }
+    let count = angles.len();
     let wanted = format!("{count} numbers");
     let array = reader.array(path, value, &format!("an array of {wanted}"))?;
-    let values = reader.elements(path, array, |reader, path, value| reader.parse_number(path, value));
+    let values: Vec<Option<f64>> = array
+        .iter()
+        .enumerate()
+        .map(|(i, value)| {
+            reader.parse_displacement(&path.element(i), value, angles.get(i).copied().unwrap_or_default(), "")
+        })
+        .collect();
     if array.len() != count {
         return reader.wrong_length(path, value, &wanted, array.len());
     }
-    let values = values?;
-    if kind.has_no_orientation_at(&values) {
+    let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
+    if joint.has_no_orientation_at(&values) {
         return reader.error(value, messages::locked_without_orientation(reader.item(), path));
     }
     Some(values)

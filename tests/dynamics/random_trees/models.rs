@@ -3,7 +3,7 @@
 use crate::common::random::Random;
 use crate::common::styles::{inertia, link, offset, placed};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use redysim_model::joint::JointPhysics;
+use redysim_model::joint::{EulerSequence, JointPhysics};
 use redysim_model::spatial::{Pose, Vec3};
 use redysim_model::{Frame, JointKind, Link, LinkPoint, Model, Spring};
 
@@ -21,13 +21,19 @@ fn axis(random: &mut Random) -> Vector3<f64> {
     }
 }
 
+/// The kinds of joint that are several of one freedom in series, if spherical and free ones have Euler angles.
+const SERIES: [JointKind; 5] =
+    [JointKind::Universal, JointKind::Cylindrical, JointKind::Planar, JointKind::Spherical, JointKind::Free];
+
 /// Which joints a tree has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joints {
     /// Of one freedom: revolute, prismatic, helical; and fixed ones.
     OfOneFreedom,
-    /// These, spherical and free ones.
-    OfAllKinds,
+    /// These, spherical and free ones with quaternions.
+    InSpace,
+    /// These, universal, cylindrical and planar ones, and spherical and free ones with Euler angles.
+    InSeries,
 }
 
 /// A tree of up to twelve links, with three frames of interest. `with_physics` are its joints of one freedom,
@@ -35,7 +41,7 @@ pub enum Joints {
 pub fn random_model(random: &mut Random, joints: Joints, with_physics: bool, with_springs: bool) -> Model {
     let mut model = bare_model(random, joints);
     if with_physics {
-        let on_axis = model.links.iter_mut().filter(|link| link.joint.has_axis());
+        let on_axis = model.links.iter_mut().filter(|link| link.joint.dof() == 1);
         on_axis.for_each(|link| link.physics = joint_physics(random));
     }
     if with_springs {
@@ -51,10 +57,12 @@ fn bare_model(random: &mut Random, joints: Joints) -> Model {
     // One at least is of several freedoms; others are as often as any kind.
     let (chosen, kinds) = match joints {
         Joints::OfOneFreedom => (None, 5),
-        Joints::OfAllKinds => (Some(random.below(count)), 7),
+        Joints::InSpace => (Some(random.below(count)), 7),
+        Joints::InSeries => (Some(random.below(count)), 12),
     };
     let links = random.tree(count, |random, grown, parent| {
         let joint = match random.below(kinds) {
+            kind if joints == Joints::InSeries && (kind > 6 || chosen == Some(grown)) => SERIES[kind % 5],
             kind if kind > 4 || chosen == Some(grown) => [JointKind::Spherical, JointKind::Free][kind % 2],
             0 if grown > 0 => JointKind::Fixed,
             1 => JointKind::Prismatic,
@@ -82,11 +90,19 @@ fn bare_model(random: &mut Random, joints: Joints) -> Model {
             },
             ..link(grown, parent, joint, placed(&turned, at))
         };
-        // Spherical and free joints have no axis, no offset and no frame beyond.
-        match joint {
-            JointKind::Spherical | JointKind::Free => {
-                Link { axis: Vec3([0.0, 0.0, 1.0]), frame: Pose::identity(), offset: 0.0, ..body }
+        let coordinates = match joint {
+            JointKind::Spherical | JointKind::Free if joints == Joints::InSeries && random.below(3) > 0 => {
+                Some(EulerSequence::ALL[random.below(12)].1)
             }
+            _ => None,
+        };
+        let body = Link { coordinates, ..body };
+        let z = Vec3([0.0, 0.0, 1.0]);
+        // Joints of several freedoms have no offset; spherical and free ones neither an axis nor a frame beyond.
+        match joint {
+            JointKind::Cylindrical => Link { offset: 0.0, ..body },
+            JointKind::Universal | JointKind::Planar => Link { axis: z, offset: 0.0, ..body },
+            JointKind::Spherical | JointKind::Free => Link { axis: z, frame: Pose::identity(), offset: 0.0, ..body },
             _ => body,
         }
     });

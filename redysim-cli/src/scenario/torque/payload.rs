@@ -1,8 +1,7 @@
 //! What a law assumes that a link carries.
 
-use redysim_model::joint::JointPhysics;
-use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{GenericMechanism, Inertia, JointKind, Link, Model};
+use redysim_model::spatial::Vec3;
+use redysim_model::{GenericMechanism, JointKind, Link, Model};
 use redysim_toml::{Message, Reader, Spanned};
 
 use crate::scenario::keys;
@@ -25,21 +24,9 @@ pub fn read(reader: &mut Reader<'_, '_>, model: &Model) -> Option<Option<Box<Gen
         }
         let mut laden = model.clone();
         laden.links.push(Link {
-            name: "payload".into(),
-            joint_name: "payload".into(),
-            parent: Some(link),
-            joint: JointKind::Fixed,
-            placement: Pose::identity(),
-            axis: Vec3([0.0, 0.0, 1.0]),
-            frame: Pose::identity(),
-            offset: 0.0,
-            pitch: 0.0,
             mass: *mass.get_ref(),
             com: Vec3(com),
-            inertia: Inertia::default(),
-            physics: JointPhysics::default(),
-            actuated: false,
-            range: None,
+            ..Link::new("payload", Some(link), JointKind::Fixed)
         });
         Some(Box::new(GenericMechanism::new(laden)))
     });
