@@ -23,7 +23,7 @@ pub struct Layout {
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// Whether it has an actuator.
+    /// Whether each of its velocities has an actuator.
     pub actuated: bool,
     /// How it moves.
     pub motion: LinkJoint,
@@ -42,6 +42,8 @@ pub struct Component {
     pub joint: usize,
     /// What it measures.
     pub measure: Measure,
+    /// Of a velocity, whether it has an actuator; false of a coordinate.
+    pub actuated: bool,
     /// Its value at the joint's neutral position; of a velocity, zero.
     pub neutral: f64,
 }
@@ -82,20 +84,20 @@ impl Layout {
         let mut layout = Layout::default();
         for link in model.moving_links() {
             if let Some(motion) = LinkJoint::of(link) {
-                layout.push(&link.joint_name, link.actuated, motion);
+                layout.push(&link.joint_name, &link.actuated_velocities(), motion);
             }
         }
         layout
     }
 
     /// Adds a joint with its coordinates and velocities. A single one has the name of the joint.
-    fn push(&mut self, name: &str, actuated: bool, motion: LinkJoint) {
+    fn push(&mut self, name: &str, actuated: &[bool], motion: LinkJoint) {
         let joint = self.joints.len();
         let add = |components: &mut Vec<Component>, names: &[&str], measures: &[Measure], neutral: &[f64]| {
             let first = components.len();
             components.extend(names.iter().zip(measures).zip(neutral).map(|((part, &measure), &neutral)| {
                 let name = if names.len() == 1 { name.to_owned() } else { format!("{name}.{part}") };
-                Component { name, joint, measure, neutral }
+                Component { name, joint, measure, actuated: false, neutral }
             }));
             first..components.len()
         };
@@ -104,6 +106,10 @@ impl Layout {
         motion.neutral(&mut neutral);
         let q = add(&mut self.coordinates, motion.coordinate_names(), of_q, &neutral);
         let v = add(&mut self.velocities, motion.velocity_names(), of_v, &vec![0.0; motion.nv()]);
+        for (velocity, &actuated) in self.velocities[v.clone()].iter_mut().zip(actuated) {
+            velocity.actuated = actuated;
+        }
+        let actuated = actuated.iter().all(|actuated| *actuated);
         self.joints.push(Joint { name: name.to_owned(), actuated, motion, q, v });
     }
 
@@ -125,6 +131,11 @@ impl Layout {
     /// The velocities of some of the joints.
     pub fn velocities_of(&self, joints: &[usize]) -> Vec<usize> {
         joints.iter().flat_map(|&joint| self.joints[joint].v.clone()).collect()
+    }
+
+    /// The velocities that have an actuator.
+    pub fn actuated_velocities(&self) -> Vec<usize> {
+        (0..self.nv()).filter(|&velocity| self.velocities[velocity].actuated).collect()
     }
 
     /// The joint whose velocity is this component of the state [q, v, work of the actuators], if it is one.
@@ -160,8 +171,8 @@ pub mod tests {
     /// A free joint `base` with seven coordinates and six velocities, then a revolute joint `arm`.
     pub fn free_base_with_arm() -> Layout {
         let mut layout = Layout::default();
-        layout.push("base", false, joint::Joint::Free.into());
-        layout.push("arm", true, joint::Joint::Revolute.into());
+        layout.push("base", &[false; 6], joint::Joint::Free.into());
+        layout.push("arm", &[true], joint::Joint::Revolute.into());
         layout
     }
 

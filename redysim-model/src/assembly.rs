@@ -119,9 +119,10 @@ impl<P: Parameter> Tree<P> {
         joint: LinkJoint,
         first: [usize; 2],
     ) -> (Option<usize>, Pose<f64>) {
-        let elements = joint.elements(link.link.axis).into_iter().enumerate();
-        elements.fold((parent, placement), |moved, (index, element)| {
-            self.add_body(moved, link, element, first.map(|first| first + index))
+        let (elements, actuated) = (joint.elements(link.link.axis), link.link.actuated_velocities());
+        let of_each = elements.iter().zip(actuated.chunks(actuated.len() / elements.len())).enumerate();
+        of_each.fold((parent, placement), |moved, (index, (&element, actuated))| {
+            self.add_body(moved, link, element, first.map(|first| first + index), actuated)
         })
     }
 
@@ -133,6 +134,7 @@ impl<P: Parameter> Tree<P> {
         BodyLink { index, link, physics }: BodyLink<'_, P>,
         Element { joint, axes }: Element,
         [q, v]: [usize; 2],
+        actuated: &[bool],
     ) -> (Option<usize>, Pose<f64>) {
         let mut placement = placement * Pose { rotation: axes, position: Vec3::zero() };
         let mut offset = 0.0;
@@ -162,7 +164,7 @@ impl<P: Parameter> Tree<P> {
             v: v..v + joint.nv(),
             inertia: PseudoInertia::zero(),
             physics: Some(physics).filter(JointPhysics::acts),
-            actuated: link.actuated,
+            actuated: actuated.to_vec(),
         });
         let pose = Pose { rotation: axes.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)

@@ -38,6 +38,7 @@
 // docs.rs shows which feature an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod actuation;
 mod assembly;
 mod check;
 pub mod denoc;
@@ -69,6 +70,7 @@ mod spring;
 mod tree;
 mod write;
 
+pub use actuation::Actuation;
 pub use faults::Faults;
 pub use generic::GenericMechanism;
 pub use lint::Lint;

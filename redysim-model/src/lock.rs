@@ -133,6 +133,7 @@ impl Link {
         self.axis = Vec3([0.0, 0.0, 1.0]);
         (self.offset, self.pitch, self.coordinates) = (0.0, 0.0, None);
         self.physics = JointPhysics::default();
+        self.actuated = true.into();
     }
 }
 

@@ -1,5 +1,6 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
+use crate::actuation::Actuation;
 use crate::inertia::Sym3;
 use crate::joint::physics::JointPhysics;
 use crate::joint::{EulerSequence, LinkJoint};
@@ -68,8 +69,8 @@ pub struct Link {
     pub inertia: Inertia,
     /// What acts in the joint itself.
     pub physics: JointPhysics,
-    /// Whether the joint has an actuator.
-    pub actuated: bool,
+    /// Which of the joint's velocities have an actuator.
+    pub actuated: Actuation,
     /// Within what the joint moves; not every file says.
     pub range: Option<JointRange>,
 }
@@ -320,9 +321,16 @@ impl Link {
             com: Vec3::zero(),
             inertia: Inertia::default(),
             physics: JointPhysics::default(),
-            actuated: true,
+            actuated: true.into(),
             range: None,
         }
+    }
+}
+
+impl Link {
+    /// Whether each velocity of its joint has an actuator.
+    pub fn actuated_velocities(&self) -> Vec<bool> {
+        self.actuated.of_velocities(self.joint.dof())
     }
 }
 
@@ -340,8 +348,8 @@ impl Model {
 
     /// Whether some joints have an actuator and some do not, and there are no loops.
     pub(crate) fn has_passive_joints(&self) -> bool {
-        let actuated = self.moving_links().filter(|link| link.actuated).count();
-        self.loops.is_empty() && (1..self.moving_links().count()).contains(&actuated)
+        let actuated = self.moving_links().flat_map(Link::actuated_velocities);
+        self.loops.is_empty() && (1..self.dof()).contains(&actuated.filter(|actuated| *actuated).count())
     }
 
     /// Mass of all links, kg.

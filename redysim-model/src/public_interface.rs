@@ -52,13 +52,13 @@ pub struct MovingJoint {
     pub coordinates: Vec<String>,
     /// Names of its velocities.
     pub velocities: Vec<String>,
-    /// Whether it has an actuator.
-    pub actuated: bool,
+    /// Whether each of its velocities has an actuator.
+    pub actuated: Vec<bool>,
 }
 
 impl MovingJoint {
     /// The joint `name` that moves as `joint` does. A joint whose kind cannot be read is `None` and has one coordinate.
-    pub(crate) fn new(name: String, joint: Option<LinkJoint>, actuated: bool) -> Self {
+    pub(crate) fn new(name: String, joint: Option<LinkJoint>, actuated: Vec<bool>) -> Self {
         let joint = joint.unwrap_or(Joint::Revolute.into());
         MovingJoint {
             coordinates: component_names(&name, joint.coordinate_names()),
@@ -70,7 +70,8 @@ impl MovingJoint {
 
     /// The moving joints of a checked model, in its order.
     pub(crate) fn all(model: &Model) -> Vec<MovingJoint> {
-        let joint = |link: &Link| MovingJoint::new(link.joint_name.clone(), LinkJoint::of(link), link.actuated);
+        let joint =
+            |link: &Link| MovingJoint::new(link.joint_name.clone(), LinkJoint::of(link), link.actuated_velocities());
         model.moving_links().map(joint).collect()
     }
 }
@@ -105,20 +106,21 @@ impl PublicInterface {
         self.joints.iter().flat_map(|joint| &joint.velocities).map(String::as_str)
     }
 
-    /// For each velocity, the coordinate of its joint if that has one.
+    /// For each velocity, the coordinate whose rate it is, if there is one: not of a joint with a quaternion, which has more
+    /// coordinates than velocities.
     pub fn coordinates_of_velocities(&self) -> Vec<Option<usize>> {
         let mut first = 0;
         let of_joint = |joint: &MovingJoint| {
-            let own = Some(first).filter(|_| joint.coordinates.len() == 1);
+            let (before, is_linear) = (first, joint.coordinates.len() == joint.velocities.len());
             first += joint.coordinates.len();
-            std::iter::repeat_n(own, joint.velocities.len())
+            (0..joint.velocities.len()).map(move |i| Some(before + i).filter(|_| is_linear))
         };
         self.joints.iter().flat_map(of_joint).collect()
     }
 
-    /// Whether each velocity has an actuator: that of its joint.
+    /// Whether each velocity has an actuator.
     pub fn actuated(&self) -> impl Iterator<Item = bool> {
-        self.joints.iter().flat_map(|joint| std::iter::repeat_n(joint.actuated, joint.velocities.len()))
+        self.joints.iter().flat_map(|joint| joint.actuated.iter().copied())
     }
 
     /// The interface of the type that is generated from a checked model with the given options.
@@ -157,7 +159,7 @@ mod tests {
     #[test]
     fn velocities_of_joints_with_one_coordinate_have_that_coordinate() {
         let joints = [("tail", Joint::Revolute), ("base", Joint::Free), ("head", Joint::Prismatic)];
-        let joints = joints.map(|(name, joint)| MovingJoint::new(name.into(), Some(joint.into()), true)).into();
+        let joints = joints.map(|(name, joint)| MovingJoint::new(name.into(), Some(joint.into()), vec![true])).into();
         let interface = PublicInterface { joints, ..PublicInterface::default() };
         let free = [None; 6];
         assert_eq!(interface.coordinates_of_velocities(), [&[Some(0)][..], &free, &[Some(8)]].concat());

@@ -57,8 +57,8 @@ pub struct Body<P = f64> {
     pub inertia: PseudoInertia<P>,
     /// What acts in the joint itself; `None` if nothing does.
     pub physics: Option<JointPhysics<P>>,
-    /// Whether the joint has an actuator.
-    pub actuated: bool,
+    /// Whether each velocity of the joint has an actuator.
+    pub actuated: Vec<bool>,
 }
 
 impl<P> Body<P> {
@@ -140,11 +140,18 @@ impl<P> Tree<P> {
         self.bodies.iter().map(|body| body.v.len()).sum()
     }
 
-    /// Whether some joints have an actuator and some do not, and there are no loops: then it has
+    /// Whether some velocities have an actuator and some do not, and there are no loops: then it has
     /// [hybrid dynamics](crate::denoc::hybrid_dynamics).
     pub fn has_passive_joints(&self) -> bool {
-        let actuated = self.bodies.iter().filter(|body| body.actuated).count();
-        self.cuts.is_empty() && (1..self.bodies.len()).contains(&actuated)
+        let actuated = self.actuated().into_iter().filter(|actuated| *actuated).count();
+        self.cuts.is_empty() && (1..self.nv()).contains(&actuated)
+    }
+
+    /// Whether each velocity has an actuator.
+    pub fn actuated(&self) -> Vec<bool> {
+        let mut actuated = vec![false; self.nv()];
+        self.bodies.iter().for_each(|body| actuated[body.v.clone()].copy_from_slice(&body.actuated));
+        actuated
     }
 
     /// For each row of the loops, the index of its cut; NC of them.
@@ -168,7 +175,7 @@ impl<P> Tree<P> {
             v: body.v.clone(),
             inertia: body.inertia.map(&f),
             physics: body.physics.map(|physics| physics.map(&f)),
-            actuated: body.actuated,
+            actuated: body.actuated.clone(),
         };
         let link = |link: &Attachment<P>| Attachment { body: link.body, pose: link.pose, com: link.com.map(&f) };
         Tree {

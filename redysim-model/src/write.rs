@@ -1,5 +1,6 @@
 //! Models as the text of model files.
 
+use crate::actuation::Actuation;
 use crate::check::BASE;
 use crate::faults::Faults;
 use crate::joint::{FRICTION_VELOCITY, JointPhysics};
@@ -104,8 +105,10 @@ impl Model {
         file.vector_unless_zero(&keys::COM, link.com);
         file.inertia(link.inertia);
         file.physics(link.physics);
-        if !link.actuated {
-            file.entry(&keys::ACTUATED, "false");
+        match &link.actuated {
+            Actuation::Uniform(true) => {}
+            Actuation::Uniform(false) => file.entry(&keys::ACTUATED, "false"),
+            Actuation::PerVelocity(each) => file.entry(&keys::ACTUATED, format!("{each:?}")),
         }
         if let Some(range) = link.range {
             file.range(range);

@@ -1,8 +1,10 @@
 //! Hybrid dynamics: what it finds, with what it is given, are forces and accelerations of one motion.
 
-use crate::common::random::Random;
+use super::random_trees::models::{Joints, random_model};
+use super::random_trees::state_in_space;
+use crate::common::random::{Random, State};
 use crate::common::styles::Style;
-use redysim::generic::{GenericMechanism, Model};
+use redysim::generic::{Actuation, GenericMechanism, Link, Model};
 use redysim::{HybridDynamics, HybridMotion, InverseDynamics, Mechanism, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::denoc::{Method, Untraced, hybrid_dynamics, integrate, inverse_dynamics, neutral};
@@ -37,7 +39,7 @@ fn partly_actuated(random: &mut Random) -> Model {
     loop {
         let mut model = Style::Ordinary.model(random, 10);
         for link in &mut model.links {
-            link.actuated = random.below(2) == 0;
+            link.actuated = (random.below(2) == 0).into();
             if random.below(3) == 0 {
                 (link.physics.damping, link.physics.armature) = (1.3, 0.2);
             }
@@ -48,21 +50,37 @@ fn partly_actuated(random: &mut Random) -> Model {
     }
 }
 
-fn actuated(tree: &Tree) -> Vec<bool> {
-    let mut actuated = vec![false; tree.nv()];
-    tree.bodies.iter().for_each(|body| actuated[body.v.clone()].fill(body.actuated));
-    actuated
+/// A random tree with joints of every kind, of which some velocities have an actuator and some do not.
+fn partly_actuated_joints(random: &mut Random) -> Model {
+    loop {
+        let mut model = random_model(random, Joints::InSeries, true, true);
+        for link in &mut model.links {
+            link.actuated = Actuation::PerVelocity((0..link.joint.dof()).map(|_| random.below(2) == 0).collect());
+        }
+        let mixed =
+            |link: &Link| (1..link.joint.dof()).contains(&link.actuated_velocities().iter().filter(|x| **x).count());
+        if model.links.iter().any(mixed) {
+            return model;
+        }
+    }
 }
 
 #[test]
 fn both_methods_and_the_traced_expressions_find_a_motion_on_random_trees() {
-    for seed in 0..TREES {
+    for seed in 0..2 * TREES {
         let mut random = Random::new(seed);
-        let tree = Tree::new(&partly_actuated(&mut random));
-        let actuated = actuated(&tree);
+        let model = if seed < TREES { partly_actuated(&mut random) } else { partly_actuated_joints(&mut random) };
+        let tree = Tree::new(&model);
+        let actuated = tree.actuated();
         let functions = trace(&tree).expect("no pass changes a value");
         let traced = functions.iter().find(|traced| traced.function == Function::HybridDynamics).expect("of this tree");
-        let [q, v, u] = [3.0, 2.0, 10.0].map(|bound| random.vector(tree.nv(), bound));
+        let [q, v, u] = match seed < TREES {
+            true => [3.0, 2.0, 10.0].map(|bound| random.vector(tree.nv(), bound)),
+            false => {
+                let State { q, v, a } = state_in_space(&mut random, &model);
+                [q, v, a]
+            }
+        };
         let found = traced.expressions.evaluate(&[&q, &v, &u]);
         let (a, tau) = found.split_at(tree.nv());
         let by_expressions = HybridMotion { a: a.to_vec(), tau: tau.to_vec() };

@@ -21,5 +21,6 @@ mod placement;
 mod positions;
 mod random_trees;
 mod roundings;
+mod series_joints;
 mod space_joints;
 mod springs;

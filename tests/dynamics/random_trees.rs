@@ -6,7 +6,7 @@
 //! and free joints as well, anywhere, at quaternions of any length; and sixty more joints of every kind, with quaternions
 //! and with Euler angles of any sequence.
 
-mod models;
+pub mod models;
 
 use crate::common::dual::moving;
 use crate::common::kane::{Kane, kane};
@@ -113,7 +113,7 @@ fn on_trees(seeds: impl Iterator<Item = u64>, mut check: impl FnMut(&Model, &Tre
 }
 
 /// A state in the same ranges, with quaternions of lengths from 1e-3 to 1e3.
-fn state_in_space(random: &mut Random, model: &Model) -> State {
+pub fn state_in_space(random: &mut Random, model: &Model) -> State {
     let mut q = Vec::new();
     for link in &model.links {
         q.extend(match link.joint {

@@ -17,6 +17,7 @@ use std::f64::consts::PI;
 redysim! { struct Springs("models/test/springs.toml"); }
 redysim! { struct Floating("models/kr5_floating.toml"); }
 redysim! { struct Pendulum("models/spherical_pendulum.toml"); }
+redysim! { struct Series("models/test/joints_in_series.toml"); }
 
 const STATES: usize = 1000;
 
@@ -204,6 +205,14 @@ fn a_spherical_pendulum_compiled_is_the_same_generic() {
     assert_same_functions(&Pendulum, &generic("spherical_pendulum"), CONSTANTS);
     assert_same_kinematics(&Pendulum, &generic("spherical_pendulum"));
     assert_same_positions(&Pendulum, &generic("spherical_pendulum"));
+}
+
+#[test]
+fn joints_in_series_compiled_are_the_same_generic() {
+    assert_same_outside(&Series, &generic("test/joints_in_series"));
+    assert_same_functions(&Series, &generic("test/joints_in_series"), CONSTANTS_WITH_PLATFORM);
+    assert_same_kinematics(&Series, &generic("test/joints_in_series"));
+    assert_same_positions(&Series, &generic("test/joints_in_series"));
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn warn_of_passive(scenario: &Scenario, most: &[f64], record: &Record<'_>) {
     let rounding = ROUNDING * most.iter().copied().fold(0.0, f64::max);
     for (velocity, &most) in layout.velocities.iter().zip(most) {
         let joint = &layout.joints[velocity.joint];
-        if most > rounding && !joint.actuated {
+        if most > rounding && !velocity.actuated {
             let (name, unit) = (&joint.name, velocity.unit_of_force());
             let there = if joint.v.len() == 1 { "there".to_owned() } else { format!("along `{}`", velocity.name) };
             let warning = format!(

@@ -34,8 +34,8 @@ pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances, usual_method};
 pub use law::Law;
 pub use span::Span;
+use subject::given;
 pub use subject::{Dynamics, Subject};
-use subject::{given, indices};
 use table::InputTable;
 pub use torque::{HeldFrame, Torque};
 pub use trajectory::{Prescribed, USUAL_THROUGH};
@@ -131,7 +131,7 @@ impl Scenario {
 
     /// The velocities that have an actuator.
     pub fn actuated_velocities(&self) -> Vec<usize> {
-        self.layout.velocities_of(&indices(&self.layout.joints, |joint| joint.actuated))
+        self.layout.actuated_velocities()
     }
 
     /// The largest component of the loops' residual at `q`, m (or a sine).

@@ -25,9 +25,9 @@ pub struct Summary {
     pub loop_constraints: usize,
     /// How many of them are independent.
     pub loop_rank: usize,
-    /// Names of the joints that have an actuator.
+    /// Names of the joints that have an actuator for each of their velocities.
     pub actuated: Vec<String>,
-    /// Names of the joints that move and have none.
+    /// Names of the joints that move and have none, or not for each of their velocities.
     pub passive: Vec<String>,
     /// The links, in the file's order.
     pub links: Vec<LinkSummary>,
@@ -56,8 +56,11 @@ pub struct LinkSummary {
     /// The name of its [`JointKind`](redysim_model::JointKind): "revolute", "prismatic",
     /// "helical", "spherical", "free" or "fixed".
     pub kind: &'static str,
-    /// Whether the joint has an actuator; null where it does not move.
+    /// Whether the joint has an actuator for each of its velocities; null where it does not move.
     pub actuated: Option<bool>,
+    /// Whether each of its velocities has one.
+    #[serde(skip)]
+    pub actuated_velocities: Vec<bool>,
     /// Mass, kg.
     pub mass: f64,
 }
@@ -131,7 +134,8 @@ impl Summary {
         let named = loaded.warnings.iter().filter(|warning| warning.lint().is_some());
         let titles = named.chain(&loaded.notes).map(|found| found.title().to_string());
         let joints = |actuated: bool| {
-            let chosen = model.moving_links().filter(move |link| link.actuated == actuated);
+            let is_actuated = |link: &Link| link.actuated_velocities().into_iter().all(|actuated| actuated);
+            let chosen = model.moving_links().filter(move |link| is_actuated(link) == actuated);
             chosen.map(|link| link.joint_name.clone()).collect()
         };
         Ok(Summary {
@@ -164,7 +168,8 @@ fn link_summary(model: &Model, link: &Link) -> LinkSummary {
         parent: link_name(model, link.parent),
         joint: link.joint_name.clone(),
         kind: link.joint.name(),
-        actuated: (link.joint.dof() > 0).then_some(link.actuated),
+        actuated: (link.joint.dof() > 0).then(|| link.actuated_velocities().into_iter().all(|actuated| actuated)),
+        actuated_velocities: link.actuated_velocities(),
         mass: link.mass,
     }
 }

@@ -72,7 +72,7 @@ impl Summary {
             ("on", |link| visible_name(&link.parent).into_owned()),
             ("joint", |link| visible_name(&link.joint).into_owned()),
             ("kind", |link| link.kind.to_string()),
-            ("actuator", |link| link.actuated.map_or("", |actuated| if actuated { "yes" } else { "no" }).to_string()),
+            ("actuator", |link| actuator(&link.actuated_velocities)),
             ("mass, kg", |link| rounded(link.mass)),
         ];
         let widths = columns.map(|(title, cell)| {
@@ -85,5 +85,15 @@ impl Summary {
         };
         line(columns.map(|(title, _)| title.to_string()))?;
         self.links.iter().try_for_each(|link| line(columns.map(|(_, cell)| cell(link))))
+    }
+}
+
+/// Whether the velocities of a joint have actuators, or how many of them; nothing of a joint that does not move.
+fn actuator(velocities: &[bool]) -> String {
+    match (velocities.iter().filter(|actuated| **actuated).count(), velocities.len()) {
+        (_, 0) => String::new(),
+        (0, _) => "no".to_owned(),
+        (actuated, all) if actuated == all => "yes".to_owned(),
+        (actuated, all) => format!("{actuated} of {all}"),
     }
 }

@@ -106,7 +106,7 @@ fn stand_in<P: Parameter>(parent: Option<usize>) -> Body<P> {
         v: own(parent.map_or(0, |parent| parent + 1), 1),
         inertia: PseudoInertia::zero(),
         physics: None,
-        actuated: true,
+        actuated: vec![true],
     }
 }
 

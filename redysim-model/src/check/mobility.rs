@@ -5,14 +5,14 @@ use crate::generic::GenericMechanism;
 use crate::lint::Lint;
 use crate::messages;
 use crate::mobility::{Mobility, STARTS, constraints_of_loops, structural_rank};
-use crate::model::Model;
+use crate::model::{Link, Model};
 use redysim_runtime::LoopClosure;
 use redysim_toml::Message;
 
 /// What is odd about the loops and the actuators of a model without errors: each with the index of the loop, or of none
 /// where it is the mechanism as a whole.
 pub(super) fn check(model: &Model) -> Vec<(Lint, Option<usize>, Message)> {
-    let actuated = model.moving_links().filter(|link| link.actuated).map(|link| link.joint.dof()).sum();
+    let actuated = model.moving_links().flat_map(Link::actuated_velocities).filter(|actuated| *actuated).count();
     let mut findings = Vec::new();
     let mobility = if model.loops.is_empty() { model.dof() } else { closed(model, actuated, &mut findings) };
     if actuated < mobility {

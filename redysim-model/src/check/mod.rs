@@ -109,7 +109,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
         com: Vec3(table.com.value_or([0.0; 3])?),
         inertia: table.inertia.value_or(Default::default())?,
         physics: physics?,
-        actuated: table.actuated.value_or(true)?,
+        actuated: table.actuated.value_or(true.into())?,
         range: if table.range.is_missing() { None } else { Some(*table.range.value()?) },
     })
 }

@@ -27,7 +27,7 @@ impl<S: Scalar> Factorisation<S> {
         Factorisation::of_joints(tree, trace, matrix, |_| true)
     }
 
-    /// Factorises the rows and columns of the joints for whose bodies `wanted` holds: the mass matrix of the tree if the
+    /// Factorises the rows and columns of the velocities for which `wanted` holds: the mass matrix of the tree if the
     /// others do not move.
     pub fn of_joints(
         tree: &Tree<impl Copy>,
@@ -39,7 +39,7 @@ impl<S: Scalar> Factorisation<S> {
         let mut last: Vec<Option<usize>> = Vec::with_capacity(tree.bodies.len());
         for (index, body) in tree.bodies.iter().enumerate() {
             let mut before = body.parent.and_then(|parent| last[parent]);
-            for (i, velocity) in body.v.clone().enumerate().filter(|_| wanted(index)) {
+            for (i, velocity) in body.v.clone().enumerate().filter(|(_, velocity)| wanted(*velocity)) {
                 names.push((index, body.joint.component(i)));
                 parents.push(before);
                 before = Some(velocities.len());

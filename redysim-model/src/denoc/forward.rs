@@ -82,9 +82,8 @@ pub fn forward_dynamics_in<S: Scalar>(
     articulated_bodies(work, tree, trace, (q, v, tau), |_| false, (result, &mut []));
 }
 
-/// The recursion over articulated bodies. Of a body for which `drives` holds, `given` has the accelerations of the joint,
-/// and its forces are written to `forces`; of each other, `given` has the forces. All accelerations are written to
-/// `result`.
+/// The recursion over articulated bodies. Of a velocity for which `drives` holds, `given` has the acceleration, and the
+/// joint force is written to `forces`; of each other, `given` has the force. All accelerations are written to `result`.
 pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
     tree: &Tree<P>,
@@ -98,11 +97,12 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     let of_springs = springs.forces(tree, frames, v);
     bias_accelerations(biases, tree, trace, frames, v);
     for (index, body) in tree.bodies.iter().enumerate() {
-        if drives(index) {
-            biases[index].acceleration = body.joint.added(biases[index].acceleration, &given[body.v.clone()]);
-        } else if !of_springs.is_empty() {
-            let forces = of_springs[body.v.clone()].iter_mut().zip(&given[body.v.clone()]);
-            forces.for_each(|(force, &tau)| *force = tau - *force);
+        for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+            if drives(velocity) {
+                biases[index].acceleration = screw.added(biases[index].acceleration, given[velocity]);
+            } else if !of_springs.is_empty() {
+                of_springs[velocity] = given[velocity] - of_springs[velocity];
+            }
         }
     }
     let of_springs: &[S] = of_springs;
@@ -124,39 +124,27 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
         let mut reaction = Wrench::zero();
         let bias = wrenches[index] + centrifugal_wrench(own, biases[index].angular);
         trace.name_wrench(bias, ["bias_n", "bias_f"], index);
-        if drives(index) {
-            if let Some(parent) = body.parent {
-                let wrench = bias + felt.apply(biases[index].acceleration);
-                wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
-                inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
-            }
-            wrenches[index] = bias;
-            return;
-        }
+        wrenches[index] = bias;
         let armature: Option<S> = body.physics.and_then(|physics| physics.armature());
-        let passive: Option<S> =
-            body.physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start]));
-        let without_passive;
-        let tau = match passive {
-            Some(passive) => {
-                without_passive = [tau[body.v.start] - passive];
-                &without_passive
-            }
-            None => &tau[body.v.clone()],
+        let free = || body.v.clone().zip(body.joint.screws()).filter(|(velocity, _)| !drives(*velocity));
+        let force = |velocity: usize| {
+            let passive: Option<S> =
+                body.physics.and_then(|physics| physics.passive_force(q[body.q.start], v[velocity]));
+            passive.map_or(tau[velocity], |passive| tau[velocity] - passive)
         };
         // One freedom after the other: each meets the body with those before it free.
-        for (i, (screw, &tau)) in body.joint.screws().zip(tau).enumerate() {
-            let component = body.joint.component(i);
+        for (velocity, screw) in free() {
+            let component = body.joint.component(velocity - body.v.start);
             let column = felt.column(screw);
             let pivot = screw.project(column);
             let inverse = S::one() / armature.map_or(pivot, |armature| pivot + armature);
             trace.name(inverse, "inv_D", index, component);
             let ratio = column.scale(inverse);
             trace.name_wrench(ratio, ["ratio_n", "ratio_f"], index);
-            let drive = tau - screw.project(bias) - screw.project(reaction);
+            let drive = force(velocity) - screw.project(bias) - screw.project(reaction);
             trace.name(drive, "drive", index, component);
-            pivots[body.v.start + i] = Pivot { inverse, ratio, drive };
-            if body.parent.is_none() && i + 1 == body.v.len() {
+            pivots[velocity] = Pivot { inverse, ratio, drive };
+            if body.parent.is_none() && free().next_back().is_some_and(|(last, _)| last == velocity) {
                 return;
             }
             // The part of the pivot that the rotor has, which the parent meets through the joint as well.
@@ -165,9 +153,11 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
             reaction = reaction + ratio.scale(drive);
         }
         if let Some(parent) = body.parent {
-            let wrench = bias + felt.apply(biases[index].acceleration) + reaction;
+            let mut wrench = bias + felt.apply(biases[index].acceleration) + reaction;
             // What the joint transmits along S is its force, less what accelerates the rotor.
-            let wrench = if armature.is_none() { body.joint.with_forces(wrench, tau) } else { wrench };
+            if armature.is_none() {
+                wrench = free().fold(wrench, |wrench, (velocity, screw)| screw.with_force(wrench, force(velocity)));
+            }
             wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
         }
@@ -183,9 +173,24 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
             angular: frame.to_body(parent.angular),
             linear: frame.to_body(parent.linear + parent.angular.cross(frame.position)),
         } + biases[index].acceleration;
-        if drives(index) {
+        let has_rotor = body.physics.is_some_and(|physics| physics.armature::<S>().is_some());
+        for (velocity, screw) in body.v.clone().zip(body.joint.screws()).rev() {
+            if drives(velocity) {
+                result[velocity] = given[velocity];
+                continue;
+            }
+            let Pivot { inverse, ratio, drive } = &pivots[velocity];
+            let qdd = *inverse * *drive - power(screw, *ratio, acceleration, has_rotor);
+            acceleration = screw.added(acceleration, qdd);
+            trace.name(qdd, "acc", index, body.joint.component(velocity - body.v.start));
+            result[velocity] = qdd;
+        }
+        if body.v.clone().any(|velocity| !drives(velocity)) {
+            trace.name_twist(acceleration, ["dw", "acc"], index);
+        }
+        if body.v.clone().any(&drives) {
             let wrench = inertias[index].apply(acceleration) + wrenches[index];
-            for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+            for (velocity, screw) in body.v.clone().zip(body.joint.screws()).filter(|(velocity, _)| drives(*velocity)) {
                 let mut force = screw.project(wrench);
                 let in_joint =
                     body.physics.and_then(|physics| physics.force(q[body.q.start], v[velocity], given[velocity]));
@@ -193,20 +198,8 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
                     force += part;
                 }
                 forces[velocity] = force;
-                result[velocity] = given[velocity];
             }
-            accelerations.push(acceleration);
-            return;
         }
-        let has_rotor = body.physics.is_some_and(|physics| physics.armature::<S>().is_some());
-        for (i, screw) in body.joint.screws().enumerate().rev() {
-            let Pivot { inverse, ratio, drive } = &pivots[body.v.start + i];
-            let qdd = *inverse * *drive - power(screw, *ratio, acceleration, has_rotor);
-            acceleration = screw.added(acceleration, qdd);
-            trace.name(qdd, "acc", index, body.joint.component(i));
-            result[body.v.start + i] = qdd;
-        }
-        trace.name_twist(acceleration, ["dw", "acc"], index);
         accelerations.push(acceleration);
     });
 }

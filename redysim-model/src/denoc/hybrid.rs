@@ -1,7 +1,7 @@
 //! Hybrid dynamics: accelerations of the joints whose forces are given, and forces of those whose accelerations are given,
 //! in two ways.
 //!
-//! Given are the accelerations of the joints with an actuator, and the forces of the others. Source: Featherstone, *Rigid
+//! Given are the accelerations of the velocities with an actuator, and the forces of the others. Source: Featherstone, *Rigid
 //! Body Dynamics Algorithms*, Springer 2008, sections 9.1 and 9.2.
 
 use super::factorisation::Factorisation;
@@ -40,17 +40,18 @@ pub fn hybrid_dynamics_by_factorisation<S: Scalar, P: ParameterIn<S>>(
     v: &[S],
     u: &[S],
 ) -> HybridMotion<Vec<S>> {
-    let bodies = &for_matrix.bodies;
-    let is_passive = |body: usize| !bodies[body].actuated;
-    let passive: Vec<usize> = bodies.iter().filter(|body| !body.actuated).flat_map(|body| body.v.clone()).collect();
+    let actuated = for_matrix.actuated();
+    let is_passive = |velocity: usize| !actuated[velocity];
+    let velocities = || for_matrix.bodies.iter().flat_map(|body| body.v.clone());
+    let passive: Vec<usize> = velocities().filter(|&velocity| is_passive(velocity)).collect();
     let mut given = u.to_vec();
     passive.iter().for_each(|&i| given[i] = S::zero());
     let mut tau = inverse_dynamics(for_forces, trace, q, v, &given);
     let matrix = mass_matrix(for_matrix, trace, q);
     let drive: Vec<S> = u.iter().zip(&tau).map(|(&u, &tau)| u - tau).collect();
     let found = Factorisation::of_joints(for_matrix, trace, &matrix, is_passive).solve(&drive);
-    for (body, i) in bodies.iter().flat_map(|body| body.v.clone().map(move |i| (body, i))) {
-        if body.actuated {
+    for i in velocities() {
+        if actuated[i] {
             for &k in &passive {
                 tau[i] += matrix[i][k] * found[k];
             }
@@ -70,7 +71,7 @@ pub fn hybrid_dynamics_by_recursion<S: Scalar>(
     u: &[S],
 ) -> HybridMotion<Vec<S>> {
     let [mut a, mut tau] = [(); 2].map(|()| u.to_vec());
-    let (work, is_actuated) = (&mut Workspace::default(), |index: usize| tree.bodies[index].actuated);
-    articulated_bodies(work, tree, trace, (q, v, u), is_actuated, (&mut a, &mut tau));
+    let (work, actuated) = (&mut Workspace::default(), tree.actuated());
+    articulated_bodies(work, tree, trace, (q, v, u), |velocity| actuated[velocity], (&mut a, &mut tau));
     HybridMotion { a, tau }
 }

@@ -233,12 +233,6 @@ impl Joint {
         }
     }
 
-    /// `wrench` with the joint forces set to `tau`, their exact values.
-    #[inline]
-    pub fn with_forces<S: Scalar>(self, wrench: Wrench<S>, tau: &[S]) -> Wrench<S> {
-        tau.iter().enumerate().fold(wrench, |wrench, (i, &tau)| self.screw(i).with_force(wrench, tau))
-    }
-
     /// The column of the motion subspace S for one of its velocities.
     #[inline]
     pub fn screw(self, velocity: usize) -> Screw {

@@ -170,7 +170,8 @@ fn a_wrench_takes_known_joint_forces() {
     let wrench: Wrench<f64> = Wrench { moment: Vec3([0.2, -0.4, 1.1]), force: Vec3([0.7, 0.9, -0.6]) };
     for motion in motions() {
         let mut found = vec![f64::NAN; motion.joint.nv()];
-        motion.joint.project(motion.joint.with_forces(wrench, &motion.v), &mut found);
+        let with_force = |wrench, (screw, &force): (Screw, &f64)| screw.with_force(wrench, force);
+        motion.joint.project(motion.joint.screws().zip(&motion.v).fold(wrench, with_force), &mut found);
         motion.assert_near(&found, &motion.v, 1e-15);
     }
 }

@@ -126,7 +126,8 @@ pub(crate) const STIFFNESS: Key =
 pub(crate) const REST: Key =
     Key::new("rest", "0.5", "where the spring is relaxed; without a unit rad or m").with_default("0");
 pub(crate) const ACTUATED: Key =
-    Key::new("actuated", "false", "whether an actuator moves the joint").with_default("true");
+    Key::new("actuated", "false", "whether an actuator moves the joint; an array for each of several velocities")
+        .with_default("true");
 
 pub(crate) const DH: Key = Key::of_table(
     "dh",

@@ -3,11 +3,12 @@
 use super::item::item;
 use super::keys;
 use super::origin::origin;
+use crate::actuation::Actuation;
 use crate::joint::{EulerSequence, LinkJoint};
 use crate::messages;
 use crate::model::{Inertia, JointKind, JointRange};
 use crate::spatial::Pose;
-use redysim_toml::{Field, Findings, Key, Reader, Spanned, TableAt, name_of};
+use redysim_toml::{DeValue, Field, Findings, Key, Reader, Spanned, TableAt, Value, name_of};
 use std::ops::Range;
 
 /// A `[[link]]` table.
@@ -33,7 +34,7 @@ pub(crate) struct LinkTable {
     pub(crate) com: Field<[f64; 3]>,
     pub(crate) inertia: Field<Inertia>,
     pub(crate) physics: PhysicsKeys,
-    pub(crate) actuated: Field<bool>,
+    pub(crate) actuated: Field<Actuation>,
     pub(crate) range: Field<JointRange>,
     /// The coordinates at which the options hold the joint.
     pub(crate) locked: Option<Vec<f64>>,
@@ -111,7 +112,8 @@ impl LinkTable {
             Some(JointKind::Helical) => reader.required(&keys::PITCH, Reader::number),
             _ => reader.number(&keys::PITCH),
         };
-        let turns = joint.value() != Some(&JointKind::Prismatic);
+        let kind = joint.value().copied();
+        let turns = kind != Some(JointKind::Prismatic);
         LinkTable {
             name,
             joint_name: reader.text(&keys::JOINT_NAME),
@@ -129,7 +131,7 @@ impl LinkTable {
             com: reader.vector(&keys::COM),
             inertia: reader.table(&keys::INERTIA, inertia),
             physics: PhysicsKeys::read(&mut reader, turns),
-            actuated: reader.flag(&keys::ACTUATED),
+            actuated: actuated(&mut reader, kind),
             range: reader.table(&keys::RANGE, |reader| range(reader, turns)),
             locked: None,
             item,
@@ -148,6 +150,12 @@ impl LinkTable {
         LinkJoint::of_kind(*self.joint.value()?, pitch, self.coordinates.value().copied())
     }
 
+    /// Whether each velocity of the joint has an actuator, as far as it can be read.
+    pub(crate) fn actuated_velocities(&self) -> Vec<bool> {
+        let actuated = self.actuated.value().unwrap_or(&Actuation::Uniform(true));
+        actuated.of_velocities(self.motion().map_or(1, LinkJoint::nv))
+    }
+
     /// Where faults of the link as a whole are shown.
     pub(crate) fn place(&self) -> Range<usize> {
         self.name.spanned().map_or(self.header.clone(), Spanned::span)
@@ -157,6 +165,38 @@ impl LinkTable {
     pub(crate) fn joint_name(&self) -> Option<&Spanned<String>> {
         if self.joint_name.is_missing() { self.name.spanned() } else { self.joint_name.spanned() }
     }
+}
+
+/// `true` or `false` for the joint as a whole, or an array with one of them for each of its velocities.
+fn actuated(reader: &mut Reader<'_, '_>, joint: Option<JointKind>) -> Field<Actuation> {
+    reader.field(&keys::ACTUATED, |reader, path, value| {
+        let flag = |value: &Value<'_>| match value.get_ref() {
+            DeValue::Boolean(flag) => Some(*flag),
+            _ => None,
+        };
+        let count = joint.map(JointKind::dof).filter(|count| *count > 1);
+        let array = match value.get_ref() {
+            DeValue::Array(array) if count.is_some() => array,
+            _ => {
+                return match flag(value) {
+                    Some(flag) => Some(flag.into()),
+                    None => reader.wrong_type(path, value, "true or false"),
+                };
+            }
+        };
+        let flags = reader.elements(path, array, |reader, path, value| {
+            flag(value).or_else(|| reader.wrong_type(path, value, "true or false"))
+        });
+        match count {
+            Some(count) if count != array.len() => reader.wrong_length(
+                path,
+                value,
+                &format!("{count} values, one for each velocity of the joint"),
+                array.len(),
+            ),
+            _ => Some(Actuation::PerVelocity(flags?)),
+        }
+    })
 }
 
 /// One of several names, each of which stands for something.

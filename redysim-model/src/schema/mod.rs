@@ -98,23 +98,20 @@ impl Document {
         locked.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect()
     }
 
-    /// The interface of the model, whatever is wrong with it.
-    /// Whether some joints have an actuator and some do not, and there are no loops.
+    /// Whether some velocities have an actuator and some do not, and there are no loops.
     pub(crate) fn has_passive_joints(&self) -> bool {
         let moving = self.links.iter().filter(|link| !link.is_rigid());
-        let actuated = moving.clone().filter(|link| link.actuated.value_or(true).unwrap_or(true)).count();
-        self.loops.is_empty() && (1..moving.count()).contains(&actuated)
+        let velocities: Vec<bool> = moving.flat_map(LinkTable::actuated_velocities).collect();
+        let actuated = velocities.iter().filter(|actuated| **actuated).count();
+        self.loops.is_empty() && (1..velocities.len()).contains(&actuated)
     }
 
+    /// The interface of the model, whatever is wrong with it.
     pub(crate) fn public_interface(&self) -> PublicInterface {
         let name =
             |name: Option<&Spanned<String>>, item: &String| name.map_or(item.clone(), |name| name.get_ref().clone());
         let joint = |link: &LinkTable| {
-            MovingJoint::new(
-                name(link.joint_name(), &link.item),
-                link.motion(),
-                link.actuated.value_or(true).unwrap_or(true),
-            )
+            MovingJoint::new(name(link.joint_name(), &link.item), link.motion(), link.actuated_velocities())
         };
         let numbers = |parameter: &Spanned<RunTimeParameter>| {
             let parameter = *parameter.get_ref();

@@ -41,7 +41,7 @@ pub fn of(robot: &Robot) -> Result<String, Failure> {
     let mechanism = GenericMechanism::new(robot.model.clone());
     let start = layout.coordinates.iter().map(|coordinate| coordinate.neutral).collect();
     let q = closed_position(&mechanism, start).map_err(|why| Failure::input(format!("the loops stay open: {why}")))?;
-    let actuated: Vec<bool> = layout.velocities.iter().map(|velocity| layout.joints[velocity.joint].actuated).collect();
+    let actuated: Vec<bool> = layout.velocities.iter().map(|velocity| velocity.actuated).collect();
     let independent = independent_velocities(&mechanism, &q, &actuated);
     let names: Vec<_> = independent.iter().map(|&velocity| quoted(&layout.velocities[velocity].name)).collect();
     let guess: Vec<_> = q.iter().map(|q| format!("{q:.4}")).collect();

@@ -337,7 +337,7 @@ impl<'s> Source<'s, '_, '_> {
     fn computed_torque(mut self) -> Option<Torque> {
         let trajectory = self.followed()?;
         let [kp, kd] = [keys::KP, keys::KD].map(|key| self.gains(&key, &trajectory.joints));
-        let actuated = self.subject.layout.velocities_of(&self.subject.actuated());
+        let actuated = self.subject.layout.actuated_velocities();
         if let Some(passive) = self.subject.joints().iter().find(|joint| !joint.actuated && !self.subject.loops()) {
             return underactuated(&mut self.reader, passive);
         }
