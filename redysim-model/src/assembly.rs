@@ -2,10 +2,10 @@
 
 use crate::denoc;
 use crate::joint::{Element, JointPhysics, JointPosition, LinkJoint};
-use crate::model::{CutKind, CutSide, Frame, Link, LinkPoint, Model, Spring};
+use crate::model::{CutSide, Frame, Link, LinkPoint, Model, Spring};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
-use crate::rotation::{self, align_z};
+use crate::rotation;
 use crate::run_time::{LinkNumbers, Numbers, RunTimeParameter};
 use crate::spatial::{Mat3, Pose, Vec3};
 use crate::spring::{BodyPoint, BodySpring};
@@ -67,8 +67,9 @@ impl<P: Parameter> Tree<P> {
     /// Adds the cut joints, with the rows that do not vanish at every position.
     fn cut(&mut self, model: &Model) {
         for each in &model.loops {
-            let rows = vec![true; 3 + each.joint.alignments().len()];
-            let (a, b) = (self.cut_end(each.joint, &each.a), self.cut_end(each.joint, &each.b));
+            let rows = vec![true; each.joint.rows().len()];
+            let [of_a, of_b] = each.axes();
+            let (a, b) = (self.cut_end(&each.a, of_a), self.cut_end(&each.b, of_b));
             self.cuts.push(Cut { joint: each.joint, a, b, rows });
         }
         let mut kept = denoc::rows_that_vary(&self.map(|value| value.number().unwrap_or_default())).into_iter();
@@ -99,12 +100,8 @@ impl<P: Parameter> Tree<P> {
         BodyPoint { body, point: end.position }
     }
 
-    fn cut_end(&self, joint: CutKind, side: &CutSide) -> CutEnd {
+    fn cut_end(&self, side: &CutSide, axes: Mat3<f64>) -> CutEnd {
         let (body, pose) = self.on_body(side.link);
-        let axes = match joint {
-            CutKind::Weld => Mat3::identity(),
-            CutKind::Revolute | CutKind::Spherical => align_z(side.axis),
-        };
         let end = (pose * Pose { rotation: axes, position: side.point }).without_roundoff();
         CutEnd { body, point: end.position, axes: end.rotation }
     }

@@ -4,7 +4,8 @@ use crate::actuation::Actuation;
 use crate::inertia::Sym3;
 use crate::joint::physics::JointPhysics;
 use crate::joint::{EulerSequence, LinkJoint};
-use crate::spatial::{Pose, Vec3};
+use crate::rotation::align_z;
+use crate::spatial::{Mat3, Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links, loops, frames and springs stand in the file's order.
 #[derive(Clone, Debug, PartialEq)]
@@ -221,7 +222,7 @@ pub struct CutSide {
     pub link: Option<usize>,
     /// The point that meets the other side's, in the link's frame, m.
     pub point: Vec3<f64>,
-    /// Unit vector of the axis that meets the other side's (revolute cuts), in the link's frame.
+    /// Unit vector of the axis that meets the other side's, in the link's frame; z for a cut without one.
     pub axis: Vec3<f64>,
 }
 
@@ -278,6 +279,14 @@ pub struct LinkPoint {
 pub enum CutKind {
     /// Points coincide and axes align.
     Revolute,
+    /// Frames align, and the points are on one line along the axis of side a.
+    Prismatic,
+    /// Points coincide and axes, the two of the cross, are perpendicular.
+    Universal,
+    /// Axes align on one line.
+    Cylindrical,
+    /// Axes align, and the points are in one plane perpendicular to them.
+    Planar,
     /// Points coincide.
     Spherical,
     /// Points coincide and frames align.
@@ -286,8 +295,12 @@ pub enum CutKind {
 
 impl CutKind {
     /// Every kind with its name in a model file.
-    pub const ALL: [(&'static str, CutKind); 3] = [
+    pub const ALL: [(&'static str, CutKind); 7] = [
         (CutKind::Revolute.name(), CutKind::Revolute),
+        (CutKind::Prismatic.name(), CutKind::Prismatic),
+        (CutKind::Universal.name(), CutKind::Universal),
+        (CutKind::Cylindrical.name(), CutKind::Cylindrical),
+        (CutKind::Planar.name(), CutKind::Planar),
         (CutKind::Spherical.name(), CutKind::Spherical),
         (CutKind::Weld.name(), CutKind::Weld),
     ];
@@ -296,8 +309,35 @@ impl CutKind {
     pub const fn name(self) -> &'static str {
         match self {
             CutKind::Revolute => "revolute",
+            CutKind::Prismatic => "prismatic",
+            CutKind::Universal => "universal",
+            CutKind::Cylindrical => "cylindrical",
+            CutKind::Planar => "planar",
             CutKind::Spherical => "spherical",
             CutKind::Weld => "weld",
+        }
+    }
+}
+
+impl CutKind {
+    /// Whether side a, and whether side b, has an axis.
+    pub(crate) fn has_axes(self) -> [bool; 2] {
+        match self {
+            CutKind::Revolute | CutKind::Universal | CutKind::Cylindrical | CutKind::Planar => [true, true],
+            CutKind::Prismatic => [true, false],
+            CutKind::Spherical | CutKind::Weld => [false, false],
+        }
+    }
+}
+
+impl Loop {
+    /// What is aligned on sides a and b, as columns in the frames of their links: z is the axis, if the cut has one.
+    pub fn axes(&self) -> [Mat3<f64>; 2] {
+        match self.joint {
+            CutKind::Weld => [Mat3::identity(); 2],
+            // The frames of the links align, so that the axis of one is that of the other.
+            CutKind::Prismatic => [align_z(self.a.axis); 2],
+            _ => [&self.a, &self.b].map(|side| align_z(side.axis)),
         }
     }
 }

@@ -110,8 +110,7 @@ pub struct Cut {
     pub a: CutEnd,
     /// Side b.
     pub b: CutEnd,
-    /// Which of its rows are kept: three for the point, then those of [`CutKind::alignments`]. The others vanish at
-    /// every position.
+    /// Which of its [rows](CutKind::rows) are kept. The others vanish at every position.
     pub rows: Vec<bool>,
 }
 
@@ -122,8 +121,7 @@ pub struct CutEnd {
     pub body: Option<usize>,
     /// The point, in the body's frame, m.
     pub point: Vec3<f64>,
-    /// What is to be aligned with the other side, as columns in the body's frame: the cut's axis is z for a revolute
-    /// cut; the axes are the link's for a weld.
+    /// What is to be aligned with the other side, as columns in the body's frame ([`Loop::axes`](crate::model::Loop::axes)).
     pub axes: Mat3<f64>,
 }
 

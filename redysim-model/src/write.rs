@@ -5,7 +5,7 @@ use crate::check::BASE;
 use crate::faults::Faults;
 use crate::joint::{FRICTION_VELOCITY, JointPhysics};
 use crate::load::Loaded;
-use crate::model::{CutKind, CutSide, Frame, Inertia, JointKind, JointRange, Link, Loop, Model, Spring};
+use crate::model::{CutSide, Frame, Inertia, JointKind, JointRange, Link, Loop, Model, Spring};
 use crate::options::{AccelerationMethod, CodegenOptions};
 use crate::schema::keys;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -121,10 +121,12 @@ impl Model {
         file.entry(&keys::CUT_JOINT, string(joint.name()));
         let sides =
             [(a, [&keys::LINK_A, &keys::POINT_A, &keys::AXIS_A]), (b, [&keys::LINK_B, &keys::POINT_B, &keys::AXIS_B])];
-        for (CutSide { link, point, axis }, [link_key, point_key, axis_key]) in sides {
+        for ((CutSide { link, point, axis }, [link_key, point_key, axis_key]), has_axis) in
+            sides.into_iter().zip(joint.has_axes())
+        {
             file.entry(link_key, self.carrier(*link));
             file.vector_unless_zero(point_key, *point);
-            if *joint == CutKind::Revolute {
+            if has_axis {
                 file.entry(axis_key, vector(*axis));
             }
         }

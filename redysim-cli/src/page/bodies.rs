@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use redysim_model::joint::{Element, LinkJoint, Screw};
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{CutKind, CutSide, JointKind, Link, Model};
+use redysim_model::{CutSide, JointKind, Link, Model};
 use serde::Serialize;
 
 use super::quaternion;
@@ -103,8 +103,8 @@ struct Side {
     place: Place,
     /// Unit vector.
     axis: [f64; 3],
-    /// Of a weld, which aligns them, the axes of the link: quaternion x, y, z, w.
-    rotation: Option<[f64; 4]>,
+    /// The axes that are aligned with the other side's: quaternion x, y, z, w.
+    rotation: [f64; 4],
 }
 
 /// A frame on a body: that of a link, or one of interest.
@@ -194,11 +194,11 @@ pub fn reach(bodies: &[Body]) -> f64 {
 /// The cut joints.
 pub fn cuts(model: &Model) -> Vec<Cut<'_>> {
     let cuts = model.loops.iter().map(|cut| {
-        let [a, b] = [&cut.a, &cut.b].map(|side| {
+        let [of_a, of_b] = cut.axes();
+        let [a, b] = [(&cut.a, of_a), (&cut.b, of_b)].map(|(side, axes)| {
             let rotation = frame(model, side.link).rotation;
             let place = Place { body: number(side.link), point: point(model, side) };
-            let welded = (cut.joint == CutKind::Weld).then(|| quaternion(rotation));
-            Side { place, axis: (rotation * side.axis).0, rotation: welded }
+            Side { place, axis: (rotation * side.axis).0, rotation: quaternion(rotation * axes) }
         });
         Cut { name: &cut.name, kind: cut.joint.name(), a, b }
     });

@@ -216,13 +216,13 @@ fn kinematics_headers(scenario: &Scenario) -> Vec<String> {
     scenario.mechanism.model().links.iter().flat_map(|link| of_link(&link.name)).collect()
 }
 
-/// `lambda <loop> <k> [unit]` for each row: the first three rows of a cut, as far as they are kept, are forces.
+/// `lambda <loop> <k> [unit]` for each row of a cut that is kept.
 fn lambda_headers(mechanism: &GenericMechanism) -> Vec<String> {
     let loops = mechanism.model().loops.iter().zip(&mechanism.tree().cuts);
     let headers = loops.flat_map(|(each, cut)| {
         let kept = cut.rows.iter().enumerate().filter(|(_, kept)| **kept);
         kept.zip(1..).map(|((row, _), k)| {
-            let unit = if row < 3 { "N" } else { "N m" };
+            let unit = cut.joint.rows()[row].measure().unit_of_force();
             format!("lambda {} {k} [{unit}]", each.name)
         })
     });

@@ -15,7 +15,7 @@ export class Loops {
   constructor(cuts, linkage, size) {
     this.linkage = linkage;
     this.tolerance = CLOSED * size;
-    this.cuts = cuts.map(({ kind, a, b }) => ({ kind, a: this.#side(kind, a), b: this.#side(kind, b) }));
+    this.cuts = cuts.map(({ kind, a, b }) => ({ kind, a: this.#side(a), b: this.#side(b) }));
   }
 
   /** The largest component of the residual, m or a sine. */
@@ -50,21 +50,21 @@ export class Loops {
   }
 
   /** A side of a cut: its point, and the directions that the other side's meet. */
-  #side(kind, { body, point, axis, rotation }) {
+  #side({ body, point, rotation }) {
     const carriers = new Set(this.linkage.carriers(body));
     const axes = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
-    const turn = rotation
-      ? new Quaternion(...rotation)
-      : new Quaternion().setFromUnitVectors(axes[2], new Vector3(...axis));
+    const turn = new Quaternion(...rotation);
     return { body, carriers, point: new Vector3(...point), axes: axes.map((each) => each.applyQuaternion(turn)) };
   }
 
-  /** Of each cut, point b less point a; then the products of axes that vanish when they are aligned. */
+  /** Of each cut, the way from point a to point b, or along which axes of a it vanishes; then the products of axes that
+   * vanish when they are aligned. */
   #residual(q) {
     this.linkage.place(q);
     return this.cuts.flatMap(({ kind, a, b }) => {
-      const apart = this.#point(b).sub(this.#point(a)).toArray();
       const [of, to] = [this.#axes(a), this.#axes(b)];
+      const way = this.#point(b).sub(this.#point(a));
+      const apart = ALONG[kind] ? ALONG[kind].map((i) => way.dot(of[i])) : way.toArray();
       const aligned = ALIGNED[kind].map((terms) => weighted(terms, (i, j) => of[i].dot(to[j])));
       return [...apart, ...aligned];
     });
@@ -75,7 +75,8 @@ export class Loops {
     const rows = [];
     for (const { kind, a, b } of this.cuts) {
       const first = rows.length;
-      for (let row = 0; row < 3 + ALIGNED[kind].length; row++) rows.push(new Float64Array(q.length));
+      const points = ALONG[kind]?.length ?? 3;
+      for (let row = 0; row < points + ALIGNED[kind].length; row++) rows.push(new Float64Array(q.length));
       const [from, to] = [this.#point(a), this.#point(b)];
       const [of, at] = [this.#axes(a), this.#axes(b)];
       this.linkage.joints.forEach((_, link) => {
@@ -87,13 +88,16 @@ export class Loops {
           const change = new Vector3();
           if (onB) change.add(velocity(to));
           if (onA) change.sub(velocity(from));
-          change.toArray().forEach((value, axis) => (rows[first + axis][coordinate] = value));
+          // Along an axis of side a, what carries a turns the axis as well.
+          const turned = onA ? new Vector3().crossVectors(spin, to.clone().sub(from)) : new Vector3();
+          const moved = ALONG[kind] ? ALONG[kind].map((i) => change.clone().sub(turned).dot(of[i])) : change.toArray();
+          moved.forEach((value, row) => (rows[first + row][coordinate] = value));
           if (onA && onB) continue;
           const rate = (i, j) =>
             onA
               ? new Vector3().crossVectors(spin, of[i]).dot(at[j])
               : of[i].dot(new Vector3().crossVectors(spin, at[j]));
-          ALIGNED[kind].forEach((terms, row) => (rows[first + 3 + row][coordinate] = weighted(terms, rate)));
+          ALIGNED[kind].forEach((terms, row) => (rows[first + points + row][coordinate] = weighted(terms, rate)));
         }
       });
     }
@@ -111,11 +115,20 @@ export class Loops {
   }
 }
 
-/** Sums of factor times axis i of side a by axis j of side b, as `CutKind::alignments` has them. */
+/** Along which axes of side a the points are not apart, of cuts in which they may be apart along the others. */
+const ALONG = { prismatic: [0, 1], cylindrical: [0, 1], planar: [2] };
+
+const AXES = [[[1, 0, 2]], [[1, 1, 2]]];
+const FRAMES = [[[0.5, 2, 1], [-0.5, 1, 2]], [[0.5, 0, 2], [-0.5, 2, 0]], [[0.5, 1, 0], [-0.5, 0, 1]]];
+/** Sums of factor times axis i of side a by axis j of side b, as `CutKind::rows` has them. */
 const ALIGNED = {
   spherical: [],
-  revolute: [[[1, 0, 2]], [[1, 1, 2]]],
-  weld: [[[0.5, 2, 1], [-0.5, 1, 2]], [[0.5, 0, 2], [-0.5, 2, 0]], [[0.5, 1, 0], [-0.5, 0, 1]]],
+  universal: [[[1, 2, 2]]],
+  revolute: AXES,
+  cylindrical: AXES,
+  planar: AXES,
+  prismatic: FRAMES,
+  weld: FRAMES,
 };
 
 function weighted(terms, term) {

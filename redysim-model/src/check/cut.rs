@@ -3,7 +3,7 @@
 use super::placement::unit_axis;
 use super::tree;
 use crate::messages;
-use crate::model::{CutKind, CutSide, Loop};
+use crate::model::{CutSide, Loop};
 use crate::schema::{CutSideTable, Document, LoopTable};
 use crate::spatial::Vec3;
 use redysim_toml::Findings;
@@ -25,8 +25,9 @@ fn one_loop(
     parents: Option<&[Option<usize>]>,
     findings: &mut Findings,
 ) -> Option<Loop> {
-    let a = side(document, table, &table.a, findings);
-    let b = side(document, table, &table.b, findings);
+    let [on_a, on_b] = table.joint.value().map_or([true, true], |kind| kind.has_axes());
+    let a = side(document, table, &table.a, on_a, findings);
+    let b = side(document, table, &table.b, on_b, findings);
     let (a, b) = (a?, b?);
     let ends = [(&table.a.at, a.link), (&table.b.at, b.link)];
     let is_rigid = |link: usize| document.links[link].is_rigid();
@@ -37,18 +38,18 @@ fn one_loop(
     Some(Loop { name: table.name.value()?.clone(), joint: *table.joint.value()?, a, b })
 }
 
-fn side(document: &Document, table: &LoopTable, side: &CutSideTable, findings: &mut Findings) -> Option<CutSide> {
+/// A side of the cut, which `has_axis` or has none.
+fn side(
+    document: &Document,
+    table: &LoopTable,
+    side: &CutSideTable,
+    has_axis: bool,
+    findings: &mut Findings,
+) -> Option<CutSide> {
     let link = tree::carrier(document, &table.item, side.at.link_key, &side.at.link, findings);
-    let axis_allowed = axis_allowed(table, side, findings);
-    let axis = unit_axis(&table.item, side.axis_key, &side.axis, axis_allowed, findings);
-    Some(CutSide { link: link?, point: Vec3(side.at.point.value_or([0.0; 3])?), axis: axis? })
-}
-
-/// Only a revolute cut has an axis.
-fn axis_allowed(table: &LoopTable, side: &CutSideTable, findings: &mut Findings) -> bool {
-    let other = table.joint.value().filter(|kind| **kind != CutKind::Revolute);
-    if let (Some(kind), Some(axis)) = (other, side.axis.spanned()) {
-        findings.error(axis.span(), messages::axis_on_cut(&table.item, side.axis_key, kind.name()));
+    if let (false, Some(kind), Some(axis)) = (has_axis, table.joint.value(), side.axis.spanned()) {
+        findings.error(axis.span(), messages::axis_on_cut(&table.item, side.axis_key, *kind));
     }
-    other.is_none()
+    let axis = unit_axis(&table.item, side.axis_key, &side.axis, has_axis, findings);
+    Some(CutSide { link: link?, point: Vec3(side.at.point.value_or([0.0; 3])?), axis: axis? })
 }

@@ -1,12 +1,11 @@
 //! Closed loops: how far the two sides of each cut joint are apart, and how that changes.
 //!
-//! The rows of a cut are the point of side b minus the point of side a, in the base frame; then what keeps directions
-//! aligned: sums of products aᵢ·bⱼ of axes of the two sides ([`CutKind::alignments`]). Rows that vanish at every
-//! position are left out ([`Cut::rows`](crate::tree::Cut::rows)), so that a planar mechanism costs planar code.
+//! A cut is a list of [rows](CutKind::rows). Those that vanish at every position are left out
+//! ([`Cut::rows`](crate::tree::Cut::rows)), so that a planar mechanism costs planar code.
 
 use super::base_frame::{Bodies, Order, Placed};
 use super::trace::{Trace, Untraced};
-use crate::joint::Screw;
+use crate::joint::{Measure, Screw};
 use crate::model::CutKind;
 use crate::parameter::ParameterIn;
 use crate::spatial::{Mat3, Vec3};
@@ -16,17 +15,55 @@ use redysim_runtime::Scalar;
 /// One term of a row that aligns directions: factor, axis of side a, axis of side b.
 pub type Alignment = (f64, usize, usize);
 
-impl CutKind {
-    /// The rows beside the point's three, each a sum of products of axes of the two sides that vanishes when they are
-    /// aligned: for a revolute cut, the axis of b (its z) against x and y of a; for a weld, the sine of the angle
-    /// between the frames about each axis.
-    pub fn alignments(self) -> &'static [&'static [Alignment]] {
+/// What vanishes where a cut is closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CutRow {
+    /// A component, in the base frame, of the way from the point of side a to that of side b.
+    Point(usize),
+    /// The component of that way along an axis of side a.
+    Along(usize),
+    /// A sum of products aᵢ·bⱼ of axes of the two sides.
+    Aligned(&'static [Alignment]),
+}
+
+impl CutRow {
+    /// What the row measures: its multiplier is a force, N, where that is a length, or else a moment, N m.
+    pub fn measure(self) -> Measure {
         match self {
-            CutKind::Spherical => &[],
-            CutKind::Revolute => &[&[(1.0, 0, 2)], &[(1.0, 1, 2)]],
-            CutKind::Weld => {
-                &[&[(0.5, 2, 1), (-0.5, 1, 2)], &[(0.5, 0, 2), (-0.5, 2, 0)], &[(0.5, 1, 0), (-0.5, 0, 1)]]
-            }
+            CutRow::Point(_) | CutRow::Along(_) => Measure::Length,
+            CutRow::Aligned(_) => Measure::Angle,
+        }
+    }
+}
+
+const X: CutRow = CutRow::Point(0);
+const Y: CutRow = CutRow::Point(1);
+const Z: CutRow = CutRow::Point(2);
+/// The axis of b, its z, against x and y of a.
+const ALONG_Z: [CutRow; 2] = [CutRow::Aligned(&[(1.0, 0, 2)]), CutRow::Aligned(&[(1.0, 1, 2)])];
+/// The sine of the angle between the frames about each axis.
+const FRAMES: [CutRow; 3] = [
+    CutRow::Aligned(&[(0.5, 2, 1), (-0.5, 1, 2)]),
+    CutRow::Aligned(&[(0.5, 0, 2), (-0.5, 2, 0)]),
+    CutRow::Aligned(&[(0.5, 1, 0), (-0.5, 0, 1)]),
+];
+
+impl CutKind {
+    /// What vanishes where a cut of this kind is closed: points first, then directions.
+    pub fn rows(self) -> &'static [CutRow] {
+        const REVOLUTE: &[CutRow] = &[X, Y, Z, ALONG_Z[0], ALONG_Z[1]];
+        const WELD: &[CutRow] = &[X, Y, Z, FRAMES[0], FRAMES[1], FRAMES[2]];
+        const PRISMATIC: &[CutRow] = &[CutRow::Along(0), CutRow::Along(1), FRAMES[0], FRAMES[1], FRAMES[2]];
+        const CYLINDRICAL: &[CutRow] = &[CutRow::Along(0), CutRow::Along(1), ALONG_Z[0], ALONG_Z[1]];
+        const PLANAR: &[CutRow] = &[CutRow::Along(2), ALONG_Z[0], ALONG_Z[1]];
+        match self {
+            CutKind::Revolute => REVOLUTE,
+            CutKind::Prismatic => PRISMATIC,
+            CutKind::Universal => &[X, Y, Z, CutRow::Aligned(&[(1.0, 2, 2)])],
+            CutKind::Cylindrical => CYLINDRICAL,
+            CutKind::Planar => PLANAR,
+            CutKind::Spherical => &[X, Y, Z],
+            CutKind::Weld => WELD,
         }
     }
 }
@@ -65,18 +102,16 @@ impl<S: Scalar> Side<S> {
     }
 }
 
-/// The rows of all loops: of each cut, what `point` and `alignment` make of its sides a and b.
+/// The kept rows of all loops, each as `of_row` makes it of its cut's sides a and b.
 fn rows<S: Scalar, R>(
     tree: &Tree<impl ParameterIn<S>>,
     bodies: &Bodies<S>,
-    point: impl Fn(&Side<S>, &Side<S>) -> [R; 3],
-    alignment: impl Fn(&Side<S>, &Side<S>, &[Alignment]) -> R,
+    of_row: impl Fn(&Side<S>, &Side<S>, CutRow) -> R,
 ) -> Vec<R> {
     let of_cut = |cut: &Cut| {
         let (a, b) = (Side::new(tree, bodies, &cut.a), Side::new(tree, bodies, &cut.b));
-        let alignments = cut.joint.alignments().iter().map(|terms| alignment(&a, &b, terms));
-        let rows: Vec<R> = point(&a, &b).into_iter().chain(alignments).collect();
-        rows.into_iter().zip(&cut.rows).filter(|(_, kept)| **kept).map(|(row, _)| row).collect::<Vec<R>>()
+        let kept = cut.joint.rows().iter().zip(&cut.rows).filter(|(_, kept)| **kept);
+        kept.map(|(row, _)| of_row(&a, &b, *row)).collect::<Vec<R>>()
     };
     tree.cuts.iter().flat_map(of_cut).collect()
 }
@@ -89,29 +124,17 @@ fn weighted<S: Scalar>(terms: &[Alignment], term: impl Fn(usize, usize) -> S) ->
 /// How far each loop is from closed: m for points, sines for directions.
 pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
-    rows(
-        tree,
-        &bodies,
-        |a, b| (b.point() - a.point()).0,
-        |a, b, terms| weighted(terms, |i, j| a.axis(i).dot(b.axis(j))),
-    )
+    rows(tree, &bodies, |a, b, row| match row {
+        CutRow::Point(axis) => (b.point() - a.point())[axis],
+        CutRow::Along(i) => (b.point() - a.point()).dot(a.axis(i)),
+        CutRow::Aligned(terms) => weighted(terms, |i, j| a.axis(i).dot(b.axis(j))),
+    })
 }
 
 /// The Jacobian J of the residual, by rows of length NV: the residual changes by J v.
 pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     // A joint that carries both sides turns their difference; one that carries one side moves that side alone.
-    let over_joints = |a: &Side<S>, b: &Side<S>, effect: &dyn Fn(usize, Screw, bool, bool) -> S| {
-        let mut row = vec![S::zero(); tree.nv()];
-        for (index, body) in tree.bodies.iter().enumerate() {
-            if a.carried[index] || b.carried[index] {
-                for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
-                    row[velocity] = effect(index, screw, a.carried[index], b.carried[index]);
-                }
-            }
-        }
-        row
-    };
     let point_effect = |index: usize, screw: Screw, a: &Side<S>, b: &Side<S>, on_a: bool, on_b: bool| {
         let (axis, sign) = (bodies.axis(index, screw.axis), if on_b { S::one() } else { -S::one() });
         let turn = screw.turn(S::one()).map(|turn| {
@@ -138,38 +161,54 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
         };
         screw.turn(bodies.axis(index, screw.axis).dot(across)).unwrap_or(S::zero())
     };
-    rows(
-        tree,
-        &bodies,
-        |a, b| {
-            [0, 1, 2].map(|axis| {
-                over_joints(a, b, &|index, screw, on_a, on_b| point_effect(index, screw, a, b, on_a, on_b)[axis])
-            })
-        },
-        |a, b, terms| {
-            over_joints(a, b, &|index, screw, on_a, on_b| {
+    let effect = |index: usize, screw: Screw, a: &Side<S>, b: &Side<S>, row: CutRow| {
+        let (on_a, on_b) = (a.carried[index], b.carried[index]);
+        match row {
+            CutRow::Point(axis) => point_effect(index, screw, a, b, on_a, on_b)[axis],
+            // The way and the axis turn as one.
+            CutRow::Along(_) if on_a && on_b => S::zero(),
+            CutRow::Along(i) => {
+                let (way, axis) = (b.point() - a.point(), a.axis(i));
+                let moved = point_effect(index, screw, a, b, on_a, on_b).dot(axis);
+                if on_a { moved + alignment_effect(index, screw, axis, way, true, false) } else { moved }
+            }
+            CutRow::Aligned(terms) => {
                 weighted(terms, |i, j| alignment_effect(index, screw, a.axis(i), b.axis(j), on_a, on_b))
-            })
-        },
-    )
+            }
+        }
+    };
+    rows(tree, &bodies, |a, b, cut_row| {
+        let mut row = vec![S::zero(); tree.nv()];
+        for (index, body) in tree.bodies.iter().enumerate() {
+            if a.carried[index] || b.carried[index] {
+                for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+                    row[velocity] = effect(index, screw, a, b, cut_row);
+                }
+            }
+        }
+        row
+    })
 }
 
 /// J̇ v: how the rates J v of the residual change at zero joint accelerations.
 pub fn loop_bias<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
     let bodies = Bodies::new(tree, trace, q, v, Order::Accelerations);
+    let velocity = |side: &Side<S>| side.body.velocity + side.body.derivative(side.arm);
     let acceleration = |side: &Side<S>| side.body.acceleration + side.body.second_derivative(side.arm);
-    rows(
-        tree,
-        &bodies,
-        |a, b| (acceleration(b) - acceleration(a)).0,
-        |a, b, terms| {
-            weighted(terms, |i, j| {
-                let (of_a, of_b) = (a.axis(i), b.axis(j));
-                let both = a.body.derivative(of_a).dot(b.body.derivative(of_b));
-                a.body.second_derivative(of_a).dot(of_b) + of_a.dot(b.body.second_derivative(of_b)) + both + both
-            })
-        },
-    )
+    rows(tree, &bodies, |a, b, row| match row {
+        CutRow::Point(axis) => (acceleration(b) - acceleration(a))[axis],
+        CutRow::Along(i) => {
+            let axis = a.axis(i);
+            let both = (velocity(b) - velocity(a)).dot(a.body.derivative(axis));
+            let of_axis = (b.point() - a.point()).dot(a.body.second_derivative(axis));
+            (acceleration(b) - acceleration(a)).dot(axis) + of_axis + both + both
+        }
+        CutRow::Aligned(terms) => weighted(terms, |i, j| {
+            let (of_a, of_b) = (a.axis(i), b.axis(j));
+            let both = a.body.derivative(of_a).dot(b.body.derivative(of_b));
+            a.body.second_derivative(of_a).dot(of_b) + of_a.dot(b.body.second_derivative(of_b)) + both + both
+        }),
+    })
 }
 
 /// Which rows of the loops do more than vanish at every position, by a look at a few positions.

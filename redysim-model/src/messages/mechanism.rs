@@ -2,7 +2,7 @@
 
 use super::{message, with_locks};
 use crate::joint::Joint;
-use crate::model::JointKind;
+use crate::model::{CutKind, JointKind};
 use crate::schema::{RotationDefect, keys};
 use redysim_runtime::Function;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
@@ -214,12 +214,14 @@ pub(crate) fn pitch_on_another_joint(item: &str, kind: &str) -> Message {
     )
 }
 
-pub(crate) fn axis_on_cut(item: &str, key: &str, kind: &str) -> Message {
-    message(
-        format!("{item}: a {kind} cut has no `{key}`"),
-        "no axis",
-        format!("delete `{key}`, or make the loop's joint revolute"),
-    )
+pub(crate) fn axis_on_cut(item: &str, key: &str, kind: CutKind) -> Message {
+    let help = match kind {
+        CutKind::Prismatic => {
+            format!("delete `{key}`: the frames of both links align, and slide along `{}`", keys::AXIS_A.name)
+        }
+        _ => format!("delete `{key}`, or make the loop's joint revolute"),
+    };
+    message(format!("{item}: a {} cut has no `{key}`", kind.name()), "no axis", help)
 }
 
 pub(crate) fn zero_axis(item: &str, key: &str, length: f64) -> Message {

@@ -209,17 +209,20 @@ pub(crate) const FORCE: Key =
 
 pub(crate) const LOOP: Keys = Keys::new("A loop", &[NAME, CUT_JOINT, LINK_A, POINT_A, AXIS_A, LINK_B, POINT_B, AXIS_B]);
 pub(crate) const CUT_JOINT: Key =
-    Key::new("joint", "\"revolute\"", "revolute, spherical or weld").with_default("required");
+    Key::new("joint", "\"revolute\"", "revolute, prismatic, universal, cylindrical, planar, spherical or weld")
+        .with_default("required");
 pub(crate) const LINK_A: Key = Key::new("link_a", "\"crank\"", "a link, or `base`").with_default("required");
 pub(crate) const POINT_A: Key =
     Key::new("point_a", "[0.1, 0.0, 0.0]", "m, in the frame of link a").with_default("[0, 0, 0]");
 pub(crate) const AXIS_A: Key =
-    Key::new("axis_a", "[0.0, 0.0, 1.0]", "of a revolute cut, in the frame of link a").with_default("z");
+    Key::new("axis_a", "[0.0, 0.0, 1.0]", "of all cuts but spherical ones and welds, in the frame of link a")
+        .with_default("z");
 pub(crate) const LINK_B: Key = Key::new("link_b", "\"base\"", "a link, or `base`").with_default("required");
 pub(crate) const POINT_B: Key =
     Key::new("point_b", "[0.1, 0.0, 0.0]", "m, in the frame of link b").with_default("[0, 0, 0]");
 pub(crate) const AXIS_B: Key =
-    Key::new("axis_b", "[0.0, 0.0, 1.0]", "of a revolute cut, in the frame of link b").with_default("z");
+    Key::new("axis_b", "[0.0, 0.0, 1.0]", "as `axis_a`, in the frame of link b; prismatic cuts have none")
+        .with_default("z");
 
 pub(crate) const FRAME: Keys = Keys::new("A frame", &[NAME, FRAME_LINK, FRAME_ORIGIN]);
 pub(crate) const FRAME_LINK: Key =

@@ -28,7 +28,10 @@ fn kr5_is_the_robot_of_the_paper() {
     assert_eq!((model.links.len(), model.dof(), model.loops.len()), (6, 6, 0));
     for (i, link) in model.links.iter().enumerate() {
         assert_eq!((&link.name, &link.joint_name), (&format!("link{}", i + 1), &format!("joint{}", i + 1)));
-        assert_eq!((link.parent, link.joint, link.actuated), (i.checked_sub(1), JointKind::Revolute, true));
+        assert_eq!(
+            (link.parent, link.joint, link.actuated_velocities()),
+            (i.checked_sub(1), JointKind::Revolute, vec![true])
+        );
         assert_eq!((link.axis, link.offset), (Vec3([0.0, 0.0, 1.0]), 0.0));
     }
     let wrist = &model.links[3];
@@ -158,7 +161,7 @@ fn loops_know_their_links() {
     assert_eq!((rail.joint, rail.a.link, rail.b.link), (CutKind::Revolute, None, Some(0)));
     assert_eq!((rail.a.point, rail.b.point), (Vec3([0.0; 3]), Vec3([1.0, 0.0, 0.0])));
     assert_eq!((rail.a.axis, rail.b.axis), (Vec3([0.0, 0.0, 1.0]), Vec3([0.0, 0.0, 1.0])));
-    assert!(!model.links[0].actuated);
+    assert_eq!(model.links[0].actuated_velocities(), [false]);
 }
 
 #[test]

@@ -137,7 +137,7 @@ fn a_model_built_in_rust_is_the_model_of_its_file() {
         offset: 0.25,
         frame: Pose { position: Vec3([0.5, 0.0, 0.0]), ..Pose::identity() },
         mass: 5.0,
-        actuated: false,
+        actuated: false.into(),
         ..Link::new("jib", Some(0), JointKind::Prismatic)
     };
     let hook = Pose { position: Vec3([0.1, 0.0, 0.0]), ..Pose::identity() };
