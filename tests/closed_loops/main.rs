@@ -9,6 +9,7 @@ mod linkages;
 mod assembly;
 mod benchmarks;
 mod control;
+mod cut_kinds;
 mod frames;
 mod functions;
 mod inverse;

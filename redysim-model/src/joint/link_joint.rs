@@ -151,7 +151,8 @@ impl LinkJoint {
             LinkJoint::Single(joint) if !joint.is_on_axis() => vec![Element { joint, axes: Mat3::identity() }],
             LinkJoint::Single(joint) => vec![Element { joint, axes: align_z(axis) }],
             LinkJoint::Series(series) => {
-                let in_frame = |Element { joint, axes }| Element { joint, axes: align_z(axis) * axes };
+                let frame = if series == Series::Cylindrical { align_z(axis) } else { Mat3::identity() };
+                let in_frame = |Element { joint, axes }| Element { joint, axes: frame * axes };
                 series.elements().into_iter().map(in_frame).collect()
             }
         }
