@@ -47,7 +47,7 @@ pub fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> Mat3<f64> {
 }
 
 /// A rotation that takes z to the unit vector `axis`: a signed permutation where the axis is one of the frame's.
-pub(crate) fn align_z(axis: Vec3<f64>) -> Mat3<f64> {
+pub fn align_z(axis: Vec3<f64>) -> Mat3<f64> {
     let least = (0..3).fold(0, |least, i| if axis[i].abs() < axis[least].abs() { i } else { least });
     let mut y = axis.cross(Mat3::identity().column(least));
     y = y.scale(1.0 / y.dot(y).sqrt());

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 use roxmltree::Node;
 
+use redysim_model::JointKind;
+
 use super::document::{Document, child};
 use super::model_file::{Unfit, range};
 use super::robot::{Link, Robot};
@@ -70,7 +72,7 @@ fn of_joint(joint: Node, link: &Link) -> Vec<String> {
     if is_fixed(joint) {
         return Vec::new();
     }
-    let moves = link.kind.has_axis();
+    let moves = link.kind.has_axis() || link.kind == JointKind::Planar;
     let mut comments = Vec::new();
     let mut keep = |tag: &str, is_written: &dyn Fn(&str) -> bool, why: &str| {
         let Some(node) = child(joint, tag) else { return };

@@ -26,6 +26,9 @@ impl Robot {
                  at zero here"
             );
             (link.kind, link.limit, link.resistance) = (JointKind::Fixed, None, [0.0; 2]);
+            if let Some(far_end) = link.far_end.take() {
+                link.origin = Origin::of(link.origin.pose() * far_end.pose());
+            }
             link.remarks.push(remark);
         }
         self

@@ -24,7 +24,7 @@ pub fn write(robot: &Robot, head: &[String]) -> ModelFile {
     }
     text += &format!("name = {}\n", quoted(&robot.name));
     text += "gravity = [0.0, 0.0, -9.81]    # m/s², in the base frame: not from the URDF, which has none\n";
-    if robot.links.iter().any(|link| link.kind == JointKind::Free) {
+    if robot.links.iter().any(|link| matches!(link.kind, JointKind::Free | JointKind::Planar)) {
         text += "allow = [\"under-actuated\"]    # what floats has no actuator\n";
     }
     let mut lines = Vec::new();
@@ -50,7 +50,10 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
     if link.kind.has_axis() {
         writeln!(text, "axis = {}", vector(link.axis))?;
     }
-    if link.kind == JointKind::Free {
+    if let Some(far_end) = link.far_end {
+        writeln!(text, "far_end = {}", origin(far_end))?;
+    }
+    if matches!(link.kind, JointKind::Free | JointKind::Planar) {
         writeln!(text, "actuated = false")?;
     }
     if let Some(Ok(range)) = link.limit.as_ref().map(range) {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
 use redysim_model::JointKind;
-use redysim_model::rotation::{roll_pitch_yaw, sin_cos};
+use redysim_model::rotation::{align_z, roll_pitch_yaw, sin_cos};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use urdf_rs::{JointLimit, JointType};
 
@@ -39,6 +39,8 @@ pub struct Link {
     /// Whether it is the root of the URDF, which no joint of it carries.
     pub is_root: bool,
     pub origin: Origin,
+    /// Where the link's frame stands on its joint, if elsewhere.
+    pub far_end: Option<Origin>,
     pub axis: [f64; 3],
     pub inertial: Inertial,
     /// Of a joint that moves and has limits.
@@ -119,13 +121,14 @@ impl Robot {
             },
             kind: kind(joint),
             is_root: false,
-            origin: Origin { xyz: joint.origin.xyz.0, rpy: joint.origin.rpy.0 },
+            origin: placed(joint).0,
+            far_end: placed(joint).1,
             axis: joint.axis.xyz.0,
             inertial: inertial_of(&joint.child.link),
             limit: limit(joint),
             resistance: resistance(joint),
             mimics: mimics(joint),
-            remarks: not_here(joint).into_iter().collect(),
+            remarks: Vec::new(),
             comments: Vec::new(),
         };
         let taken = |name: &str| urdf.joints.iter().any(|joint| joint.name == name);
@@ -169,7 +172,7 @@ impl Robot {
             let Some(mimics) = &link.mimics else { continue };
             let here = match link.kind {
                 JointKind::Fixed => "fixed",
-                JointKind::Free => "free here, without an actuator",
+                JointKind::Free | JointKind::Planar => "free here, without an actuator",
                 _ => "free here, with an actuator of its own",
             };
             link.remarks.push(format!("joint `{}` {mimics}: it is {here}", link.joint_name));
@@ -198,6 +201,7 @@ impl Link {
             kind: JointKind::Free,
             is_root: true,
             origin: Origin { xyz: [0.0; 3], rpy: [0.0; 3] },
+            far_end: None,
             axis: [0.0, 0.0, 1.0],
             inertial,
             limit: None,
@@ -220,18 +224,23 @@ fn kind(joint: &urdf_rs::Joint) -> JointKind {
         JointType::Revolute | JointType::Continuous => JointKind::Revolute,
         JointType::Prismatic => JointKind::Prismatic,
         JointType::Floating => JointKind::Free,
-        JointType::Fixed | JointType::Planar | JointType::Spherical => JointKind::Fixed,
+        JointType::Planar => JointKind::Planar,
+        JointType::Spherical => JointKind::Spherical,
+        JointType::Fixed => JointKind::Fixed,
     }
 }
 
-/// The kind that a joint has in the URDF and cannot have here.
-fn not_here(joint: &urdf_rs::Joint) -> Option<String> {
-    let kind = match joint.joint_type {
-        JointType::Planar => "planar",
-        JointType::Spherical => "spherical",
-        _ => return None,
-    };
-    Some(format!("joint `{}` is {kind} in the URDF: it is fixed at zero here", joint.name))
+/// Where the joint stands, and where the link's frame does on it, if elsewhere: a planar joint has its normal along z here.
+fn placed(joint: &urdf_rs::Joint) -> (Origin, Option<Origin>) {
+    let origin = Origin { xyz: joint.origin.xyz.0, rpy: joint.origin.rpy.0 };
+    let [x, y, z] = joint.axis.xyz.0;
+    if joint.joint_type != JointType::Planar || (x == 0.0 && y == 0.0 && z > 0.0) {
+        return (origin, None);
+    }
+    let length = Vec3([x, y, z]).dot(Vec3([x, y, z])).sqrt();
+    let turned = Pose { rotation: align_z(Vec3([x, y, z].map(|x| x / length))), position: Vec3::zero() };
+    let back = Pose { rotation: turned.rotation.transpose(), position: Vec3::zero() };
+    (Origin::of(origin.pose() * turned), Some(Origin::of(back)))
 }
 
 fn mimics(joint: &urdf_rs::Joint) -> Option<String> {

@@ -6,6 +6,7 @@ mod kinematics;
 use crate::common::{Run, call, fail, scratch, succeed};
 use faults::BODY;
 use kinematics::{Numbers, positions, tree, urdf};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use redysim_model::joint::JointPhysics;
 use redysim_model::{GenericMechanism, JointRange, Model};
 use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy, Mechanism};
@@ -254,20 +255,20 @@ fn the_help_of_import_states_what_import_does() {
     };
     let imported = kinds.map(of_kind);
     let first_joint = |index: usize| imported[index].0.model().links[0].joint.name();
-    assert!(help.contains("Continuous joints become revolute. Floating joints become free, without an actuator."));
-    assert!(help.contains("Planar and spherical joints become fixed at zero."));
-    assert_eq!([0, 1, 2, 3].map(first_joint), ["revolute", "free", "fixed", "fixed"]);
-    assert!(!imported[1].0.model().links[0].actuated);
-    for (kind, (_, run)) in kinds.iter().zip(&imported).skip(2) {
-        assert!(run.stderr.contains(&format!("is {kind} in the URDF: it is fixed at zero here")), "{}", run.stderr);
-    }
+    assert!(
+        help.contains("Continuous joints become revolute. Floating joints become free, and planar ones stay planar")
+    );
+    assert!(help.contains("both without an actuator. Spherical joints stay spherical."));
+    assert_eq!([0, 1, 2, 3].map(first_joint), ["revolute", "free", "planar", "spherical"]);
+    let actuated = |index: usize| imported[index].0.model().links[0].actuated_velocities();
+    assert_eq!([0, 1, 2, 3].map(actuated), [vec![true], vec![false; 6], vec![false; 3], vec![true; 3]]);
 
     let (mechanism, run) = import(LOSSY, &[]);
     let link = |joint: &str| mechanism.model().links.iter().find(|link| link.joint_name == joint).unwrap();
     assert!(help.contains("The root link becomes the ground, or with `--base free` a link on a free joint `base`"));
     assert_eq!(link("waist").parent, None);
     assert!(help.contains("Joints that mimic others move by themselves."));
-    assert_eq!((link("knuckle").joint.dof(), link("knuckle").actuated), (1, true));
+    assert_eq!((link("knuckle").joint.dof(), link("knuckle").actuated_velocities()), (1, vec![true]));
     assert!(help.contains("Joints that move no mass become fixed."));
     assert_eq!(link("spin").joint.name(), "fixed");
     assert!(help.contains("Limits of positions and velocity become a `range`."));
@@ -290,6 +291,27 @@ fn the_help_of_import_states_what_import_does() {
     assert!(help.contains("Visuals and collisions are left out."));
     let head = run.stdout.split("[[link]]").next().unwrap();
     assert!(head.contains("<visual>") && run.stderr.contains("<visual>"), "{head}");
+}
+
+/// Whatever its normal, the link moves in the plane through the joint's origin, and turns about the normal.
+#[test]
+fn a_planar_joint_of_a_urdf_moves_its_link_across_the_axis_and_turns_it_about_that() {
+    for axis in ["1 0 0", "0 0 1", "0 0 -2", "0.48 -0.6 0.64"] {
+        let normal = Vector3::from_iterator(axis.split(' ').map(|x| x.parse::<f64>().unwrap())).normalize();
+        let inside = format!("<origin xyz=\"0.1 0.2 0.3\" rpy=\"0.3 -0.2 0.9\"/><axis xyz=\"{axis}\"/>");
+        let urdf = pendulum(&inside, BODY).replace("continuous", "planar");
+        let mechanism = import(&urdf, &[]).0;
+        assert_eq!(mechanism.model().links[0].joint.name(), "planar", "{axis}");
+        let at = |q: [f64; 3]| mechanism.link_kinematics(&q.to_vec(), &vec![0.0; 3])[0];
+        let turned = |q| Matrix3::from_fn(|i, j| at(q).rotation[i][j]);
+        let (zero, moved) = (at([0.0; 3]), at([0.3, -0.4, 0.9]));
+        // The axis is that of the joint's frame, which the URDF places on the parent.
+        let normal_here = turned([0.0; 3]) * normal;
+        let way = Vector3::from(moved.origin) - Vector3::from(zero.origin);
+        assert!(way.dot(&normal_here).abs() < 1e-15 && (way.norm() - 0.5).abs() < 1e-15, "{axis}: {way}");
+        let expected = Rotation3::from_axis_angle(&Unit::new_normalize(normal_here), 0.9) * turned([0.0; 3]);
+        assert!((turned([0.3, -0.4, 0.9]) - expected).amax() < 1e-15, "{axis}: {expected}");
+    }
 }
 
 #[test]
@@ -508,7 +530,10 @@ fn the_root_of_a_robot_with_a_free_base_floats_on_a_joint_without_an_actuator() 
         let (mechanism, run) = import(SATELLITE, options);
         let [bus, boom, ..] = &mechanism.model().links[..] else { panic!("{}", run.stdout) };
         assert_eq!((bus.name.as_str(), bus.joint_name.as_str(), bus.joint.name()), ("bus", "base", "free"));
-        assert_eq!((bus.parent, boom.parent, bus.actuated, boom.actuated), (None, Some(0), false, true));
+        assert_eq!(
+            (bus.parent, boom.parent, bus.actuated_velocities(), boom.actuated_velocities()),
+            (None, Some(0), vec![false; 6], vec![true])
+        );
         assert_eq!((mechanism.nq(), mechanism.nv(), mechanism.model().mass()), (8, 7, 8.0));
         let tip = mechanism.model().links.iter().find(|link| link.name == "tip");
         assert!(tip.is_none_or(|tip| tip.parent == Some(1)), "{}", run.stdout);
