@@ -167,6 +167,10 @@ where
         constrain_coordinates(self.mechanism, state)
     }
 
+    fn interpolated(&mut self, _t: S, state: &mut Y) {
+        constrain_coordinates(self.mechanism, state);
+    }
+
     fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {
         let SimulationState { q, v, .. } = self.split(state);
         let coordinate_rates = self.mechanism.coordinate_rates(&q, &v);

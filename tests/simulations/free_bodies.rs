@@ -3,11 +3,12 @@
 #![cfg(feature = "generic")]
 
 use crate::common::models::generic;
+use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Vector3};
 use redysim::generic::Inertia;
 use redysim::{
-    Dop8, Dop853, ForwardSimulation, Gauss6, Integrator, LinkState, Ode, Ode45, Radau5, SimulationState, ZeroTorque,
-    redysim,
+    Dop8, Dop853, Event, ForwardSimulation, Gauss6, Integrator, LinkState, Occurrence, Ode, Ode45, Radau5,
+    SimulationState, ZeroTorque, redysim,
 };
 
 redysim! {
@@ -309,6 +310,43 @@ fn quaternions_keep_their_length_under_loose_methods() {
         // A correction leaves half the square of the local error, which the tolerance bounds.
         assert!(worst <= 10.0 * tolerance * tolerance + 2e-12, "{tolerance:e}: {worst:e}");
     }
+}
+
+/// The dense output alone does not keep the length; states at times that are asked for, and at events, are corrected.
+#[test]
+fn quaternions_have_length_one_within_steps_too() {
+    let top = Top::new();
+    let (q, v) = top.start(0.0);
+    let mut simulation = ForwardSimulation::new(&top.body, ZeroTorque);
+    let copy = simulation;
+    let off = |state: &_| (copy.split(state).q.iter().map(|x| x * x).sum::<f64>().sqrt() - 1.0).abs();
+    let state = simulation.state(&q, &v);
+    let method = Ode45::new().rtol(1e-4).atol(1e-7);
+    let (mut between, mut uncorrected) = (0.0_f64, 0.0_f64);
+    let times = (0..=3000).map(|i| 1e-3 * f64::from(i));
+    method
+        .clone()
+        .solve(&mut simulation, (0.0, 3.0), state, times, |_, y| between = between.max(off(y)))
+        .expect("it spins");
+    let on_step = |step: &redysim::Step<'_, f64, _>| {
+        let middle = step.at(0.5 * (step.start().0 + step.end().0));
+        uncorrected = uncorrected.max(off(&middle));
+    };
+    method.clone().each_step(&mut simulation, (0.0, 3.0), state, on_step).expect("it spins");
+    // The correction leaves 3/8 of the square.
+    println!("{uncorrected:.1e} without, {between:.1e} with the correction");
+    assert!(uncorrected > 1e-7, "{uncorrected:e}");
+    assert!(between < uncorrected * uncorrected + 2e-12, "{between:e} of {uncorrected:e}");
+    let halfway = |_: f64, y: &_| copy.split(y).q[0];
+    let mut at_events = Vec::new();
+    let mut events = [Event::any(&halfway)];
+    let on_event = |event: Occurrence<'_, f64, _>| {
+        at_events.push(off(event.y));
+        ControlFlow::Continue(())
+    };
+    let ignored = |_: &redysim::Step<'_, f64, _>| ControlFlow::Continue(());
+    method.solve_with_events(&mut simulation, (0.0, 3.0), state, &mut events, ignored, on_event).expect("it spins");
+    assert!(at_events.len() > 3 && at_events.iter().all(|&off| off < 1e-11), "{at_events:?}");
 }
 
 /// Their Jacobian has ∂(N(q) v)/∂q, which the test of tangents below holds against differences.

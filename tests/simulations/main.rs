@@ -7,6 +7,7 @@ mod chaotic_pendulums;
 mod extremes;
 mod free_bodies;
 mod free_fall_reference;
+mod heavy_top;
 mod iftomm_pendulum;
 mod impedance;
 mod stiff_control;

@@ -38,12 +38,17 @@ const CONSTANTS: f64 = 1e-12;
 const CONSTANTS_WITH_SPRINGS: f64 = 1e-11;
 /// The mass matrix of an arm on a platform has elements from 1e2 to those of its wrist.
 const CONSTANTS_WITH_PLATFORM: f64 = 1e-11;
+/// Accelerations take the condition of the mass matrix, too.
+const ACCELERATIONS: f64 = 1e-10;
+/// Some of the samples are within a degree of the gimbal of Euler angles.
+const ACCELERATIONS_NEAR_A_GIMBAL: f64 = 1e-9;
 
 /// Compares every function of `compiled` with the one of `generic`.
 fn assert_same_functions(
     compiled: &impl TreeDynamics<DoubleDouble>,
     generic: &impl TreeDynamics<DoubleDouble>,
     constants: f64,
+    accelerations: f64,
 ) {
     let name = generic.name().to_string();
     let new = |function: &str| Comparison::new(format!("{name} {function}"));
@@ -72,7 +77,7 @@ fn assert_same_functions(
     bias.assert_within(4.0 * constants);
     coriolis.assert_within(10.0 * constants);
     // The mass matrix of KR5 has condition 1e7, which is what multiplies the roundoff of constants here.
-    forward.assert_within(1e-10);
+    forward.assert_within(accelerations);
 }
 
 /// Compares positions and velocities of all links.
@@ -143,7 +148,7 @@ fn assert_same_outside(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDyn
 #[test]
 fn kr5_compiled_is_kr5_generic() {
     assert_same_outside(&Kr5, &generic("kr5"));
-    assert_same_functions(&Kr5, &generic("kr5"), CONSTANTS);
+    assert_same_functions(&Kr5, &generic("kr5"), CONSTANTS, ACCELERATIONS);
     assert_same_kinematics(&Kr5, &generic("kr5"));
     assert_same_dynamics_in_f64(&Kr5, &generic("kr5"));
 }
@@ -151,19 +156,19 @@ fn kr5_compiled_is_kr5_generic() {
 #[test]
 fn kr5_with_drives_compiled_is_kr5_with_drives_generic() {
     assert_same_outside(&Kr5Drives, &generic("kr5_drives"));
-    assert_same_functions(&Kr5Drives, &generic("kr5_drives"), CONSTANTS);
+    assert_same_functions(&Kr5Drives, &generic("kr5_drives"), CONSTANTS, ACCELERATIONS);
 }
 
 #[test]
 fn arms_with_springs_between_points_are_compiled_as_they_are_generic() {
     assert_same_outside(&Springs, &generic("test/springs"));
-    assert_same_functions(&Springs, &generic("test/springs"), CONSTANTS_WITH_SPRINGS);
+    assert_same_functions(&Springs, &generic("test/springs"), CONSTANTS_WITH_SPRINGS, ACCELERATIONS);
 }
 
 #[test]
 fn gripper_compiled_is_gripper_generic() {
     assert_same_outside(&Gripper, &generic("gripper"));
-    assert_same_functions(&Gripper, &generic("gripper"), CONSTANTS);
+    assert_same_functions(&Gripper, &generic("gripper"), CONSTANTS, ACCELERATIONS);
     assert_same_kinematics(&Gripper, &generic("gripper"));
     assert_same_dynamics_in_f64(&Gripper, &generic("gripper"));
 }
@@ -171,7 +176,7 @@ fn gripper_compiled_is_gripper_generic() {
 #[test]
 fn gantry_compiled_is_gantry_generic() {
     assert_same_outside(&Gantry, &generic("test/gantry"));
-    assert_same_functions(&Gantry, &generic("test/gantry"), CONSTANTS);
+    assert_same_functions(&Gantry, &generic("test/gantry"), CONSTANTS, ACCELERATIONS);
     assert_same_kinematics(&Gantry, &generic("test/gantry"));
     assert_same_dynamics_in_f64(&Gantry, &generic("test/gantry"));
 }
@@ -194,7 +199,7 @@ fn assert_same_positions(compiled: &impl TreeDynamics<DoubleDouble>, generic: &i
 #[test]
 fn a_floating_arm_compiled_is_the_same_generic() {
     assert_same_outside(&Floating, &generic("kr5_floating"));
-    assert_same_functions(&Floating, &generic("kr5_floating"), CONSTANTS_WITH_PLATFORM);
+    assert_same_functions(&Floating, &generic("kr5_floating"), CONSTANTS_WITH_PLATFORM, ACCELERATIONS);
     assert_same_kinematics(&Floating, &generic("kr5_floating"));
     assert_same_positions(&Floating, &generic("kr5_floating"));
 }
@@ -202,7 +207,7 @@ fn a_floating_arm_compiled_is_the_same_generic() {
 #[test]
 fn a_spherical_pendulum_compiled_is_the_same_generic() {
     assert_same_outside(&Pendulum, &generic("spherical_pendulum"));
-    assert_same_functions(&Pendulum, &generic("spherical_pendulum"), CONSTANTS);
+    assert_same_functions(&Pendulum, &generic("spherical_pendulum"), CONSTANTS, ACCELERATIONS);
     assert_same_kinematics(&Pendulum, &generic("spherical_pendulum"));
     assert_same_positions(&Pendulum, &generic("spherical_pendulum"));
 }
@@ -210,7 +215,12 @@ fn a_spherical_pendulum_compiled_is_the_same_generic() {
 #[test]
 fn joints_in_series_compiled_are_the_same_generic() {
     assert_same_outside(&Series, &generic("test/joints_in_series"));
-    assert_same_functions(&Series, &generic("test/joints_in_series"), CONSTANTS_WITH_PLATFORM);
+    assert_same_functions(
+        &Series,
+        &generic("test/joints_in_series"),
+        CONSTANTS_WITH_PLATFORM,
+        ACCELERATIONS_NEAR_A_GIMBAL,
+    );
     assert_same_kinematics(&Series, &generic("test/joints_in_series"));
     assert_same_positions(&Series, &generic("test/joints_in_series"));
 }

@@ -128,7 +128,7 @@ fn sizes_and_actuators_follow_the_joints_own_numbers_of_coordinates_and_velociti
     };
     let interface = PublicInterface {
         is_valid: true,
-        joints: vec![joint("base", 7, 6, false), joint("arm", 1, 1, true)],
+        joints: vec![joint("base", 7, 6, vec![false; 6]), joint("arm", 1, 1, vec![true])],
         functions: Functions::named(["mass_matrix", "inverse_dynamics"]).unwrap(),
         ..PublicInterface::default()
     };

@@ -50,7 +50,8 @@ impl<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedSte
     }
 
     /// Writes to `y` the solution at `t`, within the step or at its end: that of the dense output or, where it is less
-    /// accurate than the method provides within steps, that of [`state_by_step`](Self::state_by_step).
+    /// accurate than the method provides within steps, that of [`state_by_step`](Self::state_by_step); within the step as
+    /// the equation [corrects it](Ode::interpolated).
     ///
     /// # Errors
     /// If a derivative is infinite or not a number.
@@ -63,7 +64,16 @@ impl<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedSte
         } else {
             self.step().write_at(t, y);
         }
+        self.correct(t, y);
         Ok(())
+    }
+
+    /// Lets the equation correct a state at `t`, if that is within the step.
+    pub(super) fn correct(&mut self, t: S, y: &mut Y) {
+        let progress = &self.integration.progress;
+        if t != progress.t_new && t != progress.t {
+            self.integration.ode.interpolated(t, y);
+        }
     }
 
     /// The state at which a step of the method from the start of this one to `t`, within it, arrives; `None` if it

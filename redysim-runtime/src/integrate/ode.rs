@@ -23,11 +23,18 @@ pub trait Ode<S, Y> {
     /// Called once for each accepted step, with its end `t`, its size `step` > 0 and the state `y` there, which may be
     /// corrected in place: for example, so that an invariant of the equation holds. What an integration shows as the
     /// end of the step is the corrected state, and from there it goes on; within the step the solution is that of the
-    /// method. Where an event ends the integration within a step, it is called once more, for the state there, which is
+    /// method, as [`interpolated`](Self::interpolated) corrects it. Where an event ends the integration within a step, it is called once more, for the state there, which is
     /// earlier. By default, nothing happens.
     fn accepted(&mut self, t: S, step: S, y: &mut Y) -> Accepted {
         let _ = (t, step, y);
         Accepted::Unchanged
+    }
+
+    /// Called for each state that is shown at a time `t` within a step, for a time that is asked for or an event, where the
+    /// solution is that of the dense output. The state may be corrected in place, as by [`accepted`](Self::accepted); the
+    /// integration does not depend on it. By default, nothing happens.
+    fn interpolated(&mut self, t: S, y: &mut Y) {
+        let _ = (t, y);
     }
 
     /// Writes (∂f/∂y) `direction` at (t, y) to `slope` and returns `true`, if it can do that without differences; from

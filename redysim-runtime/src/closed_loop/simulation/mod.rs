@@ -262,6 +262,10 @@ where
         }
     }
 
+    fn interpolated(&mut self, _t: S, state: &mut Y) {
+        constrain_coordinates(self.loops.mechanism, state);
+    }
+
     fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {
         let SimulationState { q, v, .. } = self.split(state);
         for (rate, &value) in rates.as_mut().iter_mut().zip(self.loops.mechanism.coordinate_rates(&q, &v).as_ref()) {

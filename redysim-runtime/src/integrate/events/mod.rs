@@ -171,6 +171,7 @@ where
                 y = observed.step().at(t);
             }
             latest = t;
+            observed.correct(t, &mut y);
             let direction = if crossing.rising { Direction::Rising } else { Direction::Falling };
             if (self.on_event)(Occurrence { event: index, t, y: &y, direction }).is_break() {
                 if t != to {
