@@ -1,8 +1,8 @@
 """Imports and compiles robots, computes at random states by redysim and by Pinocchio, and prints how far they differ.
 
 Both read the same URDF. Joints that redysim fixes (planar ones, joints that move no mass) are locked at zero in
-Pinocchio; joints that mimic others are free in both. The base is fixed in both. Frames on the tips, wrenches on them,
-and rotors are added to both.
+Pinocchio; joints that mimic others are free in both. The base is fixed in both, or with `--free` floats in both. Frames
+on the tips, wrenches on them, and rotors are added to both.
 """
 
 import sys
@@ -15,7 +15,9 @@ from peer import Refused
 from robot import COMPILED, FUSED, KEPT, Robot, example_robots, robots
 
 
-def row(robot: Robot, evaluate: Path, compiled: Compiled, at_run_time: bool) -> tuple[str, bool]:
+def row(
+    robot: Robot, evaluate: Path, compiled: Compiled, at_run_time: bool, floats: bool
+) -> tuple[str, bool]:
     """A robot's line of the table, and whether all that is imported agrees."""
     commands = {way: [evaluate, model] for way, model in robot.models.items() if at_run_time or way != COMPILED}
     if robot.name in compiled.programs:
@@ -37,9 +39,10 @@ def row(robot: Robot, evaluate: Path, compiled: Compiled, at_run_time: bool) -> 
         failed.append("**the models do not move the same joints**")
     remarks = "; ".join(refused + failed + ill_conditioned(list(found.values())) + (lost(robot.said) if found else []))
     kept = found.get(KEPT)
-    shares = [None] * 5
+    shares = [None] * (7 if floats else 5)
     if kept:
         shares = [kept.forces, kept.matrices, kept.accelerations, kept.jacobians, kept.bias]
+        shares += [kept.whole, kept.positions] * floats
     shares += [found[way].largest if way in found else None for way in [FUSED, COMPILED]]
     numbers = " | ".join("" if share is None else f"{share:.0e}" for share in shares)
     return f"| {robot.title} | {len(joints[0]) if joints else ''} | {numbers} | {remarks} |", not failed
@@ -64,29 +67,32 @@ def lost(said: list[str]) -> list[str]:
 
 def main() -> None:
     built, *words = sys.argv[1:]
-    at_run_time = "--run-time" in words
-    files = [word for word in words if word != "--run-time"]
-    target, crate = Path(built) / "cargo", Path(built) / "robots"
+    at_run_time, floats = "--run-time" in words, "--free" in words
+    files = [word for word in words if word not in ["--run-time", "--free"]]
+    base = "free" if floats else "fixed"
+    target, crate = Path(built) / "cargo", Path(built) / ("floating" if floats else "robots")
     programs = target / "release"
     all_robots = robots([Path(file) for file in files] or example_robots())
     for robot in all_robots:
-        robot.make_models(programs / "redysim", crate / "models")
+        robot.make_models(programs / "redysim", crate / "models", base)
     made = Compiled()
     if not at_run_time:
         made = compiled(crate, [robot.name for robot in all_robots if robot.models], target)
-    print(f"# Imported robots beside Pinocchio {pinocchio.__version__}\n")
+    on = " on a free base" if floats else ""
+    print(f"# Imported robots{on} beside Pinocchio {pinocchio.__version__}\n")
     print(f"The largest difference at {STATES} random states; how it is found is in [peers/README.md](../README.md).")
     if at_run_time:
         print("All is by the generic path (`--run-time`); the last two columns have rotors in all joints.\n")
     else:
         print("The last column is by the functions that `redysim!` makes, those before it by the generic path. The")
         print("last two have rotors in all joints.\n")
-    columns = "inverse dynamics | mass matrix | forward dynamics | Jacobians | their rates | all, fused"
+    columns = "inverse dynamics | mass matrix | forward dynamics | Jacobians | their rates"
+    columns += " | centre of mass, momenta | integrate, difference" * floats + " | all, fused"
     print(f"| robot | joints | {columns} | all, {'kept' if at_run_time else 'compiled'} | |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("|---" * (12 if floats else 10) + "|")
     agree = True
     for robot in all_robots:
-        line, agrees = row(robot, programs / "redysim-evaluate", made, at_run_time)
+        line, agrees = row(robot, programs / "redysim-evaluate", made, at_run_time, floats)
         print(line, flush=True)
         agree = agree and agrees
     if not agree:

@@ -4,7 +4,6 @@ import subprocess
 import sys
 import tomllib
 from dataclasses import dataclass
-from math import pi
 from pathlib import Path
 
 import numpy
@@ -29,6 +28,9 @@ class Comparison:
     jacobians: float
     # J̇ v.
     bias: float
+    # Centre of mass and momenta, and q ⊞ v with p ⊟ q: of a floating base; else zero.
+    whole: float
+    positions: float
     # How far the forces that redysim's accelerations take, by Pinocchio, are from those that made them.
     taken: float
     # So many times the error of the joint forces is in the accelerations that these make.
@@ -37,14 +39,18 @@ class Comparison:
     @property
     def largest(self) -> float:
         """The largest difference; no number if any is none."""
-        return float(numpy.max([self.forces, self.matrices, self.accelerations, self.jacobians, self.bias]))
+        return float(numpy.max([*self._shares, self.accelerations]))
 
     @property
     def agrees(self) -> bool:
         """Where roundoff of the forces alone is too much, accelerations are right that take the right forces."""
         accelerations = self.taken if self.by_forces else self.accelerations
-        shares = [self.forces, self.matrices, accelerations, self.jacobians, self.bias]
-        return all(share < TOLERANCE for share in shares)
+        return all(share < TOLERANCE for share in [*self._shares, accelerations])
+
+    @property
+    def _shares(self) -> list[float]:
+        """All but accelerations."""
+        return [self.forces, self.matrices, self.jacobians, self.bias, self.whole, self.positions]
 
     @property
     def by_forces(self) -> bool:
@@ -56,24 +62,28 @@ class Comparison:
 def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
     """Computes at random states by this command, which has this model, and by Pinocchio."""
     names, _ = _answers(command, "")
-    peer, n = Peer(urdf, names, tomllib.loads(model.read_text())), len(names)
-    shapes = [(n,), (n, n), (n,), (len(peer.frames), 6, n), (len(peer.frames), 6)]
+    peer = Peer(urdf, names, tomllib.loads(model.read_text()))
+    n, nq = peer.model.nv, sum(peer.sizes)
+    shapes = [(n,), (n, n), (n,), (len(peer.frames), 6, n), (len(peer.frames), 6), (3, 3), (nq,), (n,)]
     random = numpy.random.default_rng(1)
     states = []
     for _ in range(STATES):
-        q, v, a = random.uniform(-pi, pi, n), random.uniform(-2, 2, n), random.uniform(-5, 5, n)
+        q, v, a = peer.random_position(random), random.uniform(-2, 2, n), random.uniform(-5, 5, n)
         wrenches = (random.uniform(-1, 1, (len(peer.frames), 6)) * peer.wrench_scales()).ravel()
         # Forces that make accelerations of this size: those of light fingers and of a trunk differ by orders.
         states += [(q, v, a, wrenches), (q, v, peer.forces(q, v, a, wrenches), wrenches)]
-    text = "".join(" ".join(repr(float(x)) for x in numpy.concatenate(state)) + "\n" for state in states)
+    others = [peer.random_position(random) for _ in states]
+    lines = [numpy.concatenate([q, v, a, other, w]) for (q, v, a, w), other in zip(states, others)]
+    text = "".join(" ".join(repr(float(x)) for x in line) + "\n" for line in lines)
     _, found = _answers(command, text)
     parts = [_split(line, shapes) for line in found]
-    forces, computed, _, jacobians, bias = zip(*parts[::2])
+    forces, computed, _, jacobians, bias, whole, moved, ways = zip(*parts[::2])
     accelerations = [part[2] for part in parts[1::2]]
     motions, driven = states[::2], states[1::2]
     matrices = [peer.matrix(q) for q, *_ in motions]
     scales = [numpy.sqrt(numpy.outer(numpy.diag(matrix), numpy.diag(matrix))) for matrix in matrices]
     taken = [peer.forces(q, v, a, wrenches) for (q, v, _, wrenches), a in zip(driven, accelerations)]
+    floats = nq != n
     expected = [peer.jacobians(q) for q, *_ in motions], [peer.bias(q, v) for q, v, *_ in motions]
     return Comparison(
         joints=names,
@@ -82,9 +92,37 @@ def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
         accelerations=_furthest(accelerations, [peer.accelerations(*state) for state in driven]),
         jacobians=_furthest(jacobians, expected[0], _by_frame(expected[0])),
         bias=_furthest(bias, expected[1], _by_frame(expected[1])),
+        whole=_furthest_whole(peer, motions, whole) if floats else 0.0,
+        positions=_furthest_positions(peer, motions, others[::2], moved, ways) if floats else 0.0,
         taken=_furthest(taken, [tau for _, _, tau, _ in driven]),
         amplification=_amplification(peer, driven),
     )
+
+
+State = tuple[numpy.ndarray, ...]
+
+
+def _furthest_whole(peer: Peer, motions: list[State], whole: tuple[numpy.ndarray, ...]) -> float:
+    """Centre of mass and momenta, each as a share of its length."""
+    expected = numpy.array([peer.whole(q, v).reshape(3, 3) for q, v, *_ in motions])
+    lengths = numpy.linalg.norm(expected, axis=2, keepdims=True).max(axis=0, keepdims=True)
+    return _furthest(list(whole), list(expected), numpy.broadcast_to(lengths, expected.shape))
+
+
+def _furthest_positions(
+    peer: Peer,
+    motions: list[State],
+    others: list[numpy.ndarray],
+    moved: tuple[numpy.ndarray, ...],
+    ways: tuple[numpy.ndarray, ...],
+) -> float:
+    """q ⊞ v and p ⊟ q, in m and rad."""
+    ones = [numpy.ones(len(q)) for q in moved]
+    integrated = [peer.integrated(q, v) for q, v, *_ in motions]
+    differences = [peer.difference(q, other) for (q, *_), other in zip(motions, others)]
+    by_integrate = _furthest([peer.with_signs(q) for q in moved], integrated, numpy.array(ones))
+    scales = numpy.array([numpy.ones(len(way)) for way in ways])
+    return max(by_integrate, _furthest(list(ways), differences, scales))
 
 
 def _amplification(peer: Peer, driven: list[tuple[numpy.ndarray, ...]]) -> float:

@@ -28,11 +28,15 @@ def with_rotors(model: str, urdf: Path) -> str:
     parsed = tomllib.loads(model)
     joints = [link["joint_name"] for link in parsed["link"] if link["joint"] != "fixed"]
     try:
-        resisting = numpy.diag(Peer(urdf, joints, parsed).matrix(numpy.zeros(len(joints))))
+        peer = Peer(urdf, joints, parsed)
+        resisting = numpy.diag(peer.matrix(peer.neutral()))
     except Refused:
         return model
     parts = model.split("\n[[link]]\n")
-    for joint, inertia in zip(joints, resisting):
+    starts = numpy.cumsum([0] + [joint.nv for joint in peer.joints])
+    # A free base has no rotor.
+    moved = [(name, resisting[at]) for name, at, joint in zip(joints, starts, peer.joints) if joint.nv == 1]
+    for joint, inertia in moved:
         index = next(i for i, part in enumerate(parts) if f"\njoint_name = {quoted(joint)}\n" in part)
         parts[index] = parts[index].replace("\nmass = ", f"\narmature = {float(inertia) / 2!r}\nmass = ", 1)
     return "\n[[link]]\n".join(parts)

@@ -3,12 +3,16 @@
 Its quantities of frames are those of `LOCAL_WORLD_ALIGNED`: at the frame's own origin, in the axes of the base.
 """
 
-from math import cos, sin
+from math import atan2, cos, pi, sin
 from pathlib import Path
 
 import numpy
 import pinocchio
 from pinocchio import LOCAL_WORLD_ALIGNED as ALIGNED
+
+
+# The joint of a floating root.
+ROOT = "root_joint"
 
 
 class Refused(Exception):
@@ -19,19 +23,27 @@ class Peer:
     """Pinocchio's robot with these joints, and no others, free; `model` is redysim's, as read from TOML."""
 
     def __init__(self, urdf: Path, joints: list[str], model: dict):
+        floats = model["link"][0]["joint"] == "free" and model["link"][0]["parent"] == "base"
         try:
-            whole = pinocchio.buildModelFromUrdf(str(urdf))
+            if floats:
+                whole = pinocchio.buildModelFromUrdf(str(urdf), pinocchio.JointModelFreeFlyer())
+                joints = [ROOT if name == model["link"][0]["joint_name"] else name for name in joints]
+            else:
+                whole = pinocchio.buildModelFromUrdf(str(urdf))
             locked = [index for index, name in enumerate(whole.names) if index > 0 and name not in joints]
             self.model = pinocchio.buildReducedModel(whole, locked, pinocchio.neutral(whole)) if locked else whole
         except (RuntimeError, ValueError) as error:
             raise Refused(f"Pinocchio does not take it: {str(error).splitlines()[0]}") from error
         self.joints = [self.model.joints[self.model.getJointId(name)] for name in joints]
-        self.order = [joint.idx_v for joint in self.joints]
-        if self.model.nv != len(joints):
-            raise Refused(f"Pinocchio has {self.model.nv} velocities, redysim {len(joints)}")
+        self.order = [joint.idx_v + i for joint in self.joints for i in range(joint.nv)]
+        if self.model.nv != len(self.order):
+            raise Refused(f"Pinocchio has {self.model.nv} velocities, redysim {len(self.order)}")
         rotors = {link["joint_name"]: link.get("armature", 0.0) for link in model["link"]}
-        self.model.armature = self._ordered(numpy.array([rotors[name] for name in joints]))
+        of_each = [[rotors.get(name, 0.0)] * joint.nv for name, joint in zip(joints, self.joints)]
+        self.model.armature = self._ordered(numpy.array([rotor for rotors in of_each for rotor in rotors]))
         carriers = {link["name"]: link["joint_name"] for link in model["link"]}
+        if floats:
+            carriers[model["link"][0]["name"]] = ROOT
         self.frames = [self._added(frame, carriers[frame["link"]]) for frame in model.get("frame", [])]
         self.data = self.model.createData()
 
@@ -61,13 +73,78 @@ class Peer:
             external[self.model.frames[frame].parentJoint] += self.model.frames[frame].placement.act(turned)
         return external
 
+    @property
+    def sizes(self) -> list[int]:
+        """How many coordinates redysim has of each joint: of a continuous one an angle."""
+        return [1 if joint.nv == 1 else joint.nq for joint in self.joints]
+
+    def random_position(self, random: numpy.random.Generator) -> numpy.ndarray:
+        """Angles of up to half a turn; of a free base a position within 1 m and any orientation."""
+        parts = []
+        for size in self.sizes:
+            if size == 1:
+                parts.append(random.uniform(-pi, pi, 1))
+            else:
+                quaternion = random.normal(size=4)
+                parts += [random.uniform(-1, 1, size - 4), quaternion / numpy.linalg.norm(quaternion)]
+        return numpy.concatenate(parts)
+
+    def neutral(self) -> numpy.ndarray:
+        """Where all coordinates are zero but the last of each quaternion."""
+        return numpy.concatenate([[0.0] * (size - 1) + [float(size > 1)] for size in self.sizes])
+
     def _position(self, q: numpy.ndarray) -> numpy.ndarray:
         """A continuous joint's coordinates are cosine and sine."""
         position = numpy.zeros(self.model.nq)
-        for joint, value in zip(self.joints, q):
-            own = [value] if joint.nq == 1 else [cos(value), sin(value)]
+        for joint, own in zip(self.joints, numpy.split(q, numpy.cumsum(self.sizes)[:-1])):
+            if joint.nq == 2:
+                own = [cos(own[0]), sin(own[0])]
             position[joint.idx_q : joint.idx_q + joint.nq] = own
         return position
+
+    def _coordinates(self, position: numpy.ndarray, like: numpy.ndarray) -> numpy.ndarray:
+        """The coordinates of a position; those of a continuous joint within half a turn of those of `like`."""
+        parts = []
+        for joint, near in zip(self.joints, numpy.split(like, numpy.cumsum(self.sizes)[:-1])):
+            own = position[joint.idx_q : joint.idx_q + joint.nq]
+            if joint.nq == 2:
+                angle = atan2(own[1], own[0])
+                own = [angle + 2 * pi * round((near[0] - angle) / (2 * pi))]
+            parts.append(own)
+        return numpy.concatenate(parts)
+
+    def whole(self, q: numpy.ndarray, v: numpy.ndarray) -> numpy.ndarray:
+        """The centre of mass, linear momentum, and angular momentum about it."""
+        position, v = self._position(q), self._ordered(v)
+        momentum = pinocchio.computeCentroidalMomentum(self.model, self.data, position, v)
+        center = pinocchio.centerOfMass(self.model, self.data, position)
+        return numpy.concatenate([center, momentum.linear, momentum.angular])
+
+    def integrated(self, q: numpy.ndarray, v: numpy.ndarray) -> numpy.ndarray:
+        """q ⊞ v, with the signs of quaternions that have a positive last component."""
+        moved = pinocchio.integrate(self.model, self._position(q), self._ordered(v))
+        return self.with_signs(self._coordinates(moved, q + self._of_velocities(v)))
+
+    def with_signs(self, q: numpy.ndarray) -> numpy.ndarray:
+        """A quaternion and its negative are one orientation: those with a positive last component."""
+        parts = numpy.split(q, numpy.cumsum(self.sizes)[:-1])
+        turned = [numpy.concatenate([part[:-4], part[-4:] * numpy.copysign(1, part[-1])]) for part in parts]
+        return numpy.concatenate([part if len(part) == 1 else signed for part, signed in zip(parts, turned)])
+
+    def _of_velocities(self, v: numpy.ndarray) -> numpy.ndarray:
+        """The velocity of each joint of one coordinate, and zero for the coordinates of others."""
+        starts = numpy.cumsum([0] + [joint.nv for joint in self.joints])
+        return numpy.concatenate([[v[at]] if size == 1 else [0.0] * size for at, size in zip(starts, self.sizes)])
+
+    def difference(self, q: numpy.ndarray, other: numpy.ndarray) -> numpy.ndarray:
+        """other ⊟ q; of continuous joints by their angles, which redysim does not take for the same after a turn."""
+        found = pinocchio.difference(self.model, self._position(q), self._position(other))[self.order].copy()
+        at, start = 0, 0
+        for joint, size in zip(self.joints, self.sizes):
+            if joint.nq == 2:
+                found[at] = other[start] - q[start]
+            at, start = at + joint.nv, start + size
+        return found
 
     def _ordered(self, vector: numpy.ndarray) -> numpy.ndarray:
         ordered = numpy.zeros(self.model.nv)

@@ -34,10 +34,11 @@ class Robot:
         package = self.urdf.parent.parent.name.removesuffix("_description")
         return self.urdf.stem if package in self.urdf.stem else f"{package}/{self.urdf.stem}"
 
-    def make_models(self, redysim: Path, folder: Path) -> None:
+    def make_models(self, redysim: Path, folder: Path, base: str) -> None:
         """Imports it with fixed links kept, and fused. The first that is a model is to be compiled, with rotors."""
         for way, options in [(KEPT, []), (FUSED, ["--fuse-fixed"])]:
-            done = subprocess.run([redysim, "import", self.urdf, *options], capture_output=True, text=True)
+            command = [redysim, "import", self.urdf, "--base", base, *options]
+            done = subprocess.run(command, capture_output=True, text=True)
             # 1 is faulty input; nothing else is for the file to answer for.
             if done.returncode not in [0, 1]:
                 sys.exit(f"redysim import {self.urdf} ends with {done.returncode}:\n{done.stderr}")

@@ -2,7 +2,6 @@
 
 use super::random::Random;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_model::{Inertia, JointKind, Link, Model};
 
