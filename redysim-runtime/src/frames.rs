@@ -13,7 +13,7 @@ pub trait Frames<S: Scalar>: ConfigurationSpace<S> {
     /// One [`FrameAcceleration`] for each frame: `[FrameAcceleration<S>; NF]`.
     type Accelerations: Vector<FrameAcceleration<S>>;
     /// One [`Wrench`] for each frame: `[Wrench<S>; NF]`.
-    type Wrenches: AsRef<[Wrench<S>]>;
+    type Wrenches: Vector<Wrench<S>>;
 
     /// Position and velocity of every frame, in the base frame.
     fn frame_kinematics(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::States;

@@ -28,6 +28,7 @@
 //! | numbers | [`Scalar`] and [`Real`]; [`Dual`] for derivatives; [`lanes`], several numbers side by side |
 //! | motion in time | [`Integrator`] and the methods, [`integrate`]; [`ForwardSimulation`] |
 //! | what drives it | [`TorqueLaw`], [`Trajectory`] |
+//! | contact | [`Contact`] of a frame with the ground; [`Grounded`], a mechanism with contacts |
 //! | tasks | [`OperationalSpace`]: inertia, inverse and null space of a task, such as a frame's motion |
 //! | closed loops | [`ClosedLoop`]: constraint forces, assembly and projection; simulation and inverse dynamics |
 //! | many states | [`batch`], on all cores; [`Dispatched`], by the best instructions that the processor has |
@@ -60,6 +61,8 @@ extern crate std;
 #[cfg(feature = "std")]
 pub mod batch;
 mod closed_loop;
+#[cfg(feature = "simulation")]
+mod contact;
 #[cfg(feature = "simulation")]
 mod control;
 #[cfg(feature = "std")]
@@ -94,6 +97,11 @@ pub use closed_loop::{
 #[cfg(feature = "simulation")]
 pub use closed_loop::{
     ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion, LoopForces, Stabilisation,
+};
+#[cfg(feature = "simulation")]
+pub use contact::{
+    AnyContactLaw, Contact, ContactError, ContactEvent, ContactLaw, ContactRule, GroundPlane, Grounded,
+    HuntCrossleyContact, NormalForce, ReDySimContact, Reaction,
 };
 #[cfg(feature = "simulation")]
 pub use control::{

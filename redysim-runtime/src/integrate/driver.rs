@@ -58,7 +58,11 @@ where
             formula.prepare_dense_output(integration)?;
         }
         let corrected = integration.finish()?;
-        let flow = observer.observe(&mut ObservedStep { integration: &mut *integration, formula: &mut *formula })?;
+        let flow = observer.observe(&mut ObservedStep {
+            integration: &mut *integration,
+            formula: &mut *formula,
+            end: None,
+        })?;
         integration.progress.accept();
         if flow.is_break() || integration.progress.t == interval.to {
             return Ok(ControlFlow::Break(()));

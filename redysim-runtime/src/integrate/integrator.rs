@@ -1,6 +1,6 @@
 //! The interface of a method, and what it returns.
 
-use core::ops::ControlFlow;
+use core::ops::{Add, ControlFlow};
 
 use super::events::EventSearch;
 use super::interval::Interval;
@@ -132,7 +132,24 @@ pub trait Integrator<S: Real> {
         on_step: impl FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
         on_event: impl FnMut(Occurrence<'_, S, Y>) -> ControlFlow<()>,
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
-        let mut search = EventSearch::new(events, start.clone(), on_step, on_event);
+        self.run_with_events(ode, interval, start, events, &mut EveryStep(on_step), on_event)
+    }
+
+    /// As [`solve_with_events`](Self::solve_with_events), with an `observer` of the steps, as [`run`](Self::run) has one.
+    /// An event that ends the solution ends the step that the observer sees.
+    ///
+    /// # Errors
+    /// As [`solve_with_events`](Self::solve_with_events).
+    fn run_with_events<Y: Vector<S>>(
+        &self,
+        ode: &mut (impl Ode<S, Y> + ?Sized),
+        interval: (S, S),
+        start: Y,
+        events: &mut [Event<'_, S, Y>],
+        observer: &mut impl Observer<S, Y>,
+        on_event: impl FnMut(Occurrence<'_, S, Y>) -> ControlFlow<()>,
+    ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        let mut search = EventSearch::new(events, start.clone(), observer, on_event);
         let solution = self.run(ode, interval, start, &mut search)?;
         Ok(match search.stopped() {
             Some((t, y)) => Solution { t, y, ..solution },
@@ -166,7 +183,7 @@ pub struct Solution<S, Y> {
     pub statistics: Statistics,
 }
 
-/// What an integration took.
+/// What an integration took; the sum of two is what both took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
@@ -184,4 +201,19 @@ pub struct Statistics {
     pub jacobians: u64,
     /// Decompositions of a matrix.
     pub decompositions: u64,
+}
+
+impl Add for Statistics {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            steps: self.steps + other.steps,
+            rejected: self.rejected + other.rejected,
+            evaluations: self.evaluations + other.evaluations,
+            corrections: self.corrections + other.corrections,
+            jacobians: self.jacobians + other.jacobians,
+            decompositions: self.decompositions + other.decompositions,
+        }
+    }
 }

@@ -52,7 +52,7 @@ pub use dormand_prince_853::DormandPrince853;
 pub use events::Direction;
 pub use fixed::FixedStep;
 pub use ndf::{Bdf, Ndf, NdfFormula};
-pub use observer::{ObservedStep, Observer};
+pub use observer::{Ends, EveryStep, ObservedStep, Observer};
 pub use ode::Accepted;
 pub use ode4::RungeKutta4;
 pub use semi_implicit_euler::{SemiImplicit, SymplecticEuler};

@@ -41,12 +41,23 @@ pub trait Observer<S, Y> {
 pub struct ObservedStep<'a, 'i, S, Y, F, O: ?Sized> {
     pub(super) integration: &'a mut Integration<'i, S, Y, O>,
     pub(super) formula: &'a mut F,
+    /// Time and state at which an event ends it, if one does.
+    pub(super) end: Option<(S, &'a Y)>,
 }
 
-impl<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedStep<'_, '_, S, Y, F, O> {
+impl<'i, S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedStep<'_, 'i, S, Y, F, O> {
     /// The step.
     pub fn step(&self) -> Step<'_, S, Y> {
-        self.formula.step(&self.integration.progress)
+        let step = self.formula.step(&self.integration.progress);
+        match self.end {
+            Some(end) => step.until(end),
+            None => step,
+        }
+    }
+
+    /// The same step, ended at a time within it and the state there.
+    pub(super) fn until<'b>(&'b mut self, end: (S, &'b Y)) -> ObservedStep<'b, 'i, S, Y, F, O> {
+        ObservedStep { integration: &mut *self.integration, formula: &mut *self.formula, end: Some(end) }
     }
 
     /// Writes to `y` the solution at `t`, within the step or at its end: that of the dense output or, where it is less
@@ -56,7 +67,7 @@ impl<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedSte
     /// # Errors
     /// If a derivative is infinite or not a number.
     pub fn write_state_at(&mut self, t: S, y: &mut Y) -> Result<(), IntegrationError<S>> {
-        if t != self.integration.progress.t_new
+        if t != self.step().end().0
             && !self.formula.dense_output_suffices()
             && let Some(state) = self.state_by_step(t)?
         {
@@ -95,7 +106,8 @@ impl<S: Real, Y: Vector<S>, F: Formula<S, Y>, O: Ode<S, Y> + ?Sized> ObservedSte
 }
 
 /// Asks for nothing: only the end of the integration counts.
-pub(super) struct Ends;
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Ends;
 
 impl<S, Y> Observer<S, Y> for Ends {
     fn needs_dense_output(&self, _from: S, _to: S) -> bool {
@@ -108,7 +120,8 @@ impl<S, Y> Observer<S, Y> for Ends {
 }
 
 /// Hands every step to a closure.
-pub(super) struct EveryStep<F>(pub F);
+#[derive(Clone, Copy, Debug)]
+pub struct EveryStep<F>(pub F);
 
 impl<S, Y, F: FnMut(&Step<'_, S, Y>) -> ControlFlow<()>> Observer<S, Y> for EveryStep<F> {
     fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()> {

@@ -40,9 +40,8 @@ impl<'a, S: Real, Y: Vector<S>> Step<'a, S, Y> {
     }
 
     /// The same step, ended at `t_new` within it, where the state is `y_new`.
-    pub(super) fn until<'b>(&'b self, t_new: S, y_new: &'b Y) -> Step<'b, S, Y> {
-        let Self { t, y, size, scale, stages, dense, .. } = *self;
-        Step { t, y, t_new, y_new, size, scale, stages, dense }
+    pub(super) fn until(self, (t_new, y_new): (S, &'a Y)) -> Self {
+        Step { t_new, y_new, ..self }
     }
 
     /// Time and state at which the step began.

@@ -8,6 +8,7 @@ mod slider_crank;
 
 mod alloc;
 mod closed_loop_coordinates;
+mod contact;
 mod control;
 mod coordinate_rates;
 mod documentation;

@@ -2,6 +2,7 @@
 
 #[macro_use]
 #[path = "../mechanisms/mod.rs"]
+#[allow(dead_code, reason = "the ball is for tests of contact")]
 mod mechanisms;
 #[macro_use]
 #[path = "../methods/mod.rs"]

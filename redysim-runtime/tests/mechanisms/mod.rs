@@ -1,8 +1,8 @@
-// Two mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
+// Three mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
 
 use redysim_runtime::{
-    Arguments, ConfigurationSpace, Energy, ForwardDynamics, GravityForces, InverseDynamics, LinkState,
-    MechanicalEnergy, Mechanism, Real, Scalar, Vector,
+    Arguments, ConfigurationSpace, Energy, ForwardDynamics, FrameAcceleration, FrameJacobian, FrameState, Frames,
+    GravityForces, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar, Vector, Wrench,
 };
 
 pub const GRAVITY: f64 = 9.81;
@@ -38,6 +38,13 @@ macro_rules! mechanism {
             without_names!($name, $n, $n);
         }
 
+        configuration_space!($type, $n);
+    };
+}
+
+/// The space of `$n` coordinates whose rates are the velocities.
+macro_rules! configuration_space {
+    ($type:ident, $n:literal) => {
         impl<S: Scalar> ConfigurationSpace<S> for $type {
             type Coordinates = [S; $n];
             type Velocities = [S; $n];
@@ -203,4 +210,63 @@ impl<S: Scalar> MechanicalEnergy<S> for Arm {
 /// The largest distance between components.
 pub fn distance<S: Real, V: Vector<S>>(a: &V, b: &V) -> f64 {
     a.as_ref().iter().zip(b.as_ref()).map(|(&a, &b)| (a - b).to_f64().abs()).fold(0.0, f64::max)
+}
+
+/// A point mass that moves along x, y and z, which points up; its frames 0 and 1 are where it is, so that both may meet
+/// something.
+#[derive(Clone, Copy)]
+pub struct Ball {
+    pub mass: f64,
+}
+
+impl Mechanism for Ball {
+    without_names!("ball", 3, 3);
+
+    fn nf(&self) -> usize {
+        2
+    }
+}
+
+configuration_space!(Ball, 3);
+
+impl<S: Scalar> ForwardDynamics<S> for Ball {
+    fn forward_dynamics(&self, _: &[S; 3], _: &[S; 3], tau: &[S; 3]) -> [S; 3] {
+        let [x, y, z] = tau.map(|force| force / S::from_f64(self.mass));
+        [x, y, z - S::from_f64(GRAVITY)]
+    }
+}
+
+impl<S: Scalar> MechanicalEnergy<S> for Ball {
+    fn energy(&self, q: &[S; 3], v: &[S; 3]) -> Energy<S> {
+        let mass = S::from_f64(self.mass);
+        let [x, y, z] = *v;
+        Energy {
+            kinetic: S::from_f64(0.5) * mass * (x * x + y * y + z * z),
+            potential: mass * S::from_f64(GRAVITY) * q[2],
+        }
+    }
+}
+
+impl<S: Scalar> Frames<S> for Ball {
+    type States = [FrameState<S>; 2];
+    type Jacobians = [FrameJacobian<[S; 3]>; 2];
+    type Accelerations = [FrameAcceleration<S>; 2];
+    type Wrenches = [Wrench<S>; 2];
+
+    fn frame_kinematics(&self, q: &[S; 3], v: &[S; 3]) -> Self::States {
+        [FrameState { rotation: unit(), origin: *q, velocity: *v, angular_velocity: [S::zero(); 3] }; 2]
+    }
+    fn frame_jacobians(&self, _: &[S; 3]) -> Self::Jacobians {
+        [FrameJacobian { linear: unit(), angular: [[S::zero(); 3]; 3] }; 2]
+    }
+    fn frame_bias(&self, _: &[S; 3], _: &[S; 3]) -> Self::Accelerations {
+        [FrameAcceleration { linear: [S::zero(); 3], angular: [S::zero(); 3] }; 2]
+    }
+    fn frame_forces(&self, _: &[S; 3], wrenches: &Self::Wrenches) -> [S; 3] {
+        std::array::from_fn(|axis| wrenches[0].force[axis] + wrenches[1].force[axis])
+    }
+}
+
+fn unit<S: Scalar>() -> [[S; 3]; 3] {
+    std::array::from_fn(|row| std::array::from_fn(|column| S::from_f64(f64::from(u8::from(row == column)))))
 }

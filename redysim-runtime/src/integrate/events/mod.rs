@@ -86,24 +86,24 @@ pub struct Occurrence<'y, S, Y> {
 }
 
 /// Finds the crossings of events in the steps that it sees.
-pub(super) struct EventSearch<'a, 'e, S, Y, F, G> {
+pub(super) struct EventSearch<'a, 'e, S, Y, Ob, G> {
     events: &'a mut [Event<'e, S, Y>],
-    on_step: F,
+    observer: &'a mut Ob,
     on_event: G,
     /// Room for states within a step.
     y: Y,
     stopped: Option<(S, Y)>,
 }
 
-impl<'a, 'e, S, Y, F, G> EventSearch<'a, 'e, S, Y, F, G>
+impl<'a, 'e, S, Y, Ob, G> EventSearch<'a, 'e, S, Y, Ob, G>
 where
     S: Real,
     Y: Vector<S>,
-    F: FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
+    Ob: Observer<S, Y>,
     G: FnMut(Occurrence<'_, S, Y>) -> ControlFlow<()>,
 {
-    pub fn new(events: &'a mut [Event<'e, S, Y>], y: Y, on_step: F, on_event: G) -> Self {
-        Self { events, on_step, on_event, y, stopped: None }
+    pub fn new(events: &'a mut [Event<'e, S, Y>], y: Y, observer: &'a mut Ob, on_event: G) -> Self {
+        Self { events, observer, on_event, y, stopped: None }
     }
 
     /// Time and state at which an event has ended the integration, if one has.
@@ -139,15 +139,15 @@ where
     }
 }
 
-impl<S, Y, F, G> Observer<S, Y> for EventSearch<'_, '_, S, Y, F, G>
+impl<S, Y, Ob, G> Observer<S, Y> for EventSearch<'_, '_, S, Y, Ob, G>
 where
     S: Real,
     Y: Vector<S>,
-    F: FnMut(&Step<'_, S, Y>) -> ControlFlow<()>,
+    Ob: Observer<S, Y>,
     G: FnMut(Occurrence<'_, S, Y>) -> ControlFlow<()>,
 {
     fn step(&mut self, step: &Step<'_, S, Y>) -> ControlFlow<()> {
-        (self.on_step)(step)
+        self.observer.step(step)
     }
 
     fn observe<R: Formula<S, Y>, O: Ode<S, Y> + ?Sized>(
@@ -180,12 +180,12 @@ where
                     }
                     observed.integration.progress.check(t, &y)?;
                 }
-                let _ = (self.on_step)(&observed.step().until(t, &y));
+                let _ = self.observer.observe(&mut observed.until((t, &y)))?;
                 self.stopped = Some((t, y));
                 return Ok(ControlFlow::Break(()));
             }
         }
-        Ok(self.step(&observed.step()))
+        self.observer.observe(observed)
     }
 }
 

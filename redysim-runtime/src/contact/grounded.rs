@@ -1,0 +1,253 @@
+//! A mechanism with contacts.
+
+use core::fmt;
+
+use super::{Contact, ContactError, ContactLaw, Reaction};
+use crate::vector::entry;
+use crate::{
+    BiasForces, ConfigurationSpace, Energy, ForwardDynamics, FrameState, Frames, InverseDynamics, LoopClosure,
+    LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Real, Vector, Wrench,
+};
+
+/// A mechanism whose frames meet the ground: a mechanism itself, with the contact forces among those that act on it.
+///
+/// A simulation takes it in the place of the mechanism, whatever the torque law, which may know the bare mechanism:
+///
+/// M a + C v + g + passive forces − Σ Jᵀ f = τ,
+///
+/// where f are the forces of the ground at the frames and J are the Jacobians of their origins. The energy of the ground is
+/// part of the potential [`energy`](MechanicalEnergy::energy), and what its damping and friction take is part of the
+/// [dissipated power](ConfigurationSpace::dissipated_power), so that kinetic and potential energy less E_act of a
+/// [`ForwardSimulation`](crate::ForwardSimulation) are constant.
+///
+/// [`run`](Self::run) integrates from touch-down to lift-off to touch-down. An [`Integrator`](crate::Integrator) by
+/// itself moves it as well, but steps from tolerances then become small where the force begins.
+pub struct Grounded<'m, S, M, L> {
+    mechanism: &'m M,
+    contacts: &'m [Contact<S, L>],
+}
+
+impl<S, M, L> Clone for Grounded<'_, S, M, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S, M, L> Copy for Grounded<'_, S, M, L> {}
+
+impl<S: fmt::Debug, M: Mechanism, L: fmt::Debug> fmt::Debug for Grounded<'_, S, M, L> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { mechanism, contacts } = self;
+        f.debug_struct("Grounded").field("mechanism", &mechanism.name()).field("contacts", contacts).finish()
+    }
+}
+
+impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
+    /// `mechanism` with `contacts`, any number, several of one frame if need be.
+    ///
+    /// # Errors
+    /// The first contact of a frame that the mechanism does not have.
+    pub fn new(mechanism: &'m M, contacts: &'m [Contact<S, L>]) -> Result<Self, ContactError<S>> {
+        let frames = mechanism.nf();
+        let unknown = contacts.iter().enumerate().find(|(_, contact)| contact.frame >= frames);
+        match unknown {
+            Some((index, contact)) => Err(ContactError::UnknownFrame { contact: index, frame: contact.frame, frames }),
+            None => Ok(Self { mechanism, contacts }),
+        }
+    }
+
+    /// The mechanism without the ground.
+    pub fn mechanism(&self) -> &'m M {
+        self.mechanism
+    }
+
+    /// The contacts.
+    pub fn contacts(&self) -> &'m [Contact<S, L>] {
+        self.contacts
+    }
+
+    /// Calls `see` with each contact and the state of its frame, in order.
+    pub(super) fn each(
+        &self,
+        q: &M::Coordinates,
+        v: &M::Velocities,
+        mut see: impl FnMut(&Contact<S, L>, &FrameState<S>),
+    ) {
+        let states = self.mechanism.frame_kinematics(q, v);
+        for contact in self.contacts {
+            if let Some(state) = states.as_ref().get(contact.frame) {
+                see(contact, state);
+            }
+        }
+    }
+
+    /// Calls `see` with each contact and what the ground does there, in order.
+    pub fn reactions(&self, q: &M::Coordinates, v: &M::Velocities, mut see: impl FnMut(&Contact<S, L>, &Reaction<S>)) {
+        self.each(q, v, |contact, state| see(contact, &contact.reaction(state)));
+    }
+
+    /// The elastic energy that is stored in the ground, J.
+    pub fn ground_energy(&self, q: &M::Coordinates, v: &M::Velocities) -> S {
+        let mut sum = S::zero();
+        self.reactions(q, v, |_, reaction| sum += reaction.energy);
+        sum
+    }
+
+    /// The power that damping and friction of the ground take, W.
+    pub fn ground_power(&self, q: &M::Coordinates, v: &M::Velocities) -> S {
+        let mut sum = S::zero();
+        self.reactions(q, v, |_, reaction| sum += reaction.dissipated_power);
+        sum
+    }
+
+    /// Σ Jᵀ f, N m or N: the joint forces of the ground.
+    pub fn ground_forces(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        let mut wrenches =
+            M::Wrenches::from_fn(self.mechanism.nf(), |_| Wrench { force: [S::zero(); 3], moment: [S::zero(); 3] });
+        self.reactions(q, v, |contact, reaction| {
+            if let Some(wrench) = wrenches.as_mut().get_mut(contact.frame) {
+                for (sum, component) in wrench.force.iter_mut().zip(reaction.force) {
+                    *sum += component;
+                }
+            }
+        });
+        self.mechanism.frame_forces(q, &wrenches)
+    }
+
+    /// `forces` and `factor` times those of the ground.
+    fn with_ground(&self, q: &M::Coordinates, v: &M::Velocities, factor: S, forces: &M::Velocities) -> M::Velocities {
+        let ground = self.ground_forces(q, v);
+        M::Velocities::from_fn(self.mechanism.nv(), |i| entry(forces, i) + factor * entry(&ground, i))
+    }
+}
+
+impl<S, M: Mechanism, L> Mechanism for Grounded<'_, S, M, L> {
+    fn name(&self) -> &str {
+        self.mechanism.name()
+    }
+    fn nq(&self) -> usize {
+        self.mechanism.nq()
+    }
+    fn nv(&self) -> usize {
+        self.mechanism.nv()
+    }
+    fn nl(&self) -> usize {
+        self.mechanism.nl()
+    }
+    fn link_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.link_name(index)
+    }
+    fn joint_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.joint_name(index)
+    }
+    fn coordinate_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.coordinate_name(index)
+    }
+    fn velocity_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.velocity_name(index)
+    }
+    fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
+        self.mechanism.coordinate_of_velocity(index)
+    }
+    fn nf(&self) -> usize {
+        self.mechanism.nf()
+    }
+    fn frame_name(&self, index: usize) -> Option<&str> {
+        self.mechanism.frame_name(index)
+    }
+}
+
+impl<S: Real, M: Frames<S>, L: ContactLaw<S>> ConfigurationSpace<S> for Grounded<'_, S, M, L> {
+    type Coordinates = M::Coordinates;
+    type Velocities = M::Velocities;
+    type State = M::State;
+    type Matrix = M::Matrix;
+    type Links = M::Links;
+
+    fn coordinate_rates(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Coordinates {
+        self.mechanism.coordinate_rates(q, v)
+    }
+    fn coordinate_rates_tangent(
+        &self,
+        q: &Self::Coordinates,
+        v: &Self::Velocities,
+        dq: &Self::Coordinates,
+    ) -> Option<Self::Coordinates> {
+        self.mechanism.coordinate_rates_tangent(q, v, dq)
+    }
+    fn integrate(&self, q: &Self::Coordinates, dv: &Self::Velocities) -> Self::Coordinates {
+        self.mechanism.integrate(q, dv)
+    }
+    fn difference(&self, q0: &Self::Coordinates, q1: &Self::Coordinates) -> Self::Velocities {
+        self.mechanism.difference(q0, q1)
+    }
+    fn neutral(&self) -> Self::Coordinates {
+        self.mechanism.neutral()
+    }
+    /// Of the mechanism and of the ground.
+    fn dissipated_power(&self, q: &Self::Coordinates, v: &Self::Velocities) -> S {
+        self.mechanism.dissipated_power(q, v) + self.ground_power(q, v)
+    }
+}
+
+impl<S: Real, M: Frames<S> + ForwardDynamics<S>, L: ContactLaw<S>> ForwardDynamics<S> for Grounded<'_, S, M, L> {
+    fn forward_dynamics(
+        &self,
+        q: &Self::Coordinates,
+        v: &Self::Velocities,
+        tau: &Self::Velocities,
+    ) -> Self::Velocities {
+        self.mechanism.forward_dynamics(q, v, &self.with_ground(q, v, S::one(), tau))
+    }
+}
+
+impl<S: Real, M: Frames<S> + InverseDynamics<S>, L: ContactLaw<S>> InverseDynamics<S> for Grounded<'_, S, M, L> {
+    fn inverse_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, a: &Self::Velocities) -> Self::Velocities {
+        self.with_ground(q, v, -S::one(), &self.mechanism.inverse_dynamics(q, v, a))
+    }
+}
+
+impl<S: Real, M: Frames<S> + BiasForces<S>, L: ContactLaw<S>> BiasForces<S> for Grounded<'_, S, M, L> {
+    fn bias_forces(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Velocities {
+        self.with_ground(q, v, -S::one(), &self.mechanism.bias_forces(q, v))
+    }
+}
+
+impl<S: Real, M: Frames<S> + MassMatrix<S>, L: ContactLaw<S>> MassMatrix<S> for Grounded<'_, S, M, L> {
+    fn mass_matrix(&self, q: &Self::Coordinates) -> Self::Matrix {
+        self.mechanism.mass_matrix(q)
+    }
+}
+
+impl<S: Real, M: Frames<S> + MechanicalEnergy<S>, L: ContactLaw<S>> MechanicalEnergy<S> for Grounded<'_, S, M, L> {
+    /// With the energy of the ground as part of the potential.
+    fn energy(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Energy<S> {
+        let Energy { kinetic, potential } = self.mechanism.energy(q, v);
+        Energy { kinetic, potential: potential + self.ground_energy(q, v) }
+    }
+}
+
+impl<S, M: LoopRows, L> LoopRows for Grounded<'_, S, M, L> {
+    fn nc(&self) -> usize {
+        self.mechanism.nc()
+    }
+    fn loop_name(&self, row: usize) -> Option<&str> {
+        self.mechanism.loop_name(row)
+    }
+}
+
+impl<'m, S: Real, M: Frames<S> + LoopClosure<S, M>, L: ContactLaw<S>> LoopClosure<S, Self> for Grounded<'m, S, M, L> {
+    type Rows = M::Rows;
+    type Jacobian = M::Jacobian;
+    type Gram = M::Gram;
+
+    fn loop_residual(&self, q: &M::Coordinates) -> Self::Rows {
+        self.mechanism.loop_residual(q)
+    }
+    fn loop_jacobian(&self, q: &M::Coordinates) -> Self::Jacobian {
+        self.mechanism.loop_jacobian(q)
+    }
+    fn loop_bias(&self, q: &M::Coordinates, v: &M::Velocities) -> Self::Rows {
+        self.mechanism.loop_bias(q, v)
+    }
+}
