@@ -56,8 +56,9 @@ mod urdf;
 #[doc(hidden)]
 pub use commands::run;
 pub use data::{
-    AbsoluteTolerance, AxisGains, Compensation, FixedStep, Forward, Impedance, Initial, Integrator, Limits, Payload,
-    Results, Scenario, Span, Stabilisation, Table, Target, Through, Tolerances, Torque, Trajectory, Values,
+    AbsoluteTolerance, AxisGains, Compensation, Contact, FixedStep, Forward, FrameNames, Ground, Impedance, Initial,
+    Integrator, Limits, Payload, Results, Scenario, Span, Stabilisation, Table, Target, Through, Tolerances, Torque,
+    Trajectory, Values,
 };
 pub use failure::Failure;
 pub use results::{Ending, Run};

@@ -226,14 +226,36 @@ impl<'a, 'f> Reader<'a, 'f> {
                 let kind = reader.kind(path, value, found, kinds)?;
                 return Some(read(reader.inside(path, value, &nothing_else), kind.kind));
             }
-            let mut inner = reader.within(path, value)?;
-            let named = inner.field(tag, |inner, path, value| match name_of(value) {
+            reader.table_of_kind_at(path, value, tag, kinds, Some(default), read)
+        })
+    }
+
+    /// The table that `value`, found at `path`, must be, whose kind, named under the key `tag`, determines which keys it
+    /// has. Without a default, the kind must be named.
+    pub fn table_of_kind_at<T, K: Copy>(
+        &mut self,
+        path: &KeyPath,
+        value: &Value<'_>,
+        tag: &Key,
+        kinds: &[Kind<K>],
+        default: Option<&Kind<K>>,
+        read: impl FnOnce(Reader<'_, '_>, K) -> T,
+    ) -> Option<T> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return self.wrong_type(path, value, "a table");
+        };
+        let mut inner = self.inside(path, value, table);
+        let by_name = |inner: &mut Reader<'_, '_>, key: &Key| {
+            inner.field(key, |inner, path, value| match name_of(value) {
                 Some(found) => inner.kind(path, value, found, kinds),
                 None => inner.wrong_type(path, value, "a string"),
-            });
-            let kind = named.value_or(default)?;
-            Some(read(inner.without_unknown_keys(kind.keys), kind.kind))
-        })
+            })
+        };
+        let kind = match default {
+            Some(default) => by_name(&mut inner, tag).value_or(default)?,
+            None => *inner.required(tag, by_name).value()?,
+        };
+        Some(read(inner.without_unknown_keys(kind.keys), kind.kind))
     }
 
     /// Looks up the kind of the name `found`.

@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::rounded;
 use crate::output::to_stdout;
-use crate::results::{self, Ended, Outcome, Record, Sample};
+use crate::results::{self, Ended, GroundSample, Outcome, Record, Sample};
 use crate::scenario::{Dynamics, Prescribed, Scenario, Span, keys, missing};
 
 /// Compute the forces that a prescribed motion takes, and write them into a folder.
@@ -122,7 +122,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
         before = Some(t);
         worst = f64::max(worst, position_residual);
         most.iter_mut().zip(&tau).for_each(|(most, force)| *most = f64::max(*most, force.abs()));
-        record.add(&Sample { t, q, v, a, tau, lambda, work })
+        record.add(&Sample { t, q, v, a, tau, lambda, work, ground: GroundSample::default() })
     };
     let ended = loop {
         let Some(t) = record.next() else { break Ended::Complete };
@@ -139,6 +139,7 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
         steps: None,
         statistics: None,
         position_residual: scenario.loops().then_some(worst),
+        contacts: None,
     };
     (outcome, most)
 }

@@ -51,6 +51,11 @@ pub fn read(text: &str, path: &Path, runs: &[Dynamics]) -> Result<Scenario, Fail
             document.remove(&run.to_string());
         }
     }
+    if !runs.contains(&Dynamics::Forward) {
+        for key in [keys::GROUND, keys::CONTACT] {
+            document.remove(key.name);
+        }
+    }
     spell_out(&mut document, &layout);
     let scenario: Scenario = toml::from_str(&document.to_string())
         .map_err(|error| Failure::input(format!("{}: {}", path.display(), error.message())))?;

@@ -1,5 +1,6 @@
 //! Scenarios and results as data: they serialise and deserialise, and are read and written as the command does.
 
+mod contact;
 mod file;
 mod in_space;
 mod integrator;
@@ -8,6 +9,7 @@ mod scenario;
 mod torque;
 mod trajectory;
 
+pub use contact::{Contact, FrameNames, Ground};
 pub use integrator::{AbsoluteTolerance, FixedStep, Integrator, Tolerances};
 pub use results::{Results, Table};
 pub use scenario::{Forward, Initial, Scenario, Span, Stabilisation, Values};
@@ -32,7 +34,8 @@ mod tests {
     use serde::de::DeserializeOwned;
 
     use super::{
-        Forward, Impedance, Initial, Integrator, Payload, Scenario, Span, Stabilisation, Target, Torque, Trajectory,
+        Contact, Forward, Ground, Impedance, Initial, Integrator, Payload, Scenario, Span, Stabilisation, Target,
+        Torque, Trajectory,
     };
     use crate::scenario::keys;
 
@@ -72,6 +75,10 @@ mod tests {
             has::<Trajectory>("kind", motion, keys);
         }
         has::<Trajectory>("kind", "cubic", &keys::VIA_POINTS);
+        has::<Ground>("", "", keys::GROUND.tables[0]);
+        for (law, keys) in ["redysim", "hunt-crossley"].iter().zip(keys::CONTACT.tables) {
+            has::<Contact>("law", law, keys);
+        }
         has::<Stabilisation>("kind", "baumgarte", &keys::BAUMGARTE);
         let counts = [keys::TORQUE.tables.len() - 1, keys::INTEGRATOR.tables.len(), keys::TRAJECTORY.tables.len()];
         assert_eq!(counts, [laws.len(), 2, motions.len()], "every kind of table is compared");

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use toml_edit::DocumentMut;
 
 use super::file;
-use super::{Integrator, Torque, Trajectory, nothing_else};
+use super::{Contact, Ground, Integrator, Torque, Trajectory, nothing_else};
 use crate::failure::Failure;
 use crate::scenario::{Dynamics, keys, read_text};
 use crate::text::to_toml;
@@ -62,6 +62,10 @@ pub struct Scenario {
     pub inverse: Option<Span>,
     /// The motion that forward dynamics computes.
     pub forward: Option<Forward>,
+    /// The ground that frames may touch in that motion; by default the plane z = 0.
+    pub ground: Option<Ground>,
+    /// The frames that may touch it; by default none.
+    pub contact: Option<Vec<Contact>>,
 }
 
 /// Where a mechanism starts.
@@ -168,7 +172,16 @@ impl Forward {
 impl Scenario {
     /// A scenario of the model file or URDF at the path `model`, from the folder of the scenario, without a run.
     pub fn new(model: impl Into<String>) -> Self {
-        Scenario { name: None, model: model.into(), initial: None, trajectory: None, inverse: None, forward: None }
+        Scenario {
+            name: None,
+            model: model.into(),
+            initial: None,
+            trajectory: None,
+            inverse: None,
+            forward: None,
+            ground: None,
+            contact: None,
+        }
     }
 
     /// Reads a scenario file and checks it for each run that it has. A scenario without a name gets that of the file.
@@ -231,7 +244,7 @@ impl Scenario {
     /// The scenario with nothing but what it has for one of its runs.
     pub(super) fn only(self, run: Dynamics) -> Self {
         match run {
-            Dynamics::Inverse => Scenario { forward: None, ..self },
+            Dynamics::Inverse => Scenario { forward: None, ground: None, contact: None, ..self },
             Dynamics::Forward => Scenario { inverse: None, ..self },
         }
     }

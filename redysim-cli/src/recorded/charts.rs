@@ -60,7 +60,7 @@ impl Recorded {
             }));
         }
         if let Some(table) = self.table(names::ENERGY)? {
-            let energies = ["kinetic", "potential", "total", "work"];
+            let energies = ["kinetic", "potential", "ground", "total", "work", "ground_loss"];
             let (all, drift) = (&mut Colours::default(), &mut Colours::default());
             charts.extend(by_unit(&table, Picture::Energy, &energies, all, |_| ("Energy", "energy")));
             charts.extend(by_unit(&table, Picture::Energy, &["drift"], drift, |_| ("Drift of the energy", "drift")));

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use crate::scenario::{Dynamics, Scenario};
 pub use balance::Balance;
 pub use folder::Folder;
-pub use record::{Record, Sample};
+pub use record::{GroundSample, Record, Sample};
 pub use run::{Ending, Run};
 pub use summary::{Ended, Outcome, Summary};
 pub use tables::Format;

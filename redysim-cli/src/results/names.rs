@@ -22,9 +22,10 @@ pub const LAMBDA: &str = "lambda";
 pub const ENERGY: &str = "energy";
 pub const ENVAR: &str = "envar";
 pub const KINEMATICS: &str = "kinematics";
+pub const CONTACTS: &str = "contacts";
 
 /// All tables that there may be.
-pub const TABLES: [&str; 8] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS];
+pub const TABLES: [&str; 9] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS, CONTACTS];
 
 /// The file of a table in CSV.
 pub fn csv(table: &str) -> String {

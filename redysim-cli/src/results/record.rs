@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use redysim_runtime::MechanicalEnergy;
+use redysim_runtime::{Energy, MechanicalEnergy, Reaction};
 
 use super::tables::{Row, Tables};
 use super::{Arguments, Balance, Ended, Folder, Outcome, Summary, leftover, run_file};
@@ -23,8 +23,27 @@ pub struct Sample {
     pub tau: Vec<f64>,
     /// Multipliers of the loops' rows.
     pub lambda: Vec<f64>,
-    /// The work that the actuators have done since the start, J.
+    /// The work that the actuators have done since the start, J, less what damping and friction of the joints have
+    /// taken.
     pub work: f64,
+    /// What the ground does.
+    pub ground: GroundSample,
+}
+
+/// What the ground does at an instant.
+#[derive(Default)]
+pub struct GroundSample {
+    /// For each contact.
+    pub reactions: Vec<Reaction<f64>>,
+    /// What its damping and friction have taken since the start, J.
+    pub loss: f64,
+}
+
+impl GroundSample {
+    /// The elastic energy that is stored in the ground, J.
+    pub fn energy(&self) -> f64 {
+        self.reactions.iter().map(|reaction| reaction.energy).sum()
+    }
 }
 
 /// A run as far as it is computed. Its rows are in the files already: however many they are, none is kept in memory.
@@ -87,7 +106,9 @@ impl<'a> Record<'a> {
     /// If a number is infinite or none, or if it cannot be written.
     pub fn add(&mut self, sample: &Sample) -> Result<(), Failure> {
         let energy = self.scenario.mechanism.energy(&sample.q, &sample.v);
-        let drift = self.balance.see(energy, sample.work);
+        let Sample { work, ground, .. } = sample;
+        let with_ground = Energy { potential: energy.potential + ground.energy(), ..energy };
+        let drift = self.balance.see(with_ground, work - ground.loss);
         let rows = self.tables.rows(&Row { scenario: self.scenario, sample, energy, drift })?;
         self.tables.write(&rows).inspect_err(|failure| self.broken = Some(failure.clone()))?;
         if self.count == 0 {
@@ -98,9 +119,9 @@ impl<'a> Record<'a> {
         Ok(())
     }
 
-    /// Watches the energy in a state between instants, too.
+    /// Watches the energy in a state between instants, too; of `work` the loss in the ground is subtracted.
     pub fn see(&mut self, q: &Vec<f64>, v: &Vec<f64>, work: f64) {
-        self.balance.see(self.scenario.mechanism.energy(q, v), work);
+        self.balance.see(self.scenario.ground().energy(q, v), work);
     }
 
     /// Shows how far it is, if one has to wait.

@@ -40,6 +40,8 @@ pub struct Run {
     pub jacobians: Option<u64>,
     /// Decompositions of a matrix.
     pub decompositions: Option<u64>,
+    /// How often a contact touched down, if there are contacts.
+    pub touch_downs: Option<u64>,
     /// The largest drift of the energy at an instant or the end of a step, J.
     pub energy_drift: f64,
     /// What to compare it with: the most that was there as kinetic energy, as a change of the potential energy, or as

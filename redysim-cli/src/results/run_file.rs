@@ -9,6 +9,7 @@ use toml_edit::{Array, DocumentMut, Item, Value, value};
 use super::names::{MODEL, RUN_FILE, TORQUE, TRAJECTORY, URDF, csv};
 use super::{Ended, Ending, Folder, Outcome, Run, Summary};
 use crate::failure::Failure;
+use crate::scenario::contact::{USUAL_NORMAL, USUAL_POINT};
 use crate::scenario::{Absolute, HeldFrame, Integrator, Scenario, Tolerances, Torque, USUAL_THROUGH, keys, shorthand};
 use crate::text::{self, set_default};
 
@@ -62,6 +63,10 @@ pub fn write(folder: &Folder, scenario: &Scenario, summary: &Summary) -> Result<
             shorthand::STABILISATION.expand(&mut table["stabilisation"]);
         }
     }
+    if !scenario.contacts.names.is_empty() {
+        set_default(&mut document["ground"], "point", numbers(&USUAL_POINT));
+        set_default(&mut document["ground"], "normal", numbers(&USUAL_NORMAL));
+    }
     let before = document.remove(keys::RUN.name).and_then(|run| Some(run.get(URDF)?.as_str()?.to_owned()));
     let urdf = scenario.urdf.as_ref().map(|urdf| {
         let path = std::fs::canonicalize(urdf).unwrap_or_else(|_| urdf.clone());
@@ -107,7 +112,7 @@ fn numbers(values: &[f64]) -> Item {
 /// The table of how it went. A run that is done again has the URDF of the first one.
 fn how_it_went(summary: &Summary, urdf: Option<String>) -> Run {
     let Summary { dynamics, instants: (from, until, count), seconds, balance, start: [q, v], outcome, .. } = summary;
-    let Outcome { ended, steps, statistics, position_residual, .. } = outcome;
+    let Outcome { ended, steps, statistics, position_residual, contacts, .. } = outcome;
     let (ended, reason) = match ended {
         Ended::Complete => (Ending::Complete, None),
         Ended::Interrupted => (Ending::Interrupted, None),
@@ -129,6 +134,7 @@ fn how_it_went(summary: &Summary, urdf: Option<String>) -> Run {
         corrections: counted(|statistics| statistics.corrections),
         jacobians: counted(|statistics| statistics.jacobians),
         decompositions: counted(|statistics| statistics.decompositions),
+        touch_downs: contacts.map(|(_, touch_downs)| touch_downs),
         energy_drift: balance.drift,
         energy_exchanged: balance.exchanged,
         worst_position_residual: *position_residual,

@@ -20,6 +20,8 @@ pub struct Outcome {
     pub statistics: Option<Statistics>,
     /// The largest position residual of a loop, m (or a sine), if there are loops.
     pub position_residual: Option<f64>,
+    /// How many contacts there are, and how often one touched down, if there are contacts.
+    pub contacts: Option<(usize, u64)>,
 }
 
 /// How a run ended.
@@ -49,7 +51,7 @@ pub struct Summary {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Outcome { integrator, steps, statistics, position_residual, .. } = &self.outcome;
+        let Outcome { integrator, steps, statistics, position_residual, contacts, .. } = &self.outcome;
         let (from, to, count) = self.instants;
         write!(f, "{}: {} dynamics", self.name, self.dynamics)?;
         integrator.as_ref().map_or(Ok(()), |name| write!(f, " by {name}"))?;
@@ -59,6 +61,11 @@ impl fmt::Display for Summary {
         }
         if let Some(Statistics { rejected, evaluations, .. }) = statistics {
             write!(f, ", {rejected} rejected, {evaluations} evaluations")?;
+        }
+        if let Some((contacts, touch_downs)) = contacts {
+            let plural = |count: u64| if count == 1 { "" } else { "s" };
+            let [s, downs] = [*contacts as u64, *touch_downs].map(plural);
+            write!(f, "\n  {contacts} contact{s}, {touch_downs} touch-down{downs}")?;
         }
         write!(f, "\n  {:.3} s of computing and writing", self.seconds)?;
         let Balance { drift, exchanged, .. } = self.balance;

@@ -3,7 +3,7 @@
 use std::fs::File;
 
 use redysim_model::GenericMechanism;
-use redysim_runtime::{Energy, LinkKinematics};
+use redysim_runtime::{Energy, LinkKinematics, Reaction};
 
 use super::{Folder, Sample, names};
 use crate::failure::Failure;
@@ -110,9 +110,27 @@ impl Row<'_> {
         [&[self.sample.t], parts.concat().as_slice()].concat()
     }
 
-    /// ReDySim's energy of the actuators is minus their work.
+    /// ReDySim's energy of the actuators is minus their work; what the ground takes is part of it.
     fn actuators(&self) -> f64 {
-        0.0 - self.sample.work
+        self.sample.ground.loss - self.sample.work
+    }
+
+    /// Potential energy of the mechanism and the ground.
+    fn potential(&self) -> f64 {
+        self.energy.potential + self.sample.ground.energy()
+    }
+
+    /// Kinetic and potential energy, that of the ground with it.
+    fn total(&self) -> f64 {
+        self.energy.total() + self.sample.ground.energy()
+    }
+
+    fn contacts(&self) -> Vec<f64> {
+        let of_contact = self.sample.ground.reactions.iter().flat_map(|reaction| {
+            let Reaction { force: [x, y, z], normal_force, penetration, touching, .. } = *reaction;
+            [x, y, z, normal_force, penetration, f64::from(u8::from(touching))]
+        });
+        of_contact.collect()
     }
 
     fn kinematics(&self) -> Vec<f64> {
@@ -127,7 +145,10 @@ impl Row<'_> {
 /// The tables with names and units, each with the time first.
 fn named(scenario: &Scenario) -> Vec<TableFile> {
     let Headers { q, v, a, forces } = Headers::of(&scenario.layout);
-    let energies = ["kinetic", "potential", "total", "work", "drift"].map(|name| format!("{name} [J]"));
+    let contacts = &scenario.contacts.names;
+    let ground = if contacts.is_empty() { &[][..] } else { &["ground", "ground_loss"] };
+    let energies = ["kinetic", "potential", "total", "work", "drift"];
+    let energies: Vec<_> = energies.iter().chain(ground).map(|name| format!("{name} [J]")).collect();
     let timed = |name, headers: &[&[String]], make: Make| {
         let headers = [&["t [s]".to_owned()], headers.concat().as_slice()].concat();
         TableFile { name, headers, make }
@@ -139,10 +160,15 @@ fn named(scenario: &Scenario) -> Vec<TableFile> {
         timed(names::TOR, &[&forces], |at| at.timed(&[&at.sample.tau])),
         timed(names::ENERGY, &[&energies], |at| {
             let Energy { kinetic, potential } = at.energy;
-            at.timed(&[&[kinetic, potential, at.energy.total(), at.sample.work, at.drift]])
+            let ground = [at.sample.ground.energy(), at.sample.ground.loss];
+            let ground = if at.sample.ground.reactions.is_empty() { &[][..] } else { &ground };
+            at.timed(&[&[kinetic, potential, at.total(), at.sample.work, at.drift], ground])
         }),
         timed(names::KINEMATICS, &[&kinematics_headers(scenario)], |at| at.timed(&[&at.kinematics()])),
     ];
+    if !contacts.is_empty() {
+        tables.push(timed(names::CONTACTS, &[&contact_headers(contacts)], |at| at.timed(&[&at.contacts()])));
+    }
     if scenario.loops() {
         tables.push(timed(names::LAMBDA, &[&lambda_headers(&scenario.mechanism)], |at| at.timed(&[&at.sample.lambda])));
     }
@@ -182,16 +208,16 @@ fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<TableFile> {
     let plain = |name, make: Make| TableFile { name, headers: vec![], make };
     let mut tables = vec![
         plain(names::TIMEVAR, |at| vec![at.sample.t]),
-        plain(names::ENVAR, |at| {
-            let Energy { kinetic, potential } = at.energy;
-            vec![potential, kinetic, at.actuators(), at.energy.total() + at.actuators()]
-        }),
+        plain(names::ENVAR, |at| vec![at.potential(), at.energy.kinetic, at.actuators(), at.total() + at.actuators()]),
         plain(names::KINEMATICS, |at| at.kinematics()),
     ];
     tables.push(match dynamics {
         Dynamics::Forward => plain(names::STATEVAR, |at| [&*at.sample.q, &at.sample.v, &[at.actuators()]].concat()),
         Dynamics::Inverse => plain(names::STATEVAR, |at| [&*at.sample.q, &at.sample.v, &at.sample.a].concat()),
     });
+    if !scenario.contacts.names.is_empty() {
+        tables.push(plain(names::CONTACTS, |at| at.contacts()));
+    }
     match (scenario.loops(), dynamics) {
         (true, Dynamics::Inverse) => tables.push(plain(names::TOR, |at| {
             let actuated = at.scenario.actuated_velocities();
@@ -214,6 +240,19 @@ fn kinematics_headers(scenario: &Scenario) -> Vec<String> {
         lengths.into_iter().chain(rotation).collect::<Vec<_>>()
     };
     scenario.mechanism.model().links.iter().flat_map(|link| of_link(&link.name)).collect()
+}
+
+fn contact_headers(names: &[String]) -> Vec<String> {
+    let symbols = [
+        ("force_x", "N"),
+        ("force_y", "N"),
+        ("force_z", "N"),
+        ("normal", "N"),
+        ("penetration", "m"),
+        ("touching", "1"),
+    ];
+    let of_contact = |name: &String| symbols.map(|(symbol, unit)| format!("{symbol} {name} [{unit}]"));
+    names.iter().flat_map(of_contact).collect()
 }
 
 /// `lambda <loop> <k> [unit]` for each row of a cut that is kept.

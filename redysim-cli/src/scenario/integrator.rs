@@ -4,12 +4,12 @@ use redysim_model::GenericMechanism;
 use redysim_runtime::integrate::stability::{StepWarning, largest_stable_step};
 use redysim_runtime::integrate::{self, Observer};
 use redysim_runtime::{
-    Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator as _, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
+    ContactEvent, Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
     SemiImplicitEuler, Solution,
 };
 use redysim_toml::{Field, Key, Kind, Message, Reader};
 
-use super::keys;
+use super::{Ground, keys};
 
 /// An integrator and its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,37 +199,61 @@ impl Integrator {
         stable.ok()?.warning(step, mechanism)
     }
 
-    /// Integrates `ode`, the motion of `mechanism`, over `interval`.
+    /// Integrates `ode`, the motion of the mechanism of `ground`, over `interval`. Each touch-down and lift-off is shown
+    /// to `on_event`.
     ///
     /// # Errors
-    /// As [`redysim_runtime::Integrator::run`].
+    /// As [`Grounded::run`](redysim_runtime::Grounded::run).
     pub fn run(
         &self,
-        mechanism: &GenericMechanism,
+        ground: &Ground<'_>,
         ode: &mut dyn Ode<f64, Vec<f64>>,
         interval: (f64, f64),
         start: Vec<f64>,
         observer: &mut impl Observer<f64, Vec<f64>>,
+        on_event: impl FnMut(ContactEvent<f64>),
     ) -> Result<Solution<f64, Vec<f64>>, IntegrationError<f64>> {
+        let atol = match self {
+            Integrator::Fixed(..) => vec![],
+            Integrator::Adaptive(_, Tolerances { atol, .. }) => atol.of_state(ground.mechanism(), start.len()),
+        };
+        let task = Task { ground, ode, interval, start, observer, on_event };
         match *self {
             Integrator::Fixed(method, step) => match method {
-                Fixed::SemiImplicitEuler => SemiImplicitEuler::new(step).run(ode, interval, start, observer),
-                Fixed::Ode4 => Ode4::new(step).run(ode, interval, start, observer),
-                Fixed::Ode5 => Ode5::new(step).run(ode, interval, start, observer),
-                Fixed::Dop8 => Dop8::new(step).run(ode, interval, start, observer),
-                Fixed::Gauss4 => Gauss4::new(step).run(ode, interval, start, observer),
-                Fixed::Gauss6 => Gauss6::new(step).run(ode, interval, start, observer),
+                Fixed::SemiImplicitEuler => task.by(&SemiImplicitEuler::new(step)),
+                Fixed::Ode4 => task.by(&Ode4::new(step)),
+                Fixed::Ode5 => task.by(&Ode5::new(step)),
+                Fixed::Dop8 => task.by(&Dop8::new(step)),
+                Fixed::Gauss4 => task.by(&Gauss4::new(step)),
+                Fixed::Gauss6 => task.by(&Gauss6::new(step)),
             },
-            Integrator::Adaptive(method, tolerances) => {
-                let atol = tolerances.atol.of_state(mechanism, start.len());
-                match method {
-                    Adaptive::Ode45 => tolerances.on(Ode45::new(), &atol).run(ode, interval, start, observer),
-                    Adaptive::Dop853 => tolerances.on(Dop853::new(), &atol).run(ode, interval, start, observer),
-                    Adaptive::Ode15s => tolerances.on(Ode15s::new(), &atol).run(ode, interval, start, observer),
-                    Adaptive::Radau5 => tolerances.on(Radau5::new(), &atol).run(ode, interval, start, observer),
-                }
-            }
+            Integrator::Adaptive(method, tolerances) => match method {
+                Adaptive::Ode45 => task.by(&tolerances.on(Ode45::new(), &atol)),
+                Adaptive::Dop853 => task.by(&tolerances.on(Dop853::new(), &atol)),
+                Adaptive::Ode15s => task.by(&tolerances.on(Ode15s::new(), &atol)),
+                Adaptive::Radau5 => task.by(&tolerances.on(Radau5::new(), &atol)),
+            },
         }
+    }
+}
+
+/// What is to be integrated, by whatever method.
+struct Task<'t, 'a, O, G> {
+    ground: &'t Ground<'a>,
+    ode: &'t mut dyn Ode<f64, Vec<f64>>,
+    interval: (f64, f64),
+    start: Vec<f64>,
+    observer: &'t mut O,
+    on_event: G,
+}
+
+impl<O: Observer<f64, Vec<f64>>, G: FnMut(ContactEvent<f64>)> Task<'_, '_, O, G> {
+    fn by(
+        self,
+        method: &impl redysim_runtime::Integrator<f64>,
+    ) -> Result<Solution<f64, Vec<f64>>, IntegrationError<f64>> {
+        let Task { ground, ode, interval, start, observer, on_event } = self;
+        ground.run(method, ode, interval, start, observer, on_event)
     }
 }
 

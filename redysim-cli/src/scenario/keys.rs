@@ -3,7 +3,8 @@
 
 use redysim_toml::{Key, Keys};
 
-pub const SCENARIO: Keys = Keys::new("A scenario", &[NAME, MODEL, INITIAL, TRAJECTORY, INVERSE, FORWARD, RUN]);
+pub const SCENARIO: Keys =
+    Keys::new("A scenario", &[NAME, MODEL, INITIAL, TRAJECTORY, INVERSE, FORWARD, GROUND, CONTACT, RUN]);
 pub const NAME: Key = Key::new("name", "\"swing\"", "what the results are called").with_default("the name of the file");
 pub const MODEL: Key =
     Key::new("model", "\"../models/kr5.toml\"", "a model file or a URDF, from the folder of the scenario")
@@ -196,6 +197,71 @@ pub const NULL_SPACE_DAMPING: Key =
     Key::new("null_space_damping", "2.0", "1/s, of what leaves the frame alone").with_default("0");
 pub const FORCE_FILE: Key =
     Key::new("file", "\"forces.csv\"", "from the folder of the scenario").with_default("required");
+
+pub const GROUND: Key = Key::of_table(
+    "ground",
+    "{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }",
+    "the plane that the frames of `contact` meet, in the base frame",
+    &[&GROUND_KEYS],
+)
+.with_default("the plane z = 0, with the free side above");
+const GROUND_KEYS: Keys = Keys::new("`ground`", &[POINT, NORMAL]);
+pub const POINT: Key = Key::new("point", "[0.0, 0.0, 0.0]", "m, of the plane").with_default("[0, 0, 0]");
+pub const NORMAL: Key =
+    Key::new("normal", "[0.0, 0.0, 1.0]", "out of the ground, of any length").with_default("[0, 0, 1]");
+pub const CONTACT: Key = Key::of_tables(
+    "contact",
+    "a frame that may touch the ground, or several of them, in forward dynamics",
+    &[&REDYSIM_CONTACT, &HUNT_CROSSLEY],
+)
+.with_default("none");
+pub const REDYSIM_CONTACT: Keys = Keys::new(
+    "A contact with ReDySim's law",
+    &[
+        CONTACT_LAW,
+        CONTACT_NAME,
+        CONTACT_FRAME,
+        CONTACT_STIFFNESS,
+        CONTACT_DAMPING,
+        LEAVING_SPEED,
+        FRICTION,
+        SLIDING_DAMPING,
+    ],
+);
+pub const HUNT_CROSSLEY: Keys = Keys::new(
+    "A contact with the law of Hunt and Crossley",
+    &[
+        CONTACT_LAW,
+        CONTACT_NAME,
+        CONTACT_FRAME,
+        HUNT_CROSSLEY_STIFFNESS,
+        EXPONENT,
+        HUNT_CROSSLEY_DAMPING,
+        FRICTION,
+        SLIP_VELOCITY,
+    ],
+);
+pub const CONTACT_LAW: Key = Key::new("law", "\"redysim\"", "or hunt-crossley").with_default("required");
+pub const CONTACT_NAME: Key =
+    Key::new("name", "\"left foot\"", "what it is called in the results").with_default("the name of its frame");
+pub const CONTACT_FRAME: Key =
+    Key::new("frame", "\"foot\"", "the `[[frame]]` of the model, or several: [\"left\", \"right\"]")
+        .with_default("required");
+pub const CONTACT_STIFFNESS: Key = Key::new("stiffness", "2500.0", "K, N/m").with_default("required");
+pub const CONTACT_DAMPING: Key = Key::new("damping", "3464.0", "C_v, N s/m").with_default("required");
+pub const LEAVING_SPEED: Key =
+    Key::new("leaving_speed", "4.5", "v_max, m/s, up to which a frame that leaves is not held back")
+        .with_default("required");
+pub const FRICTION: Key = Key::new("friction", "0.7", "μ").with_default("required");
+pub const SLIDING_DAMPING: Key =
+    Key::new("sliding_damping", "1500.0", "C_h, N s/m, of friction at small speeds").with_default("required");
+pub const HUNT_CROSSLEY_STIFFNESS: Key =
+    Key::new("stiffness", "100000.0", "k, N/m^n, of N = k p^n (1 + d dp/dt)").with_default("required");
+pub const EXPONENT: Key = Key::new("exponent", "1.5", "n").with_default("1.5");
+pub const HUNT_CROSSLEY_DAMPING: Key = Key::new("damping", "0.5", "d, s/m").with_default("required");
+pub const SLIP_VELOCITY: Key =
+    Key::new("slip_velocity", "0.01", "m/s: friction reaches 1/√2 of μ N at this speed; it is a damper at lower ones")
+        .with_default("required");
 
 pub const STABILISATION: Key = Key::of_table(
     "stabilisation",

@@ -1,7 +1,9 @@
 //! Scenarios: what is to be computed of a model, in TOML.
 
+pub mod contact;
 mod forces;
 mod forward;
+mod frames;
 pub mod in_space;
 mod initial;
 mod integrator;
@@ -29,6 +31,8 @@ use toml_edit::DocumentMut;
 use crate::failure::Failure;
 use crate::layout::Layout;
 use crate::model::{self, Read};
+use contact::Contacts;
+pub use contact::Ground;
 pub use forward::Forward;
 pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances, usual_method};
@@ -74,6 +78,8 @@ pub struct Scenario {
     pub inverse: Option<Span>,
     /// What motion is asked for, if that is the run.
     pub forward: Option<Forward>,
+    /// Which frames may touch the ground, in a motion.
+    pub contacts: Contacts,
 }
 
 /// The failure of the scenario at `path` without the table `key`, which states `what`.
@@ -134,6 +140,11 @@ impl Scenario {
         self.layout.actuated_velocities()
     }
 
+    /// The mechanism with its contacts.
+    pub fn ground(&self) -> Ground<'_> {
+        self.contacts.under(&self.mechanism)
+    }
+
     /// The largest component of the loops' residual at `q`, m (or a sine).
     pub fn position_residual(&self, q: &Vec<f64>) -> f64 {
         let residual: Vec<f64> = self.mechanism.loop_residual(q);
@@ -188,12 +199,16 @@ fn read(
     let initial = Initial::read(&mut reader, &subject);
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);
+    let contacts = match dynamics {
+        Dynamics::Inverse => Some(Contacts::default()),
+        Dynamics::Forward => Contacts::read(&mut reader, mechanism.model()),
+    };
     let (inverse, forward) = match dynamics {
         Dynamics::Inverse => (reader.table(&keys::INVERSE, |mut reader| Span::read(&mut reader)), Field::Missing),
         Dynamics::Forward => (Field::Missing, Forward::read(&mut reader, &subject, followed)),
     };
     let (inverse, forward) = (given(inverse)?, given(forward)?);
-    let (name, initial, trajectory) = (name?, initial?, trajectory?);
+    let (name, initial, trajectory, contacts) = (name?, initial?, trajectory?, contacts?);
     let followed = forward.as_ref().and_then(|forward| Some((forward.torque.followed()?, forward.span)));
     if let Some(motion) = trajectory.as_ref().zip(inverse).or(followed) {
         limits::check_motion(&mut reader, &subject, &initial, motion)?;
@@ -202,7 +217,19 @@ fn read(
         limits::check_start(&mut reader, &subject, &initial, span)?;
     }
     let document = document(&mut reader, &text)?;
-    Some(Scenario { name, document, model_text, urdf, mechanism, layout, initial, trajectory, inverse, forward })
+    Some(Scenario {
+        name,
+        document,
+        model_text,
+        urdf,
+        mechanism,
+        layout,
+        initial,
+        trajectory,
+        inverse,
+        forward,
+        contacts,
+    })
 }
 
 /// The file as a document that can be edited. It is parsed again for that: the parts that this run does not read must

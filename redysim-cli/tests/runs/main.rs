@@ -4,6 +4,7 @@
 mod common;
 
 mod again;
+mod contact;
 mod data;
 mod equations;
 mod faults;

@@ -5,8 +5,8 @@ use core::fmt;
 use super::{Contact, ContactError, ContactLaw, Reaction};
 use crate::vector::entry;
 use crate::{
-    BiasForces, ConfigurationSpace, Energy, ForwardDynamics, FrameState, Frames, InverseDynamics, LoopClosure,
-    LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Real, Vector, Wrench,
+    Arguments, BiasForces, ConfigurationSpace, Energy, ForwardDynamics, FrameState, Frames, InverseDynamics,
+    LoopClosure, LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Real, Vector, Wrench,
 };
 
 /// A mechanism whose frames meet the ground: a mechanism itself, with the contact forces among those that act on it.
@@ -73,6 +73,9 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
         v: &M::Velocities,
         mut see: impl FnMut(&Contact<S, L>, &FrameState<S>),
     ) {
+        if self.contacts.is_empty() {
+            return;
+        }
         let states = self.mechanism.frame_kinematics(q, v);
         for contact in self.contacts {
             if let Some(state) = states.as_ref().get(contact.frame) {
@@ -116,6 +119,9 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
 
     /// `forces` and `factor` times those of the ground.
     fn with_ground(&self, q: &M::Coordinates, v: &M::Velocities, factor: S, forces: &M::Velocities) -> M::Velocities {
+        if self.contacts.is_empty() {
+            return forces.clone();
+        }
         let ground = self.ground_forces(q, v);
         M::Velocities::from_fn(self.mechanism.nv(), |i| entry(forces, i) + factor * entry(&ground, i))
     }
@@ -198,6 +204,15 @@ impl<S: Real, M: Frames<S> + ForwardDynamics<S>, L: ContactLaw<S>> ForwardDynami
         tau: &Self::Velocities,
     ) -> Self::Velocities {
         self.mechanism.forward_dynamics(q, v, &self.with_ground(q, v, S::one(), tau))
+    }
+
+    /// That of the mechanism without contacts; with contacts, it is left to differences.
+    fn forward_dynamics_tangent(
+        &self,
+        at: Arguments<'_, S, Self>,
+        slopes: Arguments<'_, S, Self>,
+    ) -> Option<Self::Velocities> {
+        if self.contacts.is_empty() { self.mechanism.forward_dynamics_tangent(at, slopes) } else { None }
     }
 }
 

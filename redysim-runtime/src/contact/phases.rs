@@ -69,6 +69,9 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
         observer: &mut impl Observer<S, Y>,
         mut on_event: impl FnMut(ContactEvent<S>),
     ) -> Result<Solution<S, Y>, IntegrationError<S>> {
+        if self.contacts().is_empty() {
+            return method.run(ode, interval, start, observer);
+        }
         let _reset = ByPosition(self.contacts());
         self.fix(&start, interval.0, |_| {});
         let mut reached = Solution { t: interval.0, y: start, statistics: Statistics::default() };

@@ -1,16 +1,17 @@
 //! `redysim forward SCENARIO`.
 
+mod ground;
 mod growth;
 mod observer;
 mod system;
 
-use redysim_runtime::{IntegrationError, Stabilisation};
+use redysim_runtime::{ContactEvent, IntegrationError, Stabilisation};
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::size;
 use crate::results::{self, Balance, Ended, Outcome, Record};
-use crate::scenario::{Dynamics, Forward, Integrator, Scenario, Tolerances, keys, missing};
+use crate::scenario::{Dynamics, Forward, Ground, Integrator, Scenario, Tolerances, keys, missing};
 use growth::Growth;
 use observer::RunObserver;
 use system::System;
@@ -33,7 +34,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         .ok_or_else(|| missing(&results.scenario, "which motion is to be computed", &keys::FORWARD))?;
     interrupt::watch()?;
     let mut record = Record::begin(results, &scenario, Dynamics::Forward, forward.span, quiet)?;
-    let (outcome, growth) = move_on(&scenario, forward, &mut record, quiet)?;
+    let ground = scenario.ground();
+    let (outcome, growth) = move_on(&scenario, (forward, &ground), &mut record, quiet)?;
     warn_of_drift(forward, &record, growth.as_ref());
     record.finish(outcome)
 }
@@ -41,16 +43,18 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 /// The motion from the start to the end, as far as it goes, and whether it grows without bound.
 fn move_on<'a>(
     scenario: &'a Scenario,
-    forward: &'a Forward,
+    (forward, ground): (&'a Forward, &'a Ground<'a>),
     record: &mut Record<'a>,
     quiet: bool,
 ) -> Result<(Outcome, Option<Growth>), Failure> {
-    let mut system = System::new(scenario, forward);
+    let mut system = System::new(scenario, forward, ground);
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
-    let mut observer = RunObserver::new(scenario, forward, record, &start)?;
-    let integrator = &forward.integrator;
-    let solution = integrator.run(&scenario.mechanism, system.ode(), forward.span.interval(), start, &mut observer);
+    let mut observer = RunObserver::new(scenario, (forward, ground), record, &start)?;
+    let (integrator, interval) = (&forward.integrator, forward.span.interval());
+    let mut touch_downs = 0;
+    let count = |event: ContactEvent<f64>| touch_downs += u64::from(event.touching);
+    let solution = integrator.run(ground, system.ode(), interval, start, &mut observer, count);
     let RunObserver { steps, position_residual, growth, failed, .. } = observer;
     let ended = match (&solution, failed) {
         (Err(error), _) => {
@@ -71,6 +75,7 @@ fn move_on<'a>(
         steps: Some(steps),
         statistics: solution.ok().map(|solution| solution.statistics),
         position_residual: scenario.loops().then_some(position_residual),
+        contacts: Some((ground.contacts().len(), touch_downs)).filter(|(contacts, _)| *contacts > 0),
     };
     Ok((outcome, growth))
 }

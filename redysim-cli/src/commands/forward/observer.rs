@@ -11,7 +11,7 @@ use super::system::System;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::results::Record;
-use crate::scenario::{Forward, Scenario};
+use crate::scenario::{Forward, Ground, Scenario};
 
 /// Writes the requested instants, and follows energy and position residuals.
 pub struct RunObserver<'a, 'r> {
@@ -38,11 +38,11 @@ impl<'a, 'r> RunObserver<'a, 'r> {
     /// If it cannot be written.
     pub fn new(
         scenario: &'a Scenario,
-        forward: &'a Forward,
+        (forward, ground): (&'a Forward, &'a Ground<'a>),
         record: &'r mut Record<'a>,
         start: &Vec<f64>,
     ) -> Result<Self, Failure> {
-        let system = System::new(scenario, forward);
+        let system = System::new(scenario, forward, ground);
         let mut observer = RunObserver {
             scenario,
             forward,

@@ -1,33 +1,33 @@
 //! What moves: a tree, or closed loops.
 
-use redysim_model::GenericMechanism;
 use redysim_runtime::{
     ClosedLoop, ClosedLoopSimulation, ForcedMotion, ForwardDynamics, ForwardSimulation, LoopError, Ode,
     SimulationState, Stabilisation,
 };
 
+use super::ground::OnGround;
 use crate::failure::Failure;
 use crate::layout::Component;
 use crate::number::rounded;
 use crate::output::to_stdout;
-use crate::results::Sample;
-use crate::scenario::{Forward, Law, Scenario};
+use crate::results::{GroundSample, Sample};
+use crate::scenario::{Forward, Ground, Scenario};
 
 /// The equation of motion of a scenario, and what is known beyond it.
 pub enum System<'a> {
-    Tree(ForwardSimulation<'a, GenericMechanism, Law<'a>>),
-    Loops(ClosedLoopSimulation<'a, f64, GenericMechanism, Law<'a>>),
+    Tree(ForwardSimulation<'a, Ground<'a>, OnGround<'a>>),
+    Loops(ClosedLoopSimulation<'a, f64, Ground<'a>, OnGround<'a>>),
 }
 
 impl<'a> System<'a> {
-    pub fn new(scenario: &'a Scenario, forward: &'a Forward) -> Self {
-        let (mechanism, law) =
-            (&scenario.mechanism, forward.torque.law(&scenario.mechanism, &scenario.layout, &scenario.initial));
+    pub fn new(scenario: &'a Scenario, forward: &'a Forward, ground: &'a Ground<'a>) -> Self {
+        let law = forward.torque.law(&scenario.mechanism, &scenario.layout, &scenario.initial);
+        let law = OnGround::new(law, ground);
         if scenario.loops() {
-            let simulation = ClosedLoopSimulation::new(ClosedLoop::new(mechanism), law);
+            let simulation = ClosedLoopSimulation::new(ClosedLoop::new(ground), law);
             System::Loops(simulation.stabilisation(forward.stabilisation))
         } else {
-            System::Tree(ForwardSimulation::new(mechanism, law))
+            System::Tree(ForwardSimulation::new(ground, law))
         }
     }
 
@@ -45,11 +45,18 @@ impl<'a> System<'a> {
         }
     }
 
+    fn ground(&self) -> &'a Ground<'a> {
+        match self {
+            System::Tree(simulation) => simulation.mechanism(),
+            System::Loops(simulation) => simulation.loops().mechanism(),
+        }
+    }
+
     /// Why there were no derivatives, if the system knows better than the integrator.
     pub fn last_error(&self) -> Option<String> {
         let System::Loops(simulation) = self else { return None };
         // A law that has no forces is why the loops have no accelerations.
-        let reason = simulation.law().last_error().or(simulation.last_error())?;
+        let reason = simulation.law().law.last_error().or(simulation.last_error())?;
         Some(simulation.loops().with_names(reason).to_string())
     }
 
@@ -95,7 +102,8 @@ impl<'a> System<'a> {
     /// What is written of a state. Within a step loops are only as closed as the method is accurate; where steps are
     /// projected, so is what is written.
     pub fn sample(&mut self, forward: &Forward, t: f64, state: &Vec<f64>) -> Result<Sample, Failure> {
-        let SimulationState { mut q, mut v, actuator_energy: work } = self.split(state);
+        let SimulationState { mut q, mut v, actuator_energy } = self.split(state);
+        let ground = self.ground();
         let (tau, a, lambda) = match self {
             System::Tree(simulation) => {
                 let tau = simulation.torque(t, state);
@@ -115,11 +123,18 @@ impl<'a> System<'a> {
                     *element = value;
                 }
                 let forced = simulation.forced_motion(t, &closed);
-                simulation.law().last_error().map_or(Ok(()), Err).map_err(failed)?;
+                simulation.law().law.last_error().map_or(Ok(()), Err).map_err(failed)?;
                 let ForcedMotion { tau, motion } = forced.map_err(failed)?;
                 (tau, motion.accelerations, motion.multipliers)
             }
         };
-        Ok(Sample { t, q, v, a, tau, lambda, work })
+        let mut sample = GroundSample::default();
+        ground.reactions(&q, &v, |_, reaction| sample.reactions.push(*reaction));
+        if let (false, Some(&loss)) = (sample.reactions.is_empty(), state.last()) {
+            sample.loss = loss;
+        }
+        // E_act is without what the ground has taken.
+        let work = actuator_energy + sample.loss;
+        Ok(Sample { t, q, v, a, tau, lambda, work, ground: sample })
     }
 }

@@ -2,9 +2,10 @@
 
 use redysim_model::{GenericMechanism, Model, rotation};
 use redysim_runtime::{Compensation, FrameGains, FrameState, Frames, Impedance};
-use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader, Value};
+use redysim_toml::{DeValue, Field, Key, KeyPath, Reader, Value};
 
 use super::payload;
+use crate::scenario::frames::frame;
 use crate::scenario::initial::Initial;
 use crate::scenario::joints::not_negative;
 use crate::scenario::keys;
@@ -34,7 +35,8 @@ const COMPENSATIONS: [(&str, Compensation); 2] = [("gravity", Compensation::Grav
 impl HeldFrame {
     /// Reads the keys of the law, which drives `joints`.
     pub fn read(reader: &mut Reader<'_, '_>, model: &Model, joints: Vec<usize>) -> Option<HeldFrame> {
-        let frame = frame(reader, model);
+        let name = reader.required(&keys::FRAME, Reader::text);
+        let frame = name.spanned().and_then(|name| frame(reader, model, name, "the law `impedance`"));
         let target = given(reader.table(&keys::POSE, |mut reader| {
             let (xyz, rpy) = (reader.vector(&keys::XYZ), reader.angles(&keys::RPY));
             if matches!(xyz, Field::Invalid) || matches!(rpy, Field::Invalid) {
@@ -91,25 +93,6 @@ impl HeldFrame {
         let named = COMPENSATIONS.iter().find(|(_, other)| *other == compensation);
         named.map_or("", |(name, _)| name)
     }
-}
-
-/// The number of the frame that is held.
-fn frame(reader: &mut Reader<'_, '_>, model: &Model) -> Option<usize> {
-    let name = reader.required(&keys::FRAME, Reader::text);
-    let name = name.spanned()?;
-    if model.frames.is_empty() {
-        let title = format!(
-            "{}: the law `impedance` requires a frame, but the model does not have a `[[frame]]`",
-            reader.item()
-        );
-        let help = format!(
-            "add a table `[[frame]]` to the model, with name = {:?}, the `link` that it stands on and its `origin`",
-            name.get_ref()
-        );
-        return reader.error_at(name.span(), Message { title, label: "not in the model".into(), help });
-    }
-    let named: Vec<_> = model.frames.iter().enumerate().map(|(index, frame)| (frame.name.as_str(), index)).collect();
-    reader.lookup(name.span(), "frame", name.get_ref(), &named)
 }
 
 /// Three gains, or one for all axes.

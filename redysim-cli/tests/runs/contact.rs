@@ -1,0 +1,228 @@
+//! Runs on the ground: motion against a separate integration, tables, the balance of energy, and refusals.
+
+use std::fs;
+
+use redysim_cli::{Contact, Forward, FrameNames, Ground, Results, Scenario};
+
+use crate::common::{Table, call, model, refuses_in, root, scenario, scratch, succeed};
+
+/// The lower corners of the parcel of 3 kg, which stands on them.
+const CORNERS: &str =
+    "frame = ['bottom_right_rear', 'bottom_right_front', 'bottom_left_rear', 'bottom_left_front']\nfriction = 0.5\n";
+const HUNT_CROSSLEY: &str = "law = 'hunt-crossley'\nstiffness = 5e4\ndamping = 0.3\nslip_velocity = 0.01\n";
+const REDYSIM: &str = "law = 'redysim'\nstiffness = 5000\ndamping = 20\nleaving_speed = 5\nsliding_damping = 100\n";
+
+/// The parcel falls flat, its corners 0.3 m above the ground, for a second.
+fn fall(law: &str) -> String {
+    format!(
+        "initial = {{ q = {{ parcel = {{ xyz = [0, 0, 0.4] }} }} }}\n[forward]\nend = 1.0\nstep = 0.01\n\
+         integrator = {{ method = 'Ode45', rtol = 1e-11, atol = 1e-13 }}\n[[contact]]\n{CORNERS}{law}"
+    )
+}
+
+/// The height of the corners after each hundredth of a second of that second, by the classical Runge-Kutta rule with
+/// steps of two microseconds, under `force`, in N of one corner, at a height and its rate.
+fn separately(force: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let rate = |[z, v]: [f64; 2]| [v, 4.0 * force(z, v) / 3.0 - 9.81];
+    let h = 2e-6;
+    let mut y = [0.3, 0.0];
+    let mut heights = vec![y[0]];
+    for step in 1..=500_000 {
+        let moved = |k: [f64; 2], h: f64| [y[0] + h * k[0], y[1] + h * k[1]];
+        let k1 = rate(y);
+        let k2 = rate(moved(k1, h / 2.0));
+        let k3 = rate(moved(k2, h / 2.0));
+        let k4 = rate(moved(k3, h));
+        y = [0, 1].map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+        if step % 5000 == 0 {
+            heights.push(y[0]);
+        }
+    }
+    heights
+}
+
+/// Steps across a touch-down err by its jump times a step: C_v u/m h = 1e-4 m/s for ReDySim's law, and a hundredth of that in
+/// the mean over the four or five of them; without a jump by far less.
+#[test]
+fn a_parcel_falls_on_four_corners_as_in_a_separate_integration() {
+    let hunt_crossley = separately(|z, v| {
+        let p = (-z).max(0.0);
+        (5e4 * p.powf(1.5) * (1.0 - 0.3 * v)).max(0.0)
+    });
+    let redysim = separately(|z, v| {
+        let (p, full) = (-z, 1.2 * 5.0 * 20.0 / 5000.0);
+        if p < 1e-5 {
+            return 0.0;
+        }
+        let s = p / full;
+        let c = if v > 0.0 && s <= 1.0 { 20.0 * s * s * (3.0 - 2.0 * s) } else { 20.0 };
+        5000.0 * p - c * v
+    });
+    for (name, law, reference, tolerance) in
+        [("hunt", HUNT_CROSSLEY, hunt_crossley, 1e-8), ("redysim", REDYSIM, redysim, 1e-4)]
+    {
+        let folder = scratch(&format!("contact-{name}"));
+        succeed(&folder, &["forward", &scenario(&folder, "parcel.toml", &fall(law)), "-o", "run", "--quiet"]);
+        let state = Table::csv(&folder.join("run/statevar.csv"));
+        assert_eq!(state.rows.len(), reference.len());
+        let errors = state.rows.iter().zip(&reference).map(|(row, height)| (row[3] - 0.1 - height).abs());
+        let worst = errors.fold(0.0, f64::max);
+        assert!(worst < tolerance, "{name}: {worst}");
+        assert!(reference.iter().filter(|height| **height < 0.0).count() > 5, "it touches down");
+    }
+}
+
+/// The parcel that is shipped: at the end it rests on four corners, which carry its weight, and what it has lost is what the
+/// ground has taken.
+#[test]
+fn a_parcel_that_is_thrown_comes_to_rest_with_its_weight_on_four_corners() {
+    let folder = scratch("contact-parcel");
+    let shipped = root().join("scenarios/parcel.toml").display().to_string();
+    let output = succeed(&folder, &["forward", &shipped, "-o", "run"]);
+    assert!(output.contains("8 contacts, 13 touch-downs"), "{output}");
+    let contacts = Table::csv(&folder.join("run/contacts.csv"));
+    assert_eq!(contacts.headers.len(), 1 + 8 * 6);
+    let first = ["force_x", "force_y", "force_z", "normal"].map(|symbol| format!("{symbol} bottom_right_rear [N]"));
+    assert_eq!(contacts.headers[1..5], first);
+    assert_eq!(contacts.headers[5..7], ["penetration bottom_right_rear [m]", "touching bottom_right_rear [1]"]);
+    let last = contacts.rows.last().unwrap();
+    let corners: Vec<_> = last[1..].chunks(6).collect();
+    let carried: f64 = corners.iter().map(|corner| corner[2]).sum();
+    // The parcel rocks by a micrometre yet.
+    assert!((carried - 3.0 * 9.81).abs() < 0.1, "{carried}");
+    assert_eq!(corners.iter().map(|corner| corner[5]).sum::<f64>(), 4.0);
+    assert!(corners.iter().all(|corner| (corner[4] >= 0.0) == (corner[5] == 1.0) && corner[3] >= 0.0));
+    let energy = Table::csv(&folder.join("run/energy.csv"));
+    assert_eq!(energy.headers[6..], ["ground [J]", "ground_loss [J]"]);
+    for row in &energy.rows {
+        let [kinetic, potential, total, work, drift, ground, loss] = row[1..].try_into().unwrap();
+        assert!((kinetic + potential + ground - total).abs() < 1e-12 && work.abs() < 1e-9, "{row:?}");
+        assert!(
+            (total + loss - energy.rows[0][3] - drift).abs() < 1e-9 && drift.abs() < 1e-4 && loss >= 0.0,
+            "{row:?}"
+        );
+    }
+    assert!(fs::read_to_string(folder.join("run/run.toml")).unwrap().contains("touch_downs = 13"));
+    succeed(&folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
+    for table in ["contacts.csv", "statevar.csv", "energy.csv"] {
+        let [run, again] = ["run", "again"].map(|name| fs::read(folder.join(name).join(table)).unwrap());
+        assert!(run == again, "{table}");
+    }
+    let results = Results::load(folder.join("run")).unwrap();
+    assert_eq!(results.tables["contacts"].columns.len(), 48);
+    assert_eq!(results.run.touch_downs, Some(13));
+}
+
+#[test]
+fn a_wall_is_the_ground_with_another_point_and_normal() {
+    let folder = scratch("contact-wall");
+    let rest = "initial = { q = { parcel = { xyz = [0, 0, 1] } }, v = { parcel = [2, 0, 0, 0, 0, 0] } }\n\
+                ground = { point = [1, 0, 0], normal = [-2, 0, 0] }\n[forward]\nend = 1.0\nstep = 0.1\n\
+                integrator = { method = 'Ode45', rtol = 1e-8, atol = 1e-10 }\n[[contact]]\n\
+                frame = ['bottom_right_front', 'bottom_left_front', 'top_right_front', 'top_left_front']\n\
+                law = 'hunt-crossley'\nstiffness = 1e5\ndamping = 0\nfriction = 0\nslip_velocity = 0.01\n";
+    succeed(&folder, &["forward", &scenario(&folder, "parcel.toml", rest), "-o", "run", "--quiet"]);
+    let state = Table::csv(&folder.join("run/statevar.csv"));
+    // Without damping and friction it flies back as fast as it came.
+    let last = state.rows.last().unwrap();
+    assert!((last[8] + 2.0).abs() < 1e-6 && last[1] < 0.3, "{last:?}");
+}
+
+#[test]
+fn contacts_that_cannot_be_are_refused_where_they_stand() {
+    let trial = |name: &str, from: &str, to: &str, words: &[&str]| {
+        let folder = scratch(&format!("contact-fault-{name}"));
+        let rest = fall(HUNT_CROSSLEY);
+        assert!(rest.contains(from), "{from}");
+        refuses_in(&folder, "forward", &scenario(&folder, "parcel.toml", &rest.replacen(from, to, 1)), 1, words);
+    };
+    trial(
+        "frame",
+        "bottom_left_rear",
+        "bottom_left_raer",
+        &["unknown frame `bottom_left_raer`", "did you mean `bottom_left_rear`?", "trial.toml:8:53"],
+    );
+    trial("law", "'hunt-crossley'", "'hunt'", &["`contact[0].law`", "`hunt`", "hunt-crossley"]);
+    trial("no-law", "law = 'hunt-crossley'\n", "", &["`contact[0].law` is missing"]);
+    let words = ["unknown key `contact[0].exponant`", "did you mean `exponent`?"];
+    trial("key", "damping = 0.3", "damping = 0.3\nexponant = 2", &words);
+    trial("missing", "stiffness = 5e4\n", "", &["`contact[0].stiffness` is missing"]);
+    trial(
+        "negative",
+        "damping = 0.3",
+        "damping = -0.3",
+        &[
+            "`damping` of a contact is -0.3, and must be zero or positive, and finite",
+            "out of range",
+            "trial.toml:12:11",
+        ],
+    );
+    trial(
+        "exponent",
+        "damping = 0.3",
+        "exponent = 0.5\ndamping = 0.3",
+        &["`exponent` of a contact is 0.5", "1 or more"],
+    );
+    trial("twice", "'bottom_left_rear'", "'bottom_left_front'", &["two contacts are called `bottom_left_front`"]);
+    trial(
+        "empty",
+        "'bottom_right_rear', 'bottom_right_front', 'bottom_left_rear', 'bottom_left_front'",
+        "",
+        &["`contact[0].frame` has no frame"],
+    );
+    trial("name", "friction = 0.5", "friction = 0.5\nname = 'corner'", &["4 frames and one name, `corner`"]);
+    trial("normal", "[forward]", "ground = { normal = [0, 0, 0] }\n[forward]", &["the normal of the ground is zero"]);
+    trial("ground", "[forward]", "ground = { height = 1 }\n[forward]", &["unknown key `ground.height`"]);
+    let folder = scratch("contact-fault-no-frames");
+    let rest =
+        format!("[forward]\nend = 1.0\nstep = 0.1\n[[contact]]\nframe = 'foot'\nfriction = 0.5\n{HUNT_CROSSLEY}");
+    let words = ["a contact requires a frame, but the model does not have a `[[frame]]`", "trial.toml:6:9"];
+    refuses_in(&folder, "forward", &scenario(&folder, "two_link.toml", &rest), 1, &words);
+}
+
+#[test]
+fn a_ground_without_contacts_is_warned_of() {
+    let folder = scratch("contact-ground-alone");
+    let rest = "ground = { point = [0, 0, 1] }\n[forward]\nend = 0.1\nstep = 0.1\n";
+    let run = call(&folder, &["forward", &scenario(&folder, "parcel.toml", rest), "-o", "run"]);
+    assert_eq!(run.code, 0, "{}", run.output());
+    let warning = "`ground` applies only to contacts, and the scenario has no contact";
+    assert!(run.stderr.contains(warning), "{}", run.stderr);
+    assert!(!folder.join("run/contacts.csv").exists());
+}
+
+#[test]
+fn contacts_as_data_read_back_to_the_same_bits() {
+    let foot = |name: &str| FrameNames::One(name.into());
+    let several = FrameNames::Several(vec!["top_left_rear".into(), "top_left_front".into()]);
+    let written = Scenario {
+        name: Some("trial".into()),
+        forward: Some(Forward::new(1.0, 0.1)),
+        ground: Some(Ground { point: Some([0.1, 0.2, 1.0 / 3.0]), normal: None }),
+        contact: Some(vec![
+            Contact::ReDySim {
+                name: Some("heel".into()),
+                frame: foot("bottom_left_rear"),
+                stiffness: 2500.0,
+                damping: 3464.1016151377544,
+                leaving_speed: 4.5,
+                friction: 0.7,
+                sliding_damping: 1500.0,
+            },
+            Contact::HuntCrossley {
+                name: None,
+                frame: several,
+                stiffness: 1e5 / 3.0,
+                exponent: None,
+                damping: 0.4,
+                friction: 0.6,
+                slip_velocity: 0.01,
+            },
+        ]),
+        ..Scenario::new("parcel.toml")
+    };
+    let text = written.to_toml();
+    assert_eq!(Scenario::from_toml(&*text, model("trial.toml")).unwrap(), written, "{text}");
+    let json = serde_json::to_string(&written).unwrap();
+    assert_eq!(serde_json::from_str::<Scenario>(&json).unwrap(), written, "{json}");
+}
