@@ -105,8 +105,8 @@ pub use contact::{
 };
 #[cfg(feature = "simulation")]
 pub use control::{
-    Compensation, ComputedTorque, FrameGains, FrameTrajectory, Impedance, Limited, Pd, PdGravity, Pid, Proportional,
-    ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque, tracking_rates, uniform,
+    Compensation, ComputedTorque, FrameGains, FrameTrajectory, HybridComputedTorque, Impedance, Limited, Pd, PdGravity,
+    Pid, Proportional, ProportionalDerivative, TorqueLaw, TrackingPd, ZeroTorque, tracking_rates, uniform,
 };
 #[cfg(feature = "std")]
 pub use dispatch::{Dispatch, Dispatched, Instructions};

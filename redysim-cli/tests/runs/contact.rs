@@ -226,3 +226,41 @@ fn contacts_as_data_read_back_to_the_same_bits() {
     let json = serde_json::to_string(&written).unwrap();
     assert_eq!(serde_json::from_str::<Scenario>(&json).unwrap(), written, "{json}");
 }
+
+/// Four seconds at full speed, and a second each to start and to stop: five strides of 0.3 m. Slipping and the sinking of
+/// feet take 2 % of the way; the trunk tilts by two degrees.
+#[test]
+fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
+    let folder = scratch("contact-quadruped");
+    let shipped = root().join("scenarios/quadruped.toml").display().to_string();
+    let output = succeed(&folder, &["forward", &shipped, "-o", "run"]);
+    assert!(output.contains("4 contacts, 24 touch-downs"), "{output}");
+    let state = Table::csv(&folder.join("run/statevar.csv"));
+    for row in &state.rows {
+        let [x, y, _, qx, _, qz, _] = row[1..8].try_into().unwrap();
+        // The cosine of the angle between the trunk's y axis and the vertical.
+        let tilt = (1.0 - 2.0 * (qx * qx + qz * qz)).acos().to_degrees();
+        assert!(tilt < 3.0 && (y - 0.49).abs() < 0.02 && x.abs() < 0.05, "{row:?}");
+    }
+    let way = state.rows.last().unwrap()[3];
+    assert!((1.4..1.5).contains(&way), "{way}");
+    let desired = Table::csv(&root().join("scenarios/quadruped.csv"));
+    for (row, desired) in state.rows.iter().zip(&desired.rows) {
+        for (found, desired) in row[8..20].iter().zip(&desired[1..]) {
+            assert!((found - desired).abs() < 1e-4, "{found} instead of {desired}");
+        }
+    }
+    let contacts = Table::csv(&folder.join("run/contacts.csv"));
+    let mut pairs = [0, 0];
+    for row in &contacts.rows {
+        let touching = [6, 12, 18, 24].map(|column| row[column] == 1.0);
+        pairs[0] += usize::from(touching == [true, false, false, true]);
+        pairs[1] += usize::from(touching == [false, true, true, false]);
+        assert!([4, 10, 16, 22].iter().all(|&column| row[column] >= 0.0), "no foot is held back: {row:?}");
+    }
+    assert!(pairs.iter().all(|rows| *rows > 90), "{pairs:?}");
+    let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    let drift = run.lines().find_map(|line| line.strip_prefix("energy_drift = ")).unwrap().parse::<f64>().unwrap();
+    assert!(drift < 1e-5, "{drift} J of the 4 J that are exchanged");
+    succeed(&folder, &["animate", "run"]);
+}

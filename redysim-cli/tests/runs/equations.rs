@@ -13,7 +13,7 @@ use crate::common::{Table, root, scratch, succeed};
 use kane::kane;
 use nalgebra::{DMatrix, DVector};
 use redysim_model::{GenericMechanism, Model};
-use redysim_runtime::{LoopClosure, Mechanism};
+use redysim_runtime::{Frames, LoopClosure, Mechanism};
 
 /// From row to row, s, at most, and as a share of the step of the scenario, which fast motions need.
 const STEP: f64 = 5e-4;
@@ -75,6 +75,8 @@ struct Written {
     v: Rows,
     tau: Rows,
     lambda: Rows,
+    /// Force on each frame that is in contact, by its number.
+    contacts: Vec<Vec<(usize, [f64; 3])>>,
 }
 
 type Rows = Vec<Vec<f64>>;
@@ -89,8 +91,21 @@ impl Written {
             [] => vec![vec![]; tau.len()],
             _ => read("lambda.csv").rows.iter().map(|row| row[1..].to_vec()).collect(),
         };
+        let frame = |header: &str| {
+            let name = header.strip_prefix("force_x ")?.strip_suffix(" [N]")?;
+            (0..mechanism.nf()).find(|&frame| mechanism.frame_name(frame) == Some(name))
+        };
+        let contacts = if folder.join("contacts.csv").exists() {
+            let table = read("contacts.csv");
+            let frames: Vec<_> =
+                table.headers.iter().enumerate().filter_map(|(at, header)| Some((at, frame(header)?))).collect();
+            let force = |row: &[f64], at: usize| [row[at], row[at + 1], row[at + 2]];
+            table.rows.iter().map(|row| frames.iter().map(|&(at, frame)| (frame, force(row, at))).collect()).collect()
+        } else {
+            vec![vec![]; tau.len()]
+        };
         let [q, v] = [states.columns(1..1 + nq), states.columns(1 + nq..1 + nq + nv)];
-        Written { mechanism, q, v, tau, lambda }
+        Written { mechanism, q, v, tau, lambda, contacts }
     }
 
     fn accelerations(&self, folder: &Path) -> Rows {
@@ -98,7 +113,7 @@ impl Written {
         Table::csv(&folder.join("traj.csv")).columns(1 + nq + nv..1 + nq + 2 * nv)
     }
 
-    /// The largest part of M q̈ + h − τ − Jᵀλ over `instants`, as a share of the largest of its terms.
+    /// The largest part of M q̈ + h − τ − Jᵀλ − Σ Jᵀf over `instants`, as a share of the largest of its terms.
     fn imbalance(&self, instants: Range<usize>, acceleration: impl Fn(usize, usize) -> f64) -> f64 {
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
         for k in instants {
@@ -106,11 +121,19 @@ impl Written {
             let equations = kane(self.mechanism.model(), q, &self.v[k]);
             let jacobian: Rows = self.mechanism.loop_jacobian(q);
             let jacobian = DMatrix::from_fn(jacobian.len(), dof, |row, joint| jacobian[row][joint]);
+            let frames = self.mechanism.frame_jacobians(q);
+            let of_ground = |joint: usize| {
+                let power = |(frame, force): &(usize, [f64; 3])| {
+                    frames[*frame].linear.iter().zip(force).map(|(row, force)| row[joint] * force).sum::<f64>()
+                };
+                self.contacts[k].iter().map(power).sum::<f64>()
+            };
             let terms = [
                 equations.matrix * DVector::from_fn(dof, |joint, _| acceleration(k, joint)),
                 equations.bias,
                 -DVector::from_vec(self.tau[k].clone()),
                 -jacobian.transpose() * DVector::from_vec(self.lambda[k].clone()),
+                -DVector::from_fn(dof, |joint, _| of_ground(joint)),
             ];
             largest = terms.iter().fold(largest, |most, term| most.max(term.amax()));
             worst = worst.max(terms.into_iter().sum::<DVector<f64>>().amax());
@@ -139,8 +162,18 @@ fn every_shipped_motion_obeys_kanes_equations() {
         // What is stiff is over by half the time.
         let share = written.imbalance(written.q.len() / 2..written.q.len() - 4, difference);
         println!("{name}: {share:.1e}");
-        // Within the long steps of an implicit method its solution is of order 3.
-        assert!(share < if stiff(&read(&name)) { 2e-8 } else { 1e-10 }, "{name}: {share:e}");
+        // Within the long steps of an implicit method its solution is of order 3. Legs on the ground follow a table, whose
+        // third derivative jumps from row to row, which differences of order 8 see.
+        let scenario = read(&name);
+        let jumps = scenario.contains_key("contact") && scenario.contains_key("trajectory");
+        let bound = if stiff(&scenario) {
+            2e-8
+        } else if jumps {
+            5e-9
+        } else {
+            1e-10
+        };
+        assert!(share < bound, "{name}: {share:e}");
     }
 }
 

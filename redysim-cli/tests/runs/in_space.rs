@@ -201,17 +201,6 @@ fn the_centre_of_mass_of_a_free_robot_falls_like_a_stone_under_every_law_on_its_
 }
 
 #[test]
-fn computed_torque_of_a_robot_with_a_free_base_is_refused() {
-    let folder = scratch("in-space-computed");
-    let rest = format!(
-        "[trajectory]\n{ARM}\nfrom = [0, 0, 0, 0, 0, 0]\nto = [1, 1, 1, 1, 1, 1]\nduration = 1.0\n\
-         [forward]\nend = 1.0\nstep = 0.1\ntorque = {{ law = 'computed-torque', kp = 100, kd = 20 }}\n"
-    );
-    let shown = fail(&folder, &["forward", &scenario(&folder, ROBOT, &rest)], 1);
-    assert!(shown.contains("the joint `base` has no actuator") && shown.contains("tracking-pd"), "{shown}");
-}
-
-#[test]
 fn computed_torque_leads_a_spherical_joint_along_its_trajectory() {
     let folder = scratch("in-space-led");
     let rest = format!(
@@ -360,4 +349,48 @@ fn prescribing_a_spherical_joint_of_a_loop_is_refused() {
     let shown = fail(&folder, &["inverse", "trial.toml"], 1);
     assert!(shown.contains("the joint `coupler`, which has several coordinates"), "{shown}");
     assert!(shown.contains("trial.toml:2:1") && shown.contains("prescribe joints with one coordinate"), "{shown}");
+}
+
+/// The error of every joint obeys ë + 20 ė + 100 e = 0, so that e = e₀ (1 + 10 t) exp(−10 t), however the platform moves.
+#[test]
+fn computed_torque_moves_the_arm_of_a_robot_whose_platform_floats() {
+    let folder = scratch("in-space-computed-torque");
+    let rest = format!(
+        "trajectory = {{ {ARM}, from = [0, 0, 0, 0, 0, 0], to = [0, 0, 0, 0, 0, 0], duration = 1.0 }}\n\
+         initial = {{ q = {{ joint1 = 0.3, joint2 = -0.2, joint5 = 0.4 }} }}\n[forward]\nend = 0.5\nstep = 0.05\n\
+         torque = {{ law = 'computed-torque', kp = 100, kd = 20 }}\n{AGAINST_CLOSED_FORMS}"
+    );
+    let state = moved(&folder, ROBOT, &rest, "statevar");
+    let start = [0.3, -0.2, 0.0, 0.0, 0.4, 0.0];
+    for row in &state.rows {
+        let decay = (1.0 + 10.0 * row[0]) * (-10.0 * row[0]).exp();
+        for (found, start) in row[8..14].iter().zip(start) {
+            assert!((found - start * decay).abs() < 1e-10, "{found} instead of {}", start * decay);
+        }
+    }
+    let forces = Table::csv(&folder.join("run/tor.csv"));
+    assert!(forces.rows.iter().all(|row| row[1..7] == [0.0; 6] && row[8] != 0.0), "nothing drives the platform");
+    assert!(state.rows.last().unwrap()[4..7].iter().any(|component| component.abs() > 0.01), "it turns");
+}
+
+#[test]
+fn computed_torque_that_cannot_move_what_the_trajectory_prescribes_is_refused() {
+    let folder = scratch("in-space-computed-torque-faults");
+    let trial = |joints: &str, count: usize| {
+        let zeros = vec![0; count];
+        let rest = format!(
+            "trajectory = {{ {joints}, from = {zeros:?}, to = {zeros:?}, duration = 1.0 }}\n[forward]\nend = 0.5\n\
+             step = 0.05\ntorque = {{ law = 'computed-torque', kp = 100, kd = 20 }}\n"
+        );
+        fail(&folder, &["forward", &scenario(&folder, ROBOT, &rest)], 1)
+    };
+    let output = trial("joints = ['joint1', 'joint2', 'joint3', 'joint4', 'joint5']", 5);
+    assert!(output.contains("the trajectory does not prescribe the joint `joint6`, and computed torque"), "{output}");
+    let with_base = ARM.replace("['joint1'", "['base', 'joint1'").replace("joints = ", "");
+    let rest = format!(
+        "trajectory = {{ kind = 'constant-speed', joints = {with_base}, from = {{ joint1 = 0 }}, speed = {{ joint1 = 0 }} }}\n\
+         [forward]\nend = 0.5\nstep = 0.05\ntorque = {{ law = 'computed-torque', kp = 100, kd = 20 }}\n"
+    );
+    let output = fail(&folder, &["forward", &scenario(&folder, ROBOT, &rest)], 1);
+    assert!(output.contains("but the joint `base` has no actuator") && output.contains("tracking-pd"), "{output}");
 }

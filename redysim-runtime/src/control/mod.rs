@@ -8,6 +8,7 @@
 //! | [`Pid`] | with integral action, whose state the simulation integrates |
 //! | [`PdGravity`] | a spring and a damper to a motion, and the gravity forces of a model |
 //! | [`ComputedTorque`] | the inverse dynamics of a model, with feedback |
+//! | [`HybridComputedTorque`] | the same of mechanisms of which some joints have no actuator |
 //! | [`Impedance`] | springs and dampers on a frame, and gravity forces or the bias of a model |
 //! | [`Limited`] | any law within the limits of the actuators |
 //!
@@ -19,6 +20,7 @@
 //! starts, and rejects laws of coordinate differences for mechanisms with NQ ≠ NV ([`TorqueLaw::check_lengths`]).
 
 mod computed_torque;
+mod hybrid_computed_torque;
 mod impedance;
 mod limited;
 mod pd_gravity;
@@ -30,6 +32,7 @@ use crate::vector::entry;
 use crate::{ConfigurationSpace, LengthMismatch, Mechanism, Motion, Real, Scalar, Vector};
 
 pub use computed_torque::ComputedTorque;
+pub use hybrid_computed_torque::HybridComputedTorque;
 pub use impedance::{Compensation, FrameGains, FrameTrajectory, Impedance};
 pub use limited::Limited;
 pub use pd_gravity::PdGravity;

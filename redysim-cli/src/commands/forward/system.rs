@@ -21,7 +21,7 @@ pub enum System<'a> {
 
 impl<'a> System<'a> {
     pub fn new(scenario: &'a Scenario, forward: &'a Forward, ground: &'a Ground<'a>) -> Self {
-        let law = forward.torque.law(&scenario.mechanism, &scenario.layout, &scenario.initial);
+        let law = forward.torque.law(ground, &scenario.layout, &scenario.initial);
         let law = OnGround::new(law, ground);
         if scenario.loops() {
             let simulation = ClosedLoopSimulation::new(ClosedLoop::new(ground), law);

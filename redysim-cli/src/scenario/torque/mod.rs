@@ -6,11 +6,12 @@ mod tangent;
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, Limited, Motion, Pd, PdGravity, Pid, Proportional, SetPoint,
-    TrackingPd, Trajectory, ZeroTorque, tracking_rates,
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, HybridComputedTorque, Limited, Motion, Pd, PdGravity, Pid,
+    Proportional, SetPoint, TrackingPd, Trajectory, ZeroTorque, tracking_rates,
 };
 use redysim_toml::{Key, Kind, Message, Reader};
 
+use super::Ground;
 use super::forces::Forces;
 use super::initial::Initial;
 use super::joints::{Quantity, limits, some, values};
@@ -167,8 +168,9 @@ impl Torque {
         }
     }
 
-    /// The law as it acts on `mechanism`, which starts at `initial`.
-    pub fn law<'a>(&'a self, mechanism: &'a GenericMechanism, layout: &'a Layout, initial: &Initial) -> Law<'a> {
+    /// The law as it acts on the mechanism on `ground`, which starts at `initial`.
+    pub fn law<'a>(&'a self, ground: &'a Ground<'a>, layout: &'a Layout, initial: &Initial) -> Law<'a> {
+        let mechanism = ground.mechanism();
         let positions =
             |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, &layout.coordinates);
         let whole =
@@ -219,7 +221,7 @@ impl Torque {
                 for (velocity, &limit) in layout.velocities_of(joints).into_iter().zip(limits) {
                     all[velocity] = limit;
                 }
-                Law::limited(law.law(mechanism, layout, initial), all)
+                Law::limited(law.law(ground, layout, initial), all)
             }
             Torque::TrackingPd { joints, trajectory, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
@@ -230,9 +232,15 @@ impl Torque {
                 }
                 Law::total(TrackingPd { trajectory: target, kp, kd })
             }
-            Torque::Computed { trajectory, kp, kd, .. } if mechanism.model().loops.is_empty() => {
+            Torque::Computed { actuated, trajectory, kp, kd } if mechanism.model().loops.is_empty() => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(&trajectory.joints, gains));
-                Law::total(ComputedTorque { mechanism, trajectory: trajectory.spread(layout), kp, kd })
+                let trajectory = trajectory.spread(layout);
+                if actuated.len() == layout.nv() {
+                    return Law::total(ComputedTorque { mechanism, trajectory, kp, kd });
+                }
+                let actuated: Vec<_> = (0..layout.nv()).map(|velocity| actuated.contains(&velocity)).collect();
+                let external = |q: &Vec<f64>, v: &Vec<f64>| ground.ground_forces(q, v);
+                Law::total(HybridComputedTorque { mechanism, trajectory, kp, kd, actuated, external })
             }
             Torque::Computed { actuated, trajectory, kp, kd } => {
                 let (loops, gains) = (ClosedLoop::new(mechanism), [kp.clone(), kd.clone()]);
@@ -338,10 +346,18 @@ impl<'s> Source<'s, '_, '_> {
         let trajectory = self.followed()?;
         let [kp, kd] = [keys::KP, keys::KD].map(|key| self.gains(&key, &trajectory.joints));
         let actuated = self.subject.layout.actuated_velocities();
-        if let Some(passive) = self.subject.joints().iter().find(|joint| !joint.actuated && !self.subject.loops()) {
-            return underactuated(&mut self.reader, passive);
-        }
-        if let Err((fault, help)) = trajectory.check_joints(self.subject) {
+        let joints = self.subject.joints();
+        if !self.subject.loops() && joints.iter().any(|joint| !joint.actuated) {
+            // The joints without an actuator follow from the dynamics.
+            let drives = |joint: &Joint| joint.v.clone().any(|velocity| actuated.contains(&velocity));
+            let wrong = joints.iter().enumerate().find(|(index, joint)| match trajectory.joints.contains(index) {
+                true => !joint.actuated,
+                false => drives(joint),
+            });
+            if let Some((_, joint)) = wrong {
+                return underactuated(&mut self.reader, joint);
+            }
+        } else if let Err((fault, help)) = trajectory.check_joints(self.subject) {
             let title = format!("{}: {fault}, and computed torque moves it whole", self.reader.item());
             return self.reader.error_of_table(Message { title, label: "not with this trajectory".into(), help });
         }
@@ -426,14 +442,22 @@ fn not_prescribed<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
     })
 }
 
-fn underactuated<T>(reader: &mut Reader<'_, '_>, passive: &Joint) -> Option<T> {
-    reader.error_of_table(Message {
-        title: format!(
-            "{}: computed torque moves every joint of a tree, but the joint `{}` has no actuator",
-            reader.item(),
-            passive.name
-        ),
-        label: "not for this model".into(),
-        help: "take the law `tracking-pd` for the others, or actuate every joint".into(),
-    })
+/// Of a tree with joints that have no actuator, computed torque moves the others, all of them.
+fn underactuated<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
+    let (item, Joint { name, actuated, .. }) = (reader.item(), joint);
+    let (title, help) = if *actuated {
+        let title = format!(
+            "{item}: the trajectory does not prescribe the joint `{name}`, and computed torque moves every joint with \
+             an actuator"
+        );
+        (title, "name all joints with an actuator among the `joints` of `[trajectory]`")
+    } else {
+        let title = format!(
+            "{item}: computed torque moves what the trajectory prescribes, but the joint `{name}` has no actuator"
+        );
+        let help = "name those with an actuator as the `joints` of `[trajectory]`, and the others follow from the \
+                    dynamics; or take the law `tracking-pd`";
+        (title, help)
+    };
+    reader.error_of_table(Message { title, label: "not with this trajectory".into(), help: help.into() })
 }
