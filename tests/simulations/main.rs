@@ -4,6 +4,7 @@
 mod common;
 
 mod chaotic_pendulums;
+mod contact;
 mod extremes;
 mod free_bodies;
 mod free_fall_reference;

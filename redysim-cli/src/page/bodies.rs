@@ -171,7 +171,23 @@ fn motions(link: &Link) -> Vec<AxisMotion> {
         .collect()
 }
 
+impl Frame<'_> {
+    /// The body that it is on, and its origin in the frame of the body, m.
+    pub fn place(&self) -> (usize, [f64; 3]) {
+        (self.body, self.position)
+    }
+}
+
 impl Body<'_> {
+    /// Draws it to a point, m, that no end of it is near.
+    pub fn reach_to(&mut self, point: [f64; 3]) {
+        let near =
+            |end: &[f64; 3]| (Vector3::from(*end) - Vector3::from(point)).norm() < 1e-3 * Vector3::from(point).norm();
+        if !self.ends.iter().any(near) {
+            self.ends.push(point);
+        }
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         self.name

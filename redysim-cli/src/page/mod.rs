@@ -2,6 +2,7 @@
 //! have sliders.
 
 mod bodies;
+mod contacts;
 mod meshes;
 mod motion;
 mod sliders;
@@ -19,6 +20,7 @@ use crate::layout::Layout;
 use crate::output;
 use crate::recorded::{Chart, Recorded};
 use bodies::{Body, Cut, Frame, Orientations};
+use contacts::Contacts;
 use meshes::Meshes;
 use motion::Keyframes;
 use sliders::Slider;
@@ -51,7 +53,12 @@ impl Page {
         let (motion, notes) = motion::of(recorded, &model, &layout)?;
         let charts = charts.iter().map(Curves::of).collect();
         let names = layout.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect();
-        Data { charts, ..Data::of(&model, &layout, names, Moved::Motion(motion), notes) }.page(urdf.as_deref())
+        let mut data = Data { charts, ..Data::of(&model, &layout, names, Moved::Motion(motion), notes) };
+        data.contacts = contacts::of(recorded, &model, &layout)?;
+        if let Some(contacts) = &data.contacts {
+            contacts.extend(&mut data.bodies);
+        }
+        data.page(urdf.as_deref())
     }
 
     /// The page on which whoever looks at it moves the model, with the meshes of the URDF of which it was made.
@@ -104,6 +111,8 @@ struct Data<'a> {
     moved: Moved,
     notes: Vec<String>,
     charts: Vec<Curves<'a>>,
+    /// Of a run on the ground.
+    contacts: Option<Contacts>,
     #[serde(flatten)]
     drawn: Meshes,
     /// The names of the coordinates.
@@ -136,6 +145,7 @@ impl<'a> Data<'a> {
             moved,
             notes,
             charts: Vec::new(),
+            contacts: None,
             drawn: Meshes::default(),
             joints: names,
         }

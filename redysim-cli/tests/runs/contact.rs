@@ -4,7 +4,7 @@ use std::fs;
 
 use redysim_cli::{Contact, Forward, FrameNames, Ground, Results, Scenario};
 
-use crate::common::{Table, call, model, refuses_in, root, scenario, scratch, succeed};
+use crate::common::{Table, call, data, model, refuses_in, root, scenario, scratch, succeed};
 
 /// The lower corners of the parcel of 3 kg, which stands on them.
 const CORNERS: &str =
@@ -262,5 +262,15 @@ fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
     let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
     let drift = run.lines().find_map(|line| line.strip_prefix("energy_drift = ")).unwrap().parse::<f64>().unwrap();
     assert!(drift < 1e-5, "{drift} J of the 4 J that are exchanged");
-    succeed(&folder, &["animate", "run"]);
+    succeed(&folder, &["animate", "run", "--quiet"]);
+    let page = data(&fs::read_to_string(folder.join("run/animation.html")).unwrap());
+    assert_eq!(page["contacts"]["normal"], serde_json::json!([0.0, 1.0, 0.0]));
+    let places = page["contacts"]["places"].as_array().unwrap();
+    let steps = |foot: usize| places[foot]["footprints"].as_array().unwrap();
+    // At the start all feet stand; a touch-down is there for a row at least, unless the foot lifts off before.
+    assert!((0..4).all(|foot| steps(foot).len() >= 6));
+    for foot in 0..4 {
+        let [first, last] = [0, steps(foot).len() - 1].map(|step| steps(foot)[step][3].as_f64().unwrap());
+        assert!(last - first > 1.2 && steps(foot).iter().all(|step| step[2].as_f64().unwrap().abs() < 1e-12));
+    }
 }

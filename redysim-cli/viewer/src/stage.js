@@ -6,6 +6,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+import { Contacts } from "./contacts.js";
 import { AXES } from "./marks.js";
 import { Mechanism } from "./mechanism.js";
 import { meshes } from "./meshes.js";
@@ -36,7 +37,12 @@ export class Stage {
     this.sphere = reach((see) => moved.visit(() => everyPoint(points, linkage, see)));
     this.mechanism = new Mechanism(data, solids, linkage, data.motion && moved, this.sphere.radius);
     this.scene.add(this.mechanism.root);
-    this.#ground(lowest((see) => moved.stand(() => everyPoint(points, linkage, see)), this.up));
+    if (data.contacts) {
+      this.contacts = new Contacts(data.contacts, linkage, this.sphere.radius);
+      this.moved = moved;
+      this.scene.add(this.contacts.root);
+    }
+    this.#ground(data.contacts ?? this.#level(lowest((see) => moved.stand(() => everyPoint(points, linkage, see)), this.up)));
     this.#light();
     this.camera = new PerspectiveCamera(30, 1, this.sphere.radius / 50, this.sphere.radius * 100);
     // The controls turn about the camera's own upward direction, and ask for it only now.
@@ -54,6 +60,7 @@ export class Stage {
   /** Moves the mechanism to where the links are. */
   show() {
     this.mechanism.update();
+    this.contacts?.update(this.moved.time);
     this.stale = true;
   }
 
@@ -74,11 +81,13 @@ export class Stage {
 
   /** Whether there is anything in a layer. */
   hasLayer(name) {
+    if (name === "contacts") return Boolean(this.contacts);
     return name === "ground" || this.mechanism.layers[name].length > 0;
   }
 
   setLayer(name, shown) {
     if (name === "ground") this.ground.visible = shown;
+    else if (name === "contacts") this.contacts && (this.contacts.root.visible = shown);
     else this.mechanism.setLayer(name, shown);
     this.stale = true;
   }
@@ -107,7 +116,14 @@ export class Stage {
     this.stale = true;
   }
 
-  #ground(height) {
+  /** The level ground at a height. */
+  #level(height) {
+    return { point: this.up.clone().multiplyScalar(height).toArray(), normal: this.up.toArray() };
+  }
+
+  /** The plane through `point` with the outward `normal`. */
+  #ground(plane) {
+    const [point, normal] = [plane.point, plane.normal].map((vector) => new Vector3(...vector));
     const { radius, center } = this.sphere;
     this.ground = new Group();
     const cell = roundLength(radius / 4);
@@ -118,10 +134,11 @@ export class Stage {
     floor.position.y = -1e-3 * radius;
     floor.receiveShadow = true;
     const level = new Group().add(grid, floor);
-    level.quaternion.setFromUnitVectors(Y, this.up);
+    level.quaternion.setFromUnitVectors(Y, normal);
     // Below the middle of the motion, on whole cells of the base frame.
-    const middle = center.clone().addScaledVector(this.up, -center.dot(this.up));
-    level.position.copy(middle.divideScalar(cell).round().multiplyScalar(cell)).addScaledVector(this.up, height);
+    const middle = center.clone().addScaledVector(normal, -center.dot(normal));
+    middle.divideScalar(cell).round().multiplyScalar(cell).addScaledVector(normal, -middle.dot(normal));
+    level.position.copy(middle).addScaledVector(normal, point.dot(normal));
     const base = new AxesHelper(0.22 * radius).setColors(...AXES);
     base.material.depthTest = false;
     base.renderOrder = 1;

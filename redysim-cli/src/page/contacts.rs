@@ -1,0 +1,110 @@
+//! What a run has done to the ground: the forces of its contacts, and the places where they touched down.
+
+use redysim_model::{GenericMechanism, Model};
+use redysim_runtime::{Frames, GroundPlane};
+use serde::Serialize;
+
+use super::bodies::{self, Body};
+use crate::data::{Contact, FrameNames, Results};
+use crate::failure::Failure;
+use crate::layout::Layout;
+use crate::recorded::{Recorded, evenly};
+use crate::results::names;
+use crate::scenario::contact::{USUAL_NORMAL, USUAL_POINT};
+use crate::table::Table;
+
+/// Components of forces that a page holds at most: a megabyte of them.
+const NUMBERS: usize = 60_000;
+
+/// The ground and its contacts over time.
+#[derive(Serialize)]
+pub struct Contacts {
+    /// A point of the ground, m, and its outward normal.
+    point: [f64; 3],
+    normal: [f64; 3],
+    /// The instants of the forces, s.
+    t: Vec<f64>,
+    places: Vec<Place>,
+}
+
+/// A contact.
+#[derive(Serialize)]
+struct Place {
+    /// The body that carries it, and where it is in the frame of the body, m.
+    body: usize,
+    position: [f64; 3],
+    /// The force on the mechanism in the base frame at each instant, N.
+    forces: Vec<[f32; 3]>,
+    /// When, s, and where on the ground, m, it touched down; also where it stands at the start.
+    footprints: Vec<[f64; 4]>,
+}
+
+/// The contacts of a run; `None` if it has none.
+///
+/// # Errors
+/// If the run or its tables cannot be read.
+pub fn of(recorded: &Recorded, model: &Model, layout: &Layout) -> Result<Option<Contacts>, Failure> {
+    let (Some(table), Some(motion)) = (recorded.table(names::CONTACTS)?, recorded.motion()?) else { return Ok(None) };
+    let scenario = Results::load(recorded.folder())?.scenario;
+    let ground = scenario.ground.unwrap_or_default();
+    let (point, normal) = (ground.point.unwrap_or(USUAL_POINT), ground.normal.unwrap_or(USUAL_NORMAL));
+    let plane = GroundPlane::new(point, normal).map_err(Failure::input)?;
+    let mechanism = GenericMechanism::new(model.clone());
+    let q = positions(&motion, layout);
+    let at_rest = vec![0.0; layout.nv()];
+    let origins: Vec<Vec<[f64; 3]>> =
+        q.iter().map(|q| mechanism.frame_kinematics(q, &at_rest).iter().map(|state| state.origin).collect()).collect();
+    let rows = evenly(table.t.len(), NUMBERS / (3 * model.frames.len()).max(1));
+    let of_frames: Vec<_> = bodies::frames(model).into_iter().skip(model.links.len()).collect();
+    let mut places = Vec::new();
+    for (name, frame) in scenario.contact.iter().flatten().flat_map(named) {
+        let Some(number) = model.frames.iter().position(|of| of.name == frame) else { continue };
+        let column = |symbol: &str| table.of(symbol).find(|column| column.name == name).map(|column| &column.values);
+        let (Some(x), Some(y), Some(z)) = (column("force_x"), column("force_y"), column("force_z")) else { continue };
+        let Some(touching) = column("touching") else { continue };
+        let begins = |row: &usize| touching[*row] > 0.5 && (*row == 0 || touching[row - 1] < 0.5);
+        let footprint = |row: usize| {
+            let origin = origins.get(row)?.get(number)?;
+            let height = plane.height(origin);
+            let [x, y, z] = [0, 1, 2].map(|axis| origin[axis] - height * plane.normal()[axis]);
+            Some([table.t[row], x, y, z])
+        };
+        let (body, position) = of_frames[number].place();
+        places.push(Place {
+            body,
+            position,
+            forces: rows.iter().map(|&row| [x[row] as f32, y[row] as f32, z[row] as f32]).collect(),
+            footprints: (0..table.t.len()).filter(begins).filter_map(footprint).collect(),
+        });
+    }
+    let t = rows.iter().map(|&row| table.t[row]).collect();
+    Ok(Some(Contacts { point, normal: plane.normal(), t, places }))
+}
+
+impl Contacts {
+    /// Draws each body to its contacts.
+    pub fn extend(&self, bodies: &mut [Body<'_>]) {
+        for Place { body, position, .. } in &self.places {
+            bodies[*body].reach_to(*position);
+        }
+    }
+}
+
+/// Names and frames of the contacts of a table `contact`.
+fn named(contact: &Contact) -> Vec<(&str, &str)> {
+    let (Contact::ReDySim { name, frame, .. } | Contact::HuntCrossley { name, frame, .. }) = contact;
+    match frame {
+        FrameNames::One(frame) => vec![(name.as_deref().unwrap_or(frame), frame)],
+        FrameNames::Several(frames) => frames.iter().map(|frame| (frame.as_str(), frame.as_str())).collect(),
+    }
+}
+
+/// The coordinates at each row.
+fn positions(motion: &Table, layout: &Layout) -> Vec<Vec<f64>> {
+    let columns: Vec<_> = layout
+        .coordinates
+        .iter()
+        .filter_map(|coordinate| motion.of("q").find(|column| column.name == coordinate.name.trim()))
+        .collect();
+    (0..motion.t.len()).map(|row| columns.iter().map(|column| column.values[row]).collect()).collect()
+}
