@@ -18,6 +18,9 @@ use crate::linear_algebra::{add_scaled, dot, norm};
 )]
 pub struct GroundPlane<S> {
     point: [S; 3],
+    /// The outward normal as it was given.
+    #[cfg_attr(not(feature = "serde"), allow(dead_code, reason = "what is serialised"))]
+    given: [S; 3],
     /// The outward normal and the tangential directions, each of length 1.
     axes: [[S; 3]; 3],
 }
@@ -43,7 +46,7 @@ impl<S: Real> TryFrom<Fields<S>> for GroundPlane<S> {
 #[cfg(feature = "serde")]
 impl<S: Real> From<GroundPlane<S>> for Fields<S> {
     fn from(plane: GroundPlane<S>) -> Self {
-        Fields { point: plane.point, normal: plane.normal() }
+        Fields { point: plane.point, normal: plane.given }
     }
 }
 
@@ -69,7 +72,7 @@ impl<S: Real> GroundPlane<S> {
         let along = dot(&first, &unit);
         add_scaled(&mut first, -along, &unit);
         let first = direction(first);
-        Ok(Self { point, axes: [unit, first, cross(unit, first)] })
+        Ok(Self { point, given: normal, axes: [unit, first, cross(unit, first)] })
     }
 
     /// The point that was given, m.

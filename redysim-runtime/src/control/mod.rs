@@ -12,9 +12,9 @@
 //! | [`Impedance`] | springs and dampers on a frame, and gravity forces or the bias of a model |
 //! | [`Limited`] | any law within the limits of the actuators |
 //!
-//! All but [`Impedance`] take one gain for each velocity. [`ComputedTorque`] and [`PdGravity`] take position errors
-//! from the mechanism's `difference`; the others subtract coordinates from coordinates, and are for joints of one
-//! coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint), proportional gains
+//! All but [`Impedance`] take one gain for each velocity. [`ComputedTorque`], [`HybridComputedTorque`] and
+//! [`PdGravity`] take position errors from the mechanism's `difference`; the others subtract coordinates from
+//! coordinates, and are for joints of one coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint), proportional gains
 //! N m/rad (N/m) and derivative gains N m s/rad (N s/m) by default. One gain for all joints is written
 //! `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation checks the lengths of gains and targets before it
 //! starts, and rejects laws of coordinate differences for mechanisms with NQ ≠ NV ([`TorqueLaw::check_lengths`]).
