@@ -62,7 +62,8 @@ impl<S: Real> GroundPlane<S> {
         // Divided by the largest component first, so that no square overflows or vanishes.
         let largest = normal.iter().fold(S::zero(), |largest, component| largest.maximum(component.abs()));
         let scaled = normal.map(|component| component / largest);
-        if !scaled.iter().all(|component| component.is_finite()) || largest == S::zero() {
+        // Of a normal of zeros, the quotients are not numbers.
+        if !scaled.iter().all(|component| component.is_finite()) {
             return Err(ContactError::InvalidNormal { normal });
         }
         let unit = direction(scaled);

@@ -167,6 +167,9 @@ fn energy_is_balanced_at_every_step_of_bounces_with_friction() {
         let method = Ode45::new().rtol(1e-10).atol(1e-12);
         let end = grounded.run(&method, &mut simulation, (0.0, 2.0), start, &mut see, |_| {}).unwrap();
         assert!(worst < 1e-8 && stored > 1.0, "{law:?}: {worst} {stored}");
+        // After the run, touching follows from the position again.
+        assert!(grounded.ground_energy(&[0.0, 0.0, -0.01], &[0.0; 3]) > 0.0);
+        assert_eq!(grounded.ground_energy(&[0.0, 0.0, 0.01], &[0.0; 3]), 0.0);
         assert!(end.y[6] < -0.5, "the ground has taken {} J", -end.y[6]);
     }
 }
