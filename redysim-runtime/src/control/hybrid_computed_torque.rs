@@ -4,8 +4,9 @@ use super::{check_gains, check_motion};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, HybridDynamics, LengthMismatch, Real, TorqueLaw, Trajectory, Vector};
 
-/// Computed torque of a mechanism of which some joints have no actuator, such as a walking robot on a free base: each
-/// joint that has one gets the acceleration
+/// Computed torque of a mechanism of which some joints have no actuator, such as a walking robot on a free base.
+///
+/// Each joint that has one gets the acceleration
 ///
 /// a = q̈_d + Kd ė + Kp e, with the error e = q_d(t) ⊟ q,
 ///
