@@ -71,7 +71,7 @@ fn fixed_steps_fail_at_the_gimbal_of_euler_angles_and_not_with_a_quaternion() {
     let by_quaternion = run(&top(None), None, Ode4::new(1e-4));
     assert!(by_quaternion.end.is_ok() && by_quaternion.drift < 2e-10, "{:e}", by_quaternion.drift);
     let by_angles = run(&top(ZXY), ZXY, Ode4::new(1e-4));
-    let fault = by_angles.end.err().expect("the steps pass the gimbal too fast");
+    let fault = by_angles.end.expect_err("the steps pass the gimbal too fast");
     assert!(matches!(fault, IntegrationError::NonFiniteDerivative { t, .. } if t > 0.37 && t < 0.38), "{fault}");
     assert!(by_angles.drift > 1.0, "it gains energy before: {:e}", by_angles.drift);
 }
@@ -100,6 +100,6 @@ fn steps_by_tolerance_pass_the_gimbal_of_euler_angles_by_rejected_steps_and_agre
 #[test]
 fn a_start_in_the_gimbal_is_reported_with_what_to_look_for() {
     let sequence = Some(EulerSequence::Zxz);
-    let fault = run(&top(sequence), sequence, Ode4::new(1e-4)).end.err().expect("the mass matrix is singular");
+    let fault = run(&top(sequence), sequence, Ode4::new(1e-4)).end.expect_err("the mass matrix is singular");
     assert!(fault.to_string().contains("a singular mass matrix"), "{fault}");
 }
