@@ -1,8 +1,8 @@
 """Imports and compiles robots, computes at random states by redysim and by Pinocchio, and prints how far they differ.
 
-Both read the same URDF. Joints that redysim fixes (planar ones, joints that move no mass) are locked at zero in
-Pinocchio; joints that mimic others are free in both. The base is fixed in both, or with `--free` floats in both. Frames
-on the tips, wrenches on them, and rotors are added to both.
+Both read the same URDF. Joints that redysim fixes, as they move no mass, are locked at zero in Pinocchio; joints that
+mimic others are free in both. The base is fixed in both, or with `--free` floats in both. Frames on the tips, wrenches on
+them, and rotors are added to both.
 """
 
 import sys
