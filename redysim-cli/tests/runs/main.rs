@@ -8,6 +8,7 @@ mod contact;
 mod data;
 mod equations;
 mod faults;
+mod floating;
 mod folders;
 mod in_space;
 mod interrupt;
