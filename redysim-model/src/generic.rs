@@ -25,6 +25,7 @@ pub struct GenericMechanism {
     coordinate_names: Vec<String>,
     velocity_names: Vec<String>,
     coordinates_of_velocities: Vec<Option<usize>>,
+    actuated: Vec<bool>,
 }
 
 impl GenericMechanism {
@@ -36,6 +37,7 @@ impl GenericMechanism {
             coordinate_names: interface.coordinate_names().map(String::from).collect(),
             velocity_names: interface.velocity_names().map(String::from).collect(),
             coordinates_of_velocities: interface.coordinates_of_velocities(),
+            actuated: interface.actuated().collect(),
             model,
             tree,
         }
@@ -149,6 +151,9 @@ impl Mechanism for GenericMechanism {
     }
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.velocity_names.get(index).map(String::as_str)
+    }
+    fn is_actuated(&self, index: usize) -> bool {
+        self.actuated.get(index) == Some(&true)
     }
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         *self.coordinates_of_velocities.get(index)?

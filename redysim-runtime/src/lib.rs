@@ -26,7 +26,7 @@
 //! |---|---|
 //! | a mechanism | [`Mechanism`], [`ConfigurationSpace`], a trait for each [`Function`]; [`Operations`] |
 //! | numbers | [`Scalar`] and [`Real`]; [`Dual`] for derivatives; [`lanes`], several numbers side by side |
-//! | motion in time | [`Integrator`] and the methods, [`integrate`]; [`ForwardSimulation`] |
+//! | motion in time | [`Integrator`] and the methods, [`integrate`]; [`ForwardSimulation`], [`HybridSimulation`] |
 //! | what drives it | [`TorqueLaw`], [`Trajectory`] |
 //! | contact | [`Contact`] of a frame with the ground; [`Grounded`], a mechanism with contacts |
 //! | tasks | [`OperationalSpace`]: inertia, inverse and null space of a task, such as a frame's motion |
@@ -72,6 +72,8 @@ mod floats;
 mod frames;
 pub mod function;
 #[cfg(feature = "simulation")]
+mod hybrid_simulation;
+#[cfg(feature = "simulation")]
 pub mod integrate;
 mod joint_trig;
 #[cfg(feature = "lanes")]
@@ -114,6 +116,8 @@ pub use dual::{Dual, coordinate_rates_tangent, forward_dynamics_tangent, inverse
 pub use frames::{FrameAcceleration, FrameJacobian, FrameState, Frames, Wrench};
 pub use function::set::Functions;
 pub use function::table::{Function, Operations};
+#[cfg(feature = "simulation")]
+pub use hybrid_simulation::HybridSimulation;
 #[cfg(feature = "simulation")]
 pub use integrate::root::*;
 pub use joint_trig::JointTrig;

@@ -27,6 +27,10 @@ pub trait Mechanism {
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.joint_name(index)
     }
+    /// Whether the joint of velocity `index` has an actuator; `false` past the last. The default is that every joint has.
+    fn is_actuated(&self, index: usize) -> bool {
+        index < self.nv()
+    }
     /// The coordinate that belongs to velocity `index` alone: the coordinate of a joint that has one, whose rate is
     /// that velocity, q̇ᵢ = vⱼ, and which may be set by itself. `None` past the last, and for velocities of joints that
     /// have several coordinates (an orientation as a quaternion, an angle as cosine and sine).

@@ -85,28 +85,12 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
         extended_state(self.mechanism, &self.law, q, v)
     }
 
-    /// Writes [q, v, energy], or their rates, to `state`. What a `Vec` lacks is NaN.
-    fn write<S: Real>(&self, parts: (&M::Coordinates, &M::Velocities, S), state: &mut impl Vector<S>)
-    where
-        M: ConfigurationSpace<S>,
-    {
-        let sizes = (self.mechanism.nq(), self.mechanism.nv());
-        for (i, element) in state.as_mut().iter_mut().enumerate().take(sizes.0 + sizes.1 + 1) {
-            *element = component(i, sizes, parts);
-        }
-    }
-
     /// The parts of a state. What a `Vec` lacks is NaN.
     pub fn split<S: Real, Y: Vector<S>>(&self, state: &Y) -> SimulationState<S, M::Coordinates, M::Velocities>
     where
         M: ConfigurationSpace<S>,
     {
-        let (nq, nv) = (self.mechanism.nq(), self.mechanism.nv());
-        SimulationState {
-            q: M::Coordinates::from_fn(nq, |i| entry(state, i)),
-            v: M::Velocities::from_fn(nv, |i| entry(state, nq + i)),
-            actuator_energy: entry(state, nq + nv),
-        }
+        split(self.mechanism, state)
     }
 
     /// The joint forces in a state.
@@ -133,7 +117,7 @@ where
         let rates = self.mechanism.coordinate_rates(&q, &v);
         let accelerations = self.mechanism.forward_dynamics(&q, &v, &tau);
         let power = dot(&tau, &v) - self.mechanism.dissipated_power(&q, &v);
-        self.write((&rates, &accelerations, power), rate);
+        write(self.mechanism, (&rates, &accelerations, power), rate);
     }
 
     fn check_lengths(&self, t: S, state: &Y) -> Result<(), LengthMismatch> {
@@ -159,7 +143,7 @@ where
             *drate += by_position;
         }
         let dissipated = dissipated_power_tangent(self.mechanism, (&q, &v), (&dq, &dv));
-        self.write((&drates, &da, dot(&dtau, &v) + dot(&tau, &dv) - dissipated), slope);
+        write(self.mechanism, (&drates, &da, dot(&dtau, &v) + dot(&tau, &dv) - dissipated), slope);
         true
     }
 
@@ -173,13 +157,47 @@ where
 
     fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {
         let SimulationState { q, v, .. } = self.split(state);
-        let coordinate_rates = self.mechanism.coordinate_rates(&q, &v);
-        let nq = self.mechanism.nq();
-        for (i, rate) in rates.as_mut().iter_mut().enumerate().take(nq) {
-            *rate = entry(&coordinate_rates, i);
-        }
-        nq
+        write_coordinate_rates(self.mechanism, (&q, &v), rates)
     }
+}
+
+/// The parts of a state of a simulation of `mechanism`. What a `Vec` lacks is NaN.
+pub(crate) fn split<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    state: &Y,
+) -> SimulationState<S, M::Coordinates, M::Velocities> {
+    let (nq, nv) = (mechanism.nq(), mechanism.nv());
+    SimulationState {
+        q: M::Coordinates::from_fn(nq, |i| entry(state, i)),
+        v: M::Velocities::from_fn(nv, |i| entry(state, nq + i)),
+        actuator_energy: entry(state, nq + nv),
+    }
+}
+
+/// Writes [q, v, energy], or their rates, to a state of a simulation of `mechanism`. What a `Vec` lacks is NaN.
+pub(crate) fn write<S: Real, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    parts: (&M::Coordinates, &M::Velocities, S),
+    state: &mut impl Vector<S>,
+) {
+    let sizes = (mechanism.nq(), mechanism.nv());
+    for (i, element) in state.as_mut().iter_mut().enumerate().take(sizes.0 + sizes.1 + 1) {
+        *element = component(i, sizes, parts);
+    }
+}
+
+/// Writes the rates of the coordinates to the first elements of `rates`; returns how many they are.
+pub(crate) fn write_coordinate_rates<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    (q, v): (&M::Coordinates, &M::Velocities),
+    rates: &mut Y,
+) -> usize {
+    let coordinate_rates = mechanism.coordinate_rates(q, v);
+    let nq = mechanism.nq();
+    for (i, rate) in rates.as_mut().iter_mut().enumerate().take(nq) {
+        *rate = entry(&coordinate_rates, i);
+    }
+    nq
 }
 
 /// The drift of constrained coordinates from their constraint that is left as it is, in roundoff units: no method knows
@@ -262,7 +280,7 @@ fn component<S: Real, Q: Vector<S>, V: Vector<S>>(
 }
 
 /// The power of the joint forces `tau`.
-fn dot<S: Real, V: Vector<S>>(tau: &V, v: &V) -> S {
+pub(crate) fn dot<S: Real, V: Vector<S>>(tau: &V, v: &V) -> S {
     v.as_ref().iter().enumerate().fold(S::zero(), |sum, (i, &v)| sum + entry(tau, i) * v)
 }
 

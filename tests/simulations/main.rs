@@ -9,6 +9,7 @@ mod extremes;
 mod free_bodies;
 mod free_fall_reference;
 mod heavy_top;
+mod hybrid;
 mod iftomm_pendulum;
 mod impedance;
 mod stiff_control;

@@ -160,7 +160,7 @@ fn check_coordinates<S: Scalar, Q: Vector<S>>(
 }
 
 /// Checks that a motion moves all coordinates.
-fn check_motion<S: Scalar, Q: Vector<S>, V: Vector<S>>(
+pub(crate) fn check_motion<S: Scalar, Q: Vector<S>, V: Vector<S>>(
     mechanism: &impl Mechanism,
     motion: &Motion<Q, V>,
 ) -> Result<(), LengthMismatch> {

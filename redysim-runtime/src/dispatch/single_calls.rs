@@ -92,6 +92,9 @@ impl<M: Mechanism> Mechanism for Dispatched<M> {
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.mechanism.velocity_name(index)
     }
+    fn is_actuated(&self, index: usize) -> bool {
+        self.mechanism.is_actuated(index)
+    }
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         self.mechanism.coordinate_of_velocity(index)
     }

@@ -131,6 +131,7 @@ pub fn mechanism(
     let state = length_of(interface, state);
     let Form { generics, over_scalar, arguments, reads_in_trait, .. } = Form::of(interface, runtime);
     let own_coordinates = own_coordinates(interface);
+    let actuated = actuated(interface, name);
     let tangent = rates_tangent(interface, runtime);
     let methods = configuration.into_iter().map(|(function, body)| {
         let method = method(function, interface, runtime, &quote!(#reads_in_trait #body));
@@ -162,6 +163,7 @@ pub fn mechanism(
             fn velocity_name(&self, index: usize) -> ::core::option::Option<&str> {
                 <#name>::VELOCITY_NAMES.get(index).copied()
             }
+            #actuated
             #own_coordinates
             fn nf(&self) -> usize {
                 <#name>::NF
@@ -180,6 +182,18 @@ pub fn mechanism(
             #tangent
         }
     }
+}
+
+/// Which joints have an actuator, for a mechanism with a joint that has none.
+fn actuated(interface: &PublicInterface, name: &Ident) -> Option<TokenStream> {
+    if interface.actuated().all(|actuated| actuated) {
+        return None;
+    }
+    Some(quote! {
+        fn is_actuated(&self, index: usize) -> bool {
+            <#name>::ACTUATED.get(index).copied().unwrap_or(false)
+        }
+    })
 }
 
 /// Which coordinate belongs to each velocity alone, for a mechanism with a joint that has several.
