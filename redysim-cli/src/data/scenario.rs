@@ -106,6 +106,9 @@ pub struct Forward {
     pub step: f64,
     /// The integrator; by default `Ode45`.
     pub integrator: Option<Integrator>,
+    /// The joints that follow the trajectory whatever force it takes, while the others are free or driven; by default
+    /// none.
+    pub prescribed: Option<Vec<String>>,
     /// What the actuators do; by default nothing.
     pub torque: Option<Torque>,
     /// What keeps loops closed; by default projection.
@@ -165,7 +168,7 @@ impl<const N: usize> From<[f64; N]> for Values {
 impl Forward {
     /// A motion from 0 to `end`, s, with a row of results every `step`, s, and defaults for everything else.
     pub fn new(end: f64, step: f64) -> Self {
-        Forward { start: None, end, step, integrator: None, torque: None, stabilisation: None }
+        Forward { start: None, end, step, integrator: None, prescribed: None, torque: None, stabilisation: None }
     }
 }
 

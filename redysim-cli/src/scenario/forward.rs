@@ -6,6 +6,7 @@ use redysim_toml::{Field, Kind, Message, Reader};
 
 use super::integrator::Integrator;
 use super::keys;
+use super::prescribed::PrescribedJoints;
 use super::span::Span;
 use super::subject::Subject;
 use super::torque::Torque;
@@ -15,13 +16,15 @@ use super::trajectory::Prescribed;
 pub struct Forward {
     pub span: Span,
     pub integrator: Integrator,
+    /// The joints that follow the trajectory whatever force it takes, if some do.
+    pub prescribed: Option<PrescribedJoints>,
     pub torque: Torque,
     /// What keeps loops closed.
     pub stabilisation: Stabilisation<f64>,
 }
 
 impl Forward {
-    /// Reads the table `forward`, in which a torque law may follow `trajectory`; `None` if it is invalid, which has
+    /// Reads the table `forward`, in which joints or a torque law may follow `trajectory`; `None` if it is invalid, which has
     /// been reported.
     pub fn read(
         reader: &mut Reader<'_, '_>,
@@ -31,14 +34,28 @@ impl Forward {
         reader.table(&keys::FORWARD, |mut reader| {
             let span = Span::read(&mut reader);
             let integrator = Integrator::read(&mut reader, span.map_or(f64::INFINITY, Span::length));
-            let torque = Torque::read(&mut reader, subject, trajectory);
+            let prescribed = PrescribedJoints::read(&mut reader, subject, trajectory);
+            let followers =
+                prescribed.as_ref().and_then(Option::as_ref).map_or(&[][..], |prescribed| &prescribed.joints);
+            let torque = Torque::read(&mut reader, subject, trajectory, followers);
             let stabilisation = stabilisation(&mut reader, subject);
             let unlimited = torque.as_ref().map(Torque::unlimited);
             if let (Some(Torque::Computed { .. }), Some(stabilisation)) = (unlimited, stabilisation) {
                 warn_of_redundancy(&mut reader, subject, stabilisation);
             }
-            Some(Forward { span: span?, integrator: integrator?, torque: torque?, stabilisation: stabilisation? })
+            Some(Forward {
+                span: span?,
+                integrator: integrator?,
+                prescribed: prescribed?,
+                torque: torque?,
+                stabilisation: stabilisation?,
+            })
         })
+    }
+
+    /// The motion that joints or the torque law follow, if one of them does: that of the scenario.
+    pub fn followed(&self) -> Option<&Prescribed> {
+        self.torque.followed().or(self.prescribed.as_ref().map(|prescribed| &prescribed.trajectory))
     }
 }
 

@@ -87,7 +87,13 @@ pub const STEP: Key = Key::new("step", "0.01", "s, from one row of the results t
 
 pub const FORWARD: Key = Key::of_table("forward", "{ end = 1.0, step = 0.01 }", "s", &[&FORWARD_KEYS])
     .with_default("required by `redysim forward`");
-const FORWARD_KEYS: Keys = Keys::new("`forward`", &[START, END, STEP, INTEGRATOR, TORQUE, STABILISATION]);
+const FORWARD_KEYS: Keys = Keys::new("`forward`", &[START, END, STEP, INTEGRATOR, FOLLOWING, TORQUE, STABILISATION]);
+pub const FOLLOWING: Key = Key::new(
+    "prescribed",
+    "[\"joint1\"]",
+    "joints that follow the trajectory whatever force it takes, while the others are free or driven",
+)
+.with_default("none");
 
 pub const INTEGRATOR: Key =
     Key::of_table("integrator", "{ method = \"Ode45\", rtol = 1e-6, atol = 1e-8 }", "", &[&FIXED_STEP, &ADAPTIVE_STEP])

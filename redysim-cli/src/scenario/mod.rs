@@ -12,6 +12,7 @@ pub mod keys;
 mod law;
 mod limits;
 mod moving;
+mod prescribed;
 mod resolution;
 pub mod shorthand;
 mod span;
@@ -42,7 +43,7 @@ use subject::given;
 pub use subject::{Dynamics, Subject};
 use table::InputTable;
 pub use torque::{HeldFrame, Torque};
-pub use trajectory::{Prescribed, USUAL_THROUGH};
+pub use trajectory::{Prescribed, Spread, USUAL_THROUGH};
 
 /// The text of the scenario file at `path`.
 ///
@@ -140,9 +141,10 @@ impl Scenario {
         self.layout.actuated_velocities()
     }
 
-    /// The mechanism with its contacts.
+    /// The mechanism with its contacts; of a motion with prescribed joints, that in which these have the actuators.
     pub fn ground(&self) -> Ground<'_> {
-        self.contacts.under(&self.mechanism)
+        let prescribed = self.forward.as_ref().and_then(|forward| forward.prescribed.as_ref());
+        self.contacts.under(prescribed.map_or(&self.mechanism, |prescribed| &prescribed.mechanism))
     }
 
     /// The largest component of the loops' residual at `q`, m (or a sine).
@@ -158,8 +160,8 @@ impl Scenario {
         if let (Some(span), Some(trajectory)) = (self.inverse, &self.trajectory) {
             cover(trajectory.table.as_ref(), span)?;
         }
-        let Some(Forward { span, torque, .. }) = &self.forward else { return Ok(()) };
-        cover(torque.followed().and_then(|trajectory| trajectory.table.as_ref()), *span)?;
+        let Some(forward @ Forward { span, torque, .. }) = &self.forward else { return Ok(()) };
+        cover(forward.followed().and_then(|trajectory| trajectory.table.as_ref()), *span)?;
         match torque.unlimited() {
             Torque::Table { forces, .. } => cover(Some(&forces.table), *span),
             _ => Ok(()),
@@ -208,8 +210,11 @@ fn read(
         Dynamics::Forward => (Field::Missing, Forward::read(&mut reader, &subject, followed)),
     };
     let (inverse, forward) = (given(inverse)?, given(forward)?);
-    let (name, initial, trajectory, contacts) = (name?, initial?, trajectory?, contacts?);
-    let followed = forward.as_ref().and_then(|forward| Some((forward.torque.followed()?, forward.span)));
+    let (name, mut initial, trajectory, contacts) = (name?, initial?, trajectory?, contacts?);
+    if let Some(Forward { span, prescribed: Some(prescribed), .. }) = &forward {
+        prescribed.start(&layout, span.start, &mut initial.q, &mut initial.v);
+    }
+    let followed = forward.as_ref().and_then(|forward| Some((forward.followed()?, forward.span)));
     if let Some(motion) = trajectory.as_ref().zip(inverse).or(followed) {
         limits::check_motion(&mut reader, &subject, &initial, motion)?;
     }

@@ -161,7 +161,8 @@ impl Prescribed {
         if !subject.loops() {
             let free = joints.iter().enumerate().find(|(index, _)| !self.joints.contains(index));
             let Some((_, joint)) = free else { return Ok(()) };
-            let help = "name all joints among its `joints`: without loops nothing else determines how they move";
+            let help = "name all joints among its `joints`; or have the others move as forces make them, by `prescribed` of \
+                        `[forward]`";
             return Err((format!("the trajectory does not prescribe the joint `{}`", joint.name), help.into()));
         }
         if let Some(joint) = self.joints.iter().map(|&joint| &joints[joint]).find(|joint| joint.is_in_space()) {

@@ -66,3 +66,18 @@ fn a_satellite_turns_under_its_tracking_arm_as_in_quadruple_precision() {
     let found: Vec<_> = state.rows.iter().zip(&energy.rows).map(row).collect();
     assert_is_the_reference("floating_three_link", &found, &Table::reference("golden_ref_fb3_pd.csv"));
 }
+
+#[test]
+fn an_arm_that_follows_a_cycloid_takes_the_forces_and_moves_its_satellite_as_in_quadruple_precision() {
+    let folder = scratch("floating-id");
+    let read = tight(&folder, "floating_three_link_prescribed");
+    let (state, energy, forces) = (read("statevar"), read("energy"), read("tor"));
+    let row = |((state, energy), forces): ((&Vec<f64>, &Vec<f64>), &Vec<f64>)| {
+        let (t, [q, v]) = (state[0], euler_angles(&state[1..8], &state[11..17]));
+        let [kinetic, potential, work] = [energy[1], energy[2], energy[4]];
+        assert_eq!(forces[1..7], [0.0; 6], "of the satellite");
+        [&[t], &q[..], &v, &[-work], &forces[7..10], &[kinetic, potential]].concat()
+    };
+    let found: Vec<_> = state.rows.iter().zip(&energy.rows).zip(&forces.rows).map(row).collect();
+    assert_is_the_reference("floating_three_link_prescribed", &found, &Table::reference("golden_ref_fb3_id.csv"));
+}

@@ -18,6 +18,7 @@ mod loops;
 mod motions;
 mod output;
 mod pipes;
+mod prescribed;
 mod references;
 mod results;
 mod steps;

@@ -5,8 +5,9 @@ use core::fmt;
 use super::{Contact, ContactError, ContactLaw, Reaction};
 use crate::vector::entry;
 use crate::{
-    Arguments, BiasForces, ConfigurationSpace, Energy, ForwardDynamics, FrameState, Frames, InverseDynamics,
-    LoopClosure, LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Real, Vector, Wrench,
+    Arguments, BiasForces, ConfigurationSpace, Energy, ForwardDynamics, FrameState, Frames, HybridDynamics,
+    HybridMotion, InverseDynamics, LoopClosure, LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Real, Vector,
+    Wrench,
 };
 
 /// A mechanism whose frames meet the ground: a mechanism itself, with the contact forces among those that act on it.
@@ -152,6 +153,9 @@ impl<S, M: Mechanism, L> Mechanism for Grounded<'_, S, M, L> {
     fn velocity_name(&self, index: usize) -> Option<&str> {
         self.mechanism.velocity_name(index)
     }
+    fn is_actuated(&self, index: usize) -> bool {
+        self.mechanism.is_actuated(index)
+    }
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         self.mechanism.coordinate_of_velocity(index)
     }
@@ -219,6 +223,26 @@ impl<S: Real, M: Frames<S> + ForwardDynamics<S>, L: ContactLaw<S>> ForwardDynami
 impl<S: Real, M: Frames<S> + InverseDynamics<S>, L: ContactLaw<S>> InverseDynamics<S> for Grounded<'_, S, M, L> {
     fn inverse_dynamics(&self, q: &Self::Coordinates, v: &Self::Velocities, a: &Self::Velocities) -> Self::Velocities {
         self.with_ground(q, v, -S::one(), &self.mechanism.inverse_dynamics(q, v, a))
+    }
+}
+
+impl<S: Real, M: Frames<S> + HybridDynamics<S>, L: ContactLaw<S>> HybridDynamics<S> for Grounded<'_, S, M, L> {
+    fn hybrid_dynamics(
+        &self,
+        q: &Self::Coordinates,
+        v: &Self::Velocities,
+        u: &Self::Velocities,
+    ) -> HybridMotion<Self::Velocities> {
+        let mechanism = self.mechanism;
+        if self.contacts.is_empty() {
+            return mechanism.hybrid_dynamics(q, v, u);
+        }
+        let ground = self.ground_forces(q, v);
+        // What is given of a joint without an actuator is a force, to which that of the ground comes.
+        let given = |i: usize| entry(u, i) + if mechanism.is_actuated(i) { S::zero() } else { entry(&ground, i) };
+        let HybridMotion { a, tau } = mechanism.hybrid_dynamics(q, v, &M::Velocities::from_fn(mechanism.nv(), given));
+        let tau = M::Velocities::from_fn(mechanism.nv(), |i| entry(&tau, i) - entry(&ground, i));
+        HybridMotion { a, tau }
     }
 }
 

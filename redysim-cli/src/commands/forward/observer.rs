@@ -64,7 +64,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
     }
 
     fn see(&mut self, t: f64, state: &Vec<f64>) {
-        let SimulationState { q, v, actuator_energy } = self.system.split(state);
+        let SimulationState { q, v, actuator_energy } = self.system.split(t, state);
         self.record.see(&q, &v, actuator_energy);
         self.position_residual = self.position_residual.max(self.scenario.position_residual(&q));
         if self.growth.is_none() {

@@ -1,8 +1,8 @@
 //! What moves: a tree, or closed loops.
 
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopSimulation, ForcedMotion, ForwardDynamics, ForwardSimulation, LoopError, Ode,
-    SimulationState, Stabilisation,
+    ClosedLoop, ClosedLoopSimulation, ForcedMotion, ForwardDynamics, ForwardSimulation, HybridMotion, HybridSimulation,
+    LoopError, Ode, SimulationState, Stabilisation,
 };
 
 use super::ground::OnGround;
@@ -11,11 +11,13 @@ use crate::layout::Component;
 use crate::number::rounded;
 use crate::output::to_stdout;
 use crate::results::{GroundSample, Sample};
-use crate::scenario::{Forward, Ground, Scenario};
+use crate::scenario::{Forward, Ground, Scenario, Spread};
 
 /// The equation of motion of a scenario, and what is known beyond it.
 pub enum System<'a> {
     Tree(ForwardSimulation<'a, Ground<'a>, OnGround<'a>>),
+    /// A tree of which some joints are prescribed.
+    Hybrid(HybridSimulation<'a, Ground<'a>, Spread<'a>, OnGround<'a>>),
     Loops(ClosedLoopSimulation<'a, f64, Ground<'a>, OnGround<'a>>),
 }
 
@@ -23,7 +25,10 @@ impl<'a> System<'a> {
     pub fn new(scenario: &'a Scenario, forward: &'a Forward, ground: &'a Ground<'a>) -> Self {
         let law = forward.torque.law(ground, &scenario.layout, &scenario.initial);
         let law = OnGround::new(law, ground);
-        if scenario.loops() {
+        if let Some(prescribed) = &forward.prescribed {
+            let motion = prescribed.trajectory.spread(&scenario.layout);
+            System::Hybrid(HybridSimulation::new(ground, motion, law))
+        } else if scenario.loops() {
             let simulation = ClosedLoopSimulation::new(ClosedLoop::new(ground), law);
             System::Loops(simulation.stabilisation(forward.stabilisation))
         } else {
@@ -34,13 +39,16 @@ impl<'a> System<'a> {
     pub fn ode(&mut self) -> &mut dyn Ode<f64, Vec<f64>> {
         match self {
             System::Tree(simulation) => simulation,
+            System::Hybrid(simulation) => simulation,
             System::Loops(simulation) => simulation,
         }
     }
 
-    pub fn split(&self, state: &Vec<f64>) -> SimulationState<f64, Vec<f64>, Vec<f64>> {
+    /// The parts of a state at `t`.
+    pub fn split(&self, t: f64, state: &Vec<f64>) -> SimulationState<f64, Vec<f64>, Vec<f64>> {
         match self {
             System::Tree(simulation) => simulation.split(state),
+            System::Hybrid(simulation) => simulation.split(t, state),
             System::Loops(simulation) => simulation.split(state),
         }
     }
@@ -48,6 +56,7 @@ impl<'a> System<'a> {
     fn ground(&self) -> &'a Ground<'a> {
         match self {
             System::Tree(simulation) => simulation.mechanism(),
+            System::Hybrid(simulation) => simulation.mechanism(),
             System::Loops(simulation) => simulation.loops().mechanism(),
         }
     }
@@ -65,6 +74,7 @@ impl<'a> System<'a> {
         let initial = &scenario.initial;
         let simulation = match self {
             System::Tree(simulation) => return Ok(simulation.extended_state(&initial.q, &initial.v)),
+            System::Hybrid(simulation) => return Ok(simulation.state(forward.span.start, &initial.q, &initial.v)),
             System::Loops(simulation) => simulation,
         };
         let loops = simulation.loops();
@@ -102,12 +112,16 @@ impl<'a> System<'a> {
     /// What is written of a state. Within a step loops are only as closed as the method is accurate; where steps are
     /// projected, so is what is written.
     pub fn sample(&mut self, forward: &Forward, t: f64, state: &Vec<f64>) -> Result<Sample, Failure> {
-        let SimulationState { mut q, mut v, actuator_energy } = self.split(state);
+        let SimulationState { mut q, mut v, actuator_energy } = self.split(t, state);
         let ground = self.ground();
         let (tau, a, lambda) = match self {
             System::Tree(simulation) => {
                 let tau = simulation.torque(t, state);
                 let a = simulation.mechanism().forward_dynamics(&q, &v, &tau);
+                (tau, a, vec![])
+            }
+            System::Hybrid(simulation) => {
+                let HybridMotion { a, tau } = simulation.forced_motion(t, state);
                 (tau, a, vec![])
             }
             System::Loops(simulation) => {

@@ -106,6 +106,8 @@ struct Source<'s, 'a, 'f> {
     subject: &'s Subject<'s>,
     /// The scenario's trajectory, if it has one; `None` if that is invalid.
     trajectory: Option<Option<&'s Prescribed>>,
+    /// The joints that follow it whatever force it takes: no law drives them.
+    prescribed: &'s [usize],
 }
 
 /// The limits of the forces on some joints.
@@ -127,13 +129,14 @@ impl Limits {
 
 impl Torque {
     /// Reads the table `torque`; without one, nothing drives the joints. `trajectory` is `None` if it is invalid, which
-    /// has been reported.
+    /// has been reported. The joints `prescribed` follow it whatever force it takes.
     pub fn read(
         reader: &mut Reader<'_, '_>,
         subject: &Subject<'_>,
         trajectory: Option<Option<&Prescribed>>,
+        prescribed: &[usize],
     ) -> Option<Torque> {
-        let read = |reader: Reader<'_, '_>, law: ReadLaw| law(Source { reader, subject, trajectory });
+        let read = |reader: Reader<'_, '_>, law: ReadLaw| law(Source { reader, subject, trajectory, prescribed });
         let field = reader.table_of_kind(&keys::TORQUE, &keys::LAW, &LAWS, &LAWS[0], read);
         given(field)?.or(Some(Torque::Zero))
     }
@@ -347,6 +350,9 @@ impl<'s> Source<'s, '_, '_> {
         let [kp, kd] = [keys::KP, keys::KD].map(|key| self.gains(&key, &trajectory.joints));
         let actuated = self.subject.layout.actuated_velocities();
         let joints = self.subject.joints();
+        if let Some(&joint) = self.prescribed.first() {
+            return prescribed(&mut self.reader, "computed torque moves it too", &joints[joint]);
+        }
         if !self.subject.loops() && joints.iter().any(|joint| !joint.actuated) {
             // The joints without an actuator follow from the dynamics.
             let drives = |joint: &Joint| joint.v.clone().any(|velocity| actuated.contains(&velocity));
@@ -382,6 +388,10 @@ impl<'s> Source<'s, '_, '_> {
     /// The joints that the law drives, by default `usual`.
     fn driven(&mut self, usual: Vec<usize>) -> Option<Vec<usize>> {
         let field = some(&mut self.reader, &keys::DRIVEN, self.subject.joints());
+        if let Some(joint) = field.value().and_then(|named| named.iter().find(|joint| self.prescribed.contains(joint)))
+        {
+            return prescribed(&mut self.reader, "the torque law drives it", &self.subject.joints()[*joint]);
+        }
         let passive = |joint: &&usize| !self.subject.joints()[**joint].actuated;
         if let Some(named) = field.spanned()
             && let Some(&joint) = named.get_ref().iter().find(passive)
@@ -395,7 +405,7 @@ impl<'s> Source<'s, '_, '_> {
             };
             self.reader.warning_at(named.span(), message);
         }
-        field.value_or(usual)
+        field.value_or(usual.into_iter().filter(|joint| !self.prescribed.contains(joint)).collect())
     }
 
     fn targets(&mut self, joints: &[usize]) -> Option<Vec<f64>> {
@@ -439,6 +449,19 @@ fn not_prescribed<T>(reader: &mut Reader<'_, '_>, joint: &Joint) -> Option<T> {
         ),
         label: "drives a joint without a prescribed motion".into(),
         help: "name it among the `joints` of `[trajectory]`, or drive fewer".into(),
+    })
+}
+
+/// Reports a joint that follows the trajectory and is driven as well, as `also` states. Always `None`.
+fn prescribed<T>(reader: &mut Reader<'_, '_>, also: &str, joint: &Joint) -> Option<T> {
+    reader.error_of_table(Message {
+        title: format!(
+            "{}: the joint `{}` is prescribed, and {also}: its force follows from its motion",
+            reader.item(),
+            joint.name
+        ),
+        label: "drives a joint that is prescribed".into(),
+        help: "leave the joint out here, or out of `forward.prescribed`".into(),
     })
 }
 

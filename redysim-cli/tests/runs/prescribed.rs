@@ -1,0 +1,138 @@
+//! Motions in which some joints follow a trajectory, whatever force it takes, while the others are free or driven.
+
+use std::fs;
+use std::path::Path;
+
+use redysim_cli::Scenario;
+
+use crate::common::{AGAINST_CLOSED_FORMS, Table, call, deviation, fail, root, scenario, scratch, succeed};
+
+/// The first of two links turns at a constant speed.
+const LED: &str = "[trajectory]\nkind = 'constant-speed'\njoints = ['joint1']\nfrom = [0.2]\nspeed = [1.5]\n";
+const RUN: &str = "[forward]\nend = 1.0\nstep = 0.05\n";
+/// A spring and a damper for the joints that are not prescribed.
+const DRIVEN: &str = "prescribed = ['joint1']\ntorque = { law = 'pd', target = [0.5], kp = 20, kd = 1 }\n";
+
+/// A run of two links of which the first is prescribed, and the second driven.
+fn led(folder: &Path) -> impl Fn(&str) -> Table + use<> {
+    let start = "[initial]\nq = [9, 0.3]\nv = [9, -1]\n";
+    let path = scenario(folder, "two_link.toml", &format!("{start}{LED}{RUN}{AGAINST_CLOSED_FORMS}{DRIVEN}"));
+    succeed(folder, &["forward", &path, "-o", "run"]);
+    let run = folder.join("run");
+    move |name| Table::csv(&run.join(format!("{name}.csv")))
+}
+
+#[test]
+fn a_prescribed_joint_starts_and_goes_on_as_its_trajectory_has_it() {
+    let read = led(&scratch("prescribed-motion"));
+    for row in &read("traj").rows {
+        let expected = [0.2 + 1.5 * row[0], 1.5, 0.0];
+        assert!(deviation(&[vec![row[1], row[3], row[5]]], &[expected.to_vec()]) < 1e-15, "{row:?}");
+    }
+    let state = read("statevar");
+    assert_eq!((state.rows[0][2], state.rows[0][4]), (0.3, -1.0), "the other joint starts where the scenario has it");
+}
+
+#[test]
+fn the_force_of_a_prescribed_joint_is_that_of_inverse_dynamics_and_the_law_drives_the_others() {
+    let folder = scratch("prescribed-forces");
+    let read = led(&folder);
+    let (state, forces) = (read("statevar"), read("tor"));
+    for (state, forces) in state.rows.iter().zip(&forces.rows) {
+        let by_law = 20.0 * (0.5 - state[2]) - state[4];
+        assert!((forces[2] - by_law).abs() < 1e-12, "{forces:?} instead of {by_law}");
+    }
+    let along = "trajectory = { kind = 'csv', file = 'run/traj.csv' }\n[inverse]\nend = 1.0\nstep = 0.05\n";
+    succeed(&folder, &["inverse", &scenario(&folder, "two_link.toml", along), "-o", "again", "--quiet"]);
+    let again = Table::csv(&folder.join("again/tor.csv"));
+    assert!(deviation(&again.rows, &forces.rows) < 1e-12, "{}", deviation(&again.rows, &forces.rows));
+    assert!(forces.rows.iter().any(|row| row[1].abs() > 0.1), "it takes some force");
+    let drift = read("energy").column("drift [J]");
+    assert!(drift.iter().all(|drift| drift.abs() < 1e-10), "{drift:?}");
+}
+
+#[test]
+fn a_run_with_prescribed_joints_can_be_done_again_from_its_results_to_the_last_bit() {
+    let folder = scratch("prescribed-again");
+    let _ = led(&folder);
+    let text = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    let torque = text.parse::<toml::Table>().unwrap()["forward"]["torque"]["joints"].to_string();
+    assert_eq!(torque, "[\"joint2\"]", "by default the law drives what is not prescribed");
+    succeed(&folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
+    let read = |run: &str, name: &str| fs::read_to_string(folder.join(run).join(name)).unwrap();
+    for name in ["statevar.csv", "tor.csv", "energy.csv"] {
+        assert_eq!(read("run", name), read("again", name), "{name}");
+    }
+}
+
+#[test]
+fn data_have_the_joints_that_a_file_prescribes() {
+    let file = format!("{}/trial.toml", root().join("models").display());
+    let read = Scenario::from_toml(format!("model = 'two_link.toml'\n{LED}{RUN}{DRIVEN}"), &file).unwrap();
+    assert_eq!(read.forward.as_ref().unwrap().prescribed, Some(vec!["joint1".to_owned()]));
+    assert_eq!(Scenario::from_toml(read.to_toml(), &file).unwrap(), read);
+}
+
+#[test]
+fn joints_that_cannot_be_prescribed_are_refused_with_what_to_do() {
+    let folder = scratch("prescribed-refused");
+    let two = "two_link.toml";
+    for (model, trajectory, keys, faults) in [
+        (two, "", "prescribed = ['joint1']", ["does not define one", "add a table `[trajectory]`"]),
+        (two, LED, "prescribed = ['joint2']", ["`joint2`, for which the trajectory has no motion", "`joints`"]),
+        (two, LED, "prescribed = ['joint3']", ["joint3", "joint2"]),
+        (two, LED, "prescribed = []", ["`prescribed` names no joint", "leave the key out"]),
+        (
+            two,
+            "trajectory = { from = [0, 0], to = [1, 1], duration = 1 }\n",
+            "prescribed = ['joint1', 'joint2']",
+            ["every joint is prescribed", "`redysim inverse`"],
+        ),
+        (
+            two,
+            LED,
+            "prescribed = ['joint1']\ntorque = { law = 'p', joints = ['joint1'], target = [0], kp = 1 }",
+            ["`joint1` is prescribed, and the torque law drives it", "`forward.prescribed`"],
+        ),
+        (
+            two,
+            "trajectory = { from = [0, 0], to = [1, 1], duration = 1 }\n",
+            "prescribed = ['joint1']\ntorque = { law = 'computed-torque', kp = 1, kd = 1 }",
+            ["`joint1` is prescribed, and computed torque moves it too", "`forward.prescribed`"],
+        ),
+        (
+            "fourbar.toml",
+            "trajectory = { kind = 'constant-speed', from = [0], speed = [1] }\n",
+            "prescribed = ['crank']",
+            ["requires a tree", "`redysim inverse`"],
+        ),
+    ] {
+        let shown = fail(&folder, &["forward", &scenario(&folder, model, &format!("{trajectory}{RUN}{keys}\n"))], 1);
+        for fault in faults {
+            assert!(shown.contains(fault), "{keys}: no {fault} in {shown}");
+        }
+        assert!(shown.contains("trial.toml:"), "{keys}: {shown}");
+    }
+}
+
+#[test]
+fn inverse_dynamics_of_a_part_of_the_joints_names_the_way_to_compute_it() {
+    let folder = scratch("prescribed-inverse");
+    let path = scenario(&folder, "two_link.toml", &format!("{LED}[inverse]\nend = 1.0\nstep = 0.1\n"));
+    let shown = fail(&folder, &["inverse", &path], 1);
+    assert!(shown.contains("does not prescribe the joint `joint2`"), "{shown}");
+    assert!(shown.contains("by `prescribed` of `[forward]`"), "{shown}");
+}
+
+#[test]
+fn a_prescribed_joint_without_an_actuator_is_warned_of() {
+    let folder = scratch("prescribed-passive");
+    let motion = "trajectory = { kind = 'constant-speed', joints = ['pole'], from = [0], speed = [1] }\n";
+    let run = "[forward]\nend = 0.1\nstep = 0.1\nprescribed = ['pole']\n";
+    let run = call(&folder, &["forward", &scenario(&folder, "cart_pole.toml", &format!("{motion}{run}")), "-o", "run"]);
+    assert!(
+        run.code == 0 && run.stderr.contains("the joint `pole` is prescribed, but has no actuator"),
+        "{}",
+        run.output()
+    );
+}
