@@ -69,8 +69,8 @@ impl Recorded {
         Failure::input(format!("{} holds {what}", self.folder.display())).help(if names_nothing {
             "its tables are ReDySim's (*.dat), which do not name their columns: run the scenario with --format csv"
         } else {
-            "a run writes statevar.csv or traj.csv, kinematics.csv, tor.csv, energy.csv and lambda.csv; is this its \
-             folder?"
+            "a run writes statevar.csv or traj.csv, kinematics.csv, momentum.csv, tor.csv, energy.csv and lambda.csv; \
+             is this its folder?"
         })
     }
 

@@ -3,6 +3,7 @@
 mod balance;
 mod folder;
 mod leftover;
+mod momentum;
 pub mod names;
 mod record;
 mod replaceable;

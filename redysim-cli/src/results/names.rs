@@ -23,9 +23,10 @@ pub const ENERGY: &str = "energy";
 pub const ENVAR: &str = "envar";
 pub const KINEMATICS: &str = "kinematics";
 pub const CONTACTS: &str = "contacts";
+pub const MOMENTUM: &str = "momentum";
 
 /// All tables that there may be.
-pub const TABLES: [&str; 9] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS, CONTACTS];
+pub const TABLES: [&str; 10] = [TIMEVAR, STATEVAR, TRAJ, TOR, LAMBDA, ENERGY, ENVAR, KINEMATICS, CONTACTS, MOMENTUM];
 
 /// The file of a table in CSV.
 pub fn csv(table: &str) -> String {

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use redysim_runtime::{Energy, MechanicalEnergy, Reaction};
 
+use super::momentum::{self, MomentumDrift};
 use super::tables::{Row, Tables};
 use super::{Arguments, Balance, Ended, Folder, Outcome, Summary, leftover, run_file};
 use crate::failure::Failure;
@@ -60,6 +61,8 @@ pub struct Record<'a> {
     /// Position and velocity at the first instant.
     start: [Vec<f64>; 2],
     balance: Balance,
+    /// Of a motion on which nothing outside acts, as far as it is known.
+    momentum: Option<MomentumDrift>,
     progress: Progress,
     begun: Instant,
 }
@@ -90,6 +93,10 @@ impl<'a> Record<'a> {
             count: 0,
             start: [vec![], vec![]],
             balance: Balance::default(),
+            momentum: (dynamics == Dynamics::Forward
+                && scenario.ground().contacts().is_empty()
+                && momentum::floats(&scenario.mechanism))
+            .then(MomentumDrift::default),
             progress: Progress::new(span.count(), quiet),
             begun: Instant::now(),
         })
@@ -105,11 +112,15 @@ impl<'a> Record<'a> {
     /// # Errors
     /// If a number is infinite or none, or if it cannot be written.
     pub fn add(&mut self, sample: &Sample) -> Result<(), Failure> {
-        let energy = self.scenario.mechanism.energy(&sample.q, &sample.v);
+        let mechanism = &self.scenario.mechanism;
+        let energy = mechanism.energy(&sample.q, &sample.v);
         let Sample { work, ground, .. } = sample;
         let with_ground = Energy { potential: energy.potential + ground.energy(), ..energy };
         let drift = self.balance.see(with_ground, work - ground.loss);
-        let rows = self.tables.rows(&Row { scenario: self.scenario, sample, energy, drift })?;
+        let momentum = momentum::about_base(mechanism, &sample.q, &sample.v);
+        self.momentum = self.momentum.filter(|_| !momentum::is_held(mechanism, &sample.tau));
+        self.momentum.iter_mut().for_each(|drift| drift.see(momentum.0));
+        let rows = self.tables.rows(&Row { scenario: self.scenario, sample, energy, drift, momentum })?;
         self.tables.write(&rows).inspect_err(|failure| self.broken = Some(failure.clone()))?;
         if self.count == 0 {
             self.start = [sample.q.clone(), sample.v.clone()];
@@ -119,9 +130,11 @@ impl<'a> Record<'a> {
         Ok(())
     }
 
-    /// Watches the energy in a state between instants, too; of `work` the loss in the ground is subtracted.
+    /// Watches energy and momentum in a state between instants, too; of `work` the loss in the ground is subtracted.
     pub fn see(&mut self, q: &Vec<f64>, v: &Vec<f64>, work: f64) {
+        let Scenario { mechanism, .. } = self.scenario;
         self.balance.see(self.scenario.ground().energy(q, v), work);
+        self.momentum.iter_mut().for_each(|drift| drift.see(momentum::about_base(mechanism, q, v).0));
     }
 
     /// Shows how far it is, if one has to wait.
@@ -165,6 +178,7 @@ impl<'a> Record<'a> {
             instants: (self.span.start, self.span.instant(self.count - 1), self.count),
             seconds: self.begun.elapsed().as_secs_f64(),
             balance: self.balance,
+            momentum: self.momentum,
             start: self.start,
             outcome,
         };

@@ -47,6 +47,11 @@ pub struct Run {
     /// What to compare it with: the most that was there as kinetic energy, as a change of the potential energy, or as
     /// work, J.
     pub energy_exchanged: f64,
+    /// The largest drift of the linear momentum, N s, of a motion on which nothing outside acts: without gravity, on free
+    /// joints without forces.
+    pub linear_momentum_drift: Option<f64>,
+    /// The same of the angular momentum about the origin of the base frame, N m s.
+    pub angular_momentum_drift: Option<f64>,
     /// The largest position residual of a loop, m (or a sine), if there are loops.
     pub worst_position_residual: Option<f64>,
     /// Coordinates at the first instant, rad or m.

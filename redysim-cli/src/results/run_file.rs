@@ -111,7 +111,9 @@ fn numbers(values: &[f64]) -> Item {
 
 /// The table of how it went. A run that is done again has the URDF of the first one.
 fn how_it_went(summary: &Summary, urdf: Option<String>) -> Run {
-    let Summary { dynamics, instants: (from, until, count), seconds, balance, start: [q, v], outcome, .. } = summary;
+    let Summary {
+        dynamics, instants: (from, until, count), seconds, balance, momentum, start: [q, v], outcome, ..
+    } = summary;
     let Outcome { ended, steps, statistics, position_residual, contacts, .. } = outcome;
     let (ended, reason) = match ended {
         Ended::Complete => (Ending::Complete, None),
@@ -137,6 +139,8 @@ fn how_it_went(summary: &Summary, urdf: Option<String>) -> Run {
         touch_downs: contacts.map(|(_, touch_downs)| touch_downs),
         energy_drift: balance.drift,
         energy_exchanged: balance.exchanged,
+        linear_momentum_drift: momentum.map(|drift| drift.linear),
+        angular_momentum_drift: momentum.map(|drift| drift.angular),
         worst_position_residual: *position_residual,
         start_q: q.clone(),
         start_v: v.clone(),

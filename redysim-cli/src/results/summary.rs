@@ -5,6 +5,7 @@ use std::fmt;
 use redysim_runtime::Statistics;
 
 use super::Balance;
+use super::momentum::MomentumDrift;
 use crate::failure::Failure;
 use crate::number::size;
 use crate::scenario::Dynamics;
@@ -44,6 +45,8 @@ pub struct Summary {
     /// Wall time, s, of computing and writing the rows.
     pub seconds: f64,
     pub balance: Balance,
+    /// Of a motion on which nothing outside acts.
+    pub momentum: Option<MomentumDrift>,
     /// Position and velocity at the first instant.
     pub start: [Vec<f64>; 2],
     pub outcome: Outcome,
@@ -71,6 +74,10 @@ impl fmt::Display for Summary {
         let Balance { drift, exchanged, .. } = self.balance;
         let [drift, exchanged] = [drift, exchanged].map(size);
         write!(f, "\n  energy drift {drift} J, while up to {exchanged} J were exchanged")?;
+        if let Some(MomentumDrift { linear, angular, .. }) = self.momentum {
+            let [linear, angular] = [linear, angular].map(size);
+            write!(f, "\n  momentum drift {linear} N s and {angular} N m s")?;
+        }
         position_residual.map_or(Ok(()), |residual| write!(f, "\n  worst position residual {} m", size(residual)))
     }
 }

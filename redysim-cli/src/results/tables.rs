@@ -3,7 +3,7 @@
 use std::fs::File;
 
 use redysim_model::GenericMechanism;
-use redysim_runtime::{Energy, LinkKinematics, Reaction};
+use redysim_runtime::{CenterOfMass, Energy, LinkKinematics, Momentum, Reaction};
 
 use super::{Folder, Sample, names};
 use crate::failure::Failure;
@@ -27,6 +27,8 @@ pub struct Row<'a> {
     pub energy: Energy<f64>,
     /// What of it has come from nowhere, J.
     pub drift: f64,
+    /// The angular momentum is about the origin of the base frame.
+    pub momentum: (Momentum<f64>, CenterOfMass<f64>),
 }
 
 type Make = fn(&Row<'_>) -> Vec<f64>;
@@ -133,6 +135,11 @@ impl Row<'_> {
         of_contact.collect()
     }
 
+    fn momentum(&self) -> Vec<f64> {
+        let (Momentum { linear, angular }, CenterOfMass { position, velocity }) = self.momentum;
+        [linear, angular, position, velocity].concat()
+    }
+
     fn kinematics(&self) -> Vec<f64> {
         let links = self.scenario.mechanism.link_kinematics(&self.sample.q, &self.sample.v);
         let of_link = links
@@ -165,6 +172,7 @@ fn named(scenario: &Scenario) -> Vec<TableFile> {
             at.timed(&[&[kinetic, potential, at.total(), at.sample.work, at.drift], ground])
         }),
         timed(names::KINEMATICS, &[&kinematics_headers(scenario)], |at| at.timed(&[&at.kinematics()])),
+        timed(names::MOMENTUM, &[&momentum_headers()], |at| at.timed(&[&at.momentum()])),
     ];
     if !contacts.is_empty() {
         tables.push(timed(names::CONTACTS, &[&contact_headers(contacts)], |at| at.timed(&[&at.contacts()])));
@@ -202,14 +210,15 @@ impl Headers {
 
 /// ReDySim's files: the time has one of its own. Its states are q, q̇ and, of forward dynamics, the energy of the
 /// actuators, of inverse dynamics q̈; with closed loops its joint forces are those of the actuated joints and then λ;
-/// its energies are potential, kinetic, of the actuators, and the sum of these. What it does not write, kinematics and
-/// the λ of forward dynamics, is written as in the tables with names.
+/// its energies are potential, kinetic, of the actuators, and the sum of these. What it does not write, kinematics,
+/// momentum and the λ of forward dynamics, is written as in the tables with names.
 fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<TableFile> {
     let plain = |name, make: Make| TableFile { name, headers: vec![], make };
     let mut tables = vec![
         plain(names::TIMEVAR, |at| vec![at.sample.t]),
         plain(names::ENVAR, |at| vec![at.potential(), at.energy.kinetic, at.actuators(), at.total() + at.actuators()]),
         plain(names::KINEMATICS, |at| at.kinematics()),
+        plain(names::MOMENTUM, |at| at.momentum()),
     ];
     tables.push(match dynamics {
         Dynamics::Forward => plain(names::STATEVAR, |at| [&*at.sample.q, &at.sample.v, &[at.actuators()]].concat()),
@@ -230,6 +239,12 @@ fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<TableFile> {
         (false, _) => tables.push(plain(names::TOR, |at| at.sample.tau.clone())),
     }
     tables
+}
+
+/// Linear and angular momentum, centre of mass and its velocity.
+fn momentum_headers() -> Vec<String> {
+    let of = |(symbol, unit): (&str, &str)| ["x", "y", "z"].map(|axis| format!("{symbol} {axis} [{unit}]"));
+    [("linear", "N s"), ("angular", "N m s"), ("com", "m"), ("com_velocity", "m/s")].map(of).concat()
 }
 
 fn kinematics_headers(scenario: &Scenario) -> Vec<String> {

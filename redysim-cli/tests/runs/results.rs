@@ -17,6 +17,7 @@ fn a_run_writes_its_tables_its_scenario_and_its_model() {
         "energy.csv",
         "kinematics.csv",
         "model.toml",
+        "momentum.csv",
         "run.toml",
         "statevar.csv",
         "timevar.csv",
@@ -272,7 +273,7 @@ fn results_are_kept_to_the_bit_and_run_again_from_where_they_are_written() {
     assert_eq!((first.run.instants, first.run.from, first.run.until), (8, 0.0, 0.7));
     assert_eq!((first.scenario.model.as_str(), first.scenario.inverse), ("model.toml", None));
     let tables: Vec<_> = first.tables.keys().map(String::as_str).collect();
-    assert_eq!(tables, ["energy", "kinematics", "statevar", "timevar", "tor", "traj", "trajectory"]);
+    assert_eq!(tables, ["energy", "kinematics", "momentum", "statevar", "timevar", "tor", "traj", "trajectory"]);
     let state = &first.tables["statevar"];
     assert_eq!(
         state.columns.iter().map(|column| column.header()).collect::<Vec<_>>()[..2],
