@@ -7,6 +7,7 @@ pub mod chains;
 pub mod comparison;
 pub use redysim_codegen::accuracy::double_double;
 pub mod dual;
+pub mod elliptic;
 pub mod kane;
 pub mod methods;
 #[cfg(feature = "generic")]

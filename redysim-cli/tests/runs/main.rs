@@ -10,6 +10,7 @@ mod equations;
 mod faults;
 mod floating;
 mod folders;
+mod heavy_top;
 mod in_space;
 mod interrupt;
 mod laws;
