@@ -8,7 +8,7 @@ use crate::common::random::{Random, State};
 use crate::common::styles::{inertia, placed};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use redysim::generic::{GenericMechanism, JointKind, Link, Model, Vec3};
-use redysim::{Mechanism, redysim};
+use redysim::{Dispatch, Mechanism, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::{Function, Tree};
 
@@ -246,4 +246,19 @@ fn a_velocity_has_a_coordinate_of_its_own_where_its_joint_has_one() {
     assert_eq!(coordinates(&floating), expected);
     assert_eq!(coordinates(&Pendulum), [None; 4]);
     assert_eq!(coordinates(&pendulum), [None; 4]);
+}
+
+#[test]
+fn a_mechanism_reports_which_of_its_velocities_have_an_actuator() {
+    fn actuated(mechanism: &impl Mechanism) -> Vec<bool> {
+        (0..=mechanism.nv()).map(|velocity| mechanism.is_actuated(velocity)).collect()
+    }
+    let [floating, pendulum] = ["kr5_floating", "spherical_pendulum"].map(crate::common::models::generic);
+    let expected = [&Floating::ACTUATED[..], &[false]].concat();
+    assert_eq!((expected[5], expected[6]), (false, true));
+    assert_eq!(actuated(&Floating), expected);
+    assert_eq!(actuated(&Floating.dispatched()), expected);
+    assert_eq!(actuated(&floating), expected);
+    assert_eq!(actuated(&Pendulum), [true, true, true, false]);
+    assert_eq!(actuated(&pendulum), [true, true, true, false]);
 }
