@@ -136,3 +136,32 @@ fn a_prescribed_joint_without_an_actuator_is_warned_of() {
         run.output()
     );
 }
+
+/// A body of 2 kg on a vertical rail, and on it a foot of 1 kg that is held: the foot carries the body.
+#[test]
+fn a_prescribed_joint_takes_the_force_of_the_ground() {
+    let folder = scratch("prescribed-ground");
+    let link = |name: &str, parent: &str, mass: f64, actuated: bool| {
+        format!(
+            "[[link]]\nname = '{name}'\nparent = '{parent}'\njoint = 'prismatic'\naxis = [0, 0, 1]\nmass = {mass:?}\n\
+             inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\nactuated = {actuated}\n"
+        )
+    };
+    let [body, foot] = [link("body", "base", 2.0, false), link("foot", "body", 1.0, true)];
+    let head = "name = 'hopper'\ngravity = [0, 0, -9.81]\nallow = ['under-actuated']\n";
+    fs::write(folder.join("hopper.toml"), format!("{head}{body}{foot}[[frame]]\nname = 'sole'\nlink = 'foot'\n"))
+        .unwrap();
+    let contact = "[[contact]]\nlaw = 'hunt-crossley'\nframe = 'sole'\nstiffness = 2e4\ndamping = 0.8\nfriction = 0.5\n\
+                   slip_velocity = 0.01\n";
+    let motion = "trajectory = { kind = 'constant-speed', joints = ['foot'], from = [-0.1], speed = [0] }\n";
+    let start = "model = 'hopper.toml'\ninitial = { q = { body = 0.102 } }\n";
+    let run = "[forward]\nend = 20.0\nstep = 5.0\nintegrator = { method = 'Dop853', rtol = 1e-10, atol = 1e-12 }\n\
+               prescribed = ['foot']\n";
+    fs::write(folder.join("trial.toml"), format!("{start}{motion}{run}{contact}")).unwrap();
+    succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
+    let table = |name: &str| Table::csv(&folder.join("run").join(name));
+    let last = table("tor.csv").rows.pop().unwrap();
+    assert!(last[1].abs() < 1e-12 && (last[2] + 2.0 * 9.81).abs() < 1e-2, "{last:?}");
+    let drift = table("energy.csv").column("drift [J]");
+    assert!(drift.iter().all(|drift| drift.abs() < 1e-7), "{drift:?}");
+}
