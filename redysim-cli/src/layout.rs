@@ -133,6 +133,14 @@ impl Layout {
         joints.iter().flat_map(|&joint| self.joints[joint].v.clone()).collect()
     }
 
+    /// What messages report of a joint that does not have an actuator for each of its velocities.
+    pub fn lacking_actuators(&self, joint: &Joint) -> &'static str {
+        match self.velocities[joint.v.clone()].iter().any(|velocity| velocity.actuated) {
+            true => "has actuators for some of its velocities only",
+            false => "has no actuator",
+        }
+    }
+
     /// The velocities that have an actuator.
     pub fn actuated_velocities(&self) -> Vec<usize> {
         (0..self.nv()).filter(|&velocity| self.velocities[velocity].actuated).collect()

@@ -85,9 +85,9 @@ fn fault(subject: &Subject<'_>, joints: &[usize], trajectory: Option<&Prescribed
 fn warn_of_passive(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, named: &Spanned<Vec<usize>>) {
     let all = subject.joints();
     if let Some(&joint) = named.get_ref().iter().find(|joint| !all[**joint].actuated) {
-        let name = &all[joint].name;
+        let (name, lacking) = (&all[joint].name, subject.layout.lacking_actuators(&all[joint]));
         let message = Message {
-            title: format!("{}: the joint `{name}` is prescribed, but has no actuator", reader.item()),
+            title: format!("{}: the joint `{name}` is prescribed, but {lacking}", reader.item()),
             label: "one of these".into(),
             help: "well if something outside the model moves it; else leave it out, or give it an actuator".into(),
         };
