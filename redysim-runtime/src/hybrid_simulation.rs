@@ -3,7 +3,7 @@
 use crate::control::check_motion;
 use crate::integrate::Accepted;
 use crate::simulate::{
-    check_state, constrain_coordinates, dot, extended_state, law_torque, split, write, write_coordinate_rates,
+    check_state, constrain_coordinates, dot, extended_state, law_torque, split, state, write, write_coordinate_rates,
 };
 use crate::vector::entry;
 use crate::{
@@ -49,10 +49,20 @@ impl<'m, M, T, L> HybridSimulation<'m, M, T, L> {
         self.mechanism
     }
 
-    /// The state to start from at `t`: [q, v, 0, z] with the law's states z, and with the motion in the place of the
-    /// coordinates and velocities of the joints that follow it. An array must have `NQ + NV + 1` elements and one for
-    /// each state of the law.
-    pub fn state<S: Real, Y: Vector<S>>(&self, t: S, q: &M::Coordinates, v: &M::Velocities) -> Y
+    /// The state [q, v, 0] to start from at `t`, with the motion in the place of the coordinates and velocities of the
+    /// joints that follow it.
+    pub fn state<S: Real>(&self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::State
+    where
+        M: ConfigurationSpace<S>,
+        T: Trajectory<S, M::Coordinates, M::Velocities>,
+    {
+        let Motion { q, v, .. } = self.prescribe(t, q, v);
+        state(self.mechanism, &q, &v)
+    }
+
+    /// The state [q, v, 0, z] to start from at `t`, as [`state`](Self::state), with the law's states z, for a law that has
+    /// some. An array must have `NQ + NV + 1` elements and one for each of them.
+    pub fn extended_state<S: Real, Y: Vector<S>>(&self, t: S, q: &M::Coordinates, v: &M::Velocities) -> Y
     where
         M: ConfigurationSpace<S>,
         T: Trajectory<S, M::Coordinates, M::Velocities>,

@@ -71,8 +71,7 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     where
         M: ConfigurationSpace<S>,
     {
-        let sizes = (self.mechanism.nq(), self.mechanism.nv());
-        M::State::from_fn(q.as_ref().len() + v.as_ref().len() + 1, |i| component(i, sizes, (q, v, S::zero())))
+        state(self.mechanism, q, v)
     }
 
     /// The state [q, v, 0, z] to start from with the law's states z, for a law that has some. An array must have
@@ -225,6 +224,16 @@ pub(crate) fn constrain_coordinates<S: Real, Y: Vector<S>, M: ConfigurationSpace
         *component = value;
     }
     Accepted::Corrected
+}
+
+/// The state [q, v, 0].
+pub(crate) fn state<S: Real, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    q: &M::Coordinates,
+    v: &M::Velocities,
+) -> M::State {
+    let sizes = (mechanism.nq(), mechanism.nv());
+    M::State::from_fn(q.as_ref().len() + v.as_ref().len() + 1, |i| component(i, sizes, (q, v, S::zero())))
 }
 
 /// The state [q, v, 0, z] with the states z of `law`.

@@ -102,7 +102,7 @@ fn a_free_joint_may_follow_a_motion_while_the_arm_on_it_is_driven() {
     let kp = kd.iter().map(|kd| 5.0 * kd).collect();
     let mut law = PdGravity { mechanism: &plain, trajectory: whole, kp, kd };
     let mut simulation = HybridSimulation::new(&robot, motion, law.clone());
-    let start: Vec<f64> = simulation.state(0.0, &plain.neutral(), &vec![0.0; 12]);
+    let start: Vec<f64> = simulation.extended_state(0.0, &plain.neutral(), &vec![0.0; 12]);
     let parts = states(&mut simulation, 0.8, start);
     let at = |simulation: &HybridSimulation<'_, _, _, _>, (t, y): &(f64, Vec<f64>)| simulation.split(*t, y);
     let SimulationState { q, v, .. } = at(&simulation, &parts[0]);

@@ -5,12 +5,14 @@
 
 use core::ops::ControlFlow;
 
+use redysim::integrate::Ends;
 use redysim::nalgebra as dynamics;
 use redysim::{
-    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation, ConfigurationSpace,
-    Dop853, Event, ForwardSimulation, FrameGains, FrameState, Gauss6, Impedance, IndependentMotion, Integrator,
-    Limited, Motion, Ode5, Ode15s, Ode45, OperationalSpace, Pd, PdGravity, Pid, Radau5, SemiImplicitEuler, SetPoint,
-    Wrench, ZeroTorque, redysim, tracking_rates,
+    AnyContactLaw, ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation,
+    ConfigurationSpace, Contact, Dop853, Event, ForwardSimulation, FrameGains, FrameState, Gauss6, GroundPlane,
+    Grounded, HuntCrossleyContact, HybridSimulation, Impedance, IndependentMotion, Integrator, Limited,
+    MechanicalEnergy, Motion, Ode5, Ode15s, Ode45, OperationalSpace, Pd, PdGravity, Pid, Radau5, ReDySimContact,
+    SemiImplicitEuler, SetPoint, Wrench, ZeroTorque, redysim, tracking_rates,
 };
 
 redysim! {
@@ -47,6 +49,14 @@ redysim! {
 }
 
 redysim! {
+    /// A box that falls to the ground.
+    struct Parcel(
+        "../../../models/parcel.toml",
+        functions = [forward_dynamics, energy, frame_kinematics, frame_jacobians, frame_bias, frame_forces]
+    );
+}
+
+redysim! {
     /// A machine with frames.
     struct Machine(
         "../../../models/test/frames.toml",
@@ -80,6 +90,8 @@ extern "C" fn main() -> i32 {
             && wrenches_have_the_power_of_their_joint_forces()
             && kept
             && a_free_pole_takes_no_force()
+            && a_pole_swings_on_a_cart_that_follows_a_motion().is_some_and(|swings| swings)
+            && a_parcel_bounces_and_keeps_its_energy_account().is_some_and(|kept| kept)
             && a_top_keeps_its_energy_and_its_quaternion_its_length().is_some_and(|kept| kept)
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
@@ -193,6 +205,50 @@ fn a_top_keeps_its_energy_and_its_quaternion_its_length() -> Option<bool> {
     let apart = (0..4).fold(0.0, |sum, i| sum + (sign * again[i] - end.q[i]) * (sign * again[i] - end.q[i]));
     let turns = Top::momentum(&end.q, &end.v).angular.iter().any(|component| component * component > 1e-3);
     Some(-1e-5 < gained && gained < 1e-5 && -1e-9 < length && length < 1e-9 && apart < 1e-18 && turns)
+}
+
+/// A box falls on a corner under both laws of contact: what it has lost the ground has taken.
+fn a_parcel_bounces_and_keeps_its_energy_account() -> Option<bool> {
+    let plane = GroundPlane::new([0.0_f64; 3], [0.0, 0.0, 1.0]).ok()?;
+    let redysim =
+        ReDySimContact { stiffness: 2e4, damping: 300.0, leaving_speed: 4.0, friction: 0.5, sliding_damping: 100.0 };
+    let hertz = HuntCrossleyContact { stiffness: 1e5, exponent: 1.5, damping: 0.2, friction: 0.5, slip_velocity: 0.01 };
+    let laws = [AnyContactLaw::ReDySim(redysim), AnyContactLaw::HuntCrossley(hertz)];
+    let [first, second] = laws.map(|law| Contact::new(0, plane, law));
+    let contacts = [first.ok()?, second.ok()?];
+    let mut kept = true;
+    for contact in contacts.chunks(1) {
+        let grounded = Grounded::new(&Parcel, contact).ok()?;
+        let mut fall = ForwardSimulation::new(&grounded, ZeroTorque);
+        let mut q = Parcel.neutral();
+        q[2] = 0.6;
+        let start = fall.state(&q, &[0.0; Parcel::NV]);
+        let at_start = grounded.energy(&q, &[0.0; Parcel::NV]).total();
+        let mut touched = 0;
+        let method = Ode45::new().rtol(1e-8).atol(1e-9);
+        let end = grounded.run(&method, &mut fall, (0.0, 0.6), start, &mut Ends, |event| {
+            touched += u32::from(event.touching);
+        });
+        let end = fall.split(&end.ok()?.y);
+        let account = grounded.energy(&end.q, &end.v).total() - at_start - end.actuator_energy;
+        kept &= touched > 0 && -1e-4 < account && account < 1e-4;
+    }
+    Some(kept)
+}
+
+/// The cart follows a sine, and the pole moves as that makes it.
+fn a_pole_swings_on_a_cart_that_follows_a_motion() -> Option<bool> {
+    let motion = |t: f64| {
+        let (sin, cos) = redysim::Scalar::sin_cos(t);
+        Motion { q: [sin, 0.0], v: [cos, 0.0], a: [-sin, 0.0] }
+    };
+    let mut simulation = HybridSimulation::new(&CartPole, motion, ZeroTorque);
+    let start = simulation.state(0.0, &[0.0, 0.1], &[0.0; 2]);
+    let end = Ode5::new(1e-3).integrate(&mut simulation, (0.0, 1.0), start).ok()?;
+    let at_end = simulation.split(1.0, &end.y);
+    let [on_cart, on_pole] = simulation.forced_motion(1.0, &end.y).tau;
+    let (sin, _) = redysim::Scalar::sin_cos(1.0_f64);
+    Some(on_pole == 0.0 && on_cart != 0.0 && at_end.q[0] == sin && at_end.q[1] != 0.1)
 }
 
 fn a_free_pole_takes_no_force() -> bool {

@@ -74,7 +74,9 @@ impl<'a> System<'a> {
         let initial = &scenario.initial;
         let simulation = match self {
             System::Tree(simulation) => return Ok(simulation.extended_state(&initial.q, &initial.v)),
-            System::Hybrid(simulation) => return Ok(simulation.state(forward.span.start, &initial.q, &initial.v)),
+            System::Hybrid(simulation) => {
+                return Ok(simulation.extended_state(forward.span.start, &initial.q, &initial.v));
+            }
             System::Loops(simulation) => simulation,
         };
         let loops = simulation.loops();
