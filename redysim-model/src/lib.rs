@@ -41,6 +41,7 @@
 mod actuation;
 mod assembly;
 mod check;
+mod cut;
 pub mod denoc;
 mod faults;
 pub mod frames;
