@@ -106,6 +106,18 @@ fn sliders_move_every_kind_of_joint_as_the_kinematics_does() {
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn sliders_move_joints_in_series_as_the_kinematics_does() {
+    let mut shown = Shown::new("test/joints_in_series.toml");
+    let mut q = vec![0.0; 16];
+    for (coordinate, value) in (0..16).map(|coordinate| (coordinate, 0.3 - 0.07 * coordinate as f64)) {
+        q[coordinate] = value;
+        shown.drag_to(coordinate, value, &q);
+    }
+    shown.look();
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn sliders_move_a_robot_by_standard_parameters_as_the_kinematics_does() {
     let mut shown = Shown::new("test/ur5.toml");
     let mut q = vec![0.0; 6];

@@ -11,6 +11,7 @@ mod faults;
 mod floating;
 mod folders;
 mod heavy_top;
+mod in_series;
 mod in_space;
 mod interrupt;
 mod laws;
