@@ -274,3 +274,22 @@ fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
         assert!(last - first > 1.2 && steps(foot).iter().all(|step| step[2].as_f64().unwrap().abs() < 1e-12));
     }
 }
+
+/// 14 kg on six feet, which settle into the ground and stay.
+#[test]
+fn the_hexapod_stands_and_its_feet_carry_its_weight() {
+    let folder = scratch("contact-hexapod");
+    let text = fs::read_to_string(root().join("scenarios/hexapod.toml")).unwrap();
+    let path = root().join("models/hexapod.toml").display().to_string();
+    let text = text.replace("../models/hexapod.toml", &path).replace("end = 3.0", "end = 1.0");
+    fs::write(folder.join("stands.toml"), text).unwrap();
+    let output = succeed(&folder, &["forward", "stands.toml", "-o", "run"]);
+    assert!(output.contains("6 contacts, 0 touch-downs"), "{output}");
+    let state = Table::csv(&folder.join("run/statevar.csv"));
+    let moved = state.rows.iter().flat_map(|row| [row[1], row[2] - 0.513, row[3], row[4], row[5], row[6]]);
+    assert!(moved.map(f64::abs).fold(0.0, f64::max) < 5e-3, "it stands");
+    let contacts = Table::csv(&folder.join("run/contacts.csv"));
+    let normals = |row: &Vec<f64>| (0..6).map(|foot| row[4 + 6 * foot]).sum::<f64>();
+    let carried = normals(contacts.rows.last().unwrap());
+    assert!((carried / (14.0 * 9.81) - 1.0).abs() < 1e-3, "{carried} N");
+}
