@@ -19,9 +19,9 @@ use crate::{
 /// M(q) q̈ + bias(q, q̇) = τ with q̈_d given by the motion and τ_p by the law
 ///
 /// for q̈_p and τ_d: the inverse dynamics of a floating robot, whose base moves as the arm makes it. The joints d are
-/// those with an [actuator](crate::Mechanism::is_actuated); the motion is one of all joints, and what it has for p is
-/// not used, nor is what the law has for d. For other partitions, `actuated` of a link can be set in the model. A joint
-/// with a quaternion belongs to d with all of its velocities, or with none.
+/// those with an [actuator](crate::Mechanism::is_actuated); the motion is one of all joints; its values for p are ignored,
+/// as are the forces that the law returns for d. For other partitions, `actuated` of a link can be set in the model. All
+/// velocities of a joint with a quaternion belong to d, or all of them to p.
 ///
 /// The coordinates and velocities of the joints d in the state are a copy, whose rates are those of the motion. In their
 /// place every evaluation takes the motion itself at its time, as [`split`](Self::split) does:

@@ -30,7 +30,7 @@ const SPIN: Vector3<f64> = Vector3::new(0.0, 150.0, -4.615_38);
 
 /// What an integration of the top shows.
 struct Run {
-    /// The state at the end, or why there is none.
+    /// The state at the end, or the error of the integration.
     end: Result<Solution<f64, Vec<f64>>, IntegrationError<f64>>,
     /// Largest change of the energy at the ends of steps, as a share of that of the spin.
     drift: f64,

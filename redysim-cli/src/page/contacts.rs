@@ -39,7 +39,7 @@ struct Place {
     footprints: Vec<[f64; 4]>,
 }
 
-/// The contacts of a run; `None` if it has none.
+/// The contacts of a run; `None` for a run without contacts.
 ///
 /// # Errors
 /// If the run or its tables cannot be read.

@@ -89,7 +89,7 @@ fn warn_of_passive(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, named: &S
         let message = Message {
             title: format!("{}: the joint `{name}` is prescribed, but {lacking}", reader.item()),
             label: "one of these".into(),
-            help: "well if something outside the model moves it; else leave it out, or give it an actuator".into(),
+            help: "this is valid if something outside the model moves the joint; otherwise leave it out, or give it an actuator".into(),
         };
         reader.warning_at(named.span(), message);
     }

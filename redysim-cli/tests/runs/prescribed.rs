@@ -57,7 +57,7 @@ fn a_run_with_prescribed_joints_can_be_done_again_from_its_results_to_the_last_b
     let _ = led(&folder);
     let text = fs::read_to_string(folder.join("run/run.toml")).unwrap();
     let torque = text.parse::<toml::Table>().unwrap()["forward"]["torque"]["joints"].to_string();
-    assert_eq!(torque, "[\"joint2\"]", "by default the law drives what is not prescribed");
+    assert_eq!(torque, "[\"joint2\"]", "the default is every actuated joint that does not follow the trajectory");
     succeed(&folder, &["forward", "run/run.toml", "-o", "again", "--quiet"]);
     let read = |run: &str, name: &str| fs::read_to_string(folder.join(run).join(name)).unwrap();
     for name in ["statevar.csv", "tor.csv", "energy.csv"] {

@@ -77,7 +77,7 @@ impl Mul for Rounded {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
         let errors = self.value.abs() * b.error + self.error * b.value.abs() + self.error * b.error;
-        // An infinite bound of one factor is none of the product, even where the other factor is zero.
+        // An infinite bound of one factor leaves the product unbounded, even where the other factor is zero.
         let unknown = self.error.is_infinite() || b.error.is_infinite();
         let errors = if errors.is_nan() && unknown { f64::INFINITY } else { errors };
         Rounded::result(self.value * b.value, errors, 1.0)

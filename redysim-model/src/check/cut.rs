@@ -38,7 +38,7 @@ fn one_loop(
     Some(Loop { name: table.name.value()?.clone(), joint: *table.joint.value()?, a, b })
 }
 
-/// A side of the cut, which `has_axis` or has none.
+/// A side of the cut. `has_axis` is whether the cut's kind takes an axis on that side.
 fn side(
     document: &Document,
     table: &LoopTable,

@@ -54,9 +54,9 @@ pub(super) fn of_several_freedoms(link: &LinkTable) -> Option<JointKind> {
     link.joint.value().copied().filter(|joint| joint.dof() > 1)
 }
 
-/// A joint of several freedoms has neither an offset nor Denavit-Hartenberg parameters, which are of one coordinate; if
-/// its freedoms are not all about one axis, it has no axis; and one with coordinates of the link's own frame has none
-/// that could stand elsewhere.
+/// Reports keys that a joint of several freedoms does not take: an offset, a range and Denavit-Hartenberg parameters belong
+/// to one coordinate, `axis` to a joint with one axis, and `far_end` to a joint whose coordinates are not those of the
+/// link's own frame.
 fn several_freedoms_by_origin(link: &LinkTable, findings: &mut Findings) {
     let Some(joint) = of_several_freedoms(link) else { return };
     let axis = given(&keys::AXIS, &link.axis).filter(|_| !joint.has_axis());

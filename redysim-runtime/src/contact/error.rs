@@ -1,10 +1,10 @@
-//! Why a contact cannot be.
+//! Invalid parameters of contacts.
 
 use core::fmt;
 
 use crate::Real;
 
-/// Why a contact cannot be.
+/// An invalid parameter, plane or frame of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ContactError<S> {

@@ -57,14 +57,14 @@ pub struct Contact<S, L> {
     phase: Cell<Phase>,
 }
 
-/// What decides whether a contact has a force.
+/// How a contact determines whether it exerts a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
-    /// The position.
+    /// It exerts a force where the frame penetrates the ground.
     ByPosition,
-    /// It has none until the touch-down.
+    /// It does not exert a force until the next touch-down.
     Open,
-    /// It has one until the lift-off.
+    /// It exerts a force until the next lift-off.
     Closed,
 }
 

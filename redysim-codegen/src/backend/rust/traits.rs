@@ -184,7 +184,7 @@ pub fn mechanism(
     }
 }
 
-/// Which joints have an actuator, for a mechanism with a joint that has none.
+/// The method `is_actuated`, for a mechanism in which some velocities do not have an actuator.
 fn actuated(interface: &PublicInterface, name: &Ident) -> Option<TokenStream> {
     if interface.actuated().all(|actuated| actuated) {
         return None;
