@@ -25,6 +25,11 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
 }
 
+/// The path of the scenario `name` of the repository.
+pub fn shipped(name: &str) -> String {
+    root().join(format!("scenarios/{name}.toml")).display().to_string()
+}
+
 /// The path of a model file of the repository.
 pub fn model(name: &str) -> String {
     root().join("models").join(name).display().to_string()

@@ -3,12 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::common::{names, root, scenario, scratch, succeed};
+use crate::common::{names, root, scenario, scratch, shipped, succeed};
 use rayon::prelude::*;
-
-fn shipped(name: &str) -> String {
-    root().join(format!("scenarios/{name}.toml")).display().to_string()
-}
 
 /// Does the result `folder` again in `elsewhere`, without the files that its scenario named, and compares all tables.
 fn again(command: &str, folder: &Path, elsewhere: &Path) {

@@ -4,7 +4,7 @@ use std::fs;
 
 use redysim_cli::{Contact, Forward, FrameNames, Ground, Results, Scenario};
 
-use crate::common::{Table, call, data, model, refuses_in, root, scenario, scratch, succeed};
+use crate::common::{Table, call, data, model, refuses_in, root, scenario, scratch, shipped, succeed};
 
 /// The lower corners of the parcel of 3 kg, which stands on them.
 const CORNERS: &str =
@@ -77,8 +77,7 @@ fn a_parcel_falls_on_four_corners_as_in_a_separate_integration() {
 #[test]
 fn a_parcel_that_is_thrown_comes_to_rest_with_its_weight_on_four_corners() {
     let folder = scratch("contact-parcel");
-    let shipped = root().join("scenarios/parcel.toml").display().to_string();
-    let output = succeed(&folder, &["forward", &shipped, "-o", "run"]);
+    let output = succeed(&folder, &["forward", &shipped("parcel"), "-o", "run"]);
     assert!(output.contains("8 contacts, 13 touch-downs"), "{output}");
     let contacts = Table::csv(&folder.join("run/contacts.csv"));
     assert_eq!(contacts.headers.len(), 1 + 8 * 6);
@@ -232,8 +231,7 @@ fn contacts_as_data_read_back_to_the_same_bits() {
 #[test]
 fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
     let folder = scratch("contact-quadruped");
-    let shipped = root().join("scenarios/quadruped.toml").display().to_string();
-    let output = succeed(&folder, &["forward", &shipped, "-o", "run"]);
+    let output = succeed(&folder, &["forward", &shipped("quadruped"), "-o", "run"]);
     assert!(output.contains("4 contacts, 24 touch-downs"), "{output}");
     let state = Table::csv(&folder.join("run/statevar.csv"));
     for row in &state.rows {
@@ -279,7 +277,7 @@ fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
 #[test]
 fn the_hexapod_stands_and_its_feet_carry_its_weight() {
     let folder = scratch("contact-hexapod");
-    let text = fs::read_to_string(root().join("scenarios/hexapod.toml")).unwrap();
+    let text = fs::read_to_string(shipped("hexapod")).unwrap();
     let path = root().join("models/hexapod.toml").display().to_string();
     let text = text.replace("../models/hexapod.toml", &path).replace("end = 3.0", "end = 1.0");
     fs::write(folder.join("stands.toml"), text).unwrap();
