@@ -84,7 +84,7 @@ fn assert_same(tree: JointKind, cut_joint: CutKind, axes: [Vec3<f64>; 2]) {
             Some(motion) => in_frame(motion, &q_joint, axes[1]),
             None => Pose::identity(),
         };
-        let of_b: Pose<f64> = a.transform(&q_a) * on_a * across;
+        let of_b: Pose<f64> = in_frame(a, &q_a, Z) * on_a * across;
 
         let (hinge, at) = (Vec3([0.6, 0.0, 0.8]), Vec3([0.2, 0.3, -0.1]));
         let place = |position| Pose { rotation: Mat3::identity(), position };

@@ -3,7 +3,7 @@
 use super::{Element, EulerSequence, Joint, Measure, Series, linear};
 use crate::model::{JointKind, Link};
 use crate::rotation::align_z;
-use crate::spatial::{Mat3, Pose, Vec3};
+use crate::spatial::{Mat3, Vec3};
 use redysim_runtime::Scalar;
 use std::ops::Range;
 
@@ -96,7 +96,7 @@ impl LinkJoint {
         }
     }
 
-    /// Which of its coordinates are a quaternion x, y, z, w; none if it has none.
+    /// The range of its coordinates that is a quaternion x, y, z, w; empty for a joint without a quaternion.
     pub fn quaternion(self) -> Range<usize> {
         let nq = self.nq();
         if self.is_linear() { 0..0 } else { nq - 4..nq }
@@ -157,24 +157,13 @@ impl LinkJoint {
             }
         }
     }
-
-    /// The frame that the joint moves at the coordinates `q`, in that of the joint on the parent. The axis of a joint
-    /// that has one is z.
-    pub fn transform<S: Scalar>(self, q: &[S]) -> Pose<S> {
-        match self {
-            LinkJoint::Single(joint) => joint.transform(q),
-            LinkJoint::Series(series) => series.transform(q),
-        }
-    }
 }
 
 impl Link {
     /// The displacement of the link along its axis where the joint variable is zero, m.
     pub fn offset_along_axis(&self) -> f64 {
         match LinkJoint::of(self) {
-            Some(joint @ LinkJoint::Single(single)) if single.is_on_axis() => {
-                joint.transform(&[self.offset]).position[2]
-            }
+            Some(LinkJoint::Single(joint)) if joint.is_on_axis() => joint.transform(&[self.offset]).position[2],
             _ => 0.0,
         }
     }

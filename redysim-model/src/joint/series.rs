@@ -1,9 +1,8 @@
 //! Joints of several freedoms that are joints of one freedom in series, without mass between them.
 
-use super::{EulerSequence, Joint, JointPosition, Measure};
+use super::{EulerSequence, Joint, Measure};
 use crate::rotation::align_z;
-use crate::spatial::{Mat3, Pose, Vec3};
-use redysim_runtime::Scalar;
+use crate::spatial::Mat3;
 
 /// A joint of several freedoms as joints of one freedom in series: translations, then rotations, each along or about an
 /// axis of the frame that the ones before it have moved. Its velocities are the rates of its coordinates.
@@ -60,14 +59,5 @@ impl Series {
     /// What its coordinates measure, and the integrals of its velocities.
     pub fn measures(self) -> Vec<Measure> {
         self.elements().iter().flat_map(|element| element.joint.velocity_measures()).copied().collect()
-    }
-
-    /// The moved frame at the coordinates `q`, in the frame of the joint on the parent.
-    pub fn transform<S: Scalar>(self, q: &[S]) -> Pose<S> {
-        let identity = JointPosition::OnAxis { angle: None, displacement: None }.pose();
-        self.elements().into_iter().zip(q).fold(identity, |moved, (element, &q)| {
-            let axes = |axes: Mat3<f64>| Pose { rotation: Mat3::constant(axes), position: Vec3::zero() };
-            moved * axes(element.axes) * element.joint.transform(&[q]) * axes(element.axes.transpose())
-        })
     }
 }
