@@ -92,6 +92,8 @@ mod simulate;
 mod trajectory;
 mod trigonometry;
 mod vector;
+#[cfg(any(feature = "simulation", feature = "std"))]
+mod wrapper;
 
 pub use closed_loop::{
     Assembly, ClosedLoop, ConstrainedMotion, IndependentMotion, LoopError, NamedLoopError, Projection,

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::{Contact, ContactError, ContactLaw, Reaction};
 use crate::vector::entry;
+use crate::wrapper::{coordinates_of, names_and_sizes_of};
 use crate::{
     Arguments, BiasForces, ConfigurationSpace, Energy, ForwardDynamics, FrameState, Frames, HybridDynamics,
     HybridMotion, InverseDynamics, LoopClosure, LoopRows, MassMatrix, MechanicalEnergy, Mechanism, Real, Vector,
@@ -129,71 +130,12 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
 }
 
 impl<S, M: Mechanism, L> Mechanism for Grounded<'_, S, M, L> {
-    fn name(&self) -> &str {
-        self.mechanism.name()
-    }
-    fn nq(&self) -> usize {
-        self.mechanism.nq()
-    }
-    fn nv(&self) -> usize {
-        self.mechanism.nv()
-    }
-    fn nl(&self) -> usize {
-        self.mechanism.nl()
-    }
-    fn link_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.link_name(index)
-    }
-    fn joint_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.joint_name(index)
-    }
-    fn coordinate_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.coordinate_name(index)
-    }
-    fn velocity_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.velocity_name(index)
-    }
-    fn is_actuated(&self, index: usize) -> bool {
-        self.mechanism.is_actuated(index)
-    }
-    fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
-        self.mechanism.coordinate_of_velocity(index)
-    }
-    fn nf(&self) -> usize {
-        self.mechanism.nf()
-    }
-    fn frame_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.frame_name(index)
-    }
+    names_and_sizes_of!(mechanism);
 }
 
 impl<S: Real, M: Frames<S>, L: ContactLaw<S>> ConfigurationSpace<S> for Grounded<'_, S, M, L> {
-    type Coordinates = M::Coordinates;
-    type Velocities = M::Velocities;
-    type State = M::State;
-    type Matrix = M::Matrix;
-    type Links = M::Links;
+    coordinates_of!(mechanism);
 
-    fn coordinate_rates(&self, q: &Self::Coordinates, v: &Self::Velocities) -> Self::Coordinates {
-        self.mechanism.coordinate_rates(q, v)
-    }
-    fn coordinate_rates_tangent(
-        &self,
-        q: &Self::Coordinates,
-        v: &Self::Velocities,
-        dq: &Self::Coordinates,
-    ) -> Option<Self::Coordinates> {
-        self.mechanism.coordinate_rates_tangent(q, v, dq)
-    }
-    fn integrate(&self, q: &Self::Coordinates, dv: &Self::Velocities) -> Self::Coordinates {
-        self.mechanism.integrate(q, dv)
-    }
-    fn difference(&self, q0: &Self::Coordinates, q1: &Self::Coordinates) -> Self::Velocities {
-        self.mechanism.difference(q0, q1)
-    }
-    fn neutral(&self) -> Self::Coordinates {
-        self.mechanism.neutral()
-    }
     /// Of the mechanism and of the ground.
     fn dissipated_power(&self, q: &Self::Coordinates, v: &Self::Velocities) -> S {
         self.mechanism.dissipated_power(q, v) + self.ground_power(q, v)

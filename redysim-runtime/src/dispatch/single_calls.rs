@@ -3,9 +3,10 @@
 use super::Instructions;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2F32, Avx2F64};
-#[cfg(target_arch = "x86_64")]
 use crate::Vector;
 use crate::mechanism::Arguments;
+#[cfg(target_arch = "x86_64")]
+use crate::wrapper::{coordinates_of, names_and_sizes_of};
 use crate::{
     BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, Frames, GravityForces,
     HybridDynamics, HybridMotion, InverseDynamics, LinkKinematics, LoopClosure, LoopRows, MassCenter, MassMatrix,
@@ -68,71 +69,12 @@ fn each<A: Scalar, B: Scalar, V: Vector<A>, W: Vector<B>>(numbers: &V, convert: 
 }
 
 impl<M: Mechanism> Mechanism for Dispatched<M> {
-    fn name(&self) -> &str {
-        self.mechanism.name()
-    }
-    fn nq(&self) -> usize {
-        self.mechanism.nq()
-    }
-    fn nv(&self) -> usize {
-        self.mechanism.nv()
-    }
-    fn nl(&self) -> usize {
-        self.mechanism.nl()
-    }
-    fn link_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.link_name(index)
-    }
-    fn joint_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.joint_name(index)
-    }
-    fn coordinate_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.coordinate_name(index)
-    }
-    fn velocity_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.velocity_name(index)
-    }
-    fn is_actuated(&self, index: usize) -> bool {
-        self.mechanism.is_actuated(index)
-    }
-    fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
-        self.mechanism.coordinate_of_velocity(index)
-    }
-    fn nf(&self) -> usize {
-        self.mechanism.nf()
-    }
-    fn frame_name(&self, index: usize) -> Option<&str> {
-        self.mechanism.frame_name(index)
-    }
+    names_and_sizes_of!(mechanism);
 }
 
 impl<S: Scalar, M: ConfigurationSpace<S>> ConfigurationSpace<S> for Dispatched<M> {
-    type Coordinates = M::Coordinates;
-    type Velocities = M::Velocities;
-    type State = M::State;
-    type Matrix = M::Matrix;
-    type Links = M::Links;
+    coordinates_of!(mechanism);
 
-    fn coordinate_rates(&self, q: &M::Coordinates, v: &M::Velocities) -> M::Coordinates {
-        self.mechanism.coordinate_rates(q, v)
-    }
-    fn coordinate_rates_tangent(
-        &self,
-        q: &M::Coordinates,
-        v: &M::Velocities,
-        dq: &M::Coordinates,
-    ) -> Option<M::Coordinates> {
-        self.mechanism.coordinate_rates_tangent(q, v, dq)
-    }
-    fn integrate(&self, q: &M::Coordinates, dv: &M::Velocities) -> M::Coordinates {
-        self.mechanism.integrate(q, dv)
-    }
-    fn difference(&self, q0: &M::Coordinates, q1: &M::Coordinates) -> M::Velocities {
-        self.mechanism.difference(q0, q1)
-    }
-    fn neutral(&self) -> M::Coordinates {
-        self.mechanism.neutral()
-    }
     fn dissipated_power(&self, q: &M::Coordinates, v: &M::Velocities) -> S {
         self.mechanism.dissipated_power(q, v)
     }
