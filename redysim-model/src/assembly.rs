@@ -2,14 +2,14 @@
 
 use crate::denoc;
 use crate::joint::{Element, JointPhysics, JointPosition, LinkJoint};
-use crate::model::{CutSide, Frame, Link, LinkPoint, Model, Spring};
+use crate::model::{self, CutSide, Frame, Link, LinkPoint, Model, Spring};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::rotation;
 use crate::run_time::{LinkNumbers, Numbers, RunTimeParameter};
 use crate::spatial::{Mat3, Pose, Vec3};
 use crate::spring::{BodyPoint, BodySpring};
-use crate::tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Tree};
+use crate::tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Mimic, Tree};
 
 impl Tree {
     /// The tree of a checked model.
@@ -35,8 +35,10 @@ impl<P: Parameter> Tree<P> {
             cuts: Vec::new(),
             frames: Vec::new(),
             springs: Vec::new(),
+            mimics: Vec::new(),
         };
         let first = first_of_joints(model);
+        tree.mimics = mimics(model, &first);
         for index in parents_first(model) {
             let (link, own) = (&model.links[index], &numbers.links[index]);
             let (parent, reference) = tree.on_body(link.parent);
@@ -176,19 +178,32 @@ struct BodyLink<'m, P> {
     physics: JointPhysics<P>,
 }
 
-/// For each link, the first of its joint's coordinates and of its velocities (for fixed links, of the next joint's).
+/// For each link, the first of its joint's coordinates and of its velocities (for fixed links, of the next joint's). Those
+/// of joints that mimic others come last.
 fn first_of_joints(model: &Model) -> Vec<[usize; 2]> {
-    model
-        .links
-        .iter()
-        .scan([0, 0], |[q, v], link| {
-            let first = [*q, *v];
+    let mut first = vec![[0; 2]; model.links.len()];
+    let mut next = [0; 2];
+    for mimics in [false, true] {
+        for (first, link) in first.iter_mut().zip(&model.links).filter(|(_, link)| link.mimic.is_some() == mimics) {
+            *first = next;
             if let Some(joint) = LinkJoint::of(link) {
-                (*q, *v) = (*q + joint.nq(), *v + joint.nv());
+                next = [next[0] + joint.nq(), next[1] + joint.nv()];
             }
-            Some(first)
-        })
-        .collect()
+        }
+    }
+    first
+}
+
+/// The joints that mimic others, in the model's order. One that mimics another such joint follows that joint's own.
+fn mimics(model: &Model, first: &[[usize; 2]]) -> Vec<Mimic> {
+    let followed = |mut mimic: model::Mimic| {
+        while let Some(next) = model.links[mimic.link].mimic {
+            mimic = mimic.after(next);
+        }
+        let [q, v] = first[mimic.link];
+        Mimic { q, v, multiplier: mimic.multiplier, offset: mimic.offset }
+    };
+    model.links.iter().filter_map(|link| link.mimic).map(followed).collect()
 }
 
 /// The links' indices with parents before children, else in the model's order.

@@ -78,7 +78,7 @@ pub use lint::Lint;
 pub use load::Loaded;
 pub use lock::{JointCoordinates, LockError};
 pub use mobility::Mobility;
-pub use model::{CutKind, CutSide, Frame, Inertia, JointKind, JointRange, Link, LinkPoint, Loop, Model, Spring};
+pub use model::{CutKind, CutSide, Frame, Inertia, JointKind, JointRange, Link, LinkPoint, Loop, Mimic, Model, Spring};
 pub use options::{AccelerationMethod, CodegenOptions};
 pub use public_interface::{MovingJoint, ParameterNumber, PublicInterface};
 pub use redysim_runtime::{Function, Functions};

@@ -60,9 +60,25 @@ impl Model {
             if motion.has_no_orientation_at(values) {
                 return Err(LockError::NoOrientation { joint: joint.into() });
             }
-            model.links[index].lock(values);
+            if let Some(mimic) = self.links[index].mimic {
+                let followed = self.links[mimic.link].joint_name.clone();
+                return Err(LockError::Mimics { joint: joint.into(), followed });
+            }
+            model.lock(index, values);
         }
         if model.dof() == 0 { Err(LockError::NothingMoves) } else { Ok(model) }
+    }
+}
+
+impl Model {
+    /// Fixes the joint of a link where its coordinates are `values`, and those that mimic it where they are then.
+    fn lock(&mut self, index: usize, values: &[f64]) {
+        self.links[index].lock(values);
+        for follower in 0..self.links.len() {
+            if let (Some(mimic), [value]) = (self.links[follower].mimic.filter(|mimic| mimic.link == index), values) {
+                self.lock(follower, &[mimic.multiplier * value + mimic.offset]);
+            }
+        }
     }
 }
 
@@ -133,6 +149,7 @@ impl Link {
         self.axis = Vec3([0.0, 0.0, 1.0]);
         (self.offset, self.pitch, self.coordinates) = (0.0, 0.0, None);
         self.physics = JointPhysics::default();
+        self.mimic = None;
         self.actuated = true.into();
     }
 }
@@ -162,6 +179,13 @@ pub enum LockError {
     Fixed {
         /// The name given.
         joint: String,
+    },
+    /// The joint mimics another.
+    Mimics {
+        /// The name given.
+        joint: String,
+        /// The joint that it mimics.
+        followed: String,
     },
     /// The value has the wrong number of coordinates.
     WrongCount {
@@ -201,6 +225,9 @@ impl fmt::Display for LockError {
                 write!(f, "unknown joint {} to lock; {meant}The joints are: {}", quoted(joint), joints.join(", "))
             }
             LockError::Fixed { joint } => write!(f, "joint {} is fixed already: do not lock it", quoted(joint)),
+            LockError::Mimics { joint, followed } => {
+                write!(f, "joint {} mimics {}: lock that one instead", quoted(joint), quoted(followed))
+            }
             LockError::WrongCount { joint, expected, found } => {
                 write!(f, "joint {} has {expected} coordinates, but is locked at {found}", quoted(joint))
             }

@@ -70,10 +70,39 @@ pub struct Link {
     pub inertia: Inertia,
     /// What acts in the joint itself.
     pub physics: JointPhysics,
+    /// The joint that this one mimics; `None` for a joint with coordinates of its own.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mimic: Option<Mimic>,
     /// Which of the joint's velocities have an actuator.
     pub actuated: Actuation,
     /// Within what the joint moves; not every file says.
     pub range: Option<JointRange>,
+}
+
+/// How a joint follows another, as the fingers of a gripper do: its coordinate is `multiplier` q + `offset`, where q is
+/// the coordinate of the joint that it mimics. Its forces act on that joint, times the multiplier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Mimic {
+    /// Index in [`Model::links`] of the link whose joint is mimicked.
+    pub link: usize,
+    /// What the coordinate of that joint is multiplied by: a number, or m/rad or rad/m if one of the two turns and the other
+    /// slides.
+    pub multiplier: f64,
+    /// What is added, rad or m.
+    pub offset: f64,
+}
+
+impl Mimic {
+    /// What a joint that mimics another so follows, if that one mimics a third as `next` says.
+    pub(crate) fn after(self, next: Mimic) -> Mimic {
+        Mimic {
+            link: next.link,
+            multiplier: self.multiplier * next.multiplier,
+            offset: self.multiplier * next.offset + self.offset,
+        }
+    }
 }
 
 /// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function
@@ -262,6 +291,7 @@ impl Link {
             com: Vec3::zero(),
             inertia: Inertia::default(),
             physics: JointPhysics::default(),
+            mimic: None,
             actuated: true.into(),
             range: None,
         }
@@ -273,6 +303,11 @@ impl Link {
     pub fn actuated_velocities(&self) -> Vec<bool> {
         self.actuated.of_velocities(self.joint.dof())
     }
+
+    /// Number of velocities that its joint adds to the mechanism: those of the joint, but none if it mimics another.
+    pub fn dof(&self) -> usize {
+        if self.mimic.is_some() { 0 } else { self.joint.dof() }
+    }
 }
 
 impl Model {
@@ -282,9 +317,9 @@ impl Model {
         Model { name: name.into(), gravity, links, loops, frames, springs }
     }
 
-    /// Number of joint velocities, NV: the sum of the joints' freedoms.
+    /// Number of velocities, NV: the sum of the freedoms of joints that do not mimic others.
     pub fn dof(&self) -> usize {
-        self.links.iter().map(|link| link.joint.dof()).sum()
+        self.links.iter().map(Link::dof).sum()
     }
 
     /// Whether some joints have an actuator and some do not, and there are no loops.
@@ -298,8 +333,8 @@ impl Model {
         self.links.iter().map(|link| link.mass).sum()
     }
 
-    /// The links whose joints move, in the file's order: entry `i` carries joint variable `i`.
+    /// The links whose joints have coordinates of their own, in the file's order: not those that are fixed or mimic another.
     pub fn moving_links(&self) -> impl Iterator<Item = &Link> {
-        self.links.iter().filter(|link| link.joint.dof() > 0)
+        self.links.iter().filter(|link| link.dof() > 0)
     }
 }

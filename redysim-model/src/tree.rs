@@ -29,6 +29,35 @@ pub struct Tree<P = f64> {
     pub frames: Vec<BodyFrame>,
     /// The springs between points that act, in the model's order.
     pub springs: Vec<BodySpring<P>>,
+    /// The joints that mimic others. Their coordinates stand after the mechanism's NQ in [`Body::q`], their velocities after
+    /// its NV in [`Body::v`], in this order.
+    pub mimics: Vec<Mimic>,
+}
+
+/// How a joint follows another: its coordinate is `multiplier` q + `offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mimic {
+    /// The coordinate of the joint that it mimics, in the model's order.
+    pub q: usize,
+    /// The velocity of that joint.
+    pub v: usize,
+    /// What that joint's coordinate is multiplied by.
+    pub multiplier: f64,
+    /// What is added, rad or m.
+    pub offset: f64,
+}
+
+impl Mimic {
+    /// Its coordinate at the mechanism's coordinates `q`.
+    pub(crate) fn coordinate_at<S: Scalar>(&self, q: &[S]) -> S {
+        let rate = S::from_f64(self.multiplier) * q[self.q];
+        if self.offset == 0.0 { rate } else { rate + S::from_f64(self.offset) }
+    }
+
+    /// Its velocity at the mechanism's velocities `v`, or its acceleration likewise.
+    pub(crate) fn rate_at<S: Scalar>(&self, v: &[S]) -> S {
+        S::from_f64(self.multiplier) * v[self.v]
+    }
 }
 
 /// A moving body with its joint: about or along its z axis, or in space.
@@ -126,16 +155,33 @@ pub struct CutEnd {
 }
 
 impl<P> Tree<P> {
-    /// Number of joint coordinates, NQ.
+    /// Number of coordinates, NQ.
     #[inline]
     pub fn nq(&self) -> usize {
-        self.bodies.iter().map(|body| body.q.len()).sum()
+        self.bodies.iter().map(|body| body.q.len()).sum::<usize>() - self.mimics.len()
     }
 
-    /// Number of joint velocities, NV.
+    /// Number of velocities, NV.
     #[inline]
     pub fn nv(&self) -> usize {
+        self.nv_of_all() - self.mimics.len()
+    }
+
+    /// Number of velocities of all joints: NV, and one for each joint that mimics another.
+    #[inline]
+    pub fn nv_of_all(&self) -> usize {
         self.bodies.iter().map(|body| body.v.len()).sum()
+    }
+
+    /// The velocity of the mechanism that determines a velocity of all joints: itself, or the one that is mimicked.
+    pub(crate) fn own_velocity(&self, velocity: usize) -> usize {
+        velocity.checked_sub(self.nv()).map_or(velocity, |index| self.mimics[index].v)
+    }
+
+    /// The bodies whose joints have coordinates and velocities of their own: those that do not mimic another.
+    pub fn independent_bodies(&self) -> impl Iterator<Item = &Body<P>> {
+        let nv = self.nv();
+        self.bodies.iter().filter(move |body| body.v.start < nv)
     }
 
     /// Whether some velocities have an actuator and some do not, and there are no loops: then it has
@@ -148,7 +194,7 @@ impl<P> Tree<P> {
     /// Whether each velocity has an actuator.
     pub fn actuated(&self) -> Vec<bool> {
         let mut actuated = vec![false; self.nv()];
-        self.bodies.iter().for_each(|body| actuated[body.v.clone()].copy_from_slice(&body.actuated));
+        self.independent_bodies().for_each(|body| actuated[body.v.clone()].copy_from_slice(&body.actuated));
         actuated
     }
 
@@ -184,6 +230,7 @@ impl<P> Tree<P> {
             cuts: self.cuts.clone(),
             frames: self.frames.clone(),
             springs: self.springs.iter().map(|spring| spring.map(&f)).collect(),
+            mimics: self.mimics.clone(),
         }
     }
 
@@ -241,7 +288,7 @@ impl<P> Tree<P> {
     /// For each velocity, the link that its joint moves, in [`Tree::links`].
     pub fn links_of_velocities(&self) -> Vec<usize> {
         let mut links = vec![0; self.nv()];
-        for body in &self.bodies {
+        for body in self.independent_bodies() {
             links[body.v.clone()].fill(body.link);
         }
         links

@@ -5,7 +5,7 @@ use crate::check::BASE;
 use crate::faults::Faults;
 use crate::joint::{FRICTION_VELOCITY, JointPhysics};
 use crate::load::Loaded;
-use crate::model::{CutSide, Frame, Inertia, JointKind, JointRange, Link, Loop, Model, Spring};
+use crate::model::{CutSide, Frame, Inertia, JointKind, JointRange, Link, Loop, Mimic, Model, Spring};
 use crate::options::{AccelerationMethod, CodegenOptions};
 use crate::schema::keys;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -105,6 +105,9 @@ impl Model {
         file.vector_unless_zero(&keys::COM, link.com);
         file.inertia(link.inertia);
         file.physics(link.physics);
+        if let Some(mimic) = link.mimic {
+            file.entry(&keys::MIMIC, self.mimic(mimic));
+        }
         match &link.actuated {
             Actuation::Uniform(true) => {}
             Actuation::Uniform(false) => file.entry(&keys::ACTUATED, "false"),
@@ -154,6 +157,20 @@ impl Model {
         {
             file.entry(key, number(*value));
         }
+    }
+
+    /// The joint that is mimicked, by its name. One that is not there gets a name that no joint has.
+    fn mimic(&self, Mimic { link, multiplier, offset }: Mimic) -> String {
+        let name = self.links.get(link).map_or(format!("links[{link}]"), |link| {
+            if link.joint_name.is_empty() { link.name.clone() } else { link.joint_name.clone() }
+        });
+        let entries = [
+            (&keys::MIMIC_JOINT, string(&name)),
+            (&keys::MULTIPLIER, number(multiplier)),
+            (&keys::MIMIC_OFFSET, number(offset)),
+        ];
+        let entries: Vec<String> = entries.iter().map(|(key, value)| format!("{} = {value}", key.name)).collect();
+        format!("{{ {} }}", entries.join(", "))
     }
 
     /// The name of a link, or of the ground. One that is not there gets a name that no link has.

@@ -89,15 +89,14 @@ impl Body {
         }
     }
 
-    /// The link that a joint with the coordinates `q` and the velocities `v` carries on this one; `first` is the number
-    /// of the first of these velocities.
-    fn carry(&self, link: &Link, first: usize, q: &[f64], v: &[f64]) -> Body {
+    /// The link that a joint in this state carries on this one.
+    fn carry(&self, link: &Link, JointState { q, v, first, rate }: &JointState) -> Body {
         let mut body = self.fixed(&link.placement);
         let (at_zero, axis) = (body.rotation, Vector3::from(link.axis.0));
         let z = at_zero * axis;
         let mut in_series = Vec::new();
         let steps = steps(link);
-        for ((&(kind, axis), &q), &v) in steps.iter().zip(q).zip(v) {
+        for ((&(kind, axis), &q), &v) in steps.iter().zip(q).zip(v.iter()) {
             let (before, z) = (body.clone(), body.rotation * axis);
             let point = body.origin;
             if kind == JointKind::Revolute {
@@ -146,7 +145,9 @@ impl Body {
             JointKind::Free => (0..3).map(|i| along(own(i))).chain((0..3).map(|i| about(own(i)))).collect(),
             _ => vec![],
         };
-        body.joints.extend((first..).zip(screws));
+        let screws = screws.into_iter();
+        let for_a_unit = |screw: Screw| Screw { turn: rate * screw.turn, slide: rate * screw.slide, ..screw };
+        body.joints.extend((*first..).zip(screws.map(for_a_unit)));
         body.stand_on(Matrix3::from_fn(|i, j| link.frame.rotation.0[i][j]), Vector3::from(link.frame.position.0));
         body.com = body.origin + body.rotation * Vector3::from(link.com.0);
         body
@@ -179,8 +180,10 @@ impl Body {
     pub fn jacobians(&self, dof: usize) -> (DMatrix<f64>, DMatrix<f64>) {
         let (mut linear, mut angular) = (DMatrix::zeros(3, dof), DMatrix::zeros(3, dof));
         for &(coordinate, Screw { axis, point, turn, slide }) in &self.joints {
-            linear.set_column(coordinate, &(turn * axis.cross(&(self.com - point)) + slide * axis));
-            angular.set_column(coordinate, &(turn * axis));
+            let mut column = linear.column_mut(coordinate);
+            column += turn * axis.cross(&(self.com - point)) + slide * axis;
+            let mut column = angular.column_mut(coordinate);
+            column += turn * axis;
         }
         (linear, angular)
     }
@@ -205,14 +208,14 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         links: Vec::new(),
         frames: Vec::new(),
     };
-    for (link, (coordinates, velocities)) in model.links.iter().zip(numbers(model)) {
+    for (link, JointState { q, v, first: joint, rate }) in model.links.iter().zip(joint_states(model, q, v)) {
         // Joints of several freedoms have no physics of their own.
-        let (&[q], &[v]) = (&q[coordinates], &v[velocities.clone()]) else { continue };
+        let (&[q], &[v]) = (&q[..], &v[..]) else { continue };
         let JointPhysics { armature, damping, friction, friction_velocity, stiffness, rest } = link.physics;
-        let (joint, stretch) = (velocities.start, q - rest);
-        sums.matrix[(joint, joint)] += armature;
+        let stretch = q - rest;
+        sums.matrix[(joint, joint)] += rate * rate * armature;
         let dissipative = damping * v + friction * v / v.hypot(friction_velocity);
-        sums.passive[joint] += dissipative + stiffness * stretch;
+        sums.passive[joint] += rate * (dissipative + stiffness * stretch);
         sums.dissipated += dissipative * v;
         sums.kinetic += 0.5 * armature * v.powi(2);
         sums.potential += 0.5 * stiffness * stretch.powi(2);
@@ -252,7 +255,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
 
 /// All links, whatever their order: a link is placed as soon as its parent is.
 fn bodies(model: &Model, q: &[f64], v: &[f64]) -> Vec<Body> {
-    let numbers = numbers(model);
+    let states = joint_states(model, q, v);
     let mut placed: Vec<Option<Body>> = vec![None; model.links.len()];
     while placed.iter().any(Option::is_none) {
         for (index, link) in model.links.iter().enumerate() {
@@ -260,13 +263,43 @@ fn bodies(model: &Model, q: &[f64], v: &[f64]) -> Vec<Body> {
                 None => Some(Body::ground()),
                 Some(parent) => placed[parent].clone(),
             };
-            let (coordinates, velocities) = numbers[index].clone();
             if let Some(parent) = parent.filter(|_| placed[index].is_none()) {
-                placed[index] = Some(parent.carry(link, velocities.start, &q[coordinates], &v[velocities]));
+                placed[index] = Some(parent.carry(link, &states[index]));
             }
         }
     }
     placed.into_iter().flatten().collect()
+}
+
+/// How a joint stands and moves.
+struct JointState {
+    q: Vec<f64>,
+    v: Vec<f64>,
+    /// The number of the first velocity of the model that moves it.
+    first: usize,
+    /// Its velocity for a unit of that one: another number than 1 if it mimics a joint.
+    rate: f64,
+}
+
+/// The state of each link's joint, in the model's order.
+fn joint_states(model: &Model, q: &[f64], v: &[f64]) -> Vec<JointState> {
+    let numbers = numbers(model);
+    let state = |(link, (coordinates, velocities)): (&Link, &(Range<usize>, Range<usize>))| {
+        let Some(mut mimic) = link.mimic else {
+            let (q, v) = (q[coordinates.clone()].to_vec(), v[velocities.clone()].to_vec());
+            return JointState { q, v, first: velocities.start, rate: 1.0 };
+        };
+        let (mut rate, mut offset) = (mimic.multiplier, mimic.offset);
+        while let Some(next) = model.links[mimic.link].mimic {
+            offset += rate * next.offset;
+            rate *= next.multiplier;
+            mimic = next;
+        }
+        let (coordinates, velocities) = &numbers[mimic.link];
+        let first = velocities.start;
+        JointState { q: vec![rate * q[coordinates.start] + offset], v: vec![rate * v[first]], first, rate }
+    };
+    model.links.iter().zip(&numbers).map(state).collect()
 }
 
 /// Which coordinates and which velocities the joint of each link has, in the model's order.
@@ -306,6 +339,7 @@ fn steps(link: &Link) -> Vec<(JointKind, Vector3<f64>)> {
 /// How many coordinates and velocities a joint has.
 fn sizes(link: &Link) -> (usize, usize) {
     match link.joint {
+        _ if link.mimic.is_some() => (0, 0),
         _ if !steps(link).is_empty() => (steps(link).len(), steps(link).len()),
         JointKind::Fixed => (0, 0),
         JointKind::Spherical => (4, 3),

@@ -1,6 +1,6 @@
 //! Hybrid dynamics: what it finds, with what it is given, are forces and accelerations of one motion.
 
-use super::random_trees::models::{Joints, random_model};
+use super::random_trees::models::{Joints, mimic_some, random_model};
 use super::random_trees::state_in_space;
 use crate::common::random::{Random, State};
 use crate::common::styles::Style;
@@ -65,11 +65,26 @@ fn partly_actuated_joints(random: &mut Random) -> Model {
     }
 }
 
+/// The same, in which joints mimic others.
+fn partly_actuated_with_mimics(random: &mut Random) -> Model {
+    loop {
+        let mut model = partly_actuated_joints(random);
+        mimic_some(random, &mut model);
+        if model.links.iter().any(|link| link.mimic.is_some()) && Tree::new(&model).has_passive_joints() {
+            return model;
+        }
+    }
+}
+
 #[test]
 fn both_methods_and_the_traced_expressions_find_a_motion_on_random_trees() {
-    for seed in 0..2 * TREES {
+    for seed in 0..3 * TREES {
         let mut random = Random::new(seed);
-        let model = if seed < TREES { partly_actuated(&mut random) } else { partly_actuated_joints(&mut random) };
+        let model = match seed / TREES {
+            0 => partly_actuated(&mut random),
+            1 => partly_actuated_joints(&mut random),
+            _ => partly_actuated_with_mimics(&mut random),
+        };
         let tree = Tree::new(&model);
         let actuated = tree.actuated();
         let functions = trace(&tree).expect("no pass changes a value");

@@ -15,6 +15,7 @@ mod link_kinematics_identities;
 mod locked;
 mod locked_in_space;
 mod long_functions;
+mod mimic;
 mod parameters;
 mod peer_trees;
 mod placement;

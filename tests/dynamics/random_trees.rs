@@ -4,7 +4,7 @@
 //! scrambled order; in half of them with rotors, damping, friction and springs in the joints, in half with springs and
 //! dampers between points. Each has three frames of interest, on links or on the ground. Sixty trees more have spherical
 //! and free joints as well, anywhere, at quaternions of any length; and sixty more joints of every kind, with quaternions
-//! and with Euler angles of any sequence.
+//! and with Euler angles of any sequence. In sixty more, joints of one freedom mimic others.
 
 pub mod models;
 
@@ -12,7 +12,7 @@ use crate::common::dual::moving;
 use crate::common::kane::{Kane, kane};
 use crate::common::random::{Random, State};
 use crate::common::styles::Style;
-use models::{Joints, random_model};
+use models::{Joints, mimic_some, random_model};
 use nalgebra::{DMatrix, DVector, Vector3};
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
@@ -31,6 +31,8 @@ const OF_ONE_FREEDOM: Range<u64> = 0..200;
 const IN_SPACE: Range<u64> = 1000..1060;
 /// The seeds of trees that have joints of every kind, spherical and free ones in quaternions and in Euler angles.
 const IN_SERIES: Range<u64> = 2000..2060;
+/// The seeds of trees in which joints mimic others.
+const WITH_MIMICS: Range<u64> = 3000..3060;
 const STATES: usize = 3;
 
 /// The largest error of each quantity.
@@ -87,7 +89,7 @@ fn frame_functions(expected: &Kane, dof: usize, wrenches: &[f64]) -> [(Function,
 
 /// Calls `check` with each tree and Kane's answer at a few states.
 fn on_random_trees(check: impl FnMut(&Model, &Tree, &State, &Kane)) {
-    on_trees(OF_ONE_FREEDOM.chain(IN_SPACE).chain(IN_SERIES), check);
+    on_trees(OF_ONE_FREEDOM.chain(IN_SPACE).chain(IN_SERIES).chain(WITH_MIMICS), check);
 }
 
 /// The same with the trees of these seeds.
@@ -97,9 +99,13 @@ fn on_trees(seeds: impl Iterator<Item = u64>, mut check: impl FnMut(&Model, &Tre
         let joints = match seed {
             seed if IN_SERIES.contains(&seed) => Joints::InSeries,
             seed if IN_SPACE.contains(&seed) => Joints::InSpace,
+            seed if WITH_MIMICS.contains(&seed) && seed % 3 == 0 => Joints::InSpace,
             _ => Joints::OfOneFreedom,
         };
-        let model = random_model(&mut random, joints, seed % 2 == 1, seed % 4 >= 2);
+        let mut model = random_model(&mut random, joints, seed % 2 == 1, seed % 4 >= 2);
+        if WITH_MIMICS.contains(&seed) {
+            mimic_some(&mut random, &mut model);
+        }
         let tree = Tree::new(&model);
         for _ in 0..STATES {
             let state = match joints {
@@ -115,7 +121,7 @@ fn on_trees(seeds: impl Iterator<Item = u64>, mut check: impl FnMut(&Model, &Tre
 /// A state in the same ranges, with quaternions of lengths from 1e-3 to 1e3.
 pub fn state_in_space(random: &mut Random, model: &Model) -> State {
     let mut q = Vec::new();
-    for link in &model.links {
+    for link in model.moving_links() {
         q.extend(match link.joint {
             _ if link.joint.dof() > 1 && LinkJoint::of(link).is_some_and(LinkJoint::is_linear) => {
                 let measures = LinkJoint::of(link).map(LinkJoint::coordinate_measures).unwrap_or_default();
@@ -278,6 +284,11 @@ fn traced_expressions_agree_with_kanes_equations_where_joints_have_several_freed
 #[test]
 fn traced_expressions_agree_with_kanes_equations_where_joints_are_several_in_series() {
     traced_expressions_agree(IN_SERIES);
+}
+
+#[test]
+fn traced_expressions_agree_with_kanes_equations_where_joints_mimic_others() {
+    traced_expressions_agree(WITH_MIMICS);
 }
 
 fn traced_expressions_agree(seeds: impl Iterator<Item = u64>) {

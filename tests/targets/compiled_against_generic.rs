@@ -17,6 +17,7 @@ use std::f64::consts::PI;
 redysim! { struct Springs("models/test/springs.toml"); }
 redysim! { struct Floating("models/kr5_floating.toml"); }
 redysim! { struct Pendulum("models/spherical_pendulum.toml"); }
+redysim! { struct Mimics("models/parallel_gripper.toml"); }
 redysim! { struct Series("models/test/joints_in_series.toml"); }
 
 const STATES: usize = 1000;
@@ -224,6 +225,14 @@ fn joints_in_series_compiled_are_the_same_generic() {
     );
     assert_same_kinematics(&Series, &generic("test/joints_in_series"));
     assert_same_positions(&Series, &generic("test/joints_in_series"));
+}
+
+#[test]
+fn joints_that_mimic_others_compiled_are_the_same_generic() {
+    assert_same_outside(&Mimics, &generic("parallel_gripper"));
+    assert_same_functions(&Mimics, &generic("parallel_gripper"), CONSTANTS, ACCELERATIONS);
+    assert_same_kinematics(&Mimics, &generic("parallel_gripper"));
+    assert_same_positions(&Mimics, &generic("parallel_gripper"));
 }
 
 #[test]

@@ -174,7 +174,7 @@ impl State {
         let mut random = Random::new(1000 * seed + 10 * index as u64 + motion as u64 + 1);
         let mut shares = || (0..nv).map(|_| random.share(false)).collect::<Vec<f64>>();
         let [mut displacement, mut v, mut a] = [shares(), shares(), shares()];
-        for body in &tree.bodies {
+        for body in tree.independent_bodies() {
             for (displacement, screw) in displacement[body.v.clone()].iter_mut().zip(body.joint.screws()) {
                 *displacement *= if screw.turn == 0.0 { 1.0 } else { PI };
             }

@@ -50,6 +50,7 @@ pub fn neighbourhood<P: Parameter>(tree: &Tree<P>, body: usize) -> Neighbourhood
         cuts: Vec::new(),
         frames: Vec::new(),
         springs: Vec::new(),
+        mimics: Vec::new(),
         ..tree.clone()
     };
     let mut origins = Vec::new();

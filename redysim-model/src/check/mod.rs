@@ -6,6 +6,7 @@ mod frame;
 mod inertia;
 mod lints;
 mod massless;
+mod mimic;
 mod mobility;
 mod names;
 mod options;
@@ -35,6 +36,7 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
     let loops = cut::loops(document, parents.as_deref(), findings);
     let frames = frame::frames(document, findings);
     let springs = spring::springs(document, parents.as_deref(), findings);
+    let mimics = mimic::mimics(document, findings);
     let parents = parents?;
     let massless = massless::check(document, &parents);
     if document.loops.is_empty() {
@@ -42,7 +44,10 @@ pub(crate) fn check(document: &Document, findings: &mut Findings) -> Option<(Mod
         report(document, &massless, findings);
     }
 
-    let links = placed(document, links.into_iter().collect::<Option<_>>()?, &parents);
+    let mut links = placed(document, links.into_iter().collect::<Option<_>>()?, &parents);
+    for (link, mimic) in links.iter_mut().zip(mimics?) {
+        link.mimic = mimic.filter(|_| link.joint != JointKind::Fixed);
+    }
     let gravity = Vec3(*document.gravity.value()?);
     let mut options = options;
     let name = document.name.value()?.clone();
@@ -89,7 +94,7 @@ fn report(document: &Document, links: &[(usize, Message)], findings: &mut Findin
     }
 }
 
-/// One link by itself, still without its parent.
+/// One link by itself, still without its parent and without what it mimics.
 fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
     let placed = placement::place(table, findings);
     let physics = physics::check(table, findings);
@@ -109,6 +114,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
         com: Vec3(table.com.value_or([0.0; 3])?),
         inertia: table.inertia.value_or(Default::default())?,
         physics: physics?,
+        mimic: None,
         actuated: table.actuated.value_or(true.into())?,
         range: if table.range.is_missing() { None } else { Some(*table.range.value()?) },
     })

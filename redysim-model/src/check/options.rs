@@ -71,7 +71,7 @@ fn tolerance(document: &Document, findings: &mut Findings) -> Option<Option<f64>
     }
     let given = tolerance.spanned()?;
     let joints_where = |lacks: fn(&LinkTable) -> bool| -> Vec<&str> {
-        let links = document.links.iter().filter(|link| !link.is_rigid() && lacks(link));
+        let links = document.links.iter().filter(|link| link.is_independent() && lacks(link));
         links.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect()
     };
     let without_acceleration = |link: &LinkTable| link.range.value().is_some_and(|range| range.acceleration.is_none());

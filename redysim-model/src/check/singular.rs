@@ -14,7 +14,8 @@ const ROUNDOFF: f64 = 1e-12;
 
 /// The links whose joints make the mass matrix singular, each with its message. Called for a model without errors.
 pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
-    let tree = Tree::new(model);
+    // The recursion accelerates joints that mimic others by themselves first.
+    let tree = Tree { mimics: Vec::new(), ..Tree::new(model) };
     let report = |body: usize| {
         let Body { joint, link, .. } = tree.bodies[body];
         (link, messages::singular_mass_matrix(&model.links[link].name, &model.links[link].joint_name, joint))

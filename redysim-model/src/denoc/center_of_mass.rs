@@ -18,6 +18,7 @@ pub fn center_of_mass<S: Scalar, P: ParameterIn<S>>(
     q: &[S],
     v: &[S],
 ) -> CenterOfMass<S> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let frames = joint_frames(tree, trace, q);
     let of_body =
         |(body, frame): (&Body<P>, &JointFrame<S>)| frame.fixed_vector(body.inertia.moment.map(ParameterIn::value));

@@ -28,6 +28,7 @@ pub fn coriolis_matrix<S: Scalar>(
     q: &[S],
     v: &[S],
 ) -> Vec<Vec<S>> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let frames = joint_frames(tree, trace, q);
     let mut planar = Vec::new();
     find_planar(&mut planar, tree);
@@ -41,7 +42,7 @@ pub fn coriolis_matrix<S: Scalar>(
         velocities.push(velocity);
         composites.push(MovingComposite::new(Composite::new(body.inertia, frame), velocity));
     }
-    let mut matrix = vec![vec![S::zero(); tree.nv()]; tree.nv()];
+    let mut matrix = vec![vec![S::zero(); tree.nv_of_all()]; tree.nv_of_all()];
     for index in tree.inward() {
         let (body, composite) = (&tree.bodies[index], composites[index].clone());
         composite.name(trace, index);
@@ -71,7 +72,7 @@ pub fn coriolis_matrix<S: Scalar>(
             }
         }
     }
-    matrix
+    tree.folded_matrix(matrix)
 }
 
 /// A body and all it carries, each at its own velocity.

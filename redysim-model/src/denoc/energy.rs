@@ -12,6 +12,7 @@ use redysim_runtime::{Energy, Scalar};
 /// Kinetic energy ½ Σ (m v² + 2 v·(ω × h) + ωᵀ J ω), with that of the rotors, and potential energy −Σ m g·c, zero at
 /// the base frame's origin, with that of the springs, J.
 pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Energy<S> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let frames = joint_frames(tree, trace, q);
     let mut twice_kinetic = S::zero();
     let mut twice_springs = Springs::default().twice_energy(tree, &frames);

@@ -15,7 +15,7 @@ pub struct Factorisation<S> {
     upper: Vec<Vec<S>>,
     /// 1/D.
     inverse_pivots: Vec<S>,
-    /// For each freedom, the one before it on the way to the ground.
+    /// For each freedom, its parent in the [elimination tree](elimination_tree).
     parents: Vec<Option<usize>>,
     /// For each freedom, its velocity in the model's order.
     velocities: Vec<usize>,
@@ -35,18 +35,20 @@ impl<S: Scalar> Factorisation<S> {
         matrix: &[Vec<S>],
         wanted: impl Fn(usize) -> bool,
     ) -> Self {
-        let (mut velocities, mut parents, mut names) = (Vec::new(), Vec::new(), Vec::new());
-        let mut last: Vec<Option<usize>> = Vec::with_capacity(tree.bodies.len());
+        let (mut velocities, mut names) = (Vec::new(), Vec::new());
+        let (nv, mut freedoms) = (tree.nv(), vec![None; tree.nv_of_all()]);
         for (index, body) in tree.bodies.iter().enumerate() {
-            let mut before = body.parent.and_then(|parent| last[parent]);
-            for (i, velocity) in body.v.clone().enumerate().filter(|(_, velocity)| wanted(*velocity)) {
+            for (i, velocity) in body.v.clone().enumerate().filter(|(_, velocity)| *velocity < nv && wanted(*velocity))
+            {
+                freedoms[velocity] = Some(velocities.len());
                 names.push((index, body.joint.component(i)));
-                parents.push(before);
-                before = Some(velocities.len());
                 velocities.push(velocity);
             }
-            last.push(before);
         }
+        for (k, mimic) in tree.mimics.iter().enumerate() {
+            freedoms[nv + k] = freedoms[mimic.v];
+        }
+        let parents = elimination_tree(tree, velocities.len(), &freedoms);
         let mut upper: Vec<Vec<S>> =
             velocities.iter().map(|&i| velocities.iter().map(|&j| matrix[i][j]).collect()).collect();
         let mut inverse_pivots = vec![S::zero(); velocities.len()];
@@ -95,7 +97,35 @@ impl<S: Scalar> Factorisation<S> {
     }
 }
 
-/// The freedoms on the way from `freedom` to the ground, without itself.
+/// For each freedom, the last of the others that its elimination changes: in a tree, the one before it on the way to the
+/// ground (Liu, "The role of elimination trees in sparse factorization", SIAM J. Matrix Anal. Appl. 11(1), 1990). A joint
+/// that mimics another couples this one to all that it carries and that carries it.
+///
+/// `freedoms` has the freedom of each velocity of all joints.
+fn elimination_tree(tree: &Tree<impl Copy>, count: usize, freedoms: &[Option<usize>]) -> Vec<Option<usize>> {
+    let of_body = |body: usize| freedoms[tree.bodies[body].v.clone()].iter().filter_map(|freedom| *freedom);
+    let mut coupled = Vec::new();
+    for body in tree.outward() {
+        for at in std::iter::successors(Some(body), |&at| tree.bodies[at].parent) {
+            let pairs = of_body(body).flat_map(|i| of_body(at).map(move |j| (i.min(j), i.max(j))));
+            coupled.extend(pairs.filter(|(first, last)| first < last));
+        }
+    }
+    coupled.sort_unstable_by_key(|&(first, _)| std::cmp::Reverse(first));
+    let mut parents: Vec<Option<usize>> = vec![None; count];
+    for (first, last) in coupled {
+        let mut at = last;
+        while let Some(parent) = parents[at].filter(|_| at != first) {
+            at = parent;
+        }
+        if at != first {
+            parents[at] = Some(first);
+        }
+    }
+    parents
+}
+
+/// The freedoms on the way from `freedom` to the root of the elimination tree, without itself.
 fn ancestors(parents: &[Option<usize>], freedom: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(parents[freedom], |&at| parents[at])
 }

@@ -5,6 +5,7 @@ use super::factorisation::Factorisation;
 use super::frame::{JointFrame, joint_frames_in};
 use super::inverse::bias_forces;
 use super::mass_matrix::mass_matrix;
+use super::mimic::articulated_bodies;
 use super::trace::Trace;
 use super::workspace::{BiasAcceleration, Pivot, Workspace};
 use crate::inertia::RigidInertia;
@@ -82,19 +83,34 @@ pub fn forward_dynamics_in<S: Scalar>(
     articulated_bodies(work, tree, trace, (q, v, tau), |_| false, (result, &mut []));
 }
 
-/// The recursion over articulated bodies. Of a velocity for which `drives` holds, `given` has the acceleration, and the
-/// joint force is written to `forces`; of each other, `given` has the force. All accelerations are written to `result`.
-pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
+/// What makes the bodies of a recursion over articulated bodies move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loads {
+    /// The given joint forces and accelerations, gravity, velocities, and what acts without an actuator.
+    All,
+    /// What is given alone. All velocities are zero.
+    Given,
+}
+
+/// The recursion over articulated bodies, for all joints. Of a velocity for which `drives` holds, `given` has the
+/// acceleration, and the joint force is written to `forces`; of each other, `given` has the force. All accelerations are
+/// written to `result`.
+pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
     tree: &Tree<P>,
     trace: &impl Trace<S>,
+    loads: Loads,
     (q, v, given): (&[S], &[S], &[S]),
     drives: impl Fn(usize) -> bool,
     (result, forces): (&mut [S], &mut [S]),
 ) {
     let Workspace { positions, frames, biases, inertias, wrenches, pivots, accelerations, springs, .. } = work;
     joint_frames_in(positions, frames, tree, trace, q);
-    let of_springs = springs.forces(tree, frames, v);
+    let of_springs = match loads {
+        Loads::All => springs.forces(tree, frames, v),
+        Loads::Given => &mut [],
+    };
+    let physics_of = |body: &Body<P>| body.physics.filter(|_| loads == Loads::All);
     bias_accelerations(biases, tree, trace, frames, v);
     for (index, body) in tree.bodies.iter().enumerate() {
         for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
@@ -115,7 +131,7 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     wrenches.clear();
     wrenches.resize(tree.bodies.len(), Wrench::zero());
     pivots.clear();
-    pivots.resize(tree.nv(), Pivot::default());
+    pivots.resize(tree.nv_of_all(), Pivot::default());
     trace.sweep("inward", tree.inward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let mut felt = inertias[index];
@@ -129,7 +145,7 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
         let free = || body.v.clone().zip(body.joint.screws()).filter(|(velocity, _)| !drives(*velocity));
         let force = |velocity: usize| {
             let passive: Option<S> =
-                body.physics.and_then(|physics| physics.passive_force(q[body.q.start], v[velocity]));
+                physics_of(body).and_then(|physics| physics.passive_force(q[body.q.start], v[velocity]));
             passive.map_or(tau[velocity], |passive| tau[velocity] - passive)
         };
         // One freedom after the other: each meets the body with those before it free.
@@ -163,7 +179,11 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
         }
     });
 
-    let ground = Twist { angular: Vec3::zero(), linear: (-tree.gravity).map(ParameterIn::value) };
+    let gravity = match loads {
+        Loads::All => tree.gravity.map(ParameterIn::value),
+        Loads::Given => Vec3::zero(),
+    };
+    let ground = Twist { angular: Vec3::zero(), linear: -gravity };
     accelerations.clear();
     accelerations.reserve(tree.bodies.len());
     trace.sweep("accelerations", tree.outward(), |index| {
@@ -193,7 +213,7 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
             for (velocity, screw) in body.v.clone().zip(body.joint.screws()).filter(|(velocity, _)| drives(*velocity)) {
                 let mut force = screw.project(wrench);
                 let in_joint =
-                    body.physics.and_then(|physics| physics.force(q[body.q.start], v[velocity], given[velocity]));
+                    physics_of(body).and_then(|physics| physics.force(q[body.q.start], v[velocity], given[velocity]));
                 for part in in_joint.into_iter().chain(of_springs.get(velocity).copied()) {
                     force += part;
                 }

@@ -5,9 +5,10 @@
 //! Body Dynamics Algorithms*, Springer 2008, sections 9.1 and 9.2.
 
 use super::factorisation::Factorisation;
-use super::forward::{Method, articulated_bodies};
+use super::forward::Method;
 use super::inverse::inverse_dynamics;
 use super::mass_matrix::mass_matrix;
+use super::mimic::articulated_bodies;
 use super::trace::Trace;
 use super::workspace::Workspace;
 use crate::parameter::ParameterIn;
@@ -42,7 +43,7 @@ pub fn hybrid_dynamics_by_factorisation<S: Scalar, P: ParameterIn<S>>(
 ) -> HybridMotion<Vec<S>> {
     let actuated = for_matrix.actuated();
     let is_passive = |velocity: usize| !actuated[velocity];
-    let velocities = || for_matrix.bodies.iter().flat_map(|body| body.v.clone());
+    let velocities = || for_matrix.independent_bodies().flat_map(|body| body.v.clone());
     let passive: Vec<usize> = velocities().filter(|&velocity| is_passive(velocity)).collect();
     let mut given = u.to_vec();
     passive.iter().for_each(|&i| given[i] = S::zero());

@@ -138,6 +138,30 @@ pub fn inverse_dynamics_in<S: Scalar>(
     a: &[S],
     tau: &mut [S],
 ) {
+    if tree.mimics.is_empty() {
+        return inverse_dynamics_of_all_in(work, tree, trace, q, v, a, tau);
+    }
+    let mut all = std::mem::take(&mut work.all_joints);
+    all.take_coordinates(tree, q);
+    all.take_rates(tree, v, a);
+    all.tau.clear();
+    all.tau.resize(tree.nv_of_all(), S::zero());
+    inverse_dynamics_of_all_in(work, tree, trace, &all.q, &all.v, &all.a, &mut all.tau);
+    tree.fold_mimics(&mut all.tau);
+    tau.copy_from_slice(&all.tau[..tree.nv()]);
+    work.all_joints = all;
+}
+
+/// The forces of all joints, with what acts in them and the springs, written to `tau`.
+fn inverse_dynamics_of_all_in<S: Scalar>(
+    work: &mut Workspace<S>,
+    tree: &Tree<impl ParameterIn<S>>,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+    a: &[S],
+    tau: &mut [S],
+) {
     newton_euler_in(work, tree, trace, q, v, a, tau, |body| {
         body.physics?.force(q[body.q.start], v[body.v.start], a[body.v.start])
     });
@@ -146,7 +170,7 @@ pub fn inverse_dynamics_in<S: Scalar>(
     }
 }
 
-/// The forces of the bodies' motion, with what acts in each joint itself, written to `tau`.
+/// The forces of all joints for the bodies' motion, with what acts in each joint itself, written to `tau`.
 #[allow(clippy::too_many_arguments, reason = "the arguments of `inverse_dynamics_in` and one more")]
 fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
@@ -198,8 +222,9 @@ pub fn bias_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Tra
 
 /// g(q): the joint forces of gravity alone, at rest.
 pub fn gravity_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
-    let rest = vec![S::zero(); tree.nv()];
+    let rest = vec![S::zero(); tree.nv_of_all()];
     let mut tau = rest.clone();
+    let q = &tree.all_coordinates(q);
     newton_euler_in(&mut Workspace::default(), tree, trace, q, &rest, &rest, &mut tau, |_| None);
-    tau
+    tree.folded(tau)
 }

@@ -14,6 +14,7 @@ pub fn link_kinematics<S: Scalar, P: ParameterIn<S>>(
     q: &[S],
     v: &[S],
 ) -> Vec<LinkState<S>> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let bodies = Bodies::new(tree, trace, q, v, Order::Velocities);
     let state = |link: &Attachment<P>| match link.body {
         Some(body) => trace.step("links", body, || state_of(link, bodies.place(link.body, link.pose))),
@@ -29,6 +30,7 @@ pub fn frame_kinematics<S: Scalar>(
     q: &[S],
     v: &[S],
 ) -> Vec<FrameState<S>> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let bodies = Bodies::new(tree, trace, q, v, Order::Velocities);
     let state = |frame: &BodyFrame| {
         let Placed { pose, velocity, angular, .. } = bodies.place(frame.body, frame.pose);

@@ -123,6 +123,7 @@ fn weighted<S: Scalar>(terms: &[Alignment], term: impl Fn(usize, usize) -> S) ->
 
 /// How far each loop is from closed: m for points, sines for directions.
 pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
+    let q = &tree.all_coordinates(q);
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     rows(tree, &bodies, |a, b, row| match row {
         CutRow::Point(axis) => (b.point() - a.point())[axis],
@@ -133,6 +134,7 @@ pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
 
 /// The Jacobian J of the residual, by rows of length NV: the residual changes by J v.
 pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<Vec<S>> {
+    let q = &tree.all_coordinates(q);
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     // A joint that carries both sides turns their difference; one that carries one side moves that side alone.
     let point_effect = |index: usize, screw: Screw, a: &Side<S>, b: &Side<S>, on_a: bool, on_b: bool| {
@@ -178,7 +180,7 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
         }
     };
     rows(tree, &bodies, |a, b, cut_row| {
-        let mut row = vec![S::zero(); tree.nv()];
+        let mut row = vec![S::zero(); tree.nv_of_all()];
         for (index, body) in tree.bodies.iter().enumerate() {
             if a.carried[index] || b.carried[index] {
                 for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
@@ -186,12 +188,13 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
                 }
             }
         }
-        row
+        tree.folded(row)
     })
 }
 
 /// J̇ v: how the rates J v of the residual change at zero joint accelerations.
 pub fn loop_bias<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let bodies = Bodies::new(tree, trace, q, v, Order::Accelerations);
     let velocity = |side: &Side<S>| side.body.velocity + side.body.derivative(side.arm);
     let acceleration = |side: &Side<S>| side.body.acceleration + side.body.second_derivative(side.arm);

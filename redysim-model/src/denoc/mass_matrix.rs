@@ -33,7 +33,31 @@ pub fn mass_matrix_in<S: Scalar, P: ParameterIn<S>>(
     q: &[S],
     matrix: &mut [S],
 ) {
-    let nv = tree.nv();
+    if tree.mimics.is_empty() {
+        return mass_matrix_of_all_in(work, tree, trace, q, matrix);
+    }
+    let (nv, of_all) = (tree.nv(), tree.nv_of_all());
+    let mut all = std::mem::take(&mut work.all_joints);
+    all.take_coordinates(tree, q);
+    all.matrix.clear();
+    all.matrix.resize(of_all * of_all, S::zero());
+    mass_matrix_of_all_in(work, tree, trace, &all.q, &mut all.matrix);
+    tree.fold_mimics_of_matrix(&mut all.matrix);
+    for (row, found) in matrix.chunks_mut(nv).zip(all.matrix.chunks(of_all)) {
+        row.copy_from_slice(&found[..nv]);
+    }
+    work.all_joints = all;
+}
+
+/// The matrix over all joints, written to `matrix` by rows.
+fn mass_matrix_of_all_in<S: Scalar, P: ParameterIn<S>>(
+    work: &mut Workspace<S>,
+    tree: &Tree<P>,
+    trace: &impl Trace<S>,
+    q: &[S],
+    matrix: &mut [S],
+) {
+    let nv = tree.nv_of_all();
     let Workspace { positions, frames, planar, composites, .. } = work;
     joint_frames_in(positions, frames, tree, trace, q);
     find_planar(planar, tree);

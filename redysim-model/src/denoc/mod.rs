@@ -27,6 +27,7 @@ mod inverse;
 mod kinematics;
 mod loops;
 mod mass_matrix;
+mod mimic;
 mod momentum;
 mod passive;
 mod springs;

@@ -14,6 +14,7 @@ use redysim_runtime::{Momentum, Scalar};
 /// first moments add up inwards; about the centre of mass c of the mass m, the angular momentum is that about the base
 /// less c × p.
 pub fn momentum<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Momentum<S> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let frames = joint_frames(tree, trace, q);
     let mut momenta: Vec<Wrench<S>> = Vec::with_capacity(tree.bodies.len());
     for_each_velocity(tree, trace, &frames, v, |index, velocity| {

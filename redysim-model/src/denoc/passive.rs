@@ -9,7 +9,8 @@ use redysim_runtime::Scalar;
 
 /// The part of the bias that damping, friction and springs take: the force that each joint must have against them.
 pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> Vec<S> {
-    let mut tau = vec![S::zero(); tree.nv()];
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
+    let mut tau = vec![S::zero(); tree.nv_of_all()];
     for body in &tree.bodies {
         let physics = body.physics;
         if let Some(force) = physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start])) {
@@ -21,11 +22,12 @@ pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl 
         let mut springs = Springs::default();
         tau.iter_mut().zip(springs.forces(tree, &frames, v)).for_each(|(tau, force)| *tau += *force);
     }
-    tau
+    tree.folded(tau)
 }
 
 /// The power that damping and friction take, which is never negative.
 pub fn dissipated_power<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> S {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let in_joints = tree.bodies.iter().filter_map(|body| {
         let v = v[body.v.start];
         body.physics?.dissipative_force(v).map(|force: S| force * v)

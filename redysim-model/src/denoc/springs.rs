@@ -42,7 +42,7 @@ impl<S> Lever<S> {
 
 impl<S> Springs<S> {
     pub fn for_tree<P>(tree: &Tree<P>) -> Self {
-        let count = if tree.springs.is_empty() { 0 } else { tree.nv() };
+        let count = if tree.springs.is_empty() { 0 } else { tree.nv_of_all() };
         Springs { levers: [0; 2].map(|_| Vec::with_capacity(count)), forces: Vec::with_capacity(count) }
     }
 }
@@ -58,7 +58,7 @@ impl<S: Scalar> Springs<S> {
     pub fn forces<P: ParameterIn<S>>(&mut self, tree: &Tree<P>, frames: &[JointFrame<S>], v: &[S]) -> &mut [S] {
         self.forces.clear();
         if !tree.springs.is_empty() {
-            self.forces.resize(tree.nv(), S::zero());
+            self.forces.resize(tree.nv_of_all(), S::zero());
         }
         for spring in &tree.springs {
             let square = self.measure(spring, tree, frames);

@@ -18,9 +18,10 @@ pub fn frame_jacobians<S: Scalar>(
     trace: &impl Trace<S>,
     q: &[S],
 ) -> Vec<FrameJacobian<Vec<S>>> {
+    let q = &tree.all_coordinates(q);
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     let jacobian = |frame: &BodyFrame| {
-        let [mut linear, mut angular] = [0; 2].map(|_| [0; 3].map(|_| vec![S::zero(); tree.nv()]));
+        let [mut linear, mut angular] = [0; 2].map(|_| [0; 3].map(|_| vec![S::zero(); tree.nv_of_all()]));
         let mut arm = bodies.fixed_vector(frame.body, frame.pose.position);
         let mut at = frame.body;
         while let Some(index) = at {
@@ -35,7 +36,8 @@ pub fn frame_jacobians<S: Scalar>(
             arm = bodies.joints[index].point_to_parent(arm);
             at = body.parent;
         }
-        FrameJacobian { linear, angular }
+        let folded = |rows: [Vec<S>; 3]| rows.map(|row| tree.folded(row));
+        FrameJacobian { linear: folded(linear), angular: folded(angular) }
     };
     tree.frames.iter().map(jacobian).collect()
 }
@@ -48,6 +50,7 @@ pub fn frame_bias<S: Scalar>(
     q: &[S],
     v: &[S],
 ) -> Vec<FrameAcceleration<S>> {
+    let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let bodies = Bodies::new(tree, trace, q, v, Order::Accelerations);
     let acceleration = |frame: &BodyFrame| {
         let placed = bodies.place(frame.body, frame.pose);
@@ -65,6 +68,7 @@ pub fn frame_forces<S: Scalar>(
     q: &[S],
     wrenches: &[Wrench<S>],
 ) -> Vec<S> {
+    let q = &tree.all_coordinates(q);
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     let mut carried: Vec<Option<Wrench<S>>> = vec![None; tree.bodies.len()];
     for (frame, wrench) in tree.frames.iter().zip(wrenches) {
@@ -74,7 +78,7 @@ pub fn frame_forces<S: Scalar>(
             carried[body] = Some(carried[body].map_or(wrench, |others| others + wrench));
         }
     }
-    let mut forces = vec![S::zero(); tree.nv()];
+    let mut forces = vec![S::zero(); tree.nv_of_all()];
     trace.sweep("inward", tree.inward(), |index| {
         let Some(wrench) = carried[index] else { return };
         let body = &tree.bodies[index];
@@ -87,5 +91,5 @@ pub fn frame_forces<S: Scalar>(
             carried[parent] = Some(carried[parent].map_or(wrench, |others| others + wrench));
         }
     });
-    forces
+    tree.folded(forces)
 }

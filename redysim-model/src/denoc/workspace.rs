@@ -2,6 +2,7 @@
 
 use super::articulated::ArticulatedInertia;
 use super::frame::{AxisPosition, JointFrame};
+use super::mimic::AllJoints;
 use super::springs::Springs;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Twist, Vec3, Wrench};
@@ -27,6 +28,7 @@ pub struct Workspace<S> {
     pub(super) planar: Vec<bool>,
     pub(super) composites: Vec<Composite<S>>,
     pub(super) springs: Springs<S>,
+    pub(super) all_joints: AllJoints<S>,
 }
 
 impl<S> Default for Workspace<S> {
@@ -41,7 +43,8 @@ impl<S> Workspace<S> {
     pub fn for_tree<P>(tree: &Tree<P>) -> Self {
         Workspace {
             springs: Springs::for_tree(tree),
-            pivots: Vec::with_capacity(tree.nv()),
+            pivots: Vec::with_capacity(tree.nv_of_all()),
+            all_joints: AllJoints::for_tree(tree),
             ..Workspace::for_bodies(tree.bodies.len())
         }
     }
@@ -60,6 +63,7 @@ impl<S> Workspace<S> {
             planar: Vec::with_capacity(count),
             composites: Vec::with_capacity(count),
             springs: Springs::default(),
+            all_joints: AllJoints::default(),
         }
     }
 }

@@ -6,11 +6,13 @@
 mod file;
 mod lints;
 mod mechanism;
+mod mimic;
 mod options;
 
 pub(crate) use file::*;
 pub(crate) use lints::*;
 pub(crate) use mechanism::*;
+pub(crate) use mimic::*;
 pub(crate) use options::*;
 
 use redysim_toml::Message;

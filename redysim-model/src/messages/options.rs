@@ -80,6 +80,14 @@ pub(crate) fn locked_fixed(item: &str, name: &str) -> Message {
     )
 }
 
+pub(crate) fn locked_mimic(item: &str, name: &str, followed: &str) -> Message {
+    message(
+        format!("{item}: `locked` names {}, which mimics {}", quoted(name), quoted(followed)),
+        "follows another joint",
+        format!("lock {} instead: joints that mimic it are held where they are then", quoted(followed)),
+    )
+}
+
 pub(crate) fn locked_twice(item: &str, name: &str) -> Message {
     message(
         format!("{item}: `locked` holds the joint {} a second time", quoted(name)),

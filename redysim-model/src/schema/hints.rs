@@ -26,6 +26,11 @@ pub(super) const MODEL: &[Hint] = &[
     Hint::new(&["initial", "q0", "trajectory", "torque", "controller"], SCENARIO),
 ];
 
+pub(super) const MIMIC_TABLE: &[Hint] = &[
+    Hint::key(&["name", "link", "of", "leader", "follows"], "joint"),
+    Hint::key(&["factor", "ratio", "gear", "scale"], "multiplier"),
+];
+
 pub(super) const LINK: &[Hint] = &[
     Hint::new(
         &[

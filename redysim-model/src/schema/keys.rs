@@ -68,6 +68,7 @@ pub(crate) const LINK: Keys = Keys::new(
         FRICTION_VELOCITY,
         STIFFNESS,
         REST,
+        MIMIC,
         ACTUATED,
         RANGE,
     ],
@@ -206,6 +207,26 @@ pub(crate) const ACCELERATION: Key = Key::new(
 .with_default("none");
 pub(crate) const FORCE: Key =
     Key::new("force", "40.0", "N m or N, of which the tolerance is a share").with_default("the largest that occurs");
+
+pub(crate) const MIMIC: Key = Key::of_table(
+    "mimic",
+    "{ joint = \"left_finger\", multiplier = -1.0 }",
+    "the joint that this one follows; its forces act on that joint",
+    &[&MIMIC_KEYS],
+)
+.with_default("none: the joint moves by itself");
+const MIMIC_KEYS: Keys = Keys::new("`mimic`", &[MIMIC_JOINT, MULTIPLIER, MIMIC_OFFSET]).with_hints(hints::MIMIC_TABLE);
+pub(crate) const MIMIC_JOINT: Key =
+    Key::new("joint", "\"left_finger\"", "a revolute, prismatic or helical joint").with_default("required");
+pub(crate) const MULTIPLIER: Key = Key::new(
+    "multiplier",
+    "-1.0",
+    "coordinate for a unit of that joint's; m/rad or rad/m if one of the two turns and the other slides",
+)
+.with_default("1");
+pub(crate) const MIMIC_OFFSET: Key =
+    Key::new("offset", "\"10 deg\"", "coordinate where that joint's is zero; without a unit rad or m")
+        .with_default("0");
 
 pub(crate) const LOOP: Keys = Keys::new("A loop", &[NAME, CUT_JOINT, LINK_A, POINT_A, AXIS_A, LINK_B, POINT_B, AXIS_B]);
 pub(crate) const CUT_JOINT: Key =

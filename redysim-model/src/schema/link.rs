@@ -34,10 +34,22 @@ pub(crate) struct LinkTable {
     pub(crate) com: Field<[f64; 3]>,
     pub(crate) inertia: Field<Inertia>,
     pub(crate) physics: PhysicsKeys,
+    pub(crate) mimic: Field<MimicTable>,
     pub(crate) actuated: Field<Actuation>,
     pub(crate) range: Field<JointRange>,
     /// The coordinates at which the options hold the joint.
     pub(crate) locked: Option<Vec<f64>>,
+}
+
+/// The table `mimic`: the joint that is followed, by its name or that of its link, and how.
+#[derive(Clone, Debug)]
+pub(crate) struct MimicTable {
+    /// `None` if it cannot be read.
+    pub(crate) joint: Option<Spanned<String>>,
+    pub(crate) multiplier: f64,
+    /// The place of the multiplier, if it is given.
+    pub(crate) multiplier_place: Option<Range<usize>>,
+    pub(crate) offset: f64,
 }
 
 /// The keys of what acts in the joint itself.
@@ -131,6 +143,7 @@ impl LinkTable {
             com: reader.vector(&keys::COM),
             inertia: reader.table(&keys::INERTIA, inertia),
             physics: PhysicsKeys::read(&mut reader, turns),
+            mimic: reader.table(&keys::MIMIC, |reader| mimic(reader, turns)),
             actuated: actuated(&mut reader, kind),
             range: reader.table(&keys::RANGE, |reader| range(reader, turns)),
             locked: None,
@@ -142,6 +155,11 @@ impl LinkTable {
     /// Whether the link is part of its parent's body; a joint of unreadable kind is taken for one that moves.
     pub(crate) fn is_rigid(&self) -> bool {
         self.locked.is_some() || self.joint.value() == Some(&JointKind::Fixed)
+    }
+
+    /// Whether the joint adds coordinates to the mechanism: it moves and does not mimic another.
+    pub(crate) fn is_independent(&self) -> bool {
+        !self.is_rigid() && self.mimic.is_missing()
     }
 
     /// What the joint does, as far as it can be read; `None` if it is fixed or of an unreadable kind.
@@ -224,6 +242,17 @@ fn dh_standard(mut reader: Reader<'_, '_>) -> DhStandard {
         alpha: reader.angle(&keys::DH_ALPHA).value_or(0.0).unwrap_or_default(),
         d: reader.number(&keys::DH_D).value_or(0.0).unwrap_or_default(),
         theta: reader.angle(&keys::DH_THETA).value_or(0.0).unwrap_or_default(),
+    }
+}
+
+/// Of a joint that turns, in radians.
+fn mimic(mut reader: Reader<'_, '_>, turns: bool) -> MimicTable {
+    let multiplier = reader.number(&keys::MULTIPLIER);
+    MimicTable {
+        joint: reader.required(&keys::MIMIC_JOINT, Reader::text).spanned().cloned(),
+        multiplier: multiplier.value_or(1.0).unwrap_or(1.0),
+        multiplier_place: multiplier.spanned().map(Spanned::span),
+        offset: displacement(&mut reader, &keys::MIMIC_OFFSET, turns, "").value_or(0.0).unwrap_or_default(),
     }
 }
 

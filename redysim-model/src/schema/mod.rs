@@ -9,6 +9,7 @@ mod hints;
 mod item;
 pub(crate) mod keys;
 mod link;
+mod mimic;
 mod options;
 mod origin;
 mod point;
@@ -16,7 +17,8 @@ mod spring;
 
 pub(crate) use cut::{CutSideTable, LoopTable};
 pub(crate) use frame::FrameTable;
-pub(crate) use link::{Dh, DhStandard, LinkTable, PhysicsKeys};
+pub(crate) use link::{Dh, DhStandard, LinkTable, MimicTable, PhysicsKeys};
+pub(crate) use mimic::mimicked;
 pub(crate) use options::{Entry, OptionsTable};
 pub(crate) use origin::RotationDefect;
 pub(crate) use point::PointTable;
@@ -89,6 +91,7 @@ impl Document {
         for lock in &options.locked.value {
             links[lock.link].locked = Some(lock.values.clone());
         }
+        mimic::lock(&mut links);
         Document { item, place, name, gravity, links, links_complete, loops, frames, springs, allowed, options }
     }
 
@@ -100,7 +103,7 @@ impl Document {
 
     /// Whether some velocities have an actuator and some do not, and there are no loops.
     pub(crate) fn has_passive_joints(&self) -> bool {
-        let moving = self.links.iter().filter(|link| !link.is_rigid());
+        let moving = self.links.iter().filter(|link| link.is_independent());
         let velocities: Vec<bool> = moving.flat_map(LinkTable::actuated_velocities).collect();
         let actuated = velocities.iter().filter(|actuated| **actuated).count();
         self.loops.is_empty() && (1..velocities.len()).contains(&actuated)
@@ -128,7 +131,7 @@ impl Document {
             Field::Invalid => vec![ParameterNumber { name: String::new(), value: 0.0, rule: ParameterRule::Finite }],
         };
         let functions = self.options.functions.value.value().map_or(Functions::ALL, |given| given.set());
-        let joints: Vec<MovingJoint> = self.links.iter().filter(|link| !link.is_rigid()).map(joint).collect();
+        let joints: Vec<MovingJoint> = self.links.iter().filter(|link| link.is_independent()).map(joint).collect();
         let functions = functions.with_frames(self.frames.len()).with_passive_joints(self.has_passive_joints());
         PublicInterface {
             is_valid: false,

@@ -279,8 +279,13 @@ fn joint(name: &str, place: Range<usize>, links: &[LinkTable], reader: &mut Read
         Some(link) if links[link].joint.value() == Some(&JointKind::Fixed) => {
             reader.error_at(place, messages::locked_fixed(reader.item(), name))
         }
+        Some(link) if !links[link].mimic.is_missing() => {
+            let followed = links[link].mimic.value().and_then(|mimic| mimic.joint.as_ref());
+            let followed = followed.map_or("", |followed| followed.get_ref());
+            reader.error_at(place, messages::locked_mimic(reader.item(), name, followed))
+        }
         None if readable => {
-            let moving = links.iter().zip(names).filter(|(link, _)| !link.is_rigid());
+            let moving = links.iter().zip(names).filter(|(link, _)| link.is_independent());
             let moving: Vec<&str> = moving.filter_map(|(_, (joint, _))| joint).collect();
             reader.error_at(place, messages::locked_unknown(reader.item(), name, &moving))
         }

@@ -5,7 +5,7 @@ use crate::common::styles::{inertia, link, offset, placed};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use redysim_model::joint::{EulerSequence, JointPhysics};
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{Frame, JointKind, Link, LinkPoint, Model, Spring};
+use redysim_model::{Frame, JointKind, Link, LinkPoint, Mimic, Model, Spring};
 
 fn rotation(random: &mut Random) -> Matrix3<f64> {
     // A third of all rotations are quarter turns, as in most machines.
@@ -107,6 +107,23 @@ fn bare_model(random: &mut Random, joints: Joints) -> Model {
         }
     });
     Model { links, ..Model::new("random", Vec3::from_fn(|_| random.within(10.0))) }
+}
+
+/// Makes about half of the joints of one freedom mimic others, some of which mimic others themselves.
+pub fn mimic_some(random: &mut Random, model: &mut Model) {
+    let of_one = |link: &Link| link.joint.dof() == 1;
+    let mut joints: Vec<usize> = (0..model.links.len()).filter(|&link| of_one(&model.links[link])).collect();
+    // A joint mimics one that is before it in a random order.
+    for last in (1..joints.len()).rev() {
+        joints.swap(last, random.below(last + 1));
+    }
+    for position in 1..joints.len() {
+        if random.below(2) == 0 {
+            let link = joints[random.below(position)];
+            let multiplier = [1.0, -1.0, 0.5, -2.0, random.within(1.5)][random.below(5)];
+            model.links[joints[position]].mimic = Some(Mimic { link, multiplier, offset: offset(random) });
+        }
+    }
 }
 
 /// What acts in a joint: each of its parts in half of the joints.
