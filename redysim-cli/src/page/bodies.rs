@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use redysim_model::joint::{Element, LinkJoint, Screw};
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{CutSide, JointKind, Link, Model};
+use redysim_model::{CutSide, JointKind, Link, Mimic, Model};
 use serde::Serialize;
 
 use super::quaternion;
@@ -121,16 +121,13 @@ pub struct Frame<'a> {
 
 /// The ground, then the links in the model's order.
 pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> Vec<Body<'a>> {
-    let (mut moving, mut coordinates) = (layout.joints.iter(), 0);
+    let (mut moving, coordinates) = (layout.joints.iter(), first_coordinates(model, layout, orientations));
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None, ellipsoid: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let placement = frame(model, link.parent) * link.placement;
-        let moves = if link.joint.dof() > 0 { moving.next() } else { None };
-        let coordinate = moves.map(|joint| {
-            let first = coordinates;
-            coordinates += orientations.coordinates(joint);
-            first
-        });
+        let moves = if link.dof() > 0 { moving.next() } else { None };
+        let Followed { link: followed, rate, offset } = Followed::of(model, index);
+        let coordinate = coordinates[followed];
         let joint = Joint {
             name: &link.joint_name,
             kind: link.joint.name(),
@@ -138,8 +135,9 @@ pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> 
             parent: number(link.parent),
             position: placement.position.0,
             rotation: quaternion(placement.rotation),
-            motions: motions(link),
-            offset: link.offset,
+            motions: motions(link, rate),
+            // Of the coordinate itself, which the motions multiply.
+            offset: (link.offset + offset) / rate,
             orientation: moves.filter(|joint| joint.is_in_space()).map(|_| orientations),
             coordinate,
             rail: (link.joint == JointKind::Prismatic)
@@ -159,14 +157,47 @@ pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> 
     std::iter::once(ground).chain(links).collect()
 }
 
-/// The motions of a link about and along axes of its joint's frame.
-fn motions(link: &Link) -> Vec<AxisMotion> {
+/// For each link, the number of its joint's first coordinate on the page; `None` for a joint without one of its own.
+fn first_coordinates(model: &Model, layout: &Layout, orientations: Orientations) -> Vec<Option<usize>> {
+    let (mut moving, mut next) = (layout.joints.iter(), 0);
+    let of_link = |link: &Link| {
+        let joint = if link.dof() > 0 { moving.next() } else { None };
+        joint.map(|joint| {
+            let first = next;
+            next += orientations.coordinates(joint);
+            first
+        })
+    };
+    model.links.iter().map(of_link).collect()
+}
+
+/// By which coordinate a joint moves: that of the joint of `link`, times `rate` and plus `offset`.
+struct Followed {
+    link: usize,
+    rate: f64,
+    offset: f64,
+}
+
+impl Followed {
+    /// Of the joint of a link: its own, unless it mimics another.
+    fn of(model: &Model, link: usize) -> Followed {
+        let mut followed = Followed { link, rate: 1.0, offset: 0.0 };
+        while let Some(Mimic { link, multiplier, offset }) = model.links[followed.link].mimic {
+            let Followed { rate, offset: added, .. } = followed;
+            followed = Followed { link, rate: rate * multiplier, offset: rate * offset + added };
+        }
+        followed
+    }
+}
+
+/// The motions of a link about and along axes of its joint's frame, at `rate` for each of its coordinates.
+fn motions(link: &Link, rate: f64) -> Vec<AxisMotion> {
     let elements = LinkJoint::of(link).map(|joint| joint.elements(link.axis)).unwrap_or_default();
     let on_axis = elements.into_iter().filter(|element| element.joint.is_on_axis());
     on_axis
         .map(|Element { joint, axes }| {
             let Screw { turn, slide, .. } = joint.screw(0);
-            AxisMotion { axis: axes.column(2).0, turn, slide }
+            AxisMotion { axis: axes.column(2).0, turn: rate * turn, slide: rate * slide }
         })
         .collect()
 }

@@ -48,7 +48,7 @@ pub fn floats(mechanism: &GenericMechanism) -> bool {
 pub fn is_held(mechanism: &GenericMechanism, tau: &[f64]) -> bool {
     let mut first = 0;
     mechanism.model().moving_links().any(|link| {
-        let own = first..first + link.joint.dof();
+        let own = first..first + link.dof();
         first = own.end;
         stands_on_ground(mechanism, link) && tau[own].iter().any(|force| *force != 0.0)
     })

@@ -41,7 +41,7 @@ impl PrescribedJoints {
         }
         warn_of_passive(reader, subject, named);
         let mut model = subject.model.clone();
-        let moving = model.links.iter_mut().filter(|link| link.joint.dof() > 0);
+        let moving = model.links.iter_mut().filter(|link| link.dof() > 0);
         moving.enumerate().for_each(|(joint, link)| link.actuated = joints.contains(&joint).into());
         let (joints, mechanism) = (joints.clone(), GenericMechanism::new(model));
         Some(Some(PrescribedJoints { joints, trajectory: trajectory?.clone(), mechanism }))

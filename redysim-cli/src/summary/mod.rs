@@ -56,7 +56,9 @@ pub struct LinkSummary {
     /// The name of its [`JointKind`](redysim_model::JointKind): "revolute", "prismatic",
     /// "helical", "spherical", "free" or "fixed".
     pub kind: &'static str,
-    /// Whether the joint has an actuator for each of its velocities; null where it does not move.
+    /// The joint that it mimics; null where it does not mimic one.
+    pub mimics: Option<String>,
+    /// Whether the joint has an actuator for each of its velocities; null where it does not have velocities of its own.
     pub actuated: Option<bool>,
     /// Whether each of its velocities has one.
     #[serde(skip)]
@@ -168,8 +170,9 @@ fn link_summary(model: &Model, link: &Link) -> LinkSummary {
         parent: link_name(model, link.parent),
         joint: link.joint_name.clone(),
         kind: link.joint.name(),
-        actuated: (link.joint.dof() > 0).then(|| link.actuated_velocities().into_iter().all(|actuated| actuated)),
-        actuated_velocities: link.actuated_velocities(),
+        actuated: (link.dof() > 0).then(|| link.actuated_velocities().into_iter().all(|actuated| actuated)),
+        mimics: link.mimic.map(|mimic| model.links[mimic.link].joint_name.clone()),
+        actuated_velocities: if link.dof() > 0 { link.actuated_velocities() } else { Vec::new() },
         mass: link.mass,
     }
 }

@@ -71,7 +71,10 @@ impl Summary {
             ("link", |link| visible_name(&link.name).into_owned()),
             ("on", |link| visible_name(&link.parent).into_owned()),
             ("joint", |link| visible_name(&link.joint).into_owned()),
-            ("kind", |link| link.kind.to_string()),
+            ("kind", |link| match &link.mimics {
+                Some(joint) => format!("{}, mimics {}", link.kind, visible_name(joint)),
+                None => link.kind.to_string(),
+            }),
             ("actuator", |link| actuator(&link.actuated_velocities)),
             ("mass, kg", |link| rounded(link.mass)),
         ];

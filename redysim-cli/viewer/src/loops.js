@@ -91,13 +91,13 @@ export class Loops {
           // Along an axis of side a, what carries a turns the axis as well.
           const turned = onA ? new Vector3().crossVectors(spin, to.clone().sub(from)) : new Vector3();
           const moved = ALONG[kind] ? ALONG[kind].map((i) => change.clone().sub(turned).dot(of[i])) : change.toArray();
-          moved.forEach((value, row) => (rows[first + row][coordinate] = value));
+          moved.forEach((value, row) => (rows[first + row][coordinate] += value));
           if (onA && onB) continue;
           const rate = (i, j) =>
             onA
               ? new Vector3().crossVectors(spin, of[i]).dot(at[j])
               : of[i].dot(new Vector3().crossVectors(spin, at[j]));
-          ALIGNED[kind].forEach((terms, row) => (rows[first + points + row][coordinate] = weighted(terms, rate)));
+          ALIGNED[kind].forEach((terms, row) => (rows[first + points + row][coordinate] += weighted(terms, rate)));
         }
       });
     }
