@@ -83,7 +83,7 @@ fn of_joint(joint: Node, link: &Link) -> Vec<String> {
     };
     keep("axis", &|_| moves, "");
     match (&link.limit, link.limit.as_ref().map(range)) {
-        (Some(limit), Some(Ok(_))) => {
+        (Some(limit), Some(Ok(_))) if link.mimic.is_none() => {
             let positive = |x: f64| x.is_finite() && x > 0.0;
             let is_written = |name: &str| match name {
                 "lower" | "upper" | "velocity" => true,
@@ -93,6 +93,7 @@ fn of_joint(joint: Node, link: &Link) -> Vec<String> {
             };
             keep("limit", &is_written, "");
         }
+        _ if link.mimic.is_some() => keep("limit", &|_| false, "; the range of the joint that it mimics holds"),
         (_, Some(Err(Unfit(why)))) => keep("limit", &|_| false, &format!("; {why}")),
         _ if moves => keep("limit", &|_| false, "; a `range` needs a velocity"),
         _ => keep("limit", &|_| false, ""),

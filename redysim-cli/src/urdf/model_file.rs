@@ -7,7 +7,7 @@ use redysim_model::{JointKind, rotation};
 use urdf_rs::JointLimit;
 
 use super::notation::{inertia, vector};
-use super::robot::{Link, Origin, Robot};
+use super::robot::{Link, Mimic, Origin, Robot};
 
 /// The text, and the line on which each link begins.
 pub struct ModelFile {
@@ -56,8 +56,10 @@ fn write_link(text: &mut String, link: &Link, robot: &Robot) -> std::fmt::Result
     if matches!(link.kind, JointKind::Free | JointKind::Planar) {
         writeln!(text, "actuated = false")?;
     }
-    if let Some(Ok(range)) = link.limit.as_ref().map(range) {
-        writeln!(text, "{range}")?;
+    match (&link.mimic, link.limit.as_ref().map(range)) {
+        (Some(mimic), _) => writeln!(text, "{}", mimic_entry(mimic))?,
+        (None, Some(Ok(range))) => writeln!(text, "{range}")?,
+        _ => {}
     }
     for (key, value) in ["damping", "friction"].into_iter().zip(link.resistance) {
         if value != 0.0 {
@@ -110,6 +112,16 @@ pub fn range(limit: &JointLimit) -> Result<String, Unfit> {
     let entry = |key: &str, x: f64| if positive(x) { format!(", {key} = {x:?}") } else { String::new() };
     let (acceleration, force) = (entry("acceleration", acceleration), entry("force", effort));
     Ok(format!("range = {{ position = [{lower:?}, {upper:?}], velocity = {velocity:?}{acceleration}{force} }}"))
+}
+
+/// The entry `mimic` of a model.
+fn mimic_entry(Mimic { joint, multiplier, offset }: &Mimic) -> String {
+    let entry = |key: &str, value: f64, default: f64| match value == default {
+        true => String::new(),
+        false => format!(", {key} = {value:?}"),
+    };
+    let (multiplier, offset) = (entry("multiplier", *multiplier, 1.0), entry("offset", *offset, 0.0));
+    format!("mimic = {{ joint = {}{multiplier}{offset} }}", quoted(joint))
 }
 
 /// A TOML string.

@@ -47,12 +47,21 @@ pub struct Link {
     pub limit: Option<JointLimit>,
     /// Viscous damping, N m s/rad or N s/m, and friction, N m or N, of a joint that moves.
     pub resistance: [f64; 2],
-    /// Of which joint, and how, this one is a multiple in the URDF.
-    pub mimics: Option<String>,
+    /// The joint that this one mimics, and how.
+    pub mimic: Option<Mimic>,
     /// What a reader of the model should know.
     pub remarks: Vec<String>,
     /// What of the URDF a model has no place for.
     pub comments: Vec<String>,
+}
+
+/// A coordinate that is `multiplier` times that of another joint, plus `offset`.
+#[derive(Clone, Debug)]
+pub struct Mimic {
+    pub joint: String,
+    pub multiplier: f64,
+    /// rad or m.
+    pub offset: f64,
 }
 
 /// Where a joint stands, as files write it.
@@ -127,7 +136,7 @@ impl Robot {
             inertial: inertial_of(&joint.child.link),
             limit: limit(joint),
             resistance: resistance(joint),
-            mimics: mimics(joint),
+            mimic: mimic(joint),
             remarks: Vec::new(),
             comments: Vec::new(),
         };
@@ -166,18 +175,37 @@ impl Robot {
         self
     }
 
-    /// Adds a remark to each joint that mimics another: what it is here.
-    pub fn with_remarks_on_mimics(mut self) -> Self {
-        for link in &mut self.links {
-            let Some(mimics) = &link.mimics else { continue };
+    /// Joints mimic others that have one coordinate, as they have themselves; each that cannot gets a remark.
+    pub fn with_possible_mimics(mut self) -> Self {
+        let possible: Vec<bool> = (0..self.links.len()).map(|link| self.can_mimic(link)).collect();
+        for link in self.links.iter_mut().zip(possible).filter(|(_, possible)| !possible).map(|(link, _)| link) {
+            let Some(Mimic { joint, multiplier, offset }) = link.mimic.take() else { continue };
             let here = match link.kind {
                 JointKind::Fixed => "fixed",
                 JointKind::Free | JointKind::Planar => "free here, without an actuator",
                 _ => "free here, with an actuator of its own",
             };
-            link.remarks.push(format!("joint `{}` {mimics}: it is {here}", link.joint_name));
+            let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
+            link.remarks.push(format!(
+                "joint `{}` mimics `{joint}` in the URDF ({multiplier} times its value, plus {offset} {unit}): it is {here}",
+                link.joint_name
+            ));
         }
         self
+    }
+
+    /// Whether the joint of a link can mimic the one that it names: both move about or along one axis, and the way from
+    /// mimic to mimic ends.
+    fn can_mimic(&self, link: usize) -> bool {
+        let followed = |mimic: &Mimic| self.links.iter().find(|link| link.joint_name == mimic.joint);
+        let is_possible = |link: &Link| {
+            link.kind.has_axis()
+                && link.mimic.as_ref().is_some_and(|mimic| {
+                    mimic.multiplier != 0.0 && followed(mimic).is_some_and(|other| other.kind.has_axis())
+                })
+        };
+        let chain = std::iter::successors(Some(&self.links[link]), |link| link.mimic.as_ref().and_then(followed));
+        is_possible(&self.links[link]) && chain.take(self.links.len() + 1).any(|link| link.mimic.is_none())
     }
 
     /// No link has the name of the ground.
@@ -206,7 +234,7 @@ impl Link {
             inertial,
             limit: None,
             resistance: [0.0; 2],
-            mimics: None,
+            mimic: None,
             remarks: Vec::new(),
             comments: Vec::new(),
         }
@@ -243,11 +271,10 @@ fn placed(joint: &urdf_rs::Joint) -> (Origin, Option<Origin>) {
     (Origin::of(origin.pose() * turned), Some(Origin::of(back)))
 }
 
-fn mimics(joint: &urdf_rs::Joint) -> Option<String> {
+fn mimic(joint: &urdf_rs::Joint) -> Option<Mimic> {
     let mimic = joint.mimic.as_ref()?;
-    let (factor, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
-    let unit = if joint.joint_type == JointType::Prismatic { "m" } else { "rad" };
-    Some(format!("mimics `{}` in the URDF ({factor} times its value, plus {offset} {unit})", mimic.joint))
+    let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+    Some(Mimic { joint: mimic.joint.clone(), multiplier, offset })
 }
 
 /// Damping and friction.

@@ -204,7 +204,6 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
     let reports = [
         "its 5 kg never move",
         "link `base` is called `base_link` here",
-        "joint `knuckle` mimics `waist` in the URDF (2 times its value, plus 0 rad)",
         "joint `spin` moves no mass",
         "the limits of 1 joint limit nothing",
         "left out: <gazebo>, on line 21",
@@ -223,7 +222,7 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
     assert!(run.stderr.contains("warning: link `base_link`: `origin.rpy[1]` is 1.5708 rad"), "{}", run.stderr);
     assert!(run.stdout.contains("range = { position = [-1.0, 1.0], velocity = 2.0, force = 40.0 }"), "{}", run.stdout);
     // What moves otherwise is no side note, and heads the model.
-    for change in ["joint `spin` moves no mass", "joint `knuckle` mimics `waist`"] {
+    for change in ["joint `spin` moves no mass"] {
         assert!(run.stderr.contains(&format!("warning: {change}")), "{change}: {}", run.stderr);
         let head = run.stdout.split("[[link]]").next().unwrap();
         assert!(head.contains(&format!("# - {change}")), "{change}: {head}");
@@ -267,8 +266,11 @@ fn the_help_of_import_states_what_import_does() {
     let link = |joint: &str| mechanism.model().links.iter().find(|link| link.joint_name == joint).unwrap();
     assert!(help.contains("The root link becomes the ground, or with `--base free` a link on a free joint `base`"));
     assert_eq!(link("waist").parent, None);
-    assert!(help.contains("Joints that mimic others move by themselves."));
-    assert_eq!((link("knuckle").joint.dof(), link("knuckle").actuated_velocities()), (1, vec![true]));
+    assert!(help.contains("Joints that mimic others do so here if both have one coordinate."));
+    let mimic = link("knuckle").mimic.unwrap();
+    assert_eq!(mechanism.model().links[mimic.link].joint_name, "waist");
+    assert_eq!((mimic.multiplier, mimic.offset, mechanism.nv()), (2.0, 0.0, 7));
+    assert!(run.stdout.contains("mimic = { joint = \"waist\", multiplier = 2.0 }"), "{}", run.stdout);
     assert!(help.contains("Joints that move no mass become fixed."));
     assert_eq!(link("spin").joint.name(), "fixed");
     assert!(help.contains("Limits of positions and velocity become a `range`."));
@@ -465,9 +467,7 @@ fn numbers_that_a_model_has_no_place_for_are_comments_beside_their_links() {
     assert_eq!(
         comments(rail),
         [
-            "# joint `rail` mimics `shoulder` in the URDF (-0.5 times its value, plus 0.125 m): it is free here, with an \
-             actuator of its own",
-            "# limit: effort = 7 N, lower = 0 m, upper = 0.5 m; a `range` needs a velocity",
+            "# limit: effort = 7 N, lower = 0 m, upper = 0.5 m; the range of the joint that it mimics holds",
             "# gazebo: mu1 = 0.9",
         ]
     );
