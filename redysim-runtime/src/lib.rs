@@ -96,7 +96,8 @@ mod vector;
 mod wrapper;
 
 pub use closed_loop::{
-    Assembly, ClosedLoop, ConstrainedMotion, IndependentMotion, LoopError, NamedLoopError, Projection,
+    Assembly, ClosedLoop, ConstrainedHybridMotion, ConstrainedMotion, IndependentMotion, LoopError, NamedLoopError,
+    Projection,
 };
 #[cfg(feature = "simulation")]
 pub use closed_loop::{

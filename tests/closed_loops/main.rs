@@ -12,6 +12,7 @@ mod control;
 mod cut_kinds;
 mod frames;
 mod functions;
+mod hybrid;
 mod inverse;
 mod massless_links;
 mod mechanisms;

@@ -2,9 +2,9 @@
 
 use super::constraints::Constraints;
 use super::{ClosedLoop, LoopError};
-use crate::linear_algebra::{add_scaled, difference, largest};
+use crate::linear_algebra::{WeightedRows, add_scaled, difference, largest};
 use crate::vector::entry;
-use crate::{BiasForces, LoopClosure, MassMatrix, Real, Vector};
+use crate::{BiasForces, ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 
 /// Accelerations and constraint forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,29 +59,39 @@ impl<M, C> ClosedLoop<'_, M, C> {
     {
         let bias = self.closure.loop_bias(q, v);
         let wanted = C::Rows::from_fn(self.closure.nc(), |row| -entry(&bias, row) - feedback(row));
-        // In scaled coordinates: s = s₀ + Wᵀ λ with W s = b, so that Q s = R⁻¹ Tᵀ b.
         let of_tree = self.mechanism.bias_forces(q, v);
-        let mut scaled = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(tau, i) - entry(&of_tree, i));
-        constraints.weighted.metric.scale(&mut scaled);
-        let change = difference(
-            &constraints.weighted.decomposition.solve(&wanted),
-            &constraints.weighted.decomposition.coordinates(&scaled),
-        );
-        let by_loops = constraints.weighted.decomposition.combination(&change);
+        constraints.motion(&wanted, M::Velocities::from_fn(self.mechanism.nv(), |i| entry(tau, i) - entry(&of_tree, i)))
+    }
+}
+
+impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> Constraints<S, M, C> {
+    /// The accelerations a and the multipliers λ with M a = `drive` + Jᵀ λ and J a = `wanted`, as far as this can be
+    /// reached.
+    pub(super) fn motion(
+        &self,
+        wanted: &C::Rows,
+        drive: M::Velocities,
+    ) -> Result<ConstrainedMotion<M::Velocities, C::Rows>, LoopError<S>> {
+        let WeightedRows { metric, decomposition } = &self.weighted;
+        // In scaled coordinates: s = s₀ + Wᵀ λ with W s = b, so that Q s = R⁻¹ Tᵀ b.
+        let mut scaled = drive;
+        metric.scale(&mut scaled);
+        let change = difference(&decomposition.solve(wanted), &decomposition.coordinates(&scaled));
+        let by_loops = decomposition.combination(&change);
         for (scaled, &by_loops) in scaled.as_mut().iter_mut().zip(by_loops.as_ref()) {
             *scaled += by_loops;
         }
-        constraints.weighted.metric.unscale(&mut scaled);
-        let mut multipliers = constraints.weighted.decomposition.multipliers(&change);
-        if constraints.augmentation != S::zero() {
+        metric.unscale(&mut scaled);
+        let mut multipliers = decomposition.multipliers(&change);
+        if self.augmentation != S::zero() {
             // Of w Jᵀ J a, which the metric has on the side of the inertia, what can be reached of J a.
-            let missed = constraints.weighted.decomposition.unreachable(&wanted);
-            add_scaled(multipliers.as_mut(), -constraints.augmentation, difference(&wanted, &missed).as_ref());
+            let missed = decomposition.unreachable(wanted);
+            add_scaled(multipliers.as_mut(), -self.augmentation, difference(wanted, &missed).as_ref());
         }
         let finite = |values: &[S]| largest(values.iter().copied()).0.is_finite();
         if !(finite(scaled.as_ref()) && finite(multipliers.as_ref())) {
             return Err(LoopError::NotFinite);
         }
-        Ok(ConstrainedMotion { accelerations: scaled, multipliers, rank: constraints.weighted.decomposition.rank() })
+        Ok(ConstrainedMotion { accelerations: scaled, multipliers, rank: decomposition.rank() })
     }
 }

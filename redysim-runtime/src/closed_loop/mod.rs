@@ -5,6 +5,7 @@
 //! | `constraints` | the constraints at one position: J in the metric of M, its rank and its least-norm solutions |
 //! | `position` | positions and velocities that satisfy the constraints: Newton's method from a guess, projection |
 //! | `dynamics` | accelerations and multipliers |
+//! | `hybrid` | accelerations of some joints and forces of the others, given the other way round |
 //! | `independent` | the motions that the loops allow, by the independent velocities; frames that move with them |
 //! | `inverse` | forces of the actuators for a motion of the independent coordinates |
 //! | `simulation` | motion in time; the only part that needs the integrators |
@@ -13,6 +14,7 @@
 mod constraints;
 mod dynamics;
 mod error;
+mod hybrid;
 mod independent;
 #[cfg(feature = "simulation")]
 mod inverse;
@@ -22,6 +24,7 @@ mod simulation;
 
 pub use dynamics::ConstrainedMotion;
 pub use error::{LoopError, NamedLoopError};
+pub use hybrid::ConstrainedHybridMotion;
 pub use independent::IndependentMotion;
 #[cfg(feature = "simulation")]
 pub use inverse::{ClosedLoopComputedTorque, ClosedLoopInverse, LoopForces};
@@ -37,6 +40,7 @@ pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
 /// - [`assemble`](Self::assemble) closes the loops from a guess, [`project`](Self::project) removes drift.
 /// - [`dynamics`](Self::dynamics) gives accelerations and constraint forces, and
 ///   [`ClosedLoopSimulation`](crate::ClosedLoopSimulation) moves the mechanism in time with any integrator.
+/// - [`hybrid_dynamics`](Self::hybrid_dynamics) takes the accelerations of some joints and finds their forces.
 /// - [`independent_motion`](Self::independent_motion) has all velocities, and the Jacobians of frames, by independent
 ///   ones.
 /// - [`ClosedLoopInverse`](crate::ClosedLoopInverse) finds the joint forces for a trajectory of the independent
