@@ -46,7 +46,7 @@ impl Judge {
     /// States spread evenly over the ranges of the joints, judged by the generic path over double-double.
     fn new(generic: &GenericMechanism) -> Self {
         const GOLDEN: f64 = 1.618_033_988_749_895;
-        let ranges: Vec<JointRange> = generic.model().moving_links().filter_map(|link| link.range).collect();
+        let ranges: Vec<JointRange> = generic.model().moving_links().flat_map(|link| link.range.clone()).collect();
         let mut count = 0.0;
         // Numbers that `f32` has, so that its error is that of the arithmetic.
         let mut between = |low: f64, high: f64| {

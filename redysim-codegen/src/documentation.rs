@@ -2,7 +2,8 @@
 
 use crate::functions::TracedFunction;
 use crate::pruning::Pruning;
-use redysim_model::{Function, JointKind, JointRange, Model};
+use redysim_model::joint::{LinkJoint, Measure};
+use redysim_model::{Function, JointRange, Model, MovingJoint};
 use redysim_runtime::OperationCount;
 use redysim_runtime::function::Shape;
 
@@ -62,17 +63,21 @@ fn scale(function: Function) -> &'static str {
 }
 
 fn ranges(model: &Model) -> String {
-    let line = |(name, kind, range): (&str, JointKind, JointRange)| {
-        let unit = if kind.turns() { "rad" } else { "m" };
+    let line = |(name, measure, range): (&String, Measure, JointRange)| {
+        let (unit, force_unit) = if measure == Measure::Angle { ("rad", "N m") } else { ("m", "N") };
         let JointRange { position: [least, largest], velocity, acceleration, force } = range;
         let acceleration = acceleration.map_or(String::new(), |acceleration| format!(", ±{acceleration:.4} {unit}/s²"));
         let motion = format!("{least:.4} to {largest:.4} {unit}, ±{velocity:.4} {unit}/s{acceleration}");
-        let force =
-            force.map_or(String::new(), |force| format!(", force {force} {}", if kind.turns() { "N m" } else { "N" }));
+        let force = force.map_or(String::new(), |force| format!(", force {force} {force_unit}"));
         format!("- `{name}`: {motion}{force}")
     };
-    let moving = model.moving_links().filter_map(|link| Some((link.joint_name.as_str(), link.joint, link.range?)));
-    moving.map(line).collect::<Vec<_>>().join("\n")
+    let names = MovingJoint::all(model).into_iter().map(|joint| joint.velocities);
+    let lines = model.moving_links().zip(names).flat_map(|(link, names)| {
+        let measures = LinkJoint::of(link).map(LinkJoint::velocity_measures).unwrap_or_default();
+        let each = names.iter().zip(measures).zip(&link.range);
+        each.map(|((name, measure), range)| line((name, measure, *range))).collect::<Vec<_>>()
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 #[cfg(test)]

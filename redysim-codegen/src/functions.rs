@@ -74,14 +74,14 @@ pub fn trace_model(
     passes: &Passes,
 ) -> Result<Vec<TracedFunction>, TraceError> {
     let tree = Tree::new(model);
-    let range = |link: &Link| {
-        let range = link.range.and_then(|range| StateRange::of(&range));
-        range.ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() })
+    let ranges = |link: &Link| {
+        let all: Option<Vec<StateRange>> = link.range.iter().map(StateRange::of).collect();
+        all.filter(|all| all.len() == link.dof()).ok_or_else(|| TraceError::NoRange { joint: link.joint_name.clone() })
     };
     let pruning = match options.tolerance {
         Some(tolerance) => {
-            let links = tree.links_of_velocities().into_iter().map(|link| &model.links[link]);
-            Some((tolerance, links.map(range).collect::<Result<_, _>>()?))
+            let of_joints = model.moving_links().map(ranges).collect::<Result<Vec<_>, _>>()?;
+            Some((tolerance, of_joints.concat()))
         }
         None => None,
     };

@@ -75,8 +75,9 @@ pub struct Link {
     pub mimic: Option<Mimic>,
     /// Which of the joint's velocities have an actuator.
     pub actuated: Actuation,
-    /// Within what the joint moves; not every file says.
-    pub range: Option<JointRange>,
+    /// Within what the joint moves, for each of its velocities; empty if the file does not give it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub range: Vec<JointRange>,
 }
 
 /// How a joint follows another, as the fingers of a gripper do: its coordinate is `multiplier` q + `offset`, where q is
@@ -105,8 +106,9 @@ impl Mimic {
     }
 }
 
-/// Within what a joint moves: rad or m, and their rates. It limits nothing, but says for which states a pruned function
-/// is made.
+/// Within what a joint moves by one of its velocities: rad or m, and their rates. It limits nothing, but determines for which
+/// states a pruned function is made. The position of a joint with a quaternion is a displacement from its zero position, by
+/// [`ConfigurationSpace::integrate`](redysim_runtime::ConfigurationSpace::integrate).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -293,7 +295,7 @@ impl Link {
             physics: JointPhysics::default(),
             mimic: None,
             actuated: true.into(),
-            range: None,
+            range: Vec::new(),
         }
     }
 }

@@ -69,7 +69,7 @@ impl MovingJoint {
     }
 
     /// The moving joints of a checked model, in its order.
-    pub(crate) fn all(model: &Model) -> Vec<MovingJoint> {
+    pub fn all(model: &Model) -> Vec<MovingJoint> {
         let joint =
             |link: &Link| MovingJoint::new(link.joint_name.clone(), LinkJoint::of(link), link.actuated_velocities());
         model.moving_links().map(joint).collect()

@@ -113,8 +113,11 @@ impl Model {
             Actuation::Uniform(false) => file.entry(&keys::ACTUATED, "false"),
             Actuation::PerVelocity(each) => file.entry(&keys::ACTUATED, format!("{each:?}")),
         }
-        if let Some(range) = link.range {
-            file.range(range);
+        match &link.range[..] {
+            [] => {}
+            [only] if link.joint.dof() == 1 => file.entry(&keys::RANGE, range(*only)),
+            each => file
+                .entry(&keys::RANGE, format!("[{}]", each.iter().copied().map(range).collect::<Vec<_>>().join(", "))),
         }
     }
 
@@ -169,8 +172,7 @@ impl Model {
             (&keys::MULTIPLIER, number(multiplier)),
             (&keys::MIMIC_OFFSET, number(offset)),
         ];
-        let entries: Vec<String> = entries.iter().map(|(key, value)| format!("{} = {value}", key.name)).collect();
-        format!("{{ {} }}", entries.join(", "))
+        inline(entries)
     }
 
     /// The name of a link, or of the ground. One that is not there gets a name that no link has.
@@ -259,13 +261,14 @@ impl Text {
             }
         }
     }
+}
 
-    fn range(&mut self, JointRange { position, velocity, acceleration, force }: JointRange) {
-        let mut entries = vec![(&keys::POSITION, array(position.map(number))), (&keys::VELOCITY, number(velocity))];
-        entries.extend(acceleration.map(|acceleration| (&keys::ACCELERATION, number(acceleration))));
-        entries.extend(force.map(|force| (&keys::FORCE, number(force))));
-        self.entry(&keys::RANGE, inline(entries));
-    }
+/// The range of one velocity.
+fn range(JointRange { position, velocity, acceleration, force }: JointRange) -> String {
+    let mut entries = vec![(&keys::POSITION, array(position.map(number))), (&keys::VELOCITY, number(velocity))];
+    entries.extend(acceleration.map(|acceleration| (&keys::ACCELERATION, number(acceleration))));
+    entries.extend(force.map(|force| (&keys::FORCE, number(force))));
+    inline(entries)
 }
 
 /// A pose as `origin` has it.

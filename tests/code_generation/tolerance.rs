@@ -61,7 +61,7 @@ fn flops(operations: &Operations) -> [u32; 5] {
 fn ranges() -> [JointRange; 6] {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/test/kr5_ranges.toml");
     let model = Model::load(path).expect("a good model").model;
-    std::array::from_fn(|joint| model.links[joint].range.expect("a range"))
+    std::array::from_fn(|joint| model.links[joint].range[0])
 }
 
 /// A state somewhere in the ranges: each number evenly spread, and one in three at an end.

@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::UnitQuaternion;
-use redysim_model::{GenericMechanism, JointKind, JointRange, Model};
+use redysim_model::joint::LinkJoint;
+use redysim_model::{GenericMechanism, JointKind, Link, Model};
 use serde::Serialize;
 
 use super::bodies::{self, Orientations};
@@ -43,10 +44,12 @@ const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
 /// so.
 pub fn of(model: &Model, layout: &Layout) -> (Vec<Slider>, Option<String>) {
     let reach = bodies::reach(&bodies::of(model, layout, Orientations::Rpy));
-    let kinds: Vec<(JointKind, Option<JointRange>)> =
-        model.moving_links().map(|link| (link.joint, link.range)).collect();
-    let slider = |coordinate: &Component| {
-        let (kind, range) = kinds[coordinate.joint];
+    let moving: Vec<&Link> = model.moving_links().collect();
+    let slider = |(index, coordinate): (usize, &Component)| {
+        let link = moving[coordinate.joint];
+        // The velocities of a joint with a quaternion are not the rates of its coordinates.
+        let is_linear = LinkJoint::of(link).is_some_and(LinkJoint::is_linear);
+        let (kind, range) = (link.joint, link.range.get(index).filter(|_| is_linear));
         let (limits, least, largest) = match (range, coordinate.measure) {
             (Some(range), _) => (Limits::Range, range.position[0], range.position[1]),
             (None, Measure::Angle) if kind == JointKind::Revolute => (Limits::Turn, -PI, PI),
@@ -61,7 +64,7 @@ pub fn of(model: &Model, layout: &Layout) -> (Vec<Slider>, Option<String>) {
     for joint in &layout.joints {
         let own = &layout.coordinates[joint.q.clone()];
         let (plain, turned) = own.split_at(own.len() - joint.orientation().len());
-        sliders.extend(plain.iter().map(slider));
+        sliders.extend(plain.iter().enumerate().map(slider));
         start.extend(sliders[sliders.len() - plain.len()..].iter().map(|slider| slider.start));
         start.extend(turned.iter().map(|coordinate| coordinate.neutral));
         if joint.is_in_space() {

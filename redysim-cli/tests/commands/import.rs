@@ -274,9 +274,9 @@ fn the_help_of_import_states_what_import_does() {
     assert!(help.contains("Joints that move no mass become fixed."));
     assert_eq!(link("spin").joint.name(), "fixed");
     assert!(help.contains("Limits of positions and velocity become a `range`."));
-    assert_eq!(imported[0].0.model().links[1].range.unwrap().acceleration, Some(7.0));
-    assert_eq!(link("waist").range.unwrap().acceleration, None);
-    assert!(link("spin").range.is_none());
+    assert_eq!(imported[0].0.model().links[1].range[0].acceleration, Some(7.0));
+    assert_eq!(link("waist").range[0].acceleration, None);
+    assert!(link("spin").range.is_empty());
     assert!(help.contains("Damping and friction are kept."));
     let expected = JointPhysics { damping: 0.1, friction: 0.25, ..JointPhysics::default() };
     assert_eq!((link("waist").physics, link("spin").physics), (expected, JointPhysics::default()));
@@ -402,11 +402,11 @@ fn limits_are_a_range_with_the_acceleration_that_the_urdf_has() {
     let urdf = pendulum("<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>", BODY);
     let urdf = urdf.replace("<robot", "<robot version=\"1.2\"").replace("continuous", "revolute");
     let (mechanism, _) = import(&urdf, &[]);
-    let range = mechanism.model().links[0].range.unwrap();
+    let range = mechanism.model().links[0].range[0];
     assert_eq!((range.position, range.velocity, range.acceleration), ([-1.0, 2.0], 3.0, Some(7.0)));
     assert_eq!(range.force, Some(40.0));
     let (mechanism, _) = import(&urdf.replace(" acceleration=\"7\"", ""), &[]);
-    assert_eq!(mechanism.model().links[0].range.unwrap(), JointRange { acceleration: None, ..range });
+    assert_eq!(mechanism.model().links[0].range[0], JointRange { acceleration: None, ..range });
 }
 
 /// What makes no sense is not dropped either.

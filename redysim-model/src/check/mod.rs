@@ -116,7 +116,7 @@ fn link(table: &LinkTable, findings: &mut Findings) -> Option<Link> {
         physics: physics?,
         mimic: None,
         actuated: table.actuated.value_or(true.into())?,
-        range: if table.range.is_missing() { None } else { Some(*table.range.value()?) },
+        range: table.range.value_or(Vec::new())?,
     })
 }
 

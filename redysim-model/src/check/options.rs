@@ -74,7 +74,9 @@ fn tolerance(document: &Document, findings: &mut Findings) -> Option<Option<f64>
         let links = document.links.iter().filter(|link| link.is_independent() && lacks(link));
         links.filter_map(|link| link.joint_name()).map(|name| name.get_ref().as_str()).collect()
     };
-    let without_acceleration = |link: &LinkTable| link.range.value().is_some_and(|range| range.acceleration.is_none());
+    let without_acceleration = |link: &LinkTable| {
+        link.range.value().is_some_and(|ranges| ranges.iter().any(|range| range.acceleration.is_none()))
+    };
     let lacking = [
         ("no range", joints_where(|link| link.range.is_missing())),
         ("a range without an acceleration", joints_where(without_acceleration)),

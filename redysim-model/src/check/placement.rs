@@ -54,8 +54,8 @@ pub(super) fn of_several_freedoms(link: &LinkTable) -> Option<JointKind> {
     link.joint.value().copied().filter(|joint| joint.dof() > 1)
 }
 
-/// Reports keys that a joint of several freedoms does not take: an offset, a range and Denavit-Hartenberg parameters belong
-/// to one coordinate, `axis` to a joint with one axis, and `far_end` to a joint whose coordinates are not those of the
+/// Reports keys that a joint of several freedoms does not take: an offset and Denavit-Hartenberg parameters belong to one
+/// coordinate, `axis` to a joint with one axis, and `far_end` to a joint whose coordinates are not those of the
 /// link's own frame.
 fn several_freedoms_by_origin(link: &LinkTable, findings: &mut Findings) {
     let Some(joint) = of_several_freedoms(link) else { return };
@@ -67,7 +67,6 @@ fn several_freedoms_by_origin(link: &LinkTable, findings: &mut Findings) {
         axis,
         given(&keys::OFFSET, &link.offset),
         far_end,
-        given(&keys::RANGE, &link.range),
     ];
     for (key, span) in keys.into_iter().flatten() {
         if let Some(span) = span {

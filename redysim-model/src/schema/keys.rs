@@ -188,11 +188,11 @@ pub(crate) const XZ: Key = Key::new("xz", "0.001", "kg m²").with_default("0");
 pub(crate) const RANGE: Key = Key::of_table(
     "range",
     "{ position = [\"-170 deg\", \"170 deg\"], velocity = \"150 deg\", acceleration = 10.0 }",
-    "rad or m, rad/s or m/s, rad/s² or m/s²",
+    "rad or m, rad/s or m/s, rad/s² or m/s²; an array of such tables for each of several velocities",
     &[&RANGE_KEYS],
 )
 .with_default("none");
-const RANGE_KEYS: Keys =
+pub(crate) const RANGE_KEYS: Keys =
     Keys::new("`range`", &[POSITION, VELOCITY, ACCELERATION, FORCE]).with_hints(hints::RANGE_TABLE);
 pub(crate) const POSITION: Key =
     Key::new("position", "[\"-170 deg\", \"170 deg\"]", "rad or m").with_default("required");

@@ -4,7 +4,7 @@ use super::item::item;
 use super::keys;
 use super::origin::origin;
 use crate::actuation::Actuation;
-use crate::joint::{EulerSequence, LinkJoint};
+use crate::joint::{EulerSequence, LinkJoint, Measure};
 use crate::messages;
 use crate::model::{Inertia, JointKind, JointRange};
 use crate::spatial::Pose;
@@ -36,7 +36,8 @@ pub(crate) struct LinkTable {
     pub(crate) physics: PhysicsKeys,
     pub(crate) mimic: Field<MimicTable>,
     pub(crate) actuated: Field<Actuation>,
-    pub(crate) range: Field<JointRange>,
+    /// For each velocity of the joint.
+    pub(crate) range: Field<Vec<JointRange>>,
     /// The coordinates at which the options hold the joint.
     pub(crate) locked: Option<Vec<f64>>,
 }
@@ -126,6 +127,8 @@ impl LinkTable {
         };
         let kind = joint.value().copied();
         let turns = kind != Some(JointKind::Prismatic);
+        let coordinates = named(&mut reader, &keys::COORDINATES, &EulerSequence::ALL);
+        let motion = kind.and_then(|kind| LinkJoint::of_kind(kind, 0.0, coordinates.value().copied()));
         LinkTable {
             name,
             joint_name: reader.text(&keys::JOINT_NAME),
@@ -138,14 +141,14 @@ impl LinkTable {
             offset: displacement(&mut reader, &keys::OFFSET, turns, ""),
             far_end: reader.table(&keys::FAR_END, origin),
             pitch,
-            coordinates: named(&mut reader, &keys::COORDINATES, &EulerSequence::ALL),
+            coordinates,
             mass: reader.required(&keys::MASS, Reader::number),
             com: reader.vector(&keys::COM),
             inertia: reader.table(&keys::INERTIA, inertia),
             physics: PhysicsKeys::read(&mut reader, turns),
             mimic: reader.table(&keys::MIMIC, |reader| mimic(reader, turns)),
             actuated: actuated(&mut reader, kind),
-            range: reader.table(&keys::RANGE, |reader| range(reader, turns)),
+            range: ranges(&mut reader, motion, turns),
             locked: None,
             item,
             header: at.header,
@@ -256,7 +259,27 @@ fn mimic(mut reader: Reader<'_, '_>, turns: bool) -> MimicTable {
     }
 }
 
-/// Of a joint that turns, in radians.
+/// A table, or an array with one for each velocity of a joint of several freedoms.
+fn ranges(reader: &mut Reader<'_, '_>, joint: Option<LinkJoint>, turns: bool) -> Field<Vec<JointRange>> {
+    reader.field(&keys::RANGE, |reader, path, value| {
+        let measures = joint.map(LinkJoint::velocity_measures).filter(|measures| measures.len() > 1);
+        let Some(measures) = measures else {
+            return Some(vec![range(reader.table_at(path, value, &keys::RANGE_KEYS)?, turns)]);
+        };
+        let wanted = format!("{} tables, one for each velocity of the joint", measures.len());
+        let array = reader.array(path, value, &format!("an array of {wanted}"))?;
+        if array.len() != measures.len() {
+            return reader.wrong_length(path, value, &wanted, array.len());
+        }
+        let each = array.iter().zip(measures).enumerate().map(|(index, (value, measure))| {
+            let inner = reader.table_at(&path.element(index), value, &keys::RANGE_KEYS)?;
+            Some(range(inner, measure == Measure::Angle))
+        });
+        each.collect::<Vec<_>>().into_iter().collect()
+    })
+}
+
+/// Of a velocity that turns, in radians.
 fn range(mut reader: Reader<'_, '_>, turns: bool) -> JointRange {
     let velocity = reader.required(&keys::VELOCITY, |reader, key| largest(reader, key, turns, "/s"));
     let velocity = velocity.value_or(0.0).unwrap_or_default();

@@ -128,7 +128,7 @@ impl<'s> Source<'s, '_, '_> {
 
     /// The limits of the forces on `joints`.
     fn limits(&mut self, joints: &[usize]) -> Option<Limits> {
-        let force = |joint: usize| self.subject.model.moving_links().nth(joint)?.range?.force;
+        let force = |joint: usize| self.subject.model.moving_links().nth(joint)?.range.first()?.force;
         let field = limits(&mut self.reader, &keys::LIMITS, self.subject.layout, joints, force);
         let forces = if field.is_missing() { None } else { Some(field.value()?.clone()) };
         Some(Limits { joints: joints.to_vec(), forces })

@@ -90,7 +90,7 @@ fn mass_ratio(document: &Document, model: &Model, found: &mut Found) {
 
 fn ranges(document: &Document, model: &Model, found: &mut Found) {
     for (link, table) in model.links.iter().zip(&document.links).filter(|(link, _)| link.joint.turns()) {
-        let farthest = link.range.map_or(0.0, |range| range.position.into_iter().map(f64::abs).fold(0.0, f64::max));
+        let farthest = link.range.iter().flat_map(|range| range.position).map(f64::abs).fold(0.0, f64::max);
         if farthest > TURNS {
             let message = messages::wide_range(&table.item, farthest);
             found.push((Lint::RangeUnits, place_of(table, &table.range), message));
