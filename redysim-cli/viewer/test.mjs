@@ -3,9 +3,9 @@
 // motion at more instants, for what the page shows between those that it has.
 
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import { drag, GL, inBrowser, NO_GL } from "./browser.mjs";
+import { kinematics } from "./kinematics.mjs";
 
 /** The page computes the links from the joints as the command does, but for rounding. */
 const TOLERANCE = 1e-9;
@@ -181,21 +181,4 @@ async function aRunEndsOrRepeats(page) {
 
 function time(page) {
   return page.evaluate(() => redysim.time);
-}
-
-/** The table: its instants, the names of the links, and their points. */
-async function kinematics(path) {
-  const [head, ...lines] = (await readFile(path, "utf8")).trim().split("\n");
-  const headers = head.split(",");
-  const rows = lines.map((line) => line.split(",").map(Number));
-  const column = (label) => {
-    const index = headers.indexOf(`${label} [m]`);
-    assert.ok(index > 0, `${path} has no column ${label} [m]`);
-    return index;
-  };
-  return {
-    t: rows.map((row) => row[0]),
-    links: headers.filter((header) => header.startsWith("com_x ")).map((header) => header.slice(6, -4)),
-    point: (row, prefix, link) => ["x", "y", "z"].map((axis) => rows[row][column(`${prefix}${axis} ${link}`)]),
-  };
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 use crate::output;
-use crate::page::Page;
+use crate::page::{Camera, Page};
 use crate::recorded::Recorded;
 use crate::results::names::{PAGE, is_written};
 
@@ -12,13 +12,19 @@ use crate::results::names::{PAGE, is_written};
 ///
 /// If the scenario's model is a URDF, the links have its meshes (STL, DAE and OBJ, without textures), up to 20 MB.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  redysim animate results/kuka/forward -o kuka.html")]
+#[command(
+    after_help = "Examples:\n  redysim animate results/kuka/forward -o kuka.html\n  redysim animate results/quadruped/forward --camera fixed"
+)]
 pub struct Arguments {
     /// The folder of results.
     results: PathBuf,
     /// The page [default: animation.html in the results' folder].
     #[arg(long, short, value_name = "FILE.html")]
     output: Option<PathBuf>,
+    /// Whether the camera follows a base that floats, or stands still; the page has a box to change it [default: follow
+    /// where the base travels farther than the mechanism reaches beside its way].
+    #[arg(long, value_name = "HOW")]
+    camera: Option<Camera>,
     /// Overwrite a page that is there already.
     #[arg(long)]
     force: bool,
@@ -36,7 +42,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     }
     // Before what takes its time.
     output::check_place(&path, arguments.force)?;
-    Page::of_run(&recorded)?.write(&path, arguments.force, quiet)
+    Page::of_run(&recorded, arguments.camera)?.write(&path, arguments.force, quiet)
 }
 
 /// Whether two paths lead to the same folder.

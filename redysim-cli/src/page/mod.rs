@@ -2,6 +2,7 @@
 //! have sliders.
 
 mod bodies;
+mod camera;
 mod contacts;
 mod meshes;
 mod motion;
@@ -20,6 +21,7 @@ use crate::layout::Layout;
 use crate::output;
 use crate::recorded::{Chart, Recorded};
 use bodies::{Body, Cut, Frame, Orientations};
+pub use camera::Camera;
 use contacts::Contacts;
 use meshes::Meshes;
 use motion::Keyframes;
@@ -41,19 +43,22 @@ pub struct Page {
 }
 
 impl Page {
-    /// The page that plays what was recorded.
+    /// The page that plays what was recorded; without a `camera` the page chooses it by the motion.
     ///
     /// # Errors
-    /// If the model or a table is missing or wrong.
-    pub fn of_run(recorded: &Recorded) -> Result<Page, Failure> {
+    /// If the model or a table is missing or wrong, or if there is nothing for the camera to follow.
+    pub fn of_run(recorded: &Recorded, camera: Option<Camera>) -> Result<Page, Failure> {
         let model = recorded.model()?;
+        if let Some(camera) = camera {
+            camera.check(&model)?;
+        }
         let urdf = recorded.urdf();
         let charts = recorded.charts()?;
         let layout = Layout::of(&model);
         let (motion, notes) = motion::of(recorded, &model, &layout)?;
         let charts = charts.iter().map(Curves::of).collect();
         let names = layout.coordinates.iter().map(|coordinate| coordinate.name.clone()).collect();
-        let mut data = Data { charts, ..Data::of(&model, &layout, names, Moved::Motion(motion), notes) };
+        let mut data = Data { charts, camera, ..Data::of(&model, &layout, names, Moved::Motion(motion), notes) };
         data.contacts = contacts::of(recorded, &model, &layout)?;
         if let Some(contacts) = &data.contacts {
             contacts.extend(&mut data.bodies);
@@ -113,6 +118,8 @@ struct Data<'a> {
     charts: Vec<Curves<'a>>,
     /// Of a run on the ground.
     contacts: Option<Contacts>,
+    /// Of a run, if it is given.
+    camera: Option<Camera>,
     #[serde(flatten)]
     drawn: Meshes,
     /// The names of the coordinates.
@@ -146,6 +153,7 @@ impl<'a> Data<'a> {
             notes,
             charts: Vec::new(),
             contacts: None,
+            camera: None,
             drawn: Meshes::default(),
             joints: names,
         }

@@ -187,3 +187,22 @@ fn the_page_of_a_free_robot_has_its_quaternion_and_the_rates_of_its_velocities()
     assert_eq!(data["notes"], serde_json::json!([]));
     succeed(&run, &["plot", "."]);
 }
+
+#[test]
+fn a_camera_that_is_asked_for_is_in_the_page_and_follows_floating_bases_alone() {
+    let folder = scratch("animate-camera");
+    let rest = "[forward]\nend = 0.1\nstep = 0.05\n";
+    let run = results(&folder, "forward", "kr5_floating.toml", rest);
+    assert_eq!(data(&page(&run))["camera"], Value::Null);
+    for camera in ["follow", "fixed"] {
+        succeed(&run, &["animate", ".", "--force", "--camera", camera]);
+        assert_eq!(data(&fs::read_to_string(run.join("animation.html")).unwrap())["camera"], camera);
+    }
+    let fixed = swing(&folder.join("fixed"), "kr5.toml", 6, 1.0, 10);
+    let output = fail(&fixed, &["animate", ".", "--camera", "follow"], 1);
+    assert!(output.contains("the camera cannot follow `kr5`: none of its links floats on a `free` joint"), "{output}");
+    assert!(!fixed.join("animation.html").exists());
+    succeed(&fixed, &["animate", ".", "--camera", "fixed"]);
+    let output = fail(&fixed, &["animate", ".", "--camera", "still"], 2);
+    assert!(output.contains("follow, fixed"), "{output}");
+}

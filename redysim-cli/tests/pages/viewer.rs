@@ -1,10 +1,11 @@
 //! The page of `redysim animate` and `redysim show` in a browser: `viewer/check` runs this, and says what it needs.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::common::{model, results, robot, scratch, slide, succeed, swing, turn};
+use crate::common::{model, results, robot, root, scratch, slide, succeed, swing, turn};
 
 /// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of
 /// the same motion at more instants if there are.
@@ -13,8 +14,14 @@ fn plays(folder: &Path, finer: Option<&Path>) {
     node("test.mjs", folder, finer);
 }
 
+/// Makes the page of the results in `folder` with more `options` and has `viewer/camera.mjs` look where the camera is.
+fn films(folder: &Path, options: &[&str], expected: [&str; 3]) {
+    succeed(folder, &[&["animate", ".", "--force"], options].concat());
+    node("camera.mjs", folder, expected);
+}
+
 /// Runs a script of `viewer/` on a folder.
-fn node(script: &str, folder: &Path, more: Option<&Path>) {
+fn node(script: &str, folder: &Path, more: impl IntoIterator<Item = impl AsRef<OsStr>>) {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("viewer").join(script);
     let output = Command::new("node").arg(script).arg(folder).args(more).output();
     let output = output.expect("node, which viewer/check looks for");
@@ -125,4 +132,35 @@ fn the_page_moves_a_spherical_pendulum_as_its_kinematics() {
     let initial = "q = { pivot = { rpy = [1, 0.2, 0.1] } }\nv = [0, 0, 6]";
     let coarse = run("spherical_pendulum", "spherical_pendulum.toml", initial, 200);
     plays(&coarse, Some(&run("spherical_pendulum_finer", "spherical_pendulum.toml", initial, 1400)));
+}
+
+/// The results of a shipped scenario.
+fn shipped(name: &str) -> PathBuf {
+    let scenario = root().join(format!("scenarios/{name}.toml")).display().to_string();
+    let folder = folder(&format!("camera_{name}"));
+    succeed(&folder, &["forward", &scenario, "-o", "run", "--force", "--quiet"]);
+    folder.join("run")
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_camera_follows_a_trunk_that_trots_over_the_ground() {
+    let run = shipped("quadruped");
+    films(&run, &[], ["follow", "trunk", "y"]);
+    films(&run, &["--camera", "fixed"], ["fixed", "trunk", "y"]);
+    films(&run, &["--camera", "follow"], ["follow", "trunk", "y"]);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_camera_follows_a_platform_in_the_air_on_request_in_all_directions() {
+    let run = shipped("kr5_floating");
+    films(&run, &[], ["fixed", "platform", "none"]);
+    films(&run, &["--camera", "follow"], ["follow", "platform", "none"]);
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_camera_has_nothing_to_follow_where_the_base_is_fixed() {
+    films(&swing(&folder("camera_kr5"), "kr5.toml", 6, 4.0, 100), &[], ["none", "link1", "none"]);
 }

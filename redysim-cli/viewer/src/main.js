@@ -28,6 +28,10 @@ start();
 for (const button of document.querySelectorAll("[data-view]")) {
   button.addEventListener("click", () => stage?.view(button.dataset.view));
 }
+const follow = at("follow");
+follow.checked = Boolean(stage?.following);
+follow.parentElement.hidden = !stage?.canFollow;
+follow.addEventListener("change", () => stage?.setFollowing(follow.checked));
 for (const box of document.querySelectorAll("[data-layer]")) {
   const apply = () => stage?.setLayer(box.dataset.layer, box.checked);
   box.addEventListener("change", apply);
@@ -54,6 +58,8 @@ window.redysim = Object.defineProperties(
     picture: () => stage.picture(),
     /** Where the camera is, m. */
     camera: () => stage.camera.position.toArray(),
+    /** Where the camera looks, m. */
+    target: () => stage.controls.target.toArray(),
   },
   Object.getOwnPropertyDescriptors(report),
 );

@@ -6,6 +6,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+import { floatingBase } from "./base.js";
 import { Contacts } from "./contacts.js";
 import { AXES } from "./marks.js";
 import { Mechanism } from "./mechanism.js";
@@ -15,6 +16,8 @@ const Y = new Vector3(0, 1, 0);
 /** Angle by which a key turns the view, and factor by which it comes closer. */
 const TURN = Math.PI / 24;
 const ZOOM = 0.9;
+/** Cells of the ground at most, along the radius of all that the mechanism ever reaches. */
+const CELLS = 100;
 
 export class Stage {
   /** `moved`, a motion or a posture, has moved `linkage`. Throws if the browser has no WebGL. */
@@ -34,17 +37,21 @@ export class Stage {
     const solids = meshes(data, (name) => this.unread.push(name));
     const points = data.bodies.map(({ ends }) => ends.map((end) => new Vector3(...end)));
     for (const { body, box } of solids) points[body].push(...corners(box));
-    this.sphere = reach((see) => moved.visit(() => everyPoint(points, linkage, see)));
-    this.mechanism = new Mechanism(data, solids, linkage, data.motion && moved, this.sphere.radius);
+    const everywhere = (see) => moved.visit(() => everyPoint(points, linkage, see));
+    this.sphere = reach(everywhere);
+    this.#base(data, linkage, everywhere);
+    // What is drawn is as large as it must be to be seen from where the camera starts.
+    this.size = this.following ? this.own.radius : this.sphere.radius;
+    this.mechanism = new Mechanism(data, solids, linkage, data.motion && moved, this.size);
     this.scene.add(this.mechanism.root);
     if (data.contacts) {
-      this.contacts = new Contacts(data.contacts, linkage, this.sphere.radius);
+      this.contacts = new Contacts(data.contacts, linkage, this.size);
       this.moved = moved;
       this.scene.add(this.contacts.root);
     }
     this.#ground(data.contacts ?? this.#level(lowest((see) => moved.stand(() => everyPoint(points, linkage, see)), this.up)));
     this.#light();
-    this.camera = new PerspectiveCamera(30, 1, this.sphere.radius / 50, this.sphere.radius * 100);
+    this.camera = new PerspectiveCamera(30, 1, this.size / 50, this.sphere.radius * 100);
     // The controls turn about the camera's own upward direction, and ask for it only now.
     this.camera.up.copy(this.up);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -60,6 +67,7 @@ export class Stage {
   /** Moves the mechanism to where the links are. */
   show() {
     this.mechanism.update();
+    this.#follow();
     this.contacts?.update(this.moved.time);
     this.stale = true;
   }
@@ -92,18 +100,73 @@ export class Stage {
     this.stale = true;
   }
 
-  /** Shows everything from "start", "front", "side" or "top". */
+  /** Whether there is a base that the camera can follow. */
+  get canFollow() {
+    return Boolean(this.base);
+  }
+
+  /** Has the camera follow the base, or stand still; it looks in the same direction as before. */
+  setFollowing(following) {
+    this.following = following && this.canFollow;
+    this.#fit(this.camera.position.clone().sub(this.controls.target));
+  }
+
+  /** Shows everything from "start", "front", "side" or "top"; of a base that the camera follows, what is around it. */
   view(name) {
     const { front, side } = horizontal(this.up);
     // Straight from above, the way up would not be defined.
     const top = this.up.clone().addScaledVector(front, 1e-3);
     const from = { start: this.start, front, side, top }[name];
-    const narrow = Math.min(1, this.camera.aspect);
-    const distance = (1.12 * this.sphere.radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
-    this.controls.target.copy(this.sphere.center);
-    this.camera.position.copy(this.sphere.center).addScaledVector(from.clone().normalize(), distance);
+    this.#fit(from.clone());
+  }
+
+  /** The base that floats, how far the mechanism reaches beside the way of the base, and whether the camera follows: by
+   * default where that way is longer. */
+  #base(data, linkage, everywhere) {
+    this.base = data.motion ? floatingBase(data, linkage) : null;
+    this.following = false;
+    if (!this.canFollow) return;
+    let longest = 0;
+    this.own = reach((see) => {
+      const own = new Vector3();
+      everywhere((point) => {
+        const travel = this.base.travel();
+        longest = Math.max(longest, travel.length());
+        see(own.copy(point).sub(travel));
+      });
+    });
+    this.followed = this.base.travel();
+    this.following = data.camera ? data.camera === "follow" : longest > this.own.radius;
+  }
+
+  /** Moves the camera as far as the base has moved since. */
+  #follow() {
+    if (!this.following) return;
+    const travel = this.base.travel();
+    const moved = travel.clone().sub(this.followed);
+    this.followed = travel;
+    this.camera.position.add(moved);
+    this.controls.target.add(moved);
     this.controls.update();
+    this.#shine();
+  }
+
+  /** Shows everything along a direction. */
+  #fit(from) {
+    const { radius } = this.following ? this.own : this.sphere;
+    if (this.following) this.followed = this.base.travel();
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = (1.12 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    this.controls.target.copy(this.#middle());
+    this.camera.position.copy(this.controls.target).addScaledVector(from.normalize(), distance);
+    this.controls.update();
+    this.#shine();
     this.stale = true;
+  }
+
+  /** What the camera looks at. */
+  #middle() {
+    return this.following ? this.own.center.clone().add(this.followed) : this.sphere.center;
   }
 
   #resize() {
@@ -126,12 +189,12 @@ export class Stage {
     const [point, normal] = [plane.point, plane.normal].map((vector) => new Vector3(...vector));
     const { radius, center } = this.sphere;
     this.ground = new Group();
-    const cell = roundLength(radius / 4);
+    const cell = roundLength(Math.max(this.size / 4, radius / CELLS));
     const cells = 2 * Math.ceil((2 * radius) / cell);
     const grid = new GridHelper(cells * cell, cells, "#b9c1c9", "#dde2e7");
     const floor = new Mesh(new PlaneGeometry(cells * cell, cells * cell), new ShadowMaterial({ opacity: 0.12 }));
     floor.rotation.x = -Math.PI / 2;
-    floor.position.y = -1e-3 * radius;
+    floor.position.y = -1e-3 * this.size;
     floor.receiveShadow = true;
     const level = new Group().add(grid, floor);
     level.quaternion.setFromUnitVectors(Y, normal);
@@ -139,7 +202,7 @@ export class Stage {
     const middle = center.clone().addScaledVector(normal, -center.dot(normal));
     middle.divideScalar(cell).round().multiplyScalar(cell).addScaledVector(normal, -middle.dot(normal));
     level.position.copy(middle).addScaledVector(normal, point.dot(normal));
-    const base = new AxesHelper(0.22 * radius).setColors(...AXES);
+    const base = new AxesHelper(0.22 * this.size).setColors(...AXES);
     base.material.depthTest = false;
     base.renderOrder = 1;
     this.ground.add(level, base);
@@ -147,20 +210,27 @@ export class Stage {
   }
 
   #light() {
-    const { radius, center } = this.sphere;
-    const { front, side } = horizontal(this.up);
     const sun = new DirectionalLight("#ffffff", 2.2);
-    const from = this.up.clone().multiplyScalar(4).addScaledVector(front, 2).add(side);
-    sun.position.copy(center).addScaledVector(from, radius);
-    sun.target.position.copy(center);
     sun.castShadow = true;
     sun.shadow.mapSize.setScalar(2048);
-    const reach = 2 * radius;
-    const lit = { left: -reach, right: reach, top: reach, bottom: -reach, near: radius / 10, far: 12 * radius };
-    Object.assign(sun.shadow.camera, lit);
+    this.sun = sun;
     const sky = new HemisphereLight("#ffffff", "#aab2bb", 1.9);
     sky.position.copy(this.up);
     this.scene.add(sun, sun.target, sky);
+  }
+
+  /** Has the sun light what the camera looks at. */
+  #shine() {
+    const { radius } = this.following ? this.own : this.sphere;
+    const { front, side } = horizontal(this.up);
+    const from = this.up.clone().multiplyScalar(4).addScaledVector(front, 2).add(side);
+    const { position, target, shadow } = this.sun;
+    target.position.copy(this.#middle());
+    position.copy(target.position).addScaledVector(from, radius);
+    const reach = 2 * radius;
+    const lit = { left: -reach, right: reach, top: reach, bottom: -reach, near: radius / 10, far: 12 * radius };
+    Object.assign(shadow.camera, lit);
+    shadow.camera.updateProjectionMatrix();
   }
 
   /** W, A, S, D turn; plus and minus zoom; 0 shows all: what a mouse can, for keys. */
