@@ -146,6 +146,20 @@ class Peer:
             at, start = at + joint.nv, start + size
         return found
 
+    def frame_points(self, q: numpy.ndarray, v: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
+        """The origins of the frames and their velocities, in the axes of the base."""
+        pinocchio.forwardKinematics(self.model, self.data, self._position(q), self._ordered(v))
+        pinocchio.updateFramePlacements(self.model, self.data)
+        velocities = [pinocchio.getFrameVelocity(self.model, self.data, frame, ALIGNED) for frame in self.frames]
+        origins = [self.data.oMf[frame].translation.copy() for frame in self.frames]
+        return numpy.array(origins), numpy.array([velocity.linear for velocity in velocities])
+
+    def energy(self, q: numpy.ndarray, v: numpy.ndarray) -> float:
+        """Kinetic and potential energy."""
+        position, v = self._position(q), self._ordered(v)
+        kinetic = pinocchio.computeKineticEnergy(self.model, self.data, position, v)
+        return kinetic + pinocchio.computePotentialEnergy(self.model, self.data, position)
+
     def _ordered(self, vector: numpy.ndarray) -> numpy.ndarray:
         ordered = numpy.zeros(self.model.nv)
         ordered[self.order] = vector
