@@ -1,5 +1,6 @@
 //! Runs on the ground: motion against a separate integration, tables, the balance of energy, and refusals.
 
+use std::f64::consts::FRAC_PI_2;
 use std::fs;
 
 use redysim_cli::{Contact, Forward, FrameNames, Ground, Results, Scenario};
@@ -290,4 +291,70 @@ fn the_hexapod_stands_and_its_feet_carry_its_weight() {
     let normals = |row: &Vec<f64>| (0..6).map(|foot| row[4 + 6 * foot]).sum::<f64>();
     let carried = normals(contacts.rows.last().unwrap());
     assert!((carried / (14.0 * 9.81) - 1.0).abs() < 1e-3, "{carried} N");
+}
+
+/// Six steps, the last of which puts the feet beside each other, carry the hips 1 m forward, less what feet slip on ground
+/// in which they sink by 2 cm. The plane in which the biped moves is one of symmetry: it cannot leave it.
+#[test]
+fn the_biped_walks_six_steps_upright_on_one_foot_and_then_the_other() {
+    let folder = scratch("contact-biped");
+    let shipped = root().join("scenarios/walking_biped.toml").display().to_string();
+    let output = succeed(&folder, &["forward", &shipped, "-o", "run"]);
+    assert!(output.contains("4 contacts, "), "{output}");
+    let state = Table::csv(&folder.join("run/statevar.csv"));
+    let desired = Table::csv(&root().join("scenarios/walking_biped.csv"));
+    assert_eq!(state.rows.len(), desired.rows.len());
+    for (row, desired) in state.rows.iter().zip(&desired.rows) {
+        let [_, y, z, qx, qy, qz, qw] = row[1..8].try_into().unwrap();
+        let tilt = (2.0 * f64::atan2(qz, qw) + FRAC_PI_2).to_degrees();
+        assert!(tilt.abs() < 1.5 && (y - 1.145).abs() < 0.015, "{row:?}");
+        assert_eq!([z, qx, qy], [0.0; 3]);
+        for (found, desired) in row[8..14].iter().zip(&desired[1..]) {
+            assert!((found - desired).abs() < 1e-6, "{found} instead of {desired}");
+        }
+    }
+    let way = state.rows.last().unwrap()[1] - state.rows[0][1];
+    assert!((0.94..1.0).contains(&way), "{way}");
+    let contacts = Table::csv(&folder.join("run/contacts.csv"));
+    // Which feet carry the biped, one after the other.
+    let mut carried = Vec::new();
+    for row in &contacts.rows {
+        assert!([4, 10, 16, 22].iter().all(|&column| row[column] >= 0.0), "no foot is held back: {row:?}");
+        let feet = [6, 18].map(|foot| row[foot] == 1.0 || row[foot + 6] == 1.0);
+        assert_ne!(feet, [false, false], "it does not jump");
+        if feet != [true, true] && carried.last() != Some(&feet) {
+            carried.push(feet);
+        }
+    }
+    let [left, right] = [[true, false], [false, true]];
+    assert_eq!(carried, [right, left, right, left, right, left]);
+    let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    let drift = run.lines().find_map(|line| line.strip_prefix("energy_drift = ")).unwrap().parse::<f64>().unwrap();
+    assert!(drift < 1e-5, "{drift} J of the 1.6 J that are exchanged");
+}
+
+/// The motion of the joints is made for ground that does not give: where it hardly does, the biped stays upright and goes as
+/// far as its feet do.
+#[test]
+fn the_biped_walks_a_metre_upright_on_stiff_ground() {
+    let folder = scratch("contact-biped-stiff");
+    let text = fs::read_to_string(root().join("scenarios/walking_biped.toml")).unwrap();
+    let path = |name: &str| root().join(name).display().to_string();
+    let replaced = |text: &str, from: &str, to: &str| {
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        text.replace(from, to)
+    };
+    let text = replaced(&text, "../models/walking_biped.toml", &path("models/walking_biped.toml"));
+    let text = replaced(&text, "\"walking_biped.csv\"", &format!("{:?}", path("scenarios/walking_biped.csv")));
+    let text = replaced(&text, "stiffness = 2000.0", "stiffness = 1e5");
+    let text = replaced(&text, "damping = 2742.2618401604173", "damping = 2e4");
+    let text = replaced(&text, "1.1495", "1.1498");
+    fs::write(folder.join("walks.toml"), text).unwrap();
+    succeed(&folder, &["forward", "walks.toml", "-o", "run", "--quiet"]);
+    let state = Table::csv(&folder.join("run/statevar.csv"));
+    let tilts = state.rows.iter().map(|row| 2.0 * f64::atan2(row[6], row[7]) + FRAC_PI_2);
+    let most = tilts.fold(0.0, |most: f64, tilt| most.max(tilt.abs())).to_degrees();
+    assert!(most < 0.1, "{most}");
+    let way = state.rows.last().unwrap()[1] - state.rows[0][1];
+    assert!((way - 1.0).abs() < 0.003, "{way}");
 }
