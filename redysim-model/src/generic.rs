@@ -9,7 +9,7 @@ use redysim_runtime::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics,
     FrameAcceleration, FrameJacobian, FrameState, Frames, GravityForces, HybridDynamics, HybridMotion, InverseDynamics,
     LengthMismatch, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter, MassMatrix, MechanicalEnergy,
-    Mechanism, Momentum, PassiveForces, Scalar, TotalMomentum, Wrench,
+    Mechanism, Momentum, PassiveForces, Scalar, TotalMomentum, VelocityCoordinates, Wrench,
 };
 
 /// A mechanism whose model is known only at run time.
@@ -24,7 +24,7 @@ pub struct GenericMechanism {
     tree: Tree,
     coordinate_names: Vec<String>,
     velocity_names: Vec<String>,
-    coordinates_of_velocities: Vec<Option<usize>>,
+    moved_coordinates: Vec<VelocityCoordinates>,
     actuated: Vec<bool>,
 }
 
@@ -36,7 +36,7 @@ impl GenericMechanism {
         GenericMechanism {
             coordinate_names: interface.coordinate_names().map(String::from).collect(),
             velocity_names: interface.velocity_names().map(String::from).collect(),
-            coordinates_of_velocities: interface.coordinates_of_velocities(),
+            moved_coordinates: interface.moved_coordinates(),
             actuated: interface.actuated().collect(),
             model,
             tree,
@@ -156,7 +156,13 @@ impl Mechanism for GenericMechanism {
         self.actuated.get(index) == Some(&true)
     }
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
-        *self.coordinates_of_velocities.get(index)?
+        match self.coordinates_of_velocity(index) {
+            VelocityCoordinates::One(coordinate) => Some(coordinate),
+            _ => None,
+        }
+    }
+    fn coordinates_of_velocity(&self, index: usize) -> VelocityCoordinates {
+        self.moved_coordinates.get(index).copied().unwrap_or(VelocityCoordinates::Unknown)
     }
     fn nf(&self) -> usize {
         self.size(Dimension::Frames)

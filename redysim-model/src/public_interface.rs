@@ -6,7 +6,7 @@ use crate::options::CodegenOptions;
 use crate::run_time::RunTimeParameter;
 use crate::tree::Tree;
 use redysim_runtime::function::Dimension;
-use redysim_runtime::{Functions, ParameterRule};
+use redysim_runtime::{Functions, ParameterRule, VelocityCoordinates};
 
 /// The public interface of a generated type: its names, sizes and functions. A model whose file has faults has one as
 /// far as the file can be read.
@@ -109,11 +109,22 @@ impl PublicInterface {
     /// For each velocity, the coordinate whose rate it is, if there is one: not of a joint with a quaternion, which has more
     /// coordinates than velocities.
     pub fn coordinates_of_velocities(&self) -> Vec<Option<usize>> {
+        let own = |moved| if let VelocityCoordinates::One(coordinate) = moved { Some(coordinate) } else { None };
+        self.moved_coordinates().into_iter().map(own).collect()
+    }
+
+    /// For each velocity, the coordinates that it changes. A joint that has more coordinates than velocities ends with the
+    /// quaternion of an orientation; what it has before is a position.
+    pub fn moved_coordinates(&self) -> Vec<VelocityCoordinates> {
         let mut first = 0;
         let of_joint = |joint: &MovingJoint| {
-            let (before, is_linear) = (first, joint.coordinates.len() == joint.velocities.len());
-            first += joint.coordinates.len();
-            (0..joint.velocities.len()).map(move |i| Some(before + i).filter(|_| is_linear))
+            let (before, nq, nv) = (first, joint.coordinates.len(), joint.velocities.len());
+            first += nq;
+            (0..nv).map(move |i| match nq == nv {
+                true => VelocityCoordinates::One(before + i),
+                false if i + 3 < nv => VelocityCoordinates::Position(before),
+                false => VelocityCoordinates::Quaternion(before + nq - 4),
+            })
         };
         self.joints.iter().flat_map(of_joint).collect()
     }
@@ -163,5 +174,9 @@ mod tests {
         let interface = PublicInterface { joints, ..PublicInterface::default() };
         let free = [None; 6];
         assert_eq!(interface.coordinates_of_velocities(), [&[Some(0)][..], &free, &[Some(8)]].concat());
+        let (position, orientation) = (VelocityCoordinates::Position(1), VelocityCoordinates::Quaternion(4));
+        let [tail, head] = [0, 8].map(VelocityCoordinates::One);
+        let expected = [&[tail][..], &[position; 3], &[orientation; 3], &[head]].concat();
+        assert_eq!(interface.moved_coordinates(), expected);
     }
 }

@@ -1,10 +1,11 @@
 //! Hybrid simulation: some joints follow a prescribed motion, the others move as forces make them.
 
 use crate::control::check_motion;
-use crate::integrate::Accepted;
+use crate::integrate::{Accepted, Tolerances};
 use crate::simulate::{
     check_state, constrain_coordinates, dot, extended_state, law_torque, split, state, write, write_coordinate_rates,
 };
+use crate::tangent;
 use crate::vector::entry;
 use crate::{
     ConfigurationSpace, HybridDynamics, HybridMotion, LengthMismatch, Motion, Ode, Real, SimulationState, TorqueLaw,
@@ -160,6 +161,10 @@ where
 
     fn interpolated(&mut self, _t: S, state: &mut Y) {
         constrain_coordinates(self.mechanism, state);
+    }
+
+    fn error_norm(&self, tolerances: &Tolerances<'_, S>, error: &Y, y: &Y, z: &Y) -> S {
+        tangent::error_norm(self.mechanism, tolerances, error, (y, z))
     }
 
     fn coordinate_rates(&mut self, t: S, state: &Y, rates: &mut Y) -> usize {

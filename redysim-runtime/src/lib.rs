@@ -89,6 +89,8 @@ mod scalar;
 #[cfg(feature = "simulation")]
 mod simulate;
 #[cfg(feature = "simulation")]
+mod tangent;
+#[cfg(feature = "simulation")]
 mod trajectory;
 mod trigonometry;
 mod vector;
@@ -128,7 +130,7 @@ pub use linear_algebra::RowSet;
 pub use mechanism::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
     HybridDynamics, HybridMotion, InverseDynamics, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter,
-    MassMatrix, MechanicalEnergy, Mechanism, Momentum, PassiveForces, TotalMomentum, TreeDynamics,
+    MassMatrix, MechanicalEnergy, Mechanism, Momentum, PassiveForces, TotalMomentum, TreeDynamics, VelocityCoordinates,
 };
 pub use operational_space::{OperationalSpace, OperationalSpaceError, TaskStatus};
 pub use operations::OperationCount;

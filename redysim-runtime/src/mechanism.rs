@@ -40,6 +40,12 @@ pub trait Mechanism {
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         (self.nq() == self.nv() && index < self.nv()).then_some(index)
     }
+    /// The coordinates that velocity `index` changes, by which tolerances weigh [errors](crate::Ode::error_norm) of
+    /// coordinates. The default has the [coordinate of that velocity alone](Self::coordinate_of_velocity), and does not
+    /// know those of others.
+    fn coordinates_of_velocity(&self, index: usize) -> VelocityCoordinates {
+        self.coordinate_of_velocity(index).map_or(VelocityCoordinates::Unknown, VelocityCoordinates::One)
+    }
     /// Number of frames of interest, NF: the tables `[[frame]]` of a model. The default is none.
     fn nf(&self) -> usize {
         0
@@ -49,6 +55,20 @@ pub trait Mechanism {
         let _ = index;
         None
     }
+}
+
+/// The coordinates that a velocity changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum VelocityCoordinates {
+    /// The coordinate with this index, whose rate is the velocity.
+    One(usize),
+    /// The position of an origin in three coordinates, the first of which has this index.
+    Position(usize),
+    /// The orientation as a quaternion in four coordinates, the first of which has this index.
+    Quaternion(usize),
+    /// Coordinates of another kind.
+    Unknown,
 }
 
 /// Coordinates and velocities of a mechanism over the scalar `S`. The types of vectors carry their lengths: arrays for

@@ -1,6 +1,7 @@
 //! Forward simulation: a mechanism and a torque law as an ordinary differential equation.
 
-use crate::integrate::Accepted;
+use crate::integrate::{Accepted, Tolerances};
+use crate::tangent;
 use crate::vector::entry;
 use crate::{ConfigurationSpace, ForwardDynamics, LengthMismatch, Ode, Real, TorqueLaw, Vector};
 
@@ -152,6 +153,10 @@ where
 
     fn interpolated(&mut self, _t: S, state: &mut Y) {
         constrain_coordinates(self.mechanism, state);
+    }
+
+    fn error_norm(&self, tolerances: &Tolerances<'_, S>, error: &Y, y: &Y, z: &Y) -> S {
+        tangent::error_norm(self.mechanism, tolerances, error, (y, z))
     }
 
     fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {

@@ -35,6 +35,9 @@ macro_rules! names_and_sizes_of {
         fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
             self.$mechanism.coordinate_of_velocity(index)
         }
+        fn coordinates_of_velocity(&self, index: usize) -> crate::VelocityCoordinates {
+            self.$mechanism.coordinates_of_velocity(index)
+        }
         fn nf(&self) -> usize {
             self.$mechanism.nf()
         }

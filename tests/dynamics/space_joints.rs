@@ -8,7 +8,7 @@ use crate::common::random::{Random, State};
 use crate::common::styles::{inertia, placed};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use redysim::generic::{GenericMechanism, JointKind, Link, Model, Vec3};
-use redysim::{Dispatch, Mechanism, redysim};
+use redysim::{Dispatch, Mechanism, VelocityCoordinates, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::{Function, Tree};
 
@@ -246,6 +246,22 @@ fn a_velocity_has_a_coordinate_of_its_own_where_its_joint_has_one() {
     assert_eq!(coordinates(&floating), expected);
     assert_eq!(coordinates(&Pendulum), [None; 4]);
     assert_eq!(coordinates(&pendulum), [None; 4]);
+}
+
+#[test]
+fn a_mechanism_reports_which_coordinates_each_of_its_velocities_changes() {
+    fn moved(mechanism: &impl Mechanism) -> Vec<VelocityCoordinates> {
+        (0..=mechanism.nv()).map(|velocity| mechanism.coordinates_of_velocity(velocity)).collect()
+    }
+    use VelocityCoordinates::{One, Position, Quaternion, Unknown};
+    let expected = [vec![Position(0); 3], vec![Quaternion(3); 3], (7..13).map(One).collect(), vec![Unknown]].concat();
+    let [floating, pendulum] = ["kr5_floating", "spherical_pendulum"].map(crate::common::models::generic);
+    assert_eq!(moved(&Floating), expected);
+    assert_eq!(moved(&Floating.dispatched()), expected);
+    assert_eq!(moved(&floating), expected);
+    for spherical in [moved(&Pendulum), moved(&pendulum)] {
+        assert_eq!(spherical, [Quaternion(0), Quaternion(0), Quaternion(0), Unknown]);
+    }
 }
 
 #[test]

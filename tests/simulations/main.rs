@@ -13,3 +13,4 @@ mod hybrid;
 mod iftomm_pendulum;
 mod impedance;
 mod stiff_control;
+mod tangent_errors;

@@ -144,6 +144,7 @@ fn assert_same_outside(compiled: &impl TreeDynamics<f64>, generic: &impl TreeDyn
         assert_eq!(compiled.velocity_name(index), generic.velocity_name(index), "velocity {index}");
         assert_eq!(compiled.is_actuated(index), generic.is_actuated(index), "velocity {index}");
         assert_eq!(compiled.coordinate_of_velocity(index), generic.coordinate_of_velocity(index), "velocity {index}");
+        assert_eq!(compiled.coordinates_of_velocity(index), generic.coordinates_of_velocity(index), "velocity {index}");
     }
 }
 

@@ -18,8 +18,10 @@ const STRETCH: f64 = 1.1;
 /// A method with steps chosen from tolerances, as MATLAB chooses them: see [`Ode45`](super::Ode45) and its like.
 ///
 /// A step is accepted when its estimated error e satisfies, for every component i,
-/// |e_i| ≤ max(rtol max(|y_i|, |y_new,i|), atol_i). Errors of steps add up, and the equation may amplify them: ask for
-/// less than is allowed at the end. First step, step control and defaults are those of the MATLAB ODE suite.
+/// |e_i| ≤ max(rtol max(|y_i|, |y_new,i|), atol_i). Errors of orientations in quaternions, and of the positions of free
+/// joints, are weighed as [rotations and translations](Ode::error_norm). Errors of steps add up, and the equation may
+/// amplify them: ask for less than is allowed at the end. First step, step control and defaults are those of the MATLAB
+/// ODE suite.
 ///
 /// A derivative that is infinite or not a number at an attempted step makes the step smaller; only where that does not
 /// help, it is an error.
@@ -54,7 +56,7 @@ impl<'a, S: Real, A> Adaptive<'a, S, A> {
     /// The method with MATLAB's defaults: rtol 10⁻³, atol 10⁻⁶, steps of at most a tenth of the interval.
     pub fn new() -> Self {
         Self {
-            tolerances: Tolerances { relative: S::from_f64(1e-3), absolute: Absolute::All(S::from_f64(1e-6)) },
+            tolerances: Tolerances::new(S::from_f64(1e-3), S::from_f64(1e-6)),
             initial_step: None,
             max_step: None,
             max_steps: 100_000_000,
@@ -177,7 +179,7 @@ impl<S: Real, A: EstimatesErrors> Integrator<S> for Adaptive<'_, S, A> {
                 }
                 let (error, fault) = match driver.attempt(t) {
                     Ok(()) => {
-                        let error = driver.formula.error(&driver.integration.progress, &self.tolerances);
+                        let error = driver.formula.error(&driver.integration);
                         (error, IntegrationError::StepTooSmall { t: from, step: size })
                     }
                     Err(fault) => (S::from_f64(f64::INFINITY), fault),
@@ -194,8 +196,7 @@ impl<S: Real, A: EstimatesErrors> Integrator<S> for Adaptive<'_, S, A> {
                 size = smallest.maximum(control.shrink(&mut driver.formula, trial) * size);
             };
             let rest = (interval.to - driver.progress().t_new).abs();
-            let suspected =
-                stiffness.suspects(&mut driver.formula, &driver.integration.progress, rest, &self.tolerances);
+            let suspected = stiffness.suspects(&mut driver.formula, &driver.integration, rest);
             if driver.accept()?.is_break() {
                 return Ok(driver.solution());
             }

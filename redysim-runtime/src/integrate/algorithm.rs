@@ -5,7 +5,6 @@
 //! and for steps from tolerances.
 
 use super::integration::{Integration, Progress};
-use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode, Step};
 use crate::{Real, Vector};
 
@@ -59,17 +58,20 @@ pub trait Formula<S: Real, Y: Vector<S>> {
     /// The derivative at the state; after the first step only where the method needs it.
     fn rate(&self) -> &Y;
 
-    /// The estimated error of the attempted step, as the tolerances measure it; zero, the default, where nothing
+    /// The [size](Integration::error_norm) of the estimated error of the attempted step; zero, the default, where nothing
     /// estimates it.
-    fn error(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
-        let _ = (progress, tolerances);
+    fn error<O: Ode<S, Y> + ?Sized>(&mut self, integration: &Integration<'_, S, Y, O>) -> S {
+        let _ = integration;
         S::zero()
     }
 
     /// h |λ| for the largest eigenvalue λ of the Jacobian, as far as the attempted step shows it, and how large it may
     /// be for a damped motion, λ < 0; `None`, the default, if nothing limits it or the method cannot tell.
-    fn stability(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> Option<StabilityEstimate<S>> {
-        let _ = (progress, tolerances);
+    fn stability<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &Integration<'_, S, Y, O>,
+    ) -> Option<StabilityEstimate<S>> {
+        let _ = integration;
         None
     }
 

@@ -6,7 +6,6 @@ use super::algorithm::{Formula, StabilityEstimate};
 use super::integration::{Integration, Progress, zeros};
 use super::step::{Step, weighted_sum};
 use super::tableau::{ErrorEstimate, Tableau};
-use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
@@ -58,13 +57,13 @@ impl<Y, const STAGES: usize> Explicit<Y, STAGES> {
     }
 
     /// h Σ d_k f_k as the tolerances measure it.
-    fn norm<S: Real>(&mut self, d: &[f64; STAGES], progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S
+    fn norm<S: Real, O: Ode<S, Y> + ?Sized>(&mut self, d: &[f64; STAGES], integration: &Integration<'_, S, Y, O>) -> S
     where
         Y: Vector<S>,
     {
-        let h = progress.step_size();
+        let h = integration.progress.step_size();
         weighted_sum(d.iter().map(|&d| h * S::from_f64(d)), &self.stages, &mut self.scratch);
-        tolerances.norm(&self.scratch, &progress.y, &progress.y_new)
+        integration.error_norm(&self.scratch)
     }
 }
 
@@ -83,12 +82,12 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Formula<S, Y> for Explicit<Y, S
         &self.stages[0]
     }
 
-    fn error(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
+    fn error<O: Ode<S, Y> + ?Sized>(&mut self, integration: &Integration<'_, S, Y, O>) -> S {
         let tableau = self.tableau;
         match &tableau.error {
-            ErrorEstimate::Embedded(d) => self.norm(d, progress, tolerances),
+            ErrorEstimate::Embedded(d) => self.norm(d, integration),
             ErrorEstimate::Stretched { higher, lower } => {
-                let [higher, lower] = [higher, lower].map(|d| self.norm(d, progress, tolerances));
+                let [higher, lower] = [higher, lower].map(|d| self.norm(d, integration));
                 let size = (higher * higher + S::from_f64(0.01) * lower * lower).sqrt();
                 if size > S::zero() { higher * (higher / size) } else { size }
             }
@@ -117,7 +116,10 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Formula<S, Y> for Explicit<Y, S
         Some(self.clone())
     }
 
-    fn stability(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> Option<StabilityEstimate<S>> {
+    fn stability<O: Ode<S, Y> + ?Sized>(
+        &mut self,
+        integration: &Integration<'_, S, Y, O>,
+    ) -> Option<StabilityEstimate<S>> {
         let tableau = self.tableau;
         let last = tableau.main.checked_sub(1)?;
         let before = last.checked_sub(1)?;
@@ -125,18 +127,17 @@ impl<S: Real, Y: Vector<S>, const STAGES: usize> Formula<S, Y> for Explicit<Y, S
         if *tableau.nodes.get(before)? != 1.0 {
             return None;
         }
-        let h = progress.step_size();
+        let h = integration.progress.step_size();
         let weights = row.iter().enumerate().map(|(k, a)| a - row_before.get(k).copied().unwrap_or(0.0));
         weighted_sum(weights.map(|a| h * S::from_f64(a)), &self.stages, &mut self.scratch);
-        let Progress { y, y_new, .. } = progress;
-        let apart = tolerances.norm(&self.scratch, y, y_new);
+        let apart = integration.error_norm(&self.scratch);
         let rates = self.stages.get(last)?.as_ref().iter().zip(self.stages.get(before)?.as_ref());
         for (difference, (&after, &before)) in self.scratch.as_mut().iter_mut().zip(rates) {
             *difference = h * (after - before);
         }
         // States that differ by rounding alone say nothing.
         let says = apart > S::from_f64(100.0) * S::EPSILON;
-        let estimate = if says { tolerances.norm(&self.scratch, y, y_new) / apart } else { S::zero() };
+        let estimate = if says { integration.error_norm(&self.scratch) / apart } else { S::zero() };
         Some(StabilityEstimate { size: estimate, limit: S::from_f64(tableau.stable_to) })
     }
 

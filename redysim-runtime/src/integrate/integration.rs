@@ -25,6 +25,19 @@ impl<'a, S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized> Integration<'a, S, Y, O> 
         Ok(Self { ode, tolerances, progress: Progress::new(t, y)? })
     }
 
+    /// The size of `error`, a small difference of states at `y_new`, as the equation weighs it with the tolerances:
+    /// as large as rtol where it just meets them. Infinite if any part of it is not a finite number.
+    pub fn error_norm(&self, error: &Y) -> S {
+        let Progress { y, y_new, .. } = &self.progress;
+        self.ode.error_norm(&self.tolerances, error, y, y_new)
+    }
+
+    /// [`error_norm`](Self::error_norm) of a difference of states at the state that is reached.
+    pub(super) fn norm_at_state(&self, error: &Y) -> S {
+        let y = &self.progress.y;
+        self.ode.error_norm(&self.tolerances, error, y, y)
+    }
+
     /// Writes the derivative at `y_new` and `t` to `rate`.
     ///
     /// # Errors

@@ -57,6 +57,7 @@ pub use ode::Accepted;
 pub use ode4::RungeKutta4;
 pub use semi_implicit_euler::{SemiImplicit, SymplecticEuler};
 pub use tolerance::Tolerances;
+pub(crate) use tolerance::finite;
 
 use root::*;
 

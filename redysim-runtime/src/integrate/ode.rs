@@ -1,6 +1,7 @@
 //! The interface of an equation.
 
-use crate::LengthMismatch;
+use super::Tolerances;
+use crate::{LengthMismatch, Real, Vector};
 
 /// The right-hand side of an ordinary differential equation, ẏ = f(t, y).
 ///
@@ -35,6 +36,25 @@ pub trait Ode<S, Y> {
     /// integration does not depend on it. By default, nothing happens.
     fn interpolated(&mut self, t: S, y: &mut Y) {
         let _ = (t, y);
+    }
+
+    /// The size of `error`, a small difference of states at `z`, as `tolerances` weigh it: at most
+    /// [rtol](Tolerances::relative) where they are met. `y` and `z` are the states between which the components have
+    /// their magnitudes: the start and the end of a step. By default each component is weighed by itself
+    /// ([`Tolerances::norm`]).
+    ///
+    /// Simulations of a mechanism weigh errors of coordinates that are more than the velocities, such as quaternions,
+    /// on the tangent: for each velocity, the [difference](crate::ConfigurationSpace::difference) of configurations to
+    /// first order. One along a rotation is compared with 1 rad, whatever the orientation is, and one along a
+    /// translation with the distance from the origin of the joint, so that neither the choice of axes of the base
+    /// frame nor the length of a quaternion matters. The absolute tolerance of either is the smallest of the
+    /// coordinates of that position or orientation, in m or rad.
+    fn error_norm(&self, tolerances: &Tolerances<'_, S>, error: &Y, y: &Y, z: &Y) -> S
+    where
+        S: Real,
+        Y: Vector<S>,
+    {
+        tolerances.norm(error, y, z)
     }
 
     /// Writes (∂f/∂y) `direction` at (t, y) to `slope` and returns `true`, if it can do that without differences; from

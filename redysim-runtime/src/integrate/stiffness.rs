@@ -1,9 +1,8 @@
 //! Whether steps are small for stability rather than for accuracy: then an explicit method reports a stiff equation.
 
 use super::algorithm::Formula;
-use super::integration::{Integration, Progress};
+use super::integration::Integration;
 use super::stability::Linearised;
-use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
@@ -45,14 +44,13 @@ impl<S: Real> StiffnessTest<S> {
 
     /// Looks at an attempted step that is good, before it is accepted; `rest` is what is left of the interval after it.
     /// Returns the limit of stability when it is time for [`confirm`](Self::confirm).
-    pub fn suspects<Y: Vector<S>>(
+    pub fn suspects<Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
         &mut self,
         formula: &mut impl Formula<S, Y>,
-        progress: &Progress<S, Y>,
+        integration: &Integration<'_, S, Y, O>,
         rest: S,
-        tolerances: &Tolerances<'_, S>,
     ) -> Option<S> {
-        let size = progress.step_size().abs();
+        let size = integration.progress.step_size().abs();
         if rest.to_f64() <= self.limit? as f64 * size.to_f64() {
             return None;
         }
@@ -60,7 +58,7 @@ impl<S: Real> StiffnessTest<S> {
         if self.wait > 0 {
             return None;
         }
-        let Some(estimate) = formula.stability(progress, tolerances) else {
+        let Some(estimate) = formula.stability(integration) else {
             self.limit = None;
             return None;
         };

@@ -32,12 +32,19 @@ pub(super) enum Absolute<'a, S> {
     Each(&'a [S]),
 }
 
+impl<S> Tolerances<'_, S> {
+    /// The relative tolerance, and one absolute tolerance for all components, in the units of the state.
+    pub fn new(relative: S, absolute: S) -> Self {
+        Self { relative, absolute: Absolute::All(absolute) }
+    }
+}
+
 impl<S: Real> Tolerances<'_, S> {
     /// What steps of a given size solve by iteration, they solve nearly to roundoff. Components below 1 count as 1: one
     /// that comes to rest has the rounding errors of others in it, and differences of the derivative need some room.
     pub(super) fn roundoff() -> Self {
         let relative = S::from_f64(ROUNDOFF_UNITS) * S::EPSILON;
-        Self { relative, absolute: Absolute::All(relative) }
+        Self::new(relative, relative)
     }
 
     /// rtol.
@@ -74,17 +81,30 @@ impl<S: Real> Tolerances<'_, S> {
     /// any part of it is not a finite number.
     pub fn norm<Y: Vector<S>>(&self, x: &Y, y: &Y, z: &Y) -> S {
         let sizes = y.as_ref().iter().zip(z.as_ref()).map(|(y, z)| y.abs().maximum(z.abs()));
-        let norm = x.as_ref().iter().zip(sizes).enumerate().fold(S::zero(), |norm, (component, (x, size))| {
-            norm.maximum(x.abs() / size.maximum(self.threshold(component)))
-        });
-        if norm.is_finite() { norm } else { S::from_f64(f64::INFINITY) }
+        let norm = x
+            .as_ref()
+            .iter()
+            .zip(sizes)
+            .enumerate()
+            .fold(S::zero(), |norm, (component, (x, size))| norm.maximum(self.weighed(component, *x, size)));
+        finite(norm)
+    }
+
+    /// The error `x` of a component whose magnitude is `size`, |x| / max(size, atol_i / rtol).
+    pub(crate) fn weighed(&self, component: usize, x: S, size: S) -> S {
+        x.abs() / size.maximum(self.threshold(component))
     }
 
     /// The size below which the absolute tolerance of a component is the larger one.
-    pub(super) fn threshold(&self, component: usize) -> S {
+    pub(crate) fn threshold(&self, component: usize) -> S {
         match self.absolute {
             Absolute::All(value) => value / self.relative,
             Absolute::Each(values) => values.get(component).map_or(S::zero(), |&value| value / self.relative),
         }
     }
+}
+
+/// `norm`, or infinity where it is not a finite number.
+pub(crate) fn finite<S: Real>(norm: S) -> S {
+    if norm.is_finite() { norm } else { S::from_f64(f64::INFINITY) }
 }

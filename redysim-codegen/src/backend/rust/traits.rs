@@ -6,6 +6,7 @@ use super::{length, length_of, results};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use redysim_model::{Function, PublicInterface};
+use redysim_runtime::VelocityCoordinates;
 use redysim_runtime::function::{Dimension, Interface};
 
 /// The trait that has the function alone; nothing for a function of a trait that has several.
@@ -130,7 +131,7 @@ pub fn mechanism(
     let state = interface.size(Dimension::Coordinates) + interface.size(Dimension::Velocities) + 1;
     let state = length_of(interface, state);
     let Form { generics, over_scalar, arguments, reads_in_trait, .. } = Form::of(interface, runtime);
-    let own_coordinates = own_coordinates(interface);
+    let own_coordinates = own_coordinates(interface, runtime);
     let actuated = actuated(interface, name);
     let tangent = rates_tangent(interface, runtime);
     let methods = configuration.into_iter().map(|(function, body)| {
@@ -196,23 +197,35 @@ fn actuated(interface: &PublicInterface, name: &Ident) -> Option<TokenStream> {
     })
 }
 
-/// Which coordinate belongs to each velocity alone, for a mechanism with a joint that has several.
-fn own_coordinates(interface: &PublicInterface) -> Option<TokenStream> {
+/// Which coordinates each velocity changes, for a mechanism with a joint that has several.
+fn own_coordinates(interface: &PublicInterface, runtime: &TokenStream) -> Option<TokenStream> {
     if !has_several_coordinates(interface) {
         return None;
     }
     let nv = length(interface, Dimension::Velocities);
-    let of_velocities = interface.coordinates_of_velocities().into_iter().map(|coordinate| match coordinate {
-        Some(coordinate) => {
-            let coordinate = Literal::usize_unsuffixed(coordinate);
-            quote!(::core::option::Option::Some(#coordinate))
+    let kind = quote!(#runtime::VelocityCoordinates);
+    let of_velocities = interface.moved_coordinates().into_iter().map(|moved| {
+        let of = |variant: &str, first: usize| {
+            let (variant, first) = (format_ident!("{variant}"), Literal::usize_unsuffixed(first));
+            quote!(#kind::#variant(#first))
+        };
+        match moved {
+            VelocityCoordinates::One(coordinate) => of("One", coordinate),
+            VelocityCoordinates::Position(first) => of("Position", first),
+            VelocityCoordinates::Quaternion(first) => of("Quaternion", first),
+            VelocityCoordinates::Unknown => quote!(#kind::Unknown),
         }
-        None => quote!(::core::option::Option::None),
     });
     Some(quote! {
         fn coordinate_of_velocity(&self, index: usize) -> ::core::option::Option<usize> {
-            const COORDINATES: [::core::option::Option<usize>; #nv] = [#(#of_velocities),*];
-            *COORDINATES.get(index)?
+            match self.coordinates_of_velocity(index) {
+                #kind::One(coordinate) => ::core::option::Option::Some(coordinate),
+                _ => ::core::option::Option::None,
+            }
+        }
+        fn coordinates_of_velocity(&self, index: usize) -> #kind {
+            const COORDINATES: [#kind; #nv] = [#(#of_velocities),*];
+            COORDINATES.get(index).copied().unwrap_or(#kind::Unknown)
         }
     })
 }

@@ -7,9 +7,10 @@ use core::iter::once;
 use super::constraints::{Constraints, length_scale};
 use super::position::ProjectedPoint;
 use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
-use crate::integrate::Accepted;
+use crate::integrate::{Accepted, Tolerances};
 use crate::linear_algebra::{dot, largest, product};
 use crate::simulate::{check_state, constrain_coordinates, extended_state, law_torque};
+use crate::tangent;
 use crate::vector::entry;
 use crate::{
     BiasForces, ConfigurationSpace, ForwardSimulation, LengthMismatch, LoopClosure, MassMatrix, Ode, Real,
@@ -264,6 +265,10 @@ where
 
     fn interpolated(&mut self, _t: S, state: &mut Y) {
         constrain_coordinates(self.loops.mechanism, state);
+    }
+
+    fn error_norm(&self, tolerances: &Tolerances<'_, S>, error: &Y, y: &Y, z: &Y) -> S {
+        tangent::error_norm(self.loops.mechanism, tolerances, error, (y, z))
     }
 
     fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {

@@ -12,7 +12,6 @@ use crate::integrate::algorithm::{Algorithm, Formula};
 use crate::integrate::integration::{Integration, Progress, zeros};
 use crate::integrate::step::{Step, weighted_sum, without_constant};
 use crate::integrate::step_control::{EstimatesErrors, Predictive};
-use crate::integrate::tolerance::Tolerances;
 use crate::integrate::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
@@ -233,9 +232,9 @@ impl<S: Real, Y: Vector<S>> Radau<S, Y> {
         self.newton.filter(&mut self.estimate);
     }
 
-    /// The norm of the estimate by the tolerances, raised to a power that is proportional to h⁶.
-    fn measure(&self, Progress { y, y_new, .. }: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
-        let error = S::from_f64(10.0) * tolerances.norm(&self.estimate, y, y_new);
+    /// The norm of the estimate, raised to a power that is proportional to h⁶.
+    fn measure<O: Ode<S, Y> + ?Sized>(&self, integration: &Integration<'_, S, Y, O>) -> S {
+        let error = S::from_f64(10.0) * integration.error_norm(&self.estimate);
         error * error.sqrt()
     }
 }
@@ -269,8 +268,7 @@ impl<S: Real, Y: Vector<S>> Formula<S, Y> for Radau<S, Y> {
         integration.progress.advance_by(end);
         self.estimate(None);
         let first_or_again = self.last_size.is_none() || again;
-        let tolerances = integration.tolerances;
-        if first_or_again && self.measure(&integration.progress, &tolerances) > tolerances.relative() {
+        if first_or_again && self.measure(integration) > integration.tolerances.relative() {
             // A fast transient makes the first estimate far too large; one from the derivative at y + e does not.
             let mut rate = zeros(&self.rate);
             integration.progress.advance_by(&self.estimate);
@@ -285,8 +283,8 @@ impl<S: Real, Y: Vector<S>> Formula<S, Y> for Radau<S, Y> {
     }
 
     /// The estimate e has order 3; (10 e)^(3/2) has the order of the error of the step.
-    fn error(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
-        self.measure(progress, tolerances)
+    fn error<O: Ode<S, Y> + ?Sized>(&mut self, integration: &Integration<'_, S, Y, O>) -> S {
+        self.measure(integration)
     }
 
     /// Where the stages of a shorter step are not found, as about a jump of the derivative, the collocation polynomial
@@ -319,8 +317,7 @@ impl<S: Real, Y: Vector<S>> Formula<S, Y> for Radau<S, Y> {
         for (error, &value) in error.as_mut().iter_mut().zip(checked.as_ref()) {
             *error -= value;
         }
-        let Integration { progress: Progress { y, y_new, .. }, tolerances, .. } = integration;
-        let accurate = tolerances.norm(&error, y, y_new) <= tolerances.relative();
+        let accurate = integration.error_norm(&error) <= integration.tolerances.relative();
         self.interpolation = if accurate { Interpolation::Accurate } else { Interpolation::Coarse };
         Ok(())
     }

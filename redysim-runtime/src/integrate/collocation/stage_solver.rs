@@ -11,8 +11,7 @@ use super::radau_tableau::RADAU_IIA_5;
 use crate::integrate::complex::Complex;
 use crate::integrate::implicit::jacobian::jacobian;
 use crate::integrate::implicit::lu::Lu;
-use crate::integrate::integration::{Integration, Progress, zeros};
-use crate::integrate::tolerance::Tolerances;
+use crate::integrate::integration::{Integration, zeros};
 use crate::integrate::{IntegrationError, Ode};
 use crate::vector::entry;
 use crate::{Real, Vector};
@@ -132,8 +131,8 @@ impl<S: Real, Y: Vector<S>> StageSolver<S, Y> {
         integration: &mut Integration<'_, S, Y, O>,
         increments: &mut [Y; 3],
     ) -> Result<Outcome<S>, IntegrationError<S>> {
-        let tolerances = integration.tolerances;
-        let allowed = (S::from_f64(REST) * tolerances.relative()).maximum(S::from_f64(ROUNDOFF_UNITS) * S::EPSILON);
+        let rtol = integration.tolerances.relative();
+        let allowed = (S::from_f64(REST) * rtol).maximum(S::from_f64(ROUNDOFF_UNITS) * S::EPSILON);
         // Before a second turn tells, the last iteration is trusted, though not entirely.
         self.rest = self.rest.maximum(S::EPSILON).powf(S::from_f64(0.8));
         self.contraction = S::zero();
@@ -143,7 +142,7 @@ impl<S: Real, Y: Vector<S>> StageSolver<S, Y> {
                 integration.progress.advance_by(z);
                 integration.evaluate(integration.progress.time_at(node), rate)?;
             }
-            let size = self.correct(&integration.progress, increments, &tolerances);
+            let size = self.correct(integration, increments);
             if let Some(last_size) = last_size
                 && let Some(retreat) = self.retreat(turn, size / last_size, size / allowed)
             {
@@ -179,12 +178,12 @@ impl<S: Real, Y: Vector<S>> StageSolver<S, Y> {
     }
 
     /// Moves the increments by one correction, and returns its size as the tolerances measure it.
-    fn correct(&mut self, progress: &Progress<S, Y>, increments: &mut [Y; 3], tolerances: &Tolerances<'_, S>) -> S {
+    fn correct<O: Ode<S, Y> + ?Sized>(&mut self, integration: &Integration<'_, S, Y, O>, increments: &mut [Y; 3]) -> S {
         let Self { rates, real, complex, change, .. } = self;
         let Some(decomposed) = &self.decomposed else { return S::from_f64(f64::INFINITY) };
         let (r, c) = (&RADAU_IIA_5.real, &RADAU_IIA_5.complex);
         // Of this step, whichever the decompositions are of: they decide how fast it converges, not where to.
-        let scaled = |x: f64| S::from_f64(x) / progress.step_size();
+        let scaled = |x: f64| S::from_f64(x) / integration.progress.step_size();
         let (lambda, re, im) = (scaled(r.value), scaled(c.value.re), scaled(c.value.im));
         for (i, (real, complex)) in real.as_mut().iter_mut().zip(complex.as_mut()).enumerate() {
             let sum = |weights: [f64; 3], vectors: &[Y; 3]| {
@@ -206,7 +205,7 @@ impl<S: Real, Y: Vector<S>> StageSolver<S, Y> {
                 *change = v * real + (re * complex.re - im * complex.im);
                 *z += *change;
             }
-            size = size.maximum(tolerances.norm(change, &progress.y, &progress.y_new));
+            size = size.maximum(integration.error_norm(change));
         }
         size
     }

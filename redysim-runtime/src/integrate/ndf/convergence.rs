@@ -10,7 +10,6 @@ use super::formula::NdfFormula;
 use crate::integrate::Tolerances;
 use crate::integrate::algorithm::Formula;
 use crate::integrate::integration::Integration;
-use crate::integrate::tolerance::Absolute;
 
 const START: f64 = 0.5;
 const END: f64 = 2.5;
@@ -30,7 +29,7 @@ fn error(t: f64, y: &[f64; 2]) -> f64 {
 
 /// The largest errors at and between the ends of steps, of the formula of `order` with `steps` steps.
 fn errors(kappas: &'static [f64], order: usize, steps: u32) -> [f64; 2] {
-    let tolerances = Tolerances { relative: 1e-13, absolute: Absolute::All(1e-13) };
+    let tolerances = Tolerances::new(1e-13, 1e-13);
     let size = (END - START) / f64::from(steps);
     let mut ode = nonlinear;
     let mut integration = Integration::new(&mut ode, tolerances, START, exact(START)).unwrap();

@@ -94,15 +94,14 @@ impl<S: Real, Y: Vector<S>> CorrectionSolver<S, Y> {
         let mut previous = None;
         for left in (0..MOST_ITERATIONS).rev() {
             integration.evaluate(integration.progress.t_new, &mut self.change)?;
-            let progress = &mut integration.progress;
             let parts = equation.known.as_ref().iter().zip(self.correction.as_ref());
             for (change, (&known, &d)) in self.change.as_mut().iter_mut().zip(parts) {
                 *change = equation.factor * *change - known - d;
             }
             matrix.solve(&mut self.change);
-            let size = tolerances.norm(&self.change, &progress.y, &progress.y_new);
+            let size = integration.error_norm(&self.change);
             add(&mut self.correction, S::one(), &self.change);
-            move_to(progress, equation, &self.correction);
+            move_to(&mut integration.progress, equation, &self.correction);
             if size <= roundoff {
                 return Ok(true);
             }

@@ -7,7 +7,7 @@ use crate::integrate::algorithm::Formula;
 use crate::integrate::implicit::jacobian::jacobian;
 use crate::integrate::integration::{Integration, Progress, zeros};
 use crate::integrate::step::weighted_sum;
-use crate::integrate::{IntegrationError, Ode, Step, Tolerances};
+use crate::integrate::{IntegrationError, Ode, Step};
 use crate::{Real, Vector};
 
 /// The largest correction of a state with which the past is kept, in units of the error that a step is allowed. A
@@ -35,8 +35,8 @@ pub struct NdfFormula<S, Y: Vector<S>> {
     evaluated: Evaluated,
     /// The derivative at the state, if it is evaluated.
     rate: Y,
-    /// rtol max(|y_i|, |y_new,i|, atol_i / rtol), the error that the last step was allowed.
-    allowed: Y,
+    /// The end of the last step before the equation corrected it.
+    end: Y,
     scratch: Y,
     /// rtol over the error that the attempted step would have had with the order below and with the order above; zero
     /// for an order that does not exist.
@@ -65,7 +65,7 @@ impl<S: Real, Y: Vector<S>> NdfFormula<S, Y> {
             equation: Equation { predicted: zero.clone(), known: zero.clone(), factor, matrix_factor },
             evaluated: Evaluated::Derivative,
             rate,
-            allowed: zero.clone(),
+            end: zero.clone(),
             scratch: zero,
             neighbours: [S::zero(); 2],
             restarted: false,
@@ -122,7 +122,7 @@ impl<S: Real, Y: Vector<S>> NdfFormula<S, Y> {
             let products = row.as_ref().iter().zip(self.rate.as_ref());
             *second = products.fold((*second - rate) / (later - t), |sum, (&element, &rate)| sum + element * rate);
         }
-        Ok(integration.tolerances.norm(&self.scratch, &integration.progress.y, &integration.progress.y))
+        Ok(integration.norm_at_state(&self.scratch))
     }
 
     /// The backward differences of the past.
@@ -158,50 +158,45 @@ impl<S: Real, Y: Vector<S>> NdfFormula<S, Y> {
         self.equation.matrix_factor = differences.size() * share;
     }
 
-    /// Notes what error the tolerances allow between the ends of the attempted step.
-    fn allow(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) {
-        let sizes = progress.y.as_ref().iter().zip(progress.y_new.as_ref());
-        for (component, (allowed, (y, z))) in self.allowed.as_mut().iter_mut().zip(sizes).enumerate() {
-            let size = y.abs().maximum(z.abs()).maximum(tolerances.threshold(component));
-            *allowed = tolerances.relative() * size;
-        }
-    }
-
     /// The error of a step of `order` where ∇^{order + 1} is `difference`; `None` if there is no such order.
-    fn error_of(
+    fn error_of<O: Ode<S, Y> + ?Sized>(
         &self,
         order: usize,
         difference: Option<&Y>,
-        progress: &Progress<S, Y>,
-        tolerances: &Tolerances<'_, S>,
+        integration: &Integration<'_, S, Y, O>,
     ) -> Option<S> {
         let formula = Coefficients::new(self.kappas, order)?;
-        Some(S::from_f64(formula.error) * tolerances.norm(difference?, &progress.y, &progress.y_new))
+        Some(S::from_f64(formula.error) * integration.error_norm(difference?))
+    }
+
+    /// Whether the scratch, a difference of states at the end of the last step, is at most `most` errors that the
+    /// tolerances allow.
+    fn is_allowed<O: Ode<S, Y> + ?Sized>(&self, most: f64, integration: &Integration<'_, S, Y, O>) -> bool {
+        let Integration { ode, tolerances, progress: Progress { y_new: old, .. } } = integration;
+        ode.error_norm(tolerances, &self.scratch, old, &self.end) <= S::from_f64(most) * tolerances.relative()
     }
 
     /// Whether a correction of the state is of the size of errors of steps.
-    fn is_correction_small(&self, progress: &Progress<S, Y>) -> bool {
-        let Progress { y, y_new: old, increment, .. } = progress;
-        let ends = y.as_ref().iter().zip(old.as_ref().iter().zip(increment.as_ref()));
-        let most = S::from_f64(LARGEST_CORRECTION);
-        ends.zip(self.allowed.as_ref())
-            .all(|((&y, (&old, &increment)), &allowed)| (y - (old + increment)).abs() <= most * allowed)
+    fn is_correction_small<O: Ode<S, Y> + ?Sized>(&mut self, integration: &Integration<'_, S, Y, O>) -> bool {
+        let Progress { y, y_new: old, increment, .. } = &integration.progress;
+        self.end.clone_from(old);
+        add(&mut self.end, S::one(), increment);
+        self.scratch.clone_from(y);
+        add(&mut self.scratch, -S::one(), &self.end);
+        self.is_allowed(LARGEST_CORRECTION, integration)
     }
 
     /// Whether h f at the corrected state is that at the end of the step, which by the formula of order k was
     /// Σ_{m=1}^k (1/m) ∇^m y_{n+1} − κ γ_k d.
-    fn keeps_its_slope(&mut self) -> bool {
+    fn keeps_its_slope<O: Ode<S, Y> + ?Sized>(&mut self, integration: &Integration<'_, S, Y, O>) -> bool {
         let order = self.differences.order();
         let Some(formula) = Coefficients::new(self.kappas, order) else { return false };
         let shares = (1..=order).map(|m| S::one() / S::from_f64(m as f64));
         weighted_sum(shares, self.differences.all(), &mut self.scratch);
         let kappa_gamma = S::from_f64(formula.error - 1.0 / (order as f64 + 1.0));
         add(&mut self.scratch, -kappa_gamma, &self.newton.correction);
-        let slopes = self.scratch.as_ref().iter().zip(self.rate.as_ref());
-        let (size, most) = (self.differences.size(), S::from_f64(LARGEST_CHANGE_OF_SLOPE));
-        slopes
-            .zip(self.allowed.as_ref())
-            .all(|((&slope, &rate), &allowed)| (size * rate - slope).abs() <= most * allowed)
+        add(&mut self.scratch, -self.differences.size(), &self.rate);
+        self.is_allowed(LARGEST_CHANGE_OF_SLOPE, integration)
     }
 }
 
@@ -232,22 +227,22 @@ impl<S: Real, Y: Vector<S>> Formula<S, Y> for NdfFormula<S, Y> {
             return Err(IntegrationError::NotConverged { t, step });
         }
         self.differences.correct(&self.newton.correction);
-        self.allow(&integration.progress, &integration.tolerances);
         Ok(())
     }
 
-    fn error(&mut self, progress: &Progress<S, Y>, tolerances: &Tolerances<'_, S>) -> S {
+    fn error<O: Ode<S, Y> + ?Sized>(&mut self, integration: &Integration<'_, S, Y, O>) -> S {
         let order = self.differences.order();
         // The error of the order below goes with ∇^k at the end of the step.
         if let Some(old) = self.differences.get(order) {
             self.scratch.clone_from(old);
             add(&mut self.scratch, S::one(), &self.newton.correction);
         }
-        let error_of = |order, difference| self.error_of(order, difference, progress, tolerances);
+        let error_of = |order, difference| self.error_of(order, difference, integration);
         let lower = error_of(order.saturating_sub(1), Some(&self.scratch));
         let higher = error_of(order + 1, self.differences.get(order + 2));
         let error = error_of(order, self.differences.get(order + 1)).unwrap_or(S::from_f64(f64::INFINITY));
-        self.neighbours = [lower, higher].map(|error| error.map_or(S::zero(), |error| tolerances.relative() / error));
+        let rtol = integration.tolerances.relative();
+        self.neighbours = [lower, higher].map(|error| error.map_or(S::zero(), |error| rtol / error));
         error
     }
 
@@ -272,9 +267,9 @@ impl<S: Real, Y: Vector<S>> Formula<S, Y> for NdfFormula<S, Y> {
         // derivative stays what it was: near a singular position of closed loops a projection moves velocities by
         // rounding errors over the distance from it, step after step, whatever their size. After any other the past is
         // that of another solution, and nothing but the derivative is left of it.
-        if corrected && !self.is_correction_small(&integration.progress) {
+        if corrected && !self.is_correction_small(integration) {
             self.evaluate(integration)?;
-            if !self.keeps_its_slope() {
+            if !self.keeps_its_slope(integration) {
                 self.differences.restart(&self.rate);
                 self.restarted = true;
             }

@@ -19,7 +19,7 @@ use eigenvalues::{Row, eigenvalues, matrix};
 
 use super::implicit::jacobian::jacobian;
 use super::integration::{Integration, zeros};
-use super::tolerance::{Absolute, Tolerances};
+use super::tolerance::Tolerances;
 use super::{FixedStep, IntegrationError, Ode};
 use crate::vector::entry;
 use crate::{Real, Vector};
@@ -117,7 +117,7 @@ pub fn largest_stable_step<S: Real, Y: Vector<S>, M: LinearStability>(
 ) -> Result<StableStep<S>, IntegrationError<S>> {
     let _ = method;
     // Differences, where they are needed, are those of components of size 1.
-    let unit = Tolerances { relative: S::one(), absolute: Absolute::All(S::one()) };
+    let unit = Tolerances::new(S::one(), S::one());
     let mut integration = Integration::new(ode, unit, t, y.clone())?;
     let mut rate = zeros(y);
     integration.evaluate(t, &mut rate)?;

@@ -15,7 +15,6 @@ pub use variable_order::VariableOrder;
 
 use super::algorithm::{Algorithm, Formula};
 use super::integration::Integration;
-use super::tolerance::Tolerances;
 use super::{IntegrationError, Ode};
 use crate::{Real, Vector};
 
@@ -84,7 +83,7 @@ impl<S: Real, Y: Vector<S>, F: Formula<S, Y>> StepControl<S, Y, F> for Elementar
         integration: &mut Integration<'_, S, Y, O>,
         _reach: S,
     ) -> Result<S, IntegrationError<S>> {
-        Ok(first_size(formula.rate(), &integration.progress.y, &integration.tolerances, self.error_exponent))
+        Ok(first_size(formula.rate(), integration, self.error_exponent))
     }
 
     fn shrink(&mut self, _formula: &mut F, trial: Trial<S>) -> S {
@@ -99,9 +98,14 @@ impl<S: Real, Y: Vector<S>, F: Formula<S, Y>> StepControl<S, Y, F> for Elementar
     }
 }
 
-/// The size with which a first-order step would change the state `y` by 0.8 rtol^(1/exponent) of itself.
-fn first_size<S: Real, Y: Vector<S>>(rate: &Y, y: &Y, tolerances: &Tolerances<'_, S>, error_exponent: u32) -> S {
-    S::from_f64(SAFETY) * tolerances.relative().powf(root(error_exponent)) / tolerances.norm(rate, y, y)
+/// The size with which a first-order step would change the state that is reached by 0.8 rtol^(1/exponent) of itself.
+fn first_size<S: Real, Y: Vector<S>, O: Ode<S, Y> + ?Sized>(
+    rate: &Y,
+    integration: &Integration<'_, S, Y, O>,
+    error_exponent: u32,
+) -> S {
+    let rtol = integration.tolerances.relative();
+    S::from_f64(SAFETY) * rtol.powf(root(error_exponent)) / integration.norm_at_state(rate)
 }
 
 /// The factor to the size of a rejected step.

@@ -42,7 +42,7 @@ impl<S: Real, Y: Vector<S>> StepControl<S, Y, Radau<S, Y>> for Predictive<S> {
         integration: &mut Integration<'_, S, Y, O>,
         _reach: S,
     ) -> Result<S, IntegrationError<S>> {
-        Ok(first_size(formula.rate(), &integration.progress.y, &integration.tolerances, self.error_exponent))
+        Ok(first_size(formula.rate(), integration, self.error_exponent))
     }
 
     /// After an iteration that failed, the factor is the one that its rate of convergence calls for.

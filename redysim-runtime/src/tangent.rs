@@ -1,0 +1,71 @@
+//! Small changes of a configuration as velocities: errors of coordinates, weighed on the tangent.
+
+use core::ops::Range;
+
+use crate::integrate::{Tolerances, finite};
+use crate::vector::entry;
+use crate::{ConfigurationSpace, Real, Vector, VelocityCoordinates};
+
+/// [`Ode::error_norm`](crate::Ode::error_norm) of a simulation of `mechanism`: where it has as many coordinates as
+/// velocities, [`Tolerances::norm`].
+pub(crate) fn error_norm<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    tolerances: &Tolerances<'_, S>,
+    error: &Y,
+    (y, z): (&Y, &Y),
+) -> S {
+    let (nq, nv) = (mechanism.nq(), mechanism.nv());
+    if nq == nv {
+        return tolerances.norm(error, y, z);
+    }
+    let moved = displacement(mechanism, error, z);
+    let by_itself = |component: usize| {
+        let size = entry(y, component).abs().maximum(entry(z, component).abs());
+        tolerances.weighed(component, entry(error, component), size)
+    };
+    // The smallest absolute tolerance, which is that with the largest share.
+    let by_all = |components: Range<usize>, along: S, size: S| {
+        components.fold(S::zero(), |norm, component| norm.maximum(tolerances.weighed(component, along, size)))
+    };
+    let of_velocity = |velocity: usize| {
+        let along = entry(&moved, velocity);
+        match mechanism.coordinates_of_velocity(velocity) {
+            VelocityCoordinates::One(component) => by_itself(component),
+            VelocityCoordinates::Position(first) => {
+                let components = first..first + 3;
+                let distance = length(y, components.clone()).maximum(length(z, components.clone()));
+                by_all(components, along, distance)
+            }
+            VelocityCoordinates::Quaternion(first) => by_all(first..first + 4, along, S::one()),
+            VelocityCoordinates::Unknown => by_all(0..nq, along, S::one()),
+        }
+    };
+    let norm = (0..nv).fold(S::zero(), |norm, velocity| norm.maximum(of_velocity(velocity)));
+    finite((nq..error.as_ref().len()).fold(norm, |norm, component| norm.maximum(by_itself(component))))
+}
+
+/// N⁺ dq: the velocities that, over a unit of time, move the coordinates of `state` by those of `change` to first order.
+///
+/// The logarithm of a large change is not proportional to it, and rounding leaves nothing of a small one: it is that of a
+/// change of a given size.
+fn displacement<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    change: &Y,
+    state: &Y,
+) -> M::Velocities {
+    let (nq, nv) = (mechanism.nq(), mechanism.nv());
+    let size = length(change, 0..nq);
+    if size == S::zero() {
+        return M::Velocities::from_fn(nv, |_| S::zero());
+    }
+    let share = S::EPSILON.sqrt().sqrt() / size;
+    let from = M::Coordinates::from_fn(nq, |i| entry(state, i));
+    let to = M::Coordinates::from_fn(nq, |i| entry(state, i) + share * entry(change, i));
+    let moved = mechanism.difference(&from, &to);
+    M::Velocities::from_fn(nv, |i| entry(&moved, i) / share)
+}
+
+/// √Σ yᵢ² of some components.
+fn length<S: Real, Y: Vector<S>>(y: &Y, components: Range<usize>) -> S {
+    components.fold(S::zero(), |sum, i| sum + entry(y, i) * entry(y, i)).sqrt()
+}

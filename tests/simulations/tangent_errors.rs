@@ -1,0 +1,191 @@
+//! Steps from tolerances weigh errors of an orientation on the tangent: how a body is turned at the start changes
+//! neither their number nor their sizes.
+#![cfg(feature = "generic")]
+
+use crate::common::methods::{WithMethod, every_adaptive};
+use crate::common::models::generic;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3, Vector4};
+use redysim::integrate::Tolerances;
+use redysim::{
+    Dop853, ForwardDynamics, ForwardSimulation, Integrator, Mechanism, Ode, Statistics, Step, Vector,
+    VelocityCoordinates, ZeroTorque, redysim,
+};
+
+redysim! {
+    /// A body that turns about a point.
+    pub struct Body(
+        "models/spherical_pendulum.toml",
+        functions = [forward_dynamics],
+        parameters = ["gravity"]
+    );
+}
+
+redysim! {
+    /// A body that moves freely.
+    pub struct Parcel("models/parcel.toml", functions = [forward_dynamics], parameters = ["gravity"]);
+}
+
+type Simulation<'m, M> = ForwardSimulation<'m, M, ZeroTorque>;
+
+/// (x, y, z, w) of the rotation `turn` after that of the quaternion `q`.
+fn turned_quaternion(turn: &UnitQuaternion<f64>, q: &[f64]) -> Vector4<f64> {
+    (turn.quaternion() * Quaternion::new(q[3], q[0], q[1], q[2])).coords
+}
+
+/// The state of a mechanism whose first joint turns about a point or moves freely, in axes of the base that are turned.
+fn turned<Y: Vector<f64>>(turn: &UnitQuaternion<f64>, mechanism: &impl Mechanism, state: &Y) -> Y {
+    let mut state = state.clone();
+    let y = state.as_mut();
+    let first = if mechanism.coordinates_of_velocity(0) == VelocityCoordinates::Position(0) { 3 } else { 0 };
+    if first == 3 {
+        let position = turn * Vector3::new(y[0], y[1], y[2]);
+        y[..3].copy_from_slice(position.as_slice());
+    }
+    let q = turned_quaternion(turn, &y[first..first + 4]);
+    y[first..first + 4].copy_from_slice(q.as_slice());
+    state
+}
+
+/// Turns of which one leaves a quaternion of few components, one exchanges axes, and others do neither.
+fn turns() -> Vec<UnitQuaternion<f64>> {
+    let vectors = [[0.0; 3], [0.0, 0.0, 3.0], [-1.3, 0.4, 2.2], [0.7, -2.1, 0.3], [1e-3, 0.0, -0.5]];
+    vectors.map(|vector| UnitQuaternion::new(Vector3::from(vector))).into()
+}
+
+/// Holds the steps from each of several states against those from the first.
+struct SameSteps<'m, M, Y> {
+    mechanism: &'m M,
+    starts: Vec<Y>,
+    end: f64,
+    largest_difference: f64,
+}
+
+impl<M: ForwardDynamics<f64>, Y: Vector<f64>> WithMethod for SameSteps<'_, M, Y> {
+    fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
+        let runs = self.starts.iter().map(|start| {
+            let mut times = Vec::new();
+            let mut simulation: Simulation<'_, M> = ForwardSimulation::new(self.mechanism, ZeroTorque);
+            let on_step = |step: &Step<'_, f64, Y>| times.push(step.end().0);
+            let end = method.each_step(&mut simulation, (0.0, self.end), start.clone(), on_step).expect("it moves");
+            (end.statistics, times)
+        });
+        let runs: Vec<(Statistics, Vec<f64>)> = runs.collect();
+        let (expected, times) = &runs[0];
+        for (statistics, others) in &runs {
+            // Evaluations may differ by those after corrections of the length, which are left out where it is one to rounding.
+            let counts = |s: &Statistics| (s.steps, s.rejected);
+            assert_eq!(counts(statistics), counts(expected), "{name}");
+            for (one, other) in times.iter().zip(others) {
+                self.largest_difference = self.largest_difference.max((one - other).abs() / self.end);
+            }
+        }
+        println!("{name}: {expected:?}, times differ by {:.1e} at most", self.largest_difference);
+    }
+}
+
+fn assert_same_steps<M: ForwardDynamics<f64>, Y: Vector<f64>>(mechanism: &M, start: Y, end: f64) {
+    let starts = turns().iter().map(|turn| turned(turn, mechanism, &start)).collect();
+    let mut same = SameSteps { mechanism, starts, end, largest_difference: 0.0 };
+    for rtol in [1e-3, 1e-5, 1e-7] {
+        every_adaptive(rtol, 1e-3 * rtol, &mut same);
+    }
+    // Roundings of 1e-16 in errors of 1e-7 and less, over many steps.
+    assert!(same.largest_difference < 1e-8, "{:e}", same.largest_difference);
+}
+
+const SPIN: [f64; 3] = [1.0, 7.0, -2.0];
+
+#[test]
+fn a_body_that_is_turned_at_the_start_takes_the_same_steps() {
+    let body = Body::new(&[0.0; 3]);
+    let start: [f64; 8] = ForwardSimulation::new(&body, ZeroTorque).state(&[0.0, 0.0, 0.0, 1.0], &SPIN);
+    assert_same_steps(&body, start, 4.0);
+}
+
+#[test]
+fn a_body_that_is_thrown_in_axes_that_are_turned_takes_the_same_steps() {
+    let parcel = Parcel::new(&[0.0; 3]);
+    let (q, v) = ([0.2, -0.1, 0.3, 0.0, 0.0, 0.0, 1.0], [2.0, -3.0, 1.0, 0.3, 4.0, -0.2]);
+    let start: [f64; 14] = ForwardSimulation::new(&parcel, ZeroTorque).state(&q, &v);
+    assert_same_steps(&parcel, start, 4.0);
+}
+
+#[test]
+fn the_generic_path_takes_the_steps_of_the_compiled_one() {
+    let (body, generic) = (Body::new(&[0.0, 0.0, -9.81]), generic("spherical_pendulum"));
+    let (q, v) = ([0.1, -0.2, 0.3, (1.0_f64 - 0.14).sqrt()], SPIN);
+    let method = Dop853::new().rtol(1e-6).atol(1e-9);
+    let compiled: [f64; 8] = ForwardSimulation::new(&body, ZeroTorque).state(&q, &v);
+    let compiled = method.integrate(&mut ForwardSimulation::new(&body, ZeroTorque), (0.0, 3.0), compiled);
+    let mut simulation = ForwardSimulation::new(&generic, ZeroTorque);
+    let start = simulation.state(&q.to_vec(), &v.to_vec());
+    let by_generic = method.integrate(&mut simulation, (0.0, 3.0), start);
+    let [one, other] = [compiled.expect("it turns").statistics, by_generic.expect("it turns").statistics];
+    assert_eq!((one.steps, one.rejected), (other.steps, other.rejected));
+}
+
+/// The angle by which a body that is let spin for 4 s is turned wrongly at the end, in rad, over a range of tolerances.
+struct Proportional {
+    exact: [f64; 8],
+    rtol: f64,
+    errors: Vec<(String, f64, f64)>,
+}
+
+impl WithMethod for Proportional {
+    fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
+        let body = Body::new(&[0.0; 3]);
+        let mut simulation = ForwardSimulation::new(&body, ZeroTorque);
+        let start: [f64; 8] = simulation.state(&[0.0, 0.0, 0.0, 1.0], &SPIN);
+        let y = method.integrate(&mut simulation, (0.0, 4.0), start).expect("it turns").y;
+        let quaternion = |y: &[f64; 8]| UnitQuaternion::from_quaternion(Quaternion::new(y[3], y[0], y[1], y[2]));
+        let angle = quaternion(&y).angle_to(&quaternion(&self.exact));
+        println!("{name}, {:.0e}: {angle:.1e} rad", self.rtol);
+        self.errors.push((name.to_owned(), self.rtol, angle));
+    }
+}
+
+/// Over six decades the error as a multiple of the tolerance changes by less than a factor of 30; that of `Ode15s`, whose
+/// steps are many, is the largest.
+#[test]
+fn the_error_of_an_orientation_is_proportional_to_the_tolerance() {
+    let body = Body::new(&[0.0; 3]);
+    let mut simulation = ForwardSimulation::new(&body, ZeroTorque);
+    let start: [f64; 8] = simulation.state(&[0.0, 0.0, 0.0, 1.0], &SPIN);
+    let exact =
+        Dop853::new().rtol(1e-13).atol(1e-15).integrate(&mut simulation, (0.0, 4.0), start).expect("it turns").y;
+    let mut proportional = Proportional { exact, rtol: 0.0, errors: Vec::new() };
+    for rtol in [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10] {
+        proportional.rtol = rtol;
+        every_adaptive(rtol, 1e-3 * rtol, &mut proportional);
+    }
+    for name in ["Ode45", "Dop853", "Ode15s", "Radau5"] {
+        let shares = proportional.errors.iter().filter(|(of, ..)| of == name).map(|(_, rtol, angle)| angle / rtol);
+        let (least, most) = shares.fold((f64::INFINITY, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
+        println!("{name}: {least:.1} to {most:.1} times the tolerance");
+        assert!(most < 1e3 && most < 30.0 * least, "{name}: {least} to {most}");
+    }
+}
+
+/// A turn by a given angle has that size for each orientation and each axis, and a change of the length alone has none.
+#[test]
+fn an_error_of_an_orientation_is_as_large_as_its_angle() {
+    let body = Body::new(&[0.0; 3]);
+    let simulation = ForwardSimulation::new(&body, ZeroTorque);
+    let tolerances = Tolerances::new(1e-6, 1e-9);
+    for turn in turns() {
+        let start: [f64; 8] = simulation.state(&[0.0, 0.0, 0.0, 1.0], &[0.0; 3]);
+        let start = turned(&turn, &body, &start);
+        for (axis, angle) in [(0, 1e-3), (1, 1e-7), (2, 3.0)] {
+            let mut along = [0.0; 4];
+            along[axis] = 0.5 * angle;
+            let mut error = [0.0; 8];
+            let vector = turn.quaternion() * Quaternion::new(along[3], along[0], along[1], along[2]);
+            error[..4].copy_from_slice(vector.coords.as_slice());
+            let size = simulation.error_norm(&tolerances, &error, &start, &start);
+            assert!((size / angle - 1.0).abs() < 1e-6, "{size:e} instead of {angle:e}");
+        }
+        let mut lengthened = start.map(|x| 1e-3 * x);
+        lengthened[4..].fill(0.0);
+        assert!(simulation.error_norm(&tolerances, &lengthened, &start, &start) < 1e-14);
+    }
+}
