@@ -7,9 +7,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import imported
 import processor
 import robots as robot_files
-from programs import FUNCTIONS, PROGRAMS, SPECIAL, Program
+from programs import FUNCTIONS, LANED, PROGRAMS, Program
 
 HERE = Path(__file__).parent.parent
 SOURCES = HERE / "programs"
@@ -110,7 +111,16 @@ class Builder:
         source = SOURCES / "timer.c"
         self._make(self.built / "timer", [source], ["gcc", "-O2", source, "-o", self.built / "timer", "-ldl"])
 
+    def _imported(self) -> None:
+        """The robots of the package example-robot-data, all of them: redysim's library has every robot."""
+        target = self.built / "urdf/cargo"
+        command = ["cargo", "build", "--release", "--quiet", "--package", "redysim-cli", "--target-dir", target]
+        self._run([*command, "--manifest-path", REPOSITORY / "Cargo.toml"])
+        for name in robot_files.FREE:
+            imported.write(name, target / "release/redysim", self.packages, self.built)
+
     def redysim(self) -> None:
+        self._imported()
         features = ["--features", "lanes"] if has_lanes() else []
         self._cargo("redysim", "native", "-C target-cpu=native", features)
         self._cargo("redysim", "baseline", "", features)
@@ -168,24 +178,25 @@ class Builder:
             self._make(target, [source, *shared], command)
 
     def _robot_files(self, name: str) -> None:
-        robot = robot_files.read(name)
-        folder = self.built / "robots"
-        folder.mkdir(exist_ok=True)
-        (folder / f"{name}.urdf").write_text(robot_files.urdf(robot))
-        (folder / f"{name}.xml").write_text(robot_files.mjcf(robot))
+        robot = robot_files.read(robot_files.path(name, "txt", self.built))
+        (self.built / "robots").mkdir(exist_ok=True)
+        robot_files.path(name, "urdf", self.built).write_text(robot_files.urdf(robot))
+        robot_files.path(name, "xml", self.built).write_text(robot_files.mjcf(robot))
 
     def _cppadcodegen(self, name: str, function: str) -> None:
-        robot, folder = robot_files.FOLDER / f"{name}.txt", self.built / "generated" / name / function
+        robot = robot_files.path(name, "txt", self.built)
+        folder = self.built / "generated" / name / function
         code = folder / "cppadcodegen.c"
         generator = self.built / "cppadcodegen"
         self._make(code, [robot, _stamp(generator)], [generator, robot, function, code])
         for lanes, ending in [(1, ""), (8, "_x8")]:
-            if lanes == 1 or name in SPECIAL:
+            if lanes == 1 or name in LANED:
                 words = [f'-DSOURCE="{code}"', f"-DSYMBOL={function}", f"-DLANES={lanes}"]
                 self._generated(folder / f"cppadcodegen{ending}.so", code, "generated.c", words, f"{name} {function}")
 
     def _casadi(self, name: str, function: str) -> None:
-        robot, folder = robot_files.FOLDER / f"{name}.txt", self.built / "generated" / name / function
+        robot = robot_files.path(name, "txt", self.built)
+        folder = self.built / "generated" / name / function
         code = folder / "casadi" / f"{function}.c"
         code.parent.mkdir(parents=True, exist_ok=True)
         generator = self.built / "casadi"

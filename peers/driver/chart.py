@@ -4,7 +4,7 @@ from math import floor, log10
 from xml.sax.saxutils import escape
 
 import robots
-from programs import BY_KEY, FUNCTIONS, SPECIAL
+from programs import BY_KEY, FUNCTIONS, LANED
 from results import Times
 
 # Peers in cold and grey tones, redysim in warm ones.
@@ -101,8 +101,8 @@ def drawn(times: Times, titles: dict[str, str]) -> str:
         groups = [(titles[name], _bars(times, scalar, name, function)) for name in names]
         drawing.panel(top, title[0].upper() + title[1:], "ns per call", groups, scalar)
         top += PANEL + GAP
-    special = [name for name in SPECIAL if name in names]
-    groups = [(f"{titles[n]}, {FUNCTIONS[f]}", _bars(times, LANES, n, f)) for n in special for f in FUNCTIONS]
+    laned = [name for name in LANED if name in names]
+    groups = [(f"{titles[n]}, {FUNCTIONS[f]}", _bars(times, LANES, n, f)) for n in laned for f in FUNCTIONS]
     groups = [(_short(name), bars) for name, bars in groups if bars]
     if groups:
         colours = {key: colour for key, colour in LANES.items() if any(key in bars for _, bars in groups)}

@@ -16,6 +16,7 @@ from programs import REFERENCE
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="peers/run", description="redysim's speed beside that of other programs")
     parser.add_argument("--only", metavar="ROBOTS", help=f"these robots, by commas, of {','.join(robots.NAMES)}")
+    parser.add_argument("--keep-as", metavar="PART", help="with --only: keep the run beside that on all robots")
     parser.add_argument("--core", type=int, default=1, help="the core that programs run on (1)")
     parser.add_argument("--skip-build", action="store_true", help="take what is built as it is")
     parser.add_argument("--skip-peers", action="store_true", help="build redysim alone, take the others as they are")
@@ -33,13 +34,15 @@ def main() -> None:
     unknown = [name for name in names if name not in robots.NAMES]
     if unknown:
         raise SystemExit(f"peers: there is no robot {unknown[0]}; there are {', '.join(robots.NAMES)}")
+    if chosen.keep_as and len(names) == len(robots.NAMES):
+        raise SystemExit("peers: --keep-as is for a run on some robots: name them with --only")
     folder, docs = stored.FOLDER, build.REPOSITORY / "docs"
     if not chosen.report_only:
         found = run(chosen, names)
         if found is None:
             return
         # Some robots alone do not replace a run on all.
-        if found["partial"]:
+        if found["partial"] and "part" not in found:
             folder, docs = chosen.built / "results", chosen.built / "docs"
         print(f"written: {stored.save(found, folder)}")
     report.write(stored.load(folder), docs)
@@ -82,6 +85,7 @@ def run(chosen: argparse.Namespace, names: list[str]) -> dict | None:
         "processor": processor.described(processor.cpuinfo()),
         "date": date.today().isoformat(),
         "partial": len(names) < len(robots.NAMES),
+        **({"part": chosen.keep_as} if chosen.keep_as else {}),
         "pinned": results.pinned,
         **report.made_with(),
         "times": stored.recorded(results.times),

@@ -82,42 +82,52 @@ class Bench:
             return [], "not pinned to a core"
 
     def states(self, robot: str) -> numpy.ndarray:
-        """Random coordinates, velocities, and accelerations or forces: ±π rad, ±3 rad/s, ±10 rad/s² or N m."""
-        joints = robot_files.read(robot).joints
-        random = numpy.random.default_rng(20120611).uniform(-1, 1, (STATES, 3, joints))
-        return (random * numpy.array([numpy.pi, 3, 10])[None, :, None]).reshape(STATES, 3 * joints)
+        """Random coordinates, velocities, and accelerations or forces: ±π rad, ±3 rad/s, ±10 rad/s² or N m; of a free
+        base a position within ±1 m and any orientation, ±3 m/s, ±10 m/s² or N."""
+        known = self.robot(robot)
+        random = numpy.random.default_rng(20120611)
+        states = random.uniform(-1, 1, (STATES, known.nq + 2 * known.nv))
+        states[:, : known.nq] *= numpy.pi
+        states[:, known.nq :] *= numpy.repeat([3, 10], known.nv)
+        if known.links[0].free:
+            states[:, :3] /= numpy.pi
+            quaternions = random.normal(size=(STATES, 4))
+            states[:, 3:7] = quaternions / numpy.linalg.norm(quaternions, axis=1, keepdims=True)
+        return states
+
+    def robot(self, name: str) -> robot_files.Robot:
+        return robot_files.read(robot_files.path(name, "txt", self.built))
 
     def command(self, mode: str, program: Program, robot: str, function: str, states: Path) -> list[str]:
-        joints = robot_files.read(robot).joints
-        folders = {"txt": robot_files.FOLDER, "toml": robot_files.FOLDER.parent.parent / "models/peers"}
-        folder = folders.get(program.robot_file, self.built / "robots")
+        known = self.robot(robot)
         return [
             str(self.built / "timer"),
             mode,
             str(program.library_of(self.built, robot, function)),
             program.symbol_of(robot, function),
-            str(folder / f"{robot}.{program.robot_file}"),
+            str(robot_files.path(robot, program.robot_file, self.built)),
             str(states),
             program.scalar,
             str(program.lanes),
-            str(3 * joints),
-            str(joints * joints if function == "mass" else joints),
+            str(known.nq + 2 * known.nv),
+            str(known.nv * known.nv if function == "mass" else known.nv),
         ]
 
     def write_states(self, robot: str, states: numpy.ndarray, name: str = "states") -> Path:
-        path = self.built / "robots" / f"{robot}.{name}"
+        path = robot_files.path(robot, name, self.built)
         states.astype(numpy.float64).tofile(path)
         return path
 
     def result(self, program: Program, robot: str, function: str) -> numpy.ndarray:
         """What the program says at the states, one row for each."""
-        known = robot_files.read(robot)
-        joints = known.joints
-        order = known.breadth_first() if program.breadth_first else list(range(joints))
+        known = self.robot(robot)
+        links = known.breadth_first() if program.breadth_first else list(range(known.joints))
+        coordinates, order = (known.numbered(links, sizes) for sizes in (known.coordinates, known.velocities))
+        columns = [*coordinates, *(known.nq + v for v in order), *(known.nq + known.nv + v for v in order)]
         # With gravity k g, a motion is √k faster: τ(q, √k v, k a; k g) = k τ(q, v, a; g), and the same the other way.
         k = program.gravity / 9.81
-        scale = numpy.array([1, numpy.sqrt(k), k])[None, :, None]
-        states = self.states(robot).reshape(STATES, 3, joints)[:, :, order] * scale
+        scale = numpy.repeat([1, numpy.sqrt(k), k], [known.nq, known.nv, known.nv])
+        states = self.states(robot)[:, columns] * scale
         command = self.command("check", program, robot, function, self.write_states(robot, states, "checked"))
         ran = subprocess.run(command, capture_output=True)
         if ran.returncode != 0:
@@ -127,7 +137,7 @@ class Bench:
         back = numpy.argsort(order)
         if function != "mass":
             return values[:, back] / k
-        matrices = values.reshape(STATES, joints, joints)
+        matrices = values.reshape(STATES, known.nv, known.nv)
         if program.upper:
             upper = numpy.triu(matrices.transpose(0, 2, 1))
             matrices = upper + numpy.triu(upper, 1).transpose(0, 2, 1)
@@ -206,8 +216,8 @@ class Bench:
         return found
 
     def _task(self, symbol: str, results: Results) -> float:
-        states = self.built / "robots" / "gripper.states"
-        robot = robot_files.FOLDER.parent.parent / "models/peers/gripper.toml"
+        states = robot_files.path("gripper", "states", self.built)
+        robot = robot_files.path("gripper", "toml", self.built)
         library = REFERENCE.library_of(self.built, "gripper", "inverse")
         command = [
             str(self.built / "timer"),

@@ -3,8 +3,12 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from robots import FREE
+
 FUNCTIONS = {"inverse": "inverse dynamics", "forward": "forward dynamics", "mass": "mass matrix"}
 SPECIAL = ["kr5", "gripper", "humanoid30"]
+# The robots whose functions take several states at once, too.
+LANED = [*SPECIAL, *FREE]
 
 
 @dataclass(frozen=True)
@@ -75,9 +79,9 @@ PROGRAMS = [
         "{function}",
         "txt",
         lanes=8,
-        robots=tuple(SPECIAL),
+        robots=tuple(LANED),
     ),
-    _ours("f64x8", "redysim, f64 × 8", NATIVE, "{robot}_{function}_f64x8", lanes=8, robots=tuple(SPECIAL)),
+    _ours("f64x8", "redysim, f64 × 8", NATIVE, "{robot}_{function}_f64x8", lanes=8, robots=tuple(LANED)),
     _ours(
         "f32x16",
         "redysim, f32 × 16",
@@ -85,7 +89,7 @@ PROGRAMS = [
         "{robot}_{function}_f32x16",
         scalar="f32",
         lanes=16,
-        robots=tuple(SPECIAL),
+        robots=tuple(LANED),
     ),
 ]
 BY_KEY = {program.key: program for program in PROGRAMS}

@@ -9,7 +9,7 @@ import processor
 import robots as robot_files
 from markdown import nanoseconds, paragraph, table
 from programs import FUNCTIONS
-from results import Times
+from results import Times, subject
 from section import TITLES, section, title
 
 DRIVER = Path(__file__).parent
@@ -51,7 +51,7 @@ def _is_drawn(run: dict) -> bool:
 
 
 def picture_of(run: dict) -> str:
-    return f"pictures/peers_{processor.slug(run['processor']['name'])}.svg"
+    return f"pictures/peers_{processor.slug(subject(run))}.svg"
 
 
 def text(runs: list[dict]) -> str:

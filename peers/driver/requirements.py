@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from programs import FUNCTIONS, PEERS, SPECIAL
+from robots import FREE
 from results import Times
 
 # What the ReDySim paper reports for its own tasks, s, on a processor of 2006 at 1.66 GHz.
@@ -70,4 +71,14 @@ def outcomes(times: Times) -> list[Outcome]:
         2.0,
     )
     ask("f64, 30-joint tree, against CppADCodeGen", ["humanoid30"], every, ["cppadcodegen"], "native_f64", 1.8)
+    ask("f64, free base, against the faster of CppADCodeGen and CasADi", FREE, every, generators, "native_f64", 3.0)
+    ask("f64, free base, against Pinocchio", FREE, every, ["pinocchio"], "native_f64", 10.0)
+    ask(
+        "f64 × 8, free base, per state, against CppADCodeGen's 8-state code",
+        FREE,
+        every,
+        ["cppadcodegen_x8"],
+        "f64x8",
+        2.0,
+    )
     return found

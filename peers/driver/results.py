@@ -59,13 +59,24 @@ def recorded(times: dict) -> dict[str, list[float]]:
     return {" ".join(key): [_short(time) for time in repeated] for key, repeated in times.items()}
 
 
+def subject(results: dict) -> str:
+    """What the run is of: its processor, and the part that it is, if that is kept beside a run on all robots."""
+    name = results["processor"]["name"]
+    return f"{name}, {results['part']}" if "part" in results else name
+
+
 def path_in(folder: Path, results: dict) -> Path:
-    return folder / (processor.slug(results["processor"]["name"]) + ".json")
+    return folder / (processor.slug(subject(results)) + ".json")
 
 
 def save(results: dict, folder: Path) -> Path:
-    """Adds the run to the folder, in place of the one on the same processor."""
+    """Adds the run to the folder, in place of the one on the same processor; one on all robots replaces parts, too."""
     folder.mkdir(parents=True, exist_ok=True)
+    for path in folder.glob("*.json"):
+        kept = json.loads(path.read_text())
+        same_processor = kept["processor"]["name"] == results["processor"]["name"]
+        if same_processor and "part" in kept and not results["partial"]:
+            path.unlink()
     path = path_in(folder, results)
     path.write_text(_written(results))
     return path

@@ -2,14 +2,16 @@
 
 import robots as robot_files
 from markdown import item, nanoseconds, paragraph, table
-from programs import FUNCTIONS, PROGRAMS, REFERENCE, SPECIAL
+from programs import FUNCTIONS, LANED, PROGRAMS, REFERENCE
 from requirements import PAPER, outcomes
-from results import Times
+from results import Times, subject
 
 TITLES = {
     "kr5": "KR5",
     "gripper": "gripper",
     "humanoid30": "tree of 30",
+    "anymal": "ANYmal",
+    "talos": "TALOS",
     **{f"chain{n}": f"chain of {n}" for n in (10, 20, 40, 80)},
 }
 
@@ -23,7 +25,7 @@ def section(run: dict, picture: str | None) -> str:
 
 
 def title(run: dict) -> str:
-    return f"{run['processor']['name']}, {run['date']}"
+    return f"{subject(run)}, {run['date']}"
 
 
 def _head(run: dict) -> str:
@@ -97,7 +99,7 @@ def _lanes(times: Times) -> str:
     programs = [p for p in PROGRAMS if p.lanes > 1 and p.key in times.programs()]
     if not programs:
         return ""
-    pairs = [(name, function) for name in SPECIAL if name in times.robots() for function in FUNCTIONS]
+    pairs = [(name, function) for name in LANED if name in times.robots() for function in FUNCTIONS]
     rows = [
         [f"{TITLES[name]}, {FUNCTIONS[function]}", *(nanoseconds(times.of(p.key, name, function)) for p in programs)]
         for name, function in pairs

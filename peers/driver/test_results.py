@@ -58,6 +58,41 @@ class Runs(unittest.TestCase):
         self.assertIn("## B, 2026-01-02", page)
         self.assertNotIn("2026-01-01", page)
 
+    def test_a_part_stands_beside_the_run_on_all_robots_until_the_next_of_these(self):
+        def titles(runs: list[dict]) -> list[str]:
+            return [line for line in report.text(runs).splitlines() if line.startswith("## A")]
+
+        part = {**run("A", "2026-01-02", {"native_f64 anymal inverse": [2.0]}), "partial": True, "part": "free bases"}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            results.save(run("A", "2026-01-01", {"native_f64 kr5 inverse": [1.0]}), folder)
+            results.save(part, folder)
+            self.assertEqual(titles(results.load(folder)), ["## A, 2026-01-01", "## A, free bases, 2026-01-02"])
+            results.save({**part, "date": "2026-01-03"}, folder)
+            self.assertEqual(titles(results.load(folder)), ["## A, 2026-01-01", "## A, free bases, 2026-01-03"])
+            results.save(run("A", "2026-01-04", {"native_f64 kr5 inverse": [1.0]}), folder)
+            self.assertEqual(titles(results.load(folder)), ["## A, 2026-01-04"])
+
+    def test_robots_on_free_bases_are_held_against_their_own_bounds(self):
+        times = {
+            "native_f64 anymal inverse": [10.0],
+            "casadi anymal inverse": [31.0],
+            "cppadcodegen anymal inverse": [29.0],
+            "pinocchio anymal inverse": [101.0],
+            "f64x8 talos mass": [3.0],
+            "cppadcodegen_x8 talos mass": [6.0],
+        }
+        found = outcomes(results.Times(run("A", "", times)))
+        met = {(o.robot, o.function, o.least): (o.ratio, o.met) for o in found if o.ratio is not None}
+        self.assertEqual(
+            met,
+            {
+                ("anymal", "inverse", 3.0): (2.9, "**no**"),
+                ("anymal", "inverse", 10.0): (10.1, "yes"),
+                ("talos", "mass", 2.0): (2.0, "yes"),
+            },
+        )
+
     def test_what_is_saved_is_read_again(self):
         with tempfile.TemporaryDirectory() as folder:
             saved = run("A", "2026-01-01", results.recorded({("native_f64", "kr5", "inverse"): [12.3456, 12.4]}))

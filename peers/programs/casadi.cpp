@@ -15,8 +15,8 @@ int main(int count, char ** arguments)
   }
   using Scalar = casadi::SX;
   const auto model = read_robot(arguments[1]).cast<Scalar>();
-  const Scalar symbols = Scalar::sym("x", 3 * model.nv);
-  Vector<Scalar> state(3 * model.nv);
+  const Scalar symbols = Scalar::sym("x", model.nq + 2 * model.nv);
+  Vector<Scalar> state(model.nq + 2 * model.nv);
   for (int i = 0; i < state.size(); ++i)
     state[i] = symbols(i);
   const Vector<Scalar> result = trace<Scalar>(model, arguments[2], state);

@@ -20,7 +20,7 @@ int main(int count, char ** arguments)
   using Scalar = CppAD::AD<Coded>;
   const auto model = read_robot(arguments[1]).cast<Scalar>();
 
-  Vector<Scalar> state = Vector<Scalar>::Zero(3 * model.nv);
+  Vector<Scalar> state = Vector<Scalar>::Zero(model.nq + 2 * model.nv);
   CppAD::Independent(state);
   const Vector<Scalar> result = trace<Scalar>(model, arguments[2], state);
   CppAD::ADFun<Coded> function(state, result);

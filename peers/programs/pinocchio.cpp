@@ -14,9 +14,17 @@ namespace
   std::unique_ptr<pinocchio::Data> data;
 
   using Input = Eigen::Map<const Eigen::VectorXd>;
-  Input part(const double * state, int index)
+  Input coordinates(const double * state)
   {
-    return Input(state + index * model.nv, model.nv);
+    return Input(state, model.nq);
+  }
+  Input velocities(const double * state)
+  {
+    return Input(state + model.nq, model.nv);
+  }
+  Input input(const double * state)
+  {
+    return Input(state + model.nq + model.nv, model.nv);
   }
 } // namespace
 
@@ -30,27 +38,29 @@ extern "C" int prepare(const char * robot)
 
 extern "C" const double * inverse(const double * state, double *)
 {
-  return pinocchio::rnea(model, *data, part(state, 0), part(state, 1), part(state, 2)).data();
+  return pinocchio::rnea(model, *data, coordinates(state), velocities(state), input(state)).data();
 }
 
 extern "C" const double * forward(const double * state, double *)
 {
-  return pinocchio::aba(model, *data, part(state, 0), part(state, 1), part(state, 2), pinocchio::Convention::LOCAL)
+  return pinocchio::aba(
+           model, *data, coordinates(state), velocities(state), input(state), pinocchio::Convention::LOCAL)
     .data();
 }
 
 extern "C" const double * forward_world(const double * state, double *)
 {
-  return pinocchio::aba(model, *data, part(state, 0), part(state, 1), part(state, 2), pinocchio::Convention::WORLD)
+  return pinocchio::aba(
+           model, *data, coordinates(state), velocities(state), input(state), pinocchio::Convention::WORLD)
     .data();
 }
 
 extern "C" const double * mass(const double * state, double *)
 {
-  return pinocchio::crba(model, *data, part(state, 0), pinocchio::Convention::LOCAL).data();
+  return pinocchio::crba(model, *data, coordinates(state), pinocchio::Convention::LOCAL).data();
 }
 
 extern "C" const double * mass_world(const double * state, double *)
 {
-  return pinocchio::crba(model, *data, part(state, 0), pinocchio::Convention::WORLD).data();
+  return pinocchio::crba(model, *data, coordinates(state), pinocchio::Convention::WORLD).data();
 }

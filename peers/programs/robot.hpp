@@ -17,7 +17,7 @@ inline pinocchio::Model read_robot(const std::string & path)
   model.gravity.linear() = gravity;
   for (int link = 0; link < joints; ++link)
   {
-    int parent = -1;
+    std::string parent;
     double rotation[9], mass, i[6];
     Eigen::Vector3d position, com;
     file >> parent;
@@ -31,9 +31,12 @@ inline pinocchio::Model read_robot(const std::string & path)
     const Eigen::Matrix3d turn = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation);
     Eigen::Matrix3d inertia;
     inertia << i[0], i[1], i[2], i[1], i[3], i[4], i[2], i[4], i[5];
+    const pinocchio::SE3 placement(turn, position);
+    const std::string name = "joint" + std::to_string(link + 1);
     // Joint 0 is the ground there, so that every joint's number is one higher than here.
-    const auto joint = model.addJoint(
-      parent + 1, pinocchio::JointModelRZ(), pinocchio::SE3(turn, position), "joint" + std::to_string(link + 1));
+    const auto joint = parent == "free"
+      ? model.addJoint(0, pinocchio::JointModelFreeFlyer(), placement, name)
+      : model.addJoint(static_cast<pinocchio::JointIndex>(std::stoi(parent) + 1), pinocchio::JointModelRZ(), placement, name);
     model.appendBodyToJoint(joint, pinocchio::Inertia(mass, com, inertia), pinocchio::SE3::Identity());
   }
   return model;

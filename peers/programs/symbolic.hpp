@@ -17,8 +17,8 @@ template<typename Scalar>
 Vector<Scalar>
 trace(const pinocchio::ModelTpl<Scalar> & model, const std::string & function, const Vector<Scalar> & state)
 {
-  const int n = model.nv;
-  const Vector<Scalar> q = state.segment(0, n), v = state.segment(n, n), input = state.segment(2 * n, n);
+  const int m = model.nq, n = model.nv;
+  const Vector<Scalar> q = state.segment(0, m), v = state.segment(m, n), input = state.segment(m + n, n);
   pinocchio::DataTpl<Scalar> data(model);
   if (function == "inverse")
     return pinocchio::rnea(model, data, q, v, input);

@@ -2,8 +2,8 @@
 
 /// A state as it lies in memory: coordinates, velocities, and accelerations or forces.
 #[repr(C)]
-pub struct State<V> {
-    pub q: V,
+pub struct State<Q, V> {
+    pub q: Q,
     pub v: V,
     pub input: V,
 }

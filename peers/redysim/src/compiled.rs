@@ -7,17 +7,17 @@ macro_rules! compiled {
     ($name:literal $Robot:ident, $scalar:literal $Scalar:ty) => {
         export!(
             concat!($name, "_inverse_", $scalar),
-            State<[$Scalar; $Robot::NV]> => [$Scalar; $Robot::NV],
+            State<[$Scalar; $Robot::NQ], [$Scalar; $Robot::NV]> => [$Scalar; $Robot::NV],
             |state| $Robot::inverse_dynamics(&state.q, &state.v, &state.input)
         );
         export!(
             concat!($name, "_forward_", $scalar),
-            State<[$Scalar; $Robot::NV]> => [$Scalar; $Robot::NV],
+            State<[$Scalar; $Robot::NQ], [$Scalar; $Robot::NV]> => [$Scalar; $Robot::NV],
             |state| $Robot::forward_dynamics(&state.q, &state.v, &state.input)
         );
         export!(
             concat!($name, "_mass_", $scalar),
-            State<[$Scalar; $Robot::NV]> => [[$Scalar; $Robot::NV]; $Robot::NV],
+            State<[$Scalar; $Robot::NQ], [$Scalar; $Robot::NV]> => [[$Scalar; $Robot::NV]; $Robot::NV],
             |state| $Robot::mass_matrix(&state.q)
         );
     };
@@ -34,7 +34,8 @@ macro_rules! scalars {
 
 scalars!(
     "kr5" Kr5, "gripper" Gripper, "humanoid30" Humanoid30,
-    "chain10" Chain10, "chain20" Chain20, "chain40" Chain40, "chain80" Chain80
+    "chain10" Chain10, "chain20" Chain20, "chain40" Chain40, "chain80" Chain80,
+    "anymal" Anymal, "talos" Talos
 );
 
 /// Eight or sixteen states per call. They lie value by value (the first coordinate of all states, then the second), so
@@ -54,5 +55,5 @@ mod lanes {
         };
     }
 
-    lanes!("kr5" Kr5, "gripper" Gripper, "humanoid30" Humanoid30);
+    lanes!("kr5" Kr5, "gripper" Gripper, "humanoid30" Humanoid30, "anymal" Anymal, "talos" Talos);
 }

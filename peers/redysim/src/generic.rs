@@ -27,10 +27,12 @@ impl Slot {
     fn at(&self, state: *const f64) -> (&mut Prepared, [&[f64]; 3]) {
         // SAFETY: the timer has one thread, and keeps no result over a further call.
         let prepared = unsafe { &mut *self.0.get() }.as_mut().expect("`prepare` is called first");
-        let nv = prepared.result.len();
+        let (nq, nv) = (prepared.mechanism.nq(), prepared.mechanism.nv());
         // SAFETY: a state is three vectors, one after another.
-        let state = unsafe { slice::from_raw_parts(state, 3 * nv) };
-        (prepared, [0, 1, 2].map(|vector| &state[vector * nv..(vector + 1) * nv]))
+        let state = unsafe { slice::from_raw_parts(state, nq + 2 * nv) };
+        let (q, rest) = state.split_at(nq);
+        let (v, input) = rest.split_at(nv);
+        (prepared, [q, v, input])
     }
 }
 

@@ -13,3 +13,6 @@ redysim! { pub struct Chain10("../../../models/peers/chain10.toml"); }
 redysim! { pub struct Chain20("../../../models/peers/chain20.toml"); }
 redysim! { pub struct Chain40("../../../models/peers/chain40.toml"); }
 redysim! { pub struct Chain80("../../../models/peers/chain80.toml"); }
+// On free bases, as `driver/imported.py` writes them.
+redysim! { pub struct Anymal("../../../target/peers/robots/anymal.toml"); }
+redysim! { pub struct Talos("../../../target/peers/robots/talos.toml"); }
