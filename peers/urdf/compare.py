@@ -1,8 +1,8 @@
 """Imports and compiles robots, computes at random states by redysim and by Pinocchio, and prints how far they differ.
 
-Both read the same URDF. Joints that redysim fixes, as they move no mass, are locked at zero in Pinocchio; joints that
-mimic others are free in both. The base is fixed in both, or with `--free` floats in both. Frames on the tips, wrenches on
-them, and rotors are added to both.
+Both read the same URDF. Joints that redysim fixes, as they move no mass, are locked at zero in Pinocchio. Joints that
+mimic others are free in Pinocchio's model, and follow these by what the URDF says. The base is fixed in both, or with
+`--free` floats in both. Frames on the tips, wrenches on them, and rotors are added to both.
 """
 
 import sys
@@ -35,9 +35,12 @@ def row(
             failed.append(f"**{way}**: {reason}")
     failed += [f"**{way} differs**" for way, comparison in found.items() if not comparison.agrees]
     joints = [comparison.joints for comparison in found.values()]
-    if any(names != joints[0] for names in joints):
+    mimics = [comparison.mimics for comparison in found.values()]
+    if any(names != joints[0] for names in joints) or any(number != mimics[0] for number in mimics):
         failed.append("**the models do not move the same joints**")
-    remarks = "; ".join(refused + failed + ill_conditioned(list(found.values())) + (lost(robot.said) if found else []))
+    coupled = [f"joints that mimic others: {mimics[0]}"] if any(mimics) else []
+    imported = coupled + lost(robot.said) if found else []
+    remarks = "; ".join(refused + failed + ill_conditioned(list(found.values())) + imported)
     kept = found.get(KEPT)
     shares = [None] * (7 if floats else 5)
     if kept:
@@ -61,8 +64,8 @@ def ill_conditioned(found: list[Comparison]) -> list[str]:
 
 def lost(said: list[str]) -> list[str]:
     """What of the joints is not imported."""
-    fixed, mimics = (sum(text in line for line in said) for text in ["fixed at zero here", "free here"])
-    return [f"joints fixed at zero: {fixed}"] * (fixed > 0) + [f"mimic joints free: {mimics}"] * (mimics > 0)
+    fixed, free = (sum(text in line for line in said) for text in ["fixed at zero here", "it is free here"])
+    return [f"joints fixed at zero: {fixed}"] * (fixed > 0) + [f"mimics of the URDF free here: {free}"] * (free > 0)
 
 
 def main() -> None:

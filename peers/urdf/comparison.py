@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy
+from mimics import misread
 from peer import Peer
 
 STATES = 20
@@ -22,6 +23,8 @@ class Comparison:
     """How far redysim and Pinocchio are apart: shares of the scale of each component."""
 
     joints: list[str]
+    # How many other joints mimic these.
+    mimics: int
     forces: float
     matrices: float
     accelerations: float
@@ -62,8 +65,11 @@ class Comparison:
 def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
     """Computes at random states by this command, which has this model, and by Pinocchio."""
     names, _ = _answers(command, "")
-    peer = Peer(urdf, names, tomllib.loads(model.read_text()))
-    n, nq = peer.model.nv, sum(peer.sizes)
+    imported = tomllib.loads(model.read_text())
+    if wrong := misread(urdf, imported):
+        raise Failed(f"the joint {wrong[0]} does not mimic as in the URDF")
+    peer = Peer(urdf, names, imported)
+    n, nq = peer.nv, sum(peer.sizes)
     shapes = [(n,), (n, n), (n,), (len(peer.frames), 6, n), (len(peer.frames), 6), (3, 3), (nq,), (n,)]
     random = numpy.random.default_rng(1)
     states = []
@@ -87,6 +93,7 @@ def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
     expected = [peer.jacobians(q) for q, *_ in motions], [peer.bias(q, v) for q, v, *_ in motions]
     return Comparison(
         joints=names,
+        mimics=len(peer.mimics),
         forces=_furthest(forces, [peer.forces(*state) for state in motions]),
         matrices=_furthest(computed, matrices, numpy.array(scales)),
         accelerations=_furthest(accelerations, [peer.accelerations(*state) for state in driven]),

@@ -4,6 +4,7 @@ import tomllib
 from pathlib import Path
 
 import numpy
+from mimics import without_mimics
 from peer import Peer, Refused
 
 # No humanoid with hands needs a frame on every finger.
@@ -24,8 +25,8 @@ def with_frames(model: str) -> str:
 
 
 def with_rotors(model: str, urdf: Path) -> str:
-    """The model with half of what resists each joint at zero, beside it, as its rotor."""
-    parsed = tomllib.loads(model)
+    """The model with half of what resists each joint at zero, beside it, as its rotor: all joints moved alone."""
+    parsed = without_mimics(tomllib.loads(model))
     joints = [link["joint_name"] for link in parsed["link"] if link["joint"] != "fixed"]
     try:
         peer = Peer(urdf, joints, parsed)

@@ -1,5 +1,8 @@
 """Pinocchio's side: the same URDF, with the same joints free, and the rotors and frames of the model.
 
+Joints that mimic others are free in Pinocchio's model. The velocities of all its joints are G v, where v are redysim's, so
+that τ = Gᵀ τ_all, M = Gᵀ M_all G and J = J_all G.
+
 Its quantities of frames are those of `LOCAL_WORLD_ALIGNED`: at the frame's own origin, in the axes of the base.
 """
 
@@ -8,6 +11,7 @@ from pathlib import Path
 
 import numpy
 import pinocchio
+from mimics import of_model, resolved
 from pinocchio import LOCAL_WORLD_ALIGNED as ALIGNED
 
 
@@ -20,9 +24,10 @@ class Refused(Exception):
 
 
 class Peer:
-    """Pinocchio's robot with these joints, and no others, free; `model` is redysim's, as read from TOML."""
+    """Pinocchio's robot with these joints, and those that mimic them, free; `model` is redysim's, as read from TOML."""
 
     def __init__(self, urdf: Path, joints: list[str], model: dict):
+        mimics = resolved(of_model(model))
         floats = model["link"][0]["joint"] == "free" and model["link"][0]["parent"] == "base"
         try:
             if floats:
@@ -30,22 +35,35 @@ class Peer:
                 joints = [ROOT if name == model["link"][0]["joint_name"] else name for name in joints]
             else:
                 whole = pinocchio.buildModelFromUrdf(str(urdf))
-            locked = [index for index, name in enumerate(whole.names) if index > 0 and name not in joints]
+            kept = {*joints, *mimics}
+            locked = [index for index, name in enumerate(whole.names) if index > 0 and name not in kept]
             self.model = pinocchio.buildReducedModel(whole, locked, pinocchio.neutral(whole)) if locked else whole
         except (RuntimeError, ValueError) as error:
             raise Refused(f"Pinocchio does not take it: {str(error).splitlines()[0]}") from error
-        self.joints = [self.model.joints[self.model.getJointId(name)] for name in joints]
+        self.joints, self.mimicking = ([self._joint(name) for name in names] for names in [joints, mimics])
+        # Of each joint that mimics, the one that it follows, by its number here.
+        self.mimics = [(joints.index(mimic.joint), mimic) for mimic in mimics.values()]
         self.order = [joint.idx_v + i for joint in self.joints for i in range(joint.nv)]
-        if self.model.nv != len(self.order):
-            raise Refused(f"Pinocchio has {self.model.nv} velocities, redysim {len(self.order)}")
-        rotors = {link["joint_name"]: link.get("armature", 0.0) for link in model["link"]}
-        of_each = [[rotors.get(name, 0.0)] * joint.nv for name, joint in zip(joints, self.joints)]
-        self.model.armature = self._ordered(numpy.array([rotor for rotors in of_each for rotor in rotors]))
+        self.nv = len(self.order)
+        if self.model.nv != self.nv + len(mimics):
+            raise Refused(f"Pinocchio has {self.model.nv} velocities, redysim {self.nv} and {len(mimics)} that mimic")
+        self.all_of = numpy.zeros((self.model.nv, self.nv))
+        self.all_of[self.order] = numpy.eye(self.nv)
+        for joint, (followed, mimic) in zip(self.mimicking, self.mimics):
+            self.all_of[joint.idx_v] = mimic.multiplier * self.all_of[self.joints[followed].idx_v]
+        armature = numpy.zeros(self.model.nv)
+        for link in model["link"]:
+            if "armature" in link:
+                armature[self._joint(link["joint_name"]).idx_v] = link["armature"]
+        self.model.armature = armature
         carriers = {link["name"]: link["joint_name"] for link in model["link"]}
         if floats:
             carriers[model["link"][0]["name"]] = ROOT
         self.frames = [self._added(frame, carriers[frame["link"]]) for frame in model.get("frame", [])]
         self.data = self.model.createData()
+
+    def _joint(self, name: str) -> pinocchio.JointModel:
+        return self.model.joints[self.model.getJointId(name)]
 
     def _added(self, frame: dict, joint: str) -> int:
         """A link's frame is that of its joint, whose name is the same in both."""
@@ -96,7 +114,9 @@ class Peer:
     def _position(self, q: numpy.ndarray) -> numpy.ndarray:
         """A continuous joint's coordinates are cosine and sine."""
         position = numpy.zeros(self.model.nq)
-        for joint, own in zip(self.joints, numpy.split(q, numpy.cumsum(self.sizes)[:-1])):
+        parts = numpy.split(q, numpy.cumsum(self.sizes)[:-1])
+        parts += [mimic.multiplier * parts[followed] + mimic.offset for followed, mimic in self.mimics]
+        for joint, own in zip(self.joints + self.mimicking, parts):
             if joint.nq == 2:
                 own = [cos(own[0]), sin(own[0])]
             position[joint.idx_q : joint.idx_q + joint.nq] = own
@@ -115,14 +135,14 @@ class Peer:
 
     def whole(self, q: numpy.ndarray, v: numpy.ndarray) -> numpy.ndarray:
         """The centre of mass, linear momentum, and angular momentum about it."""
-        position, v = self._position(q), self._ordered(v)
+        position, v = self._position(q), self.all_of @ v
         momentum = pinocchio.computeCentroidalMomentum(self.model, self.data, position, v)
         center = pinocchio.centerOfMass(self.model, self.data, position)
         return numpy.concatenate([center, momentum.linear, momentum.angular])
 
     def integrated(self, q: numpy.ndarray, v: numpy.ndarray) -> numpy.ndarray:
         """q ⊞ v, with the signs of quaternions that have a positive last component."""
-        moved = pinocchio.integrate(self.model, self._position(q), self._ordered(v))
+        moved = pinocchio.integrate(self.model, self._position(q), self.all_of @ v)
         return self.with_signs(self._coordinates(moved, q + self._of_velocities(v)))
 
     def with_signs(self, q: numpy.ndarray) -> numpy.ndarray:
@@ -148,7 +168,7 @@ class Peer:
 
     def frame_points(self, q: numpy.ndarray, v: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
         """The origins of the frames and their velocities, in the axes of the base."""
-        pinocchio.forwardKinematics(self.model, self.data, self._position(q), self._ordered(v))
+        pinocchio.forwardKinematics(self.model, self.data, self._position(q), self.all_of @ v)
         pinocchio.updateFramePlacements(self.model, self.data)
         velocities = [pinocchio.getFrameVelocity(self.model, self.data, frame, ALIGNED) for frame in self.frames]
         origins = [self.data.oMf[frame].translation.copy() for frame in self.frames]
@@ -156,41 +176,41 @@ class Peer:
 
     def energy(self, q: numpy.ndarray, v: numpy.ndarray) -> float:
         """Kinetic and potential energy."""
-        position, v = self._position(q), self._ordered(v)
+        position, v = self._position(q), self.all_of @ v
         kinetic = pinocchio.computeKineticEnergy(self.model, self.data, position, v)
         return kinetic + pinocchio.computePotentialEnergy(self.model, self.data, position)
 
-    def _ordered(self, vector: numpy.ndarray) -> numpy.ndarray:
-        ordered = numpy.zeros(self.model.nv)
-        ordered[self.order] = vector
-        return ordered
-
     def forces(self, q: numpy.ndarray, v: numpy.ndarray, a: numpy.ndarray, wrenches: numpy.ndarray) -> numpy.ndarray:
-        position, v, a = self._position(q), self._ordered(v), self._ordered(a)
+        position, v, a = self._position(q), self.all_of @ v, self.all_of @ a
         external = self._external(position, wrenches)
-        return pinocchio.rnea(self.model, self.data, position, v, a, external)[self.order].copy()
+        return self.all_of.T @ pinocchio.rnea(self.model, self.data, position, v, a, external)
 
     def matrix(self, q: numpy.ndarray) -> numpy.ndarray:
         upper = numpy.triu(pinocchio.crba(self.model, self.data, self._position(q)))
-        return (upper + numpy.triu(upper, 1).T)[numpy.ix_(self.order, self.order)]
+        return self.all_of.T @ (upper + numpy.triu(upper, 1).T) @ self.all_of
 
     def accelerations(
         self, q: numpy.ndarray, v: numpy.ndarray, tau: numpy.ndarray, wrenches: numpy.ndarray
     ) -> numpy.ndarray:
-        position, v, tau = self._position(q), self._ordered(v), self._ordered(tau)
+        """By the recursion over articulated bodies, which takes all joints for free, or by the matrix."""
+        if self.mimics:
+            rest = self.forces(q, v, numpy.zeros(self.nv), wrenches)
+            return numpy.linalg.solve(self.matrix(q), tau - rest)
+        position = self._position(q)
         external = self._external(position, wrenches)
-        return pinocchio.aba(self.model, self.data, position, v, tau, external)[self.order].copy()
+        a = pinocchio.aba(self.model, self.data, position, self.all_of @ v, self.all_of @ tau, external)
+        return self.all_of.T @ a
 
     def jacobians(self, q: numpy.ndarray) -> numpy.ndarray:
         """Of each frame, six rows: the origin's velocity, then the angular velocity."""
         pinocchio.computeJointJacobians(self.model, self.data, self._position(q))
         pinocchio.updateFramePlacements(self.model, self.data)
         found = [pinocchio.getFrameJacobian(self.model, self.data, frame, ALIGNED) for frame in self.frames]
-        return numpy.array([jacobian[:, self.order] for jacobian in found])
+        return numpy.array([jacobian @ self.all_of for jacobian in found])
 
     def bias(self, q: numpy.ndarray, v: numpy.ndarray) -> numpy.ndarray:
         """J̇ v of each frame, with the derivative of its Jacobian."""
-        v = self._ordered(v)
+        v = self.all_of @ v
         pinocchio.computeJointJacobiansTimeVariation(self.model, self.data, self._position(q), v)
         pinocchio.updateFramePlacements(self.model, self.data)
         rate = pinocchio.getFrameJacobianTimeVariation
