@@ -76,7 +76,7 @@ pub struct Link {
     /// Which of the joint's velocities have an actuator.
     pub actuated: Actuation,
     /// Within what the joint moves, for each of its velocities; empty if the file does not give it.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[cfg_attr(feature = "serde", serde(default, deserialize_with = "crate::serde::ranges"))]
     pub range: Vec<JointRange>,
 }
 

@@ -1,6 +1,6 @@
 //! Models by [`serde`]: as their fields, and checked when they are read.
 
-use crate::model::Model;
+use crate::model::{JointRange, Model};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -8,6 +8,21 @@ impl Serialize for Model {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         Model::serialize(self, serializer)
     }
+}
+
+/// The ranges of a joint: those of its velocities, one by itself, or null.
+pub(crate) fn ranges<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<JointRange>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Ranges {
+        One(JointRange),
+        Each(Vec<JointRange>),
+    }
+    Ok(match Option::deserialize(deserializer)? {
+        None => Vec::new(),
+        Some(Ranges::One(range)) => vec![range],
+        Some(Ranges::Each(ranges)) => ranges,
+    })
 }
 
 /// Reads the fields, and [checks](Model::check) the model that they make: the error has every fault.

@@ -13,7 +13,7 @@ use crate::results::names::{PAGE, is_written};
 /// If the scenario's model is a URDF, the links have its meshes (STL, DAE and OBJ, without textures), up to 20 MB.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  redysim animate results/kuka/forward -o kuka.html\n  redysim animate results/quadruped/forward --camera fixed"
+    after_help = "Examples:\n  redysim animate results/kuka/forward -o kuka.html\n  redysim animate results/kuka/forward --camera fixed"
 )]
 pub struct Arguments {
     /// The folder of results.
