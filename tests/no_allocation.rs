@@ -105,7 +105,7 @@ fn integrators_allocate_nothing() {
 fn inverse_and_forward_dynamics_and_mass_matrix_of_the_run_time_path_allocate_nothing_after_construction() {
     use redysim::generic::Workspace;
 
-    for name in ["kr5", "gripper", "test/gantry", "peers/humanoid30", "test/springs"] {
+    for name in ["kr5", "gripper", "test/gantry", "peers/humanoid30", "test/springs", "parallel_gripper"] {
         let mechanism = common::models::generic(name);
         let nv = mechanism.tree().nv();
         let (q, v, x) = (vec![0.1; nv], vec![0.2; nv], vec![0.3; nv]);
@@ -132,7 +132,7 @@ fn the_room_of_one_mechanism_serves_another() {
     use redysim::{ForwardDynamics, InverseDynamics, MassMatrix};
 
     let mut workspace = Workspace::default();
-    for name in ["kr5", "test/springs", "gripper", "test/gantry", "kr5"] {
+    for name in ["kr5", "test/springs", "gripper", "parallel_gripper", "test/gantry", "kr5"] {
         let mechanism = common::models::generic(name);
         let nv = mechanism.tree().nv();
         let (q, v, x): (Vec<f64>, Vec<f64>, Vec<f64>) = (vec![0.4; nv], vec![-0.2; nv], vec![0.3; nv]);
