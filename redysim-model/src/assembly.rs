@@ -196,14 +196,16 @@ fn first_of_joints(model: &Model) -> Vec<[usize; 2]> {
 
 /// The joints that mimic others, in the model's order. One that mimics another such joint follows that joint's own.
 fn mimics(model: &Model, first: &[[usize; 2]]) -> Vec<Mimic> {
-    let followed = |mut mimic: model::Mimic| {
-        while let Some(next) = model.links[mimic.link].mimic {
-            mimic = mimic.after(next);
-        }
-        let [q, v] = first[mimic.link];
-        Mimic { q, v, multiplier: mimic.multiplier, offset: mimic.offset }
-    };
-    model.links.iter().filter_map(|link| link.mimic).map(followed).collect()
+    let mimics = (0..model.links.len()).filter(|&link| model.links[link].mimic.is_some());
+    let followed = mimics.map(|link| model.followed(link));
+    followed
+        .map(|model::Mimic { link, multiplier, offset }| Mimic {
+            q: first[link][0],
+            v: first[link][1],
+            multiplier,
+            offset,
+        })
+        .collect()
 }
 
 /// The links' indices with parents before children, else in the model's order.

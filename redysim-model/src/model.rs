@@ -96,8 +96,8 @@ pub struct Mimic {
 }
 
 impl Mimic {
-    /// What a joint that mimics another so follows, if that one mimics a third as `next` says.
-    pub(crate) fn after(self, next: Mimic) -> Mimic {
+    /// What a joint that mimics another so follows, if that one mimics a third by `next`.
+    fn after(self, next: Mimic) -> Mimic {
         Mimic {
             link: next.link,
             multiplier: self.multiplier * next.multiplier,
@@ -333,6 +333,16 @@ impl Model {
     /// Mass of all links, kg.
     pub fn mass(&self) -> f64 {
         self.links.iter().map(|link| link.mass).sum()
+    }
+
+    /// The joint that moves that of a link in the end, and how: itself, times 1, unless it mimics another. The model is
+    /// checked, and `link` an index in it.
+    pub fn followed(&self, link: usize) -> Mimic {
+        let mut followed = Mimic { link, multiplier: 1.0, offset: 0.0 };
+        while let Some(next) = self.links[followed.link].mimic {
+            followed = followed.after(next);
+        }
+        followed
     }
 
     /// The links whose joints have coordinates of their own, in the file's order: not those that are fixed or mimic another.

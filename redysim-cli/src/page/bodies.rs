@@ -121,13 +121,11 @@ pub struct Frame<'a> {
 
 /// The ground, then the links in the model's order.
 pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> Vec<Body<'a>> {
-    let (mut moving, coordinates) = (layout.joints.iter(), first_coordinates(model, layout, orientations));
+    let moving = moving_joints(model, layout, orientations);
     let ground = Body { name: "base", joint: None, ends: ends(model, None), tip: false, com: None, ellipsoid: None };
     let links = model.links.iter().enumerate().map(|(index, link)| {
         let placement = frame(model, link.parent) * link.placement;
-        let moves = if link.dof() > 0 { moving.next() } else { None };
-        let Followed { link: followed, rate, offset } = Followed::of(model, index);
-        let coordinate = coordinates[followed];
+        let Mimic { link: followed, multiplier: rate, offset } = model.followed(index);
         let joint = Joint {
             name: &link.joint_name,
             kind: link.joint.name(),
@@ -138,8 +136,8 @@ pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> 
             motions: motions(link, rate),
             // Of the coordinate itself, which the motions multiply.
             offset: (link.offset + offset) / rate,
-            orientation: moves.filter(|joint| joint.is_in_space()).map(|_| orientations),
-            coordinate,
+            orientation: moving[index].filter(|(joint, _)| joint.is_in_space()).map(|_| orientations),
+            coordinate: moving[followed].map(|(_, first)| first),
             rail: (link.joint == JointKind::Prismatic)
                 .then(|| Place { body: number(link.parent), point: foot(model, link) }),
         };
@@ -157,37 +155,21 @@ pub fn of<'a>(model: &'a Model, layout: &Layout, orientations: Orientations) -> 
     std::iter::once(ground).chain(links).collect()
 }
 
-/// For each link, the number of its joint's first coordinate on the page; `None` for a joint without one of its own.
-fn first_coordinates(model: &Model, layout: &Layout, orientations: Orientations) -> Vec<Option<usize>> {
-    let (mut moving, mut next) = (layout.joints.iter(), 0);
+/// For each link, its joint with the number of that joint's first coordinate on the page; `None` for a joint without
+/// coordinates of its own.
+fn moving_joints<'a>(
+    model: &Model,
+    layout: &'a Layout,
+    orientations: Orientations,
+) -> Vec<Option<(&'a layout::Joint, usize)>> {
+    let (mut joints, mut next) = (layout.joints.iter(), 0);
     let of_link = |link: &Link| {
-        let joint = if link.dof() > 0 { moving.next() } else { None };
-        joint.map(|joint| {
-            let first = next;
-            next += orientations.coordinates(joint);
-            first
-        })
+        let joint = if link.dof() > 0 { joints.next()? } else { return None };
+        let first = next;
+        next += orientations.coordinates(joint);
+        Some((joint, first))
     };
     model.links.iter().map(of_link).collect()
-}
-
-/// By which coordinate a joint moves: that of the joint of `link`, times `rate` and plus `offset`.
-struct Followed {
-    link: usize,
-    rate: f64,
-    offset: f64,
-}
-
-impl Followed {
-    /// Of the joint of a link: its own, unless it mimics another.
-    fn of(model: &Model, link: usize) -> Followed {
-        let mut followed = Followed { link, rate: 1.0, offset: 0.0 };
-        while let Some(Mimic { link, multiplier, offset }) = model.links[followed.link].mimic {
-            let Followed { rate, offset: added, .. } = followed;
-            followed = Followed { link, rate: rate * multiplier, offset: rate * offset + added };
-        }
-        followed
-    }
 }
 
 /// The motions of a link about and along axes of its joint's frame, at `rate` for each of its coordinates.
@@ -347,6 +329,21 @@ mod tests {
             numbers(expected, &mut theirs);
             assert!(ours.len() > 5 && ours.len() == theirs.len(), "{found} instead of {expected}");
             assert!(ours.iter().zip(&theirs).all(|(a, b)| (a - b).abs() < 1e-15), "{found} instead of {expected}");
+        }
+    }
+
+    /// The right rack mimics the left one, at 1 q, and this the pinion, at 0.01 q + 0.02: both slide by 0.01 (q + 2).
+    #[test]
+    fn a_joint_that_mimics_others_moves_by_the_coordinate_of_the_last_one() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/parallel_gripper.toml");
+        let model = Model::load(path).expect("a valid model").model;
+        let bodies = serde_json::to_value(of(&model, &Layout::of(&model), Orientations::Quaternion)).expect("numbers");
+        let joint = |body: usize| bodies[body]["joint"].clone();
+        assert_eq!([1, 2, 3, 4].map(|body| joint(body)["coordinate"].clone()), [0, 1, 1, 1]);
+        for rack in [3, 4] {
+            let motion = &joint(rack)["motions"][0];
+            assert_eq!((motion["slide"].as_f64(), motion["turn"].as_f64()), (Some(0.01), Some(0.0)));
+            assert_eq!(joint(rack)["offset"], 2.0);
         }
     }
 }
