@@ -47,15 +47,26 @@ def resolved(mimics: dict[str, Mimic]) -> dict[str, Mimic]:
 
 
 def misread(urdf: Path, model: dict) -> list[str]:
-    """The joints whose mimics are not those of the URDF. Only joints about or along one axis mimic each other."""
+    """The joints whose mimics are not those of the URDF, as far as these are possible."""
     kinds = {link["joint_name"]: link["joint"] for link in model["link"]}
-    expected = {
+    # Joints mimic others about or along one axis each, and never so that they are held.
+    coupled = {
         name: mimic
         for name, mimic in of_urdf(urdf).items()
-        if all(kinds.get(joint) in WITH_AXIS for joint in [name, mimic.joint])
+        if mimic.multiplier != 0 and all(kinds.get(joint) in WITH_AXIS for joint in [name, mimic.joint])
     }
+    expected = {name: mimic for name, mimic in coupled.items() if _ends(name, coupled)}
     found = of_model(model)
     return sorted(name for name in expected.keys() | found.keys() if expected.get(name) != found.get(name))
+
+
+def _ends(name: str, mimics: dict[str, Mimic]) -> bool:
+    """Whether the way from mimic to mimic comes to a joint that mimics no other."""
+    for _ in mimics:
+        name = mimics[name].joint
+        if name not in mimics:
+            return True
+    return False
 
 
 def without_mimics(model: dict) -> dict:
