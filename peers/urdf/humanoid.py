@@ -3,6 +3,7 @@
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import cached_property
 from pathlib import Path
 
 import numpy
@@ -49,11 +50,16 @@ class Humanoid:
     # Stiffness and damping of a joint.
     gains: Callable[[str], tuple[float, float]]
 
-    @property
+    @cached_property
+    def document(self) -> ElementTree.Element:
+        """The root element of the URDF."""
+        return ElementTree.parse(self.urdf).getroot()
+
+    @cached_property
     def soles(self) -> dict[str, tuple[str, numpy.ndarray]]:
         """Names of the contact points, each with its link and its place in the link's frame, m."""
         found = {}
-        for link in ElementTree.parse(self.urdf).getroot().iter("link"):
+        for link in self.document.iter("link"):
             spheres = [shape for shape in link.findall("collision") if shape.find("geometry/sphere") is not None]
             if "ankle_roll" not in link.get("name"):
                 continue
@@ -66,7 +72,7 @@ class Humanoid:
     @property
     def mass(self) -> float:
         """The sum of the masses in the URDF, kg."""
-        return sum(float(mass.get("value")) for mass in ElementTree.parse(self.urdf).getroot().iter("mass"))
+        return sum(float(mass.get("value")) for mass in self.document.iter("mass"))
 
     @property
     def model_file(self) -> str:
@@ -111,12 +117,12 @@ frame = [{frames}]
 
     def driven_joints(self) -> list[str]:
         """The joints that have an actuator: all that move in the URDF."""
-        joints = ElementTree.parse(self.urdf).getroot().findall("joint")
+        joints = self.document.findall("joint")
         return [joint.get("name") for joint in joints if joint.get("type") != "fixed"]
 
     def limits(self) -> dict[str, float]:
         """The largest force of each joint, N m."""
-        joints = ElementTree.parse(self.urdf).getroot().findall("joint")
+        joints = self.document.findall("joint")
         driven = [joint for joint in joints if joint.get("type") != "fixed"]
         return {joint.get("name"): float(joint.find("limit").get("effort")) for joint in driven}
 
@@ -128,10 +134,9 @@ frame = [{frames}]
 
     def places(self) -> dict[str, tuple[numpy.ndarray, numpy.ndarray]]:
         """Rotation and origin of each link in the frame of the root."""
-        root = ElementTree.parse(self.urdf).getroot()
-        joints = root.findall("joint")
+        joints = self.document.findall("joint")
         children = {joint.find("child").get("link") for joint in joints}
-        start = next(link.get("name") for link in root.iter("link") if link.get("name") not in children)
+        start = next(link.get("name") for link in self.document.iter("link") if link.get("name") not in children)
         places = {start: (numpy.eye(3), numpy.zeros(3))}
         while len(places) <= len(joints):
             for joint in joints:
