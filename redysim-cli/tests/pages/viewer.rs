@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::common::{model, results, robot, root, scratch, slide, succeed, swing, turn};
+use crate::common::{model, results, robot, scratch, shipped, slide, succeed, swing, turn};
 
 /// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of
 /// the same motion at more instants if there are.
@@ -135,17 +135,16 @@ fn the_page_moves_a_spherical_pendulum_as_its_kinematics() {
 }
 
 /// The results of a shipped scenario.
-fn shipped(name: &str) -> PathBuf {
-    let scenario = root().join(format!("scenarios/{name}.toml")).display().to_string();
+fn run_of(name: &str) -> PathBuf {
     let folder = folder(&format!("camera_{name}"));
-    succeed(&folder, &["forward", &scenario, "-o", "run", "--force", "--quiet"]);
+    succeed(&folder, &["forward", &shipped(name), "-o", "run", "--force", "--quiet"]);
     folder.join("run")
 }
 
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_camera_follows_a_trunk_that_trots_over_the_ground() {
-    let run = shipped("quadruped");
+    let run = run_of("quadruped");
     films(&run, &[], ["follow", "trunk", "y"]);
     films(&run, &["--camera", "fixed"], ["fixed", "trunk", "y"]);
     films(&run, &["--camera", "follow"], ["follow", "trunk", "y"]);
@@ -154,7 +153,7 @@ fn the_camera_follows_a_trunk_that_trots_over_the_ground() {
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_camera_follows_a_platform_in_the_air_on_request_in_all_directions() {
-    let run = shipped("kr5_floating");
+    let run = run_of("kr5_floating");
     films(&run, &[], ["fixed", "platform", "none"]);
     films(&run, &["--camera", "follow"], ["follow", "platform", "none"]);
 }
