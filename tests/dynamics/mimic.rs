@@ -6,12 +6,14 @@ use super::random_trees::state_in_space;
 use crate::common::dual::moving;
 use crate::common::random::{Random, State};
 use redysim::generic::Model;
-use redysim::redysim;
+use redysim::lanes::F64x4;
+use redysim::{batch, redysim};
 use redysim_model::denoc::{self, Untraced};
 use redysim_model::spatial::Vec3;
 use redysim_model::{CutKind, CutSide, GenericMechanism, Link, LockError, Loop, Tree};
 
 redysim! { struct Gripper("models/parallel_gripper.toml"); }
+redysim! { struct Loaded("models/parallel_gripper.toml", parameters = ["left.mass", "right_rack.friction"]); }
 redysim! { struct Held("models/parallel_gripper.toml", locked = { pinion = 0.7 }); }
 
 const ROUNDOFF: f64 = 1e-14;
@@ -66,6 +68,38 @@ fn forward_dynamics_of_the_compiled_gripper_is_the_inverse_of_inverse_dynamics()
         let tau = Gripper::inverse_dynamics(&q, &v, &a);
         let found = Gripper::forward_dynamics(&q, &v, &tau);
         (0..2).for_each(|i| assert!((found[i] - a[i]).abs() < 1e-11, "{found:?} instead of {a:?}"));
+    }
+}
+
+#[test]
+fn numbers_of_joints_that_mimic_others_are_given_at_run_time() {
+    // The racks are level, so that their weights do not act along them.
+    let (q, v, a) = ([0.0, 0.9], [0.0, 20.0], [0.0; 2]);
+    let loaded = Loaded::new(&[0.5, 0.2]);
+    let [[_, _], [_, of_pinion]] = loaded.mass_matrix(&q);
+    assert_near(of_pinion, 1.0e-6 + 2.0e-5 + (0.5 + 0.12) * 1e-4, "inertia at the pinion");
+    let less = Gripper::inverse_dynamics(&q, &v, &a)[1] - loaded.inverse_dynamics(&q, &v, &a)[1];
+    let speed = 0.01 * v[1];
+    assert_near(less, 0.01 * (0.5 - 0.2) * speed / speed.hypot(0.01), "friction of the right rack");
+}
+
+#[test]
+fn lanes_and_batches_of_a_mechanism_with_mimics_compute_what_single_states_do() {
+    let mut random = Random::new(6);
+    let states: Vec<[[f64; 2]; 3]> =
+        (0..101).map(|_| [2.0, 5.0, 20.0].map(|bound| random.vector(2, bound).try_into().expect("two"))).collect();
+    let part = |k: usize| states.iter().map(|state| state[k]).collect::<Vec<_>>();
+    let (q, v, x) = (part(0), part(1), part(2));
+    let mut found = vec![[0.0; 2]; states.len()];
+    batch::forward_dynamics(&Gripper, &q, &v, &x, &mut found).expect("equal lengths");
+    for (index, [q, v, tau]) in states.iter().enumerate() {
+        let single = Gripper::forward_dynamics(q, v, tau);
+        let lanes = |vector: &[f64; 2]| vector.map(|value| F64x4::from([value; 4]));
+        let in_lanes: [F64x4; 2] = Gripper::forward_dynamics(&lanes(q), &lanes(v), &lanes(tau));
+        for i in 0..2 {
+            assert_near(found[index][i], single[i], "batch");
+            in_lanes[i].to_array().into_iter().for_each(|lane| assert_near(lane, single[i], "lane"));
+        }
     }
 }
 
