@@ -166,7 +166,7 @@ fn the_error_of_an_orientation_is_proportional_to_the_tolerance() {
     }
 }
 
-/// A turn by a given angle has that size for each orientation and each axis, and a change of the length alone has none.
+/// The error norm of a turn is its angle for each orientation and each axis. A change of the length alone has the norm zero.
 #[test]
 fn an_error_of_an_orientation_is_as_large_as_its_angle() {
     let body = Body::new(&[0.0; 3]);
