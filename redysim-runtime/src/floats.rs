@@ -1,6 +1,8 @@
 //! `f64` and `f32` as scalars.
 
 #[cfg(feature = "lanes")]
+use crate::branches::{self, Branches, in_lanes};
+#[cfg(feature = "lanes")]
 use crate::registers::{self, Register};
 use crate::scalar::{FUSED, Real, Scalar};
 use crate::trigonometry;
@@ -8,7 +10,7 @@ use crate::trigonometry;
 use wide::{f32x4, f64x2};
 
 macro_rules! real {
-    ($float:ident, $vector:ident, $sin_cos:path, $sin_cos_all:path, $sqrt:path, $fabs:path, $pow:path) => {
+    ($float:ident, $vector:ident, $pair:ident: $two:literal, $four:ident: $width:literal, $sin_cos:path, $sin_cos_all:path, $sqrt:path, $fabs:path, $pow:path) => {
         impl Scalar for $float {
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -43,7 +45,7 @@ macro_rules! real {
                 if !FUSED {
                     return self * factor + addend;
                 }
-                // Where the target has the instruction, the one of `std` becomes it. `core` has none; that of a vector
+                // Where the target has the instruction, the one of `std` becomes it. `core` does not provide it; that of a vector
                 // rounds the same, but is slower to compile and leaves moves between lanes in long functions.
                 #[cfg(feature = "std")]
                 let sum = $float::mul_add(self, factor, addend);
@@ -52,6 +54,25 @@ macro_rules! real {
                 #[cfg(not(feature = "lanes"))]
                 let sum = self * factor + addend;
                 sum
+            }
+            #[cfg(feature = "lanes")]
+            #[inline(always)]
+            fn side_by_side<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
+                read: &[Self; M],
+            ) -> [[Self; K]; N] {
+                const { assert!(N >= 2 && N <= branches::MOST) };
+                let mut results = [[0.0; K]; N];
+                if N == 2 {
+                    in_lanes!($pair: $two from 0, B, N, read, results);
+                } else {
+                    in_lanes!($four: $width from 0, B, N, read, results);
+                }
+                if N == 5 || N == 6 {
+                    in_lanes!($pair: $two from 4, B, N, read, results);
+                } else if N > 6 {
+                    in_lanes!($four: $width from 4, B, N, read, results);
+                }
+                results
             }
             #[cfg(feature = "lanes")]
             #[inline(always)]
@@ -91,5 +112,5 @@ macro_rules! real {
     };
 }
 
-real!(f64, f64x2, trigonometry::double::sin_cos, trigonometry::lists::of_f64, libm::sqrt, libm::fabs, libm::pow);
-real!(f32, f32x4, trigonometry::single::sin_cos, trigonometry::lists::of_f32, libm::sqrtf, libm::fabsf, libm::powf);
+real!(f64, f64x2, F64x2: 2, F64x4: 4, trigonometry::double::sin_cos, trigonometry::lists::of_f64, libm::sqrt, libm::fabs, libm::pow);
+real!(f32, f32x4, F32x4: 4, F32x4: 4, trigonometry::single::sin_cos, trigonometry::lists::of_f32, libm::sqrtf, libm::fabsf, libm::powf);

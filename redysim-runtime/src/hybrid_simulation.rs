@@ -104,14 +104,7 @@ impl<'m, M, T, L> HybridSimulation<'m, M, T, L> {
         M: ConfigurationSpace<S>,
         T: Trajectory<S, M::Coordinates, M::Velocities>,
     {
-        let (mechanism, nv) = (self.mechanism, self.mechanism.nv());
-        let Motion { q: target, v: rates, a } = self.motion.at(t);
-        let way = mechanism.difference(q, &target);
-        let pick = |given: &M::Velocities, other: &dyn Fn(usize) -> S| {
-            M::Velocities::from_fn(nv, |i| if mechanism.is_actuated(i) { entry(given, i) } else { other(i) })
-        };
-        let way = pick(&way, &|_| S::zero());
-        Motion { q: mechanism.integrate(q, &way), v: pick(&rates, &|i| entry(v, i)), a: pick(&a, &|_| S::zero()) }
+        prescribed(self.mechanism, &self.motion.at(t), |i| self.mechanism.is_actuated(i), (q, v))
     }
 
     /// Accelerations and joint forces of the motion `at`; the rates of the law's states are written to their place.
@@ -130,6 +123,22 @@ impl<'m, M, T, L> HybridSimulation<'m, M, T, L> {
         let given = |i: usize| if mechanism.is_actuated(i) { entry(a, i) } else { entry(&tau, i) };
         mechanism.hybrid_dynamics(q, v, &M::Velocities::from_fn(mechanism.nv(), given))
     }
+}
+
+/// `motion` along the velocities that `follows` selects, `q` and `v` along the others. Accelerations of these are zero.
+pub(crate) fn prescribed<S: Real, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    motion: &Motion<M::Coordinates, M::Velocities>,
+    follows: impl Fn(usize) -> bool,
+    (q, v): (&M::Coordinates, &M::Velocities),
+) -> Motion<M::Coordinates, M::Velocities> {
+    let Motion { q: target, v: rates, a } = motion;
+    let way = mechanism.difference(q, target);
+    let pick = |given: &M::Velocities, other: &dyn Fn(usize) -> S| {
+        M::Velocities::from_fn(mechanism.nv(), |i| if follows(i) { entry(given, i) } else { other(i) })
+    };
+    let way = pick(&way, &|_| S::zero());
+    Motion { q: mechanism.integrate(q, &way), v: pick(rates, &|i| entry(v, i)), a: pick(a, &|_| S::zero()) }
 }
 
 impl<S, Y, M, T, L> Ode<S, Y> for HybridSimulation<'_, M, T, L>

@@ -60,6 +60,7 @@ extern crate std;
 
 #[cfg(feature = "std")]
 pub mod batch;
+mod branches;
 mod closed_loop;
 #[cfg(feature = "simulation")]
 mod contact;
@@ -97,13 +98,16 @@ mod vector;
 #[cfg(any(feature = "simulation", feature = "std"))]
 mod wrapper;
 
+#[doc(hidden)]
+pub use branches::Branches;
 pub use closed_loop::{
     Assembly, ClosedLoop, ConstrainedHybridMotion, ConstrainedMotion, IndependentMotion, LoopError, NamedLoopError,
     Projection,
 };
 #[cfg(feature = "simulation")]
 pub use closed_loop::{
-    ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion, LoopForces, Stabilisation,
+    ClosedLoopComputedTorque, ClosedLoopHybridSimulation, ClosedLoopInverse, ClosedLoopSimulation, ForcedMotion,
+    LoopForces, Stabilisation,
 };
 #[cfg(feature = "simulation")]
 pub use contact::{
@@ -140,4 +144,5 @@ pub use scalar::{FUSED, Real, Scalar};
 pub use simulate::{ForwardSimulation, SimulationState};
 #[cfg(feature = "simulation")]
 pub use trajectory::{Cycloid, Motion, SetPoint, Trajectory, TrajectoryError, ViaPoints};
+pub use trigonometry::unfused::unfused_sin_cos;
 pub use vector::{LengthMismatch, Vector};

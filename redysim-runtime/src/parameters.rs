@@ -78,6 +78,8 @@ pub enum ParameterRule {
     /// second moments of the mass, ½ tr(J) 1 − J, are positive semidefinite: principal moments are not negative, and
     /// none is larger than the sum of the others.
     Inertia,
+    /// It is an element of a quaternion: x, y, z, w follow each other, and are not all zero.
+    Quaternion,
 }
 
 /// A run-time parameter that violates its rule.
@@ -108,6 +110,9 @@ impl fmt::Display for ParameterError {
                 "the inertia tensor with `{name}` = {value:?} is not that of a body: its principal moments must not \
                  be negative, and none may be larger than the sum of the others"
             ),
+            ParameterRule::Quaternion => {
+                write!(f, "parameter `{name}` begins a quaternion of zeros: one of its four numbers must not be zero")
+            }
         }
     }
 }
@@ -121,7 +126,7 @@ const DEFINITE: f64 = 1e-9;
 ///
 /// # Errors
 ///
-/// The first parameter that violates its rule; of an inertia tensor, its first element.
+/// The first parameter that violates its rule; of an inertia tensor or a quaternion, its first element.
 pub fn check_parameters<T: Real>(
     values: &[T],
     names: &[&'static str],
@@ -131,11 +136,11 @@ pub fn check_parameters<T: Real>(
     let error = |index: usize, value: &T, name: &'static str, rule: ParameterRule| {
         Err(ParameterError { index, name, value: value.to_f64(), rule })
     };
-    // All numbers first, so that a tensor is not blamed for an element that is none.
+    // All numbers first, so that a tensor is not reported for an element that is not a number.
     if let Some((index, ((value, &name), &rule))) = checked().find(|(_, ((value, _), _))| !value.is_finite()) {
         return error(index, value, name, rule);
     }
-    let mut element = 0;
+    let (mut element, mut component) = (0, 0);
     for (index, ((value, &name), &rule)) in checked() {
         let holds = match rule {
             ParameterRule::Finite => true,
@@ -144,6 +149,11 @@ pub fn check_parameters<T: Real>(
             ParameterRule::Inertia => {
                 element = (element + 1) % 6;
                 element != 1 || values.get(index..index + 6).is_none_or(is_inertia)
+            }
+            ParameterRule::Quaternion => {
+                component = (component + 1) % 4;
+                let is_zero = |quaternion: &[T]| quaternion.iter().all(|&component| component == T::zero());
+                component != 1 || !values.get(index..index + 4).is_some_and(is_zero)
             }
         };
         if !holds {
@@ -206,6 +216,16 @@ mod tests {
         for tensor in tensors {
             assert!(refused(tensor), "{tensor:?}");
         }
+    }
+
+    #[test]
+    fn quaternions_of_zeros_are_refused() {
+        let (names, rules) = (["q.x", "q.y", "q.z", "q.w"].repeat(2), [ParameterRule::Quaternion; 8]);
+        let check = |values: [f64; 8]| check_parameters(&values, &names, &rules);
+        assert!(check([0.0, 0.0, 0.0, 1.0, -1e-300, 0.0, 0.0, 0.0]).is_ok());
+        assert_eq!(check([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]).unwrap_err().index, 4);
+        let message = check([0.0; 8]).unwrap_err().to_string();
+        assert!(message.starts_with("parameter `q.x` begins a quaternion of zeros"), "{message}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The numbers that dynamics is computed with.
 
+use crate::branches::{self, Branches};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -77,6 +78,15 @@ pub trait Scalar:
     #[inline(always)]
     fn apart<const N: usize>(numbers: [Self; N]) -> [Self; N] {
         numbers
+    }
+
+    /// The results of the [`Branches`] `B`, a row for each.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn side_by_side<B: Branches<Self, M, N, K>, const M: usize, const N: usize, const K: usize>(
+        read: &[Self; M],
+    ) -> [[Self; K]; N] {
+        branches::in_turn::<Self, B, M, N, K>(read)
     }
 
     /// Zero.

@@ -1,6 +1,6 @@
 //! Hybrid dynamics of closed loops: some accelerations are given, and the forces that they take are found.
 
-use super::constraints::Metric;
+use super::constraints::{Constraints, Metric};
 use super::independent::{check_independent, roundoff_tolerance};
 use super::{ClosedLoop, ConstrainedMotion, LoopError};
 use crate::linear_algebra::{add_scaled, dot, largest};
@@ -45,15 +45,33 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S> + InverseDynamics<S>,
         C: LoopClosure<S, M>,
     {
+        check_independent(driven, self.mechanism.nv())?;
+        let constraints = self.constraints_in(Metric::Mass, q, driven)?;
+        self.hybrid_dynamics_with(&constraints, (q, v, u), driven, |_| S::zero())
+    }
+
+    /// As [`hybrid_dynamics`](Self::hybrid_dynamics), with the constraints at `q` given, the velocities `driven` held, and
+    /// J a = −J̇ q̇ − feedback(row).
+    #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
+    pub(super) fn hybrid_dynamics_with<S: Real>(
+        &self,
+        constraints: &Constraints<S, M, C>,
+        (q, v, u): (&M::Coordinates, &M::Velocities, &M::Velocities),
+        driven: &[usize],
+        feedback: impl Fn(usize) -> S,
+    ) -> Result<ConstrainedHybridMotion<M::Velocities, C::Rows>, LoopError<S>>
+    where
+        M: MassMatrix<S> + InverseDynamics<S>,
+        C: LoopClosure<S, M>,
+    {
         let Self { mechanism, closure } = self;
         let nv = mechanism.nv();
-        check_independent(driven, nv)?;
         let is_driven = |velocity: &usize| driven.contains(velocity);
         let given = M::Velocities::from_fn(nv, |i| if is_driven(&i) { entry(u, i) } else { S::zero() });
         let of_given = mechanism.inverse_dynamics(q, v, &given);
         let drive = |i: usize| if is_driven(&i) { S::zero() } else { entry(u, i) - entry(&of_given, i) };
-        let constraints = self.constraints_in(Metric::Mass, q, driven)?;
         let bias = closure.loop_bias(q, v);
+        let bias = C::Rows::from_fn(closure.nc(), |row| entry(&bias, row) + feedback(row));
         let rows = constraints.jacobian.as_ref();
         let rate = |row: usize, x: &M::Velocities| rows.get(row).map_or(S::zero(), |row| dot(row.as_ref(), x.as_ref()));
         let wanted = C::Rows::from_fn(closure.nc(), |row| -entry(&bias, row) - rate(row, &given));

@@ -10,7 +10,7 @@ use crate::{ConfigurationSpace, FrameAcceleration, FrameJacobian, Frames, LoopCl
 /// for a force without an actuator.
 const SMALL: f64 = 1e-9;
 /// The same for the scalar `S`.
-pub(super) fn roundoff_tolerance<S: Real>() -> S {
+pub(in crate::closed_loop) fn roundoff_tolerance<S: Real>() -> S {
     S::from_f64(SMALL).maximum(S::from_f64(1000.0) * S::EPSILON)
 }
 

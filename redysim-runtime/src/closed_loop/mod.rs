@@ -30,7 +30,7 @@ pub use independent::IndependentMotion;
 pub use inverse::{ClosedLoopComputedTorque, ClosedLoopInverse, LoopForces};
 pub use position::{Assembly, Projection};
 #[cfg(feature = "simulation")]
-pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
+pub use simulation::{ClosedLoopHybridSimulation, ClosedLoopSimulation, ForcedMotion, Stabilisation};
 
 /// A mechanism and the closure of its loops.
 ///
@@ -40,7 +40,8 @@ pub use simulation::{ClosedLoopSimulation, ForcedMotion, Stabilisation};
 /// - [`assemble`](Self::assemble) closes the loops from a guess, [`project`](Self::project) removes drift.
 /// - [`dynamics`](Self::dynamics) gives accelerations and constraint forces, and
 ///   [`ClosedLoopSimulation`](crate::ClosedLoopSimulation) moves the mechanism in time with any integrator.
-/// - [`hybrid_dynamics`](Self::hybrid_dynamics) takes the accelerations of some joints and finds their forces.
+/// - [`hybrid_dynamics`](Self::hybrid_dynamics) takes the accelerations of some joints and finds their forces;
+///   [`ClosedLoopHybridSimulation`](crate::ClosedLoopHybridSimulation) moves these joints as a trajectory has them.
 /// - [`independent_motion`](Self::independent_motion) has all velocities, and the Jacobians of frames, by independent
 ///   ones.
 /// - [`ClosedLoopInverse`](crate::ClosedLoopInverse) finds the joint forces for a trajectory of the independent

@@ -11,6 +11,10 @@ use crate::{Event, FrameState, Frames, IntegrationError, Integrator, Ode, Real, 
 
 /// A run has at most so many touch-downs and lift-offs.
 const MOST_EVENTS: u64 = 10_000_000;
+/// Each contact changes at most so often at one time.
+const MOST_AT_ONCE: u64 = 100;
+/// Times are one where they differ by less than so many roundoff units of the interval's larger end.
+const AT_ONCE: f64 = 64.0;
 
 /// A contact has begun or ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +63,9 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
     /// ```
     ///
     /// # Errors
-    /// As [`Integrator::run`]; and [`IntegrationError::TooManySteps`] after ten million events.
+    /// As [`Integrator::run`]; [`IntegrationError::Chattering`] where contacts begin and end without progress of time, as
+    /// with steps that are too long for the damping of the ground; and [`IntegrationError::TooManySteps`] after ten million
+    /// events.
     pub fn run<Y: Vector<S>>(
         &self,
         method: &impl Integrator<S>,
@@ -75,6 +81,9 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
         let _reset = ByPosition(self.contacts());
         self.fix(&start, interval.0, |_| {});
         let mut reached = Solution { t: interval.0, y: start, statistics: Statistics::default() };
+        let instant = S::from_f64(AT_ONCE) * S::EPSILON * interval.0.abs().maximum(interval.1.abs());
+        let most_at_once = MOST_AT_ONCE * self.contacts().len() as u64;
+        let mut at_once = 0;
         for _ in 0..MOST_EVENTS {
             let margin = |_t: S, y: &Y| self.margin(y);
             let mut part = Part { margin: &margin, observer: &mut *observer, ended: false, disagrees: false };
@@ -96,6 +105,10 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
             reached = Solution { statistics, ..solution };
             if ended || !(changed || disagrees) {
                 return Ok(reached);
+            }
+            at_once = if (reached.t - interval.0).abs() < instant { at_once + 1 } else { 0 };
+            if at_once > most_at_once {
+                return Err(IntegrationError::Chattering { t: reached.t, events: at_once });
             }
             if changed {
                 self.switch(&reached.y, reached.t, &mut on_event);

@@ -56,6 +56,19 @@ pub enum Argument {
 }
 
 impl Argument {
+    /// All arguments.
+    pub const ALL: [Argument; 9] = [
+        Argument::Coordinates,
+        Argument::Start,
+        Argument::End,
+        Argument::Velocities,
+        Argument::Displacement,
+        Argument::Accelerations,
+        Argument::Forces,
+        Argument::Given,
+        Argument::Wrenches,
+    ];
+
     /// Its name in generated code.
     pub const fn name(self) -> &'static str {
         match self {

@@ -119,6 +119,13 @@ pub enum IntegrationError<S> {
         /// How many of that size the rest would take.
         remaining: u64,
     },
+    /// Contacts open and close again and again at one time: steps are too long for the ground.
+    Chattering {
+        /// The time.
+        t: S,
+        /// How often a contact has begun or ended there.
+        events: u64,
+    },
     /// The end is not reached, or with steps of one size will not be reached, within the largest number of steps.
     TooManySteps {
         /// The time that was reached.
@@ -217,6 +224,12 @@ impl<S: fmt::Debug> fmt::Display for IntegrationError<S> {
                 "the equation is stiff at t = {t:?}: stability, not accuracy, keeps the steps at {step:?}, and the \
                  rest of the interval would take about {remaining} of them; take an implicit method, Ode15s or Radau5, \
                  lower the gains or dampings, or let it go on with stiffness_limit(None)"
+            ),
+            Self::Chattering { t, events } => write!(
+                f,
+                "contacts began and ended {events} times at t = {t:?}, within the precision of time: steps are too \
+                 long for the stiffness and damping of the ground; take smaller steps, a method that chooses them from \
+                 tolerances, or softer ground"
             ),
             Self::TooManySteps { t, limit } => write!(
                 f,

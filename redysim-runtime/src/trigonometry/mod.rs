@@ -15,3 +15,4 @@ pub(crate) mod several;
 pub mod single;
 mod single_reduction;
 pub mod turns;
+pub mod unfused;

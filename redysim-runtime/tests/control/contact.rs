@@ -7,7 +7,7 @@ use redysim_runtime::integrate::{Ends, EveryStep};
 use redysim_runtime::{
     AnyContactLaw, ConfigurationSpace, Contact, ContactError, ContactEvent, ContactLaw, ForwardDynamics,
     ForwardSimulation, FrameState, GroundPlane, Grounded, HuntCrossleyContact, IntegrationError, Integrator,
-    MechanicalEnergy, Ode45, ReDySimContact, Solution, Statistics, Step, ZeroTorque,
+    MechanicalEnergy, Ode45, ReDySimContact, SemiImplicitEuler, Solution, Statistics, Step, ZeroTorque,
 };
 
 const BALL: Ball = Ball { mass: 0.5 };
@@ -209,6 +209,25 @@ fn contacts_of_one_frame_and_of_several_add_up() {
     let mut penetrations = vec![];
     grounded.reactions(&q, &v, |contact, reaction| penetrations.push((contact.frame(), reaction.penetration)));
     assert_eq!(penetrations, [(0, 0.01), (0, 0.01), (1, 0.01)]);
+}
+
+/// A step of 10 ms under the damping of 500 N s/m throws a ball of 0.5 kg back nine times as fast as it came, out of the
+/// ground before time has passed; between, it falls as before.
+#[test]
+fn steps_too_long_for_the_damping_of_the_ground_are_reported_where_contacts_chatter() {
+    let law = ReDySimContact { damping: 500.0, ..REDYSIM };
+    let contacts = [Contact::new(0, floor(), law).unwrap()];
+    let grounded = Grounded::new(&BALL, &contacts).unwrap();
+    let mut simulation = ForwardSimulation::new(&grounded, ZeroTorque);
+    let start = simulation.state(&[0.0, 0.0, 0.1], &[0.0; 3]);
+    let mut run = |step: f64| {
+        let method = SemiImplicitEuler::new(step);
+        grounded.run(&method, &mut simulation, (0.0, 0.3), start, &mut Ends, |_| {}).map(|end| end.y[2])
+    };
+    let error = run(1e-2).unwrap_err();
+    let fallen = (0.2 / GRAVITY).sqrt();
+    assert!(matches!(error, IntegrationError::Chattering { t, events: 101 } if (t - fallen).abs() < 1e-2), "{error}");
+    assert!(run(1e-4).unwrap().abs() < 1e-2);
 }
 
 #[test]

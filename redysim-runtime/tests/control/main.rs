@@ -8,10 +8,10 @@ mod slider_crank;
 
 mod alloc;
 mod closed_loop_coordinates;
+mod closed_loop_hybrid;
 mod contact;
 mod control;
 mod coordinate_rates;
-mod documentation;
 mod dual;
 mod lanes;
 mod operational_space;

@@ -356,7 +356,7 @@ fn steps_are_counted_before_they_become_too_many() {
 
 #[test]
 fn messages_name_the_rule_the_value_and_the_way_out() {
-    let cases: [(IntegrationError<f64>, &[&str]); 18] = [
+    let cases: [(IntegrationError<f64>, &[&str]); 19] = [
         (InvalidInterval { from: 1.0, to: 1.5 }, &["interval", "1.0", "1.5", "length"]),
         (InvalidRelativeTolerance { value: 1e-17, smallest: 2e-14 }, &["relative", "1e-17", "2e-14", "larger"]),
         (InvalidAbsoluteTolerance { component: None, value: -1.0 }, &["absolute", "-1.0", "positive"]),
@@ -374,6 +374,7 @@ fn messages_name_the_rule_the_value_and_the_way_out() {
         (NotConverged { t: 0.5, step: 1e-3 }, &["t = 0.5", "0.001", "iteration", "tangent", "smaller"]),
         (StepTooSmall { t: 0.5, step: 1e-16 }, &["t = 0.5", "1e-16", "singularity"]),
         (Stiff { t: 0.5, step: 1e-3, remaining: 12345 }, &["stiff", "t = 0.5", "0.001", "12345", "Radau5"]),
+        (Chattering { t: 0.5, events: 101 }, &["t = 0.5", "101 times", "smaller steps", "tolerances"]),
         (TooManySteps { t: 0.5, limit: 7 }, &["t = 0.5", "7 steps", "max_steps", "jumps"]),
     ];
     for (error, words) in cases {

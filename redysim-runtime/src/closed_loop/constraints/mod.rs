@@ -132,6 +132,12 @@ pub fn zero_columns<S: Real, V: Vector<S>>(row: &mut V, held: &[usize]) {
 }
 
 impl<S: Real, M: ConfigurationSpace<S>, C: LoopClosure<S, M>> Constraints<S, M, C> {
+    /// Whether all `rows` are independent, with a margin.
+    pub fn are_regular(&self, rows: usize) -> bool {
+        let decomposition = &self.weighted.decomposition;
+        !decomposition.nearly_singular() && decomposition.rank() == rows
+    }
+
     /// The length scale of the mechanism, m.
     pub fn length_scale(&self) -> S {
         length_scale(self.jacobian.as_ref())

@@ -2,8 +2,9 @@
 
 use super::NewtonSolution;
 use crate::closed_loop::constraints::{Constraints, Metric};
+use crate::closed_loop::independent::roundoff_tolerance;
 use crate::closed_loop::{ClosedLoop, LoopError};
-use crate::linear_algebra::largest;
+use crate::linear_algebra::{difference, largest, product};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, LoopClosure, MassMatrix, Real, Vector};
 
@@ -49,28 +50,43 @@ impl<M, C> ClosedLoop<'_, M, C> {
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
-        Ok(self.project_with_constraints(q, v)?.projection)
+        Ok(self.project_with_constraints(q, v, &[])?.projection)
     }
 
-    /// The projection, and the constraints there.
+    /// The projection with the velocities `held`, and the positions of their joints, as they are, and the constraints there.
+    ///
+    /// # Errors
+    /// Also [`LoopError::InconsistentVelocity`] if the loops do not admit the velocities that are held.
     pub(in crate::closed_loop) fn project_with_constraints<S: Real>(
         &self,
         q: &M::Coordinates,
         v: &M::Velocities,
+        held: &[usize],
     ) -> Result<ProjectedPoint<S, M, C>, LoopError<S>>
     where
         M: MassMatrix<S>,
         C: LoopClosure<S, M>,
     {
         let NewtonSolution { q, constraints, position_residual, row, .. } =
-            self.solve_position(Metric::Mass, q.clone(), &[], ITERATIONS)?;
+            self.solve_position(Metric::Mass, q.clone(), held, ITERATIONS)?;
         let open = S::from_f64(1e-6).maximum(S::from_f64(10.0) * S::EPSILON.sqrt());
         if position_residual > open * constraints.length_scale() {
             return Err(LoopError::NoConvergence { position_residual, row });
         }
         // A velocity that a `Vec` lacks is NaN, and seen to be.
         let normal = constraints.weighted.normal_velocity(v);
-        let v = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(v, i) - entry(&normal, i));
+        let mut v = M::Velocities::from_fn(self.mechanism.nv(), |i| entry(v, i) - entry(&normal, i));
+        if !held.is_empty() {
+            // What is left of J v is that of the velocities held.
+            let rates: C::Rows = product(constraints.jacobian.as_ref(), v.as_ref());
+            v = difference(&v, &constraints.weighted.least_norm(&rates));
+            let rates: C::Rows = product(constraints.jacobian.as_ref(), v.as_ref());
+            let (residual, row) = largest(rates.as_ref().iter().copied());
+            let (fastest, _) = largest(v.as_ref().iter().copied());
+            if residual > roundoff_tolerance::<S>() * constraints.length_scale() * (S::one() + fastest) {
+                return Err(LoopError::InconsistentVelocity { residual, row });
+            }
+        }
         if !largest(v.as_ref().iter().copied()).0.is_finite() {
             return Err(LoopError::NotFinite);
         }

@@ -1,5 +1,6 @@
 //! Forward simulation of mechanisms with closed loops: the part of `closed_loop` that needs the integrators.
 
+mod hybrid;
 mod stabilisation;
 
 use core::iter::once;
@@ -9,7 +10,7 @@ use super::position::ProjectedPoint;
 use super::{Assembly, ClosedLoop, ConstrainedMotion, LoopError};
 use crate::integrate::{Accepted, Tolerances};
 use crate::linear_algebra::{dot, largest, product};
-use crate::simulate::{check_state, constrain_coordinates, extended_state, law_torque};
+use crate::simulate::{check_state, constrain_coordinates, extended_state, law_torque, write_coordinate_rates};
 use crate::tangent;
 use crate::vector::entry;
 use crate::{
@@ -17,6 +18,7 @@ use crate::{
     SimulationState, TorqueLaw, Vector,
 };
 
+pub use hybrid::ClosedLoopHybridSimulation;
 pub use stabilisation::Stabilisation;
 
 /// A start may be open by this part of the mechanism's size, and its velocity violate the constraints by this part of
@@ -194,9 +196,8 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
         let SimulationState { q, v, .. } = self.split(state);
         let constraints = self.loops.constraints_at(&q)?;
         if self.stabilisation == Stabilisation::Projection
-            && (constraints.weighted.decomposition.nearly_singular()
-                || constraints.weighted.decomposition.rank() < self.loops.closure.nc())
-            && let Ok(ProjectedPoint { projection, constraints }) = self.loops.project_with_constraints(&q, &v)
+            && !constraints.are_regular(self.loops.closure.nc())
+            && let Ok(ProjectedPoint { projection, constraints }) = self.loops.project_with_constraints(&q, &v, &[])
         {
             return Ok(EvaluationPoint { q: projection.q, v: projection.v, constraints });
         }
@@ -226,6 +227,27 @@ impl<'m, S: Real, M, L, C> ClosedLoopSimulation<'m, S, M, L, C> {
     }
 }
 
+/// Writes the rates of coordinates, velocities and energy to the first elements of `rate`, or not a number to all where
+/// the loops could not be solved: then the reason is returned.
+fn write_rates<S: Real, Q: Vector<S>, V: Vector<S>>(
+    found: Result<(Q, V, S), LoopError<S>>,
+    rate: &mut impl Vector<S>,
+) -> Option<LoopError<S>> {
+    match found {
+        Err(error) => {
+            rate.as_mut().fill(S::from_f64(f64::NAN));
+            Some(error)
+        }
+        Ok((rates, accelerations, power)) => {
+            let values = rates.as_ref().iter().chain(accelerations.as_ref()).chain(once(&power));
+            for (rate, &value) in rate.as_mut().iter_mut().zip(values) {
+                *rate = value;
+            }
+            None
+        }
+    }
+}
+
 impl<S, Y, M, L, C> Ode<S, Y> for ClosedLoopSimulation<'_, S, M, L, C>
 where
     S: Real,
@@ -248,19 +270,7 @@ where
             let power = dot(tau.as_ref(), v.as_ref()) - mechanism.dissipated_power(&q, &v);
             Ok((mechanism.coordinate_rates(&q, &v), motion.accelerations, power))
         });
-        match taken {
-            Err(error) => {
-                self.last_error = Some(error);
-                rate.as_mut().fill(S::from_f64(f64::NAN));
-            }
-            Ok((rates, accelerations, power)) => {
-                self.last_error = None;
-                let values = rates.as_ref().iter().chain(accelerations.as_ref()).chain(once(&power));
-                for (rate, &value) in rate.as_mut().iter_mut().zip(values) {
-                    *rate = value;
-                }
-            }
-        }
+        self.last_error = write_rates(taken, rate);
     }
 
     fn interpolated(&mut self, _t: S, state: &mut Y) {
@@ -273,10 +283,7 @@ where
 
     fn coordinate_rates(&mut self, _t: S, state: &Y, rates: &mut Y) -> usize {
         let SimulationState { q, v, .. } = self.split(state);
-        for (rate, &value) in rates.as_mut().iter_mut().zip(self.loops.mechanism.coordinate_rates(&q, &v).as_ref()) {
-            *rate = value;
-        }
-        self.loops.mechanism.nq()
+        write_coordinate_rates(self.loops.mechanism, (&q, &v), rates)
     }
 
     fn accepted(&mut self, _t: S, step: S, state: &mut Y) -> Accepted {

@@ -31,7 +31,7 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// The formula of `order` with the κ of `kappas`; `None` if it has none for that order.
+    /// The formula of `order` with the κ of `kappas`; `None` if `kappas` has no entry for that order.
     pub fn new(kappas: &[f64], order: usize) -> Option<Self> {
         let index = order.checked_sub(1)?;
         let (&kappa, &gamma) = kappas.get(index).zip(GAMMA.get(index))?;

@@ -158,7 +158,7 @@ impl<S: Real, Y: Vector<S>> NdfFormula<S, Y> {
         self.equation.matrix_factor = differences.size() * share;
     }
 
-    /// The error of a step of `order` where ∇^{order + 1} is `difference`; `None` if there is no such order.
+    /// The error of a step of `order` where ∇^{order + 1} is `difference`; `None` if the method does not have that order.
     fn error_of<O: Ode<S, Y> + ?Sized>(
         &self,
         order: usize,
