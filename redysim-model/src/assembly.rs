@@ -1,7 +1,7 @@
 //! From a checked model to its tree of moving bodies.
 
 use crate::denoc;
-use crate::joint::{Element, JointPhysics, JointPosition, LinkJoint};
+use crate::joint::{BodyPhysics, Element, JointPosition, LinkJoint};
 use crate::model::{self, CutSide, Frame, Link, LinkPoint, Model, Spring};
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
@@ -10,6 +10,7 @@ use crate::run_time::{LinkNumbers, Numbers, RunTimeParameter};
 use crate::spatial::{Mat3, Pose, Vec3};
 use crate::spring::{BodyPoint, BodySpring};
 use crate::tree::{Attachment, Body, BodyFrame, Cut, CutEnd, Mimic, Tree};
+use std::ops::Range;
 
 impl Tree {
     /// The tree of a checked model.
@@ -46,7 +47,7 @@ impl<P: Parameter> Tree<P> {
             let (body, moved) = match LinkJoint::of(link) {
                 None => (parent, placement),
                 Some(joint) => {
-                    let moving = BodyLink { index, link, physics: own.physics };
+                    let moving = BodyLink { index, link, physics: &own.physics };
                     tree.add_bodies(parent, placement, moving, joint, first[index])
                 }
             };
@@ -119,20 +120,26 @@ impl<P: Parameter> Tree<P> {
         first: [usize; 2],
     ) -> (Option<usize>, Pose<f64>) {
         let (elements, actuated) = (joint.elements(link.link.axis), link.link.actuated_velocities());
-        let of_each = elements.iter().zip(actuated.chunks(actuated.len() / elements.len())).enumerate();
-        of_each.fold((parent, placement), |moved, (index, (&element, actuated))| {
-            self.add_body(moved, link, element, first.map(|first| first + index), actuated)
+        // Of several in series, each has one coordinate and one velocity.
+        let mut own = [0; 2];
+        elements.iter().fold((parent, placement), |moved, &element| {
+            let [q, v] = own;
+            own = [q + element.joint.nq(), v + element.joint.nv()];
+            let ranges = [q..own[0], v..own[1]];
+            self.add_body(moved, link, element, first, ranges, &actuated)
         })
     }
 
     /// Adds a body whose joint stands at a place on its parent and has its z axis in the axes of `element`; returns the
-    /// body's index and the frame that the joint moves, on it.
+    /// body's index and the frame that the joint moves, on it. The joint has the coordinates `q` and the velocities `v` of
+    /// those of its link, of which `first` are the first.
     fn add_body(
         &mut self,
         (parent, placement): (Option<usize>, Pose<f64>),
         BodyLink { index, link, physics }: BodyLink<'_, P>,
         Element { joint, axes }: Element,
-        [q, v]: [usize; 2],
+        first: [usize; 2],
+        [q, v]: [Range<usize>; 2],
         actuated: &[bool],
     ) -> (Option<usize>, Pose<f64>) {
         let mut placement = placement * Pose { rotation: axes, position: Vec3::zero() };
@@ -159,11 +166,11 @@ impl<P: Parameter> Tree<P> {
             link: index,
             offset,
             merged_parallel: false,
-            q: q..q + joint.nq(),
-            v: v..v + joint.nv(),
+            physics: Some(physics.part(q.clone(), v.clone())).filter(BodyPhysics::acts),
+            actuated: actuated[v.clone()].to_vec(),
+            q: first[0] + q.start..first[0] + q.end,
+            v: first[1] + v.start..first[1] + v.end,
             inertia: PseudoInertia::zero(),
-            physics: Some(physics).filter(JointPhysics::acts),
-            actuated: actuated.to_vec(),
         });
         let pose = Pose { rotation: axes.transpose(), position: Vec3::zero() };
         (Some(self.bodies.len() - 1), pose)
@@ -175,7 +182,7 @@ impl<P: Parameter> Tree<P> {
 struct BodyLink<'m, P> {
     index: usize,
     link: &'m Link,
-    physics: JointPhysics<P>,
+    physics: &'m BodyPhysics<P>,
 }
 
 /// For each link, the first of its joint's coordinates and of its velocities (for fixed links, of the next joint's). Those

@@ -192,7 +192,7 @@ fn inverse(pose: Pose<f64>) -> Pose<f64> {
 
 /// The largest length around a body: to its parent, its children, its links and its centre of mass.
 ///
-/// Where the robot stands in the base frame is none of them: its inertias know nothing of it.
+/// The position of the robot in the base frame does not count: inertias do not depend on it.
 fn reach<P: Parameter>(tree: &Tree<P>, body: usize) -> f64 {
     let Body { parent, placement, inertia, .. } = &tree.bodies[body];
     let own = parent.map_or(Vec3::zero(), |_| placement.position);

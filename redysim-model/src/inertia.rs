@@ -124,8 +124,8 @@ impl<S: Scalar> RigidInertia<S> {
     /// I v, the momentum at a velocity: angular about the origin, and linear.
     pub fn momentum(&self, Twist { angular, linear }: Twist<S>) -> Wrench<S> {
         Wrench {
-            moment: self.tensor.full() * angular + self.moment.cross(linear),
-            force: linear.scale(self.mass) + angular.cross(self.moment),
+            moment: self.tensor.full().fused_product(angular) + self.moment.fused_cross(linear),
+            force: linear.scale(self.mass) + angular.fused_cross(self.moment),
         }
     }
 }

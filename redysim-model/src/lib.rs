@@ -38,7 +38,6 @@
 // docs.rs shows which feature an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-mod actuation;
 mod assembly;
 mod check;
 mod cut;
@@ -56,6 +55,7 @@ mod mobility;
 mod model;
 mod options;
 pub mod parameter;
+mod per_velocity;
 pub mod pseudo;
 mod public_interface;
 pub mod regroup;
@@ -71,7 +71,6 @@ mod spring;
 mod tree;
 mod write;
 
-pub use actuation::Actuation;
 pub use faults::Faults;
 pub use generic::GenericMechanism;
 pub use lint::Lint;
@@ -80,6 +79,7 @@ pub use lock::{JointCoordinates, LockError};
 pub use mobility::Mobility;
 pub use model::{CutKind, CutSide, Frame, Inertia, JointKind, JointRange, Link, LinkPoint, Loop, Mimic, Model, Spring};
 pub use options::{AccelerationMethod, CodegenOptions};
+pub use per_velocity::PerVelocity;
 pub use public_interface::{MovingJoint, ParameterNumber, PublicInterface};
 pub use redysim_runtime::{Function, Functions};
 pub use redysim_toml::{Diagnostic, Diagnostics, Severity};

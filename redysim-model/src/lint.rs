@@ -123,7 +123,8 @@ impl Lint {
                 "a length or a centre of mass is as if in millimetres, of one link, of one spring or of all"
             }
             Lint::MassUnits => {
-                "the heaviest link on a joint that moves has more than 1e5 times the mass of the lightest: kg and g?"
+                "the heaviest link on a joint that moves has more than 1e5 times the mass of the lightest, or an arm is heavier \
+                 than solid steel: kg and g?"
             }
             Lint::RadiusOfGyration => {
                 "mass and inertia of a link are those of a body larger or smaller than the mechanism can have, or denser \

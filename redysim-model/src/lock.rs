@@ -11,8 +11,8 @@ impl Model {
     /// The model with joints held at these values of their coordinates, rad or m: each as if it were fixed there. A joint
     /// of one coordinate is held at a number, one of several at an array of them.
     ///
-    /// A joint is meant by its name or by that of its link. The link stays among the links; its coordinate is none any
-    /// more, and the link becomes part of its parent's body.
+    /// A joint is given by its name or by that of its link. The link stays among the links, without a coordinate, and
+    /// becomes part of its parent's body.
     ///
     /// # Errors
     ///

@@ -9,7 +9,7 @@ use redysim_runtime::{ClosedLoop, LoopClosure, LoopError, LoopRows};
 /// Positions from which the loops are closed, and how many of them have to succeed.
 pub(crate) const STARTS: usize = 6;
 const SUCCESSES: usize = 2;
-/// A smaller element of the Jacobian is none.
+/// A smaller element of the Jacobian counts as zero.
 const ROUNDOFF: f64 = 1e-12;
 
 /// The constraints that the loops of a mechanism set, and what they leave.

@@ -1,10 +1,10 @@
 //! The checked model: what a model file says, with every name resolved and every joint placed in one way.
 
-use crate::actuation::Actuation;
 pub use crate::cut::{CutKind, CutSide, Loop};
 use crate::inertia::Sym3;
 use crate::joint::physics::JointPhysics;
 use crate::joint::{EulerSequence, LinkJoint};
+use crate::per_velocity::PerVelocity;
 use crate::spatial::{Pose, Vec3};
 
 /// A mechanism whose file passed every check. Links, loops, frames and springs stand in the file's order.
@@ -74,7 +74,7 @@ pub struct Link {
     #[cfg_attr(feature = "serde", serde(default))]
     pub mimic: Option<Mimic>,
     /// Which of the joint's velocities have an actuator.
-    pub actuated: Actuation,
+    pub actuated: PerVelocity<bool>,
     /// Within what the joint moves, for each of its velocities; empty if the file does not give it.
     #[cfg_attr(feature = "serde", serde(default, deserialize_with = "crate::serde::ranges"))]
     pub range: Vec<JointRange>,
@@ -303,7 +303,7 @@ impl Link {
 impl Link {
     /// Whether each velocity of its joint has an actuator.
     pub fn actuated_velocities(&self) -> Vec<bool> {
-        self.actuated.of_velocities(self.joint.dof())
+        self.actuated.of_velocities(self.joint.dof(), true)
     }
 
     /// Number of velocities that its joint adds to the mechanism: those of the joint, but none if it mimics another.

@@ -27,7 +27,7 @@ impl<P: Parameter> PseudoInertia<P> {
     /// The body of the given mass, centre of mass, and inertia tensor J about it: Σ = ½ tr(J) 1 − J + m c cᵀ.
     pub fn from_central(mass: P, com: Vec3<P>, central: Sym3<P>) -> Self {
         let j = central;
-        // Halves of sums of three: what is below their roundoff is none.
+        // Halves of sums of three: a difference below their roundoff counts as zero.
         let known = [j.xx, j.yy, j.zz].into_iter().filter_map(Parameter::number);
         let size = 4.0 * f64::EPSILON * known.fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let half = |sum: P| match sum.number() {

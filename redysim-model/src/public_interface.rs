@@ -137,8 +137,8 @@ impl PublicInterface {
     /// The interface of the type that is generated from a checked model with the given options.
     pub fn new(model: &Model, options: &CodegenOptions) -> Self {
         let numbers = |parameter: &RunTimeParameter| {
-            let (rule, named) = (parameter.quantity.rule(), parameter.names(model).zip(parameter.values(model)));
-            named.map(move |(name, value)| ParameterNumber { name, value, rule })
+            let numbers = parameter.numbers(model).zip(parameter.values(model));
+            numbers.map(|((name, rule), value)| ParameterNumber { name, value, rule })
         };
         PublicInterface {
             is_valid: true,

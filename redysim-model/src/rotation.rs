@@ -1,19 +1,19 @@
 //! Rotations whose entries are exact at quarter turns, so that no noise such as cos(90°) = 6e-17 enters a model.
 
 use crate::spatial::{Mat3, Vec3};
-use redysim_runtime::Scalar;
+use redysim_runtime::unfused_sin_cos;
 use std::f64::consts::FRAC_PI_2;
 
 /// Quarter turns are recognised up to this many; beyond, neighbouring numbers are too far apart to mean one.
 const MOST_QUARTER_TURNS: f64 = 1e6;
 
 /// Sine and cosine of an angle in radians; exactly 0 or ±1 where the angle is a quarter turn k π/2 as nearly as a
-/// `f64` can say it.
+/// `f64` can say it. The same bits on every processor.
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     let turns = (angle / FRAC_PI_2).round();
     let off = (angle - turns * FRAC_PI_2).abs();
     if turns.abs() > MOST_QUARTER_TURNS || off > f64::EPSILON * angle.abs() {
-        return Scalar::sin_cos(angle);
+        return unfused_sin_cos(angle);
     }
     match (turns as i64).rem_euclid(4) {
         0 => (0.0, 1.0),
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn angles_beside_a_quarter_turn_are_not_one() {
         for angle in [1e-300, FRAC_PI_2 + 1e-15, FRAC_PI_2 - 1e-15, FRAC_PI_2 + 4e-6] {
-            assert_eq!(sin_cos(angle), Scalar::sin_cos(angle));
+            assert_eq!(sin_cos(angle), unfused_sin_cos(angle));
         }
     }
 

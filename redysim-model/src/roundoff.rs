@@ -17,7 +17,7 @@ fn without_noise<P: Parameter>(values: &mut [&mut P]) {
 }
 
 impl Pose<f64> {
-    /// -0.0 is nobody's coordinate: it comes from products with zero, and would be printed.
+    /// -0.0 comes from products with zero; it would be printed.
     pub(crate) fn without_negative_zeros(self) -> Self {
         Pose {
             rotation: Mat3::from_fn(|i, j| self.rotation.0[i][j] + 0.0),

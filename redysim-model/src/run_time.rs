@@ -1,9 +1,10 @@
 //! Run-time parameters: the numbers of a model that a program gives when it runs.
 
 use crate::inertia::Sym3;
-use crate::joint::JointPhysics;
-use crate::model::{Link, Model};
+use crate::joint::{BodyPhysics, LinkJoint, VelocityPhysics};
+use crate::model::{Inertia, Link, Model};
 use crate::parameter::Parameter;
+use crate::per_velocity::PerVelocity;
 use crate::schema::keys;
 use crate::spatial::Vec3;
 use redysim_runtime::ParameterRule;
@@ -42,13 +43,9 @@ pub enum Quantity {
     FrictionVelocity,
     /// Stiffness of a joint's spring, N m/rad or N/m.
     Stiffness,
-    /// The coordinate at which a joint's spring is relaxed, rad or m.
+    /// The coordinates at which a joint's springs are relaxed, rad or m.
     Rest,
 }
-
-const SCALAR: &[&str] = &[""];
-const VECTOR: &[&str] = &[".x", ".y", ".z"];
-const TENSOR: &[&str] = &[".xx", ".yy", ".zz", ".xy", ".yz", ".xz"];
 
 impl Quantity {
     /// Those of links and joints, with their names in a model file.
@@ -74,22 +71,35 @@ impl Quantity {
         !matches!(self, Quantity::Gravity | Quantity::Mass | Quantity::Com | Quantity::Inertia)
     }
 
-    /// What is appended to the name for each of its numbers.
-    fn components(self) -> &'static [&'static str] {
+    /// What is appended to the name for each of its numbers, and what these must fulfil. The joint of the link that has it
+    /// is `joint`.
+    fn numbers(self, joint: Option<LinkJoint>) -> Vec<(String, ParameterRule)> {
+        let all = |components: &[&str], rule: ParameterRule| -> Vec<(String, ParameterRule)> {
+            let suffix = |component: &&str| if components.len() == 1 { String::new() } else { format!(".{component}") };
+            components.iter().map(|component| (suffix(component), rule)).collect()
+        };
         match self {
-            Quantity::Gravity | Quantity::Com => VECTOR,
-            Quantity::Inertia => TENSOR,
-            _ => SCALAR,
-        }
-    }
-
-    /// What its numbers must fulfil.
-    pub fn rule(self) -> ParameterRule {
-        match self {
-            Quantity::Gravity | Quantity::Com | Quantity::Rest => ParameterRule::Finite,
-            Quantity::Inertia => ParameterRule::Inertia,
-            Quantity::FrictionVelocity => ParameterRule::Positive,
-            _ => ParameterRule::NotNegative,
+            Quantity::Gravity | Quantity::Com => all(&["x", "y", "z"], ParameterRule::Finite),
+            Quantity::Mass => all(&[""], ParameterRule::NotNegative),
+            Quantity::Inertia => all(&["xx", "yy", "zz", "xy", "yz", "xz"], ParameterRule::Inertia),
+            Quantity::Rest => {
+                let mut rest = all(joint.map_or(&[""], LinkJoint::coordinate_names), ParameterRule::Finite);
+                for (_, rule) in &mut rest[joint.map_or(0..0, LinkJoint::quaternion)] {
+                    *rule = ParameterRule::Quaternion;
+                }
+                rest
+            }
+            Quantity::Armature
+            | Quantity::Damping
+            | Quantity::Friction
+            | Quantity::FrictionVelocity
+            | Quantity::Stiffness => {
+                let rule = match self {
+                    Quantity::FrictionVelocity => ParameterRule::Positive,
+                    _ => ParameterRule::NotNegative,
+                };
+                all(joint.map_or(&[""], LinkJoint::velocity_names), rule)
+            }
         }
     }
 }
@@ -100,9 +110,16 @@ impl RunTimeParameter {
         self.name_with(self.owner(model))
     }
 
-    /// The names of its numbers: `gravity.x`, `tool.mass`, `tool.inertia.xx`, `joint2.damping`.
+    /// The names of its numbers, `gravity.x`, `tool.mass`, `tool.inertia.xx`, `joint2.damping`, `base.damping.vx`, and what
+    /// these must fulfil.
+    pub fn numbers(self, model: &Model) -> impl Iterator<Item = (String, ParameterRule)> {
+        let joint = self.link.and_then(|link| LinkJoint::of(model.links.get(link)?));
+        self.numbers_with(self.owner(model), joint)
+    }
+
+    /// The names of its numbers.
     pub fn names(self, model: &Model) -> impl Iterator<Item = String> {
-        self.names_with(self.owner(model))
+        self.numbers(model).map(|(name, _)| name)
     }
 
     fn owner(self, model: &Model) -> Option<&String> {
@@ -114,15 +131,68 @@ impl RunTimeParameter {
         owner.map_or(String::new(), |owner| format!("{owner}.")) + self.quantity.name()
     }
 
-    /// The names of its numbers, if it belongs to the link or joint `owner`.
-    pub(crate) fn names_with(self, owner: Option<&String>) -> impl Iterator<Item = String> {
+    /// The names of its numbers and what these must fulfil, if it belongs to the link or joint `owner`, where the joint of
+    /// the link is `joint`.
+    pub(crate) fn numbers_with(
+        self,
+        owner: Option<&String>,
+        joint: Option<LinkJoint>,
+    ) -> impl Iterator<Item = (String, ParameterRule)> {
         let name = self.name_with(owner);
-        self.quantity.components().iter().map(move |component| format!("{name}{component}"))
+        self.quantity.numbers(joint).into_iter().map(move |(component, rule)| (format!("{name}{component}"), rule))
     }
 
     /// The numbers of the model itself.
     pub fn values(self, model: &Model) -> Vec<f64> {
         Numbers::of(model).of_parameter(self).into_iter().map(|number| *number).collect()
+    }
+}
+
+impl Model {
+    /// The model in which `values` stand in place of the numbers of the `parameters`, in the order of their
+    /// [names](RunTimeParameter::names). Values are not checked.
+    ///
+    /// ```
+    /// use redysim_model::{Loaded, Model};
+    ///
+    /// # let rod = "name = 'rod'\ngravity = [0, 0, -9.81]\n\n[[link]]\nname = 'rod'\nparent = 'base'\n\
+    /// #     joint = 'revolute'\naxis = [0, 1, 0]\nmass = 2.0\ncom = [0.5, 0, 0]";
+    /// let Loaded { model, options, .. } = Model::from_toml_with(rod, "rod.toml", "parameters = ['rod.mass']")?;
+    /// assert_eq!(model.with_parameters(&options.parameters, &[3.0]).links[0].mass, 3.0);
+    /// # Ok::<(), redysim_model::Faults>(())
+    /// ```
+    pub fn with_parameters(&self, parameters: &[RunTimeParameter], values: &[f64]) -> Model {
+        let numbers = Numbers::<f64>::of(self).with(parameters, values);
+        let mut model = self.clone();
+        for RunTimeParameter { quantity, link } in parameters {
+            let Some((link, own)) = link.and_then(|link| Some((model.links.get_mut(link)?, numbers.links.get(link)?)))
+            else {
+                model.gravity = numbers.gravity;
+                continue;
+            };
+            let each = |number: fn(&VelocityPhysics) -> f64| match &own.physics.velocities[..] {
+                [only] => PerVelocity::Uniform(number(only)),
+                all => PerVelocity::Each(all.iter().map(number).collect()),
+            };
+            match quantity {
+                Quantity::Gravity => {}
+                Quantity::Mass => link.mass = own.mass,
+                Quantity::Com => link.com = own.com,
+                Quantity::Inertia => {
+                    let Sym3 { xx, yy, zz, xy, yz, xz } = own.inertia;
+                    link.inertia = Inertia { xx, yy, zz, xy, yz, xz };
+                }
+                Quantity::Armature => link.physics.armature = each(|velocity| velocity.armature),
+                Quantity::Damping => link.physics.damping = each(|velocity| velocity.damping),
+                Quantity::Friction => link.physics.friction = each(|velocity| velocity.friction),
+                Quantity::FrictionVelocity => {
+                    link.physics.friction_velocity = each(|velocity| velocity.friction_velocity);
+                }
+                Quantity::Stiffness => link.physics.stiffness = each(|velocity| velocity.stiffness),
+                Quantity::Rest => link.physics.rest.clone_from(&own.physics.rest),
+            }
+        }
+        model
     }
 }
 
@@ -138,7 +208,7 @@ pub(crate) struct LinkNumbers<P> {
     pub com: Vec3<P>,
     /// Inertia tensor about the centre of mass.
     pub inertia: Sym3<P>,
-    pub physics: JointPhysics<P>,
+    pub physics: BodyPhysics<P>,
 }
 
 impl<P: Parameter> Numbers<P> {
@@ -148,7 +218,7 @@ impl<P: Parameter> Numbers<P> {
             mass: P::from_f64(link.mass),
             com: link.com.map(P::from_f64),
             inertia: Sym3::from(link.inertia).map(P::from_f64),
-            physics: link.physics.map(P::from_f64),
+            physics: LinkJoint::of(link).map_or(BodyPhysics::none(), |joint| BodyPhysics::new(&link.physics, joint)),
         };
         Numbers { gravity: model.gravity.map(P::from_f64), links: model.links.iter().map(link).collect() }
     }
@@ -177,12 +247,14 @@ impl<P: Parameter> Numbers<P> {
                 let Sym3 { xx, yy, zz, xy, yz, xz } = inertia;
                 vec![xx, yy, zz, xy, yz, xz]
             }
-            Quantity::Armature => vec![&mut physics.armature],
-            Quantity::Damping => vec![&mut physics.damping],
-            Quantity::Friction => vec![&mut physics.friction],
-            Quantity::FrictionVelocity => vec![&mut physics.friction_velocity],
-            Quantity::Stiffness => vec![&mut physics.stiffness],
-            Quantity::Rest => vec![&mut physics.rest],
+            Quantity::Armature => physics.velocities.iter_mut().map(|each| &mut each.armature).collect(),
+            Quantity::Damping => physics.velocities.iter_mut().map(|each| &mut each.damping).collect(),
+            Quantity::Friction => physics.velocities.iter_mut().map(|each| &mut each.friction).collect(),
+            Quantity::FrictionVelocity => {
+                physics.velocities.iter_mut().map(|each| &mut each.friction_velocity).collect()
+            }
+            Quantity::Stiffness => physics.velocities.iter_mut().map(|each| &mut each.stiffness).collect(),
+            Quantity::Rest => physics.rest.iter_mut().collect(),
         }
     }
 }

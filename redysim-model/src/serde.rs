@@ -1,6 +1,7 @@
 //! Models by [`serde`]: as their fields, and checked when they are read.
 
 use crate::model::{JointRange, Model};
+use crate::per_velocity::PerVelocity;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -23,6 +24,11 @@ pub(crate) fn ranges<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<J
         Some(Ranges::One(range)) => vec![range],
         Some(Ranges::Each(ranges)) => ranges,
     })
+}
+
+/// The coordinates of a joint: all of them, or one by itself.
+pub(crate) fn coordinates<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+    Ok(PerVelocity::deserialize(deserializer)?.values().to_vec())
 }
 
 /// Reads the fields, and [checks](Model::check) the model that they make: the error has every fault.

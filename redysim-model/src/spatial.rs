@@ -1,4 +1,9 @@
 //! Vectors, rotations and poses in three dimensions, over any scalar.
+//!
+//! The operators, [`dot`](Vec3::dot) and [`cross`](Vec3::cross) round every product and every sum, so that the constants of
+//! a model, which come from them, have the same bits on every processor: what generates code and what runs it may be
+//! compiled for different ones. What recursions compute at run time uses [`fused_dot`](Vec3::fused_dot),
+//! [`fused_cross`](Vec3::fused_cross) and [`fused_product`](Mat3::fused_product), which take multiply-adds.
 
 use redysim_runtime::Scalar;
 use std::ops::{Add, Index, IndexMut, Mul, Neg, Sub};
@@ -48,13 +53,30 @@ impl<S: Scalar> Vec3<S> {
 
     /// aᵀ b.
     pub fn dot(self, b: Self) -> S {
-        self[2].mul_add(b[2], self[1].mul_add(b[1], self[0] * b[0]))
+        self[2] * b[2] + (self[1] * b[1] + self[0] * b[0])
     }
 
     /// a × b.
     pub fn cross(self, b: Self) -> Self {
+        self.cross_by(b, |a, b, c| a * b + c)
+    }
+
+    /// aᵀ b in multiply-adds.
+    #[inline(always)]
+    pub fn fused_dot(self, b: Self) -> S {
+        self[2].mul_add(b[2], self[1].mul_add(b[1], self[0] * b[0]))
+    }
+
+    /// a × b in multiply-adds.
+    #[inline(always)]
+    pub fn fused_cross(self, b: Self) -> Self {
+        self.cross_by(b, S::mul_add)
+    }
+
+    #[inline(always)]
+    fn cross_by(self, b: Self, multiply_add: impl Fn(S, S, S) -> S) -> Self {
         let a = self;
-        let element = |i: usize, j: usize| (-a[j]).mul_add(b[i], a[i] * b[j]);
+        let element = |i: usize, j: usize| multiply_add(-a[j], b[i], a[i] * b[j]);
         Vec3([element(1, 2), element(2, 0), element(0, 1)])
     }
 
@@ -89,6 +111,12 @@ impl<S: Scalar> Mat3<S> {
     /// Aᵀ.
     pub fn transpose(self) -> Self {
         Self::from_fn(|i, j| self.0[j][i])
+    }
+
+    /// A b in multiply-adds.
+    #[inline(always)]
+    pub fn fused_product(self, b: Vec3<S>) -> Vec3<S> {
+        Vec3(self.0.map(|row| Vec3(row).fused_dot(b)))
     }
 
     /// Column `j`.
@@ -211,14 +239,19 @@ impl<S: Scalar> Twist<S> {
     /// The rate of a motion that is fixed to a body, v × S at the body's velocity v.
     pub fn rate_in(self, velocity: Twist<S>) -> Self {
         Twist {
-            angular: velocity.angular.cross(self.angular),
-            linear: velocity.angular.cross(self.linear) + velocity.linear.cross(self.angular),
+            angular: velocity.angular.fused_cross(self.angular),
+            linear: velocity.angular.fused_cross(self.linear) + velocity.linear.fused_cross(self.angular),
         }
     }
 
     /// Component `i` of six, the angular ones first.
     pub fn component(&self, i: usize) -> S {
         if i < 3 { self.angular[i] } else { self.linear[i - 3] }
+    }
+
+    /// Component `i` of six, the angular ones first, to be changed.
+    pub fn component_mut(&mut self, i: usize) -> &mut S {
+        if i < 3 { &mut self.angular[i] } else { &mut self.linear[i - 3] }
     }
 }
 
@@ -245,12 +278,12 @@ impl<S: Scalar> Wrench<S> {
 
     /// The same about another point, from which the point of this one is at `arm`.
     pub fn moved_by(self, arm: Vec3<S>) -> Self {
-        Wrench { moment: self.moment + arm.cross(self.force), force: self.force }
+        Wrench { moment: self.moment + arm.fused_cross(self.force), force: self.force }
     }
 
     /// The power of the wrench at a motion.
     pub fn dot(self, twist: Twist<S>) -> S {
-        self.moment.dot(twist.angular) + self.force.dot(twist.linear)
+        self.moment.fused_dot(twist.angular) + self.force.fused_dot(twist.linear)
     }
 }
 

@@ -3,7 +3,7 @@
 //! Links joined rigidly become one body, parents stand before their children, and each body's frame is turned so that
 //! its joint axis is z. All of this happens in numbers, before any recursion runs, so it costs the recursions nothing.
 
-use crate::joint::{Joint, JointPhysics};
+use crate::joint::{BodyPhysics, Joint};
 use crate::model::CutKind;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Vec3};
@@ -85,7 +85,7 @@ pub struct Body<P = f64> {
     /// Moments of its mass about the origin of its frame.
     pub inertia: PseudoInertia<P>,
     /// What acts in the joint itself; `None` if nothing does.
-    pub physics: Option<JointPhysics<P>>,
+    pub physics: Option<BodyPhysics<P>>,
     /// Whether each velocity of the joint has an actuator.
     pub actuated: Vec<bool>,
 }
@@ -178,6 +178,11 @@ impl<P> Tree<P> {
         velocity.checked_sub(self.nv()).map_or(velocity, |index| self.mimics[index].v)
     }
 
+    /// Whether joints mimic that of a velocity.
+    pub(crate) fn is_mimicked(&self, velocity: usize) -> bool {
+        self.mimics.iter().any(|mimic| mimic.v == velocity)
+    }
+
     /// The bodies whose joints have coordinates and velocities of their own: those that do not mimic another.
     pub fn independent_bodies(&self) -> impl Iterator<Item = &Body<P>> {
         let nv = self.nv();
@@ -218,7 +223,7 @@ impl<P> Tree<P> {
             q: body.q.clone(),
             v: body.v.clone(),
             inertia: body.inertia.map(&f),
-            physics: body.physics.map(|physics| physics.map(&f)),
+            physics: body.physics.as_ref().map(|physics| physics.map(&f)),
             actuated: body.actuated.clone(),
         };
         let link = |link: &Attachment<P>| Attachment { body: link.body, pose: link.pose, com: link.com.map(&f) };

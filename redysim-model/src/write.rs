@@ -1,12 +1,12 @@
 //! Models as the text of model files.
 
-use crate::actuation::Actuation;
 use crate::check::BASE;
 use crate::faults::Faults;
 use crate::joint::{FRICTION_VELOCITY, JointPhysics};
 use crate::load::Loaded;
 use crate::model::{CutSide, Frame, Inertia, JointKind, JointRange, Link, Loop, Mimic, Model, Spring};
 use crate::options::{AccelerationMethod, CodegenOptions};
+use crate::per_velocity::PerVelocity;
 use crate::schema::keys;
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_runtime::Functions;
@@ -104,14 +104,14 @@ impl Model {
         file.entry(&keys::MASS, number(link.mass));
         file.vector_unless_zero(&keys::COM, link.com);
         file.inertia(link.inertia);
-        file.physics(link.physics);
+        file.physics(&link.physics);
         if let Some(mimic) = link.mimic {
             file.entry(&keys::MIMIC, self.mimic(mimic));
         }
         match &link.actuated {
-            Actuation::Uniform(true) => {}
-            Actuation::Uniform(false) => file.entry(&keys::ACTUATED, "false"),
-            Actuation::PerVelocity(each) => file.entry(&keys::ACTUATED, format!("{each:?}")),
+            PerVelocity::Uniform(true) => {}
+            PerVelocity::Uniform(false) => file.entry(&keys::ACTUATED, "false"),
+            PerVelocity::Each(each) => file.entry(&keys::ACTUATED, format!("{each:?}")),
         }
         match &link.range[..] {
             [] => {}
@@ -244,22 +244,41 @@ impl Text {
         }
     }
 
-    fn physics(&mut self, physics: JointPhysics) {
+    fn physics(&mut self, physics: &JointPhysics) {
         let JointPhysics { armature, damping, friction, friction_velocity, stiffness, rest } = physics;
-        self.number_unless(&keys::ARMATURE, armature, 0.0);
-        self.number_unless(&keys::DAMPING, damping, 0.0);
+        self.numbers_unless(&keys::ARMATURE, armature, 0.0);
+        self.numbers_unless(&keys::DAMPING, damping, 0.0);
         // The second of each pair needs the first beside it.
-        self.pair([(&keys::FRICTION, friction, 0.0), (&keys::FRICTION_VELOCITY, friction_velocity, FRICTION_VELOCITY)]);
-        self.pair([(&keys::STIFFNESS, stiffness, 0.0), (&keys::REST, rest, 0.0)]);
+        if !is_uniformly(friction, 0.0) || !is_uniformly(friction_velocity, FRICTION_VELOCITY) {
+            self.entry(&keys::FRICTION, per_velocity(friction));
+            self.numbers_unless(&keys::FRICTION_VELOCITY, friction_velocity, FRICTION_VELOCITY);
+        }
+        if !is_uniformly(stiffness, 0.0) || !rest.is_empty() {
+            self.entry(&keys::STIFFNESS, per_velocity(stiffness));
+        }
+        match &rest[..] {
+            [] => {}
+            [only] => self.entry(&keys::REST, number(*only)),
+            several => self.entry(&keys::REST, array(several.iter().copied().map(number))),
+        }
     }
 
-    fn pair(&mut self, [first, second]: [(&Key, f64, f64); 2]) {
-        let [has_first, has_second] = [first, second].map(|(_, value, default)| !same(value, default));
-        for (written, (key, value, _)) in [(has_first || has_second, first), (has_second, second)] {
-            if written {
-                self.entry(key, number(value));
-            }
+    fn numbers_unless(&mut self, key: &Key, numbers: &PerVelocity<f64>, default: f64) {
+        if !is_uniformly(numbers, default) {
+            self.entry(key, per_velocity(numbers));
         }
+    }
+}
+
+/// Whether a number is the same for all velocities, and this one.
+fn is_uniformly(numbers: &PerVelocity<f64>, value: f64) -> bool {
+    matches!(numbers, PerVelocity::Uniform(number) if same(*number, value))
+}
+
+fn per_velocity(numbers: &PerVelocity<f64>) -> String {
+    match numbers {
+        PerVelocity::Uniform(one) => number(*one),
+        PerVelocity::Each(each) => array(each.iter().copied().map(number)),
     }
 }
 

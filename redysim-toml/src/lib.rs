@@ -70,7 +70,7 @@ pub use nearby::similar_file;
 pub use reader::{Reader, TableAt, name_of};
 pub use source::Source;
 pub use units::radians;
-pub use value::{Array, LARGE_ANGLE, ROUNDED_ANGLE, Table, Value};
+pub use value::{Array, LARGE_ANGLE, NEARLY_QUARTER_TURN, ROUNDED_ANGLE, Table, Value};
 
 pub use toml::Spanned;
 pub use toml::de::DeValue;

@@ -323,8 +323,13 @@ impl<'a, 'f> Reader<'a, 'f> {
         self.parse_turn(path, value, "")
     }
 
+    /// The value as a position of a joint: an angle for one that turns, otherwise a number.
+    pub fn parse_position(&mut self, path: &KeyPath, value: &Value<'_>, turns: bool) -> Option<f64> {
+        if turns { self.parse_angle(path, value) } else { self.parse_number(path, value) }
+    }
+
     /// The value as a displacement of a joint, or as its rate `per` time, such as "/s": a number, or for a joint that
-    /// turns also an angle with a unit, in radians. Unlike [`parse_angle`](Self::parse_angle), it accepts more than a
+    /// turns also an angle with a unit, in radians. Unlike [`parse_position`](Self::parse_position), it accepts more than a
     /// turn without a warning.
     pub fn parse_displacement(&mut self, path: &KeyPath, value: &Value<'_>, turns: bool, per: &str) -> Option<f64> {
         match value.get_ref() {

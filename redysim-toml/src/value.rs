@@ -24,8 +24,8 @@ pub type Array<'a> = DeArray<'a>;
 /// The range of a number other than zero: products of a mass and two lengths, and their reciprocals, are finite.
 const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
 
-/// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1416.
-const NEARLY: f64 = 1e-5;
+/// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1415.
+pub const NEARLY_QUARTER_TURN: f64 = 1e-4;
 
 /// The name of the warning about a plain number that is an angle of more than a turn.
 pub const LARGE_ANGLE: &str = "angle-units";
@@ -93,9 +93,9 @@ impl Named<'_, '_> {
         let Named { item, path, .. } = self;
         let quarters = (radians / FRAC_PI_2).round();
         let off = (radians - quarters * FRAC_PI_2).abs();
-        if radians.abs() > TAU * (1.0 + NEARLY) {
+        if radians.abs() > TAU * (1.0 + NEARLY_QUARTER_TURN) {
             Some((LARGE_ANGLE, messages::large_angle(item, path, radians)))
-        } else if quarters != 0.0 && off < NEARLY && off > f64::EPSILON * radians.abs() {
+        } else if quarters != 0.0 && off < NEARLY_QUARTER_TURN && off > f64::EPSILON * radians.abs() {
             Some((ROUNDED_ANGLE, messages::nearly_quarter_turn(item, path, radians, 90.0 * quarters)))
         } else {
             None

@@ -18,7 +18,9 @@ pub(super) fn is_well_posed(model: &Model) -> bool {
     let mechanism = GenericMechanism::new(model.clone());
     let (loops, tree) = (ClosedLoop::new(&mechanism), mechanism.tree());
     let rest = vec![0.0; tree.nv()];
-    starts(tree)
-        .filter_map(|start| loops.assemble(&start, &rest, &[]).ok())
-        .any(|closed| pivotless(tree, &loops.augmented_mass_matrix::<f64>(&closed.q)).is_empty())
+    starts(tree).filter_map(|start| loops.assemble(&start, &rest, &[]).ok()).any(|closed| {
+        let matrix = loops.augmented_mass_matrix::<f64>(&closed.q);
+        let sizes: Vec<f64> = (0..tree.nv()).map(|velocity| matrix[velocity][velocity]).collect();
+        pivotless(tree, &matrix, &sizes).is_empty()
+    })
 }

@@ -3,11 +3,12 @@
 
 use crate::messages;
 use crate::model::Inertia;
-use crate::schema::{Document, LinkTable};
+use crate::schema::{Document, LinkTable, mimicked};
 use redysim_toml::Message;
+use std::collections::BTreeSet;
 
-/// Each moving link that has neither mass nor inertia and carries none, and whose joint does not have an armature, with
-/// its message: its row of the mass matrix is zero.
+/// Each moving link that has neither mass nor inertia and carries none, and some velocity of whose joint has no armature, with
+/// its message: its row of the mass matrix is zero. Joints that mimic one another have one row together.
 pub(super) fn check(document: &Document, parents: &[Option<usize>]) -> Vec<(usize, Message)> {
     let mut carries = vec![false; document.links.len()];
     for (i, link) in document.links.iter().enumerate() {
@@ -17,12 +18,29 @@ pub(super) fn check(document: &Document, parents: &[Option<usize>]) -> Vec<(usiz
             at = parents[link];
         }
     }
-    let weightless = document.links.iter().enumerate().zip(carries).filter(|(_, carries)| !carries);
-    let moving = weightless.map(|(link, _)| link).filter(|(_, link)| link.joint.value().is_some() && !link.is_rigid());
-    let moving = moving.filter(|(_, link)| matches!(link.physics.armature.value_or(0.0), Some(0.0)));
-    moving
+    let links = || document.links.iter().enumerate();
+    let meets_inertia = |(index, link): &(usize, &LinkTable)| carries[*index] || has_rotors(link);
+    let resisted: BTreeSet<usize> = links().filter(meets_inertia).map(|(index, _)| followed(document, index)).collect();
+    let idle = links().filter(|(index, _)| !resisted.contains(&followed(document, *index)));
+    idle.filter(|(_, link)| link.joint.value().is_some() && !link.is_rigid())
         .filter_map(|(index, link)| Some((index, messages::massless(&link.item, link.joint_name()?.get_ref()))))
         .collect()
+}
+
+/// The link whose joint moves that of a link in the end, as far as it can be read: itself, unless its joint mimics another.
+fn followed(document: &Document, link: usize) -> usize {
+    let next = |link: &usize| {
+        let mimic = document.links[*link].mimic.value()?;
+        mimicked(&document.links, mimic.joint.as_ref()?.get_ref())
+    };
+    // Mimics that lead back to themselves have been reported.
+    std::iter::successors(Some(link), next).take(document.links.len()).last().unwrap_or(link)
+}
+
+/// Whether there is a rotor for each velocity of the joint; a faulty entry counts, since it may have been meant so.
+fn has_rotors(link: &LinkTable) -> bool {
+    let armature = link.physics.armature.value_or(0.0.into());
+    armature.is_none_or(|armature| armature.values().iter().all(|armature| *armature > 0.0))
 }
 
 /// Mass or inertia; a faulty entry counts, since it may have been meant so.

@@ -14,8 +14,7 @@ const ROUNDOFF: f64 = 1e-12;
 
 /// The links whose joints make the mass matrix singular, each with its message. Called for a model without errors.
 pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
-    // The recursion accelerates joints that mimic others by themselves first.
-    let tree = Tree { mimics: Vec::new(), ..Tree::new(model) };
+    let tree = Tree::new(model);
     let report = |body: usize| {
         let Body { joint, link, .. } = tree.bodies[body];
         (link, messages::singular_mass_matrix(&model.links[link].name, &model.links[link].joint_name, joint))
@@ -25,32 +24,54 @@ pub(super) fn check(model: &Model) -> Vec<(usize, Message)> {
 
 /// The bodies whose joints meet no inertia at any sampled position.
 fn without_inertia(tree: &Tree) -> Vec<usize> {
-    // A joint meets at least the inertia of its own body, so only bodies without any about their axis are in question.
-    let mut suspects: Vec<usize> = tree.outward().filter(|&body| !meets_own_inertia(&tree.bodies[body])).collect();
+    // A joint meets at least the inertia of its own body, so only bodies without any about their axis are in question, unless
+    // joints further out move this body, too.
+    let is_in_question = |&body: &usize| !tree.mimics.is_empty() || !meets_own_inertia(&tree.bodies[body]);
+    let mut suspects: Vec<usize> = tree.outward().filter(is_in_question).collect();
     for position in 0..POSITIONS {
         if suspects.is_empty() {
             return Vec::new();
         }
-        let free = pivotless(tree, &mass_matrix(tree, &Untraced, &tree.sample(position)));
+        let q = tree.sample(position);
+        let free = pivotless(tree, &mass_matrix(tree, &Untraced, &q), &sizes(tree, &q));
         suspects.retain(|body| free.contains(body));
     }
     suspects
 }
 
+/// For each velocity, the sum of what its joint and those that mimic it meet by themselves. Their inertia together may be
+/// the roundoff of these, if one undoes the motion of the other.
+fn sizes(tree: &Tree, q: &[f64]) -> Vec<f64> {
+    let each = Tree { mimics: Vec::new(), ..tree.clone() };
+    let matrix = mass_matrix(&each, &Untraced, &tree.all_coordinates(q));
+    let mut sizes: Vec<f64> = (0..tree.nv()).map(|velocity| matrix[velocity][velocity]).collect();
+    for (k, mimic) in tree.mimics.iter().enumerate() {
+        let index = tree.nv() + k;
+        sizes[mimic.v] += mimic.multiplier * mimic.multiplier * matrix[index][index];
+    }
+    sizes
+}
+
 fn meets_own_inertia(body: &Body) -> bool {
-    body.joint.meets(body.inertia) > ROUNDOFF || body.physics.is_some_and(|physics| physics.armature > 0.0)
+    body.joint.meets(body.inertia) > ROUNDOFF || has_rotors(body)
+}
+
+/// Whether each velocity of the joint has an armature.
+fn has_rotors(body: &Body) -> bool {
+    body.physics.as_ref().is_some_and(|physics| physics.velocities.iter().all(|each| each.armature > 0.0))
 }
 
 /// The bodies with a velocity whose pivot is only roundoff, in the elimination of a symmetric `matrix` over the
-/// velocities, from the tips to the ground.
-pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>]) -> Vec<usize> {
+/// mechanism's velocities, from the tips to the ground; `sizes` are those of what the diagonal is a sum of.
+pub(super) fn pivotless(tree: &Tree, matrix: &[Vec<f64>], sizes: &[f64]) -> Vec<usize> {
     let of_body = |body: usize| tree.bodies[body].v.clone().map(move |velocity| (body, velocity));
-    let (body_of, at): (Vec<usize>, Vec<usize>) = tree.outward().flat_map(of_body).unzip();
+    let velocities = tree.outward().flat_map(of_body).filter(|(_, velocity)| *velocity < tree.nv());
+    let (body_of, at): (Vec<usize>, Vec<usize>) = velocities.unzip();
     let mut reduced: Vec<Vec<f64>> = at.iter().map(|&i| at.iter().map(|&j| matrix[i][j]).collect()).collect();
     let mut without = Vec::new();
     for k in (0..at.len()).rev() {
         let pivot = reduced[k][k];
-        if pivot <= ROUNDOFF * matrix[at[k]][at[k]] {
+        if pivot <= ROUNDOFF * sizes[at[k]] {
             without.push(body_of[k]);
             continue;
         }
@@ -77,11 +98,12 @@ mod tests {
         let mut tree = arm();
         tree.bodies[0].v = 1..3;
         let mut matrix = [[2.0, 1.0, 0.0], [1.0, 3.0, 0.0], [0.0, 0.0, 0.0]].map(Vec::from);
-        assert_eq!(pivotless(&tree, &matrix), [0]);
+        assert_eq!(pivotless(&tree, &matrix, &[1.0; 3]), [0]);
         matrix[2][2] = 1.0;
-        assert_eq!(pivotless(&tree, &matrix), [0_usize; 0]);
+        assert_eq!(pivotless(&tree, &matrix, &[1.0; 3]), [0_usize; 0]);
+        assert_eq!(pivotless(&tree, &matrix, &[1.0, 1.0, 1e13]), [0]);
         matrix[0][0] = 0.0;
-        assert_eq!(pivotless(&tree, &matrix), [1]);
+        assert_eq!(pivotless(&tree, &matrix, &[1.0; 3]), [1]);
     }
 
     #[test]

@@ -39,8 +39,8 @@ impl<S: Scalar> ArticulatedInertia<S> {
     pub fn apply(&self, acceleration: Twist<S>) -> Wrench<S> {
         let Twist { angular, linear } = acceleration;
         Wrench {
-            moment: self.tensor.full() * angular + self.coupling * linear,
-            force: self.coupling.transpose() * angular + self.mass.full() * linear,
+            moment: self.tensor.full().fused_product(angular) + self.coupling.fused_product(linear),
+            force: self.coupling.transpose().fused_product(angular) + self.mass.full().fused_product(linear),
         }
     }
 

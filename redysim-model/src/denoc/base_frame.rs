@@ -37,27 +37,27 @@ impl<S: Scalar> Placed<S> {
 
     /// The derivative of a vector fixed to the frame, ω × r, ...
     pub fn derivative(&self, arm: Vec3<S>) -> Vec3<S> {
-        self.angular.cross(arm)
+        self.angular.fused_cross(arm)
     }
 
     /// ... and its second derivative, ω̇ × r + ω × (ω × r).
     pub fn second_derivative(&self, arm: Vec3<S>) -> Vec3<S> {
-        self.angular_acceleration.cross(arm) + self.derivative(self.derivative(arm))
+        self.angular_acceleration.fused_cross(arm) + self.derivative(self.derivative(arm))
     }
 
     /// The frame, so far fixed to `parent`, at the velocity `across` against it, in its own axes.
     fn moved_across(mut self, parent: &Self, across: Twist<S>) -> Self {
-        let [turn, slide] = [across.angular, across.linear].map(|vector| self.pose.rotation * vector);
+        let [turn, slide] = [across.angular, across.linear].map(|vector| self.pose.rotation.fused_product(vector));
         self.angular_acceleration = self.angular_acceleration + parent.derivative(turn);
         self.angular = self.angular + turn;
-        self.acceleration = self.acceleration + (parent.angular + self.angular).cross(slide);
+        self.acceleration = self.acceleration + (parent.angular + self.angular).fused_cross(slide);
         self.velocity = self.velocity + slide;
         self
     }
 
     /// The frame that stands at `pose` on this one and does not move against it.
     pub fn carry(self, pose: Pose<S>, order: Order) -> Self {
-        let arm = self.pose.rotation * pose.position;
+        let arm = self.pose.rotation.fused_product(pose.position);
         let mut carried = self;
         carried.pose = Pose { rotation: self.pose.rotation * pose.rotation, position: self.pose.position + arm };
         if order >= Order::Velocities {
@@ -107,7 +107,7 @@ impl<S: Scalar> Bodies<S> {
     /// From the origin of a body's parent to its own.
     pub fn joint_arm(&self, tree: &Tree<impl Copy>, body: usize) -> Vec3<S> {
         let position = self.joints[body].position;
-        tree.bodies[body].parent.map_or(position, |parent| self.placed[parent].pose.rotation * position)
+        tree.bodies[body].parent.map_or(position, |parent| self.placed[parent].pose.rotation.fused_product(position))
     }
 }
 

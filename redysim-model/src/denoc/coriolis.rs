@@ -119,14 +119,14 @@ impl<S: Scalar> MovingComposite<S> {
 
     /// B (x; y).
     fn coriolis(&self, Twist { angular: x, .. }: Twist<S>) -> Wrench<S> {
-        let moment = self.rate.to_rigid().tensor.full() * x - self.angular_momentum.cross(x);
-        Wrench { moment: moment.scale(S::from_f64(0.5)), force: x.cross(self.rate.inertia.moment) }
+        let moment = self.rate.to_rigid().tensor.full().fused_product(x) - self.angular_momentum.fused_cross(x);
+        Wrench { moment: moment.scale(S::from_f64(0.5)), force: x.fused_cross(self.rate.inertia.moment) }
     }
 
     /// Bᵀ (x; y).
     fn coriolis_transposed(&self, Twist { angular: x, linear: y }: Twist<S>) -> Wrench<S> {
-        let moment = self.rate.to_rigid().tensor.full() * x + self.angular_momentum.cross(x);
-        Wrench { moment: moment.scale(S::from_f64(0.5)) + self.rate.inertia.moment.cross(y), force: Vec3::zero() }
+        let moment = self.rate.to_rigid().tensor.full().fused_product(x) + self.angular_momentum.fused_cross(x);
+        Wrench { moment: moment.scale(S::from_f64(0.5)) + self.rate.inertia.moment.fused_cross(y), force: Vec3::zero() }
     }
 
     fn name(&self, trace: &impl Trace<S>, body: usize) {

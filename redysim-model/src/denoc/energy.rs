@@ -19,19 +19,20 @@ pub fn energy<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace<S
     for_each_velocity(tree, trace, &frames, v, |index, velocity| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         twice_kinetic += twice_kinetic_energy(&frame.own_inertia(body.inertia).to_rigid(), velocity);
-        if let Some(physics) = body.physics {
-            let (q, v) = (q[body.q.start], v[body.v.start]);
-            if let Some(armature) = physics.armature() {
-                twice_kinetic += armature * (v * v);
+        if let Some(physics) = &body.physics {
+            for (i, &v) in v[body.v.clone()].iter().enumerate() {
+                if let Some(armature) = physics.armature(i) {
+                    twice_kinetic += armature * (v * v);
+                }
             }
-            if let Some(energy) = physics.twice_spring_energy(q) {
+            if let Some(energy) = physics.twice_spring_energy(body.joint, &q[body.q.clone()]) {
                 twice_springs = Some(twice_springs.map_or(energy, |sum| sum + energy));
             }
         }
     });
     let (total, _) = first_moment(tree, trace, &frames);
     let half = S::from_f64(0.5);
-    let lifted = tree.gravity.map(ParameterIn::value).dot(total);
+    let lifted = tree.gravity.map(ParameterIn::value).fused_dot(total);
     let potential = twice_springs.map_or(-lifted, |springs| half * springs - lifted);
     Energy { kinetic: half * twice_kinetic, potential }
 }
@@ -85,6 +86,6 @@ pub(super) fn first_moment<S: Scalar, P: ParameterIn<S>>(
 
 fn twice_kinetic_energy<S: Scalar>(inertia: &RigidInertia<S>, Twist { angular, linear }: Twist<S>) -> S {
     let RigidInertia { mass, moment, tensor } = *inertia;
-    let momentum = linear.scale(mass) + angular.cross(moment.scale(S::from_f64(2.0)));
-    linear.dot(momentum) + angular.dot(tensor.full() * angular)
+    let momentum = linear.scale(mass) + angular.fused_cross(moment.scale(S::from_f64(2.0)));
+    linear.fused_dot(momentum) + angular.fused_dot(tensor.full().fused_product(angular))
 }

@@ -1,8 +1,48 @@
 //! The factorisation M = U D Uᵀ of the generalised inertia matrix (DeNOC's reverse Gaussian elimination).
 
 use super::trace::Trace;
+use crate::joint::Screw;
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
+
+/// The order in which the freedoms of a mechanism are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EliminationOrder {
+    /// From the tips to the ground. Nothing is filled in.
+    TipsFirst,
+    /// The displacements of the whole mechanism, then all others from the tips to the ground.
+    ///
+    /// These are the freedoms between the ground and the first joint that turns. A displacement of the whole mechanism
+    /// meets a constant mass, so these pivots are numbers, and what is left is the motion about the centre of mass: the
+    /// others meet three freedoms less of a free base. In return every joint then couples to every other.
+    DisplacementsFirst,
+}
+
+impl EliminationOrder {
+    /// The orders that differ for a tree.
+    pub fn all_of<P>(tree: &Tree<P>) -> impl Iterator<Item = EliminationOrder> {
+        let displaces = displacements(tree).contains(&true);
+        [Some(EliminationOrder::TipsFirst), displaces.then_some(EliminationOrder::DisplacementsFirst)]
+            .into_iter()
+            .flatten()
+    }
+}
+
+/// For each velocity of all joints, whether it displaces the whole mechanism, without turning it.
+fn displacements<P>(tree: &Tree<P>) -> Vec<bool> {
+    let mut displaces = vec![false; tree.nv_of_all()];
+    let mut unturned = vec![false; tree.bodies.len()];
+    let whole = tree.bodies.iter().filter(|body| body.parent.is_none()).count() == 1;
+    for (index, body) in tree.bodies.iter().enumerate() {
+        let on_unturned = body.parent.map_or(whole, |parent| unturned[parent] && tree.children(parent).count() == 1);
+        let slides = |screw: Screw| screw.turn == 0.0;
+        unturned[index] = on_unturned && body.joint.screws().all(slides);
+        for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
+            displaces[velocity] = on_unturned && slides(screw);
+        }
+    }
+    displaces
+}
 
 /// M = U D Uᵀ with U unit upper triangular in the order of bodies and D diagonal.
 ///
@@ -23,38 +63,43 @@ pub struct Factorisation<S> {
 
 impl<S: Scalar> Factorisation<S> {
     /// Factorises the mass matrix of `tree`, given by rows in the model's order.
-    pub fn new(tree: &Tree<impl Copy>, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
-        Factorisation::of_joints(tree, trace, matrix, |_| true)
+    pub fn new(order: EliminationOrder, tree: &Tree<impl Copy>, trace: &impl Trace<S>, matrix: &[Vec<S>]) -> Self {
+        Factorisation::of_joints(order, tree, trace, matrix, |_| true)
     }
 
     /// Factorises the rows and columns of the velocities for which `wanted` holds: the mass matrix of the tree if the
     /// others do not move.
     pub fn of_joints(
+        order: EliminationOrder,
         tree: &Tree<impl Copy>,
         trace: &impl Trace<S>,
         matrix: &[Vec<S>],
         wanted: impl Fn(usize) -> bool,
     ) -> Self {
-        let (mut velocities, mut names) = (Vec::new(), Vec::new());
-        let (nv, mut freedoms) = (tree.nv(), vec![None; tree.nv_of_all()]);
-        for (index, body) in tree.bodies.iter().enumerate() {
-            for (i, velocity) in body.v.clone().enumerate().filter(|(_, velocity)| *velocity < nv && wanted(*velocity))
-            {
-                freedoms[velocity] = Some(velocities.len());
-                names.push((index, body.joint.component(i)));
-                velocities.push(velocity);
-            }
+        let nv = tree.nv();
+        let of_body = |body: usize| tree.bodies[body].v.clone().map(move |velocity| (velocity, body));
+        let is_wanted = |&(velocity, _): &(usize, usize)| velocity < nv && wanted(velocity);
+        let mut rows: Vec<(usize, usize)> = tree.outward().flat_map(of_body).filter(is_wanted).collect();
+        if order == EliminationOrder::DisplacementsFirst {
+            let displaces = displacements(tree);
+            rows.sort_by_key(|&(velocity, _)| displaces[velocity]);
+        }
+        let mut freedoms = vec![None; tree.nv_of_all()];
+        for (freedom, &(velocity, _)) in rows.iter().enumerate() {
+            freedoms[velocity] = Some(freedom);
         }
         for (k, mimic) in tree.mimics.iter().enumerate() {
             freedoms[nv + k] = freedoms[mimic.v];
         }
-        let parents = elimination_tree(tree, velocities.len(), &freedoms);
+        let parents = elimination_tree(tree, rows.len(), &freedoms);
+        let velocities: Vec<usize> = rows.iter().map(|&(velocity, _)| velocity).collect();
         let mut upper: Vec<Vec<S>> =
             velocities.iter().map(|&i| velocities.iter().map(|&j| matrix[i][j]).collect()).collect();
         let mut inverse_pivots = vec![S::zero(); velocities.len()];
         for k in (0..velocities.len()).rev() {
             let inverse = S::one() / upper[k][k];
-            let (body, component) = names[k];
+            let (velocity, body) = rows[k];
+            let component = tree.bodies[body].joint.component(velocity - tree.bodies[body].v.start);
             trace.name(upper[k][k], "D", body, component);
             trace.name(inverse, "inv_D", body, component);
             inverse_pivots[k] = inverse;

@@ -1,19 +1,19 @@
 //! Forward dynamics: accelerations from joint forces, in two ways.
 
 use super::articulated::ArticulatedInertia;
-use super::factorisation::Factorisation;
+use super::factorisation::{EliminationOrder, Factorisation};
 use super::frame::{JointFrame, joint_frames_in};
-use super::inverse::bias_forces;
+use super::inverse::reference_motion;
 use super::mass_matrix::mass_matrix;
 use super::mimic::articulated_bodies;
 use super::trace::Trace;
 use super::workspace::{BiasAcceleration, Pivot, Workspace};
 use crate::inertia::RigidInertia;
-use crate::joint::Screw;
 use crate::parameter::ParameterIn;
 use crate::spatial::{Twist, Vec3, Wrench};
 use crate::tree::{Body, Tree};
 use redysim_runtime::Scalar;
+use std::cell::LazyCell;
 
 /// How accelerations are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,22 +35,29 @@ pub fn forward_dynamics<S: Scalar>(
     tau: &[S],
 ) -> Vec<S> {
     match method {
-        Method::Factorisation => forward_dynamics_by_factorisation(tree, trace, q, v, tau),
+        Method::Factorisation => {
+            forward_dynamics_by_factorisation(EliminationOrder::TipsFirst, [tree; 2], trace, q, v, tau)
+        }
         Method::Recursion => forward_dynamics_by_recursion(tree, trace, q, v, tau),
     }
 }
 
 /// Accelerations from the explicit mass matrix: M = U D Uᵀ, then three substitutions.
-pub fn forward_dynamics_by_factorisation<S: Scalar>(
-    tree: &Tree<impl ParameterIn<S>>,
+///
+/// The first tree is that for forces, the second that for the mass matrix: two descriptions of the same robot.
+pub fn forward_dynamics_by_factorisation<S: Scalar, P: ParameterIn<S>>(
+    order: EliminationOrder,
+    [for_forces, for_matrix]: [&Tree<P>; 2],
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
     tau: &[S],
 ) -> Vec<S> {
-    let bias = bias_forces(tree, trace, q, v);
-    let drive: Vec<S> = tau.iter().zip(bias).map(|(&tau, bias)| tau - bias).collect();
-    Factorisation::new(tree, trace, &mass_matrix(tree, trace, q)).solve(&drive)
+    let (reference, forces) = reference_motion(for_forces, trace, q, v);
+    let drive: Vec<S> = tau.iter().zip(forces).map(|(&tau, force)| tau - force).collect();
+    let matrix = mass_matrix(for_matrix, trace, q);
+    let found = Factorisation::of_joints(order, for_matrix, trace, &matrix, |_| true).solve(&drive);
+    reference.into_iter().zip(found).map(|(reference, found)| reference + found).collect()
 }
 
 /// Accelerations by recursion: inertias and bias wrenches inwards, accelerations outwards.
@@ -88,16 +95,16 @@ pub fn forward_dynamics_in<S: Scalar>(
 pub(super) enum Loads {
     /// The given joint forces and accelerations, gravity, velocities, and what acts without an actuator.
     All,
-    /// What is given alone. All velocities are zero.
+    /// What is given alone, which the inertia of rotors resists as well. All velocities are zero.
     Given,
 }
 
 /// The recursion over articulated bodies, for all joints. Of a velocity for which `drives` holds, `given` has the
 /// acceleration, and the joint force is written to `forces`; of each other, `given` has the force. All accelerations are
 /// written to `result`.
-pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
+pub(super) fn articulated_bodies_of_all<'t, S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
-    tree: &Tree<P>,
+    tree: &'t Tree<P>,
     trace: &impl Trace<S>,
     loads: Loads,
     (q, v, given): (&[S], &[S], &[S]),
@@ -110,7 +117,7 @@ pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
         Loads::All => springs.forces(tree, frames, v),
         Loads::Given => &mut [],
     };
-    let physics_of = |body: &Body<P>| body.physics.filter(|_| loads == Loads::All);
+    let physics_of = |body: &'t Body<P>| body.physics.as_ref().filter(|_| loads == Loads::All);
     bias_accelerations(biases, tree, trace, frames, v);
     for (index, body) in tree.bodies.iter().enumerate() {
         for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
@@ -141,11 +148,13 @@ pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
         let bias = wrenches[index] + centrifugal_wrench(own, biases[index].angular);
         trace.name_wrench(bias, ["bias_n", "bias_f"], index);
         wrenches[index] = bias;
-        let armature: Option<S> = body.physics.and_then(|physics| physics.armature());
+        let armature = |velocity: usize| armature_of::<S, P>(body, velocity);
         let free = || body.v.clone().zip(body.joint.screws()).filter(|(velocity, _)| !drives(*velocity));
+        let passive = LazyCell::new(|| {
+            physics_of(body).map(|physics| physics.passive_forces(body.joint, &q[body.q.clone()], &v[body.v.clone()]))
+        });
         let force = |velocity: usize| {
-            let passive: Option<S> =
-                physics_of(body).and_then(|physics| physics.passive_force(q[body.q.start], v[velocity]));
+            let passive = passive.as_ref().and_then(|forces| forces[velocity - body.v.start]);
             passive.map_or(tau[velocity], |passive| tau[velocity] - passive)
         };
         // One freedom after the other: each meets the body with those before it free.
@@ -153,6 +162,7 @@ pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
             let component = body.joint.component(velocity - body.v.start);
             let column = felt.column(screw);
             let pivot = screw.project(column);
+            let armature = armature(velocity);
             let inverse = S::one() / armature.map_or(pivot, |armature| pivot + armature);
             trace.name(inverse, "inv_D", index, component);
             let ratio = column.scale(inverse);
@@ -171,37 +181,46 @@ pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
         if let Some(parent) = body.parent {
             let mut wrench = bias + felt.apply(biases[index].acceleration) + reaction;
             // What the joint transmits along S is its force, less what accelerates the rotor.
-            if armature.is_none() {
-                wrench = free().fold(wrench, |wrench, (velocity, screw)| screw.with_force(wrench, force(velocity)));
+            for (velocity, screw) in free().filter(|(velocity, _)| armature(*velocity).is_none()) {
+                wrench = screw.with_force(wrench, force(velocity));
             }
             wrenches[parent] = wrenches[parent] + frame.wrench_to_parent(wrench);
             inertias[parent] = inertias[parent].plus(felt.to_parent(frame));
         }
     });
 
-    let gravity = match loads {
-        Loads::All => tree.gravity.map(ParameterIn::value),
-        Loads::Given => Vec3::zero(),
-    };
-    let ground = Twist { angular: Vec3::zero(), linear: -gravity };
     accelerations.clear();
     accelerations.reserve(tree.bodies.len());
     trace.sweep("accelerations", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let parent = body.parent.map_or(ground, |parent| accelerations[parent]);
-        let mut acceleration = Twist {
-            angular: frame.to_body(parent.angular),
-            linear: frame.to_body(parent.linear + parent.angular.cross(frame.position)),
-        } + biases[index].acceleration;
-        let has_rotor = body.physics.is_some_and(|physics| physics.armature::<S>().is_some());
+        let carried = match body.parent.map(|parent| accelerations[parent]) {
+            Some(parent) => frame.twist_to_body(parent),
+            None if loads == Loads::All => Twist { linear: frame.ground_to_body(-tree.gravity), ..Twist::zero() },
+            None => Twist::zero(),
+        };
+        let mut acceleration = carried + biases[index].acceleration;
         for (velocity, screw) in body.v.clone().zip(body.joint.screws()).rev() {
             if drives(velocity) {
                 result[velocity] = given[velocity];
                 continue;
             }
             let Pivot { inverse, ratio, drive } = &pivots[velocity];
-            let qdd = *inverse * *drive - power(screw, *ratio, acceleration, has_rotor);
-            acceleration = screw.added(acceleration, qdd);
+            let has_rotor = armature_of::<S, P>(body, velocity).is_some();
+            let qdd = match screw.unit_axis() {
+                Some(axis) if !has_rotor => {
+                    // Sᵀ `ratio` is one, so the body's acceleration along S is known before the joint's.
+                    let carried = acceleration.component(axis);
+                    *acceleration.component_mut(axis) = S::zero();
+                    let along = *inverse * *drive - ratio.dot(acceleration);
+                    *acceleration.component_mut(axis) = along;
+                    along - carried
+                }
+                _ => {
+                    let qdd = *inverse * *drive - ratio.dot(acceleration);
+                    acceleration = screw.added(acceleration, qdd);
+                    qdd
+                }
+            };
             trace.name(qdd, "acc", index, body.joint.component(velocity - body.v.start));
             result[velocity] = qdd;
         }
@@ -210,10 +229,14 @@ pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
         }
         if body.v.clone().any(&drives) {
             let wrench = inertias[index].apply(acceleration) + wrenches[index];
+            let [q, v, given] = [&q[body.q.clone()], &v[body.v.clone()], &given[body.v.clone()]];
+            let in_joint = body.physics.as_ref().map(|physics| match loads {
+                Loads::All => physics.forces(body.joint, q, v, given),
+                Loads::Given => physics.rotor_forces(given),
+            });
             for (velocity, screw) in body.v.clone().zip(body.joint.screws()).filter(|(velocity, _)| drives(*velocity)) {
                 let mut force = screw.project(wrench);
-                let in_joint =
-                    physics_of(body).and_then(|physics| physics.force(q[body.q.start], v[velocity], given[velocity]));
+                let in_joint = in_joint.and_then(|forces| forces[velocity - body.v.start]);
                 for part in in_joint.into_iter().chain(of_springs.get(velocity).copied()) {
                     force += part;
                 }
@@ -224,16 +247,9 @@ pub(super) fn articulated_bodies_of_all<S: Scalar, P: ParameterIn<S>>(
     });
 }
 
-/// `ratio` · `acceleration`. Without a rotor Sᵀ `ratio` is one: where S is an axis of six, that component is not
-/// multiplied.
-fn power<S: Scalar>(screw: Screw, mut ratio: Wrench<S>, acceleration: Twist<S>, has_rotor: bool) -> S {
-    match screw.unit_axis() {
-        Some(axis) if !has_rotor => {
-            *ratio.component_mut(axis) = S::zero();
-            ratio.dot(acceleration) + acceleration.component(axis)
-        }
-        _ => ratio.dot(acceleration),
-    }
+/// The armature of a velocity, numbered among all joints.
+fn armature_of<S: Scalar, P: ParameterIn<S>>(body: &Body<P>, velocity: usize) -> Option<S> {
+    body.physics.as_ref().and_then(|physics| physics.armature(velocity - body.v.start))
 }
 
 fn bias_accelerations<S: Scalar>(
@@ -249,7 +265,7 @@ fn bias_accelerations<S: Scalar>(
         let (body, frame) = (&tree.bodies[index], &frames[index]);
         let v = &v[body.v.clone()];
         let parent = body.parent.map_or(Vec3::zero(), |parent| biases[parent].angular);
-        let centripetal = frame.to_body(parent.cross(parent.cross(frame.position)));
+        let centripetal = frame.to_body(parent.fused_cross(parent.fused_cross(frame.position)));
         let carried = frame.to_body(parent);
         let across = body.joint.bias(carried, v);
         let acceleration = Twist { angular: across.angular, linear: centripetal + across.linear };
@@ -263,5 +279,5 @@ fn bias_accelerations<S: Scalar>(
 /// The wrench (ω × J ω, ω × (ω × h)) of a body that turns without acceleration.
 fn centrifugal_wrench<S: Scalar>(inertia: RigidInertia<S>, w: Vec3<S>) -> Wrench<S> {
     let RigidInertia { moment, tensor, .. } = inertia;
-    Wrench { moment: w.cross(tensor.full() * w), force: w.cross(w.cross(moment)) }
+    Wrench { moment: w.fused_cross(tensor.full().fused_product(w)), force: w.fused_cross(w.fused_cross(moment)) }
 }

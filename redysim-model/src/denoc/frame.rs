@@ -3,6 +3,7 @@
 use super::trace::Trace;
 use crate::inertia::Sym3;
 use crate::joint::JointPosition;
+use crate::joint::quaternion::{self, Quaternion};
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Pose, Twist, Vec3, Wrench};
@@ -33,6 +34,8 @@ pub(super) struct JointFrame<S> {
     /// Whether a product with the joint's axis is a column of the matrix: for symbols, if the joint's axis is one of the
     /// parent's axes. For numbers it is a product like any other.
     selects_column: bool,
+    /// The rotation by the body's placement, and by its joint if that can turn it about any axis.
+    in_space: Option<(Mat3<f64>, Quaternion<S>)>,
     /// The body's origin in the parent's axes.
     pub position: Vec3<S>,
 }
@@ -79,11 +82,11 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         let mut fixed = Mat3::constant(rotation);
         let mut position = rotated(parent, Vec3::constant(position));
         let parent_rotation = parent.filter(|_| !body.is_parallel());
-        if let Some((rotation, displacement)) = in_space {
+        if let Some((orientation, displacement)) = in_space {
             if let Some(displacement) = displacement {
-                position = position + rotated(parent_rotation, fixed * displacement);
+                position = position + rotated(parent_rotation, fixed.fused_product(displacement));
             }
-            fixed = fixed * rotation;
+            fixed = fixed * quaternion::rotation(orientation);
         }
         if let Some(displacement) = displacement {
             position = position + rotated(parent_rotation, fixed.column(2)).scale(displacement);
@@ -105,6 +108,7 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
             rotation_about_z,
             body_rotation,
             selects_column,
+            in_space: in_space.map(|(orientation, _)| (rotation, orientation)),
             position,
         });
     });
@@ -129,7 +133,7 @@ pub(super) struct AxisPosition<S> {
     /// Its displacement along z against its parent.
     displacement: Option<S>,
     /// Its rotation and displacement, where these are not about and along z.
-    in_space: Option<(Mat3<S>, Option<Vec3<S>>)>,
+    in_space: Option<(Quaternion<S>, Option<Vec3<S>>)>,
 }
 
 /// The position of each body on its joint.
@@ -141,8 +145,8 @@ fn find_positions<S: Scalar>(positions: &mut Vec<AxisPosition<S>>, tree: &Tree<i
         let is_term = body.merged_parallel || merged_parent.is_some() || body.offset != 0.0;
         let (angle, displacement) = match body.joint.position(&q[body.q.clone()]) {
             JointPosition::OnAxis { angle, displacement } => (angle, displacement),
-            JointPosition::InSpace { rotation, displacement } => {
-                let in_space = Some((rotation, displacement));
+            JointPosition::InSpace { orientation, displacement } => {
+                let in_space = Some((orientation, displacement));
                 positions.push(AxisPosition { angle: None, displacement: None, in_space });
                 continue;
             }
@@ -204,8 +208,19 @@ impl<S: Scalar> JointFrame<S> {
     #[inline(always)]
     pub fn to_body(&self, v: Vec3<S>) -> Vec3<S> {
         match self.columns {
-            Some(columns) => product(columns, v),
+            Some(columns) => columns.fused_product(v),
             None => rotated_back(self.rotation_about_z, self.fixed.transpose() * rotated_back(self.parent_rotation, v)),
+        }
+    }
+
+    /// A vector in the axes of the ground, known before run time, in those of a body on it.
+    #[inline(always)]
+    pub fn ground_to_body(&self, v: Vec3<impl ParameterIn<S>>) -> Vec3<S> {
+        match self.in_space {
+            Some((placement, orientation)) if self.columns.is_none() => {
+                quaternion::turned_back(orientation, Mat3::constant(placement).transpose() * v)
+            }
+            _ => self.to_body(v.map(ParameterIn::value)),
         }
     }
 
@@ -257,7 +272,7 @@ impl<S: Scalar> JointFrame<S> {
     /// A velocity of the parent at its origin, at the body's origin and in its axes.
     #[inline(always)]
     pub fn twist_to_body(&self, Twist { angular, linear }: Twist<S>) -> Twist<S> {
-        let linear = self.to_body(linear + angular.cross(self.position));
+        let linear = self.to_body(linear + angular.fused_cross(self.position));
         Twist { angular: self.to_body(angular), linear }
     }
 
@@ -268,8 +283,8 @@ impl<S: Scalar> JointFrame<S> {
             Some(columns) => {
                 let rotation = columns.transpose();
                 let full = tensor.full();
-                let half = Mat3::from_fn(|i, j| product(full, Vec3(rotation.0[i]))[j]);
-                Sym3::from_upper(|i, j| product(rotation, Vec3(half.0[i]))[j])
+                let half = Mat3::from_fn(|i, j| full.fused_product(Vec3(rotation.0[i]))[j]);
+                Sym3::from_upper(|i, j| rotation.fused_product(Vec3(half.0[i]))[j])
             }
             None => {
                 rotated_tensor(self.parent_rotation, rotated_tensor(self.rotation_about_z, tensor).rotated(self.fixed))
@@ -304,12 +319,6 @@ impl<S: Scalar> JointFrame<S> {
 #[inline(always)]
 fn product_by_columns<S: Scalar>(Mat3([x, y, z]): Mat3<S>, v: Vec3<S>) -> Vec3<S> {
     Vec3::from_fn(|i| z[i].mul_add(v[2], y[i].mul_add(v[1], x[i] * v[0])))
-}
-
-/// The product of a matrix and a vector.
-#[inline(always)]
-fn product<S: Scalar>(Mat3(rows): Mat3<S>, v: Vec3<S>) -> Vec3<S> {
-    Vec3(rows.map(|[x, y, z]| z.mul_add(v[2], y.mul_add(v[1], x * v[0]))))
 }
 
 #[inline(always)]

@@ -4,7 +4,7 @@
 //! Given are the accelerations of the velocities with an actuator, and the forces of the others. Source: Featherstone, *Rigid
 //! Body Dynamics Algorithms*, Springer 2008, sections 9.1 and 9.2.
 
-use super::factorisation::Factorisation;
+use super::factorisation::{EliminationOrder, Factorisation};
 use super::forward::Method;
 use super::inverse::inverse_dynamics;
 use super::mass_matrix::mass_matrix;
@@ -25,7 +25,9 @@ pub fn hybrid_dynamics<S: Scalar>(
     u: &[S],
 ) -> HybridMotion<Vec<S>> {
     match method {
-        Method::Factorisation => hybrid_dynamics_by_factorisation([tree; 2], trace, q, v, u),
+        Method::Factorisation => {
+            hybrid_dynamics_by_factorisation(EliminationOrder::TipsFirst, [tree; 2], trace, q, v, u)
+        }
         Method::Recursion => hybrid_dynamics_by_recursion(tree, trace, q, v, u),
     }
 }
@@ -35,6 +37,7 @@ pub fn hybrid_dynamics<S: Scalar>(
 ///
 /// The first tree is that for forces, the second that for the mass matrix: two descriptions of the same robot.
 pub fn hybrid_dynamics_by_factorisation<S: Scalar, P: ParameterIn<S>>(
+    order: EliminationOrder,
     [for_forces, for_matrix]: [&Tree<P>; 2],
     trace: &impl Trace<S>,
     q: &[S],
@@ -50,7 +53,7 @@ pub fn hybrid_dynamics_by_factorisation<S: Scalar, P: ParameterIn<S>>(
     let mut tau = inverse_dynamics(for_forces, trace, q, v, &given);
     let matrix = mass_matrix(for_matrix, trace, q);
     let drive: Vec<S> = u.iter().zip(&tau).map(|(&u, &tau)| u - tau).collect();
-    let found = Factorisation::of_joints(for_matrix, trace, &matrix, is_passive).solve(&drive);
+    let found = Factorisation::of_joints(order, for_matrix, trace, &matrix, is_passive).solve(&drive);
     for i in velocities() {
         if actuated[i] {
             for &k in &passive {

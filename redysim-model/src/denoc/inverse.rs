@@ -4,7 +4,7 @@ use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
 use super::workspace::{BodyMotion, Workspace};
 use crate::inertia::Sym3;
-use crate::joint::Joint;
+use crate::joint::{Forces, Joint};
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Mat3, Twist, Vec3, Wrench};
@@ -26,18 +26,20 @@ impl<S: Scalar> BodyMotion<S> {
         }
     }
 
-    fn ground(gravity: Vec3<impl ParameterIn<S>>) -> Self {
-        Self::new(Vec3::zero(), Vec3::zero(), (-gravity).map(ParameterIn::value))
-    }
-
-    /// The motion across a joint of velocities `v` and accelerations `a`.
+    /// What the parent, whose motion this is, carries.
     #[inline(always)]
-    fn across(self, frame: &JointFrame<S>, joint: Joint, v: &[S], a: &[S]) -> Self {
-        let w = frame.to_body(self.angular);
-        let carried = Twist {
+    fn carried(&self, frame: &JointFrame<S>) -> Carried<S> {
+        let acceleration = Twist {
             angular: frame.to_body(self.angular_acceleration),
             linear: frame.to_body(self.acceleration + self.angular_acceleration_tensor * frame.position),
         };
+        (frame.to_body(self.angular), acceleration)
+    }
+
+    /// The motion of a body that its parent, whose motion this is, carries so, across a joint of velocities `v` and
+    /// accelerations `a`.
+    #[inline(always)]
+    fn across(self, (w, carried): Carried<S>, frame: &JointFrame<S>, joint: Joint, v: &[S], a: &[S]) -> Self {
         let acceleration = joint.added(carried + joint.bias(w, v), a);
         let Twist { angular: w, .. } = joint.added(Twist { angular: w, linear: Vec3::zero() }, v);
         let Some((image, about)) = frame.axis_image(self.angular_acceleration_tensor).zip(joint.screw(0).turn(a[0]))
@@ -85,7 +87,19 @@ impl<S: Scalar> BodyMotion<S> {
             across(1, 2, 0, s.zz, s.xx) + s.yz * u[0][1] - s.xy * u[2][1] + s.xz * squares(2, 0),
             across(2, 0, 1, s.xx, s.yy) + s.xz * u[1][2] - s.yz * u[0][2] + s.xy * squares(0, 1),
         ]);
-        Wrench { moment: own + moment.cross(self.acceleration), force }
+        Wrench { moment: own + moment.fused_cross(self.acceleration), force }
+    }
+}
+
+/// The angular velocity and the acceleration of what is fixed to a body's parent, at the body's origin and in its axes.
+type Carried<S> = (Vec3<S>, Twist<S>);
+
+/// The accelerations `a` across a joint of velocities `v` at which the body does not accelerate along its freedoms; zero
+/// for a freedom that both turns and slides.
+fn oppose<S: Scalar>((w, carried): Carried<S>, joint: Joint, v: &[S], a: &mut [S]) {
+    let acceleration = carried + joint.bias(w, v);
+    for (a, screw) in a.iter_mut().zip(joint.screws()) {
+        *a = screw.unit_axis().map_or(S::zero(), |axis| -acceleration.component(axis));
     }
 }
 
@@ -139,17 +153,33 @@ pub fn inverse_dynamics_in<S: Scalar>(
     tau: &mut [S],
 ) {
     if tree.mimics.is_empty() {
-        return inverse_dynamics_of_all_in(work, tree, trace, q, v, a, tau);
+        return inverse_dynamics_of_all_in(work, tree, trace, q, v, Accelerations::Given(a), tau);
     }
     let mut all = std::mem::take(&mut work.all_joints);
     all.take_coordinates(tree, q);
     all.take_rates(tree, v, a);
     all.tau.clear();
     all.tau.resize(tree.nv_of_all(), S::zero());
-    inverse_dynamics_of_all_in(work, tree, trace, &all.q, &all.v, &all.a, &mut all.tau);
+    inverse_dynamics_of_all_in(work, tree, trace, &all.q, &all.v, Accelerations::Given(&all.a), &mut all.tau);
     tree.fold_mimics(&mut all.tau);
     tau.copy_from_slice(&all.tau[..tree.nv()]);
     work.all_joints = all;
+}
+
+/// The accelerations of all joints.
+enum Accelerations<'a, S> {
+    Given(&'a [S]),
+    /// Those at which no body accelerates along a freedom of its own joint. They are written here.
+    Opposing(&'a mut [S]),
+}
+
+impl<S> Accelerations<'_, S> {
+    fn values(&self) -> &[S] {
+        match self {
+            Accelerations::Given(a) => a,
+            Accelerations::Opposing(a) => a,
+        }
+    }
 }
 
 /// The forces of all joints, with what acts in them and the springs, written to `tau`.
@@ -159,11 +189,12 @@ fn inverse_dynamics_of_all_in<S: Scalar>(
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
-    a: &[S],
+    a: Accelerations<S>,
     tau: &mut [S],
 ) {
-    newton_euler_in(work, tree, trace, q, v, a, tau, |body| {
-        body.physics?.force(q[body.q.start], v[body.v.start], a[body.v.start])
+    newton_euler_in(work, tree, trace, q, v, a, tau, |body, a| {
+        let [q, v, a] = [&q[body.q.clone()], &v[body.v.clone()], &a[body.v.clone()]];
+        body.physics.as_ref().map(|physics| physics.forces(body.joint, q, v, a))
     });
     for (tau, force) in tau.iter_mut().zip(work.springs.forces(tree, &work.frames, v)) {
         *tau += *force;
@@ -178,22 +209,30 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
     trace: &impl Trace<S>,
     q: &[S],
     v: &[S],
-    a: &[S],
+    mut a: Accelerations<S>,
     tau: &mut [S],
-    in_joint: impl Fn(&Body<P>) -> Option<S>,
+    in_joint: impl Fn(&Body<P>, &[S]) -> Option<Forces<S>>,
 ) {
     let Workspace { positions, frames, children, motions, wrenches, .. } = work;
     joint_frames_in(positions, frames, tree, trace, q);
     children.find(tree);
-    let ground = BodyMotion::ground(tree.gravity);
+    let still = BodyMotion::new(Vec3::zero(), Vec3::zero(), Vec3::zero());
     motions.clear();
     motions.reserve(tree.bodies.len());
     wrenches.clear();
     wrenches.reserve(tree.bodies.len());
     trace.sweep("outward", tree.outward(), |index| {
         let (body, frame) = (&tree.bodies[index], &frames[index]);
-        let parent = body.parent.map_or(ground, |parent| motions[parent]);
-        let motion = parent.across(frame, body.joint, &v[body.v.clone()], &a[body.v.clone()]);
+        let parent = body.parent.map_or(still, |parent| motions[parent]);
+        let carried = match body.parent {
+            Some(_) => parent.carried(frame),
+            None => (Vec3::zero(), Twist { angular: Vec3::zero(), linear: frame.ground_to_body(-tree.gravity) }),
+        };
+        let v = &v[body.v.clone()];
+        if let Accelerations::Opposing(a) = &mut a {
+            oppose(carried, body.joint, v, &mut a[body.v.clone()]);
+        }
+        let motion = parent.across(carried, frame, body.joint, v, &a.values()[body.v.clone()]);
         motion.name(trace, index);
         wrenches.push(motion.wrench(&frame.own_inertia(body.inertia), SecondMoments::new(&body.inertia, frame)));
         motions.push(motion);
@@ -206,8 +245,10 @@ fn newton_euler_in<S: Scalar, P: ParameterIn<S>>(
         trace.name_wrench(wrench, ["moment", "force"], index);
         wrenches[index] = wrench;
         body.joint.project(wrench, &mut tau[body.v.clone()]);
-        if let Some(force) = in_joint(body) {
-            tau[body.v.start] += force;
+        for (tau, force) in tau[body.v.clone()].iter_mut().zip(in_joint(body, a.values()).into_iter().flatten()) {
+            if let Some(force) = force {
+                *tau += force;
+            }
         }
         for (i, &tau) in tau[body.v.clone()].iter().enumerate() {
             trace.name(tau, "tau", index, body.joint.component(i));
@@ -220,11 +261,33 @@ pub fn bias_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Tra
     inverse_dynamics(tree, trace, q, v, &vec![S::zero(); tree.nv()])
 }
 
+/// Accelerations a₀ and the joint forces τ₀ = M a₀ + C v + g that they take, for M (a − a₀) = τ − τ₀.
+///
+/// Any a₀ would do. At this one no body accelerates along a freedom of its own joint, so that many terms of τ₀ vanish: a
+/// body on a revolute joint has no angular acceleration about its axis, and a free base no acceleration at all, so that
+/// τ₀ of a robot that floats is without gravity. With joints that mimic others, a₀ is zero.
+pub(super) fn reference_motion<S: Scalar>(
+    tree: &Tree<impl ParameterIn<S>>,
+    trace: &impl Trace<S>,
+    q: &[S],
+    v: &[S],
+) -> (Vec<S>, Vec<S>) {
+    let mut a = vec![S::zero(); tree.nv()];
+    if !tree.mimics.is_empty() {
+        return (a, bias_forces(tree, trace, q, v));
+    }
+    let mut tau = a.clone();
+    let opposing = Accelerations::Opposing(&mut a);
+    inverse_dynamics_of_all_in(&mut Workspace::default(), tree, trace, q, v, opposing, &mut tau);
+    (a, tau)
+}
+
 /// g(q): the joint forces of gravity alone, at rest.
 pub fn gravity_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S]) -> Vec<S> {
     let rest = vec![S::zero(); tree.nv_of_all()];
     let mut tau = rest.clone();
     let q = &tree.all_coordinates(q);
-    newton_euler_in(&mut Workspace::default(), tree, trace, q, &rest, &rest, &mut tau, |_| None);
+    let a = Accelerations::Given(&rest);
+    newton_euler_in(&mut Workspace::default(), tree, trace, q, &rest, a, &mut tau, |_, _| None);
     tree.folded(tau)
 }

@@ -90,7 +90,12 @@ impl<S: Scalar> Side<S> {
             carried[index] = true;
             at = tree.bodies[index].parent;
         }
-        Side { body, arm: rotation * Vec3::constant(end.point), axes: rotation * Mat3::constant(end.axes), carried }
+        Side {
+            body,
+            arm: rotation.fused_product(Vec3::constant(end.point)),
+            axes: rotation * Mat3::constant(end.axes),
+            carried,
+        }
     }
 
     fn point(&self) -> Vec3<S> {
@@ -127,8 +132,8 @@ pub fn loop_residual<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
     let bodies = Bodies::new(tree, trace, q, &[], Order::Positions);
     rows(tree, &bodies, |a, b, row| match row {
         CutRow::Point(axis) => (b.point() - a.point())[axis],
-        CutRow::Along(i) => (b.point() - a.point()).dot(a.axis(i)),
-        CutRow::Aligned(terms) => weighted(terms, |i, j| a.axis(i).dot(b.axis(j))),
+        CutRow::Along(i) => (b.point() - a.point()).fused_dot(a.axis(i)),
+        CutRow::Aligned(terms) => weighted(terms, |i, j| a.axis(i).fused_dot(b.axis(j))),
     })
 }
 
@@ -145,7 +150,7 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
                 (_, true) => b.point() - bodies.placed[index].pose.position,
                 _ => a.point() - bodies.placed[index].pose.position,
             };
-            let across = axis.cross(arm);
+            let across = axis.fused_cross(arm);
             if on_a && on_b { across.scale(turn) } else { across.scale(sign * turn) }
         });
         // A joint that carries both sides displaces both.
@@ -158,10 +163,10 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
     let alignment_effect = |index: usize, screw: Screw, a: Vec3<S>, b: Vec3<S>, on_a: bool, on_b: bool| {
         let across = match (on_a, on_b) {
             (true, true) => return S::zero(),
-            (_, true) => b.cross(a),
-            _ => a.cross(b),
+            (_, true) => b.fused_cross(a),
+            _ => a.fused_cross(b),
         };
-        screw.turn(bodies.axis(index, screw.axis).dot(across)).unwrap_or(S::zero())
+        screw.turn(bodies.axis(index, screw.axis).fused_dot(across)).unwrap_or(S::zero())
     };
     let effect = |index: usize, screw: Screw, a: &Side<S>, b: &Side<S>, row: CutRow| {
         let (on_a, on_b) = (a.carried[index], b.carried[index]);
@@ -171,7 +176,7 @@ pub fn loop_jacobian<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl T
             CutRow::Along(_) if on_a && on_b => S::zero(),
             CutRow::Along(i) => {
                 let (way, axis) = (b.point() - a.point(), a.axis(i));
-                let moved = point_effect(index, screw, a, b, on_a, on_b).dot(axis);
+                let moved = point_effect(index, screw, a, b, on_a, on_b).fused_dot(axis);
                 if on_a { moved + alignment_effect(index, screw, axis, way, true, false) } else { moved }
             }
             CutRow::Aligned(terms) => {
@@ -202,14 +207,17 @@ pub fn loop_bias<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace
         CutRow::Point(axis) => (acceleration(b) - acceleration(a))[axis],
         CutRow::Along(i) => {
             let axis = a.axis(i);
-            let both = (velocity(b) - velocity(a)).dot(a.body.derivative(axis));
-            let of_axis = (b.point() - a.point()).dot(a.body.second_derivative(axis));
-            (acceleration(b) - acceleration(a)).dot(axis) + of_axis + both + both
+            let both = (velocity(b) - velocity(a)).fused_dot(a.body.derivative(axis));
+            let of_axis = (b.point() - a.point()).fused_dot(a.body.second_derivative(axis));
+            (acceleration(b) - acceleration(a)).fused_dot(axis) + of_axis + both + both
         }
         CutRow::Aligned(terms) => weighted(terms, |i, j| {
             let (of_a, of_b) = (a.axis(i), b.axis(j));
-            let both = a.body.derivative(of_a).dot(b.body.derivative(of_b));
-            a.body.second_derivative(of_a).dot(of_b) + of_a.dot(b.body.second_derivative(of_b)) + both + both
+            let both = a.body.derivative(of_a).fused_dot(b.body.derivative(of_b));
+            a.body.second_derivative(of_a).fused_dot(of_b)
+                + of_a.fused_dot(b.body.second_derivative(of_b))
+                + both
+                + both
         }),
     })
 }

@@ -4,15 +4,12 @@ use super::frame::{JointFrame, joint_frames_in};
 use super::trace::Trace;
 use super::workspace::{Composite, Workspace};
 use crate::inertia::{RigidInertia, Sym3};
-use crate::joint::{Screw, across};
+use crate::joint::{MOST_FREEDOMS, Screw, across};
 use crate::parameter::ParameterIn;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Vec3, Wrench};
 use crate::tree::Tree;
 use redysim_runtime::Scalar;
-
-/// The most freedoms of a joint.
-const MOST_FREEDOMS: usize = 6;
 
 /// M(q), by rows: element (i, j) is the force on joint i for a unit acceleration of joint j.
 ///
@@ -88,7 +85,8 @@ fn mass_matrix_of_all_in<S: Scalar, P: ParameterIn<S>>(
                         break;
                     }
                     let mut element = screw.project(wrench);
-                    let armature = body.physics.filter(|_| row == column).and_then(|physics| physics.armature());
+                    let physics = body.physics.as_ref().filter(|_| row == column);
+                    let armature = physics.and_then(|physics| physics.armature(column - body.v.start));
                     if let Some(armature) = armature {
                         element += armature;
                     }

@@ -22,7 +22,7 @@ pub(super) struct AllJoints<S> {
     pub tau: Vec<S>,
     /// By rows.
     pub matrix: Vec<S>,
-    /// The motion, then for each joint that mimics another the response to its constraint: the accelerations of all
+    /// The motion, then the response to a unit acceleration of each velocity that is mimicked: the accelerations of all
     /// joints and their forces.
     motions: Vec<S>,
 }
@@ -71,7 +71,7 @@ fn refill<S: Copy>(all: &mut Vec<S>, own: &[S], of_mimics: impl Iterator<Item = 
 
 impl<P> Tree<P> {
     /// The coordinates of all joints at the mechanism's coordinates `q`.
-    pub(super) fn all_coordinates<'a, S: Scalar>(&self, q: &'a [S]) -> Cow<'a, [S]> {
+    pub(crate) fn all_coordinates<'a, S: Scalar>(&self, q: &'a [S]) -> Cow<'a, [S]> {
         self.with_mimics(q, |mimic| mimic.coordinate_at(q))
     }
 
@@ -94,6 +94,13 @@ impl<P> Tree<P> {
             let share = S::from_f64(mimic.multiplier) * all[nv + k];
             all[mimic.v] += share;
         }
+    }
+
+    /// The element of Gᵀ τ for a velocity, from the forces τ of all joints.
+    fn folded_at<S: Scalar>(&self, velocity: usize, all: &[S]) -> S {
+        let nv = self.nv();
+        let mimics = self.mimics.iter().enumerate().filter(|(_, mimic)| mimic.v == velocity);
+        mimics.fold(all[velocity], |sum, (k, mimic)| sum + S::from_f64(mimic.multiplier) * all[nv + k])
     }
 
     /// Gᵀ τ.
@@ -131,9 +138,11 @@ impl<P> Tree<P> {
 /// `drives` holds, `given` has the acceleration, and the joint force is written to `forces`; of each other, `given` has the
 /// force. All accelerations are written to `result`.
 ///
-/// Joints that mimic free ones first move freely, then their constraints a_k − multiplier · a = 0 are met one after the
-/// other: each by the response of all accelerations to its constraint force, with the share taken off that would violate
-/// those before it. The recursion needs no matrix for this.
+/// A velocity that joints mimic moves these and its own joint as one group. The recursion drives the joints of groups, first
+/// with zero acceleration; then the force of each group is met, one after the other, by the response of all accelerations
+/// to a unit acceleration of the group, with the share taken off that would change the forces of those before it. What
+/// is driven needs no inertia by itself: it is enough that the group has some, as Gᵀ M G does. The recursion needs no
+/// matrix for this.
 pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     work: &mut Workspace<S>,
     tree: &Tree<P>,
@@ -147,16 +156,20 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     }
     let (nv, of_all) = (tree.nv(), tree.nv_of_all());
     let width = 2 * of_all;
-    let is_free = |mimic: &Mimic| !drives(mimic.v);
-    let drives_of_all = |velocity: usize| drives(tree.own_velocity(velocity));
+    let is_group = |velocity: usize| !drives(velocity) && tree.is_mimicked(velocity);
+    let drives_of_all = |velocity: usize| {
+        let own = tree.own_velocity(velocity);
+        drives(own) || is_group(own)
+    };
+    let groups = || (0..nv).filter(|velocity| is_group(*velocity)).enumerate();
     let mut all = std::mem::take(&mut work.all_joints);
     all.take_coordinates(tree, q);
     all.take_rates(tree, v, given);
-    for (k, _) in tree.mimics.iter().enumerate().filter(|(_, mimic)| is_free(mimic)) {
-        all.a[nv + k] = S::zero();
+    for velocity in (0..of_all).filter(|velocity| is_group(tree.own_velocity(*velocity))) {
+        all.a[velocity] = S::zero();
     }
     all.motions.clear();
-    all.motions.resize(width * (1 + tree.mimics.len()), S::zero());
+    all.motions.resize(width * (1 + groups().count()), S::zero());
     let AllJoints { q, v, a, motions, .. } = &mut all;
     let (motion, responses) = motions.split_at_mut(width);
     let mut run = |loads: Loads, v: &[S], given: &[S], motion: &mut [S]| {
@@ -165,21 +178,20 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     };
     run(Loads::All, v, a, motion);
     v.fill(S::zero());
-    let free = || tree.mimics.iter().enumerate().filter(|(_, mimic)| is_free(mimic));
-    let violation = |k: usize, motion: &[S]| {
-        let Mimic { v, multiplier, .. } = tree.mimics[k];
-        motion[nv + k] - S::from_f64(multiplier) * motion[v]
-    };
-    for (k, mimic) in free() {
+    let force = |group: usize, motion: &[S]| tree.folded_at(group, &motion[of_all..]);
+    for (index, group) in groups() {
         a.fill(S::zero());
-        (a[nv + k], a[mimic.v]) = (S::one(), S::from_f64(-mimic.multiplier));
-        let (earlier, response) = responses.split_at_mut(k * width);
+        a[group] = S::one();
+        for (k, mimic) in tree.mimics.iter().enumerate().filter(|(_, mimic)| mimic.v == group) {
+            a[nv + k] = S::from_f64(mimic.multiplier);
+        }
+        let (earlier, response) = responses.split_at_mut(index * width);
         let response = &mut response[..width];
         run(Loads::Given, v, a, response);
-        for (j, _) in free().take_while(|(j, _)| *j < k) {
-            meet(response, &earlier[j * width..(j + 1) * width], |motion| violation(j, motion));
+        for (other, earlier) in groups().map(|(_, group)| group).zip(earlier.chunks(width)) {
+            meet(response, earlier, S::zero(), |motion| force(other, motion));
         }
-        meet(motion, response, |motion| violation(k, motion));
+        meet(motion, response, given[group], |motion| force(group, motion));
     }
     result.copy_from_slice(&motion[..nv]);
     tree.fold_mimics(&mut motion[of_all..]);
@@ -189,10 +201,10 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     work.all_joints = all;
 }
 
-/// Adds to `motion` as much of `response` as meets a constraint.
-fn meet<S: Scalar>(motion: &mut [S], response: &[S], violation: impl Fn(&[S]) -> S) {
-    let share = violation(motion) * (S::one() / violation(response));
+/// Adds to `motion` as much of `response` as makes its `force` the `wanted` one.
+fn meet<S: Scalar>(motion: &mut [S], response: &[S], wanted: S, force: impl Fn(&[S]) -> S) {
+    let share = (wanted - force(motion)) * (S::one() / force(response));
     for (motion, response) in motion.iter_mut().zip(response) {
-        *motion -= share * *response;
+        *motion += share * *response;
     }
 }

@@ -40,7 +40,7 @@ pub use configuration::{coordinate_rates, difference, integrate, neutral};
 pub use coriolis::coriolis_matrix;
 pub use energy::energy;
 pub use evaluate::evaluate;
-pub use factorisation::Factorisation;
+pub use factorisation::{EliminationOrder, Factorisation};
 pub use forward::{
     Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion, forward_dynamics_in,
 };

@@ -12,9 +12,12 @@ pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl 
     let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
     let mut tau = vec![S::zero(); tree.nv_of_all()];
     for body in &tree.bodies {
-        let physics = body.physics;
-        if let Some(force) = physics.and_then(|physics| physics.passive_force(q[body.q.start], v[body.v.start])) {
-            tau[body.v.start] = force;
+        let Some(physics) = &body.physics else { continue };
+        let forces = physics.passive_forces(body.joint, &q[body.q.clone()], &v[body.v.clone()]);
+        for (tau, force) in tau[body.v.clone()].iter_mut().zip(forces) {
+            if let Some(force) = force {
+                *tau = force;
+            }
         }
     }
     if !tree.springs.is_empty() {
@@ -28,9 +31,10 @@ pub fn passive_forces<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl 
 /// The power that damping and friction take, which is never negative.
 pub fn dissipated_power<S: Scalar>(tree: &Tree<impl ParameterIn<S>>, trace: &impl Trace<S>, q: &[S], v: &[S]) -> S {
     let (q, v) = (&tree.all_coordinates(q), &tree.all_velocities(v));
-    let in_joints = tree.bodies.iter().filter_map(|body| {
-        let v = v[body.v.start];
-        body.physics?.dissipative_force(v).map(|force: S| force * v)
+    let in_joints = tree.bodies.iter().flat_map(|body| {
+        let of_velocity =
+            |(i, &v): (usize, &S)| body.physics.as_ref()?.dissipative_force(i, v).map(|force: S| force * v);
+        v[body.v.clone()].iter().enumerate().filter_map(of_velocity)
     });
     let between_points = if tree.springs.is_empty() {
         None

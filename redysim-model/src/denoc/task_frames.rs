@@ -28,7 +28,7 @@ pub fn frame_jacobians<S: Scalar>(
             let (body, rotation) = (&tree.bodies[index], bodies.placed[index].pose.rotation);
             for (velocity, screw) in body.v.clone().zip(body.joint.screws()) {
                 let motion = screw.motion_at(arm);
-                let column = [rotation * motion.linear, rotation * motion.angular];
+                let column = [rotation.fused_product(motion.linear), rotation.fused_product(motion.angular)];
                 for i in 0..3 {
                     [linear[i][velocity], angular[i][velocity]] = column.map(|vector| vector[i]);
                 }

@@ -21,7 +21,7 @@ pub fn screw(velocity: usize) -> Screw {
 #[inline]
 pub fn position<S: Scalar>(q: &[S]) -> JointPosition<S> {
     let (position, orientation) = parts(q);
-    JointPosition::InSpace { rotation: quaternion::rotation(orientation), displacement: Some(position) }
+    JointPosition::InSpace { orientation, displacement: Some(position) }
 }
 
 pub fn coordinate_rates<S: Scalar>(q: &[S], v: &[S], rates: &mut [S]) {

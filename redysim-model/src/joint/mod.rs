@@ -17,6 +17,7 @@
 //!
 //! The joint of a link, a [`LinkJoint`], is one of these or a [`Series`] of them, each with a body of its own in the tree.
 
+pub(crate) mod body_physics;
 mod euler;
 mod free;
 mod helical;
@@ -26,27 +27,32 @@ mod measure;
 pub(crate) mod physics;
 mod position;
 mod prismatic;
-mod quaternion;
+pub(crate) mod quaternion;
 mod revolute;
 mod screw;
 mod series;
 mod shared;
 mod spherical;
+mod stretch;
 
 use crate::parameter::Parameter;
 use crate::pseudo::PseudoInertia;
 use crate::spatial::{Pose, Twist, Vec3, Wrench};
+pub use body_physics::{BodyPhysics, VelocityPhysics};
+pub(crate) use body_physics::{Forces, sum};
 pub use euler::EulerSequence;
 pub use link_joint::LinkJoint;
 pub use measure::Measure;
 pub(crate) use physics::FRICTION_VELOCITY;
 pub use physics::JointPhysics;
-pub(crate) use physics::sum;
 pub use position::JointPosition;
 use redysim_runtime::Scalar;
 pub use screw::{Screw, across};
 pub use series::{Element, Series};
 pub use shared::{AxisMass, Vanishing};
+
+/// The most freedoms of a joint.
+pub(crate) const MOST_FREEDOMS: usize = 6;
 
 /// What a joint of the tree does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -220,8 +226,8 @@ impl Joint {
         }
         let across = self.added(Twist::zero(), v);
         Twist {
-            angular: angular.cross(across.angular),
-            linear: (angular + angular + across.angular).cross(across.linear),
+            angular: angular.fused_cross(across.angular),
+            linear: (angular + angular + across.angular).fused_cross(across.linear),
         }
     }
 

@@ -1,5 +1,6 @@
 //! The position of a body on its joint.
 
+use super::quaternion::{self, Quaternion};
 use crate::spatial::{Mat3, Pose, Vec3};
 use redysim_runtime::Scalar;
 
@@ -15,8 +16,8 @@ pub enum JointPosition<S> {
     },
     /// Of a joint that turns its body about any axis.
     InSpace {
-        /// The axes of the body, as columns.
-        rotation: Mat3<S>,
+        /// The rotation of the body, as a quaternion (x, y, z, w) of any length but zero.
+        orientation: Quaternion<S>,
         /// The body's origin, m; `None` if it stays at that of the joint.
         displacement: Option<Vec3<S>>,
     },
@@ -34,8 +35,8 @@ impl<S: Scalar> JointPosition<S> {
                     position: Vec3([zero, zero, displacement.unwrap_or(zero)]),
                 }
             }
-            JointPosition::InSpace { rotation, displacement } => {
-                Pose { rotation, position: displacement.unwrap_or_else(Vec3::zero) }
+            JointPosition::InSpace { orientation, displacement } => {
+                Pose { rotation: quaternion::rotation(orientation), position: displacement.unwrap_or_else(Vec3::zero) }
             }
         }
     }

@@ -4,6 +4,7 @@
 //! for a rotation of zero have the square of [`NEARLY_ZERO`] added to their denominator, which changes no digit of any
 //! other, and a [`sign`] is a quotient.
 
+use crate::parameter::{ParameterIn, acting};
 use crate::spatial::{Mat3, Vec3};
 use redysim_runtime::Scalar;
 
@@ -27,15 +28,16 @@ fn whole<S>(Vec3([x, y, z]): Vec3<S>, w: S) -> Quaternion<S> {
     [x, y, z, w]
 }
 
+/// Not fused, since the axes of a locked joint are constants of the model.
 fn square<S: Scalar>(q: Quaternion<S>) -> S {
     let (v, w) = parts(q);
-    w.mul_add(w, v.dot(v))
+    w * w + v.dot(v)
 }
 
 /// p q: first the rotation q, then the rotation p.
 pub fn product<S: Scalar>(p: Quaternion<S>, q: Quaternion<S>) -> Quaternion<S> {
     let ((a, s), (b, t)) = (parts(p), parts(q));
-    whole(b.scale(s) + a.scale(t) + a.cross(b), s * t - a.dot(b))
+    whole(b.scale(s) + a.scale(t) + a.fused_cross(b), s * t - a.fused_dot(b))
 }
 
 fn conjugate<S: Scalar>(q: Quaternion<S>) -> Quaternion<S> {
@@ -55,7 +57,8 @@ pub fn rotation<S: Scalar>(q: Quaternion<S>) -> Mat3<S> {
     let (v, w) = parts(q);
     let scaled = v.scale(S::from_f64(2.0) / square(q));
     let [xx, yy, zz] = [0, 1, 2].map(|i| v[i] * scaled[i]);
-    let [xy, yz, zx] = [0, 1, 2].map(|i| v[i] * scaled[(i + 1) % 3]);
+    // Of z alone the unscaled component: where only the third row is used, two are scaled.
+    let [xy, yz, zx] = [v[0] * scaled[1], v[2] * scaled[1], v[2] * scaled[0]];
     let [wx, wy, wz] = scaled.scale(w).0;
     let one = S::one();
     Mat3([
@@ -65,10 +68,28 @@ pub fn rotation<S: Scalar>(q: Quaternion<S>) -> Mat3<S> {
     ])
 }
 
+/// The vector `a` of the axes before the rotation, in the turned ones: a + 2 (v × (v × a) − w v × a)/|q|².
+///
+/// For a vector that is known before run time, such as gravity. Where it is along one of the axes, its length is a
+/// factor of 2/|q|² alone: 18 operations, where the matrix and the product take 24.
+pub fn turned_back<S: Scalar>(q: Quaternion<S>, a: Vec3<impl ParameterIn<S>>) -> Vec3<S> {
+    let (v, w) = parts(q);
+    let components = a.map(acting::<S, _>);
+    let (length, direction) = match components.0 {
+        [Some(x), None, None] => (x, Vec3([S::one(), S::zero(), S::zero()])),
+        [None, Some(y), None] => (y, Vec3([S::zero(), S::one(), S::zero()])),
+        [None, None, Some(z)] => (z, Vec3([S::zero(), S::zero(), S::one()])),
+        _ => (S::one(), a.map(ParameterIn::value)),
+    };
+    let across = v.fused_cross(direction);
+    let turned = v.fused_cross(across) - across.scale(w);
+    a.map(ParameterIn::value) + turned.scale((length + length) / square(q))
+}
+
 /// q̇ = ½ q (ω; 0) at the angular velocity ω in the turned axes.
 pub fn rates<S: Scalar>(q: Quaternion<S>, angular: Vec3<S>) -> Quaternion<S> {
     let ((v, w), half) = (parts(q), angular.scale(S::from_f64(0.5)));
-    whole(half.scale(w) + v.cross(half), -v.dot(half))
+    whole(half.scale(w) + v.fused_cross(half), -v.fused_dot(half))
 }
 
 /// ω = 2 q⁻¹ q̇, the angular velocity in the turned axes.
@@ -89,7 +110,7 @@ pub struct Exponential<S> {
 
 /// exp ŵ.
 pub fn exponential<S: Scalar>(w: Vec3<S>) -> Exponential<S> {
-    let square = w.dot(w) + S::from_f64(NEARLY_ZERO * NEARLY_ZERO);
+    let square = w.fused_dot(w) + S::from_f64(NEARLY_ZERO * NEARLY_ZERO);
     let angle = square.sqrt();
     let (sin, cos) = (S::from_f64(0.5) * angle).sin_cos();
     let sine_share = sin / angle;
@@ -102,9 +123,9 @@ impl<S: Scalar> Exponential<S> {
     pub fn displacement(&self, w: Vec3<S>, u: Vec3<S>) -> Vec3<S> {
         let Exponential { quaternion: [_, _, _, cos], sine_share, square } = *self;
         let two = S::from_f64(2.0);
-        let across = w.cross(u);
+        let across = w.fused_cross(u);
         let second = (S::one() - two * (sine_share * cos)) / square;
-        u + across.scale(two * (sine_share * sine_share)) + w.cross(across).scale(second)
+        u + across.scale(two * (sine_share * sine_share)) + w.fused_cross(across).scale(second)
     }
 }
 
@@ -127,10 +148,10 @@ pub fn difference<S: Scalar>(q0: Quaternion<S>, q1: Quaternion<S>) -> Logarithm<
     let mut share = sign / (length + cos);
     for _ in 0..2 {
         let tangent = v.scale(share);
-        share = share / (one + (one + tangent.dot(tangent)).sqrt());
+        share = share / (one + (one + tangent.fused_dot(tangent)).sqrt());
     }
     let tangent = v.scale(share);
-    let share = S::from_f64(16.0) * (share * arctangent_share(tangent.dot(tangent)));
+    let share = S::from_f64(16.0) * (share * arctangent_share(tangent.fused_dot(tangent)));
     // θ/sin(θ/2) · cos(θ/2), where sin(θ/2) is |v|/|q|.
     Logarithm { vector: v.scale(share), half_cotangent: S::from_f64(0.5) * (share * sign) * cos }
 }
@@ -155,8 +176,27 @@ impl<S: Scalar> Logarithm<S> {
     /// V⁻¹ d, the velocity that, constant in moving axes, leads to the displacement d in the axes before it.
     pub fn velocity(&self, d: Vec3<S>) -> Vec3<S> {
         let w = self.vector;
-        let across = w.cross(d);
-        let second = (S::one() - self.half_cotangent) / (w.dot(w) + S::from_f64(NEARLY_ZERO * NEARLY_ZERO));
-        d - across.scale(S::from_f64(0.5)) + w.cross(across).scale(second)
+        let across = w.fused_cross(d);
+        let second = (S::one() - self.half_cotangent) / (w.fused_dot(w) + S::from_f64(NEARLY_ZERO * NEARLY_ZERO));
+        d - across.scale(S::from_f64(0.5)) + w.fused_cross(across).scale(second)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_known_vector_is_turned_back_as_by_the_matrix() {
+        for q in [[0.1, -0.7, 0.4, 0.5], [2.0, 0.3, -1.0, 0.0], [0.0, 0.0, 0.0, 3.0]] {
+            let vectors =
+                [[0.0; 3], [9.81, 0.0, 0.0], [0.0, -3.0, 0.0], [0.0, 0.0, -9.81], [1.0, -9.0, 3.0], [0.0, 2.0, 5.0]];
+            for a in vectors.map(Vec3) {
+                let (found, expected) = (turned_back(q, a), rotation(q).transpose() * a);
+                for i in 0..3 {
+                    assert!((found[i] - expected[i]).abs() <= 1e-14, "{q:?} {a:?}: {found:?}, {expected:?}");
+                }
+            }
+        }
     }
 }

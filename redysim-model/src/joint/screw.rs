@@ -78,7 +78,7 @@ impl Screw {
     /// Sᵀ w, the joint force of a wrench about a point of the axis, in axes in which the screw's is `axis`.
     #[inline]
     pub fn project_along<S: Scalar>(self, axis: Vec3<S>, wrench: Wrench<S>) -> S {
-        let [turn, slide] = [self.turn(wrench.moment.dot(axis)), self.slide(wrench.force.dot(axis))];
+        let [turn, slide] = [self.turn(wrench.moment.fused_dot(axis)), self.slide(wrench.force.fused_dot(axis))];
         turn.unwrap_or(S::zero()) + slide.unwrap_or(S::zero())
     }
 

@@ -19,7 +19,7 @@ pub fn screw(velocity: usize) -> Screw {
 
 #[inline]
 pub fn position<S: Scalar>(q: &[S]) -> JointPosition<S> {
-    JointPosition::InSpace { rotation: quaternion::rotation(four(q)), displacement: None }
+    JointPosition::InSpace { orientation: four(q), displacement: None }
 }
 
 pub fn coordinate_rates<S: Scalar>(q: &[S], v: &[S], rates: &mut [S]) {

@@ -11,7 +11,8 @@ pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Message {
             let folder = path.parent().unwrap_or(path);
             let similar = similar_file(path, &[folder, Path::new("")]);
             let similar = similar.map(|file| format!("did you mean `{}`? ", file.display())).unwrap_or_default();
-            format!("{similar}A path is taken from the current folder")
+            let current = std::env::current_dir().map(|current| format!(", {}", current.display())).unwrap_or_default();
+            format!("{similar}A path is taken from the current folder{current}")
         }
         _ => "the path must name a TOML file in UTF-8".to_string(),
     };

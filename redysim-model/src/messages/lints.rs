@@ -32,7 +32,7 @@ pub(crate) fn no_gravity(model: &str) -> Message {
 
 pub(crate) fn gravity_units(model: &str, size: f64) -> Message {
     message(
-        format!("model {}: gravity is {} m/s², which is that of no planet", quoted(model), rounded(size)),
+        format!("model {}: gravity is {} m/s², which no planet has", quoted(model), rounded(size)),
         "mm/s², ft/s² or km/s²?",
         "gravity is in m/s², on Earth 9.81, and lengths are in m",
     )
@@ -64,7 +64,7 @@ pub(crate) fn far_reach(model: &str, size: f64, mass: f64) -> Message {
             rounded(size),
             rounded(mass)
         ),
-        "lengths in mm?",
+        "lengths in mm or cm?",
         "lengths are in m, masses in kg and inertias in kg m²",
     )
 }
@@ -101,6 +101,19 @@ pub(crate) fn long_spring(item: &str, length: f64, around: f64) -> Message {
         format!("{item}: its free length is {} m, in a mechanism of {} m", rounded(length), rounded(around)),
         "in mm?",
         "`length` is in m",
+    )
+}
+
+pub(crate) fn heavy_chain(model: &str, mass: f64, size: f64) -> Message {
+    message(
+        format!(
+            "model {}: its links on joints weigh {} kg and reach {} m, and would weigh less if they were of solid steel",
+            quoted(model),
+            rounded(mass),
+            rounded(size)
+        ),
+        "masses in g?",
+        "masses are in kg, lengths in m and inertias in kg m²",
     )
 }
 

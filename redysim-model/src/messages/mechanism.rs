@@ -6,7 +6,7 @@ use crate::model::{CutKind, JointKind};
 use crate::schema::{RotationDefect, keys};
 use redysim_runtime::Function;
 use redysim_toml::words::{did_you_mean, nearest, quoted, rounded, shortened};
-use redysim_toml::{KeyPath, Message};
+use redysim_toml::{Key, KeyPath, Message};
 
 pub(crate) fn blank_name(item: &str, key: &str) -> Message {
     message(format!("{item}: `{key}` is blank"), "blank", "give it a name: messages and generated code use it")
@@ -56,25 +56,41 @@ pub(crate) fn physics_of_fixed(item: &str, key: &str) -> Message {
     )
 }
 
-pub(crate) fn negative_physics(item: &str, key: &str, value: f64) -> Message {
+/// `path` is that of the key `key` or an element of it.
+pub(crate) fn negative_physics(item: &str, key: &str, path: &KeyPath, value: f64) -> Message {
     let energy = match key {
         _ if key == keys::ARMATURE.name => "the mass matrix would not be positive definite",
         _ if key == keys::STIFFNESS.name => "the spring would push away from its rest",
         _ => "the joint would drive itself",
     };
     message(
-        format!("{item}: `{key}` is negative: {value:?}; {energy}"),
+        format!("{item}: `{path}` is negative: {value:?}; {energy}"),
         "negative",
         "give zero or a positive number; zero is the default",
     )
 }
 
-pub(crate) fn friction_velocity_not_positive(item: &str, value: f64) -> Message {
-    let key = keys::FRICTION_VELOCITY.name;
+pub(crate) fn friction_velocity_not_positive(item: &str, path: &KeyPath, value: f64) -> Message {
     message(
-        format!("{item}: `{key}` must be positive, but is {value:?}: friction would jump where the joint stands still"),
+        format!(
+            "{item}: `{path}` must be positive, but is {value:?}: friction would jump where the joint stands still"
+        ),
         "not positive",
         format!("give the speed below which friction is to fade, such as `{}`", keys::FRICTION_VELOCITY.example()),
+    )
+}
+
+/// `velocities` are the names of those of the joint.
+pub(crate) fn one_number_for_two_units(item: &str, key: &Key, velocities: &[&str]) -> Message {
+    let name = key.name;
+    message(
+        format!("{item}: `{name}` is one number, but some velocities of the joint are in m/s, others in rad/s"),
+        "one number for two units",
+        format!(
+            "give an array of {} numbers, one for each of the velocities {}",
+            velocities.len(),
+            velocities.join(", ")
+        ),
     )
 }
 

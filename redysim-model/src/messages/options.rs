@@ -96,19 +96,7 @@ pub(crate) fn locked_twice(item: &str, name: &str) -> Message {
     )
 }
 
-pub(crate) fn parameter_of_several_freedoms(item: &str, parameter: &str, owner: &str) -> Message {
-    message(
-        format!(
-            "{item}: {} is not a parameter, since the joint {} has several freedoms",
-            quoted(parameter),
-            quoted(owner)
-        ),
-        "a joint of several freedoms",
-        "delete it: armature, damping, friction and stiffness belong to joints with one axis",
-    )
-}
-
-pub(crate) fn locked_without_orientation(item: &str, path: &KeyPath) -> Message {
+pub(crate) fn without_orientation(item: &str, path: &KeyPath) -> Message {
     message(
         format!("{item}: the quaternion of `{path}` is zero, which is invalid"),
         "a zero quaternion",

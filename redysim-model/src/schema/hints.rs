@@ -4,7 +4,10 @@
 use redysim_toml::Hint;
 
 const RANGE: &str = "the range of a joint is a table, as in `range = { position = [\"-170 deg\", \"170 deg\"], velocity = \
-    \"150 deg\", acceleration = 10.0, force = 40.0 }`: it says for which states a tolerance holds, and limits no motion";
+    \"150 deg\", acceleration = 10.0, force = 40.0 }`: it states where the joint works, for `tolerance`, and does not limit its motion";
+const LARGEST_FORCE: &str = "the largest force of a joint is `force` of its `range`, as in `range = { position = [\"-170 deg\", \
+    \"170 deg\"], velocity = \"150 deg\", force = 40.0 }`, for `tolerance`; what limits a torque in simulation is `limits` of the \
+    scenario's torque law";
 const DH: &str = "Denavit-Hartenberg parameters are a table: `dh = { a, alpha, b, theta }` if they are Khalil and \
     Kleinfinger's (modified), `dh_standard = { a, alpha, d, theta }` if they are the standard (distal) ones of data sheets \
     and most textbooks";
@@ -40,18 +43,28 @@ pub(super) const LINK: &[Hint] = &[
             "upper",
             "velocity",
             "acceleration",
-            "force",
-            "effort",
-            "torque",
             "max_velocity",
-            "max_effort",
-            "max_torque",
             "velocity_limit",
-            "effort_limit",
-            "torque_limit",
             "position_limits",
         ],
         RANGE,
+    ),
+    Hint::new(
+        &["force", "effort", "torque", "max_effort", "max_torque", "effort_limit", "torque_limit"],
+        LARGEST_FORCE,
+    ),
+    Hint::new(
+        &["dynamics"],
+        "`damping` and `friction` are keys of the link itself, as in `damping = 0.5` and `friction = 2.0`",
+    ),
+    Hint::new(
+        &["gear_ratio", "gear", "ratio", "reduction", "transmission"],
+        "a model has no gears: torques, speeds and the rotor's inertia are those of the joint, so that `armature` is the \
+         inertia of the rotor times the square of the gear ratio",
+    ),
+    Hint::new(
+        &["payload"],
+        "a payload is a [[link]] of its own on a `fixed` joint, or in the link's mass, com and inertia",
     ),
     Hint::new(
         &["xyz", "rpy", "pose"],

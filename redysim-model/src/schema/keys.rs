@@ -114,7 +114,8 @@ pub(crate) const COM: Key = Key::new("com", "[0.0, 0.0, 0.1]", "m, in the link's
 pub(crate) const ARMATURE: Key = Key::new(
     "armature",
     "0.3",
-    "kg m² or kg: inertia of the rotor times the square of the gear ratio, on the diagonal of the mass matrix",
+    "kg m² or kg: inertia of the rotor times the square of the gear ratio, on the diagonal of the mass matrix; of this and \
+     the next four an array for each of several velocities",
 )
 .with_default("0");
 pub(crate) const DAMPING: Key = Key::new("damping", "0.5", "N m s/rad or N s/m").with_default("0");
@@ -125,7 +126,8 @@ pub(crate) const FRICTION_VELOCITY: Key =
 pub(crate) const STIFFNESS: Key =
     Key::new("stiffness", "20.0", "N m/rad or N/m, of a spring in the joint").with_default("0");
 pub(crate) const REST: Key =
-    Key::new("rest", "0.5", "where the spring is relaxed; without a unit rad or m").with_default("0");
+    Key::new("rest", "0.5", "where the spring is relaxed; without a unit rad or m; an array of several coordinates")
+        .with_default("the zero position");
 pub(crate) const ACTUATED: Key =
     Key::new("actuated", "false", "whether an actuator moves the joint; an array for each of several velocities")
         .with_default("true");

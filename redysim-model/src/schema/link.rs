@@ -3,12 +3,12 @@
 use super::item::item;
 use super::keys;
 use super::origin::origin;
-use crate::actuation::Actuation;
-use crate::joint::{EulerSequence, LinkJoint, Measure};
+use crate::joint::{EulerSequence, Joint, LinkJoint, Measure};
 use crate::messages;
 use crate::model::{Inertia, JointKind, JointRange};
+use crate::per_velocity::PerVelocity;
 use crate::spatial::Pose;
-use redysim_toml::{DeValue, Field, Findings, Key, Reader, Spanned, TableAt, Value, name_of};
+use redysim_toml::{DeValue, Field, Findings, Key, KeyPath, Reader, Spanned, TableAt, Value, name_of};
 use std::ops::Range;
 
 /// A `[[link]]` table.
@@ -35,7 +35,7 @@ pub(crate) struct LinkTable {
     pub(crate) inertia: Field<Inertia>,
     pub(crate) physics: PhysicsKeys,
     pub(crate) mimic: Field<MimicTable>,
-    pub(crate) actuated: Field<Actuation>,
+    pub(crate) actuated: Field<PerVelocity<bool>>,
     /// For each velocity of the joint.
     pub(crate) range: Field<Vec<JointRange>>,
     /// The coordinates at which the options hold the joint.
@@ -56,43 +56,87 @@ pub(crate) struct MimicTable {
 /// The keys of what acts in the joint itself.
 #[derive(Debug)]
 pub(crate) struct PhysicsKeys {
-    pub(crate) armature: Field<f64>,
-    pub(crate) damping: Field<f64>,
-    pub(crate) friction: Field<f64>,
-    pub(crate) friction_velocity: Field<f64>,
-    pub(crate) stiffness: Field<f64>,
-    pub(crate) rest: Field<f64>,
+    pub(crate) armature: Field<PerVelocity<f64>>,
+    pub(crate) damping: Field<PerVelocity<f64>>,
+    pub(crate) friction: Field<PerVelocity<f64>>,
+    pub(crate) friction_velocity: Field<PerVelocity<f64>>,
+    pub(crate) stiffness: Field<PerVelocity<f64>>,
+    pub(crate) rest: Field<Vec<f64>>,
 }
 
 impl PhysicsKeys {
-    /// Of a joint that turns, in radians.
-    fn read(reader: &mut Reader<'_, '_>, turns: bool) -> PhysicsKeys {
+    /// Of the joint `motion`, as far as it can be read.
+    fn read(reader: &mut Reader<'_, '_>, motion: Option<LinkJoint>) -> PhysicsKeys {
+        let mut not_negative = |key: &Key| {
+            per_velocity_in_one_unit(reader, key, motion, |reader, path, value, _| {
+                let number = reader.parse_number(path, value)?;
+                if number < 0.0 {
+                    return reader.error(value, messages::negative_physics(reader.item(), key.name, path, number));
+                }
+                Some(number)
+            })
+        };
         PhysicsKeys {
-            armature: reader.number(&keys::ARMATURE),
-            damping: reader.number(&keys::DAMPING),
-            friction: reader.number(&keys::FRICTION),
-            friction_velocity: displacement(reader, &keys::FRICTION_VELOCITY, turns, "/s"),
-            stiffness: reader.number(&keys::STIFFNESS),
-            rest: displacement(reader, &keys::REST, turns, ""),
+            armature: not_negative(&keys::ARMATURE),
+            damping: not_negative(&keys::DAMPING),
+            friction: not_negative(&keys::FRICTION),
+            stiffness: not_negative(&keys::STIFFNESS),
+            friction_velocity: per_velocity_in_one_unit(
+                reader,
+                &keys::FRICTION_VELOCITY,
+                motion,
+                |reader, path, value, measure| {
+                    let speed = reader.parse_displacement(path, value, measure == Measure::Angle, "/s")?;
+                    if speed <= 0.0 {
+                        let message = messages::friction_velocity_not_positive(reader.item(), path, speed);
+                        return reader.error(value, message);
+                    }
+                    Some(speed)
+                },
+            ),
+            rest: reader.field(&keys::REST, |reader, path, value| {
+                coordinates(motion.unwrap_or(Joint::Revolute.into()), path, value, reader)
+            }),
         }
     }
 
-    /// Every key with what is given for it.
-    pub(crate) fn fields(&self) -> [(&'static Key, &Field<f64>); 6] {
-        [
+    /// The keys that are given, each with its place.
+    pub(crate) fn given(&self) -> impl Iterator<Item = (&'static Key, Range<usize>)> {
+        let per_velocity = [
             (&keys::ARMATURE, &self.armature),
             (&keys::DAMPING, &self.damping),
             (&keys::FRICTION, &self.friction),
             (&keys::FRICTION_VELOCITY, &self.friction_velocity),
             (&keys::STIFFNESS, &self.stiffness),
-            (&keys::REST, &self.rest),
-        ]
+        ];
+        let places = per_velocity.map(|(key, field)| (key, field.spanned().map(Spanned::span)));
+        let rest = [(&keys::REST, self.rest.spanned().map(Spanned::span))];
+        places.into_iter().chain(rest).filter_map(|(key, place)| Some((key, place?)))
     }
 }
 
-/// A coordinate, or its rate `per` something: of a joint that turns, in radians.
-fn displacement(reader: &mut Reader<'_, '_>, key: &Key, turns: bool, per: &str) -> Field<f64> {
-    reader.field(key, |reader, path, value| reader.parse_displacement(path, value, turns, per))
+/// [`per_velocity`], where one number for all velocities of a joint needs them to have one unit.
+fn per_velocity_in_one_unit<T>(
+    reader: &mut Reader<'_, '_>,
+    key: &Key,
+    motion: Option<LinkJoint>,
+    read: impl Fn(&mut Reader<'_, '_>, &KeyPath, &Value<'_>, Measure) -> Option<T>,
+) -> Field<PerVelocity<T>> {
+    let field = per_velocity(reader, key, motion, read);
+    let joint = motion.filter(|joint| joint.velocity_measures().windows(2).any(|pair| pair[0] != pair[1]));
+    match (&field, joint) {
+        (Field::Value(value), Some(joint)) if matches!(value.get_ref(), PerVelocity::Uniform(_)) => {
+            let message = messages::one_number_for_two_units(reader.item(), key, joint.velocity_names());
+            reader.error_at::<()>(value.span(), message);
+            Field::Invalid
+        }
+        _ => field,
+    }
+}
+
+/// A coordinate: of a joint that turns, in radians.
+fn position(reader: &mut Reader<'_, '_>, key: &Key, turns: bool) -> Field<f64> {
+    reader.field(key, |reader, path, value| reader.parse_position(path, value, turns))
 }
 
 /// Khalil-Kleinfinger parameters: the link's frame stands in its parent's at Rx(alpha) Tx(a) Rz(theta) Tz(b).
@@ -138,16 +182,16 @@ impl LinkTable {
             dh_standard: reader.table(&keys::DH_STANDARD, dh_standard),
             origin: reader.table(&keys::ORIGIN, origin),
             axis: reader.vector(&keys::AXIS),
-            offset: displacement(&mut reader, &keys::OFFSET, turns, ""),
+            offset: position(&mut reader, &keys::OFFSET, turns),
             far_end: reader.table(&keys::FAR_END, origin),
             pitch,
             coordinates,
             mass: reader.required(&keys::MASS, Reader::number),
             com: reader.vector(&keys::COM),
             inertia: reader.table(&keys::INERTIA, inertia),
-            physics: PhysicsKeys::read(&mut reader, turns),
+            physics: PhysicsKeys::read(&mut reader, motion),
             mimic: reader.table(&keys::MIMIC, |reader| mimic(reader, turns)),
-            actuated: actuated(&mut reader, kind),
+            actuated: actuated(&mut reader, motion),
             range: ranges(&mut reader, motion, turns),
             locked: None,
             item,
@@ -173,8 +217,8 @@ impl LinkTable {
 
     /// Whether each velocity of the joint has an actuator, as far as it can be read.
     pub(crate) fn actuated_velocities(&self) -> Vec<bool> {
-        let actuated = self.actuated.value().unwrap_or(&Actuation::Uniform(true));
-        actuated.of_velocities(self.motion().map_or(1, LinkJoint::nv))
+        let actuated = self.actuated.value().unwrap_or(&PerVelocity::Uniform(true));
+        actuated.of_velocities(self.motion().map_or(1, LinkJoint::nv), true)
     }
 
     /// Where faults of the link as a whole are shown.
@@ -188,36 +232,70 @@ impl LinkTable {
     }
 }
 
-/// `true` or `false` for the joint as a whole, or an array with one of them for each of its velocities.
-fn actuated(reader: &mut Reader<'_, '_>, joint: Option<JointKind>) -> Field<Actuation> {
-    reader.field(&keys::ACTUATED, |reader, path, value| {
-        let flag = |value: &Value<'_>| match value.get_ref() {
-            DeValue::Boolean(flag) => Some(*flag),
-            _ => None,
-        };
-        let count = joint.map(JointKind::dof).filter(|count| *count > 1);
+/// One value for the joint as a whole, or an array with one for each of several velocities; `read` has what the integral
+/// of the velocity measures.
+fn per_velocity<T>(
+    reader: &mut Reader<'_, '_>,
+    key: &Key,
+    motion: Option<LinkJoint>,
+    read: impl Fn(&mut Reader<'_, '_>, &KeyPath, &Value<'_>, Measure) -> Option<T>,
+) -> Field<PerVelocity<T>> {
+    let measures = motion.map_or(vec![Measure::Angle], LinkJoint::velocity_measures);
+    reader.field(key, |reader, path, value| {
         let array = match value.get_ref() {
-            DeValue::Array(array) if count.is_some() => array,
-            _ => {
-                return match flag(value) {
-                    Some(flag) => Some(flag.into()),
-                    None => reader.wrong_type(path, value, "true or false"),
-                };
-            }
+            DeValue::Array(array) if measures.len() > 1 => array,
+            _ => return read(reader, path, value, measures[0]).map(PerVelocity::Uniform),
         };
-        let flags = reader.elements(path, array, |reader, path, value| {
-            flag(value).or_else(|| reader.wrong_type(path, value, "true or false"))
-        });
-        match count {
-            Some(count) if count != array.len() => reader.wrong_length(
-                path,
-                value,
-                &format!("{count} values, one for each velocity of the joint"),
-                array.len(),
-            ),
-            _ => Some(Actuation::PerVelocity(flags?)),
+        // Every element is read, so that each error among them is reported.
+        let each: Vec<Option<T>> = array
+            .iter()
+            .enumerate()
+            .map(|(i, value)| read(reader, &path.element(i), value, *measures.get(i).unwrap_or(&Measure::Angle)))
+            .collect();
+        let count = measures.len();
+        if count != array.len() {
+            let wanted = format!("{count} values, one for each velocity of the joint");
+            return reader.wrong_length(path, value, &wanted, array.len());
         }
+        each.into_iter().collect::<Option<Vec<T>>>().map(PerVelocity::Each)
     })
+}
+
+/// Whether an actuator moves the joint, as a whole or by each of its velocities.
+fn actuated(reader: &mut Reader<'_, '_>, motion: Option<LinkJoint>) -> Field<PerVelocity<bool>> {
+    per_velocity(reader, &keys::ACTUATED, motion, |reader, path, value, _| match value.get_ref() {
+        DeValue::Boolean(flag) => Some(*flag),
+        _ => reader.wrong_type(path, value, "true or false"),
+    })
+}
+
+/// The coordinates of a joint: a number, or an array of several.
+pub(super) fn coordinates<'a>(
+    joint: LinkJoint,
+    path: &KeyPath,
+    value: &'a Value<'a>,
+    reader: &mut Reader<'a, '_>,
+) -> Option<Vec<f64>> {
+    let angles: Vec<bool> = joint.coordinate_measures().iter().map(|measure| *measure == Measure::Angle).collect();
+    if let [turns] = angles[..] {
+        return reader.parse_position(path, value, turns).map(|value| vec![value]);
+    }
+    let count = angles.len();
+    let wanted = format!("{count} numbers");
+    let array = reader.array(path, value, &format!("an array of {wanted}"))?;
+    let values: Vec<Option<f64>> = array
+        .iter()
+        .enumerate()
+        .map(|(i, value)| reader.parse_position(&path.element(i), value, angles.get(i).copied().unwrap_or_default()))
+        .collect();
+    if array.len() != count {
+        return reader.wrong_length(path, value, &wanted, array.len());
+    }
+    let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
+    if joint.has_no_orientation_at(&values) {
+        return reader.error(value, messages::without_orientation(reader.item(), path));
+    }
+    Some(values)
 }
 
 /// One of several names, each of which stands for something.
@@ -255,7 +333,7 @@ fn mimic(mut reader: Reader<'_, '_>, turns: bool) -> MimicTable {
         joint: reader.required(&keys::MIMIC_JOINT, Reader::text).spanned().cloned(),
         multiplier: multiplier.value_or(1.0).unwrap_or(1.0),
         multiplier_place: multiplier.spanned().map(Spanned::span),
-        offset: displacement(&mut reader, &keys::MIMIC_OFFSET, turns, "").value_or(0.0).unwrap_or_default(),
+        offset: position(&mut reader, &keys::MIMIC_OFFSET, turns).value_or(0.0).unwrap_or_default(),
     }
 }
 

@@ -122,8 +122,9 @@ impl Document {
                 let joint = link.joint_name().filter(|_| parameter.quantity.is_of_joint());
                 joint.map(Spanned::get_ref).or(link.name.value())
             });
-            let (names, rule) = (parameter.names_with(owner), parameter.quantity.rule());
-            names.map(move |name| ParameterNumber { name, value: 0.0, rule }).collect::<Vec<_>>()
+            let joint = parameter.link.and_then(|link| self.links.get(link)?.motion());
+            let numbers = parameter.numbers_with(owner, joint);
+            numbers.map(|(name, rule)| ParameterNumber { name, value: 0.0, rule }).collect::<Vec<_>>()
         };
         let parameters = match &self.options.parameters.value {
             Field::Missing => Vec::new(),

@@ -1,15 +1,15 @@
 //! What is asked of a model, at the top of its file or beside it.
 
 use super::keys;
-use super::link::LinkTable;
-use crate::joint::{Joint, LinkJoint, Measure};
+use super::link::{LinkTable, coordinates};
+use crate::joint::{Joint, LinkJoint};
 use crate::lock::by_name;
 use crate::messages;
 use crate::model::JointKind;
 use crate::options::AccelerationMethod;
 use crate::run_time::{Quantity, RunTimeParameter};
 use redysim_runtime::{Function, Functions};
-use redysim_toml::{DeValue, Field, Findings, KeyPath, Reader, Spanned, Table, Text, Value};
+use redysim_toml::{DeValue, Field, Findings, Reader, Spanned, Table, Text};
 use std::ops::Range;
 
 /// The options. Each key beside the file takes precedence over the file's.
@@ -172,7 +172,7 @@ fn locked(reader: &mut Reader<'_, '_>, links: Option<&Vec<LinkTable>>) -> Option
             }
             let path = path.entry(name);
             let joint = links[link].motion().unwrap_or(Joint::Revolute.into());
-            let values = held(joint, &path, value, reader).unwrap_or_else(|| neutral(joint));
+            let values = coordinates(joint, &path, value, reader).unwrap_or_else(|| neutral(joint));
             locks.push(Lock { link, values, place });
         }
         Some(())
@@ -185,32 +185,6 @@ fn neutral(joint: LinkJoint) -> Vec<f64> {
     let mut coordinates = vec![0.0; joint.nq()];
     joint.neutral(&mut coordinates);
     coordinates
-}
-
-/// The coordinates of a joint: a number, or an array of several.
-fn held<'a>(joint: LinkJoint, path: &KeyPath, value: &'a Value<'a>, reader: &mut Reader<'a, '_>) -> Option<Vec<f64>> {
-    let angles: Vec<bool> = joint.coordinate_measures().iter().map(|measure| *measure == Measure::Angle).collect();
-    if let [turns] = angles[..] {
-        return reader.parse_displacement(path, value, turns, "").map(|value| vec![value]);
-    }
-    let count = angles.len();
-    let wanted = format!("{count} numbers");
-    let array = reader.array(path, value, &format!("an array of {wanted}"))?;
-    let values: Vec<Option<f64>> = array
-        .iter()
-        .enumerate()
-        .map(|(i, value)| {
-            reader.parse_displacement(&path.element(i), value, angles.get(i).copied().unwrap_or_default(), "")
-        })
-        .collect();
-    if array.len() != count {
-        return reader.wrong_length(path, value, &wanted, array.len());
-    }
-    let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
-    if joint.has_no_orientation_at(&values) {
-        return reader.error(value, messages::locked_without_orientation(reader.item(), path));
-    }
-    Some(values)
 }
 
 /// The parameters that are given at run time. Where links cannot be read, their names are not checked.
@@ -256,9 +230,6 @@ fn parameter(
         (joint, link.name.value().map(String::as_str))
     });
     match by_name(owner, names.clone()) {
-        Some(link) if quantity.is_of_joint() && links[link].joint.value().is_some_and(|kind| kind.dof() > 1) => {
-            reader.error_at(place, messages::parameter_of_several_freedoms(reader.item(), text, owner))
-        }
         Some(link) => Some(RunTimeParameter { quantity, link: Some(link) }),
         None if links.iter().any(|link| link.name.value().is_none()) => None,
         None => {

@@ -132,6 +132,14 @@ fn a_file_that_cannot_be_read_is_a_diagnostic() {
 }
 
 #[test]
+fn a_missing_file_is_reported_with_the_folder_from_which_its_path_is_taken() {
+    let faults = Model::load("nowhere/at_all.toml").unwrap_err();
+    let current = std::env::current_dir().unwrap();
+    let wanted = format!("A path is taken from the current folder, {}", current.display());
+    assert!(faults.to_string().contains(&wanted), "{faults}");
+}
+
+#[test]
 fn invalid_files_have_a_public_interface() {
     for (name, links, joints) in [
         ("duplicate_key", ["upper", "fore"], ["upper", "fore"]),

@@ -76,6 +76,20 @@ fn without_inertias() -> String {
     ARM.lines().filter(|line| !line.starts_with("inertia")).map(|line| format!("{line}\n")).collect()
 }
 
+/// Masses in g, and inertias in g m².
+fn in_grams() -> String {
+    arm(&[
+        ("mass = 8.0", "mass = 8000"),
+        ("mass = 5.0", "mass = 5000"),
+        ("mass = 2.0", "mass = 2000"),
+        ("mass = 0.5", "mass = 500"),
+        ("{ xx = 0.1, yy = 0.1, zz = 0.05 }", "{ xx = 100, yy = 100, zz = 50 }"),
+        ("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 10, yy = 100, zz = 100 }"),
+        ("{ xx = 0.002, yy = 0.02, zz = 0.02 }", "{ xx = 2, yy = 20, zz = 20 }"),
+        ("{ xx = 0.001, yy = 0.001, zz = 0.0005 }", "{ xx = 1, yy = 1, zz = 0.5 }"),
+    ])
+}
+
 /// A chain of revolute joints with rows (a, alpha in degrees, d or b) under `key`; joints in `slides` are prismatic.
 fn chain(key: &str, rows: &[[f64; 3]], slides: &[usize]) -> String {
     let along = if key == "dh" { "b" } else { "d" };
@@ -194,6 +208,12 @@ fn cases() -> Vec<(Lint, String)> {
     let warn = |name: &str| fs::read_to_string(models().join(format!("warn/{name}.toml"))).unwrap();
     vec![
         (Lint::AngleUnits, arm(&[("a = 0.1, alpha = \"90 deg\"", "a = 0.1, alpha = 90")])),
+        (Lint::AngleUnits, arm(&[("mass = 0.5", "mass = 0.5\nstiffness = 10\nrest = 90")])),
+        (
+            Lint::AngleUnits,
+            arm(&[("dh = { a = 0.05, alpha = \"90 deg\", b = 0.3 }", "origin = {}\naxis = [0, 0, 1]\noffset = 90")]),
+        ),
+        (Lint::AngleUnits, arm(&[("mass = 0.5", "mass = 0.5\nmimic = { joint = 'fore', offset = 90 }")])),
         (Lint::RoundedAngle, arm(&[("a = 0.1, alpha = \"90 deg\"", "a = 0.1, alpha = 1.5708")])),
         (Lint::RangeUnits, arm(&[("[\"-170 deg\", 2.9]", "[-170, 170]")])),
         (Lint::LengthUnits, arm(&[("a = 0.4 ", "a = 400 ")])),
@@ -217,6 +237,7 @@ fn cases() -> Vec<(Lint, String)> {
                 ("{ xx = 0.001, yy = 0.001, zz = 0.0005 }", "{ xx = 1e-8, yy = 1e-8, zz = 1e-8 }"),
             ]),
         ),
+        (Lint::MassUnits, in_grams()),
         (Lint::RadiusOfGyration, arm(&[("mass = 5.0", "mass = 5000.0")])),
         (Lint::RadiusOfGyration, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 1e4, yy = 1e5, zz = 1e5 }")])),
         (Lint::RadiusOfGyration, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 1e-8, yy = 1e-7, zz = 1e-7 }")])),

@@ -171,17 +171,20 @@ fn what_acts_in_a_joint_is_read_in_the_units_of_the_joint() {
         "{placed}armature = 0.3\ndamping = 0.5\nfriction = 2\nfriction_velocity = '1 deg'\nstiffness = 20\nrest = '90 deg'"
     ));
     let expected = JointPhysics {
-        armature: 0.3,
-        damping: 0.5,
-        friction: 2.0,
-        friction_velocity: 1_f64.to_radians(),
-        stiffness: 20.0,
-        rest: FRAC_PI_2,
+        armature: 0.3.into(),
+        damping: 0.5.into(),
+        friction: 2.0.into(),
+        friction_velocity: 1_f64.to_radians().into(),
+        stiffness: 20.0.into(),
+        rest: vec![FRAC_PI_2],
     };
     assert_eq!(turning.physics, expected);
     let sliding = one_link("joint = 'prismatic'\naxis = [0, 0, 1]\nfriction = 2.0\nstiffness = 7\nrest = 0.1");
-    assert_eq!(sliding.physics, JointPhysics { friction: 2.0, stiffness: 7.0, rest: 0.1, ..JointPhysics::default() });
-    assert_eq!(sliding.physics.friction_velocity, 0.01);
+    assert_eq!(
+        sliding.physics,
+        JointPhysics { friction: 2.0.into(), stiffness: 7.0.into(), rest: vec![0.1], ..JointPhysics::default() }
+    );
+    assert_eq!(sliding.physics.friction_velocity, 0.01.into());
     assert_eq!(one_link(placed).physics, JointPhysics::default());
 }
 

@@ -109,5 +109,5 @@ fn nothing_acts_in_a_locked_joint() {
     let driven = loose.replace("joint = \"revolute\"", "joint = \"revolute\"\narmature = 0.2\nfriction = 3.0");
     let [loose, driven] = [loose, driven].map(|text| loaded(&text, "locked = { joint3 = 0.4 }"));
     assert_eq!(driven.links[2], loose.links[2]);
-    assert_eq!(driven.links[3].physics.armature, 0.2);
+    assert_eq!(driven.links[3].physics.armature, 0.2.into());
 }

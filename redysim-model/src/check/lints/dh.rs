@@ -7,7 +7,7 @@
 //! two consecutive revolute joints about one axis, of which one alone would do, at the end of the chain or at its start;
 //! and the row at the opposite end, which would be the zero one, is not.
 
-use super::{Found, place_of};
+use super::{Found, chain, place_of};
 use crate::lint::Lint;
 use crate::messages;
 use crate::model::{JointKind, Model};
@@ -69,9 +69,8 @@ pub(super) fn check(document: &Document, model: &Model, found: &mut Found) {
 /// joint is fixed. Locks are no part of a convention.
 fn chains<'a>(document: &'a Document, model: &Model) -> impl Iterator<Item = Vec<&'a LinkTable>> {
     let links = &document.links;
-    let parents: Vec<Option<usize>> = model.links.iter().map(|link| link.parent).collect();
-    let path = move |tip: usize| {
-        let mut path: Vec<usize> = std::iter::successors(Some(tip), |&link| parents[link]).collect();
+    let path = |tip: usize| {
+        let mut path: Vec<usize> = chain(model, Some(tip)).collect();
         path.reverse();
         path
     };

@@ -54,15 +54,17 @@ fn place_of_placement(link: &LinkTable) -> Range<usize> {
 /// How far the mechanism reaches when it is stretched: the longest way from the ground over the origins of the links'
 /// frames, or over the points of its cuts and springs.
 fn size(model: &Model) -> f64 {
-    let reach = |link: Option<usize>| {
-        let chain = std::iter::successors(link, |&link| model.links[link].parent);
-        chain.map(|link| own_length(&model.links[link])).sum::<f64>()
-    };
+    let reach = |link| chain(model, link).map(|link| own_length(&model.links[link])).sum::<f64>();
     let ends = (0..model.links.len()).map(|link| reach(Some(link)));
     let sides = model.loops.iter().flat_map(|cut| [&cut.a, &cut.b]);
     let cuts = sides.map(|side| (side.link, side.point));
     let springs = model.springs.iter().flat_map(|spring| [spring.a, spring.b]).map(|end| (end.link, end.point));
     ends.chain(cuts.chain(springs).map(|(link, point)| reach(link) + length(point))).fold(0.0, f64::max)
+}
+
+/// A link and those that carry it, down to the ground.
+fn chain(model: &Model, link: Option<usize>) -> impl Iterator<Item = usize> {
+    std::iter::successors(link, |&link| model.links[link].parent)
 }
 
 /// The way from the frame of a link's parent to its own.

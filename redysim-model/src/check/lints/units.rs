@@ -1,6 +1,6 @@
 //! Slips of units: millimetres, grams, degrees.
 
-use super::{Found, length, own_length, place_of, place_of_placement, size};
+use super::{Found, chain, length, own_length, place_of, place_of_placement, size};
 use crate::lint::Lint;
 use crate::messages;
 use crate::model::{Link, Model};
@@ -20,25 +20,32 @@ const FAR: f64 = 5.0;
 const FAR_RATIO: f64 = 30.0;
 /// Beyond this, the heaviest link that moves is suspiciously heavier than the lightest.
 const MASS_RATIO: f64 = 1e5;
+/// Mass by the cube of its reach, kg/m³, that hardly a chain of so many links has: three solid cubes of steel have 870, robots
+/// 10 to 50.
+const SOLID: f64 = 3000.0;
+const CHAIN: usize = 3;
 /// Hardly a joint turns further, rad: eight turns, less than 90 degrees are.
 const TURNS: f64 = 50.0;
 
 pub(super) fn check(document: &Document, model: &Model, found: &mut Found) {
     let size = size(model);
-    if size > REACH || (size > LONG && model.mass() > 0.0 && model.mass() < LIGHT * size) {
+    if !uneven_lengths(document, model, found) && is_too_long(size, model.mass()) {
         let message = messages::far_reach(&model.name, size, model.mass());
         found.push((Lint::LengthUnits, document.place.clone(), message));
-    } else {
-        uneven_lengths(document, model, found);
     }
+    heavy_chain(document, model, size, found);
     far_coms(document, model, size, found);
     long_springs(document, model, size, found);
     mass_ratio(document, model, found);
     ranges(document, model, found);
 }
 
-/// The shortest of the lengths that are longer than the others by so much that their units may differ.
-fn uneven_lengths(document: &Document, model: &Model, found: &mut Found) {
+fn is_too_long(size: f64, mass: f64) -> bool {
+    size > REACH || (size > LONG && mass > 0.0 && mass < LIGHT * size)
+}
+
+/// The shortest of the lengths that are longer than the others by so much that their units may differ; whether there is one.
+fn uneven_lengths(document: &Document, model: &Model, found: &mut Found) -> bool {
     let mut lengths: Vec<(f64, usize)> =
         model.links.iter().map(own_length).zip(0..).filter(|(length, _)| *length > 0.0).collect();
     lengths.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -47,6 +54,20 @@ fn uneven_lengths(document: &Document, model: &Model, found: &mut Found) {
         let message =
             messages::uneven_lengths([(&model.links[*link].name, *long), (&model.links[*other].name, *short)]);
         found.push((Lint::LengthUnits, place_of_placement(&document.links[*link]), message));
+    }
+    jump.is_some()
+}
+
+/// Arms that would weigh less if they were of solid steel, even without their heaviest link, of which other lints tell.
+fn heavy_chain(document: &Document, model: &Model, size: f64, found: &mut Found) {
+    let is_of_arm = |link: &Link| link.joint.dof() == 1 && own_length(link) > 0.0;
+    let links_of_arm = |tip| chain(model, Some(tip)).filter(|&link| is_of_arm(&model.links[link])).count();
+    let longest = (0..model.links.len()).map(links_of_arm).max();
+    let masses = || model.links.iter().filter(|link| link.joint.dof() == 1).map(|link| link.mass);
+    let (mass, heaviest) = (masses().sum::<f64>(), masses().fold(0.0, f64::max));
+    if longest.is_some_and(|count| count >= CHAIN) && mass - heaviest > SOLID * size.powi(3) {
+        let message = messages::heavy_chain(&model.name, mass, size);
+        found.push((Lint::MassUnits, document.place.clone(), message));
     }
 }
 
