@@ -6,25 +6,12 @@ use redysim_model::{Model, Tree};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let all = Passes::all();
-    let sets = [
-        ("none", Passes::none()),
-        ("all", all),
-        ("no frames", Passes { frames: false, ..all }),
-        ("no base_parameters", Passes { base_parameters: false, ..all }),
-        ("no axis_masses", Passes { axis_masses: false, ..all }),
-        ("no parallel_axes", Passes { parallel_axes: false, ..all }),
-        ("no units", Passes { units: false, ..all }),
-        ("no sums", Passes { sums: false, ..all }),
-        ("no factors", Passes { factors: false, ..all }),
-        ("no loops", Passes { loops: false, ..all }),
-    ];
     for path in std::env::args().skip(1) {
         let tree = Tree::new(&Model::load(&path)?.model);
         println!("{path}");
-        for (set, passes) in &sets {
+        for (set, passes) in Passes::variations() {
             let start = Instant::now();
-            let functions = trace_with(&tree, passes)?;
+            let functions = trace_with(&tree, &passes)?;
             let time = start.elapsed();
             println!("  {set}, traced in {time:.1?}");
             for function in functions {

@@ -4,7 +4,7 @@ use crate::angles::is_given;
 use crate::graph::{Edge, Graph, Leaf, Name, Node};
 use crate::policies::{LONGEST_UNROLLED, PRICE_PER_DIVISION, PRICE_PER_PAIR};
 use redysim_runtime::{OperationCount, Scalar};
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// A graph with its outputs.
 #[derive(Clone, Debug)]
@@ -45,6 +45,21 @@ impl Expressions {
             }
         }
         uses
+    }
+
+    /// For each output, the inputs on which it depends: the position of the argument and the index in it.
+    pub fn inputs_of_outputs(&self) -> Vec<BTreeSet<(u8, u32)>> {
+        let of_output = |output: &Edge| {
+            let (mut inputs, mut seen, mut rest) = (BTreeSet::new(), HashSet::new(), vec![output.node()]);
+            while let Some(index) = rest.pop() {
+                match self.graph.node(index) {
+                    Node::Input { argument, index } => drop(inputs.insert((argument, index))),
+                    node => rest.extend(node.operands().map(Edge::node).filter(|operand| seen.insert(*operand))),
+                }
+            }
+            inputs
+        };
+        self.outputs.iter().map(of_output).collect()
     }
 
     /// The outputs in a new graph. `make` is called for each node that is `kept`, in order and in the node's step, with

@@ -4,10 +4,10 @@ use crate::accuracy::Reference;
 use crate::expressions::Expressions;
 use crate::passes::{PassError, Passes, simplified};
 use crate::policies::{LONGEST_CHAIN_BY_FACTORISATION, MOST_LOST_AGAINST_RECURSION, NEGLIGIBLE_LOSS};
-use crate::symbol::Symbol;
+use crate::symbol::SymbolicTree;
 use crate::tracing::traced;
 use crate::trees::Trees;
-use redysim_model::denoc::{self, Factorisation, Method};
+use redysim_model::denoc::{self, EliminationOrder, Method};
 use redysim_model::{AccelerationMethod, Function};
 
 /// One algorithm for forward dynamics.
@@ -45,6 +45,7 @@ pub fn choose(
     trees: &Trees,
     method: AccelerationMethod,
     passes: &Passes,
+    price: impl Fn(&Expressions) -> usize,
 ) -> Result<(Expressions, MethodChoice), PassError> {
     let recursion = recursion(trees)?;
     let is_long_chain = trees.plain().depth() > LONGEST_CHAIN_BY_FACTORISATION;
@@ -52,16 +53,18 @@ pub fn choose(
         let used = recursion.figures(0);
         return Ok((recursion.expressions, MethodChoice { used, other: None }));
     }
-    let factorisation = factorisation(trees, passes)?;
+    let factorisations = factorisations(trees, passes)?;
+    let kept = |(loss, least): (f64, f64)| loss <= (MOST_LOST_AGAINST_RECURSION * least).max(NEGLIGIBLE_LOSS);
+    let keeps_digits = |way: &Candidate| way.losses.into_iter().zip(recursion.losses).all(kept);
+    let best = factorisations.iter().position(keeps_digits);
     let factorise = match method {
         AccelerationMethod::Recursion => false,
         AccelerationMethod::Factorisation => true,
         AccelerationMethod::Auto => {
-            let kept = |(loss, least): (f64, f64)| loss <= (MOST_LOST_AGAINST_RECURSION * least).max(NEGLIGIBLE_LOSS);
-            factorisation.flops() <= recursion.flops()
-                && factorisation.losses.into_iter().zip(recursion.losses).all(kept)
+            best.is_some_and(|best| price(&factorisations[best].expressions) <= price(&recursion.expressions))
         }
     };
+    let factorisation = factorisations.into_iter().nth(best.unwrap_or(0)).expect("at least one way");
     // The documentation states the errors of the motion in which the two differ most.
     let factor = |motion: &usize| factorisation.losses[*motion] / recursion.losses[*motion].max(f64::EPSILON);
     let most_different = (0..3).max_by(|a, b| factor(a).total_cmp(&factor(b))).unwrap_or_default();
@@ -77,15 +80,26 @@ fn recursion(trees: &Trees) -> Result<Candidate, PassError> {
     Ok(Candidate::measured(Method::Recursion, expressions, trees.reference()))
 }
 
-fn factorisation(trees: &Trees, passes: &Passes) -> Result<Candidate, PassError> {
-    let (matrix, bias) = (trees.matrix(), trees.bias());
-    let expressions = traced(matrix, Function::ForwardDynamics, |t, x| {
-        let (matrix, bias) = (&t.tree(matrix), &t.tree(bias));
-        let forces = denoc::bias_forces(bias, t, x[0], x[1]);
-        let drive: Vec<Symbol> = x[2].iter().zip(forces).map(|(&tau, force)| tau - force).collect();
-        Factorisation::new(matrix, t, &denoc::mass_matrix(matrix, t, x[0])).solve(&drive)
+/// The ways to factorise, from the cheapest on.
+fn factorisations(trees: &Trees, passes: &Passes) -> Result<Vec<Candidate>, PassError> {
+    let [forces, matrix] = [trees.bias(), trees.matrix()];
+    // One sine and cosine of an angle serve both recursions if they take the same sums of angles.
+    let merged = |tree: &SymbolicTree| tree.bodies.iter().map(|body| body.merged_parallel).collect::<Vec<bool>>();
+    let alike = merged(forces) == merged(matrix);
+    let pairs = [Some([forces, matrix]), (!alike).then_some([forces; 2]), (!alike).then_some([matrix; 2])];
+    let orders = || EliminationOrder::all_of(matrix);
+    let ways = pairs.into_iter().flatten().flat_map(|pair| orders().map(move |order| (order, pair)));
+    let expressions = ways.map(|(order, pair)| {
+        let traced = traced(matrix, Function::ForwardDynamics, |tracer, x| {
+            let trees = &pair.map(|tree| tracer.tree(tree));
+            denoc::forward_dynamics_by_factorisation(order, trees.each_ref(), tracer, x[0], x[1], x[2])
+        });
+        simplified(traced, passes)
     });
-    Ok(Candidate::measured(Method::Factorisation, simplified(expressions, passes)?, trees.reference()))
+    let mut expressions = expressions.collect::<Result<Vec<_>, _>>()?;
+    expressions.sort_by_cached_key(Expressions::price);
+    let measured = |expressions| Candidate::measured(Method::Factorisation, expressions, trees.reference());
+    Ok(expressions.into_iter().map(measured).collect())
 }
 
 impl Candidate {

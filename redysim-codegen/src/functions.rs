@@ -5,13 +5,15 @@ use crate::expressions::Expressions;
 use crate::forward_dynamics;
 pub use crate::forward_dynamics::{MethodChoice, MethodFigures};
 use crate::lumping::{lumped, tree_with_parameters};
-use crate::passes::{PassError, Passes, simplified};
+use crate::passes::{PassError, Passes, applied, simplified};
 use crate::policies::LONGEST_CHAIN_BY_FACTORISATION;
 use crate::pruning::{Pruning, StateRange, States, pruned};
 use crate::reroll;
+use crate::siblings::{self, Siblings};
 use crate::symbol::{Symbol, SymbolicTree, Tracer};
 use crate::tracing::{simplified_on, traced};
 use crate::trees::Trees;
+use redysim_model::denoc::EliminationOrder;
 use redysim_model::{CodegenOptions, Function, Link, Model, Tree, denoc};
 use redysim_runtime::function::Shape;
 use std::cell::{LazyCell, OnceCell};
@@ -86,8 +88,9 @@ pub fn trace_model(
         None => None,
     };
     let symbolic = &tree.map(Symbol::Constant);
-    let pipeline = Pipeline { tree: &tree, symbolic, options, passes, reference: &Reference::new(&tree), pruning };
-    Ok(pipeline.run()?)
+    Pipeline { tree: &tree, symbolic, options, passes, reference: &Reference::new(&tree), pruning }
+        .run()
+        .map_err(Into::into)
 }
 
 /// The functions of a mechanism with run-time parameters.
@@ -141,15 +144,39 @@ impl<'p> Pipeline<'_, 'p> {
     ///    that [`forward_dynamics`] chooses.
     /// 2. Where it is too long to be unrolled, it is also traced without the passes that make uniform bodies differ,
     ///    and the shorter code is taken.
-    /// 3. Where it has a tolerance and can be unrolled, terms that do not matter within the ranges of the joints are
+    /// 3. Where branches are alike, it is also traced without the passes that make them differ, and if computing them
+    ///    side by side [pays](siblings), the shorter code is taken.
+    /// 4. Where it has a tolerance and can be unrolled, terms that do not matter within the ranges of the joints are
     ///    left out.
     fn run(&self) -> Result<Vec<TracedFunction>, PassError> {
-        let trees = Trees::new(self.symbolic, self.passes, self.reference);
-        let uniform_passes = self.passes.uniform();
+        // Terms are left out as the recursions have them; how the rest is associated is chosen after that.
+        let passes = &if self.pruning.is_some() { self.passes.unassociated() } else { *self.passes };
+        let trees = Trees::new(self.symbolic, passes, self.reference);
+        let [uniform_passes, alike_passes] = [passes.uniform(), passes.alike()];
         let uniform_trees = LazyCell::new(|| Trees::new(self.symbolic, &uniform_passes, self.reference));
+        let alike_trees = LazyCell::new(|| Trees::new(self.symbolic, &alike_passes, self.reference));
+        let are_computed = passes.siblings && self.pruning.is_none();
+        let siblings = if are_computed { Siblings::of(self.tree) } else { Vec::new() };
         let unpruned = |function: Function| {
-            let unrolled = self.simplified(function, &trees, self.passes)?;
-            if !(self.passes.loops && unrolled.expressions.is_long()) {
+            let unrolled = self.simplified(function, &trees, passes)?;
+            if !siblings.is_empty() && siblings::may_pay(&unrolled.expressions) {
+                let mut alike = self.simplified(function, &alike_trees, &alike_passes)?;
+                for siblings in &siblings {
+                    let pass = |before: &Expressions| siblings::by_branches(before, function, siblings);
+                    alike.expressions = applied("sums by branches", true, pass, alike.expressions)?;
+                }
+                let code_size = |traced: &TracedFunction| siblings::code_size(&traced.expressions, function, &siblings);
+                let (alike_size, size) = (code_size(&alike), code_size(&unrolled));
+                if let Some(alike_size) = alike_size
+                    && size.is_none_or(|size| alike_size < size)
+                {
+                    return Ok(alike);
+                }
+                if size.is_some() {
+                    return Ok(unrolled);
+                }
+            }
+            if !(passes.loops && unrolled.expressions.is_long()) {
                 return Ok(unrolled);
             }
             let uniform = self.simplified(function, &uniform_trees, &uniform_passes)?;
@@ -162,10 +189,11 @@ impl<'p> Pipeline<'_, 'p> {
             if function == Function::InverseDynamics {
                 let _ = forces.set(whole.expressions.clone());
             }
-            if whole.expressions.is_long() || !has_tolerance(function) {
-                return Ok(whole);
-            }
             let Some((tolerance, ranges)) = &self.pruning else { return Ok(whole) };
+            let associated = self.associated(&whole.expressions)?;
+            if whole.expressions.is_long() || !has_tolerance(function) {
+                return Ok(TracedFunction { expressions: associated, ..whole });
+            }
             // Accelerations are sampled at the forces of motions within the ranges.
             let forces = match function.signature().result {
                 Shape::Accelerations => Some(match forces.get() {
@@ -179,11 +207,18 @@ impl<'p> Pipeline<'_, 'p> {
             };
             let states = States { tree: self.tree, ranges, forces };
             let shape = function.signature().result;
-            let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, self.passes)?;
-            Ok(TracedFunction { expressions, pruning: Some(pruning), ..whole })
+            let (expressions, pruning) = pruned(&whole.expressions, shape, &states, *tolerance, passes)?;
+            let pruning = Pruning { before: associated.count(), ..pruning };
+            Ok(TracedFunction { expressions: self.associated(&expressions)?, pruning: Some(pruning), ..whole })
         };
         let functions = self.options.functions.with_frames(self.tree.frames.len());
         functions.with_passive_joints(self.tree.has_passive_joints()).iter().map(make).collect()
+    }
+
+    /// The expressions with sums and products associated anew where that is cheaper.
+    fn associated(&self, expressions: &Expressions) -> Result<Expressions, PassError> {
+        let other = simplified(expressions.clone(), self.passes)?;
+        Ok(if other.price() < expressions.price() { other } else { expressions.clone() })
     }
 
     /// The function on the description of the robot on which it is best computed.
@@ -195,7 +230,14 @@ impl<'p> Pipeline<'_, 'p> {
     ) -> Result<TracedFunction, PassError> {
         let (expressions, method) = match function {
             Function::ForwardDynamics => {
-                let (expressions, choice) = forward_dynamics::choose(trees, self.options.forward_dynamics, passes)?;
+                let side_by_side = passes.siblings && !(passes.sums || passes.factors);
+                let siblings = if side_by_side { Siblings::of(self.tree) } else { Vec::new() };
+                let price = |expressions: &Expressions| {
+                    siblings::code_size(expressions, function, &siblings)
+                        .unwrap_or(expressions.count().flops() as usize)
+                };
+                let (expressions, choice) =
+                    forward_dynamics::choose(trees, self.options.forward_dynamics, passes, price)?;
                 (expressions, Some(choice))
             }
             Function::InverseDynamics | Function::BiasForces | Function::GravityForces | Function::MassMatrix => {
@@ -232,13 +274,16 @@ fn hybrid_dynamics(trees: &Trees<'_, '_>, passes: &Passes) -> Result<Expressions
         return Ok(recursion);
     }
     let [forces, matrix] = [trees.bias(), trees.matrix()];
-    let traced = traced(matrix, Function::HybridDynamics, |tracer, x| {
-        let trees = [&tracer.tree(forces), &tracer.tree(matrix)];
-        let found = denoc::hybrid_dynamics_by_factorisation(trees, tracer, x[0], x[1], x[2]);
-        [found.a, found.tau].concat()
+    let factorisations = EliminationOrder::all_of(matrix).map(|order| {
+        let traced = traced(matrix, Function::HybridDynamics, |tracer, x| {
+            let trees = [&tracer.tree(forces), &tracer.tree(matrix)];
+            let found = denoc::hybrid_dynamics_by_factorisation(order, trees, tracer, x[0], x[1], x[2]);
+            [found.a, found.tau].concat()
+        });
+        simplified(traced, passes)
     });
-    let factorisation = simplified(traced, passes)?;
-    Ok(if factorisation.price() <= recursion.price() { factorisation } else { recursion })
+    let all = factorisations.chain([Ok(recursion)]).collect::<Result<Vec<_>, _>>()?;
+    Ok(all.into_iter().min_by_key(Expressions::price).expect("at least the recursion"))
 }
 
 /// A function on the tree on which it costs least.

@@ -6,6 +6,7 @@ use crate::expressions::Expressions;
 use crate::functions::{ParametricFunctions, TraceError, TracedFunction, trace_model, trace_of, trace_with_parameters};
 use crate::mechanism::MechanismProgram;
 use crate::passes::{PassError, Passes};
+use crate::siblings::Siblings;
 use proc_macro2::{Ident, TokenStream};
 use redysim_model::{CodegenOptions, Function, Functions, Model, PublicInterface, Tree};
 use redysim_runtime::OperationCount;
@@ -51,11 +52,11 @@ pub fn implementation_with(
     options: &CodegenOptions,
     passes: &Passes,
 ) -> Result<Generated, PassError> {
-    let TracedMechanism { functions, lumped, warnings } = functions(model, options, passes)?;
+    let traced = traced(model, options, passes)?;
     let interface = PublicInterface::new(model, options);
-    let mechanism = MechanismProgram::new(model, &interface, &functions, lumped.as_ref(), &rust::RESERVED);
+    let mechanism = MechanismProgram::new(model, &interface, &traced, &rust::RESERVED);
     let tokens = rust::mechanism(&mechanism, name, runtime);
-    Ok(Generated { tokens, operations: operations_of(&functions), warnings })
+    Ok(Generated { tokens, operations: operations_of(&traced.functions), warnings: traced.warnings })
 }
 
 /// The operations and warnings of [`implementation_with`], with all passes, without the code.
@@ -64,23 +65,31 @@ pub fn implementation_with(
 ///
 /// As [`implementation`].
 pub fn operations(model: &Model, options: &CodegenOptions) -> Result<Counted, PassError> {
-    let TracedMechanism { functions, warnings, .. } = functions(model, options, &Passes::default())?;
+    let TracedMechanism { functions, warnings, .. } = traced(model, options, &Passes::default())?;
     Ok(Counted { operations: operations_of(&functions), warnings })
 }
 
 /// The functions of a mechanism before they are printed.
-struct TracedMechanism {
-    functions: Vec<TracedFunction>,
+pub(crate) struct TracedMechanism {
+    pub functions: Vec<TracedFunction>,
+    /// The branches that are alike, if they may be computed side by side.
+    pub siblings: Vec<Siblings>,
     /// What depends on run-time parameters alone, if there are any.
-    lumped: Option<Expressions>,
-    warnings: Vec<String>,
+    pub lumped: Option<Expressions>,
+    /// Options that have no effect, and why.
+    pub warnings: Vec<String>,
 }
 
 /// The functions that `options` select and those that every mechanism has, and warnings.
-fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result<TracedMechanism, PassError> {
+///
+/// # Errors
+///
+/// As [`implementation`].
+pub(crate) fn traced(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result<TracedMechanism, PassError> {
     let always_present = Function::ALL.iter().copied().filter(|function| function.is_always_present());
     let functions = Functions::of(options.functions.iter().chain(always_present));
     let options = &CodegenOptions { functions, ..options.clone() };
+    let siblings = if passes.siblings { Siblings::of(&Tree::new(model)) } else { Vec::new() };
     if !options.parameters.is_empty() {
         let ParametricFunctions { functions, lumped } = trace_with_parameters(model, options, passes)?;
         let unpruned = options.tolerance.map(|_| {
@@ -88,7 +97,12 @@ fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result
              at run time"
                 .to_string()
         });
-        return Ok(TracedMechanism { functions, lumped: Some(lumped), warnings: unpruned.into_iter().collect() });
+        return Ok(TracedMechanism {
+            functions,
+            siblings,
+            lumped: Some(lumped),
+            warnings: unpruned.into_iter().collect(),
+        });
     }
     let (functions, unpruned) = match trace_model(model, options, passes) {
         Ok(functions) => (functions, None),
@@ -99,7 +113,7 @@ fn functions(model: &Model, options: &CodegenOptions, passes: &Passes) -> Result
         }
     };
     let warnings = functions.iter().filter_map(documentation::warning).chain(unpruned).collect();
-    Ok(TracedMechanism { functions, lumped: None, warnings })
+    Ok(TracedMechanism { functions, siblings, lumped: None, warnings })
 }
 
 fn operations_of(functions: &[TracedFunction]) -> Vec<(Function, OperationCount)> {

@@ -1,4 +1,4 @@
-//! The code generator of redysim: from a checked model to Rust code made for it.
+//! The code generator of redysim: from a checked model to Rust or C code made for it.
 //!
 //! 1. The robot is described in the way that costs least: the choice of frames, inertias and units does not change the
 //!    values of its functions.
@@ -8,13 +8,18 @@
 //! 3. [Passes](passes) over the graph simplify it. With a tolerance, terms that do not matter within the ranges of the
 //!    joints are [pruned](Pruning).
 //! 4. The graph becomes a program of statements, with loops over uniform bodies where it is long. A backend prints the
-//!    programs of a mechanism: as Rust over `S: Scalar`.
+//!    programs of a mechanism: as Rust over `S: Scalar`, or as C.
 //!
 //! [Options](redysim_model::CodegenOptions) select functions, a tolerance, and the algorithm for forward dynamics.
 //!
 //! | to get | use |
 //! |---|---|
 //! | a source file | [`source_file`], [`source_file_with`] (feature `source`, on by default) |
+//! | the same in C | [`c_files`] (feature `source`) |
+//! | with functions of many states, in the lanes of vectors | [`c_library`] (feature `source`) |
+//! | with a header for C++ and a package of CMake | [`cpp_files`] (feature `source`) |
+//! | with a gateway for MATLAB and Octave | [`mex_files`] (feature `source`) |
+//! | as a functional mock-up unit | [`fmu_files`] (feature `source`) |
 //! | the tokens of a mechanism's `impl`s | [`implementation`], [`implementation_with`], [`stub`] |
 //! | operation counts alone | [`operations`] |
 //! | the expressions of functions | [`functions::trace`], [`functions::trace_model`] |
@@ -64,9 +69,17 @@ mod program;
 mod pruning;
 mod random;
 mod reroll;
+mod siblings;
 mod tracing;
 mod trees;
 
+#[cfg(feature = "source")]
+pub use backend::c::{
+    CFiles, CLibrary, COptions, CScalar, CppFiles, FmiVersion, FmuFiles, MexFiles, c_files, c_library, cpp_files,
+    fmu_files, mex_files,
+};
+#[cfg(feature = "source")]
+pub use backend::head::model_hash;
 #[cfg(feature = "source")]
 pub use backend::rust::source::{SourceError, source_file, source_file_with};
 pub use backend::rust::{TypeTokens, stub};

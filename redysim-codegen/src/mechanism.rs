@@ -2,9 +2,10 @@
 
 use crate::angles::{Angle, Angles};
 use crate::documentation;
-use crate::expressions::Expressions;
 use crate::functions::TracedFunction;
+use crate::generate::TracedMechanism;
 use crate::program::{NamingContext, Program, program};
+use crate::siblings::SideBySide;
 use redysim_model::joint::LinkJoint;
 use redysim_model::{Body, Function, Model, PublicInterface, Tree};
 use redysim_runtime::OperationCount;
@@ -51,13 +52,12 @@ pub struct TrigProgram {
 }
 
 impl<'a> MechanismProgram<'a> {
-    /// The programs of a mechanism with the given functions. No variable has a name in `reserved`, which the backend
+    /// The programs of a mechanism that was traced. No variable has a name in `reserved`, which the backend
     /// defines.
     pub fn new(
         model: &Model,
         interface: &'a PublicInterface,
-        functions: &[TracedFunction],
-        lumped: Option<&Expressions>,
+        TracedMechanism { functions, siblings, lumped, .. }: &TracedMechanism,
         reserved: &[&str],
     ) -> MechanismProgram<'a> {
         let tree = Tree::new(model);
@@ -73,6 +73,7 @@ impl<'a> MechanismProgram<'a> {
                 trig: TrigProgram::new(&angles, &angles.needed_by(&traced.expressions)),
                 program: program(
                     &traced.expressions,
+                    SideBySide::of(&traced.expressions, traced.function, siblings).as_ref(),
                     &NamingContext { reserved: &reserved, bodies: &bodies, angles: &angles },
                 ),
             }
@@ -81,8 +82,9 @@ impl<'a> MechanismProgram<'a> {
             interface,
             trig: TrigProgram::new(&angles, &Vec::from_iter(0..angles.len())),
             functions: functions.iter().map(function).collect(),
-            lumped: lumped
-                .map(|expressions| program(expressions, &NamingContext { reserved, bodies: &bodies, angles: &angles })),
+            lumped: lumped.as_ref().map(|expressions| {
+                program(expressions, None, &NamingContext { reserved, bodies: &bodies, angles: &angles })
+            }),
         }
     }
 }

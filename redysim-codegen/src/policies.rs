@@ -25,6 +25,13 @@ pub const FEWEST_GROUPS: usize = 4;
 /// period that is tried takes another search through the function.
 pub const LONGEST_PERIOD: usize = 3;
 
+/// The fewest operations of a function whose branches are computed side by side. With fewer, what is saved is less than
+/// a call varies by.
+pub const FEWEST_SIDE_BY_SIDE: u32 = 200;
+
+/// Branches are computed side by side if that saves at least one instruction of this many.
+pub const LEAST_SAVED_SIDE_BY_SIDE: usize = 4;
+
 /// The longest chain for which the explicit mass matrix is considered at all: it takes O(n³) operations there, and the
 /// condition of the matrix costs digits.
 pub const LONGEST_CHAIN_BY_FACTORISATION: usize = 25;

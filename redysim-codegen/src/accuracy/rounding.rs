@@ -29,6 +29,12 @@ impl Rounded {
         Rounded::new(value, 0.0)
     }
 
+    /// The bound of the distance from the exact value.
+    #[cfg(feature = "source")]
+    pub(crate) fn error_bound(self) -> f64 {
+        self.error
+    }
+
     /// A result with the errors of its operands, and those of its own roundings.
     fn result(value: f64, from_operands: f64, roundings: f64) -> Self {
         // The bound is computed with roundings, too: a part in 10⁹ covers them. Below the normal numbers the error of

@@ -1,3 +1,9 @@
 //! Languages that a mechanism is written in.
 
+#[cfg(feature = "source")]
+pub mod c;
+#[cfg(feature = "source")]
+pub mod head;
+#[cfg(feature = "source")]
+mod lines;
 pub mod rust;

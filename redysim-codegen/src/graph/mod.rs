@@ -73,6 +73,11 @@ impl Graph {
         self.indices.get(&node).map(|&index| index as usize)
     }
 
+    /// The index of the node of a + b or its negative, if the graph has it.
+    pub fn index_of_sum(&self, a: Edge, b: Edge) -> Option<usize> {
+        self.index_of(sum(a, b).0)
+    }
+
     /// The name of the node with the given index.
     pub fn name(&self, index: usize) -> Option<Name> {
         self.names[index]
@@ -167,10 +172,8 @@ impl Graph {
             let factor = self.add(x, y);
             return self.multiply(factor, a_base);
         }
-        let (a, b) = if a.node < b.node { (a, b) } else { (b, a) };
-        let (first, second) = (a.abs(), b.abs());
-        let node = if a.negative == b.negative { Node::Add(first, second) } else { Node::Subtract(first, second) };
-        self.intern(node).flipped_if(a.negative)
+        let (node, negative) = sum(a, b);
+        self.intern(node).flipped_if(negative)
     }
 
     /// a · b.
@@ -322,6 +325,14 @@ impl Graph {
         });
         Edge { node: index, negative: false }
     }
+}
+
+/// The node of a + b, and whether it is that of the negative.
+fn sum(a: Edge, b: Edge) -> (Node, bool) {
+    let (a, b) = if a.node < b.node { (a, b) } else { (b, a) };
+    let (first, second) = (a.abs(), b.abs());
+    let node = if a.negative == b.negative { Node::Add(first, second) } else { Node::Subtract(first, second) };
+    (node, a.negative)
 }
 
 /// x + y, or zero where nothing but the roundoff of the two is left.

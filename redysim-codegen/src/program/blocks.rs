@@ -28,7 +28,9 @@ pub fn in_blocks(statements: Vec<Statement>, read_later: &HashSet<String>) -> Ve
         let end = blocks.len() * STATEMENTS_PER_BLOCK + statements.len();
         let defined = statements.iter().filter_map(|statement| match statement {
             Statement::Let { name, .. } => Some(name),
-            Statement::Destructure { .. } | Statement::Block { .. } | Statement::Loop(_) => None,
+            Statement::Destructure { .. } | Statement::Block { .. } | Statement::Loop(_) | Statement::SideBySide(_) => {
+                None
+            }
         });
         let live_out = defined.filter(|name| is_read_from(name, end)).cloned().collect();
         blocks.push(Statement::Block { statements, live_out });

@@ -3,11 +3,13 @@
 
 use super::blocks::in_blocks;
 use super::names::Identifiers;
+use super::side_by_side::PackNames;
 use super::{Program, Scope, Statement, Trig, Value};
 use crate::angles::Angles;
 use crate::expressions::Expressions;
 use crate::graph::{Graph, Node};
 use crate::reroll::{Rerolled, is_operation};
+use crate::siblings::SideBySide;
 use std::collections::{HashMap, HashSet};
 
 /// The most operations of one `let`, so that it can be read.
@@ -24,8 +26,8 @@ pub struct NamingContext<'a> {
 }
 
 /// The program of a function.
-pub fn program(expressions: &Expressions, naming: &NamingContext) -> Program {
-    let builder = Builder::new(expressions, naming);
+pub fn program(expressions: &Expressions, side_by_side: Option<&SideBySide>, naming: &NamingContext) -> Program {
+    let builder = Builder::new(expressions, side_by_side, naming);
     let outputs: Vec<_> = expressions.outputs.iter().map(|&output| builder.value(output, Scope::Outside)).collect();
     let mut statements = builder.sines_and_cosines();
     statements.extend(builder.code(&outputs));
@@ -45,16 +47,20 @@ pub(super) struct Builder<'a> {
     pub variables: Vec<Option<String>>,
     /// For each sine and cosine, where its angle is among those of the mechanism.
     pub positions: HashMap<usize, usize>,
-    /// The name of the live-out array of each loop.
+    /// The name of the live-out array of each loop, or of the results of each part of `side_by_side`.
     pub arrays: Vec<String>,
+    /// What is computed side by side, if anything is.
+    pub side_by_side: Option<&'a SideBySide>,
+    /// The names in the parts, for each siblings.
+    pub pack_names: Vec<PackNames>,
 }
 
 impl<'a> Builder<'a> {
-    fn new(expressions: &'a Expressions, naming: &'a NamingContext<'a>) -> Self {
+    fn new(expressions: &'a Expressions, side_by_side: Option<&'a SideBySide>, naming: &'a NamingContext<'a>) -> Self {
         let graph = &expressions.graph;
-        let uses = expressions.uses_in_code();
+        let uses = side_by_side.map_or_else(|| expressions.uses_in_code(), |side_by_side| side_by_side.uses.clone());
         let positions = naming.angles.positions(expressions);
-        let rerolled = Rerolled::of(expressions, &positions);
+        let rerolled = if side_by_side.is_some() { None } else { Rerolled::of(expressions, &positions) };
         let mut builder = Builder {
             graph,
             naming,
@@ -63,6 +69,8 @@ impl<'a> Builder<'a> {
             variables: vec![None; graph.len()],
             positions,
             arrays: Vec::new(),
+            side_by_side,
+            pack_names: Vec::new(),
             rerolled,
         };
         builder.name_values(&uses);
@@ -81,6 +89,15 @@ impl<'a> Builder<'a> {
                     lasting[node] = true;
                 });
             }
+        }
+        if let Some(side_by_side) = self.side_by_side {
+            self.arrays = side_by_side.parts.iter().map(|_| identifiers.unique("branches")).collect();
+            let names = side_by_side.siblings.iter().enumerate().map(|(number, packs)| {
+                let parts = side_by_side.parts.iter().filter(|part| part.siblings == number);
+                let results = parts.flat_map(|part| part.results.iter().copied()).collect();
+                PackNames::new(graph, packs, &results, OPERATIONS_PER_LINE, &mut identifiers)
+            });
+            self.pack_names = names.collect();
         }
         let mut sizes = vec![0; graph.len()];
         for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
@@ -125,9 +142,30 @@ impl<'a> Builder<'a> {
             }
             let Some(name) = name else { continue };
             let in_loop = self.rerolled.as_ref().is_some_and(|rerolled| rerolled.place(index).is_some());
-            if self.is_operation(index) && !in_loop {
+            if self.side_by_side.is_none() && self.is_operation(index) && !in_loop {
                 statements.push(self.definition(index, name, Scope::Outside));
             }
+        }
+        if let Some(side_by_side) = self.side_by_side {
+            let mut levels: Vec<Vec<Statement>> = Vec::new();
+            for (index, name) in self.variables.iter().enumerate() {
+                if let (Some(name), true) = (name, self.is_operation(index)) {
+                    let level = side_by_side.level(index);
+                    levels.resize_with(levels.len().max(level + 1), Vec::new);
+                    levels[level].push(self.definition(index, name, Scope::Outside));
+                }
+            }
+            let mut levels = levels.into_iter();
+            let mut level = 0;
+            for (number, part) in side_by_side.parts.iter().enumerate() {
+                let mut before = Vec::new();
+                while level <= side_by_side.level_of(part) {
+                    before.extend(levels.next().into_iter().flatten());
+                    level += 1;
+                }
+                parts.push((before, Some(self.part(side_by_side, number))));
+            }
+            statements = levels.flatten().collect();
         }
         parts.push((statements, None));
         let mut read_later: HashSet<String> = HashSet::new();

@@ -1,13 +1,14 @@
 //! A function as statements over plain expressions: what a backend prints, in whatever language.
 //!
 //! A program is made once from a graph: a value with a name or more than one use becomes a `let`, a product and a sum
-//! become one fused operation, uniform bodies become a loop, and a long function becomes blocks. A backend decides
-//! nothing; it prints the program.
+//! become one fused operation, uniform bodies become a loop, branches that are alike become one computation for all of
+//! them, and a long function becomes blocks. A backend decides nothing; it prints the program.
 
 mod blocks;
 mod build;
 mod loops;
 mod names;
+mod side_by_side;
 #[cfg(test)]
 mod tests;
 mod values;
@@ -49,6 +50,8 @@ pub enum Statement {
     },
     /// A loop over groups of uniform bodies.
     Loop(Loop),
+    /// The same for each of several branches.
+    SideBySide(SideBySide),
 }
 
 /// The arrays of the sines and cosines of all angles.
@@ -77,6 +80,31 @@ pub struct Loop {
     pub reads: Vec<LoopRead>,
     /// The statements for one group.
     pub body: Vec<Statement>,
+}
+
+/// What is computed for each of several branches, one after the other or, in the lanes of a vector, at once. No branch
+/// reads what another one computes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SideBySide {
+    /// The name of the array of its results, a row for each branch.
+    pub name: String,
+    /// Number of branches.
+    pub branches: usize,
+    /// What differs from branch to branch or comes from outside.
+    pub inputs: Vec<Input>,
+    /// The statements for one branch, of inputs and of variables that it defines.
+    pub body: Vec<Statement>,
+    /// The variables of the body whose values are the columns of the results.
+    pub results: Vec<String>,
+}
+
+/// A value for each branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// The variable that has it.
+    pub name: String,
+    /// Its value for each branch, outside.
+    pub branches: Vec<Value>,
 }
 
 /// A variable that a loop carries from group to group.
@@ -125,6 +153,17 @@ pub enum Value {
     Trig(Trig, Index),
     /// An element of the array of values that are read after a loop: array, group, column.
     LiveOut(String, usize, usize),
+    /// A result of one of several branches.
+    OfBranch {
+        /// The array of their results.
+        array: String,
+        /// How many branches have them.
+        branches: usize,
+        /// The branch.
+        branch: usize,
+        /// Which of its results.
+        column: usize,
+    },
     /// −a.
     Negative(Box<Value>),
     /// a + b.
@@ -168,13 +207,37 @@ enum Scope {
     Sweep(usize),
 }
 
+impl Program {
+    /// Whether a value of the program, or a part of one, `is` as wanted.
+    #[cfg(feature = "source")]
+    pub fn has(&self, is: &impl Fn(&Value) -> bool) -> bool {
+        self.statements.iter().any(|statement| statement.has(is)) || self.outputs.iter().any(|output| output.has(is))
+    }
+}
+
 impl Value {
+    /// Whether the value, or a part of it, `is` as wanted.
+    #[cfg(feature = "source")]
+    fn has(&self, is: &impl Fn(&Value) -> bool) -> bool {
+        is(self) || self.operands().into_iter().flatten().any(|operand| operand.has(is))
+    }
+
     /// −a, without two signs.
     fn negated(self) -> Value {
         match self {
             Value::Constant(value) => Value::Constant(-value),
             Value::Negative(value) => *value,
             value => Value::Negative(Box::new(value)),
+        }
+    }
+
+    /// a + b, as a difference where one of them has a sign.
+    fn sum(a: Value, b: Value) -> Value {
+        let (a, b) = if a.is_negative() && !b.is_negative() { (b, a) } else { (a, b) };
+        if b.is_negative() {
+            Value::Difference(Box::new(a), Box::new(b.negated()))
+        } else {
+            Value::Sum(Box::new(a), Box::new(b))
         }
     }
 
@@ -187,27 +250,49 @@ impl Value {
     fn variables<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
         match self {
             Value::Variable(name) => visit(name),
-            Value::Negative(a) | Value::SquareRoot(a) | Value::Sine(a) | Value::Cosine(a) => a.variables(visit),
+            _ => self.operands().into_iter().flatten().for_each(|operand| operand.variables(visit)),
+        }
+    }
+
+    /// The values that it is computed from.
+    pub fn operands(&self) -> [Option<&Value>; 3] {
+        match self {
+            Value::Negative(a) | Value::SquareRoot(a) | Value::Sine(a) | Value::Cosine(a) => [Some(a), None, None],
             Value::Sum(a, b) | Value::Difference(a, b) | Value::Product(a, b) | Value::Quotient(a, b) => {
-                a.variables(visit);
-                b.variables(visit);
+                [Some(a), Some(b), None]
             }
-            Value::MultiplyAdd(a, b, c) => {
-                a.variables(visit);
-                b.variables(visit);
-                c.variables(visit);
-            }
+            Value::MultiplyAdd(a, b, c) => [Some(a), Some(b), Some(c)],
             Value::Constant(_)
             | Value::GroupConstant(_)
+            | Value::Variable(_)
             | Value::Argument(..)
             | Value::Given(_)
             | Value::Trig(..)
-            | Value::LiveOut(..) => {}
+            | Value::LiveOut(..)
+            | Value::OfBranch { .. } => [None; 3],
         }
     }
 }
 
 impl Statement {
+    /// Whether a value of the statement, or a part of one, `is` as wanted.
+    #[cfg(feature = "source")]
+    fn has(&self, is: &impl Fn(&Value) -> bool) -> bool {
+        match self {
+            Statement::Destructure { .. } => false,
+            Statement::Let { value, .. } => value.has(is),
+            Statement::Block { statements, .. } => statements.iter().any(|statement| statement.has(is)),
+            Statement::Loop(sweep) => {
+                sweep.carried.iter().any(|carried| carried.start.has(is))
+                    || sweep.body.iter().any(|statement| statement.has(is))
+            }
+            Statement::SideBySide(SideBySide { inputs, body, .. }) => {
+                inputs.iter().flat_map(|input| &input.branches).any(|value| value.has(is))
+                    || body.iter().any(|statement| statement.has(is))
+            }
+        }
+    }
+
     /// Calls `visit` with every variable that the statement reads, its own among them.
     fn reads<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
         match self {
@@ -217,6 +302,9 @@ impl Statement {
             Statement::Loop(each) => {
                 each.carried.iter().for_each(|carried| carried.start.variables(visit));
                 each.body.iter().for_each(|statement| statement.reads(visit));
+            }
+            Statement::SideBySide(SideBySide { inputs, .. }) => {
+                inputs.iter().flat_map(|input| &input.branches).for_each(|value| value.variables(visit));
             }
         }
     }

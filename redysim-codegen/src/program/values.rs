@@ -82,12 +82,7 @@ impl Builder<'_> {
             }
         }
         let [a, b] = [a, b].map(|operand| self.operand(operand, scope));
-        let (a, b) = if a.is_negative() && !b.is_negative() { (b, a) } else { (a, b) };
-        if b.is_negative() {
-            Value::Difference(Box::new(a), Box::new(b.negated()))
-        } else {
-            Value::Sum(Box::new(a), Box::new(b))
-        }
+        Value::sum(a, b)
     }
 
     /// An operand: in a loop, constants come from its table.
@@ -118,6 +113,16 @@ impl Builder<'_> {
     /// A value that a loop computes, as it is read in `scope`, and whether the value wanted is its negative; `None` for
     /// a value of the template in its own loop, and for one that no loop computes.
     fn loop_value(&self, index: usize, scope: Scope) -> Option<(bool, Value)> {
+        let of_branches = self.side_by_side.as_ref().and_then(|all| Some((all, all.member(index)?)));
+        if let Some((side_by_side, member)) = of_branches {
+            let result = Value::OfBranch {
+                array: self.arrays[member.part].clone(),
+                branches: side_by_side.siblings[side_by_side.parts[member.part].siblings].branches,
+                branch: member.branch,
+                column: member.result,
+            };
+            return Some((member.negative, result));
+        }
         let rerolled = self.rerolled.as_ref()?;
         let place = rerolled.place(index)?;
         let name = self.variables[place.template].as_ref();

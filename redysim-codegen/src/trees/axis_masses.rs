@@ -111,8 +111,8 @@ fn candidates<'p>(tree: &SymbolicTree<'p>, body: usize, order: MomentOrder) -> V
     found
 }
 
-/// The numbers of a body that no mass on its own axis cancels.
-fn numbers<P: Parameter>(tree: &Tree<P>, body: usize) -> [P; 7] {
-    let PseudoInertia { moment, second: s, .. } = tree.bodies[body].inertia;
-    [moment[0], moment[1], s.xx, s.yy, s.xy, s.xz, s.yz]
+/// The numbers of a body.
+fn numbers<P: Parameter>(tree: &Tree<P>, body: usize) -> [P; 10] {
+    let PseudoInertia { mass, moment, second: s } = tree.bodies[body].inertia;
+    [moment[0], moment[1], moment[2], s.xx, s.yy, s.xy, s.xz, s.yz, s.zz, mass]
 }

@@ -184,11 +184,23 @@ impl<'a, 'p> Trees<'a, 'p> {
         self.bias.get_or_init(|| {
             let mut bias = self.merged(FORCES, &inverse_price);
             if self.passes.base_parameters && self.passes.axis_masses {
-                bias =
-                    self.without_loss(FORCES, |keeps_digits| axis_masses::placed(&bias, &inverse_price, keeps_digits));
+                bias = self.with_placed_masses(&bias);
+                // Which axes are best depends on where the masses are.
+                if self.passes.parallel_axes
+                    && let Some(carriers) = parallel_axes::merged_carriers(self.base())
+                    && let other = self.with_placed_masses(&carriers)
+                    && inverse_price(&other) < inverse_price(&bias)
+                    && self.keeps_digits(&other, FORCES)
+                {
+                    bias = other;
+                }
             }
             self.in_unit(FORCES, bias, inverse_dynamics)
         })
+    }
+
+    fn with_placed_masses(&self, tree: &SymbolicTree<'p>) -> SymbolicTree<'p> {
+        self.without_loss(FORCES, |keeps_digits| axis_masses::placed(tree, &inverse_price, keeps_digits))
     }
 
     fn merged(&self, functions: &[Function], cost: Cost<Symbol<'p>>) -> SymbolicTree<'p> {

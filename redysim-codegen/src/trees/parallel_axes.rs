@@ -31,6 +31,18 @@ pub fn merged_everywhere<P: Parameter>(tree: &Tree<P>) -> Option<Tree<P>> {
     all.bodies.iter().any(|body| body.merged_parallel).then_some(all)
 }
 
+/// The tree with all bodies in such axes that carry one with a parallel axis, and all tips; `None` if no body is one of
+/// these.
+pub fn merged_carriers<P: Parameter>(tree: &Tree<P>) -> Option<Tree<P>> {
+    let mut all = tree.clone();
+    for body in 0..tree.bodies.len() {
+        let carries = tree.children(body).any(|child| tree.bodies[child].is_parallel());
+        let tip = tree.children(body).next().is_none();
+        all.bodies[body].merged_parallel = tree.bodies[body].joint.is_on_axis() && (carries || tip);
+    }
+    all.bodies.iter().any(|body| body.merged_parallel).then_some(all)
+}
+
 fn one_by_one<P: Parameter>(tree: &Tree<P>, cost: Cost<P>, keeps_digits: KeepsDigits<P>) -> Tree<P> {
     let mut tree = tree.clone();
     for body in 0..tree.bodies.len() {

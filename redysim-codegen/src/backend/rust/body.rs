@@ -1,8 +1,9 @@
 //! The body of a function as Rust: its program, printed as statements and expressions over `S: Scalar`.
 
-use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, Program, Statement, Trig, Value};
+use crate::program::{Carried, Index, LiveOutArray, Loop, LoopRead, Program, SideBySide, Statement, Trig, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
+use std::collections::HashMap;
 
 /// The names of the arguments that have the sines and the cosines of all angles.
 pub const SIN: &str = "sin";
@@ -17,7 +18,7 @@ const GROUP: &str = "group";
 const ROW: &str = "constants";
 
 /// Names that variables must not have, beside those of arguments.
-pub const RESERVED: [&str; 6] = [GIVEN, FROM_F64, SIN, COS, GROUP, ROW];
+pub const RESERVED: [&str; 9] = [GIVEN, FROM_F64, SIN, COS, GROUP, ROW, "read", "each", "write"];
 
 /// The name of an argument or a local value.
 pub fn local(name: &str) -> Ident {
@@ -35,8 +36,13 @@ pub fn constant(value: f64) -> TokenStream {
 }
 
 /// The body of a function of the given arguments: statements, then the result that `result` makes of the outputs.
-pub fn body(program: &Program, arguments: &[&str], result: impl FnOnce(&[TokenStream]) -> TokenStream) -> TokenStream {
-    let (printer, k) = (Printer { arguments }, local(FROM_F64));
+pub fn body(
+    program: &Program,
+    arguments: &[&str],
+    runtime: &TokenStream,
+    result: impl FnOnce(&[TokenStream]) -> TokenStream,
+) -> TokenStream {
+    let (printer, k) = (Printer { arguments, runtime }, local(FROM_F64));
     let statements = program.statements.iter().map(|statement| printer.statement(statement));
     let outputs: Vec<TokenStream> =
         program.outputs.iter().map(|output| printer.value(output, Binding::Lowest)).collect();
@@ -52,6 +58,8 @@ pub fn body(program: &Program, arguments: &[&str], result: impl FnOnce(&[TokenSt
 struct Printer<'a> {
     /// The names of the function's arguments.
     arguments: &'a [&'a str],
+    /// The path of the crate `redysim_runtime`.
+    runtime: &'a TokenStream,
 }
 
 /// How tightly the surrounding expression binds; what binds less tightly gets parentheses.
@@ -85,6 +93,75 @@ impl Printer<'_> {
                 }
             }
             Statement::Loop(each) => self.sweep(each),
+            Statement::SideBySide(each) => self.side_by_side(each),
+        }
+    }
+
+    /// ```text
+    /// let legs = {
+    ///     struct Branch;
+    ///     impl<T: Scalar> Branches<T, 9, 4, 2> for Branch {
+    ///         fn compute<S: Scalar>(read: &[T; 9], each: impl Fn([T; 4]) -> S, mut write: impl FnMut(usize, S)) {
+    ///             let k = S::from_f64;
+    ///             let v_hip = each([read[0], read[1], read[2], read[3]]);
+    ///             let each1 = each([T::from_f64(0.1), …]);
+    ///             let w_thigh_x = …;
+    ///             write(0, w_thigh_x);
+    ///         }
+    ///     }
+    ///     S::side_by_side::<Branch, 9, 4, 2>(&[v[6], v[9], …])
+    /// };
+    /// ```
+    fn side_by_side(&self, SideBySide { name, branches, inputs, body, results }: &SideBySide) -> TokenStream {
+        let mut read: Vec<TokenStream> = Vec::new();
+        let mut places: HashMap<String, usize> = HashMap::new();
+        let inputs: Vec<TokenStream> = inputs
+            .iter()
+            .map(|input| {
+                let values = input.branches.iter().map(|value| match value {
+                    Value::Constant(value) => {
+                        let value = constant(*value);
+                        quote!(T::from_f64(#value))
+                    }
+                    value => {
+                        let value = self.value(value, Binding::Lowest);
+                        let place = *places.entry(value.to_string()).or_insert_with(|| {
+                            read.push(value);
+                            read.len() - 1
+                        });
+                        let place = Literal::usize_unsuffixed(place);
+                        quote!(read[#place])
+                    }
+                });
+                let (name, values) = (local(&input.name), values.collect::<Vec<_>>());
+                quote!(let #name = each([#(#values),*]);)
+            })
+            .collect();
+        let [reads, branches, columns] = [read.len(), *branches, results.len()].map(Literal::usize_unsuffixed);
+        let code = body.iter().map(|statement| self.statement(statement));
+        let results = results.iter().enumerate().map(|(column, result)| {
+            let (column, result) = (Literal::usize_unsuffixed(column), local(result));
+            quote!(write(#column, #result);)
+        });
+        let (name, k, runtime) = (local(name), local(FROM_F64), self.runtime);
+        quote! {
+            let #name = {
+                struct Branch;
+                impl<T: #runtime::Scalar> #runtime::Branches<T, #reads, #branches, #columns> for Branch {
+                    #[inline(always)]
+                    fn compute<S: #runtime::Scalar>(
+                        read: &[T; #reads],
+                        each: impl Fn([T; #branches]) -> S,
+                        mut write: impl FnMut(usize, S),
+                    ) {
+                        let #k = S::from_f64;
+                        #(#inputs)*
+                        #(#code)*
+                        #(#results)*
+                    }
+                }
+                S::side_by_side::<Branch, #reads, #branches, #columns>(&[#(#read),*])
+            };
         }
     }
 
@@ -175,9 +252,9 @@ impl Printer<'_> {
                 let (array, place) = (trig(*array), index(*place));
                 return quote!(#array[#place]);
             }
-            Value::LiveOut(array, group, column) => {
-                let (array, [group, column]) = (local(array), [*group, *column].map(Literal::usize_unsuffixed));
-                return quote!(#array[#group][#column]);
+            Value::LiveOut(array, row, column) | Value::OfBranch { array, branch: row, column, .. } => {
+                let (array, [row, column]) = (local(array), [*row, *column].map(Literal::usize_unsuffixed));
+                return quote!(#array[#row][#column]);
             }
             Value::Negative(a) => {
                 let a = self.value(a, Binding::Unary);

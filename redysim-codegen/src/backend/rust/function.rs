@@ -52,7 +52,7 @@ impl Writer<'_> {
         let signature = function.signature();
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let as_numbers = signature.arguments.iter().filter_map(|argument| as_numbers(*argument, self.interface));
-        let body = body(program, &arguments, |outputs| {
+        let body = body(program, &arguments, self.runtime, |outputs| {
             results::value(signature.result, self.interface, outputs, self.runtime)
         });
         quote!(#(#as_numbers)* #body)

@@ -129,13 +129,14 @@ pub fn constructors(
     }
     let (np, given) = (length_of(interface, interface.parameters.len()), local(GIVEN));
     let new = match lumped {
-        Some(program) => body(program, &[], |outputs| quote!(#name { #given: [#(#outputs),*] })),
+        Some(program) => body(program, &[], runtime, |outputs| quote!(#name { #given: [#(#outputs),*] })),
         None => quote!(::core::unreachable!()),
     };
     let rules = interface.parameters.iter().map(|parameter| match parameter.rule {
         ParameterRule::NotNegative => quote!(NotNegative),
         ParameterRule::Positive => quote!(Positive),
         ParameterRule::Inertia => quote!(Inertia),
+        ParameterRule::Quaternion => quote!(Quaternion),
         _ => quote!(Finite),
     });
     quote! {

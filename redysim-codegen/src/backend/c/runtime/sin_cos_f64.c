@@ -1,0 +1,20 @@
+/*
+ * Sine and cosine of redysim, as in the Rust crate redysim-runtime, to the same bits. Errors stay below 1 unit in the last
+ * place for every finite angle; an angle that is not finite gives NaN.
+ *
+ * The angle is reduced to |r| <= pi/4 with a tail that carries what a double cannot: by subtracting pi/2 in two parts, or,
+ * where that is not enough (many quarter turns, or an angle beside a multiple of pi/2), with more digits. Then two
+ * polynomials in r^2, of least relative error, are evaluated.
+ */
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1
+#error "double is computed with excess precision: compile with -msse2 -mfpmath=sse, or define REDYSIM_LIBM"
+#endif
+#ifdef __FAST_MATH__
+#error "-ffast-math breaks the reduction of angles: compile without it, or define REDYSIM_LIBM"
+#endif
+
+/* Added to a number below 2^51 and taken away again, it leaves the nearest integer, and shows its bits in between. */
+#define REDYSIM_ROUNDER 6755399441055744.0
+#define REDYSIM_2_PI 0.6366197723675814
+/* The bits of 205887.0, a little more than 2^17 quarter turns. */
+#define REDYSIM_MOST_BITS 0x410921f800000000U
