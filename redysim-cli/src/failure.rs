@@ -46,11 +46,18 @@ impl Failure {
     pub(crate) fn file(doing: &str, path: &Path, error: &io::Error) -> Self {
         let failure = Self::outside(format!("cannot {doing} {}: {error}", path.display()));
         match error.kind() {
-            io::ErrorKind::NotFound => failure.help("is the path right? It is taken from the current folder"),
+            io::ErrorKind::NotFound => failure.help(from_current_folder()),
             io::ErrorKind::PermissionDenied => failure.help("its permissions forbid it"),
-            io::ErrorKind::StorageFull => failure.help("make room on the disk, or write elsewhere with --output"),
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+                failure.help("make room on the disk, or write elsewhere with --output")
+            }
             _ => failure,
         }
+    }
+
+    /// Whether Ctrl-C is the reason.
+    pub(crate) fn is_interruption(&self) -> bool {
+        self.kind == Kind::Interrupted
     }
 
     /// What is wrong, without what to do.
@@ -90,10 +97,17 @@ impl Failure {
     }
 }
 
+/// Where a path is taken from.
+fn from_current_folder() -> String {
+    let folder = std::env::current_dir().map_or(String::new(), |folder| format!(", {}", folder.display()));
+    format!("is the path right? It is taken from the current folder{folder}")
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A model's faults begin with their own severity, which is a warning where one stands first in the file.
-        let own = ["error: ", "warning: "].iter().any(|severity| self.message.starts_with(severity));
+        let own = ["error", "warning"].iter().filter_map(|severity| self.message.strip_prefix(severity));
+        let own = own.into_iter().any(|rest| rest.starts_with([':', '[']));
         let what = if self.kind == Kind::Interrupted { "interrupted: " } else { "error: " };
         write!(f, "{}{}", if own { "" } else { what }, self.message.trim_end())?;
         match &self.help {

@@ -23,6 +23,16 @@ pub fn watch() -> Result<(), Failure> {
     ctrlc::set_handler(note).map_err(|error| Failure::outside(format!("cannot watch for Ctrl-C: {error}")))
 }
 
+/// Ends the computation that is under way, as the first Ctrl-C does.
+pub fn ask() {
+    ASKED.store(true, Ordering::Relaxed);
+}
+
+/// Begins a computation, whatever has ended those before.
+pub fn begin() {
+    ASKED.store(false, Ordering::Relaxed);
+}
+
 /// Whether it was pressed.
 pub fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)

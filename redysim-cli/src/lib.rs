@@ -49,6 +49,7 @@ mod recorded;
 mod results;
 mod scenario;
 mod summary;
+mod sweep;
 mod table;
 mod text;
 mod urdf;
@@ -58,11 +59,13 @@ pub use commands::run;
 pub use data::{
     AbsoluteTolerance, AxisGains, Compensation, Contact, FixedStep, Forward, FrameNames, Ground, Impedance, Initial,
     Integrator, Limits, Payload, Results, Scenario, Span, Stabilisation, Table, Target, Through, Tolerances, Torque,
-    Trajectory, Values,
+    Trajectory, Values, interrupt_computation, page_of_results,
 };
 pub use failure::Failure;
+pub use model::ModelFile;
 pub use results::{Ending, Run};
 pub use scenario::Dynamics;
+pub use sweep::{Rows as SweepRows, Sample, Sampler, Study};
 pub use table::Column;
 
 /// The program of the guide to scenarios.

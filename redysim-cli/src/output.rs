@@ -42,6 +42,14 @@ pub fn check_beside(source: &Path, path: &Path, force: bool) -> Result<(), Failu
     check_place(path, force)
 }
 
+/// Makes a folder and those around it, unless they are there.
+///
+/// # Errors
+/// If they cannot be made.
+pub fn make_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(|error| Failure::file("make the folder", path, &error))
+}
+
 /// Fails if [`write_file`] would, as far as that is known before there is something to write.
 ///
 /// # Errors

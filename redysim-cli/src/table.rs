@@ -67,9 +67,14 @@ impl Table {
     /// # Errors
     /// The first fault, with its line.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
-        let text = String::from_utf8(bytes)
-            .map_err(|_| Failure::input(format!("{} is not UTF-8", path.display())).help("save the file as UTF-8"))?;
+        Table::of_text(read_text(path)?, path)
+    }
+
+    /// Reads the text of the file at `path`.
+    ///
+    /// # Errors
+    /// The first fault, with its line.
+    pub fn of_text(text: String, path: &Path) -> Result<Self, Failure> {
         let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
         let headers = reader.headers().map_err(|error| unreadable(path, &text, &error))?.clone();
         let mut table = Table {
@@ -128,6 +133,16 @@ impl Table {
     pub fn fault(&self, row: usize, wrong: String) -> Failure {
         Failure::input(format!("{}:{}: {wrong}", self.path.display(), self.lines[row]))
     }
+}
+
+/// The text of the table in the file at `path`.
+///
+/// # Errors
+/// If it cannot be read, or is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
+    String::from_utf8(bytes)
+        .map_err(|_| Failure::input(format!("{} is not UTF-8", path.display())).help("save the file as UTF-8"))
 }
 
 /// The text of the table `name`, which reads back to the same bits.

@@ -11,10 +11,10 @@ use crate::urdf::{Base, Imported, Options, import, read};
 /// Joints keep their order, names, origins and axes. The root link becomes the ground, or with `--base free` a link on a
 /// free joint `base` without an actuator. Inertias are turned into the links' axes. Continuous joints become revolute.
 /// Floating joints become free, and planar ones stay planar, both without an actuator. Spherical joints stay spherical.
-/// Joints that mimic others do so here if both have one coordinate. Joints that move no mass become fixed. Limits of
-/// positions and velocity become a `range`. Damping and friction are kept. Other numbers, such as transmission ratios, other
-/// limits and what a joint that becomes fixed had, stay as comments beside their links; those of the root stay in the model's
-/// head. Visuals and collisions are left out. Whatever changes or is left out is reported, here and in the model's head.
+/// Joints that mimic others do so here if both have one coordinate. Joints that move no mass become fixed, unless
+/// one that moves with them moves some. Limits of positions and velocity become a `range`. Damping and friction are kept, but of floating and planar joints as comments. Other
+/// numbers, such as transmission ratios, other limits and what a joint that becomes fixed had, stay as comments beside their
+/// links; those of the root stay in the model's head. Visuals and collisions are left out. Whatever changes or is left out is reported, here and in the model's head.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:

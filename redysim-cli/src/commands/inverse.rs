@@ -1,5 +1,7 @@
 //! `redysim inverse SCENARIO`.
 
+use std::path::Path;
+
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
     ClosedLoop, ClosedLoopInverse, ConfigurationSpace, InverseDynamics, LoopForces, Motion, Trajectory,
@@ -9,7 +11,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::rounded;
 use crate::output::to_stdout;
-use crate::results::{self, Ended, GroundSample, Outcome, Record, Sample};
+use crate::results::{self, Ended, Files, GroundSample, Outcome, Record, Sample, Sink, Summary};
 use crate::scenario::{Dynamics, Prescribed, Scenario, Span, keys, missing};
 
 /// Compute the forces that a prescribed motion takes, and write them into a folder.
@@ -24,19 +26,48 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
     let scenario = Scenario::load(&results.scenario, Dynamics::Inverse, quiet)?;
-    let path = &results.scenario;
-    let span = scenario.inverse.ok_or_else(|| missing(path, "at which instants forces are wanted", &keys::INVERSE))?;
-    let trajectory =
-        scenario.trajectory.as_ref().ok_or_else(|| missing(path, "which motion is prescribed", &keys::TRAJECTORY))?;
     interrupt::watch()?;
-    let mut record = Record::begin(results, &scenario, Dynamics::Inverse, span, quiet)?;
-    let (outcome, most) = along(&scenario, trajectory, &mut record);
-    warn_of_passive(&scenario, &most, &record);
+    compute(results, &scenario, quiet).map(drop)
+}
+
+/// Computes the forces of a scenario and writes them; returns the warnings, which are printed unless `quiet`.
+pub fn compute(results: &results::Arguments, scenario: &Scenario, quiet: bool) -> Result<Vec<String>, Failure> {
+    let wanted = wanted(scenario, &results.scenario)?;
+    let mut files = Files::begin(results, scenario, Dynamics::Inverse, quiet)?;
+    let (summary, warnings) = compute_into(&mut files, scenario, wanted, quiet)?;
+    files.finish(scenario, summary, quiet)?;
+    Ok(warnings)
+}
+
+/// The instants and the motion that the scenario at `path` prescribes.
+///
+/// # Errors
+/// If one of them is missing.
+pub fn wanted<'s>(scenario: &'s Scenario, path: &Path) -> Result<(Span, &'s Prescribed), Failure> {
+    let span = scenario.inverse.ok_or_else(|| missing(path, "at which instants forces are wanted", &keys::INVERSE))?;
+    let motion = scenario.trajectory.as_ref();
+    Ok((span, motion.ok_or_else(|| missing(path, "which motion is prescribed", &keys::TRAJECTORY))?))
+}
+
+/// Computes the forces of a motion, whose rows go to `sink`; returns how it went, and the warnings, which are printed
+/// unless `quiet`.
+///
+/// # Errors
+/// If the first forces cannot be computed, or a row cannot be written.
+pub fn compute_into(
+    sink: &mut (dyn Sink + 'static),
+    scenario: &Scenario,
+    (span, trajectory): (Span, &Prescribed),
+    quiet: bool,
+) -> Result<(Summary, Vec<String>), Failure> {
+    let mut record = Record::begin(sink, scenario, Dynamics::Inverse, span, quiet);
+    let (outcome, most) = along(scenario, trajectory, &mut record);
+    warn_of_passive(scenario, &most, &record);
     warn_of_work(span, &record);
     if scenario.loops() && !quiet {
-        report_start(&scenario, trajectory, &record);
+        report_start(scenario, trajectory, &record);
     }
-    record.finish(outcome)
+    record.end(outcome)
 }
 
 /// The forces are those of each instant; the work between instants is only as exact as these are close.

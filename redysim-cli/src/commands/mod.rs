@@ -3,13 +3,14 @@
 mod animate;
 mod check;
 mod completions;
-mod forward;
+pub mod forward;
 mod generate;
 mod import;
-mod inverse;
+pub mod inverse;
 mod new;
 mod plot;
 mod show;
+mod sweep;
 
 use std::process::ExitCode;
 
@@ -34,6 +35,7 @@ enum Command {
     Check(check::Arguments),
     Inverse(inverse::Arguments),
     Forward(forward::Arguments),
+    Sweep(sweep::Arguments),
     Generate(generate::Arguments),
     Import(import::Arguments),
     Plot(plot::Arguments),
@@ -50,6 +52,7 @@ pub fn run() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Inverse(arguments) => inverse::run(&arguments, quiet),
         Command::Forward(arguments) => forward::run(&arguments, quiet),
+        Command::Sweep(arguments) => sweep::run(&arguments, quiet),
         Command::Generate(arguments) => generate::run(&arguments, quiet),
         Command::Import(arguments) => import::run(&arguments, quiet),
         Command::Plot(arguments) => plot::run(&arguments, quiet),

@@ -56,7 +56,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
     pictures.iter().try_for_each(|(path, _)| output::check_place(path, force))?;
     let made = !folder.is_dir();
-    std::fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, &error))?;
+    output::make_folder(folder)?;
     let fresh: Vec<&PathBuf> = pictures.iter().map(|(path, _)| path).filter(|path| !path.exists()).collect();
     let written = pictures.iter().try_for_each(|(path, contents)| output::write_file(path, contents, force));
     written.inspect_err(|_| {

@@ -26,7 +26,7 @@ pub struct Checked {
 pub fn check(text: &str, path: &Path, shown: &str, runs: &[Dynamics]) -> Result<Checked, Failure> {
     let mut checked = Checked { document: DocumentMut::new(), warnings: vec![], layout: Layout::default() };
     for &run in runs {
-        let (scenario, found) = scenario::Scenario::of_text(text.to_owned(), path, shown, run, true)?;
+        let (scenario, found) = scenario::Scenario::of_text(text.to_owned(), path, shown, run, (None, true))?;
         checked.document = scenario.document;
         checked.layout = scenario.layout;
         for warning in found.iter().map(ToString::to_string) {
@@ -71,13 +71,8 @@ fn spell_out(scenario: &mut DocumentMut, layout: &Layout) {
     }
     let forward = scenario.get_mut(keys::FORWARD.name).and_then(Item::as_table_like_mut);
     if let Some(forward) = forward {
-        let tables = [
-            (keys::TORQUE, shorthand::TORQUE),
-            (keys::STABILISATION, shorthand::STABILISATION),
-            (keys::INTEGRATOR, shorthand::INTEGRATOR),
-        ];
-        for (key, shorthand) in tables {
-            forward.get_mut(key.name).into_iter().for_each(|item| shorthand.expand(item));
+        for shorthand in shorthand::IN_FORWARD {
+            forward.get_mut(shorthand.key).into_iter().for_each(|item| shorthand.expand(item));
         }
         usual_method(forward);
     }

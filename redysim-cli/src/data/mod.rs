@@ -1,5 +1,6 @@
 //! Scenarios and results as data: they serialise and deserialise, and are read and written as the command does.
 
+mod compute;
 mod contact;
 mod file;
 mod in_space;
@@ -9,6 +10,7 @@ mod scenario;
 mod torque;
 mod trajectory;
 
+pub use compute::{interrupt_computation, page_of_results};
 pub use contact::{Contact, FrameNames, Ground};
 pub use integrator::{AbsoluteTolerance, FixedStep, Integrator, Tolerances};
 pub use results::{Results, Table};

@@ -12,7 +12,7 @@ pub fn evenly(count: usize, most: usize) -> Vec<usize> {
 }
 
 /// About `most` of the curves' rows, in order: the first, the last, and of every stretch those where a curve has its
-/// least and its largest value, and the first where it has none, so that no peak and no gap is lost.
+/// least and its largest value, and the first instant without a value, so that no peak and no gap is lost.
 pub fn with_peaks(curves: &[&[f64]], count: usize, most: usize) -> Vec<usize> {
     if count <= most || curves.is_empty() {
         return evenly(count, most);

@@ -50,8 +50,14 @@ fn left_by_a_killed_run(target: &Path, name: &str) -> Option<Leftover> {
     (!goes_on(id)).then_some(leftover)
 }
 
-/// Whether another process with that number is this program, as far as the system tells.
+/// Whether another process with that number is this program and runs, as far as the system tells.
 fn goes_on(id: u32) -> bool {
     let program = |id: &str| fs::read_to_string(format!("/proc/{id}/comm")).ok();
-    id != std::process::id() && program(&id.to_string()).is_some_and(|other| Some(other) == program("self"))
+    // One that has ended stays until its parent takes notice, which some containers never do.
+    let has_ended = |id: u32| {
+        let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+        status.lines().any(|line| line.starts_with("State:\tZ") || line.starts_with("State:\tX"))
+    };
+    let is_here = program(&id.to_string()).is_some_and(|other| Some(other) == program("self"));
+    id != std::process::id() && is_here && !has_ended(id)
 }

@@ -1,6 +1,7 @@
 //! What a run leaves behind: a folder of tables, with all that is needed to do it again.
 
 mod balance;
+mod files;
 mod folder;
 mod leftover;
 mod momentum;
@@ -16,11 +17,12 @@ use std::path::PathBuf;
 
 use crate::scenario::{Dynamics, Scenario};
 pub use balance::Balance;
+pub use files::Files;
 pub use folder::Folder;
-pub use record::{GroundSample, Record, Sample};
+pub use record::{GroundSample, Record, Sample, Sink};
 pub use run::{Ending, Run};
 pub use summary::{Ended, Outcome, Summary};
-pub use tables::Format;
+pub use tables::{Format, Quantities, Row};
 
 /// Where results go, and how.
 #[derive(clap::Args)]

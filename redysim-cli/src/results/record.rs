@@ -1,14 +1,14 @@
-//! A run, written instant by instant.
+//! A run, followed instant by instant.
 
+use std::cell::RefCell;
 use std::time::Instant;
 
 use redysim_runtime::{Energy, MechanicalEnergy, Reaction};
 
 use super::momentum::{self, MomentumDrift};
-use super::tables::{Row, Tables};
-use super::{Arguments, Balance, Ended, Folder, Outcome, Summary, leftover, run_file};
+use super::tables::Row;
+use super::{Balance, Ended, Outcome, Summary};
 use crate::failure::Failure;
-use crate::output::{to_stderr, to_stdout};
 use crate::progress::Progress;
 use crate::scenario::{Dynamics, Scenario, Span};
 
@@ -47,14 +47,29 @@ impl GroundSample {
     }
 }
 
-/// A run as far as it is computed. Its rows are in the files already: however many they are, none is kept in memory.
+/// What takes the rows of a run, one after the other, a row of each of its tables at a time.
+pub trait Sink {
+    /// Makes the next rows.
+    ///
+    /// # Errors
+    /// If a number is infinite or NaN.
+    fn rows(&self, row: &Row<'_>) -> Result<Vec<Vec<f64>>, Failure>;
+
+    /// Keeps them.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    fn keep(&mut self, rows: Vec<Vec<f64>>) -> Result<(), Failure>;
+}
+
+/// A run as far as it is computed. Its rows are in the sink already: however many they are, none is kept here.
 pub struct Record<'a> {
     scenario: &'a Scenario,
     dynamics: Dynamics,
     span: Span,
     quiet: bool,
-    folder: Folder,
-    tables: Tables,
+    warnings: RefCell<Vec<String>>,
+    sink: &'a mut (dyn Sink + 'static),
     /// Why a row could not be written.
     broken: Option<Failure>,
     count: usize,
@@ -68,27 +83,21 @@ pub struct Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    /// Begins the folder of a run of `scenario` over `span`. It is made before anything is computed, so that what
-    /// cannot be written is reported at once.
+    /// Begins a run of `scenario` over `span`.
     pub fn begin(
-        arguments: &Arguments,
+        sink: &'a mut (dyn Sink + 'static),
         scenario: &'a Scenario,
         dynamics: Dynamics,
         span: Span,
         quiet: bool,
-    ) -> Result<Record<'a>, Failure> {
-        let target = arguments.folder(scenario, dynamics);
-        if !quiet {
-            leftover::warnings(&target).iter().for_each(|warning| to_stderr(warning));
-        }
-        let folder = Folder::draft(target, arguments.force)?;
-        Ok(Record {
+    ) -> Record<'a> {
+        Record {
             scenario,
             dynamics,
             span,
             quiet,
-            tables: Tables::begin(&folder, arguments.format, scenario, dynamics)?,
-            folder,
+            warnings: RefCell::default(),
+            sink,
             broken: None,
             count: 0,
             start: [vec![], vec![]],
@@ -99,7 +108,7 @@ impl<'a> Record<'a> {
             .then(MomentumDrift::default),
             progress: Progress::new(span.count(), quiet),
             begun: Instant::now(),
-        })
+        }
     }
 
     /// The instant that is to be computed next; none if all are.
@@ -110,7 +119,7 @@ impl<'a> Record<'a> {
     /// Adds the next instant.
     ///
     /// # Errors
-    /// If a number is infinite or none, or if it cannot be written.
+    /// If a number is infinite or NaN, or if it cannot be written.
     pub fn add(&mut self, sample: &Sample) -> Result<(), Failure> {
         let mechanism = &self.scenario.mechanism;
         let energy = mechanism.energy(&sample.q, &sample.v);
@@ -120,8 +129,8 @@ impl<'a> Record<'a> {
         let momentum = momentum::about_base(mechanism, &sample.q, &sample.v);
         self.momentum = self.momentum.filter(|_| !momentum::is_held(mechanism, &sample.tau));
         self.momentum.iter_mut().for_each(|drift| drift.see(momentum.0));
-        let rows = self.tables.rows(&Row { scenario: self.scenario, sample, energy, drift, momentum })?;
-        self.tables.write(&rows).inspect_err(|failure| self.broken = Some(failure.clone()))?;
+        let rows = self.sink.rows(&Row { scenario: self.scenario, sample, energy, drift, momentum })?;
+        self.sink.keep(rows).inspect_err(|failure| self.broken = Some(failure.clone()))?;
         if self.count == 0 {
             self.start = [sample.q.clone(), sample.v.clone()];
         }
@@ -142,11 +151,13 @@ impl<'a> Record<'a> {
         self.progress.reach(self.count);
     }
 
-    /// Warns, unless the run is quiet.
+    /// Keeps a warning, and prints it unless the run is quiet.
     pub fn warn(&self, warning: &str, help: &str) {
+        let warning = format!("warning: {warning}\n  = help: {help}\n");
         if !self.quiet {
-            self.progress.report(&format!("warning: {warning}\n  = help: {help}\n"));
+            self.progress.report(&warning);
         }
+        self.warnings.borrow_mut().push(warning);
     }
 
     /// The position at the first instant, if there is one.
@@ -159,8 +170,11 @@ impl<'a> Record<'a> {
         &self.balance
     }
 
-    /// Ends the run, reports how it went, and fails if it did not come to its end.
-    pub fn finish(self, outcome: Outcome) -> Result<(), Failure> {
+    /// Ends the run. Returns how it went, and the warnings.
+    ///
+    /// # Errors
+    /// If a row could not be written, or if it ended before there is a result.
+    pub fn end(self, outcome: Outcome) -> Result<(Summary, Vec<String>), Failure> {
         if let Some(failure) = self.broken {
             return Err(failure);
         }
@@ -182,20 +196,6 @@ impl<'a> Record<'a> {
             start: self.start,
             outcome,
         };
-        self.tables.finish()?;
-        run_file::write(&self.folder, self.scenario, &summary)?;
-        drop(self.progress);
-        let complete = matches!(summary.outcome.ended, Ended::Complete);
-        let target = self.folder.finish(complete)?;
-        if !self.quiet {
-            to_stdout(&format!("{summary}\n  written to {}", target.display()));
-        }
-        let (_, until, count) = summary.instants;
-        let kept = format!("{count} instants, until {until:?} s, are in {}", target.display());
-        match summary.outcome.ended {
-            Ended::Complete => Ok(()),
-            Ended::Interrupted => Err(Failure::interrupted(kept)),
-            Ended::Failed(reason) => Err(reason.and(&format!("; what was computed before is kept: {kept}"))),
-        }
+        Ok((summary, self.warnings.into_inner()))
     }
 }

@@ -1,15 +1,12 @@
-//! The tables of a run, in this program's form and in ReDySim's, written row by row.
-
-use std::fs::File;
+//! The tables of a run, in this program's form and in ReDySim's: their columns, and how rows are made.
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{CenterOfMass, Energy, LinkKinematics, Momentum, Reaction};
 
-use super::{Folder, Sample, names};
+use super::{Sample, names};
 use crate::failure::Failure;
 use crate::layout::{Component, Layout};
 use crate::scenario::{Dynamics, Scenario};
-use crate::table::write_row;
 
 /// How numbers are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -33,76 +30,32 @@ pub struct Row<'a> {
 
 type Make = fn(&Row<'_>) -> Vec<f64>;
 
-/// A file with a table: its name, what is above the columns, and how a row is made.
-struct TableFile {
-    name: &'static str,
-    headers: Vec<String>,
+/// A table: its name, what is above the columns, and how a row is made.
+pub struct Quantities {
+    pub name: &'static str,
+    pub headers: Vec<String>,
     make: Make,
 }
 
-/// All tables of a run, as far as they are written.
-pub struct Tables {
-    tables: Vec<(TableFile, csv::Writer<File>)>,
-    rows: usize,
-}
-
-/// Numbers on their way to a file are gathered until there are so many bytes.
-const BUFFER: usize = 1 << 16;
-
-impl Tables {
-    /// Begins the files.
-    pub fn begin(folder: &Folder, format: Format, scenario: &Scenario, dynamics: Dynamics) -> Result<Tables, Failure> {
-        let (tables, ending, delimiter) = match format {
-            Format::Csv => (named(scenario), "csv", b','),
-            Format::Dat => (redysim(scenario, dynamics), "dat", b' '),
-        };
-        let begun = tables.into_iter().map(|table| {
-            let file = folder.create(&format!("{}.{ending}", table.name))?;
-            let mut writer = csv::WriterBuilder::new().delimiter(delimiter).buffer_capacity(BUFFER).from_writer(file);
-            if format == Format::Csv {
-                writer.write_record(&table.headers).map_err(|error| table.unwritten(error))?;
-            }
-            Ok((table, writer))
-        });
-        Ok(Tables { tables: begun.collect::<Result<_, Failure>>()?, rows: 0 })
+impl Quantities {
+    /// The tables of a run in a form.
+    pub fn of(scenario: &Scenario, dynamics: Dynamics, format: Format) -> Vec<Quantities> {
+        match format {
+            Format::Csv => named(scenario),
+            Format::Dat => redysim(scenario, dynamics),
+        }
     }
 
-    /// A row of each.
+    /// The row after so many.
     ///
     /// # Errors
-    /// If a number is infinite or none.
-    pub fn rows(&self, row: &Row<'_>) -> Result<Vec<Vec<f64>>, Failure> {
-        self.tables.iter().map(|(table, _)| table.checked((table.make)(row), self.rows)).collect()
-    }
-
-    /// Writes a row to each.
-    pub fn write(&mut self, rows: &[Vec<f64>]) -> Result<(), Failure> {
-        for ((table, writer), row) in self.tables.iter_mut().zip(rows) {
-            write_row(writer, row).map_err(|error| table.unwritten(error))?;
-        }
-        self.rows += 1;
-        Ok(())
-    }
-
-    /// Has everything on the disk.
-    pub fn finish(self) -> Result<(), Failure> {
-        self.tables.into_iter().try_for_each(|(table, writer)| {
-            let file = writer.into_inner().map_err(|error| table.unwritten(error.into_error()))?;
-            file.sync_all().map_err(|error| table.unwritten(error))
-        })
-    }
-}
-
-impl TableFile {
-    fn checked(&self, row: Vec<f64>, above: usize) -> Result<Vec<f64>, Failure> {
+    /// If a number is infinite or NaN.
+    pub fn row(&self, row: &Row<'_>, above: usize) -> Result<Vec<f64>, Failure> {
+        let row = (self.make)(row);
         let Some(column) = row.iter().position(|value| !value.is_finite()) else { return Ok(row) };
         let name = self.headers.get(column).map_or(format!("column {}", column + 1), |name| format!("`{name}`"));
         let message = format!("{}, row {}: {name} is {:?}", self.name, above + 1, row[column]);
         Err(Failure::outside(message).help("look for a singular position or a force without bound there"))
-    }
-
-    fn unwritten(&self, error: impl Into<std::io::Error>) -> Failure {
-        Failure::file("write the table", self.name.as_ref(), &error.into())
     }
 }
 
@@ -150,7 +103,7 @@ impl Row<'_> {
 }
 
 /// The tables with names and units, each with the time first.
-fn named(scenario: &Scenario) -> Vec<TableFile> {
+fn named(scenario: &Scenario) -> Vec<Quantities> {
     let Headers { q, v, a, forces } = Headers::of(&scenario.layout);
     let contacts = &scenario.contacts.names;
     let ground = if contacts.is_empty() { &[][..] } else { &["ground", "ground_loss"] };
@@ -158,7 +111,7 @@ fn named(scenario: &Scenario) -> Vec<TableFile> {
     let energies: Vec<_> = energies.iter().chain(ground).map(|name| format!("{name} [J]")).collect();
     let timed = |name, headers: &[&[String]], make: Make| {
         let headers = [&["t [s]".to_owned()], headers.concat().as_slice()].concat();
-        TableFile { name, headers, make }
+        Quantities { name, headers, make }
     };
     let mut tables = vec![
         timed(names::TIMEVAR, &[], |at| at.timed(&[])),
@@ -212,8 +165,8 @@ impl Headers {
 /// actuators, of inverse dynamics q̈; with closed loops its joint forces are those of the actuated joints and then λ;
 /// its energies are potential, kinetic, of the actuators, and the sum of these. What it does not write, kinematics,
 /// momentum and the λ of forward dynamics, is written as in the tables with names.
-fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<TableFile> {
-    let plain = |name, make: Make| TableFile { name, headers: vec![], make };
+fn redysim(scenario: &Scenario, dynamics: Dynamics) -> Vec<Quantities> {
+    let plain = |name, make: Make| Quantities { name, headers: vec![], make };
     let mut tables = vec![
         plain(names::TIMEVAR, |at| vec![at.sample.t]),
         plain(names::ENVAR, |at| vec![at.potential(), at.energy.kinetic, at.actuators(), at.total() + at.actuators()]),

@@ -40,8 +40,13 @@ impl Forward {
             let torque = Torque::read(&mut reader, subject, trajectory, followers);
             let stabilisation = stabilisation(&mut reader, subject);
             let unlimited = torque.as_ref().map(Torque::unlimited);
-            if let (Some(Torque::Computed { .. }), Some(stabilisation)) = (unlimited, stabilisation) {
-                warn_of_redundancy(&mut reader, subject, stabilisation);
+            let solved = match unlimited {
+                _ if !followers.is_empty() => Some("prescribed joints need"),
+                Some(Torque::Computed { .. }) => Some("computed torque needs"),
+                _ => None,
+            };
+            if let (Some(what), Some(stabilisation)) = (solved, stabilisation) {
+                warn_of_redundancy(&mut reader, subject, stabilisation, what);
             }
             Some(Forward {
                 span: span?,
@@ -59,9 +64,14 @@ impl Forward {
     }
 }
 
-/// Warns that redundant constraints contradict each other in loops that are slightly open, so that computed torque has
-/// no solution there.
-fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabilisation: Stabilisation<f64>) {
+/// Warns that redundant constraints contradict each other in loops that are slightly open, where functions that need
+/// closed loops do not have a solution.
+fn warn_of_redundancy(
+    reader: &mut Reader<'_, '_>,
+    subject: &Subject<'_>,
+    stabilisation: Stabilisation<f64>,
+    what_needs: &str,
+) {
     if !subject.loops() || stabilisation == Stabilisation::Projection {
         return;
     }
@@ -70,8 +80,8 @@ fn warn_of_redundancy(reader: &mut Reader<'_, '_>, subject: &Subject<'_>, stabil
         let item = reader.item();
         reader.warning_of_table(Message {
             title: format!(
-                "{item}: of the loops' {constraints} constraints {rank} are independent, for which computed torque \
-                 needs closed loops"
+                "{item}: of the loops' {constraints} constraints {rank} are independent, for which {what_needs} \
+                 closed loops"
             ),
             label: "each step leaves them a little open".into(),
             help: "take stabilisation = \"projection\", or leave constraints out that follow from others".into(),

@@ -18,6 +18,8 @@ pub struct Initial {
     pub assemble: bool,
     /// The joints that stay where they are while loops are closed.
     pub held: Vec<usize>,
+    /// Whether the scenario names these joints.
+    names_held: bool,
 }
 
 impl Initial {
@@ -34,16 +36,27 @@ impl Initial {
             subject.expect_loops(&mut reader, "initial.assemble", &assemble);
             let held = some(&mut reader, &keys::HELD, &layout.joints);
             subject.expect_loops(&mut reader, "initial.held", &held);
+            let names_held = !held.is_missing();
             let (assemble, held) = (assemble.value_or(true), held.value_or(actuated.clone()));
-            Some(Initial { q: q?, v: v?, place_of_v, assemble: assemble?, held: held? })
+            Some(Initial { q: q?, v: v?, place_of_v, assemble: assemble?, held: held?, names_held })
         });
         match given(field)? {
             Some(initial) => Some(initial),
             None => {
                 let (q, v) = rest();
-                Some(Initial { q, v, place_of_v: 0..0, assemble: true, held: actuated })
+                Some(Initial { q, v, place_of_v: 0..0, assemble: true, held: actuated, names_held: false })
             }
         }
+    }
+}
+
+impl Initial {
+    /// Holds `joints` as well, or in the place of the actuated ones, which are only the default.
+    pub fn hold(&mut self, joints: &[usize]) {
+        if !self.names_held {
+            self.held.clear();
+        }
+        self.held.extend(joints.iter().filter(|joint| !self.held.contains(joint)).copied().collect::<Vec<_>>());
     }
 }
 

@@ -48,7 +48,7 @@ pub const ANGLE: Key =
 pub const ASSEMBLE: Key =
     Key::new("assemble", "false", "start as given, though loops may not be closed").with_default("true");
 pub const HELD: Key = Key::new("held", "[\"crank\"]", "what stays where it is while loops are closed")
-    .with_default("the actuated joints");
+    .with_default("the actuated joints, or those of `forward.prescribed`, which always stay");
 
 pub const TRAJECTORY: Key = Key::of_table(
     "trajectory",

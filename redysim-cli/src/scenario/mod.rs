@@ -4,6 +4,7 @@ pub mod contact;
 mod forces;
 mod forward;
 mod frames;
+mod held;
 pub mod in_space;
 mod initial;
 mod integrator;
@@ -31,10 +32,11 @@ use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
 use crate::layout::Layout;
-use crate::model::{self, Read};
+use crate::model::{self, ModelFile};
 use contact::Contacts;
 pub use contact::Ground;
 pub use forward::Forward;
+pub use held::Held;
 pub use initial::Initial;
 pub use integrator::{Absolute, Integrator, Tolerances, usual_method};
 pub use law::Law;
@@ -97,7 +99,8 @@ impl Scenario {
     /// Every fault of the scenario at once; or those of the model, or the first of a table.
     pub fn load(path: &Path, dynamics: Dynamics, quiet: bool) -> Result<Scenario, Failure> {
         let text = read_text(path)?;
-        let (scenario, warnings) = Scenario::of_text(text, path, &path.display().to_string(), dynamics, quiet)?;
+        let shown = path.display().to_string();
+        let (scenario, warnings) = Scenario::of_text(text, path, &shown, dynamics, (None, quiet))?;
         if !quiet {
             model::show(&warnings);
         }
@@ -105,7 +108,7 @@ impl Scenario {
     }
 
     /// The same of the text of a scenario at `path`, whose messages name it `shown`; returns its warnings, and prints
-    /// those of its model unless `quiet`.
+    /// those of its model unless `quiet`. The files that it names are in its folder, unless they are `held`.
     ///
     /// # Errors
     /// As [`load`](Self::load).
@@ -114,14 +117,14 @@ impl Scenario {
         path: &Path,
         shown: &str,
         dynamics: Dynamics,
-        quiet: bool,
+        (held, quiet): (Option<Held<'_>>, bool),
     ) -> Result<(Scenario, Vec<Diagnostic>), Failure> {
         if let Some(failure) = model::not_a_scenario(path, &text) {
             return Err(failure);
         }
         let mut failure = None;
         let read = redysim_toml::read(text.clone(), shown, &keys::SCENARIO, "the scenario", |reader| {
-            read(reader, path, text, dynamics, quiet, &mut failure)
+            read(reader, path, text, dynamics, (held, quiet), &mut failure)
         });
         if let Some(failure) = failure {
             return Err(failure);
@@ -174,7 +177,7 @@ fn read(
     path: &Path,
     text: String,
     dynamics: Dynamics,
-    quiet: bool,
+    (held, quiet): (Option<Held<'_>>, bool),
     failure: &mut Option<Failure>,
 ) -> Option<Scenario> {
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -184,20 +187,27 @@ fn read(
     let named = model.spanned()?;
     let model_path = folder.join(named.get_ref());
     // What the rest of the scenario means depends on the joints.
-    let read = match (!model::is_urdf(&model_path)).then(|| Model::load(&model_path)) {
-        Some(Err(faults)) if faults.unread => {
-            let why = faults.errors().map(Diagnostic::title).collect::<String>();
-            let title = format!("{}: {why}", model_path.display());
-            let help = "the path of the model is taken from the folder of the scenario".into();
-            return reader.error_at(named.span(), Message { title, label: "named here".into(), help });
+    let read = match held {
+        Some(held) => {
+            let read = Model::from_toml(held.model, held.model_name);
+            model::loaded(&model_path, read, quiet).map(ModelFile::from)
         }
-        Some(read) => model::loaded(&model_path, read, quiet).map(Read::from),
-        None => model::of_urdf(&model_path, quiet),
+        None if model::is_urdf(&model_path) => model::read(&model_path, quiet),
+        None => match Model::load(&model_path) {
+            Err(faults) if faults.unread => {
+                let why = faults.errors().map(Diagnostic::title).collect::<String>();
+                let title = format!("{}: {why}", model_path.display());
+                let help = "the path of the model is taken from the folder of the scenario".into();
+                return reader.error_at(named.span(), Message { title, label: "named here".into(), help });
+            }
+            read => model::loaded(&model_path, read, quiet).map(ModelFile::from),
+        },
     };
-    let Read { model, text: model_text, urdf } = read.map_err(|fault| *failure = Some(fault)).ok()?;
+    let ModelFile { model, text: model_text, urdf, .. } = read.map_err(|fault| *failure = Some(fault)).ok()?;
     let mechanism = GenericMechanism::new(model);
     let layout = Layout::of(mechanism.model());
-    let subject = Subject { dynamics, layout: &layout, model: mechanism.model(), mobility: OnceCell::new(), folder };
+    let model = mechanism.model();
+    let subject = Subject { dynamics, layout: &layout, model, mobility: OnceCell::new(), folder, held };
     let initial = Initial::read(&mut reader, &subject);
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);
@@ -212,7 +222,7 @@ fn read(
     let (inverse, forward) = (given(inverse)?, given(forward)?);
     let (name, mut initial, trajectory, contacts) = (name?, initial?, trajectory?, contacts?);
     if let Some(Forward { span, prescribed: Some(prescribed), .. }) = &forward {
-        prescribed.start(&layout, span.start, &mut initial.q, &mut initial.v);
+        prescribed.start(&mut reader, &subject, span.start, &mut initial)?;
     }
     let followed = forward.as_ref().and_then(|forward| Some((forward.followed()?, forward.span)));
     if let Some(motion) = trajectory.as_ref().zip(inverse).or(followed) {
@@ -250,7 +260,7 @@ fn document(reader: &mut Reader<'_, '_>, text: &str) -> Option<DocumentMut> {
 }
 
 /// The scenario's name, which a folder gets.
-fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
+pub fn name(reader: &mut Reader<'_, '_>) -> Field<String> {
     reader.field(&keys::NAME, |reader, path, value| {
         let DeValue::String(name) = value.get_ref() else {
             return reader.wrong_type(path, value, "a string");

@@ -1,13 +1,17 @@
 //! Joints that follow the trajectory, whatever forces it takes, while the others move.
 
-use redysim_model::GenericMechanism;
+use std::cmp::Ordering;
+
+use redysim_model::{GenericMechanism, Mobility};
+use redysim_runtime::ClosedLoop;
 use redysim_toml::{Message, Reader, Spanned};
 
+use super::initial::Initial;
 use super::joints::some;
 use super::keys;
-use super::subject::Subject;
-use super::trajectory::Prescribed;
-use crate::layout::Layout;
+use super::subject::{Subject, neutral};
+use super::trajectory::{Prescribed, freedoms};
+use crate::closed::{closed_position, independent_velocities};
 
 /// Some joints that follow the trajectory, while the others are free or driven.
 pub struct PrescribedJoints {
@@ -15,6 +19,8 @@ pub struct PrescribedJoints {
     pub joints: Vec<usize>,
     /// The motion that they follow, and perhaps others by a torque law.
     pub trajectory: Prescribed,
+    /// Their velocities.
+    pub velocities: Vec<usize>,
     /// The mechanism as if these joints alone had an actuator: hybrid dynamics takes the accelerations of such joints,
     /// and the forces of the others.
     pub mechanism: GenericMechanism,
@@ -44,24 +50,43 @@ impl PrescribedJoints {
         let moving = model.links.iter_mut().filter(|link| link.dof() > 0);
         moving.enumerate().for_each(|(joint, link)| link.actuated = joints.contains(&joint).into());
         let (joints, mechanism) = (joints.clone(), GenericMechanism::new(model));
-        Some(Some(PrescribedJoints { joints, trajectory: trajectory?.clone(), mechanism }))
+        let velocities = subject.layout.velocities_of(&joints);
+        Some(Some(PrescribedJoints { joints, trajectory: trajectory?.clone(), velocities, mechanism }))
     }
 
-    /// Puts the motion at `t` in the place of what `q` and `v` have for the joints.
-    pub fn start(&self, layout: &Layout, t: f64, q: &mut [f64], v: &mut [f64]) {
+    /// Puts the motion at `t` in the place of what `initial` has for the joints, which then stay there while loops are
+    /// closed: fails where this does not close them.
+    pub fn start(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        subject: &Subject<'_>,
+        t: f64,
+        initial: &mut Initial,
+    ) -> Option<()> {
+        let layout = subject.layout;
         let motion = redysim_runtime::Trajectory::at(&self.trajectory.spread(layout), t);
-        layout.coordinates_of(&self.joints).into_iter().for_each(|index| q[index] = motion.q[index]);
-        layout.velocities_of(&self.joints).into_iter().for_each(|index| v[index] = motion.v[index]);
+        layout.coordinates_of(&self.joints).into_iter().for_each(|index| initial.q[index] = motion.q[index]);
+        self.velocities.iter().for_each(|&index| initial.v[index] = motion.v[index]);
+        initial.hold(&self.joints);
+        if !(subject.loops() && initial.assemble) {
+            return Some(());
+        }
+        let loops = ClosedLoop::new(&self.mechanism);
+        let Err(error) = loops.assemble(&initial.q, &initial.v, &layout.velocities_of(&initial.held)) else {
+            return Some(());
+        };
+        let reason = loops.with_names(error);
+        let names = names(subject, &self.joints);
+        let title = format!("{}: where the prescribed joints ({names}) are at t = {t:?} s, {reason}", reader.item());
+        let help = "begin the trajectory where the links reach, give `initial.q` nearer, or name fewer joints in \
+                    `prescribed` or `initial.held`";
+        reader.error_at(self.trajectory.place.clone(), Message::new(title, "begins here", help))
     }
 }
 
 /// What is wrong with prescribing `joints`, and what to do about it.
 fn fault(subject: &Subject<'_>, joints: &[usize], trajectory: Option<&Prescribed>) -> Option<(String, String)> {
     let all = subject.joints();
-    if subject.loops() {
-        let help = "`redysim inverse` prescribes joints of closed loops; here, take the law `computed-torque`";
-        return Some(("`prescribed` requires a tree, but the model has closed loops".into(), help.into()));
-    }
     let Some(trajectory) = trajectory else {
         let fault = "`prescribed` names joints that follow a trajectory, but the scenario does not define one";
         return Some((fault.into(), "add a table `[trajectory]`".into()));
@@ -75,10 +100,57 @@ fn fault(subject: &Subject<'_>, joints: &[usize], trajectory: Option<&Prescribed
         let help = "name fewer joints; `redysim inverse` computes the forces of a motion of all joints";
         return Some(("every joint is prescribed, so that no motion is left to compute".into(), help.into()));
     }
-    joints.is_empty().then(|| {
+    if joints.is_empty() {
         let help = "name joints of the trajectory, or leave the key out: then all joints move under the torque law";
-        ("`prescribed` names no joint".into(), help.into())
-    })
+        return Some(("`prescribed` names no joint".into(), help.into()));
+    }
+    if subject.loops() { fault_of_loops(subject, joints) } else { None }
+}
+
+/// What is wrong with prescribing `joints` of closed loops: these must leave them free of each other, and leave more.
+fn fault_of_loops(subject: &Subject<'_>, joints: &[usize]) -> Option<(String, String)> {
+    let Mobility { mobility: free, position_residual, .. } = *subject.mobility();
+    if position_residual.is_some() {
+        // What loops leave free that were not closed from anywhere is seen when the start closes them.
+        return None;
+    }
+    let velocities = subject.layout.velocities_of(joints);
+    let what = format!("`prescribed` names {} ({})", freedoms(velocities.len()), names(subject, joints));
+    match velocities.len().cmp(&free) {
+        Ordering::Greater => {
+            let help = match free {
+                0 => "as the model is, nothing moves: `redysim check` reports which constraints do not follow from others"
+                    .into(),
+                1 => "leave the key out: one joint determines how all others move; `redysim inverse` computes the forces of that"
+                    .into(),
+                _ => format!("name joints of fewer than {}: the others follow from the loops", freedoms(free)),
+            };
+            return Some((format!("{what}, but the loops leave {free} free"), help));
+        }
+        Ordering::Equal => {
+            let help =
+                "name fewer joints; `redysim inverse` computes the forces of a motion that determines all joints";
+            return Some((
+                format!("{what}, as many as the loops leave free, so that no motion is left to compute"),
+                help.into(),
+            ));
+        }
+        Ordering::Less => {}
+    }
+    let mechanism = GenericMechanism::new(subject.model.clone());
+    let position = closed_position(&mechanism, neutral(&subject.layout.coordinates)).ok()?;
+    let preferred: Vec<bool> = (0..subject.layout.nv()).map(|velocity| velocities.contains(&velocity)).collect();
+    let independent = independent_velocities(&mechanism, &position, &preferred);
+    let determined = velocities.iter().find(|velocity| !independent.contains(velocity))?;
+    let name = &subject.layout.velocities[*determined].name;
+    let fault =
+        format!("the loops determine how `{name}` moves by the other joints of `prescribed`, or do not let it move");
+    Some((fault, format!("leave `{name}` out: it follows from the loops")))
+}
+
+/// The names of `joints`.
+fn names(subject: &Subject<'_>, joints: &[usize]) -> String {
+    joints.iter().map(|&joint| subject.joints()[joint].name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// Warns of joints that cannot follow a motion, since they have no actuator.

@@ -8,6 +8,7 @@ use redysim_model::{Mobility, Model};
 use redysim_toml::{Field, Key, Message, Reader};
 use serde::{Deserialize, Serialize};
 
+use super::held::Held;
 use super::table::InputTable;
 use crate::failure::Failure;
 use crate::layout::{Component, Joint, Layout};
@@ -43,6 +44,8 @@ pub struct Subject<'s> {
     pub mobility: OnceCell<Mobility>,
     /// The folder of the files that it names.
     pub folder: &'s Path,
+    /// Their texts, where they are not in that folder.
+    pub held: Option<Held<'s>>,
 }
 
 impl Subject<'_> {
@@ -84,7 +87,11 @@ impl Subject<'_> {
     ) -> Option<T> {
         let file = reader.required(key, Reader::text);
         let named = file.spanned()?;
-        match InputTable::read(&self.folder.join(named.get_ref())).and_then(read) {
+        let table = match self.held {
+            Some(held) => held.table(named.get_ref()),
+            None => InputTable::read(&self.folder.join(named.get_ref())),
+        };
+        match table.and_then(read) {
             Ok(read) => Some(read),
             Err(fault) => {
                 let help = Some(fault.advice()).filter(|help| !help.is_empty());
@@ -136,6 +143,6 @@ pub mod tests {
         let model = Model::load(path).unwrap().model;
         let mobility = OnceCell::from(Mobility { mobility: 6, ..Mobility::default() });
         let (layout, folder) = (free_base_with_arm(), Path::new(""));
-        read(&Subject { dynamics: Dynamics::Forward, layout: &layout, model: &model, mobility, folder })
+        read(&Subject { dynamics: Dynamics::Forward, layout: &layout, model: &model, mobility, folder, held: None })
     }
 }

@@ -27,10 +27,19 @@ impl InputTable {
     /// The first fault, with its line: a missing value, a number that is not finite or too large, or times that do not
     /// increase.
     pub fn read(path: &Path) -> Result<InputTable, Failure> {
-        let read = table::Table::read(path).map_err(|fault| match path.is_file() {
+        let text = table::read_text(path).map_err(|fault| match path.is_file() {
             true => fault,
             false => fault.help("the path of a table is taken from the folder of the scenario"),
         })?;
+        InputTable::of_text(text, path)
+    }
+
+    /// Reads the text of the file at `path`.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn of_text(text: String, path: &Path) -> Result<InputTable, Failure> {
+        let read = table::Table::of_text(text, path)?;
         for row in 0..read.t.len() {
             if let Some(column) = read.columns.iter().find(|column| !column.values[row].is_finite()) {
                 let (header, found) = (column.header(), column.values[row]);

@@ -254,7 +254,7 @@ impl Smooth {
 }
 
 /// "1 degree of freedom", "2 degrees of freedom".
-fn freedoms(count: usize) -> String {
+pub fn freedoms(count: usize) -> String {
     format!("{} of freedom", counted(count, "degree"))
 }
 

@@ -8,7 +8,7 @@ use redysim_model::JointKind;
 
 use super::document::{Document, child};
 use super::model_file::{Unfit, range};
-use super::robot::{Link, Robot};
+use super::robot::{Link, Robot, has_one_damping};
 use crate::number::counted;
 
 /// Units of what URDF gives joints, where they turn and where they slide.
@@ -67,10 +67,16 @@ pub fn is_kept(document: &Document, node: Node) -> bool {
     carriers(document, node).into_iter().any(is_beside)
 }
 
-/// What of axis, limits and dynamics is not in the model: all of it if the joint is fixed there.
+/// What of axis, limits and dynamics is not in the model: of a joint that is fixed in the URDF, which has no use for them, what
+/// is not zero of limits and dynamics.
 fn of_joint(joint: Node, link: &Link) -> Vec<String> {
     if is_fixed(joint) {
-        return Vec::new();
+        let kept = |tag: &str| {
+            let node = child(joint, tag)?;
+            let tells = node.attributes().any(|number| number.value().parse().is_ok_and(|number: f64| number != 0.0));
+            tells.then(|| format!("{tag}: {}; the joint is fixed", own_values(node, joint, &|_| false).join(", ")))
+        };
+        return ["limit", "dynamics"].into_iter().filter_map(kept).collect();
     }
     let moves = link.kind.has_axis() || link.kind == JointKind::Planar;
     let mut comments = Vec::new();
@@ -98,7 +104,13 @@ fn of_joint(joint: Node, link: &Link) -> Vec<String> {
         _ if moves => keep("limit", &|_| false, "; a `range` needs a velocity"),
         _ => keep("limit", &|_| false, ""),
     }
-    keep("dynamics", &|name| moves && ["damping", "friction"].contains(&name), "");
+    match has_one_damping(link.kind) {
+        true => keep("dynamics", &|name| ["damping", "friction"].contains(&name), ""),
+        false if link.kind.dof() > 1 => {
+            keep("dynamics", &|_| false, "; `damping` and `friction` of this joint are arrays")
+        }
+        false => keep("dynamics", &|_| false, ""),
+    }
     comments
 }
 
@@ -108,6 +120,11 @@ fn is_fixed(joint: Node) -> bool {
 
 fn is_limit(node: Node) -> bool {
     node.tag_name().name() == "limit" && node.parent().is_some_and(|owner| owner.tag_name().name() == "joint")
+}
+
+/// The numbers of a transmission of joints that the robot does not have.
+pub fn of_no_joint(node: Node) -> Option<String> {
+    (node.tag_name().name() == "transmission").then(|| comment(node, node))?
 }
 
 /// The joints beside which an element stands: its own, that of its link, or those that it names.

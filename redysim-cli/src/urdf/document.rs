@@ -209,13 +209,17 @@ impl<'a> Document<'a> {
         unread
     }
 
-    /// What is left out, in words: `<visual> in a <link>, 12 of them, the first on line 7`. What `is_kept` as a
-    /// comment is not.
-    pub fn left_out(&self, is_kept: impl Fn(&Document, Node) -> bool) -> Vec<String> {
+    /// What is left out, in words: `<visual> in a <link>, 12 of them, the first on line 7`, or `in_words` of its
+    /// own. What `is_kept` as a comment is not.
+    pub fn left_out(
+        &self,
+        is_kept: impl Fn(&Document, Node) -> bool,
+        in_words: impl Fn(Node) -> Option<String>,
+    ) -> Vec<String> {
         let mut found = BTreeMap::<String, (usize, u32)>::new();
         for node in self.unread().into_iter().filter(|node| !is_kept(self, *node)) {
             let line = self.line(node);
-            let (count, first) = found.entry(described(node)).or_insert((0, line));
+            let (count, first) = found.entry(in_words(node).unwrap_or_else(|| described(node))).or_insert((0, line));
             (*count, *first) = (*count + 1, line.min(*first));
         }
         let text = |(what, (count, line))| match count {

@@ -1,6 +1,8 @@
 //! Links that do not move against their parents: those without mass further out, and fixed ones as parts of their
 //! parents.
 
+use std::collections::HashSet;
+
 use redysim_model::JointKind;
 use redysim_model::spatial::Pose;
 
@@ -10,15 +12,19 @@ use super::notation::inertial;
 use super::robot::{Link, Origin, Robot};
 
 impl Robot {
-    /// Joints that move no mass are fixed: they would make the mass matrix singular.
+    /// Joints that move no mass are fixed: they would make the mass matrix singular. Joints that mimic one another move what
+    /// each of them does.
     pub fn without_massless_motion(mut self) -> Self {
         let mut carries = vec![false; self.links.len()];
         for (index, _) in self.links.iter().enumerate().filter(|(_, link)| !link.inertial.is_none()) {
             let chain = std::iter::successors(Some(index), |&link| self.links[link].parent);
             chain.for_each(|link| carries[link] = true);
         }
-        let idle =
-            self.links.iter_mut().zip(carries).filter(|(link, carries)| !carries && link.kind != JointKind::Fixed);
+        let moved: Vec<usize> = (0..self.links.len()).map(|link| self.followed(link)).collect();
+        let move_mass: HashSet<usize> =
+            moved.iter().zip(carries).filter(|(_, carries)| *carries).map(|(moved, _)| *moved).collect();
+        let links = self.links.iter_mut().zip(moved);
+        let idle = links.filter(|(link, moved)| !move_mass.contains(moved) && link.kind != JointKind::Fixed);
         for (link, _) in idle {
             let Link { name, joint_name, .. } = &link;
             let remark = format!(

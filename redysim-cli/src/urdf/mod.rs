@@ -75,7 +75,14 @@ pub enum Base {
 /// # Errors
 /// If it cannot be read, or is not UTF-8.
 pub fn read(path: &Path) -> Result<String, Failure> {
-    let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
+    text(fs::read(path).map_err(|error| Failure::file("read", path, &error))?, path)
+}
+
+/// The text of the bytes of the URDF file at `path`.
+///
+/// # Errors
+/// If they are not UTF-8.
+pub fn text(bytes: Vec<u8>, path: &Path) -> Result<String, Failure> {
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to() + 1;
         Failure::input(format!("{} is not UTF-8 (byte {byte})", path.display())).help("save the file as UTF-8")
@@ -116,11 +123,13 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     let limited = robot.links.iter().filter(|link| link.limit.is_some()).count();
     if limited > 0 {
         robot.notes.push(format!(
-            "the limits of {} limit nothing here: they are kept as ranges or comments",
+            "the limits of {} do not limit the motion: they are kept as ranges or comments",
             counted(limited, "joint")
         ));
     }
-    robot.notes.extend(document.left_out(comments::is_kept).into_iter().map(|what| format!("left out: {what}")));
+    robot.notes.extend(
+        document.left_out(comments::is_kept, comments::of_no_joint).into_iter().map(|what| format!("left out: {what}")),
+    );
     let fused = robot.links.iter().flat_map(|link| &link.remarks).filter(|remark| !changes.contains(remark)).cloned();
     let notes = robot.notes.iter().cloned().chain(fused).collect();
     let written = model_file::write(&robot, &head(&robot, &changes, path));

@@ -23,7 +23,7 @@ pub fn write(robot: &Robot, head: &[String]) -> ModelFile {
         text += "\n";
     }
     text += &format!("name = {}\n", quoted(&robot.name));
-    text += "gravity = [0.0, 0.0, -9.81]    # m/s², in the base frame: not from the URDF, which has none\n";
+    text += "gravity = [0.0, 0.0, -9.81]    # m/s², in the base frame: not from the URDF, which does not state it\n";
     if robot.links.iter().any(|link| matches!(link.kind, JointKind::Free | JointKind::Planar)) {
         text += "allow = [\"under-actuated\"]    # what floats has no actuator\n";
     }

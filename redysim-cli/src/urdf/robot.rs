@@ -6,6 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use redysim_model::JointKind;
 use redysim_model::rotation::{align_z, roll_pitch_yaw, sin_cos};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
+use redysim_toml::NEARLY_QUARTER_TURN;
 use urdf_rs::{JointLimit, JointType};
 
 use super::Base;
@@ -14,9 +15,6 @@ use super::inertial::Inertial;
 use super::notation::inertial;
 use crate::failure::Failure;
 use crate::number::counted;
-
-/// An angle this close to a multiple of 90° was probably rounded.
-const NEARLY: f64 = 1e-5;
 
 /// A robot whose root is the ground, or floats.
 pub struct Robot {
@@ -164,7 +162,7 @@ impl Robot {
         for angle in self.links.iter_mut().flat_map(|link| &mut link.origin.rpy) {
             let exact = (*angle / FRAC_PI_2).round() * FRAC_PI_2;
             let off = (exact - *angle).abs();
-            if off > 0.0 && off < NEARLY {
+            if off > 0.0 && off < NEARLY_QUARTER_TURN {
                 (count, largest, *angle) = (count + 1, largest.max(off), exact);
             }
         }
@@ -177,7 +175,7 @@ impl Robot {
 
     /// Joints mimic others that have one coordinate, as they have themselves; each that cannot gets a remark.
     pub fn with_possible_mimics(mut self) -> Self {
-        let possible: Vec<bool> = (0..self.links.len()).map(|link| self.can_mimic(link)).collect();
+        let possible: Vec<bool> = (0..self.links.len()).map(|link| self.followed(link) != link).collect();
         for link in self.links.iter_mut().zip(possible).filter(|(_, possible)| !possible).map(|(link, _)| link) {
             let Some(Mimic { joint, multiplier, offset }) = link.mimic.take() else { continue };
             let here = match link.kind {
@@ -194,18 +192,19 @@ impl Robot {
         self
     }
 
-    /// Whether the joint of a link can mimic the one that it names: both move about or along one axis, and the way from
-    /// mimic to mimic ends.
-    fn can_mimic(&self, link: usize) -> bool {
-        let followed = |mimic: &Mimic| self.links.iter().find(|link| link.joint_name == mimic.joint);
-        let is_possible = |link: &Link| {
-            link.kind.has_axis()
-                && link.mimic.as_ref().is_some_and(|mimic| {
-                    mimic.multiplier != 0.0 && followed(mimic).is_some_and(|other| other.kind.has_axis())
-                })
-        };
-        let chain = std::iter::successors(Some(&self.links[link]), |link| link.mimic.as_ref().and_then(followed));
-        is_possible(&self.links[link]) && chain.take(self.links.len() + 1).any(|link| link.mimic.is_none())
+    /// The link whose joint moves that of a link in the end: itself, unless its joint can mimic another. Joints that mimic
+    /// one another in a circle move themselves.
+    pub fn followed(&self, link: usize) -> usize {
+        let mut chain = std::iter::successors(Some(link), |&link| self.mimicked(link)).take(self.links.len());
+        chain.find(|&link| self.mimicked(link).is_none()).unwrap_or(link)
+    }
+
+    /// The link whose joint that of a link mimics, if both move about or along one axis.
+    fn mimicked(&self, link: usize) -> Option<usize> {
+        let Link { kind, mimic, .. } = &self.links[link];
+        let mimic = mimic.as_ref().filter(|mimic| kind.has_axis() && mimic.multiplier != 0.0)?;
+        let mimicked = self.links.iter().position(|link| link.joint_name == mimic.joint)?;
+        self.links[mimicked].kind.has_axis().then_some(mimicked)
     }
 
     /// No link has the name of the ground.
@@ -277,9 +276,14 @@ fn mimic(joint: &urdf_rs::Joint) -> Option<Mimic> {
     Some(Mimic { joint: mimic.joint.clone(), multiplier, offset })
 }
 
+/// Whether one number is the damping of a joint of this kind: all its velocities have one unit.
+pub fn has_one_damping(kind: JointKind) -> bool {
+    kind.has_axis() || kind == JointKind::Spherical
+}
+
 /// Damping and friction.
 fn resistance(joint: &urdf_rs::Joint) -> [f64; 2] {
-    let given = joint.dynamics.as_ref().filter(|_| kind(joint).has_axis());
+    let given = joint.dynamics.as_ref().filter(|_| has_one_damping(kind(joint)));
     given.map_or([0.0; 2], |dynamics| [dynamics.damping, dynamics.friction])
 }
 

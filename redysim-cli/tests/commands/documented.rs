@@ -4,8 +4,12 @@
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use crate::common::{Table, cargo, root, scratch, succeed};
+use crate::common::{Table, WALKING, bash, cargo, root, scratch, succeed};
+
+/// What takes five to ten seconds in a debug build: robots that walk, and hundreds of four-bars.
+const SLOW: [&str; 4] = [WALKING[0], WALKING[1], WALKING[2], "fourbar_tolerances"];
 
 const PANDA: &str = "<robot name=\"panda\"><link name=\"base\"/><link name=\"arm\"><inertial><mass value=\"1\"/>\
     <origin xyz=\"0 0 0.3\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\
@@ -41,6 +45,8 @@ enum Step {
     Enter(String),
     /// `cargo run` or `cargo test`, in a new crate.
     Cargo(String),
+    /// To call the C compiler, CMake, or what they have made.
+    Compiled(String),
 }
 
 /// The steps of a document, in the order in which they stand.
@@ -69,6 +75,9 @@ fn of_line(line: &str) -> Option<Step> {
     if let Some(arguments) = command.strip_prefix("redysim ") {
         return Some(Step::Redysim(arguments.to_owned())).filter(|_| !arguments.starts_with('='));
     }
+    if ["cc ", "cmake ", "./"].iter().any(|start| command.starts_with(start)) {
+        return Some(Step::Compiled(command.to_owned()));
+    }
     match command.split_once(' ') {
         Some(("cd", folder)) if !folder.contains(' ') => Some(Step::Enter(folder.to_owned())),
         Some(("cargo", of @ ("run" | "test"))) => Some(Step::Cargo(of.to_owned())),
@@ -76,9 +85,18 @@ fn of_line(line: &str) -> Option<Step> {
     }
 }
 
+fn is_by_cmake(command: &str) -> bool {
+    ["cmake ", "./build/"].iter().any(|start| command.starts_with(start))
+}
+
+/// Whether the machine has a program.
+pub fn has(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
+}
+
 /// Takes all steps of a document, each of which uses what those before it have written. Returns the folder and the
 /// text.
-fn run_all(name: &str, document: &str, least: usize) -> (PathBuf, String) {
+pub fn run_all(name: &str, document: &str, least: usize) -> (PathBuf, String) {
     let mut folder = folder_with_examples(name);
     let text = fs::read_to_string(root().join(document)).unwrap();
     let steps = steps(&text);
@@ -90,11 +108,22 @@ fn run_all(name: &str, document: &str, least: usize) -> (PathBuf, String) {
                 fs::create_dir_all(path.parent().unwrap()).unwrap();
                 fs::write(path, text).unwrap();
             }
+            Step::Redysim(command) if cfg!(debug_assertions) && SLOW.iter().any(|slow| command.contains(slow)) => {}
             Step::Redysim(command) => drop(run(&folder, &command)),
             Step::Enter(inner) => folder.push(inner),
+            // To build the crates that a new one depends on takes half a minute.
+            Step::Cargo(_) if cfg!(debug_assertions) => {}
             Step::Cargo(command) => {
                 let run = cargo(&folder, &command);
                 assert_eq!(run.code, 0, "{document}: cargo {command}: {}", run.output());
+            }
+            // Not every machine has it; `.ci/run` installs it.
+            Step::Compiled(command) if is_by_cmake(&command) && !has("cmake") => {
+                eprintln!("SKIPPED: there is no CMake here");
+            }
+            Step::Compiled(command) => {
+                let run = bash(&folder, &command, &[]);
+                assert_eq!(run.code, 0, "{document}: {command}: {}", run.output());
             }
         }
     }
@@ -125,7 +154,34 @@ fn the_commands_of_the_chapter_on_closed_loops_run_and_print_what_it_shows() {
     assert!(shown.lines().count() == 3 && shown.lines().all(|line| printed.contains(line)), "{shown}{printed}");
 }
 
+/// A C compiler is there: Rust links with it.
 #[test]
+fn the_commands_of_the_chapter_on_c_run() {
+    let (folder, _) = run_all("documented-c", "docs/c.md", 7);
+    assert!(["gripper.o", "hold", "check"].iter().all(|made| folder.join("controller").join(made).is_file()));
+}
+
+/// `.ci/run` calls a script that compiles and runs what they write.
+#[test]
+fn the_commands_of_the_chapter_on_simulation_tools_run() {
+    let (folder, text) = run_all("documented-tools", "docs/simulation_tools.md", 2);
+    assert!(folder.join("matlab/kr5_check.m").is_file() && folder.join("fmus/kr5.fmu").is_file());
+    let ci = fs::read_to_string(root().join(".ci/run")).unwrap();
+    assert!(text.contains("`.ci/simulation_tools`") && ci.contains("step .ci/simulation_tools\n"));
+}
+
+/// `.ci/run` calls the script of the chapter, which needs compilers for microcontrollers.
+#[test]
+fn the_commands_of_the_chapter_on_microcontrollers_run() {
+    let (folder, text) = run_all("documented-embedded", "docs/embedded.md", 1);
+    assert!(folder.join("firmware/kr5.c").is_file());
+    let script = "examples/embedded/run";
+    let ci = fs::read_to_string(root().join(".ci/run")).unwrap();
+    assert!(text.contains(&format!("```sh\n{script}\n")) && ci.contains(&format!("step {script}\n")));
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_scenarios_of_the_chapter_on_controllers_end_where_its_table_has_them() {
     let (folder, text) = run_all("documented-controllers", "docs/controllers.md", 15);
     let rows = text.lines().filter_map(|line| line.strip_prefix("| `redysim forward ")?.split_once(".toml`"));
@@ -212,6 +268,14 @@ fn the_commands_of_the_scenarios_run() {
     run_all("documented-scenarios", "docs/scenarios.md", 3);
 }
 
+#[test]
+fn the_commands_of_the_chapter_on_sweeps_run() {
+    let (folder, _) = run_all("documented-sweeps", "docs/sweeps.md", 7);
+    let rows = fs::read_to_string(folder.join("results/swings/rows.csv")).unwrap();
+    assert_eq!(rows.lines().count(), 11);
+    assert!(folder.join("results/sample_7/forward/run.toml").is_file());
+}
+
 /// The examples that the help gives, but those that pipe into other programs.
 #[test]
 fn the_examples_of_the_help_run() {
@@ -219,7 +283,7 @@ fn the_examples_of_the_help_run() {
     // What `plot` and `animate` are shown with.
     run(&folder, "inverse scenarios/kuka.toml");
     run(&folder, "forward scenarios/kuka.toml");
-    for command in ["new", "check", "inverse", "forward", "plot", "animate", "show", "generate", "import"] {
+    for command in ["new", "check", "inverse", "forward", "sweep", "plot", "animate", "show", "generate", "import"] {
         let help = run(&folder, &format!("{command} --help"));
         let examples = help.lines().filter_map(|line| line.strip_prefix("  redysim "));
         let alone: Vec<&str> = examples.filter(|example| !example.contains(['|', '>'])).collect();

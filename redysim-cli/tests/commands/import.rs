@@ -205,7 +205,7 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
         "its 5 kg never move",
         "link `base` is called `base_link` here",
         "joint `spin` moves no mass",
-        "the limits of 1 joint limit nothing",
+        "the limits of 1 joint do not limit the motion",
         "left out: <gazebo>, on line 21",
         "left out: <material>, on line 3",
         "left out: <transmission>, 2 of them, the first on line 19",
@@ -234,6 +234,100 @@ fn what_is_lost_is_reported_in_the_file_and_on_standard_error() {
     assert_eq!(kinds, [1, 1, 0, 6]);
     let quiet = import(LOSSY, &["--quiet"]).1;
     assert_eq!((quiet.stderr.as_str(), quiet.stdout), ("", run.stdout));
+}
+
+/// A joint that is fixed has no use for limits and resistance, nor a transmission without its joint; zeros tell nothing.
+#[test]
+fn numbers_that_nothing_can_use_are_kept_as_comments() {
+    let fixed = |name: &str, inside: &str| {
+        format!(
+            "<link name=\"{name}\">{BODY}</link><joint name=\"{name}_mount\" type=\"fixed\"><parent link=\"arm\"/>\
+             <child link=\"{name}\"/>{inside}</joint>"
+        )
+    };
+    let urdf = format!(
+        "<robot name=\"spare\"><link name=\"world\"/><link name=\"arm\">{BODY}</link><joint name=\"shoulder\" \
+         type=\"continuous\"><parent link=\"world\"/><child link=\"arm\"/></joint>{}{}<transmission name=\"spare\"><joint \
+         name=\"nowhere\"/><actuator name=\"motor\"><mechanicalReduction>50</mechanicalReduction></actuator></transmission></robot>",
+        fixed("brake", "<dynamics damping=\"0.7\" friction=\"0.3\"/><limit effort=\"30\" velocity=\"2\"/>"),
+        fixed("plate", "<dynamics damping=\"0\"/><limit effort=\"0.0\" velocity=\"0\"/>"),
+    );
+    let (_, run) = import(&urdf, &[]);
+    let comments: Vec<&str> =
+        run.stdout.split("[[link]]").skip(1).flat_map(str::lines).filter(|line| line.starts_with('#')).collect();
+    assert_eq!(
+        comments,
+        [
+            "# limit: effort = 30, velocity = 2; the joint is fixed",
+            "# dynamics: damping = 0.7, friction = 0.3; the joint is fixed"
+        ]
+    );
+    let lost = "left out: transmission `spare`: motor.mechanicalReduction = 50";
+    assert!(run.stdout.contains(&format!("# - {lost}")) && run.stderr.contains(lost), "{}", run.stdout);
+}
+
+/// A joint that stands on the ground, and its link.
+fn grounded(name: &str, kind: &str, mimic: &str, body: &str) -> String {
+    let inside = if mimic.is_empty() { String::new() } else { format!("<mimic joint=\"{mimic}\" multiplier=\"-2\"/>") };
+    format!(
+        "<link name=\"{name}_link\">{body}</link><joint name=\"{name}\" type=\"{kind}\"><parent link=\"world\"/>\
+         <child link=\"{name}_link\"/><axis xyz=\"0 1 0\"/>{inside}</joint>"
+    )
+}
+
+/// The robot of such joints, what its joints are, and how it was imported.
+fn import_grounded(joints: &[String]) -> (GenericMechanism, Vec<&'static str>, Run) {
+    let urdf = format!("<robot name=\"lids\"><link name=\"world\"/>{}</robot>", joints.concat());
+    let (mechanism, run) = import(&urdf, &[]);
+    let kinds = mechanism.model().links.iter().map(|link| link.joint.name()).collect();
+    (mechanism, kinds, run)
+}
+
+/// A motor without mass, and a pointer that follows it: they move with the lid, which has some. The flag does not, nor what
+/// mimics it.
+#[test]
+fn joints_that_move_no_mass_keep_their_motion_where_they_move_with_one_that_does() {
+    let joints = [
+        grounded("motor", "continuous", "", ""),
+        grounded("lid", "continuous", "motor", BODY),
+        grounded("pointer", "prismatic", "lid", ""),
+        grounded("flag", "continuous", "", ""),
+        grounded("pole", "continuous", "flag", ""),
+    ];
+    let (mechanism, kinds, run) = import_grounded(&joints);
+    assert_eq!(kinds, ["revolute", "revolute", "prismatic", "fixed", "fixed"], "{}", run.stderr);
+    assert_eq!(mechanism.nv(), 1);
+    for fixed in ["flag", "pole"] {
+        assert!(run.stderr.contains(&format!("joint `{fixed}` moves no mass")), "{}", run.stderr);
+    }
+    let [[inertia]] = [mechanism.mass_matrix(&vec![0.3])].map(|rows: Vec<Vec<f64>>| [rows[0][0]]);
+    let a: Vec<f64> =
+        redysim_runtime::ForwardDynamics::forward_dynamics(&mechanism, &vec![0.3], &vec![0.0], &vec![1.0]);
+    let weight: Vec<f64> = redysim_runtime::GravityForces::gravity_forces(&mechanism, &vec![0.3]);
+    assert!(inertia > 0.0 && (a[0] - (1.0 - weight[0]) / inertia).abs() < 1e-12 * a[0].abs());
+}
+
+/// What cannot mimic a joint has a coordinate of its own, which others may mimic: it moves their mass, and they its own.
+#[test]
+fn joints_mimic_one_that_cannot_mimic_itself() {
+    for (kind, body) in [("fixed", BODY), ("floating", BODY), ("planar", BODY), ("fixed", "")] {
+        let joints = [
+            grounded("stop", kind, "", body),
+            grounded("motor", "continuous", "stop", ""),
+            grounded("lid", "continuous", "motor", BODY),
+            grounded("hinge", "continuous", "stop", BODY),
+            grounded("pointer", "prismatic", "hinge", ""),
+        ];
+        let (mechanism, kinds, run) = import_grounded(&joints);
+        assert_eq!(kinds[1..], ["revolute", "revolute", "revolute", "prismatic"], "{kind}: {}", run.stderr);
+        let mimicked = |link: usize| mechanism.model().links[link].mimic.map(|mimic| mimic.link);
+        assert_eq!([1, 2, 3, 4].map(mimicked), [None, Some(1), None, Some(3)], "{kind}");
+        for joint in ["motor", "hinge"] {
+            let own =
+                format!("joint `{joint}` mimics `stop` in the URDF (-2 times its value, plus 0 rad): it is free here");
+            assert!(run.stderr.contains(&own), "{}", run.stderr);
+        }
+    }
 }
 
 /// Each sentence of the help, and what shows that it holds.
@@ -270,15 +364,28 @@ fn the_help_of_import_states_what_import_does() {
     assert_eq!(mechanism.model().links[mimic.link].joint_name, "waist");
     assert_eq!((mimic.multiplier, mimic.offset, mechanism.nv()), (2.0, 0.0, 7));
     assert!(run.stdout.contains("mimic = { joint = \"waist\", multiplier = 2.0 }"), "{}", run.stdout);
-    assert!(help.contains("Joints that move no mass become fixed."));
+    assert!(help.contains("Joints that move no mass become fixed, unless one that moves with them moves some."));
     assert_eq!(link("spin").joint.name(), "fixed");
     assert!(help.contains("Limits of positions and velocity become a `range`."));
     assert_eq!(imported[0].0.model().links[1].range[0].acceleration, Some(7.0));
     assert_eq!(link("waist").range[0].acceleration, None);
     assert!(link("spin").range.is_empty());
-    assert!(help.contains("Damping and friction are kept."));
-    let expected = JointPhysics { damping: 0.1, friction: 0.25, ..JointPhysics::default() };
-    assert_eq!((link("waist").physics, link("spin").physics), (expected, JointPhysics::default()));
+    assert!(help.contains("Damping and friction are kept, but of floating and planar joints as comments."));
+    let damped = |kind: &str| {
+        let urdf = pendulum("<dynamics damping=\"0.5\" friction=\"0.25\"/>", BODY);
+        import(&urdf.replace("<robot", "<robot version=\"1.2\"").replace("continuous", kind), &[])
+    };
+    let (ball, _) = damped("spherical");
+    let expected_of_ball = JointPhysics { damping: 0.5.into(), friction: 0.25.into(), ..JointPhysics::default() };
+    assert_eq!(ball.model().links[0].physics, expected_of_ball);
+    for kind in ["floating", "planar"] {
+        let (mechanism, run) = damped(kind);
+        assert_eq!(mechanism.model().links[0].physics, JointPhysics::default());
+        let comment = "# dynamics: damping = 0.5, friction = 0.25; `damping` and `friction` of this joint are arrays";
+        assert!(run.stdout.contains(comment), "{kind}: {}", run.stdout);
+    }
+    let expected = JointPhysics { damping: 0.1.into(), friction: 0.25.into(), ..JointPhysics::default() };
+    assert_eq!((link("waist").physics.clone(), link("spin").physics.clone()), (expected, JointPhysics::default()));
     assert!(help.contains(
         "Other numbers, such as transmission ratios, other limits and what a joint that becomes fixed had, stay as \
          comments beside their links; those of the root stay in the model's head."
@@ -478,7 +585,7 @@ fn numbers_that_a_model_has_no_place_for_are_comments_beside_their_links() {
             "# dynamics: damping = 0.0625 N m s/rad",
         ]
     );
-    assert_eq!(mechanism.model().links[0].physics.damping, 0.5);
+    assert_eq!(mechanism.model().links[0].physics.damping, 0.5.into());
     // Pictures are left out; what is kept is not.
     assert!(head.contains("left out: <visual> in a <link>, on line 5") && !head.contains("left out: <transmission>"));
     assert!(run.stderr.contains("note: numbers without a key in the model are kept as comments: 11 lines"));

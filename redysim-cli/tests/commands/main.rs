@@ -1,4 +1,4 @@
-//! `redysim check`, `generate`, `import` and `new`, and every command of the documentation.
+//! `redysim check`, `generate`, `import`, `new` and `sweep`, and every command of the documentation.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -8,3 +8,5 @@ mod documented;
 mod generate;
 mod import;
 mod new;
+mod ros2;
+mod sweep;

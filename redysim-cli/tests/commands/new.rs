@@ -34,6 +34,7 @@ fn number(printed: &str, name: &str) -> f64 {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_new_crate_prints_the_forces_of_its_robot_and_passes_its_test() {
     let printed = tested(&scratch("new-kr5"), "new-kr5", "kr5");
     let kr5 = GenericMechanism::new(Model::load(model("kr5.toml")).unwrap().model);
@@ -44,6 +45,7 @@ fn a_new_crate_prints_the_forces_of_its_robot_and_passes_its_test() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn every_kind_of_robot_has_a_crate_that_passes_its_tests() {
     let folder = scratch("new-kinds");
     fs::write(folder.join("two rods.urdf"), URDF).unwrap();
@@ -72,6 +74,7 @@ fn every_kind_of_robot_has_a_crate_that_passes_its_tests() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_test_of_a_new_crate_fails_if_its_program_is_wrong() {
     let folder = scratch("new-wrong");
     for (robot, right, wrong, name) in [
@@ -88,6 +91,7 @@ fn the_test_of_a_new_crate_fails_if_its_program_is_wrong() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_program_of_the_readme_runs_in_a_new_crate_and_without_its_model_has_one_error() {
     let folder = scratch("new-readme");
     succeed(&folder, &["new", "new-readme"]);

@@ -17,7 +17,7 @@ pub use program::{Run, call, cargo, fail, program, succeed};
 pub use program::{bash, on_a_full_disk};
 pub use refusals::{refuses, refuses_in};
 pub use robot::{BALLS, robot};
-pub use scenarios::{AGAINST_CLOSED_FORMS, LIFT, LONG, SWING, results, scenario, slide, swing, turn};
+pub use scenarios::{AGAINST_CLOSED_FORMS, LIFT, LONG, SWING, WALKING, results, scenario, slide, swing, turn};
 pub use table::{Table, deviation};
 
 /// The repository.

@@ -1,5 +1,6 @@
 //! A run that is going on.
 
+use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -38,6 +39,13 @@ impl Running {
             sleep(Duration::from_millis(25));
         }
         panic!("it does not come so far: {:?}", names(self.draft.parent().unwrap()));
+    }
+
+    /// Kills the program, which its parent does not notice.
+    pub fn kill(&mut self) {
+        self.child.kill().unwrap();
+        let status = format!("/proc/{}/status", self.child.id());
+        self.wait(|_| fs::read_to_string(&status).is_ok_and(|status| status.contains("State:\tZ")));
     }
 
     /// Presses Ctrl-C.

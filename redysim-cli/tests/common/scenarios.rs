@@ -15,6 +15,9 @@ pub const LIFT: &str = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1.0
 pub const LONG: &str =
     "initial = { q = [0, 1] }\n[forward]\nend = 1e5\nstep = 0.01\nintegrator = { method = 'Ode5', step = 0.001 }\n";
 
+/// Shipped scenarios of robots on legs, each of which takes five to ten seconds in a debug build.
+pub const WALKING: [&str; 3] = ["hexapod", "quadruped", "walking_biped"];
+
 /// An integrator whose errors cannot be seen beside a closed form of one or a few metres, radians, …
 pub const AGAINST_CLOSED_FORMS: &str = "integrator = { method = 'Dop853', rtol = 1e-12, atol = 1e-13 }\n";
 

@@ -72,6 +72,7 @@ fn a_rotor_goes_on_turning_the_way_it_does_however_long_it_runs() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_motion_too_long_for_a_page_is_thinned_and_that_is_reported() {
     let (data, output, size) = rotor("thinned", 1.0, 150.0, 0.001);
     let t = numbers(&data["motion"]["t"]);
@@ -161,6 +162,7 @@ fn a_page_that_is_there_stays_unless_forced() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_page_of_a_free_robot_has_its_quaternion_and_the_rates_of_its_velocities() {
     let folder = scratch("animate-free");
     let rest = "[initial]\nq = { base = { rpy = [0.1, 0, 0] } }\nv = { base = [0, 0, 1, 0, 0, 2] }\n\

@@ -154,6 +154,7 @@ fn texts_never_overlap_and_time_ends_with_the_curves_for_the_four_bar() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn texts_never_overlap_and_time_ends_with_the_curves_for_a_chain_of_twenty() {
     let fall = format!("initial = {{ q = {:?} }}\nforward = {{ end = 0.13, step = 0.01 }}\n", [0; 20]);
     look_right(&results(&scratch("pictures-chain"), "forward", "chain_20.toml", &fall));

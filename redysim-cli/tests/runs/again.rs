@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::common::{names, root, scenario, scratch, shipped, succeed};
+use crate::common::{WALKING, names, root, scenario, scratch, shipped, succeed};
 use rayon::prelude::*;
 
 /// Does the result `folder` again in `elsewhere`, without the files that its scenario named, and compares all tables.
@@ -49,6 +49,10 @@ fn every_shipped_scenario_runs_again_from_its_folder_alone_and_keeps_its_energy(
         runs.extend(bounds.into_iter().filter(|(command, _)| has(command)).map(|bound| (name.to_owned(), bound)));
     }
     assert!(runs.len() >= 20, "{} runs", runs.len());
+    if cfg!(debug_assertions) {
+        runs.retain(|(name, _)| !WALKING.contains(&name.as_str()));
+        runs = runs.into_iter().step_by(5).collect();
+    }
     runs.par_iter().for_each(|(name, (command, most))| {
         let [drift, exchanged] = balance(&twice(&format!("again-{name}-{command}"), command, &shipped(name)));
         assert!(drift <= most * exchanged, "{name}, {command}: {drift:e} of {exchanged} J");

@@ -230,6 +230,7 @@ fn contacts_as_data_read_back_to_the_same_bits() {
 /// Four seconds at full speed, and a second each to start and to stop: five strides of 0.3 m. Slipping and the sinking of
 /// feet take 2 % of the way; the trunk tilts by two degrees.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
     let folder = scratch("contact-quadruped");
     let output = succeed(&folder, &["forward", &shipped("quadruped"), "-o", "run"]);
@@ -276,6 +277,7 @@ fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
 
 /// 14 kg on six feet, which settle into the ground and stay.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_hexapod_stands_and_its_feet_carry_its_weight() {
     let folder = scratch("contact-hexapod");
     let text = fs::read_to_string(shipped("hexapod")).unwrap();
@@ -296,6 +298,7 @@ fn the_hexapod_stands_and_its_feet_carry_its_weight() {
 /// Six steps, the last of which puts the feet beside each other, carry the hips 1 m forward, less what feet slip on ground
 /// in which they sink by 2 cm. The plane in which the biped moves is one of symmetry: it cannot leave it.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_biped_walks_six_steps_upright_on_one_foot_and_then_the_other() {
     let folder = scratch("contact-biped");
     let shipped = root().join("scenarios/walking_biped.toml").display().to_string();
@@ -336,6 +339,7 @@ fn the_biped_walks_six_steps_upright_on_one_foot_and_then_the_other() {
 /// The motion of the joints is made for ground that does not give: where it hardly does, the biped stays upright and goes as
 /// far as its feet do.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_biped_walks_a_metre_upright_on_stiff_ground() {
     let folder = scratch("contact-biped-stiff");
     let text = fs::read_to_string(root().join("scenarios/walking_biped.toml")).unwrap();
@@ -357,4 +361,32 @@ fn the_biped_walks_a_metre_upright_on_stiff_ground() {
     assert!(most < 0.1, "{most}");
     let way = state.rows.last().unwrap()[1] - state.rows[0][1];
     assert!((way - 1.0).abs() < 0.003, "{way}");
+}
+
+/// A step of 10 ms under the damping of 500 N s/m throws a body of 0.5 kg out of the ground before time has passed.
+#[test]
+fn contacts_that_chatter_are_reported_with_what_to_do_in_the_scenario() {
+    let folder = scratch("contact-chattering");
+    let model = "name = 'ball'\ngravity = [0, 0, -9.81]\n[[link]]\nname = 'ball'\nparent = 'base'\njoint = 'prismatic'\n\
+                 axis = [0, 0, 1]\nmass = 0.5\ninertia = { xx = 0.01, yy = 0.01, zz = 0.01 }\n[[frame]]\nname = 'sole'\n\
+                 link = 'ball'\n";
+    fs::write(folder.join("ball.toml"), model).unwrap();
+    let run = |step: f64| {
+        let text = format!(
+            "model = 'ball.toml'\ninitial = {{ q = [0.1] }}\n[forward]\nend = 0.3\nstep = 0.01\nintegrator = {{ method = \
+             'SemiImplicitEuler', step = {step:?} }}\n[[contact]]\nlaw = 'redysim'\nframe = 'sole'\nstiffness = 1e4\n\
+             damping = 500\nleaving_speed = 5\nfriction = 0.3\nsliding_damping = 20\n"
+        );
+        fs::write(folder.join("trial.toml"), text).unwrap();
+        call(&folder, &["forward", "trial.toml", "-o", "run", "--force"])
+    };
+    let failed = run(0.01);
+    assert_eq!(failed.code, 3, "{}", failed.output());
+    for words in [
+        "contacts begin and end 101 times at t = 0.1",
+        "take a `step` of the integrator below 0.01 s, or give the contacts less `stiffness` or `damping`",
+    ] {
+        assert!(failed.stderr.contains(words), "no `{words}` in {}", failed.stderr);
+    }
+    assert_eq!(run(1e-4).code, 0);
 }

@@ -9,7 +9,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
-use crate::common::{Table, root, scratch, succeed};
+use crate::common::{Table, WALKING, root, scratch, succeed};
 use kane::kane;
 use nalgebra::{DMatrix, DVector};
 use redysim_model::{GenericMechanism, Model};
@@ -68,7 +68,9 @@ fn shipped(command: &str) -> Vec<String> {
     let files = fs::read_dir(root().join("scenarios")).unwrap().map(|entry| entry.unwrap().path());
     let scenarios = files.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
     let names = scenarios.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned());
-    names.filter(|name| read(name).contains_key(command)).collect()
+    let mut names: Vec<String> = names.filter(|name| read(name).contains_key(command)).collect();
+    names.sort();
+    names
 }
 
 /// What a run has written.
@@ -83,6 +85,9 @@ struct Written {
 }
 
 type Rows = Vec<Vec<f64>>;
+
+/// From instant to instant at which Kane's equations are looked at.
+const STRIDE: usize = if cfg!(debug_assertions) { 5 } else { 1 };
 
 impl Written {
     fn read(folder: &Path) -> Written {
@@ -119,7 +124,7 @@ impl Written {
     /// The largest part of M q̈ + h − τ − Jᵀλ − Σ Jᵀf over `instants`, as a share of the largest of its terms.
     fn imbalance(&self, instants: Range<usize>, acceleration: impl Fn(usize, usize) -> f64) -> f64 {
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for k in instants {
+        for k in instants.step_by(STRIDE) {
             let (q, dof) = (&self.q[k], self.v[k].len());
             let equations = kane(self.mechanism.model(), q, &self.v[k]);
             let jacobian: Rows = self.mechanism.loop_jacobian(q);
@@ -148,7 +153,12 @@ impl Written {
 /// Accelerations are those that are written, and differences of the velocities.
 #[test]
 fn every_shipped_motion_obeys_kanes_equations() {
-    for name in shipped("forward") {
+    let mut names = shipped("forward");
+    if cfg!(debug_assertions) {
+        names.retain(|name| !WALKING.contains(&name.as_str()));
+        names = names.into_iter().step_by(3).collect();
+    }
+    for name in names {
         let folder = scratch(&format!("equations-of-motion-{name}"));
         run(&folder, &name, "forward");
         let written = Written::read(&folder.join("run"));

@@ -35,10 +35,9 @@ fn the_draft_of_a_run_that_was_killed_is_mentioned_by_the_next_run_of_the_same_o
         assert_eq!(run.code, 0, "{}", run.stderr);
         run.stderr
     };
-    let running = Running::begin(&folder, &["forward", &long, "-o", "run"]);
+    let mut running = Running::begin(&folder, &["forward", &long, "-o", "run"]);
     assert_eq!(again(&[]), "");
-    // It is killed.
-    drop(running);
+    running.kill();
     let draft = names(&folder).into_iter().find(|name| name.ends_with(".draft")).unwrap();
     fs::create_dir(folder.join("run.4194305.before")).unwrap();
     for other in ["other.4194305.draft", "run.x.draft", "run.4194305.notes"] {

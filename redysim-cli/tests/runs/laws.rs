@@ -203,7 +203,6 @@ fn laws_that_carry_the_weight_of_a_tree_are_refused_for_closed_loops() {
     refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", law), 1, &words);
 }
 
-/// The crank rests where it was sent, and the loops stay closed.
 /// A rod of which a wrong gain makes a motion that grows until it is ended.
 #[test]
 fn a_law_that_drives_away_is_named_and_not_the_tolerance() {
@@ -232,7 +231,26 @@ fn a_law_that_drives_away_is_named_and_not_the_tolerance() {
     assert!(steps.contains("take a `step` of the integrator below 0.05 s"), "{steps}");
 }
 
+/// An arm whose light wrist is driven away: the steps become so small that the end would never come.
 #[test]
+fn a_motion_without_bound_whose_end_would_never_come_is_ended() {
+    let folder = scratch("laws-endless");
+    let rest = "initial = { q = [0, 0, 0, 0, 0, 0] }\n[forward]\nend = 3.0\nstep = 0.01\nintegrator = { method = 'Ode45' }\n\
+                torque = { law = 'pd', target = [1, 1, 1, 1, 1, 1], kp = -400, kd = -40 }\n";
+    let run = crate::common::call(&folder, &["forward", &scenario(&folder, "kr5.toml", rest), "-o", "run"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    for part in [
+        "the motion grows without bound: at t = ",
+        "the rest would take",
+        "`kp` and `kd` have the sign that drives away",
+    ] {
+        assert!(run.stderr.contains(part), "{part}: {}", run.stderr);
+    }
+}
+
+/// The crank rests where it was sent, and the loops stay closed.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn pid_drives_closed_loops() {
     let folder = scratch("pid-loops");
     let rest = "initial = { q = [0, 0.9844, 4.3144] }\n[forward]\nend = 20.0\nstep = 1.0\n\

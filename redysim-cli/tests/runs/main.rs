@@ -21,6 +21,7 @@ mod motions;
 mod output;
 mod pipes;
 mod prescribed;
+mod prescribed_in_loops;
 mod references;
 mod results;
 mod steps;

@@ -141,6 +141,8 @@ fn a_full_disk_leaves_nothing_half_written() {
         assert!(output.contains("error: cannot write"), "{arguments:?}: {output}");
         assert_eq!((names(&folder), names(&folder.join("run"))), before, "{arguments:?}: {output}");
     }
+    let output = on_a_full_disk(&folder, 1, &["forward", "trial.toml", "-o", "another"]);
+    assert!(output.contains("cannot write the table ") && output.contains("make room on the disk"), "{output}");
 }
 
 #[test]

@@ -104,7 +104,16 @@ fn joints_that_cannot_be_prescribed_are_refused_with_what_to_do() {
             "fourbar.toml",
             "trajectory = { kind = 'constant-speed', from = [0], speed = [1] }\n",
             "prescribed = ['crank']",
-            ["requires a tree", "`redysim inverse`"],
+            ["1 degree of freedom (crank), as many as the loops leave free", "`redysim inverse`"],
+        ),
+        (
+            "fourbar.toml",
+            "trajectory = { kind = 'constant-speed', joints = ['crank', 'rocker'], from = [0, 1], speed = [1, 0] }\n",
+            "prescribed = ['crank', 'rocker']",
+            [
+                "2 degrees of freedom (crank, rocker), but the loops leave 1 free",
+                "one joint determines how all others move",
+            ],
         ),
     ] {
         let shown = fail(&folder, &["forward", &scenario(&folder, model, &format!("{trajectory}{RUN}{keys}\n"))], 1);

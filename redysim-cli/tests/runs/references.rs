@@ -52,6 +52,7 @@ fn falls(scenario: &str, reference: &str, joints: usize, rows: usize, method: &s
 /// The motion is chaotic: what a step does to it grows by 10⁶ in the last second. No tolerance is tight enough for
 /// that, but small steps of a method that keeps the energy are.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn kr5_falls_as_in_quadruple_precision() {
     falls("kuka", "golden_ref_kuka.csv", 6, 0, "method = \"Gauss6\", step = 2.5e-4");
 }

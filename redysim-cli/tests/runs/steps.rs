@@ -1,6 +1,8 @@
 //! `redysim forward` warns of steps that are too large.
 
-use crate::common::{SWING, call, scenario, scratch};
+use std::fs;
+
+use crate::common::{SWING, call, root, scenario, scratch};
 
 /// What a run of two links prints beside its results.
 fn output(name: &str, rest: &str, options: &[&str]) -> String {
@@ -25,6 +27,41 @@ fn steps_that_are_not_stable_are_warned_of_before_the_run() {
     }
     let most = long.split("step = ").nth(1).unwrap().split(' ').next().unwrap();
     assert_eq!(output("steps-stable", &held(most), &[]), "");
+}
+
+/// The springs of one joint of the bushing are a thousand times as stiff or more, so that its motion is the fastest. It starts
+/// where springs are relaxed: where they are not, such stiff ones make motions that grow by themselves.
+#[test]
+fn steps_that_are_not_stable_for_the_springs_of_a_joint_of_several_freedoms_are_warned_of_with_its_name() {
+    const RELAXED: &str = "0.02, -0.03, 0.05, 0.1, 0.2, -0.1, 0.95, 0, 0.3, 0, 0.9, '20 deg', -0.1";
+    let model = fs::read_to_string(root().join("models/test/bushing.toml")).unwrap();
+    for (joint, soft, stiff) in [
+        ("hull", "[300.0, 400.0, 500.0, 12.0, 15.0, 18.0]", "[3e5, 4e5, 5e5, 12.0, 15.0, 18.0]"),
+        ("hull", "[300.0, 400.0, 500.0, 12.0, 15.0, 18.0]", "[300.0, 400.0, 500.0, 1.2e5, 1.5e5, 1.8e5]"),
+        ("ball", "stiffness = 6.0", "stiffness = 6e4"),
+        ("cross", "[3.0, 4.0]", "[3e4, 4e4]"),
+    ] {
+        let folder = scratch(&format!("steps-bushing-{joint}"));
+        assert!(model.contains(soft), "{soft}");
+        fs::write(folder.join("bushing.toml"), model.replacen(soft, stiff, 1)).unwrap();
+        let warned = |method: &str, step: &str| {
+            let run = format!(
+                "model = 'bushing.toml'\n[initial]\nq = [{RELAXED}]\n[forward]\nend = 0.1\nstep = 0.1\nintegrator = {{ method = '{method}', step = \
+                 {step} }}\n"
+            );
+            fs::write(folder.join("trial.toml"), run).unwrap();
+            call(&folder, &["forward", "trial.toml", "-o", "run", "--force"]).stderr
+        };
+        for method in ["Ode4", "SemiImplicitEuler"] {
+            let long = warned(method, "0.05");
+            for word in [format!("with steps of 0.05 s {method} is not stable"), format!("of the joint `{joint}`")] {
+                assert!(long.contains(&word), "no `{word}` in: {long}");
+            }
+            let most = long.split("step = ").nth(1).unwrap().split(' ').next().unwrap().to_owned();
+            let short = warned(method, &most);
+            assert!(!short.contains("not stable") && !short.contains("wrong"), "{method}, {most}: {short}");
+        }
+    }
 }
 
 /// A double pendulum in two steps: the energy grows to 10¹⁷⁷ J.

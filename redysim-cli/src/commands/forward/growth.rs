@@ -2,6 +2,7 @@
 
 use redysim_runtime::Trajectory;
 
+use crate::failure::Failure;
 use crate::layout::Layout;
 use crate::number::size;
 use crate::scenario::{Forward, Integrator, Scenario, Torque};
@@ -10,14 +11,34 @@ use crate::scenario::{Forward, Integrator, Scenario, Torque};
 /// has turned 160 times then.
 const FAR: f64 = 1e3;
 
+/// A motion that grows is ended where, at the pace of so many steps, the rest would take more than `ENDLESS` of them.
+const PACE: u64 = 10_000;
+const ENDLESS: f64 = 1e6;
+
 /// A joint that is far from where its law wants it.
 pub struct Growth {
+    /// When, and after how many steps.
+    pub seen: (f64, u64),
     /// When, where and how far.
     pub warning: String,
     /// What to do about it.
     pub help: String,
     /// Whether the energy that moves it has come from nowhere: steps that are too large may be the reason.
     pub from_nowhere: bool,
+}
+
+impl Growth {
+    /// Why the run is to be ended at `t`, after so many steps: a motion without bound takes ever smaller ones.
+    pub fn why_endless(&self, (t, steps): (f64, u64), end: f64) -> Option<Failure> {
+        let (since, before) = self.seen;
+        let taken = steps - before;
+        let rest = (end - t) / (t - since) * taken as f64;
+        (taken >= PACE && rest > ENDLESS).then(|| {
+            let at = size(t);
+            let message = format!("the motion grows without bound: at t = {at} s the rest would take {rest:.0e} steps");
+            Failure::input(message).help(&self.help)
+        })
+    }
 }
 
 /// The distances of joints from where their law wants them.
@@ -36,7 +57,7 @@ impl Distances {
         &mut self,
         scenario: &Scenario,
         forward: &Forward,
-        (t, q): (f64, &[f64]),
+        (t, q, steps): (f64, &[f64], u64),
         from_nowhere: bool,
     ) -> Option<Growth> {
         let layout = &scenario.layout;
@@ -47,7 +68,8 @@ impl Distances {
         let joint = distances.iter().zip(start.iter()).position(far)?;
         let component = &layout.coordinates[wanted[joint].0];
         let warning = format!(
-            "the motion grows without bound: at t = {t:?} s the joint `{}` is {} {} from where the torque law wants it",
+            "the motion grows without bound: at t = {} s the joint `{}` is {} {} from where the torque law wants it",
+            size(t),
             component.name,
             size(distances[joint]),
             component.unit()
@@ -55,7 +77,7 @@ impl Distances {
         let Gains { help, drive_away } = Gains::of(forward.torque.unlimited());
         // Tolerances bound the errors of a step, so that what grows is the motion.
         let from_nowhere = from_nowhere && matches!(forward.integrator, Integrator::Fixed(..)) && !drive_away;
-        Some(Growth { warning, help, from_nowhere })
+        Some(Growth { seen: (t, steps), warning, help, from_nowhere })
     }
 }
 
@@ -103,7 +125,11 @@ impl Gains {
         let help = match &negative[..] {
             [] => "the gains of `torque` may be wrong in size, or a gain that damps is missing".into(),
             negative => {
-                format!("the gains of `torque` may be wrong: {} has the sign that drives away", negative.join(" and "))
+                let have = if negative.len() == 1 { "has" } else { "have" };
+                format!(
+                    "the gains of `torque` may be wrong: {} {have} the sign that drives away",
+                    negative.join(" and ")
+                )
             }
         };
         Gains { help, drive_away: !negative.is_empty() }

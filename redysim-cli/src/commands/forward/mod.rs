@@ -5,12 +5,14 @@ mod growth;
 mod observer;
 mod system;
 
+use std::path::Path;
+
 use redysim_runtime::{ContactEvent, IntegrationError, Stabilisation};
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::size;
-use crate::results::{self, Balance, Ended, Outcome, Record};
+use crate::results::{self, Balance, Ended, Files, Outcome, Record, Sink, Summary};
 use crate::scenario::{Dynamics, Forward, Ground, Integrator, Scenario, Tolerances, keys, missing};
 use growth::Growth;
 use observer::RunObserver;
@@ -28,16 +30,43 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let Arguments { results } = arguments;
     let scenario = Scenario::load(&results.scenario, Dynamics::Forward, quiet)?;
-    let forward = scenario
-        .forward
-        .as_ref()
-        .ok_or_else(|| missing(&results.scenario, "which motion is to be computed", &keys::FORWARD))?;
     interrupt::watch()?;
-    let mut record = Record::begin(results, &scenario, Dynamics::Forward, forward.span, quiet)?;
+    compute(results, &scenario, quiet).map(drop)
+}
+
+/// Computes the motion of a scenario and writes it; returns the warnings, which are printed unless `quiet`.
+pub fn compute(results: &results::Arguments, scenario: &Scenario, quiet: bool) -> Result<Vec<String>, Failure> {
+    let forward = wanted(scenario, &results.scenario)?;
+    let mut files = Files::begin(results, scenario, Dynamics::Forward, quiet)?;
+    let (summary, warnings) = compute_into(&mut files, scenario, forward, quiet)?;
+    files.finish(scenario, summary, quiet)?;
+    Ok(warnings)
+}
+
+/// The motion that the scenario at `path` is for.
+///
+/// # Errors
+/// If it is for none.
+pub fn wanted<'s>(scenario: &'s Scenario, path: &Path) -> Result<&'s Forward, Failure> {
+    let missing = || missing(path, "which motion is to be computed", &keys::FORWARD);
+    scenario.forward.as_ref().ok_or_else(missing)
+}
+
+/// Computes a motion, whose rows go to `sink`; returns how it went, and the warnings, which are printed unless `quiet`.
+///
+/// # Errors
+/// If the motion does not start, or a row cannot be written.
+pub fn compute_into(
+    sink: &mut (dyn Sink + 'static),
+    scenario: &Scenario,
+    forward: &Forward,
+    quiet: bool,
+) -> Result<(Summary, Vec<String>), Failure> {
     let ground = scenario.ground();
-    let (outcome, growth) = move_on(&scenario, (forward, &ground), &mut record, quiet)?;
+    let mut record = Record::begin(sink, scenario, Dynamics::Forward, forward.span, quiet);
+    let (outcome, growth) = move_on(scenario, (forward, &ground), &mut record, quiet)?;
     warn_of_drift(forward, &record, growth.as_ref());
-    record.finish(outcome)
+    record.end(outcome)
 }
 
 /// The motion from the start to the end, as far as it goes, and whether it grows without bound.
@@ -58,7 +87,7 @@ fn move_on<'a>(
     let RunObserver { steps, position_residual, growth, failed, .. } = observer;
     let ended = match (&solution, failed) {
         (Err(error), _) => {
-            let failure = explained(error, scenario, &system);
+            let failure = explained(error, (scenario, forward), &system);
             // The remedies of an integration that fails are those for right motions.
             Ended::Failed(match &growth {
                 Some(growth) if !growth.from_nowhere => failure.help(&growth.help),
@@ -121,12 +150,7 @@ fn warn_of_drift(forward: &Forward, record: &Record<'_>, growth: Option<&Growth>
     }
     let Balance { drift, .. } = record.balance();
     if let Some(part) = record.balance().wrong_part() {
-        let help = match forward.integrator {
-            Integrator::Fixed(_, step) => format!("take a `step` of the integrator below {step:?} s"),
-            Integrator::Adaptive(_, Tolerances { rtol, .. }) => {
-                format!("take `rtol` below {rtol:?}, and `atol` likewise")
-            }
-        };
+        let help = smaller_steps(&forward.integrator);
         let warning = format!(
             "the motion is wrong: {} J have come from nowhere, {:.0} % of the energy that was exchanged",
             size(*drift),
@@ -137,13 +161,25 @@ fn warn_of_drift(forward: &Forward, record: &Record<'_>, growth: Option<&Growth>
     }
 }
 
+/// How to have smaller steps.
+fn smaller_steps(integrator: &Integrator) -> String {
+    match integrator {
+        Integrator::Fixed(_, step) => format!("take a `step` of the integrator below {step:?} s"),
+        Integrator::Adaptive(_, Tolerances { rtol, .. }) => format!("take `rtol` below {rtol:?}, and `atol` likewise"),
+    }
+}
+
 /// An integrator for stiff equations, as a scenario has it.
 fn implicit() -> String {
     keys::INTEGRATOR.example().replace(keys::METHOD.value(), "\"Ode15s\"")
 }
 
 /// Why the integration ended, in terms of scenarios.
-fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System<'_>) -> Failure {
+fn explained(
+    error: &IntegrationError<f64>,
+    (scenario, forward): (&Scenario, &Forward),
+    system: &System<'_>,
+) -> Failure {
     match *error {
         IntegrationError::InvalidRelativeTolerance { .. } | IntegrationError::InvalidStep { .. } => {
             Failure::input(error)
@@ -162,8 +198,23 @@ fn explained(error: &IntegrationError<f64>, scenario: &Scenario, system: &System
             Failure::outside(message)
                 .help(format!("take an implicit method, as in: {}, or lower gains or dampings", implicit()))
         }
+        IntegrationError::Chattering { t, events } => {
+            let message = format!(
+                "contacts begin and end {events} times at t = {t:?} s: steps are too long for the stiffness and damping of \
+                 the ground"
+            );
+            let softer = "give the contacts less `stiffness` or `damping`";
+            Failure::outside(message).help(format!("{}, or {softer}", smaller_steps(&forward.integrator)))
+        }
         // The loops know better than the integrator what went wrong.
-        _ => Failure::outside(system.last_error().unwrap_or_else(|| named(scenario, error))),
+        _ => match system.last_error() {
+            Some(reason) if forward.prescribed.is_some() => Failure::outside(reason).help(
+                "the joints in `prescribed` go where the links do not reach, or where the loops do not leave them free: \
+                 prescribe another motion, or end before",
+            ),
+            Some(reason) => Failure::outside(reason),
+            None => Failure::outside(named(scenario, error)),
+        },
     }
 }
 

@@ -69,7 +69,7 @@ impl<'a, 'r> RunObserver<'a, 'r> {
         self.position_residual = self.position_residual.max(self.scenario.position_residual(&q));
         if self.growth.is_none() {
             let from_nowhere = self.record.balance().wrong_part().is_some();
-            self.growth = self.distances.see(self.scenario, self.forward, (t, &q), from_nowhere);
+            self.growth = self.distances.see(self.scenario, self.forward, (t, &q, self.steps), from_nowhere);
             // At once, for such a motion takes ever smaller steps.
             if let Some(growth) = self.growth.as_ref().filter(|growth| !growth.from_nowhere) {
                 self.record.warn(&growth.warning, &growth.help);
@@ -88,6 +88,10 @@ impl Observer<f64, Vec<f64>> for RunObserver<'_, '_> {
         self.steps += 1;
         self.see(t, state);
         self.record.show_progress();
+        if self.failed.is_none() {
+            let growth = self.growth.as_ref();
+            self.failed = growth.and_then(|growth| growth.why_endless((t, self.steps), self.forward.span.end));
+        }
         if self.failed.is_some() || interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 

@@ -1,8 +1,8 @@
 //! What moves: a tree, or closed loops.
 
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopSimulation, ForcedMotion, ForwardDynamics, ForwardSimulation, HybridMotion, HybridSimulation,
-    LoopError, Ode, SimulationState, Stabilisation,
+    ClosedLoop, ClosedLoopHybridSimulation, ClosedLoopSimulation, ForcedMotion, ForwardDynamics, ForwardSimulation,
+    HybridMotion, HybridSimulation, LoopError, Ode, SimulationState, Stabilisation, ZeroTorque,
 };
 
 use super::ground::OnGround;
@@ -19,6 +19,8 @@ pub enum System<'a> {
     /// A tree of which some joints are prescribed.
     Hybrid(HybridSimulation<'a, Ground<'a>, Spread<'a>, OnGround<'a>>),
     Loops(ClosedLoopSimulation<'a, f64, Ground<'a>, OnGround<'a>>),
+    /// Closed loops of which some joints are prescribed.
+    HybridLoops(ClosedLoopHybridSimulation<'a, f64, Ground<'a>, Spread<'a>, OnGround<'a>>),
 }
 
 impl<'a> System<'a> {
@@ -27,6 +29,11 @@ impl<'a> System<'a> {
         let law = OnGround::new(law, ground);
         if let Some(prescribed) = &forward.prescribed {
             let motion = prescribed.trajectory.spread(&scenario.layout);
+            if scenario.loops() {
+                let loops = ClosedLoop::new(ground);
+                let simulation = ClosedLoopHybridSimulation::new(loops, &prescribed.velocities, motion, law);
+                return System::HybridLoops(simulation.stabilisation(forward.stabilisation));
+            }
             System::Hybrid(HybridSimulation::new(ground, motion, law))
         } else if scenario.loops() {
             let simulation = ClosedLoopSimulation::new(ClosedLoop::new(ground), law);
@@ -41,6 +48,7 @@ impl<'a> System<'a> {
             System::Tree(simulation) => simulation,
             System::Hybrid(simulation) => simulation,
             System::Loops(simulation) => simulation,
+            System::HybridLoops(simulation) => simulation,
         }
     }
 
@@ -50,6 +58,7 @@ impl<'a> System<'a> {
             System::Tree(simulation) => simulation.split(state),
             System::Hybrid(simulation) => simulation.split(t, state),
             System::Loops(simulation) => simulation.split(state),
+            System::HybridLoops(simulation) => simulation.split(t, state),
         }
     }
 
@@ -58,35 +67,44 @@ impl<'a> System<'a> {
             System::Tree(simulation) => simulation.mechanism(),
             System::Hybrid(simulation) => simulation.mechanism(),
             System::Loops(simulation) => simulation.loops().mechanism(),
+            System::HybridLoops(simulation) => simulation.loops().mechanism(),
         }
     }
 
     /// Why there were no derivatives, if the system knows better than the integrator.
     pub fn last_error(&self) -> Option<String> {
-        let System::Loops(simulation) = self else { return None };
-        // A law that has no forces is why the loops have no accelerations.
-        let reason = simulation.law().law.last_error().or(simulation.last_error())?;
-        Some(simulation.loops().with_names(reason).to_string())
+        let (loops, reason) = match self {
+            System::Tree(_) | System::Hybrid(_) => return None,
+            // A law that has no forces is why the loops have no accelerations.
+            System::Loops(simulation) => {
+                (simulation.loops(), simulation.law().law.last_error().or(simulation.last_error())?)
+            }
+            System::HybridLoops(simulation) => (simulation.loops(), simulation.last_error()?),
+        };
+        Some(loops.with_names(reason).to_string())
     }
 
     /// The state to start from; loops are closed there, unless the scenario forbids it.
     pub fn start(&self, scenario: &Scenario, forward: &Forward, quiet: bool) -> Result<Vec<f64>, Failure> {
         let initial = &scenario.initial;
-        let simulation = match self {
-            System::Tree(simulation) => return Ok(simulation.extended_state(&initial.q, &initial.v)),
-            System::Hybrid(simulation) => {
-                return Ok(simulation.extended_state(forward.span.start, &initial.q, &initial.v));
-            }
-            System::Loops(simulation) => simulation,
+        let start = forward.span.start;
+        let state = |q: &Vec<f64>, v: &Vec<f64>| match self {
+            System::Tree(simulation) => simulation.extended_state(q, v),
+            System::Hybrid(simulation) => simulation.extended_state(start, q, v),
+            System::Loops(simulation) => simulation.extended_state(q, v),
+            System::HybridLoops(simulation) => simulation.extended_state(start, q, v),
         };
-        let loops = simulation.loops();
+        if !scenario.loops() {
+            return Ok(state(&initial.q, &initial.v));
+        }
+        let loops = ClosedLoop::new(self.ground());
         let failed = |reason| Failure::input(format!("the start: {}", loops.with_names(reason)));
         if !initial.assemble {
             // Without projection, loops may be open: they stay as far open as they are, or feedback closes them.
             if forward.stabilisation == Stabilisation::Projection {
-                simulation.start(&initial.q, &initial.v).map_err(failed)?;
+                ClosedLoopSimulation::new(loops, ZeroTorque).start(&initial.q, &initial.v).map_err(failed)?;
             }
-            return Ok(simulation.extended_state(&initial.q, &initial.v));
+            return Ok(state(&initial.q, &initial.v));
         }
         let closed =
             loops.assemble(&initial.q, &initial.v, &scenario.layout.velocities_of(&initial.held)).map_err(failed)?;
@@ -108,7 +126,7 @@ impl<'a> System<'a> {
                 to_stdout(&format!("So that they stay closed, its speeds change: {changed}."));
             }
         }
-        Ok(simulation.extended_state(&closed.q, &closed.v))
+        Ok(state(&closed.q, &closed.v))
     }
 
     /// What is written of a state. Within a step loops are only as closed as the method is accurate; where steps are
@@ -142,6 +160,18 @@ impl<'a> System<'a> {
                 simulation.law().law.last_error().map_or(Ok(()), Err).map_err(failed)?;
                 let ForcedMotion { tau, motion } = forced.map_err(failed)?;
                 (tau, motion.accelerations, motion.multipliers)
+            }
+            System::HybridLoops(simulation) => {
+                let loops = simulation.loops();
+                let failed =
+                    |reason: LoopError<f64>| Failure::outside(format!("at t = {t:?} s: {}", loops.with_names(reason)));
+                SimulationState { q, v, .. } = simulation.closed(t, state).map_err(failed)?;
+                let mut closed = state.clone();
+                for (element, &value) in closed.iter_mut().zip(q.iter().chain(&v)) {
+                    *element = value;
+                }
+                let found = simulation.forced_motion(t, &closed).map_err(failed)?;
+                (found.motion.tau, found.motion.a, found.multipliers)
             }
         };
         let mut sample = GroundSample::default();

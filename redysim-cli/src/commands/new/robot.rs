@@ -55,7 +55,7 @@ impl Robot {
             stem => stem,
         };
         if model::is_urdf(robot) {
-            let read = model::of_urdf(robot, quiet)?;
+            let read = model::read(robot, quiet)?;
             return Ok(Robot { stem, text: read.text, model: read.model, options: CodegenOptions::default() });
         }
         let loaded = model::load(robot, quiet)?;

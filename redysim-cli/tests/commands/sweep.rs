@@ -1,0 +1,256 @@
+//! `redysim sweep`: rows of many samples, the same as of single runs, whatever interrupts them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::common::{Table, call, fail, model, names, scenario, scratch, succeed};
+#[cfg(unix)]
+use crate::common::{on_a_full_disk, program};
+
+const FALL: &str = "initial = { q = [0, 1] }\n[forward]\nend = 0.1\nstep = 0.05\n\
+                    torque = { law = 'pd', target = [0.5, 0.5], kp = 10.0, kd = [1.0, 1.0] }\n";
+
+/// A study of the two-link robot; returns its path.
+fn study(folder: &Path, rest: &str) -> String {
+    scenario(folder, "two_link.toml", FALL);
+    fs::write(folder.join("study.toml"), format!("scenario = 'trial.toml'\n{rest}\n")).unwrap();
+    folder.join("study.toml").display().to_string()
+}
+
+/// A folder with the rows of a study.
+fn sweep(name: &str, rest: &str) -> PathBuf {
+    let folder = scratch(name);
+    succeed(&folder, &["sweep", &study(&folder, rest), "--output", "rows", "--quiet"]);
+    folder
+}
+
+fn text(folder: &Path) -> String {
+    fs::read_to_string(folder.join("rows/rows.csv")).unwrap()
+}
+
+/// The cells below `header`, by samples.
+fn cells(folder: &Path, header: &str) -> Vec<String> {
+    let text = text(folder);
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let column = reader.headers().unwrap().iter().position(|found| found == header);
+    let column = column.unwrap_or_else(|| panic!("no `{header}` in {text}"));
+    reader.records().map(|record| record.unwrap()[column].to_owned()).collect()
+}
+
+fn numbers(folder: &Path, header: &str) -> Vec<f64> {
+    cells(folder, header).iter().map(|cell| cell.parse().unwrap()).collect()
+}
+
+const GRID: &str = "[over]\n\"forward.torque.kp\" = [10.0, 20.0]\n\
+                    \"model.link.link2.mass\" = { from = 1.0, to = 2.0, count = 3 }\n";
+
+#[test]
+fn rows_have_the_bits_of_single_runs_of_the_same_scenario() {
+    let folder = sweep("sweep-single", GRID);
+    let text = fs::read_to_string(model("two_link.toml")).unwrap();
+    assert_eq!(numbers(&folder, "forward.torque.kp"), [10.0, 10.0, 10.0, 20.0, 20.0, 20.0]);
+    let [last, peak, drift] =
+        ["last q joint2 [rad]", "peak tau joint1 [N m]", "energy_drift"].map(|header| numbers(&folder, header));
+    for (index, (kp, m)) in [(1, (10.0, 1.5)), (5, (20.0, 2.0))] {
+        fs::write(folder.join("heavy.toml"), text.replace("mass = 0.4", &format!("mass = {m:?}"))).unwrap();
+        let alone = format!("model = 'heavy.toml'\n{}", FALL.replace("kp = 10.0", &format!("kp = {kp:?}")));
+        fs::write(folder.join("alone.toml"), alone).unwrap();
+        succeed(&folder, &["forward", "alone.toml", "--output", "alone", "--force", "--quiet"]);
+        check(&folder.join("alone"), [last[index], peak[index], drift[index]]);
+        // The files of the sample do the same.
+        let index = index.to_string();
+        succeed(&folder, &["sweep", "study.toml", "--sample", &index, "--output", "one", "--force", "--quiet"]);
+        succeed(&folder, &["forward", "one/scenario.toml", "--output", "again", "--force", "--quiet"]);
+        assert_eq!(fs::read(folder.join("again/traj.csv")).unwrap(), fs::read(folder.join("alone/traj.csv")).unwrap());
+    }
+}
+
+/// Compares the last position of the second joint, the largest torque of the first, and the drift of a run.
+fn check(run: &Path, [last, peak, drift]: [f64; 3]) {
+    let [motion, torques] = ["traj.csv", "tor.csv"].map(|name| Table::csv(&run.join(name)));
+    assert_eq!(motion.column("q joint2 [rad]").last(), Some(&last));
+    let torques = torques.column("tau joint1 [N m]");
+    assert_eq!(torques.iter().fold(0.0, |most, tau| f64::max(most, tau.abs())), peak);
+    let how: toml::Table = fs::read_to_string(run.join("run.toml")).unwrap().parse().unwrap();
+    assert_eq!(how["run"]["energy_drift"].as_float(), Some(drift));
+}
+
+#[test]
+fn a_grid_lists_and_a_table_are_the_same_samples() {
+    let grid = text(&sweep("sweep-grid", GRID));
+    let lists =
+        "[samples]\nforward.torque.kp = [10, 10, 10, 20, 20, 20]\nmodel.link.link2.mass = [1, 1.5, 2, 1, 1.5, 2]";
+    assert_eq!(text(&sweep("sweep-lists", lists)), grid);
+    let folder = scratch("sweep-table");
+    let rows = "# by hand\nforward.torque.kp, model.link.link2.mass\n10,1\n10,1.5\n10,2\n20,1\n20,1.5\n20,2\n";
+    fs::write(folder.join("samples.csv"), rows).unwrap();
+    succeed(&folder, &["sweep", &study(&folder, "samples.file = 'samples.csv'"), "--output", "rows", "--quiet"]);
+    assert_eq!(text(&folder), grid);
+}
+
+/// The torque that holds a pendulum of length l at an angle is m g l cos q: over normal lengths it is normal.
+#[test]
+fn the_torque_over_random_lengths_has_its_closed_form_and_spread() {
+    let folder = scratch("sweep-spread");
+    let at = "trajectory = { from = [\"60 deg\"], to = [\"60 deg\"], duration = 1.0 }\ninverse = { end = 0.1, step = 0.1 }\n";
+    fs::write(
+        folder.join("rod.toml"),
+        "name = 'rod'\ngravity = [0, -9.81, 0]\n[[link]]\nname = 'rod'\nparent = 'base'\njoint = 'revolute'\ndh = {}\nmass = 2.0\ncom = [0.5, 0, 0]\n",
+    )
+    .unwrap();
+    fs::write(folder.join("hold.toml"), format!("model = 'rod.toml'\n{at}")).unwrap();
+    let drawn =
+        "scenario = 'hold.toml'\n[samples]\ncount = 400\nseed = 3\nmodel.link.rod.com.0 = { normal = [0.5, 0.01] }\n";
+    fs::write(folder.join("study.toml"), drawn).unwrap();
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--quiet"]);
+    let lengths = numbers(&folder, "model.link.rod.com.0");
+    let torques = numbers(&folder, "peak tau rod [N m]");
+    for (length, torque) in lengths.iter().zip(&torques) {
+        let exact = 2.0 * 9.81 * length * 0.5;
+        assert!((torque - exact).abs() < 1e-14 * 10.0, "{length}: {torque}, not {exact}");
+    }
+    let mean = torques.iter().sum::<f64>() / 400.0;
+    let variance = torques.iter().map(|torque| (torque - mean).powi(2)).sum::<f64>() / 400.0;
+    let (exact, deviation) = (2.0 * 9.81 * 0.5 * 0.5, 2.0 * 9.81 * 0.01 * 0.5);
+    // Five standard errors: σ/√n of the mean, σ/√2n of the deviation.
+    assert!((mean - exact).abs() < 5.0 * deviation / 20.0, "{mean}");
+    assert!((variance.sqrt() - deviation).abs() < 5.0 * deviation / 800_f64.sqrt(), "{}", variance.sqrt());
+}
+
+#[test]
+fn what_is_torn_or_missing_is_computed_again_and_more_samples_are_added() {
+    let folder = sweep("sweep-again", GRID);
+    let whole = text(&folder);
+    let rows = folder.join("rows/rows.csv");
+    // Rows in another order, one missing, and one torn.
+    let lines: Vec<&str> = whole.lines().collect();
+    let torn = [lines[0], lines[4], lines[2], &lines[6][..20]].join("\n");
+    fs::write(&rows, torn).unwrap();
+    let again = call(&folder, &["sweep", "study.toml", "--output", "rows"]);
+    assert!(again.stderr.contains("2 samples of 6 are there already"), "{}", again.stderr);
+    assert_eq!(text(&folder), whole);
+    assert!(succeed(&folder, &["sweep", "study.toml", "--output", "rows"]).contains("6 samples\n"));
+    // More samples keep those that there were.
+    let drawn = |count| format!("[samples]\ncount = {count}\nforward.torque.kp = {{ uniform = [5, 15] }}\n");
+    study(&folder, &drawn(3));
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--force", "--quiet"]);
+    let few = text(&folder);
+    study(&folder, &drawn(5));
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--quiet"]);
+    assert!(text(&folder).starts_with(&few) && text(&folder).lines().count() == 6);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_sweep_goes_on_to_the_rows_of_one_that_was_not() {
+    let drawn = "[samples]\ncount = 60\nforward.end = { uniform = [0.2, 0.5] }\n";
+    let folder = sweep("sweep-killed", drawn);
+    let whole = text(&folder);
+    let rows = folder.join("killed/rows.csv");
+    let mut child = program(&folder, &["sweep", "study.toml", "--output", "killed", "--quiet"]).spawn().unwrap();
+    while fs::metadata(&rows).map_or(0, |file| file.len()) < 600 {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let kept = fs::read_to_string(&rows).unwrap().lines().count();
+    assert!(kept < 61, "it was killed in time");
+    succeed(&folder, &["sweep", "study.toml", "--output", "killed", "--quiet", "--jobs", "1"]);
+    assert_eq!(fs::read_to_string(&rows).unwrap(), whole);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_full_disk_is_one_error_and_loses_no_row() {
+    let drawn = "[samples]\ncount = 60\nforward.torque.kp = { uniform = [5, 15] }\n";
+    let folder = sweep("sweep-full", drawn);
+    let error = on_a_full_disk(&folder, 6, &["sweep", "study.toml", "--output", "full", "--quiet"]);
+    assert_eq!(error.matches("error:").count(), 1, "{error}");
+    for part in ["cannot write full/rows.csv", "of 60 samples are kept there", "the same command then goes on"] {
+        assert!(error.contains(part), "{error}");
+    }
+    // Without room for the study itself.
+    fs::create_dir(folder.join("fuller")).unwrap();
+    fs::write(folder.join("fuller/rows.csv"), "").unwrap();
+    succeed(&folder, &["sweep", "study.toml", "--output", "fuller", "--quiet"]);
+    let kept = fs::read_to_string(folder.join("full/rows.csv")).unwrap();
+    assert!(kept.ends_with('\n') && kept.len() > 5000, "whole rows: {kept}");
+    succeed(&folder, &["sweep", "study.toml", "--output", "full", "--quiet"]);
+    assert_eq!(fs::read_to_string(folder.join("full/rows.csv")).unwrap(), text(&folder));
+}
+
+#[test]
+fn a_sample_that_fails_is_kept_with_its_reason() {
+    let folder =
+        sweep("sweep-failed", "[samples]\nmodel.link.link2.mass = [1, -1, 2]\nforward.torque.kp = [10, 10, 1e90]\n");
+    assert_eq!(cells(&folder, "status"), ["complete", "failed", "failed"]);
+    let reasons = cells(&folder, "reason");
+    assert_eq!(reasons[0], "");
+    assert!(reasons[1].contains("`mass` is -1") || reasons[1].contains("mass"), "{}", reasons[1]);
+    assert!(reasons[2].contains("t = "), "{}", reasons[2]);
+    assert_eq!(cells(&folder, "last q joint1 [rad]")[1], "");
+    let again = call(&folder, &["sweep", "study.toml", "--output", "rows"]);
+    assert!(again.code == 0 && again.stderr.contains("2 of 3 failed, the first of them sample 1"), "{}", again.stderr);
+}
+
+#[test]
+fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
+    let folder = scratch("sweep-faults");
+    for (rest, parts) in [
+        ("[over]\n\"forward.torque.kp\" = [1.0, nan]", ["study.toml:3:29", "`over.forward.torque.kp[1]`", "nan"]),
+        ("[over]\ninitial.q = [[0, 1], [0, 1, 2]]", ["`over.initial.q[1]` is an array of 3", "array of 2", "one form"]),
+        ("[over]\ninitial.q = [[0, 1, 2]]", ["`initial.q`", "2 values", "joint1, joint2"]),
+        (
+            "[over]\nforward.torqe.kp = [1]",
+            ["unknown key `forward.torqe`", "sample 0, scenario", "integrator, prescribed, torque"],
+        ),
+        (
+            "[over]\nmodel.link.link3.mass = [1]",
+            ["`model.link` has nothing of the name `link3`", "did you mean", "link2"],
+        ),
+        ("[over]\nmodel.link.link2.mas = [1]", ["link `link2`: unknown key `mas`", "sample 0, ", "mass"]),
+        ("[over]\ninverse.end = [1]", ["`inverse.end` has no effect", "forward", "`run`"]),
+        (
+            "[over]\ninitial.q = [[0, 1]]\n\"initial.q.1\" = [1]",
+            ["`initial.q.1` is a part of `initial.q`", "twice", "once"],
+        ),
+        ("[over]\ninitial.q = []", ["`over.initial.q` is empty", "at least one", "study.toml:3"]),
+        ("[over]\ninitial.q.0 = { from = 0, to = 1, count = 1.5 }", ["count` is 1.5", "whole number", "study.toml:3"]),
+        ("", ["`over` or `samples`", "not both", "write for example"]),
+        ("[samples]\ninitial.q.0 = { normal = [0, 1] }", ["how many samples", "count = 1000", "[samples]"]),
+        ("[samples]\ncount = 3\ninitial.q.0 = [1, 2]", ["`initial.q.0` has 2", "`samples.count` has 3", "as many"]),
+        (
+            "[samples]\ncount = 3\ninitial.q.0 = { normal = [0, -1] }",
+            ["standard deviation", "not negative", "normal` is [0.0, -1.0]"],
+        ),
+        (
+            "outcomes.peak = ['tua']\n[over]\ninitial.q.0 = [1]",
+            ["no column `tua`", "did you mean `tau`", "it has q, v"],
+        ),
+        ("run = 'backward'\n[over]\ninitial.q.0 = [1]", ["`run`", "backward", "forward"]),
+    ] {
+        let error = fail(&folder, &["sweep", &study(&folder, rest), "--output", "rows"], 1);
+        assert!(parts.iter().all(|part| error.contains(part)), "{rest}: {error}");
+        assert_eq!(error.matches("error: ").count(), 1, "{rest}: {error}");
+    }
+    fs::write(folder.join("samples.csv"), "initial.q.0\n1\nNaN\n").unwrap();
+    let error = fail(&folder, &["sweep", &study(&folder, "samples.file = 'samples.csv'")], 1);
+    assert!(error.contains("samples.csv:3: `initial.q.0` must be a finite number, found `NaN`"), "{error}");
+    let error = fail(&folder, &["sweep", &study(&folder, "samples.file = 'none.csv'")], 3);
+    assert!(error.contains("none.csv") && error.contains("from the folder of the study"), "{error}");
+    assert_eq!(names(&folder), ["samples.csv", "study.toml", "trial.toml"]);
+}
+
+#[test]
+fn another_study_and_what_is_no_study_are_kept() {
+    let folder = sweep("sweep-other", GRID);
+    let whole = text(&folder);
+    study(&folder, &GRID.replace("20.0", "30.0"));
+    let error = fail(&folder, &["sweep", "study.toml", "--output", "rows"], 3);
+    assert!(error.contains("rows of another study: the samples differed") && error.contains("--force"), "{error}");
+    assert_eq!(text(&folder), whole);
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--force", "--quiet"]);
+    assert!(text(&folder).contains("\n5,30.0,2.0,"), "{}", text(&folder));
+    let error = fail(&folder, &["sweep", "study.toml", "--output", "."], 3);
+    assert!(error.contains("is not the folder of a study"), "{error}");
+}
