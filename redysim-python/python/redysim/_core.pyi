@@ -1,0 +1,726 @@
+from collections.abc import Callable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._results import Motion
+
+Array = NDArray[np.float64]
+
+__version__: str
+
+class RedysimError(Exception):
+    """What is wrong and what to do, as the command `redysim` reports it."""
+
+class ModelWarning(UserWarning):
+    """What a model may have, but is rarely meant."""
+
+def load(
+    path: str | PathLike[str], *, base: Literal["fixed", "free"] = "fixed", parameters: Sequence[str] | None = None
+) -> Mechanism:
+    """Reads a model file (TOML) or a URDF, with run-time parameters such as "gravity", "tool.mass" or
+    "joint2.damping"; by default those of the file."""
+
+def table_of_functions() -> list[tuple[str, list[str], str | None]]: ...
+def runs_of_scenario(path: str | PathLike[str]) -> list[str]: ...
+def compute(path: str | PathLike[str], dynamics: str, folder: str | PathLike[str], force: bool) -> dict[str, Any]: ...
+def read_results(folder: str | PathLike[str]) -> dict[str, Any]: ...
+def page(folder: str | PathLike[str]) -> str: ...
+def simulate(
+    owner: Mechanism,
+    times: list[float],
+    start: tuple[ArrayLike, ArrayLike],
+    torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None,
+    events: list[tuple[Callable[[float, Array, Array], float], float, bool]],
+    method: dict[str, Any],
+) -> dict[str, Any]: ...
+
+class Study:
+    """A study: a scenario, and the values of each sample at paths into it."""
+
+    name: str
+    headers: list[str]
+    numeric: list[bool]
+    warnings: list[str]
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Study: ...
+    @staticmethod
+    def from_toml(text: str, folder: str | PathLike[str], name: str) -> Study: ...
+    def sampler(self) -> str: ...
+    def sample(self, index: int) -> str: ...
+    def __len__(self) -> int: ...
+
+class Sampler:
+    """Computes the rows of samples."""
+
+    def __init__(self, text: str) -> None: ...
+    def row(self, sample: str) -> tuple[int, str] | None: ...
+    def failed_row(self, sample: str, reason: str) -> str: ...
+
+class Rows:
+    """The rows of a study in its folder."""
+
+    path: Path
+    def __init__(self, folder: str | PathLike[str], study: Study, force: bool) -> None: ...
+    def missing(self) -> list[int]: ...
+    def add(self, index: int, row: str) -> None: ...
+    def finish(self) -> None: ...
+    def close(self) -> None: ...
+    def __len__(self) -> int: ...
+
+class Energy(np.recarray):
+    kinetic: Array
+    potential: Array
+
+class CenterOfMass(np.recarray):
+    position: Array
+    velocity: Array
+
+class Momentum(np.recarray):
+    linear: Array
+    angular: Array
+
+class HybridMotion(np.recarray):
+    a: Array
+    tau: Array
+
+class LinkState(np.recarray):
+    rotation: Array
+    origin: Array
+    com: Array
+    velocity: Array
+    angular_velocity: Array
+
+class FrameState(np.recarray):
+    rotation: Array
+    origin: Array
+    velocity: Array
+    angular_velocity: Array
+
+class FrameJacobian(np.recarray):
+    linear: Array
+    angular: Array
+
+class FrameAcceleration(np.recarray):
+    linear: Array
+    angular: Array
+
+class Mechanism:
+    """A mechanism that was read from a model file or a URDF: names, sizes and functions."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def path(self) -> Path:
+        """The file of which it was made."""
+    @property
+    def warnings(self) -> list[str]:
+        """What the command `redysim check` would warn of, as it is shown there."""
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+    @property
+    def nl(self) -> int:
+        """Number of links."""
+    @property
+    def nc(self) -> int:
+        """Number of rows of the loop constraints."""
+    @property
+    def nf(self) -> int:
+        """Number of frames of interest."""
+    @property
+    def np(self) -> int:
+        """Number of run-time parameters."""
+    @property
+    def parameter_names(self) -> list[str]:
+        """Names of the run-time parameters."""
+    @property
+    def parameters(self) -> Array:
+        """Values of the run-time parameters, (np,), or (k, np) of k robots."""
+    def with_parameters(self, parameters: ArrayLike | dict[str, ArrayLike]) -> Mechanism:
+        """The mechanism with other values of its run-time parameters, (np,), or (k, np) of k robots, each of
+        which computes one of k states; a dictionary has names with values, () or (k,)."""
+    @property
+    def mass(self) -> float:
+        """Mass of all links, kg."""
+    @property
+    def gravity(self) -> tuple[float, float, float]:
+        """Acceleration of gravity in the base frame, m/s²."""
+    @property
+    def joint_names(self) -> list[str]:
+        """Names of the moving joints."""
+    @property
+    def coordinate_names(self) -> list[str]:
+        """Names of the coordinates; a joint of one coordinate gives it its own name."""
+    @property
+    def velocity_names(self) -> list[str]:
+        """Names of the velocities."""
+    @property
+    def coordinate_units(self) -> list[str]:
+        """Units of the coordinates: rad, m, or 1 for a component of a quaternion."""
+    @property
+    def velocity_units(self) -> list[str]:
+        """Units of what the velocities change: rad or m."""
+    @property
+    def force_units(self) -> list[str]:
+        """Units of the joint forces: N m or N."""
+    @property
+    def link_names(self) -> list[str]:
+        """Names of the links."""
+    @property
+    def frame_names(self) -> list[str]:
+        """Names of the frames of interest."""
+    @property
+    def actuated(self) -> list[bool]:
+        """Whether each velocity has an actuator."""
+    @property
+    def is_compiled(self) -> bool:
+        """Whether the functions are compiled."""
+    @property
+    def library(self) -> Path | None:
+        """The library of compiled functions, if they are compiled."""
+    def compile(self, *, compiler: str | None = None) -> Mechanism:
+        """Writes the functions as C, compiles them by the system's compiler, and has every later call run the
+        compiled code."""
+    def check_unchanged(self) -> None:
+        """Fails if the file has changed since it was loaded."""
+    def simulate(
+        self,
+        t: ArrayLike,
+        q: ArrayLike | None = None,
+        v: ArrayLike | None = None,
+        *,
+        torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None = None,
+        events: Callable[[float, Array, Array], float] | Sequence[Callable[[float, Array, Array], float]] | None = None,
+        integrator: str = "Ode45",
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        max_step: float | None = None,
+        step: float | None = None,
+    ) -> Motion:
+        """The motion from q and v at the first instant of t to the last."""
+    def to_toml(self) -> str:
+        """The model as the text of a model file."""
+    def page(self) -> str:
+        """The page of HTML that shows the model in 3D and moves its joints by sliders, as `redysim show` makes it."""
+    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """τ = M(q) a + bias(q, v), N m or N: the joint forces of the tree.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        a : float64, (nv,) or (k, nv)
+            Joint accelerations, rad/s² or m/s².
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        tau : float64, (nv,) or (k, nv)
+            Joint forces, N m or N.
+        An argument of one state counts for each of k states.
+        """
+
+    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, tau: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """a = M(q)⁻¹ (τ − bias(q, v)), rad/s² or m/s²: the accelerations of the tree.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        tau : float64, (nv,) or (k, nv)
+            Joint forces, N m or N.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        a : float64, (nv,) or (k, nv)
+            Joint accelerations, rad/s² or m/s².
+        An argument of one state counts for each of k states.
+        """
+
+    def mass_matrix(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """M(q), the generalised inertia matrix, symmetric: kg m², kg m or kg.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        matrix : float64, (nv, nv) or (k, nv, nv)
+            The matrix by rows, kg m², kg m or kg.
+        An argument of one state counts for each of k states.
+        """
+
+    def bias_forces(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """C(q, v) v + g(q) and the passive forces, N m or N: the joint forces at zero
+        acceleration.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        tau : float64, (nv,) or (k, nv)
+            Joint forces, N m or N.
+        An argument of one state counts for each of k states.
+        """
+
+    def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """C(q, v) of the Christoffel symbols: C v are the joint forces of the velocities, without
+        gravity and passive forces; Ṁ − 2 C is skew-symmetric.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        matrix : float64, (nv, nv) or (k, nv, nv)
+            The matrix by rows, kg m²/s, kg m/s or kg/s.
+        An argument of one state counts for each of k states.
+        """
+
+    def gravity_forces(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """g(q), N m or N: the joint forces of gravity alone, at rest.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        tau : float64, (nv,) or (k, nv)
+            Joint forces, N m or N.
+        An argument of one state counts for each of k states.
+        """
+
+    def passive_forces(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """The part of the bias that damping, friction and springs take, N m or N.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        tau : float64, (nv,) or (k, nv)
+            Joint forces, N m or N.
+        An argument of one state counts for each of k states.
+        """
+
+    def energy(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Energy:
+        """Kinetic and potential energy, J, with those of rotors and springs; the potential of
+        gravity is zero at the base frame's origin.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        energy : numpy.recarray, () or (k,)
+            Energy of the mechanism, as a record array with the parts
+
+            - `kinetic`: ½ vᵀ M v, J.
+            - `potential`: −Σ m g·c, zero at the origin of the base frame, and that of springs,
+              J.
+        An argument of one state counts for each of k states.
+        """
+
+    def center_of_mass(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> CenterOfMass:
+        """Position (m) and velocity (m/s) of the centre of mass of all links, in the base frame.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        center : numpy.recarray, () or (k,)
+            The centre of mass, as a record array with the parts
+
+            - `position`, each (3,): m.
+            - `velocity`, each (3,): m/s.
+        An argument of one state counts for each of k states.
+        """
+
+    def momentum(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Momentum:
+        """Linear momentum (N s) and angular momentum about the centre of mass (N m s) of all
+        links, in the axes of the base frame.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        momentum : numpy.recarray, () or (k,)
+            Momentum of the mechanism, as a record array with the parts
+
+            - `linear`, each (3,): N s.
+            - `angular`, each (3,): About the centre of mass, N m s.
+        An argument of one state counts for each of k states.
+        """
+
+    def hybrid_dynamics(self, q: ArrayLike, v: ArrayLike, u: ArrayLike, *, out: np.ndarray | None = None) -> HybridMotion:
+        """Accelerations and joint forces where u is given: the acceleration of a velocity whose
+        joint has an actuator, else its force.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        u : float64, (nv,) or (k, nv)
+            Of each velocity with an actuator its acceleration, of the others the joint force.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        motion : numpy.recarray, () or (k,)
+            Accelerations and joint forces, as a record array with the parts
+
+            - `a`, each (nv,): Joint accelerations, rad/s² or m/s².
+            - `tau`, each (nv,): Joint forces, N m or N.
+        An argument of one state counts for each of k states.
+        """
+
+    def link_kinematics(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> LinkState:
+        """Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity
+        (rad/s) of every link, in the base frame.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        links : numpy.recarray, (nl,) or (k, nl)
+            Position and velocity of each link, as a record array with the parts
+
+            - `rotation`, each (3, 3): The link's axes as columns: rotation[row][column].
+            - `origin`, each (3,): Origin of the link's frame, m.
+            - `com`, each (3,): Centre of mass, m.
+            - `velocity`, each (3,): Velocity of the origin, m/s.
+            - `angular_velocity`, each (3,): rad/s.
+        An argument of one state counts for each of k states.
+        """
+
+    def frame_kinematics(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> FrameState:
+        """Rotation, origin, velocity of the origin (m/s) and angular velocity (rad/s) of every
+        frame of interest, in the base frame.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        frames : numpy.recarray, (nf,) or (k, nf)
+            Position and velocity of each frame of interest, as a record array with the parts
+
+            - `rotation`, each (3, 3): The frame's axes as columns: rotation[row][column].
+            - `origin`, each (3,): m.
+            - `velocity`, each (3,): Velocity of the origin, m/s.
+            - `angular_velocity`, each (3,): rad/s.
+        An argument of one state counts for each of k states.
+        """
+
+    def frame_jacobians(self, q: ArrayLike, *, out: np.ndarray | None = None) -> FrameJacobian:
+        """J(q) of every frame of interest, in the axes of the base frame: the velocity of its
+        origin is linear · v, its angular velocity angular · v.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        jacobians : numpy.recarray, (nf,) or (k, nf)
+            The Jacobian of each frame of interest, as a record array with the parts
+
+            - `linear`, each (3, nv): linear · v is the velocity of the frame's origin.
+            - `angular`, each (3, nv): angular · v is its angular velocity.
+        An argument of one state counts for each of k states.
+        """
+
+    def frame_bias(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> FrameAcceleration:
+        """J̇ v of every frame of interest: the acceleration of its origin (m/s²) and its angular
+        acceleration (rad/s²) at zero joint accelerations, in the base frame.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        accelerations : numpy.recarray, (nf,) or (k, nf)
+            Accelerations of each frame of interest, as a record array with the parts
+
+            - `linear`, each (3,): Of the origin, m/s².
+            - `angular`, each (3,): rad/s².
+        An argument of one state counts for each of k states.
+        """
+
+    def frame_forces(self, q: ArrayLike, wrenches: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """Σ Jᵀ w, N m or N: the joint forces that do the same work as wrenches on the mechanism at
+        the origins of its frames, in the axes of the base frame.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        wrenches : float64, (nf, 6) or (k, nf, 6)
+            A wrench on each frame, in the axes of the base frame: force (N), then moment about
+            the frame's origin (N m).
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        tau : float64, (nv,) or (k, nv)
+            Joint forces, N m or N.
+        An argument of one state counts for each of k states.
+        """
+
+    def loop_residual(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """How far the loops are from closed: of each cut, the point of side b minus the point of
+        side a in the base frame, m, then what aligns directions, sines.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        result : float64, (nc,) or (k, nc)
+            A number for each row of the loop constraints.
+        An argument of one state counts for each of k states.
+        """
+
+    def loop_jacobian(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """J(q), by rows: the residual of the loops changes at the rates J v.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        jacobian : float64, (nc, nv) or (k, nc, nv)
+            The Jacobian by rows.
+        An argument of one state counts for each of k states.
+        """
+
+    def loop_bias(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """J̇ v: the second derivative of the residual of the loops at zero joint accelerations.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        result : float64, (nc,) or (k, nc)
+            A number for each row of the loop constraints.
+        An argument of one state counts for each of k states.
+        """
+
+    def coordinate_rates(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """q̇ = N(q) v, rad/s or m/s: the rates of the coordinates.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        result : float64, (nq,) or (k, nq)
+            Joint coordinates, or their rates.
+        An argument of one state counts for each of k states.
+        """
+
+    def integrate(self, q: ArrayLike, dv: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """q ⊞ dv, rad or m: the coordinates that the velocities dv, constant over a unit of time,
+        lead to from q.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        dv : float64, (nv,) or (k, nv)
+            Joint velocities, constant over a unit of time, rad or m.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        result : float64, (nq,) or (k, nq)
+            Joint coordinates, or their rates.
+        An argument of one state counts for each of k states.
+        """
+
+    def difference(self, q0: ArrayLike, q1: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """q₁ ⊟ q₀, rad or m: the velocities that lead from q0 to q1 in a unit of time, the inverse
+        of `integrate`.
+
+        Parameters
+        ----------
+        q0 : float64, (nq,) or (k, nq)
+            Joint coordinates from which the displacement leads, rad or m.
+        q1 : float64, (nq,) or (k, nq)
+            Joint coordinates to which the displacement leads, rad or m.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        dv : float64, (nv,) or (k, nv)
+            Joint velocities, constant over a unit of time, rad or m.
+        An argument of one state counts for each of k states.
+        """
+
+    def dissipated_power(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+        """The power that damping and friction take, W; never negative.
+
+        Parameters
+        ----------
+        q : float64, (nq,) or (k, nq)
+            Joint coordinates, rad or m.
+        v : float64, (nv,) or (k, nv)
+            Joint velocities, rad/s or m/s.
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        power : float64, () or (k,)
+            Power, W.
+        An argument of one state counts for each of k states.
+        """
+
+    def neutral(self, *, out: np.ndarray | None = None) -> Array:
+        """The coordinates at which every joint is at its zero position, rad or m.
+
+        Parameters
+        ----------
+        out : numpy.ndarray, optional
+            What is returned, to be written to: an array of the dtype and the shape of the
+            result, such as an earlier result. It must not overlap an argument.
+
+        Returns
+        -------
+        result : float64, (nq,) or (k, nq)
+            Joint coordinates, or their rates.
+        """
+

@@ -1,0 +1,254 @@
+"""Studies: a scenario, run for many samples of its values, in whatever processes."""
+
+from __future__ import annotations
+
+import csv
+import json
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from . import _core
+from ._results import Scenario, in_temporary_folder
+from ._workers import compute
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Sweep:
+    """The rows of a study: `sweep["peak tau crank [N m]"]` is the array of a column, in the order of the
+    samples; numbers that a failed sample does not have are nan."""
+
+    def __init__(self, folder: Path, headers: list[str], numeric: list[bool]):
+        self.folder = folder
+        """The folder of the study, with `rows.csv`, and parts in Parquet where these were wanted."""
+        self.columns = headers
+        """What is above the columns: `sample`, a path or a few for each value, the outcomes, `status` and `reason`."""
+        with open(folder / "rows.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))[1:]
+        self._arrays = dict(zip(headers, arrays(rows, numeric)))
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        if column not in self._arrays:
+            raise KeyError(f"{column!r} is not a column of this sweep, which has {', '.join(self.columns)}")
+        return self._arrays[column]
+
+    def __len__(self) -> int:
+        return len(self["sample"])
+
+    @property
+    def failures(self) -> dict[int, str]:
+        """The samples that failed, with their reasons."""
+        failed = self["status"] != "complete"
+        return dict(zip(self["sample"][failed].tolist(), self["reason"][failed].tolist()))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame over `sample`."""
+        import pandas
+
+        return pandas.DataFrame(self._arrays).set_index("sample")
+
+    def __repr__(self) -> str:
+        return f"<redysim.Sweep of {len(self)} samples, {len(self.failures)} failed: {self.folder}>"
+
+
+def sweep(
+    scenario: str | PathLike[str] | Scenario,
+    *,
+    over: Mapping[str, Any] | None = None,
+    samples: Mapping[str, Any] | str | PathLike[str] | None = None,
+    run: Literal["inverse", "forward"] | None = None,
+    outcomes: Mapping[str, list[str]] | None = None,
+    executor: Any = None,
+    jobs: int | None = None,
+    folder: str | PathLike[str] | None = None,
+    format: Literal["csv", "parquet"] = "csv",
+    force: bool = False,
+    progress: Callable[[int, int], object] | None = None,
+) -> Sweep:
+    """Runs a scenario for many values of its initial state, its gains, the parameters of its model.
+
+    Rows are written as they come. The same call goes on with what was interrupted, and with more samples
+    keeps those that there are.
+
+    Parameters
+    ----------
+    scenario : str, os.PathLike or Scenario
+        The scenario file; or, without `over` and `samples`, a study file, as `redysim sweep` takes it.
+    over : mapping, optional
+        Values at paths, such as `{"forward.torque.kp": [10, 20]}`: every combination is a sample. A table
+        of `from`, `to` and `count` stands for values at equal distances.
+    samples : mapping, data frame, str or os.PathLike, optional
+        Values at paths, sample by sample: arrays of equal length, of shape (k,) or of shape (k, n) where n
+        values stand at a path. With `count` and `seed` a column may be a distribution: `{"normal": [mean,
+        deviation]}` or `{"uniform": [least, largest]}`. Or the path of a table in CSV.
+    run : {"inverse", "forward"}, optional
+        What is computed; a scenario that is for one of them needs no choice.
+    outcomes : mapping, optional
+        What is kept of each run: for `last`, `peak`, `largest`, `least`, `mean` and `rms` columns of its
+        tables, by symbol, or by symbol and name: `{"peak": ["tau crank"]}`.
+    executor : optional
+        Where samples are computed: a `dask.distributed.Client`, the module `ray` after `ray.init`, or any
+        `concurrent.futures.Executor`; by default processes on this machine.
+    jobs : int, optional
+        How many processes; by default one for each core.
+    folder : str or os.PathLike, optional
+        The folder of the study; by default a temporary one, which is kept as long as the result.
+    format : {"csv", "parquet"}
+        With "parquet", the folder `rows` in it has the rows in parts of Parquet, too. Needs pyarrow.
+    force : bool
+        Replace another study that is there.
+    progress : callable, optional
+        Called with the number of samples that are done and the number of all.
+
+    Raises
+    ------
+    RedysimError
+        With what is wrong with the study, before anything is computed; or why rows cannot be written.
+    """
+    if format not in ("csv", "parquet"):
+        raise ValueError(f'format must be "csv" or "parquet", not {format!r}')
+    if over is None and samples is None:
+        study = _core.Study.load(Path(fspath(scenario)))
+    else:
+        path = Path(scenario.path if isinstance(scenario, Scenario) else scenario)
+        text = definition(path, over, samples, run, outcomes)
+        study = _core.Study.from_toml(text, Path.cwd(), path.stem)
+    for warning in study.warnings:
+        warnings.warn(warning, _core.ModelWarning, stacklevel=2)
+
+    def computed(folder: Path) -> Sweep:
+        return in_folder(folder, study, executor, jobs, format, force, progress)
+
+    return in_temporary_folder(computed, "sweep") if folder is None else computed(Path(folder))
+
+
+def in_folder(folder, study, executor, jobs, format, force, progress) -> Sweep:
+    """Computes the rows that are missing in a folder."""
+    rows = Parts(folder, study, force) if format == "parquet" else _core.Rows(folder, study, force)
+    try:
+        compute(study, rows, executor, jobs, progress)
+    finally:
+        rows.close()
+    return Sweep(folder, study.headers, study.numeric)
+
+
+def definition(path, over, samples, run, outcomes) -> str:
+    """The study as its file has it."""
+    study = {"scenario": str(path), "run": run, "over": over, "outcomes": outcomes}
+    if isinstance(samples, (str, PathLike)):
+        study["samples"] = {"file": fspath(samples)}
+    elif samples is not None:
+        study["samples"] = samples
+    tables = {key: value for key, value in study.items() if value is not None}
+    text = ""
+    for key, value in tables.items():
+        if hasattr(value, "keys"):
+            # A line for each path, which messages then show.
+            text += f"[{key}]\n" + "".join(f"{json.dumps(name)} = {toml(value[name], name)}\n" for name in value.keys())
+        else:
+            text = f"{key} = {toml(value, key)}\n" + text
+    return text
+
+
+def toml(value: Any, name: str) -> str:
+    """A value as TOML."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(str(key))} = {toml(of, name)}" for key, of in value.items()) + " }"
+    if isinstance(value, (list, tuple, range)):
+        return "[" + ", ".join(toml(of, name) for of in value) + "]"
+    raise TypeError(f"{name!r}: values are numbers, strings, True, False or arrays of these, not {type(value).__name__}")
+
+
+def arrays(rows: list[list[str]], numeric: list[bool]) -> Iterator[np.ndarray]:
+    """The columns of rows of CSV."""
+    columns = zip(*rows) if rows else [()] * len(numeric)
+    for index, (is_number, cells) in enumerate(zip(numeric, columns)):
+        if index == 0:
+            yield np.array(cells, dtype=np.int64)
+        elif is_number:
+            yield np.array([float(cell) if cell else np.nan for cell in cells])
+        else:
+            yield np.array(cells, dtype=object)
+
+
+class Parts:
+    """Rows in CSV, as they come, and after so many of them a part in Parquet."""
+
+    SIZE = 1000
+
+    def __init__(self, folder: Path, study: _core.Study, force: bool):
+        import pyarrow.parquet
+
+        self.arrow, self.study = pyarrow, study
+        self.rows = _core.Rows(folder, study, force)
+        self.folder = folder / "rows"
+        self.folder.mkdir(exist_ok=True)
+        kept = self._kept()
+        of_study = kept <= set(range(len(study)))
+        if len(self.rows) == 0 or not of_study:
+            # Of a study that was replaced.
+            for part in self.folder.glob("part-*.parquet"):
+                part.unlink()
+            kept = set()
+        with open(folder / "rows.csv", newline="", encoding="utf-8") as file:
+            self.waiting = [row for row in list(csv.reader(file))[1:] if int(row[0]) not in kept]
+        self._write(self.SIZE)
+
+    def _kept(self) -> set[int]:
+        """The samples whose rows are in a part."""
+        parts = sorted(self.folder.glob("part-*.parquet"))
+        samples = (self.arrow.parquet.read_table(part, columns=["sample"])["sample"].to_pylist() for part in parts)
+        return {sample for of_part in samples for sample in of_part}
+
+    @property
+    def path(self) -> Path:
+        return self.rows.path
+
+    def missing(self) -> list[int]:
+        return self.rows.missing()
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def add(self, index: int, row: str) -> None:
+        self.rows.add(index, row)
+        self.waiting += csv.reader([row])
+        self._write(self.SIZE)
+
+    def finish(self) -> None:
+        self._write(1)
+        self.rows.finish()
+
+    def close(self) -> None:
+        self.rows.close()
+
+    def _write(self, least: int) -> None:
+        """Writes parts as long as so many rows wait."""
+        while len(self.waiting) >= least:
+            part, self.waiting = self.waiting[: self.SIZE], self.waiting[self.SIZE :]
+            columns = zip(self.study.headers, arrays(part, self.study.numeric))
+            table = self.arrow.table({name: self.arrow.array(values, from_pandas=True) for name, values in columns})
+            target = self.folder / f"part-{part[0][0].zfill(8)}.parquet"
+            draft = target.with_suffix(".draft")
+            try:
+                self.arrow.parquet.write_table(table, draft)
+                draft.replace(target)
+            except OSError as error:
+                draft.unlink(missing_ok=True)
+                kept = f"{len(self.rows)} of {len(self.study)} samples are kept in {self.rows.path}"
+                help = "make room on the disk: the same call then goes on with the rest"
+                raise _core.RedysimError(f"error: cannot write {target}: {error}; {kept}\n  = help: {help}") from error

@@ -1,0 +1,176 @@
+from collections.abc import Callable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._results import Motion
+
+Array = NDArray[np.float64]
+
+__version__: str
+
+class RedysimError(Exception):
+    """What is wrong and what to do, as the command `redysim` reports it."""
+
+class ModelWarning(UserWarning):
+    """What a model may have, but is rarely meant."""
+
+def load(
+    path: str | PathLike[str], *, base: Literal["fixed", "free"] = "fixed", parameters: Sequence[str] | None = None
+) -> Mechanism:
+    """Reads a model file (TOML) or a URDF, with run-time parameters such as "gravity", "tool.mass" or
+    "joint2.damping"; by default those of the file."""
+
+def table_of_functions() -> list[tuple[str, list[str], str | None]]: ...
+def runs_of_scenario(path: str | PathLike[str]) -> list[str]: ...
+def compute(path: str | PathLike[str], dynamics: str, folder: str | PathLike[str], force: bool) -> dict[str, Any]: ...
+def read_results(folder: str | PathLike[str]) -> dict[str, Any]: ...
+def page(folder: str | PathLike[str]) -> str: ...
+def simulate(
+    owner: Mechanism,
+    times: list[float],
+    start: tuple[ArrayLike, ArrayLike],
+    torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None,
+    events: list[tuple[Callable[[float, Array, Array], float], float, bool]],
+    method: dict[str, Any],
+) -> dict[str, Any]: ...
+
+class Study:
+    """A study: a scenario, and the values of each sample at paths into it."""
+
+    name: str
+    headers: list[str]
+    numeric: list[bool]
+    warnings: list[str]
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Study: ...
+    @staticmethod
+    def from_toml(text: str, folder: str | PathLike[str], name: str) -> Study: ...
+    def sampler(self) -> str: ...
+    def sample(self, index: int) -> str: ...
+    def __len__(self) -> int: ...
+
+class Sampler:
+    """Computes the rows of samples."""
+
+    def __init__(self, text: str) -> None: ...
+    def row(self, sample: str) -> tuple[int, str] | None: ...
+    def failed_row(self, sample: str, reason: str) -> str: ...
+
+class Rows:
+    """The rows of a study in its folder."""
+
+    path: Path
+    def __init__(self, folder: str | PathLike[str], study: Study, force: bool) -> None: ...
+    def missing(self) -> list[int]: ...
+    def add(self, index: int, row: str) -> None: ...
+    def finish(self) -> None: ...
+    def close(self) -> None: ...
+    def __len__(self) -> int: ...
+
+# The records.
+class Mechanism:
+    """A mechanism that was read from a model file or a URDF: names, sizes and functions."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def path(self) -> Path:
+        """The file of which it was made."""
+    @property
+    def warnings(self) -> list[str]:
+        """What the command `redysim check` would warn of, as it is shown there."""
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+    @property
+    def nl(self) -> int:
+        """Number of links."""
+    @property
+    def nc(self) -> int:
+        """Number of rows of the loop constraints."""
+    @property
+    def nf(self) -> int:
+        """Number of frames of interest."""
+    @property
+    def np(self) -> int:
+        """Number of run-time parameters."""
+    @property
+    def parameter_names(self) -> list[str]:
+        """Names of the run-time parameters."""
+    @property
+    def parameters(self) -> Array:
+        """Values of the run-time parameters, (np,), or (k, np) of k robots."""
+    def with_parameters(self, parameters: ArrayLike | dict[str, ArrayLike]) -> Mechanism:
+        """The mechanism with other values of its run-time parameters, (np,), or (k, np) of k robots, each of
+        which computes one of k states; a dictionary has names with values, () or (k,)."""
+    @property
+    def mass(self) -> float:
+        """Mass of all links, kg."""
+    @property
+    def gravity(self) -> tuple[float, float, float]:
+        """Acceleration of gravity in the base frame, m/s²."""
+    @property
+    def joint_names(self) -> list[str]:
+        """Names of the moving joints."""
+    @property
+    def coordinate_names(self) -> list[str]:
+        """Names of the coordinates; a joint of one coordinate gives it its own name."""
+    @property
+    def velocity_names(self) -> list[str]:
+        """Names of the velocities."""
+    @property
+    def coordinate_units(self) -> list[str]:
+        """Units of the coordinates: rad, m, or 1 for a component of a quaternion."""
+    @property
+    def velocity_units(self) -> list[str]:
+        """Units of what the velocities change: rad or m."""
+    @property
+    def force_units(self) -> list[str]:
+        """Units of the joint forces: N m or N."""
+    @property
+    def link_names(self) -> list[str]:
+        """Names of the links."""
+    @property
+    def frame_names(self) -> list[str]:
+        """Names of the frames of interest."""
+    @property
+    def actuated(self) -> list[bool]:
+        """Whether each velocity has an actuator."""
+    @property
+    def is_compiled(self) -> bool:
+        """Whether the functions are compiled."""
+    @property
+    def library(self) -> Path | None:
+        """The library of compiled functions, if they are compiled."""
+    def compile(self, *, compiler: str | None = None) -> Mechanism:
+        """Writes the functions as C, compiles them by the system's compiler, and has every later call run the
+        compiled code."""
+    def check_unchanged(self) -> None:
+        """Fails if the file has changed since it was loaded."""
+    def simulate(
+        self,
+        t: ArrayLike,
+        q: ArrayLike | None = None,
+        v: ArrayLike | None = None,
+        *,
+        torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None = None,
+        events: Callable[[float, Array, Array], float] | Sequence[Callable[[float, Array, Array], float]] | None = None,
+        integrator: str = "Ode45",
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        max_step: float | None = None,
+        step: float | None = None,
+    ) -> Motion:
+        """The motion from q and v at the first instant of t to the last."""
+    def to_toml(self) -> str:
+        """The model as the text of a model file."""
+    def page(self) -> str:
+        """The page of HTML that shows the model in 3D and moves its joints by sliders, as `redysim show` makes it."""
+    # The functions.

@@ -1,0 +1,39 @@
+"""Random robots as URDF."""
+
+import numpy as np
+
+
+def inertia(rng) -> np.ndarray:
+    """The inertia of a body about its centre of mass, kg m², as real ones are."""
+    points = rng.normal(size=(3, 8)) * 0.1
+    second = points @ points.T
+    return np.trace(second) * np.eye(3) - second
+
+
+def numbers(values) -> str:
+    return " ".join(repr(float(value)) for value in values)
+
+
+def random_urdf(rng, joints: int, serial: bool = False) -> str:
+    """A robot of revolute and prismatic joints, whose links branch unless it is serial."""
+    parts = []
+    for index in range(joints + 1):
+        i = inertia(rng).tolist()
+        parts.append(f"""
+  <link name="link{index}"><inertial>
+    <origin xyz="{numbers(rng.uniform(-0.2, 0.2, 3))}" rpy="{numbers(rng.uniform(-1, 1, 3))}"/>
+    <mass value="{float(rng.uniform(0.5, 3))!r}"/>
+    <inertia ixx="{i[0][0]!r}" iyy="{i[1][1]!r}" izz="{i[2][2]!r}" ixy="{i[0][1]!r}" ixz="{i[0][2]!r}" iyz="{i[1][2]!r}"/>
+  </inertial></link>""")
+    for index in range(1, joints + 1):
+        parent = index - 1 if serial else int(rng.integers(max(0, index - 3), index))
+        axis = rng.normal(size=3)
+        kind = "prismatic" if rng.uniform() < 0.25 else "revolute"
+        parts.append(f"""
+  <joint name="joint{index}" type="{kind}">
+    <parent link="link{parent}"/><child link="link{index}"/>
+    <origin xyz="{numbers(rng.uniform(-0.4, 0.4, 3))}" rpy="{numbers(rng.uniform(-3, 3, 3))}"/>
+    <axis xyz="{numbers(axis / np.linalg.norm(axis))}"/>
+    <limit lower="-3" upper="3" effort="100" velocity="10"/>
+  </joint>""")
+    return f'<robot name="random{joints}">{"".join(parts)}\n</robot>\n'
