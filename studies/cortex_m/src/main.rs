@@ -3,7 +3,7 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
-mod board;
+mod counts;
 mod robots;
 
 #[cfg(not(target_os = "none"))]
