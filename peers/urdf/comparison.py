@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy
+from exact import Errors, errors
 from mimics import misread
 from peer import Peer
+from projected import Unsupported
 
 STATES = 20
 TOLERANCE = 1e-11
@@ -34,10 +36,8 @@ class Comparison:
     # Centre of mass and momenta, and q ⊞ v with p ⊟ q: of a floating base; else zero.
     whole: float
     positions: float
-    # How far the forces that redysim's accelerations take, by Pinocchio, are from those that made them.
-    taken: float
-    # So many times the error of the joint forces is in the accelerations that these make.
-    amplification: float
+    # Of the accelerations, where they are farther apart than the tolerance.
+    errors: Errors | None
 
     @property
     def largest(self) -> float:
@@ -46,25 +46,19 @@ class Comparison:
 
     @property
     def agrees(self) -> bool:
-        """Where roundoff of the forces alone is too much, accelerations are right that take the right forces."""
-        accelerations = self.taken if self.by_forces else self.accelerations
-        return all(share < TOLERANCE for share in [*self._shares, accelerations])
+        """Accelerations that are apart are judged by those in 50 digits."""
+        accelerations = self.errors is None or self.errors.agree(TOLERANCE)
+        return accelerations and all(share < TOLERANCE for share in self._shares)
 
     @property
     def _shares(self) -> list[float]:
         """All but accelerations."""
         return [self.forces, self.matrices, self.jacobians, self.bias, self.whole, self.positions]
 
-    @property
-    def by_forces(self) -> bool:
-        """Whether the accelerations are judged by the forces that they take."""
-        roundoff = max(self.forces, numpy.finfo(float).eps)
-        return self.accelerations > TOLERANCE and self.amplification * roundoff > TOLERANCE
-
 
 def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
     """Computes at random states by this command, which has this model, and by Pinocchio."""
-    names, _ = _answers(command, "")
+    names, _ = answers(command, [])
     imported = tomllib.loads(model.read_text())
     if wrong := misread(urdf, imported):
         raise Failed(f"the joint {wrong[0]} does not mimic as in the URDF")
@@ -80,29 +74,27 @@ def compared(command: list[str | Path], urdf: Path, model: Path) -> Comparison:
         states += [(q, v, a, wrenches), (q, v, peer.forces(q, v, a, wrenches), wrenches)]
     others = [peer.random_position(random) for _ in states]
     lines = [numpy.concatenate([q, v, a, other, w]) for (q, v, a, w), other in zip(states, others)]
-    text = "".join(" ".join(repr(float(x)) for x in line) + "\n" for line in lines)
-    _, found = _answers(command, text)
+    _, found = answers(command, lines)
     parts = [_split(line, shapes) for line in found]
     forces, computed, _, jacobians, bias, whole, moved, ways = zip(*parts[::2])
     accelerations = [part[2] for part in parts[1::2]]
     motions, driven = states[::2], states[1::2]
     matrices = [peer.matrix(q) for q, *_ in motions]
-    scales = [numpy.sqrt(numpy.outer(numpy.diag(matrix), numpy.diag(matrix))) for matrix in matrices]
-    taken = [peer.forces(q, v, a, wrenches) for (q, v, _, wrenches), a in zip(driven, accelerations)]
+    theirs = [peer.accelerations(*state) for state in driven]
+    apart = furthest(accelerations, theirs)
     floats = nq != n
     expected = [peer.jacobians(q) for q, *_ in motions], [peer.bias(q, v) for q, v, *_ in motions]
     return Comparison(
         joints=names,
         mimics=len(peer.mimics),
-        forces=_furthest(forces, [peer.forces(*state) for state in motions]),
-        matrices=_furthest(computed, matrices, numpy.array(scales)),
-        accelerations=_furthest(accelerations, [peer.accelerations(*state) for state in driven]),
-        jacobians=_furthest(jacobians, expected[0], _by_frame(expected[0])),
-        bias=_furthest(bias, expected[1], _by_frame(expected[1])),
+        forces=furthest(forces, [peer.forces(*state) for state in motions]),
+        matrices=furthest_matrix(computed, matrices),
+        accelerations=apart,
+        jacobians=furthest(jacobians, expected[0], _by_frame(expected[0])),
+        bias=furthest(bias, expected[1], _by_frame(expected[1])),
         whole=_furthest_whole(peer, motions, whole) if floats else 0.0,
         positions=_furthest_positions(peer, motions, others[::2], moved, ways) if floats else 0.0,
-        taken=_furthest(taken, [tau for _, _, tau, _ in driven]),
-        amplification=_amplification(peer, driven),
+        errors=None if apart < TOLERANCE else _errors(urdf, names, imported, driven, accelerations, theirs),
     )
 
 
@@ -113,7 +105,7 @@ def _furthest_whole(peer: Peer, motions: list[State], whole: tuple[numpy.ndarray
     """Centre of mass and momenta, each as a share of its length."""
     expected = numpy.array([peer.whole(q, v).reshape(3, 3) for q, v, *_ in motions])
     lengths = numpy.linalg.norm(expected, axis=2, keepdims=True).max(axis=0, keepdims=True)
-    return _furthest(list(whole), list(expected), numpy.broadcast_to(lengths, expected.shape))
+    return furthest(list(whole), list(expected), numpy.broadcast_to(lengths, expected.shape))
 
 
 def _furthest_positions(
@@ -127,23 +119,18 @@ def _furthest_positions(
     ones = [numpy.ones(len(q)) for q in moved]
     integrated = [peer.integrated(q, v) for q, v, *_ in motions]
     differences = [peer.difference(q, other) for (q, *_), other in zip(motions, others)]
-    by_integrate = _furthest([peer.with_signs(q) for q in moved], integrated, numpy.array(ones))
+    by_integrate = furthest([peer.with_signs(q) for q in moved], integrated, numpy.array(ones))
     scales = numpy.array([numpy.ones(len(way)) for way in ways])
-    return max(by_integrate, _furthest(list(ways), differences, scales))
+    return max(by_integrate, furthest(list(ways), differences, scales))
 
 
-def _amplification(peer: Peer, driven: list[tuple[numpy.ndarray, ...]]) -> float:
-    """How many times the relative error of τ and of the forces at rest h, in a = M⁻¹ (τ − h), is in an acceleration.
-
-    By components |M⁻¹| (|τ| + |h|), as a share of the largest acceleration of the joint (N. Higham, Accuracy and
-    Stability of Numerical Algorithms, section 7.2).
-    """
-    amplified, accelerations = [], []
-    for q, v, tau, wrenches in driven:
-        rest = peer.forces(q, v, numpy.zeros_like(v), wrenches)
-        amplified.append(numpy.abs(numpy.linalg.inv(peer.matrix(q))) @ (numpy.abs(tau) + numpy.abs(rest)))
-        accelerations.append(peer.accelerations(q, v, tau, wrenches))
-    return float(numpy.max(numpy.max(amplified, axis=0) / numpy.max(numpy.abs(accelerations), axis=0)))
+def _errors(urdf: Path, names: list[str], model: dict, driven: list[State], *found: list[numpy.ndarray]) -> Errors:
+    if not all(numpy.isfinite(found).ravel()):
+        raise Failed("accelerations are not finite")
+    try:
+        return errors(urdf, names, model, driven, *found)
+    except Unsupported as reason:
+        raise Failed(f"accelerations differ, and {reason}") from None
 
 
 def _split(line: numpy.ndarray, shapes: list[tuple[int, ...]]) -> list[numpy.ndarray]:
@@ -162,9 +149,10 @@ def _by_frame(quantity: list[numpy.ndarray]) -> numpy.ndarray:
     return numpy.broadcast_to(largest.reshape([1, frames] + [1] * (numbers.ndim - 2)), numbers.shape)
 
 
-def _answers(command: list[str | Path], states: str) -> tuple[list[str], list[numpy.ndarray]]:
+def answers(command: list[str | Path], states: list[numpy.ndarray]) -> tuple[list[str], list[numpy.ndarray]]:
     """Names of the joints that move, and what redysim computes at each state."""
-    done = subprocess.run(command, input=states, capture_output=True, text=True)
+    text = "".join(" ".join(repr(float(x)) for x in state) + "\n" for state in states)
+    done = subprocess.run(command, input=text, capture_output=True, text=True)
     if done.returncode != 0:
         sys.stderr.write(done.stderr)
         said = done.stderr.strip().splitlines() or [f"it ends with {done.returncode}"]
@@ -173,7 +161,13 @@ def _answers(command: list[str | Path], states: str) -> tuple[list[str], list[nu
     return names.split("\t"), [numpy.array([float(word) for word in line.split()]) for line in lines]
 
 
-def _furthest(ours: list[numpy.ndarray], theirs: list[numpy.ndarray], scales: numpy.ndarray | None = None) -> float:
+def furthest_matrix(ours: list[numpy.ndarray], theirs: list[numpy.ndarray]) -> float:
+    """Of mass matrices, as a share of √(M_ii M_jj)."""
+    scales = [numpy.sqrt(numpy.outer(numpy.diag(matrix), numpy.diag(matrix))) for matrix in theirs]
+    return furthest(ours, theirs, numpy.array(scales))
+
+
+def furthest(ours: list[numpy.ndarray], theirs: list[numpy.ndarray], scales: numpy.ndarray | None = None) -> float:
     """The largest difference of a component, as a share of its scale: by default its largest value at any state."""
     ours, theirs = numpy.array(ours), numpy.array(theirs)
     scales = numpy.max(numpy.abs(theirs), axis=0) if scales is None else scales

@@ -33,13 +33,19 @@ def with_rotors(model: str, urdf: Path) -> str:
         resisting = numpy.diag(peer.matrix(peer.neutral()))
     except Refused:
         return model
-    parts = model.split("\n[[link]]\n")
     starts = numpy.cumsum([0] + [joint.nv for joint in peer.joints])
     # A free base has no rotor.
     moved = [(name, resisting[at]) for name, at, joint in zip(joints, starts, peer.joints) if joint.nv == 1]
-    for joint, inertia in moved:
+    return with_keys(model, {joint: {"armature": inertia / 2} for joint, inertia in moved})
+
+
+def with_keys(model: str, numbers: dict[str, dict[str, float]]) -> str:
+    """The model with these keys of the links on these joints."""
+    parts = model.split("\n[[link]]\n")
+    for joint, keys in numbers.items():
         index = next(i for i, part in enumerate(parts) if f"\njoint_name = {quoted(joint)}\n" in part)
-        parts[index] = parts[index].replace("\nmass = ", f"\narmature = {float(inertia) / 2!r}\nmass = ", 1)
+        lines = "".join(f"{key} = {float(number)!r}\n" for key, number in keys.items())
+        parts[index] = parts[index].replace("\nmass = ", f"\n{lines}mass = ", 1)
     return "\n[[link]]\n".join(parts)
 
 

@@ -12,6 +12,8 @@ from extras import with_frames, with_rotors
 
 # The models: by the generic path with fixed links kept and fused, and the one that is compiled.
 KEPT, FUSED, COMPILED = "generic", "fused", "compiled"
+# Pinocchio leaves these out. Taken off afterwards, friction of 10 N m leaves ten digits of the 5 mN m that move a finger.
+LEFT_OUT = ("damping = ", "friction = ")
 
 
 @dataclass
@@ -37,16 +39,12 @@ class Robot:
     def make_models(self, redysim: Path, folder: Path, base: str) -> None:
         """Imports it with fixed links kept, and fused. The first that is a model is to be compiled, with rotors."""
         for way, options in [(KEPT, []), (FUSED, ["--fuse-fixed"])]:
-            command = [redysim, "import", self.urdf, "--base", base, *options]
-            done = subprocess.run(command, capture_output=True, text=True)
-            # 1 is faulty input; nothing else is for the file to answer for.
-            if done.returncode not in [0, 1]:
-                sys.exit(f"redysim import {self.urdf} ends with {done.returncode}:\n{done.stderr}")
+            done = run_import(redysim, self.urdf, ["--base", base, *options])
             if done.returncode == 1:
                 self.refused.append(self._fault(done.stderr))
                 continue
             self.said = done.stderr.splitlines()
-            framed = with_frames(done.stdout)
+            framed = with_frames(without_resistance(done.stdout))
             driven = with_rotors(framed, self.urdf)
             self._write(way, folder / way, framed if way == KEPT else driven)
             if COMPILED not in self.models:
@@ -61,6 +59,20 @@ class Robot:
         errors = [line for line in said.splitlines() if line.startswith("error: ")] or [said]
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         return errors[0].removeprefix("error: ").replace(str(self.urdf), self.urdf.name) + more
+
+
+def run_import(redysim: Path, urdf: Path, options: list[str]) -> subprocess.CompletedProcess[str]:
+    """The import of a URDF, whose input may be faulty: it ends with 0 or 1."""
+    done = subprocess.run([redysim, "import", urdf, *options], capture_output=True, text=True)
+    # 1 is faulty input; nothing else is for the file to answer for.
+    if done.returncode not in [0, 1]:
+        sys.exit(f"redysim import {urdf} ends with {done.returncode}:\n{done.stderr}")
+    return done
+
+
+def without_resistance(model: str) -> str:
+    """The model without what Pinocchio leaves out."""
+    return "".join(line for line in model.splitlines(True) if not line.startswith(LEFT_OUT))
 
 
 def example_robots() -> list[Path]:

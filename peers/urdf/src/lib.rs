@@ -1,8 +1,7 @@
 //! Dynamics of a mechanism, compiled or generic, at states that another program writes.
 
 use redysim::{
-    ForwardDynamics, FrameAcceleration, Frames, InverseDynamics, MassCenter, MassMatrix, PassiveForces, TotalMomentum,
-    Vector, Wrench,
+    ForwardDynamics, FrameAcceleration, Frames, InverseDynamics, MassCenter, MassMatrix, TotalMomentum, Vector, Wrench,
 };
 use std::error::Error;
 use std::io::{BufRead, Write};
@@ -13,14 +12,12 @@ use std::io::{BufRead, Write};
 /// q, v, a, other coordinates p and the wrenches w on the frames that it reads, one line of NV + NV² + NV + 6 NF NV + 6 NF
 /// + 9 + NQ + NV: the joint forces at (q, v, a) under w, the mass matrix by rows, the accelerations at (q, v) under the
 /// forces a and w, the Jacobians of the frames by rows, and their J̇ v; the centre of mass, linear momentum, and angular
-/// momentum about it; q ⊞ v, and p ⊟ q. What acts in the joints passively is left out of the forces, and given by the
-/// actuators. Numbers are written so that they read back as they are.
+/// momentum about it; q ⊞ v, and p ⊟ q. Numbers are written so that they read back as they are.
 pub fn answer<M>(mechanism: &M) -> Result<(), Box<dyn Error>>
 where
     M: InverseDynamics<f64>
         + MassMatrix<f64>
         + ForwardDynamics<f64>
-        + PassiveForces<f64>
         + MassCenter<f64>
         + TotalMomentum<f64>
         + Frames<f64, Wrenches: Vector<Wrench<f64>>>,
@@ -39,11 +36,11 @@ where
         let [v, a] = [nq, nq + nv].map(|from| M::Velocities::from_fn(nv, |index| state[from + index]));
         let part = |from: usize| [0, 1, 2].map(|axis| state[own + from + axis]);
         let wrenches = M::Wrenches::from_fn(nf, |frame| Wrench { force: part(6 * frame), moment: part(6 * frame + 3) });
-        let (passive, external) = (mechanism.passive_forces(&q, &v), mechanism.frame_forces(&q, &wrenches));
-        let [passive, external] = [passive.as_ref(), external.as_ref()];
-        let driven = M::Velocities::from_fn(nv, |joint| a.as_ref()[joint] + passive[joint] + external[joint]);
+        let external = mechanism.frame_forces(&q, &wrenches);
+        let external = external.as_ref();
+        let driven = M::Velocities::from_fn(nv, |joint| a.as_ref()[joint] + external[joint]);
         let inverse = mechanism.inverse_dynamics(&q, &v, &a);
-        let forces: Vec<f64> = (0..nv).map(|i| inverse.as_ref()[i] - passive[i] - external[i]).collect();
+        let forces: Vec<f64> = (0..nv).map(|i| inverse.as_ref()[i] - external[i]).collect();
         let matrix = mechanism.mass_matrix(&q);
         let accelerations = mechanism.forward_dynamics(&q, &v, &driven);
         let (jacobians, bias) = (mechanism.frame_jacobians(&q), mechanism.frame_bias(&q, &v));
