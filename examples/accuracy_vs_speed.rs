@@ -1,11 +1,11 @@
-//! Accuracy against speed: every integrator on five problems, every way to compute KR5's dynamics, and every way to
+//! Accuracy against speed: every integrator on seven problems, every way to compute KR5's dynamics, and every way to
 //! keep a loop closed. Writes pictures and tables; `docs/accuracy.md` explains them.
 //!
 //! `cargo run --release --example accuracy_vs_speed`
 //!
 //! It takes some minutes, and builds itself twice again: for this machine's instructions, and with the feature
 //! `deterministic`. The names of parts (`kr5`, `gripper`, `fourbar`, `stiff`,
-//! `swing`, `iftomm`, `drift`, `digits`, `evaluation`) may follow behind `--`, to have those alone.
+//! `swing`, `floating`, `walking`, `iftomm`, `drift`, `digits`, `evaluation`) may follow behind `--`, to have those alone.
 
 mod common;
 
@@ -16,6 +16,8 @@ mod chains;
 #[path = "../tests/common/random.rs"]
 #[allow(dead_code, reason = "tests use more of it")]
 mod random;
+#[path = "../tests/common/scenes/mod.rs"]
+mod scenes;
 #[path = "../tests/common/styles.rs"]
 #[allow(dead_code, reason = "tests use more of it")]
 mod styles;
@@ -25,13 +27,16 @@ mod accuracy {
     pub mod digits;
     pub mod drift;
     pub mod evaluation;
+    pub mod floating;
+    pub mod gimbal;
     pub mod models;
     pub mod problem;
+    pub mod walking;
     pub mod work_precision;
 }
 
 #[allow(dead_code, reason = "tests use more of it")]
-use accuracy::{benchmarks, digits, drift, evaluation, problem, work_precision};
+use accuracy::{benchmarks, digits, drift, evaluation, floating, gimbal, problem, walking, work_precision};
 use common::{Failure, Outputs};
 
 fn main() -> Result<(), Failure> {
@@ -58,6 +63,13 @@ fn main() -> Result<(), Failure> {
     }
     if asked("swing") {
         work_precision::report(&problem::LongSwing, &mut outputs)?;
+    }
+    if asked("floating") {
+        work_precision::report(&floating::Floating::new(), &mut outputs)?;
+        gimbal::report(&mut outputs)?;
+    }
+    if asked("walking") {
+        walking::report(&mut outputs)?;
     }
     if asked("iftomm") {
         benchmarks::report(&mut outputs)?;

@@ -9,6 +9,7 @@ use redysim::{
 };
 
 use crate::common::csv::Csv;
+use crate::common::outputs::workspace;
 use crate::common::table::{Table, headline, remark, tiny};
 use crate::common::{Context, Failure, Outputs};
 
@@ -100,8 +101,9 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     windows(&mut rows, "N = 2, Ode4, 10 ms", &NFourbar2, &Ode4::new(1e-2), two)?;
     windows(&mut rows, "N = 2, Ode4, 1 ms", &NFourbar2, &Ode4::new(1e-3), two)?;
     windows(&mut rows, "N = 2, Ode45, rtol 1e-6", &NFourbar2, &Ode45::new().rtol(1e-6).atol(1e-8), two)?;
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/n_fourbar_40.toml");
-    let forty = GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model);
+    let path = workspace().join("models/n_fourbar_40.toml");
+    let forty = Model::load(&path).context(|| format!("cannot read {}", path.display()))?;
+    let forty = GenericMechanism::new(forty.model);
     let end = (20.0, [0.410_901_153_762_945_2, 0.911_679_900_971_981_7]);
     windows(&mut rows, "N = 40, generic, Ode4, 10 ms", &forty, &Ode4::new(1e-2), end)?;
     rows.table.print();

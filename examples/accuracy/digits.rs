@@ -10,6 +10,7 @@ use redysim_model::{AccelerationMethod, CodegenOptions, Function, Functions, Mod
 use crate::chains::{Rod, chain, oblique, palm};
 use crate::common::csv::Csv;
 use crate::common::figure::{Figure, Panel};
+use crate::common::outputs::workspace;
 use crate::common::table::{Table, headline, remark, tiny};
 use crate::common::{Failure, Outputs};
 use crate::random::Random;
@@ -50,7 +51,7 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
 
 fn robots() -> Result<[(&'static str, Tree); 6], Failure> {
     let model = |name: &str| -> Result<Tree, Failure> {
-        Ok(Tree::new(&Model::load(format!("{}/../models/{name}.toml", env!("CARGO_MANIFEST_DIR")))?.model))
+        Ok(Tree::new(&Model::load(workspace().join(format!("models/{name}.toml")))?.model))
     };
     let heavy = |index| if index == 5 { 1e6 } else { 1.0 };
     Ok([

@@ -1,7 +1,6 @@
 //! Error against time per call: what a scalar, an instruction set or a tolerance buys.
 
 use std::hint::black_box;
-use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
@@ -13,6 +12,7 @@ use redysim::{ForwardDynamics, InverseDynamics, Real, Vector};
 use super::models::{DOF, Kr5, pruned};
 use crate::common::csv::Csv;
 use crate::common::figure::{Figure, Panel};
+use crate::common::outputs::workspace;
 use crate::common::reference::Reference;
 use crate::common::speed::{median, remark_processor};
 use crate::common::table::{Table, headline, remark, tiny};
@@ -177,8 +177,8 @@ fn per_state(width: usize, mut call: impl FnMut(usize)) -> f64 {
 
 /// KR5 on the generic path.
 fn generic() -> Result<GenericMechanism, Failure> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/test/kr5_ranges.toml");
-    Ok(GenericMechanism::new(Model::load(path).context(|| format!("cannot read {path}"))?.model))
+    let path = workspace().join("models/test/kr5_ranges.toml");
+    Ok(GenericMechanism::new(Model::load(&path).context(|| format!("cannot read {}", path.display()))?.model))
 }
 
 /// What this build has to measure: everything, or, where it is another build of the same program, what differs.
@@ -234,7 +234,7 @@ fn parsed(line: &str) -> Option<Measured> {
 /// Builds this program again in another way, and runs it for its measurements.
 fn of_build(build: &str) -> Result<Vec<Measured>, Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let root = workspace();
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
     let mut command = Command::new(cargo);
     command.current_dir(root).args(["run", "--release", "--quiet", "--example", "accuracy_vs_speed"]);

@@ -5,7 +5,7 @@ use std::time::Instant;
 use redysim::integrate::Observer;
 use redysim::{
     Assembly, ClosedLoop, ClosedLoopSimulation, ConfigurationSpace, ForwardSimulation, IntegrationError, Integrator,
-    Ode, Ode15s, Pd, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector, ZeroTorque,
+    Ode15s, Pd, Radau5, Solution, Step, TorqueLaw, TreeDynamics, Vector, ZeroTorque,
 };
 use std::ops::ControlFlow;
 
@@ -15,12 +15,27 @@ use crate::common::reference::Reference;
 
 /// One run of one method.
 pub struct Run {
-    /// rad, or a share of the energy.
-    pub error: f64,
+    /// An error for each of the problem's [`quantities`](Problem::quantities).
+    pub errors: Vec<f64>,
     /// Evaluations of the right-hand side; a Jacobian counts as one for each component of the state.
     pub evaluations: f64,
     /// Wall time, ms.
     pub milliseconds: f64,
+}
+
+impl Run {
+    /// The error of the problem's first quantity.
+    pub fn error(&self) -> f64 {
+        self.errors.first().copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// What the error of a problem is.
+pub struct Quantity {
+    /// As the axis of a chart has it.
+    pub name: &'static str,
+    /// In full, with its unit.
+    pub what: &'static str,
 }
 
 /// A motion that any method can be tried on.
@@ -29,45 +44,48 @@ pub trait Problem {
     fn name(&self) -> &'static str;
     /// What it is.
     fn title(&self) -> &'static str;
-    /// What its error is.
-    fn quantity(&self) -> &'static str {
-        "error of the joint angles at the end, rad"
+    /// What its errors are, the one that counts first.
+    fn quantities(&self) -> &'static [Quantity] {
+        &[Quantity { name: "error", what: "error of the joint angles at the end, rad" }]
     }
     /// Length of the motion, s.
     fn duration(&self) -> f64;
     /// Largest number of steps of one size that is tried.
     fn most_steps(&self) -> u64;
+    /// The tolerances that are tried: 10⁻² … 10⁻¹³.
+    fn tolerances(&self) -> impl Iterator<Item = f64> {
+        (4..=26).map(|half| 10_f64.powf(-0.5 * f64::from(half)))
+    }
     /// Integrates with `method`.
     fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>>
     where
         Self: Sized;
 }
 
-/// Integrates `ode` often enough to time it; `error` judges the end.
-fn timed<O: Ode<f64, Y>, Y: Vector<f64>>(
-    mut ode: O,
-    method: &impl Integrator<f64>,
-    duration: f64,
-    start: &Y,
-    error: impl Fn(&Y) -> f64,
+/// Integrates often enough to time it; `errors` judges the end.
+pub fn timed<Y: Vector<f64>>(
+    mut integrate: impl FnMut() -> Result<Solution<f64, Y>, IntegrationError<f64>>,
+    errors: impl Fn(&Y) -> Vec<f64>,
 ) -> Result<Run, IntegrationError<f64>> {
     let (mut best, mut spent) = (f64::INFINITY, 0.0);
     loop {
         let begun = Instant::now();
-        let Solution { y, statistics, .. } = method.integrate(&mut ode, (0.0, duration), start.clone())?;
+        let Solution { y, statistics, .. } = integrate()?;
         let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
         best = best.min(milliseconds);
         spent += milliseconds;
         if spent > 20.0 {
-            let columns = start.as_ref().len() as u64;
+            let columns = y.as_ref().len() as u64;
             let evaluations = (statistics.evaluations + columns * statistics.jacobians) as f64;
-            return Ok(Run { error: error(&y), evaluations, milliseconds: best });
+            return Ok(Run { errors: errors(&y), evaluations, milliseconds: best });
         }
     }
 }
 
-fn largest_difference(found: &[f64], expected: &[f64]) -> f64 {
-    found.iter().zip(expected).map(|(found, expected)| (found - expected).abs()).fold(0.0, f64::max)
+/// The largest component of the difference of two configurations on the tangent.
+fn apart<M: ConfigurationSpace<f64>>(mechanism: &M, found: &M::Coordinates, expected: &M::Coordinates) -> f64 {
+    let difference = mechanism.difference(expected, found);
+    difference.as_ref().iter().fold(0.0, |most, component| component.abs().max(most))
 }
 
 /// A tree that is let go or driven, judged by where its joints are at the end.
@@ -79,7 +97,7 @@ pub struct MotionProblem<M: ConfigurationSpace<f64> + 'static, L> {
     start: (M::Coordinates, M::Velocities),
     duration: f64,
     most_steps: u64,
-    end: Vec<f64>,
+    end: M::Coordinates,
 }
 
 impl<M: TreeDynamics<f64>, L: TorqueLaw<f64, M> + Clone> Problem for MotionProblem<M, L> {
@@ -96,16 +114,22 @@ impl<M: TreeDynamics<f64>, L: TorqueLaw<f64, M> + Clone> Problem for MotionProbl
         self.most_steps
     }
     fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>> {
-        let simulation = ForwardSimulation::new(self.mechanism, self.law.clone());
+        let mut simulation = ForwardSimulation::new(self.mechanism, self.law.clone());
+        let copy = ForwardSimulation::new(self.mechanism, ZeroTorque);
         let start = simulation.state(&self.start.0, &self.start.1);
-        timed(simulation, method, self.duration, &start, |end| largest_difference(end.as_ref(), &self.end))
+        let integrate = || method.integrate(&mut simulation, (0.0, self.duration), start.clone());
+        timed(integrate, |end| vec![apart(self.mechanism, &copy.split(end).q, &self.end)])
     }
 }
 
 /// The last row of a reference up to `duration`.
-fn end_of(text: &str, joints: usize, duration: f64) -> Result<Vec<f64>, Failure> {
-    let reference = Reference::motion("quad precision", text, joints)?.until(duration);
-    Ok(reference.q.last().cloned().unwrap_or_default())
+fn end_of<const N: usize>(text: &str, duration: f64) -> Result<[f64; N], Failure> {
+    last(&Reference::motion("quad precision", text, N)?.until(duration))
+}
+
+fn last<const N: usize>(reference: &Reference) -> Result<[f64; N], Failure> {
+    let row = reference.q.last().and_then(|row| row.as_slice().try_into().ok());
+    row.ok_or_else(|| Failure(format!("the reference by {} has no row of {N} coordinates", reference.by)))
 }
 
 /// KR5 let go at q = 0, for a second.
@@ -119,7 +143,7 @@ pub fn kr5() -> Result<impl Problem, Failure> {
         start: ([0.0; DOF], [0.0; DOF]),
         duration: 1.0,
         most_steps: 100_000,
-        end: end_of(text, DOF, 1.0)?,
+        end: end_of(text, 1.0)?,
     })
 }
 
@@ -134,7 +158,7 @@ pub fn gripper() -> Result<impl Problem, Failure> {
         start: ([-std::f64::consts::FRAC_PI_3, 0.0, 0.0, 0.0], [0.0; Gripper::NV]),
         duration: 1.0,
         most_steps: 100_000,
-        end: end_of(text, Gripper::NV, 1.0)?,
+        end: end_of(text, 1.0)?,
     })
 }
 
@@ -154,15 +178,15 @@ pub fn stiff() -> Result<impl Problem, Failure> {
         start: ([0.0; DOF], [0.0; DOF]),
         duration: 1.0,
         most_steps: 20_000,
-        end: vec![0.0; DOF],
+        end: [0.0; DOF],
     };
     let mut simulation = ForwardSimulation::new(problem.mechanism, problem.law);
     let start = simulation.state(&problem.start.0, &problem.start.1);
     let span = (0.0, problem.duration);
     let judge = Radau5::new().rtol(3e-14).atol(1e-16).integrate(&mut simulation, span, start)?;
     let other = Ode15s::new().rtol(1e-11).atol(1e-13).integrate(&mut simulation, span, start)?;
-    problem.end = judge.y[..DOF].to_vec();
-    let apart = largest_difference(&other.y[..DOF], &problem.end);
+    problem.end = simulation.split(&judge.y).q;
+    let apart = apart(&Kr5, &simulation.split(&other.y).q, &problem.end);
     if apart > 1e-8 {
         return Err(Failure(format!("Radau5 and Ode15s differ by {apart:.1e} rad at the end of the stiff problem")));
     }
@@ -172,7 +196,7 @@ pub fn stiff() -> Result<impl Problem, Failure> {
 /// The paper's four-bar let go from rest, its loop held by projection, for 0.68 s.
 pub struct FourbarFall {
     start: Assembly<f64, [f64; 3], [f64; 3]>,
-    end: Vec<f64>,
+    end: [f64; Fourbar::NQ],
 }
 
 /// See [`FourbarFall`].
@@ -180,7 +204,7 @@ pub fn fourbar() -> Result<FourbarFall, Failure> {
     let text = include_str!("../../tests/reference/golden_ref_hoken_rest_consistent.csv");
     let rows = Reference::loop_motion("quad precision", text, Fourbar::NV, 2)?.until(0.68);
     let start = ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &[0.0; 3], &[0])?;
-    Ok(FourbarFall { start, end: rows.q.last().cloned().unwrap_or_default() })
+    Ok(FourbarFall { start, end: last(&rows)? })
 }
 
 impl Problem for FourbarFall {
@@ -197,9 +221,11 @@ impl Problem for FourbarFall {
         50_000
     }
     fn run(&self, method: &impl Integrator<f64>) -> Result<Run, IntegrationError<f64>> {
-        let simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
+        let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque);
+        let copy = ClosedLoopSimulation::<f64, _, _>::new(ClosedLoop::new(&Fourbar), ZeroTorque);
         let start = simulation.assembled(&self.start);
-        timed(simulation, method, self.duration(), &start, |end| largest_difference(end, &self.end))
+        let integrate = || method.integrate(&mut simulation, (0.0, self.duration()), start);
+        timed(integrate, |end| vec![apart(&Fourbar, &copy.split(end).q, &self.end)])
     }
 }
 
@@ -236,8 +262,8 @@ impl Problem for LongSwing {
     fn title(&self) -> &'static str {
         "Double pendulum, 100 s of swinging"
     }
-    fn quantity(&self) -> &'static str {
-        "largest error of the energy, as a share of it"
+    fn quantities(&self) -> &'static [Quantity] {
+        &[Quantity { name: "error", what: "largest error of the energy, as a share of it" }]
     }
     fn duration(&self) -> f64 {
         100.0
@@ -251,6 +277,6 @@ impl Problem for LongSwing {
         let start = simulation.state(&[hanging + 0.3, 0.1], &[0.0; 2]);
         let mut energies = Energies { start: Energies::of(&start), worst: 0.0 };
         method.run(&mut simulation, (0.0, self.duration()), start, &mut energies)?;
-        timed(simulation, method, self.duration(), &start, |_| energies.worst)
+        timed(|| method.integrate(&mut simulation, (0.0, self.duration()), start), |_| vec![energies.worst])
     }
 }

@@ -4,7 +4,7 @@ use redysim::{
     Dop8, Dop853, Gauss4, Gauss6, IntegrationError, Integrator, Ode4, Ode5, Ode15s, Ode45, Radau5, SemiImplicitEuler,
 };
 
-use super::problem::{Problem, Run};
+use super::problem::{Problem, Quantity, Run};
 use crate::common::csv::Csv;
 use crate::common::figure::{Figure, Panel};
 use crate::common::progress::Progress;
@@ -22,11 +22,6 @@ struct MethodRuns {
 /// The errors that the table asks for.
 const TARGETS: [f64; 4] = [1e-2, 1e-4, 1e-7, 1e-10];
 
-/// Tolerances 10⁻² … 10⁻¹³.
-fn tolerances() -> impl Iterator<Item = f64> {
-    (4..=26).map(|half| 10_f64.powf(-0.5 * f64::from(half)))
-}
-
 /// Numbers of steps 16, 32, … up to `most`.
 fn step_counts(most: u64) -> impl Iterator<Item = u64> {
     (4..).map(|power| 1 << power).take_while(move |&count| count <= most)
@@ -42,7 +37,7 @@ fn runs<I: Integrator<f64>>(
     let mut method = MethodRuns { name, runs: Vec::new(), failure: None };
     for integrator in methods {
         match problem.run(&integrator) {
-            Ok(run) if run.error < 1.0 => {
+            Ok(run) if run.error() < 1.0 => {
                 method.failure = None;
                 method.runs.push(run);
             }
@@ -60,6 +55,20 @@ fn runs<I: Integrator<f64>>(
 
 /// Tries every method on `problem` and shows what comes out.
 pub fn report(problem: &impl Problem, outputs: &mut Outputs) -> Result<(), Failure> {
+    let methods = measured(problem);
+    outputs.picture(problem.name(), problem.title(), &figure(problem, &methods))?;
+    outputs.numbers(problem.name(), "the same in numbers", &csv(problem, &methods))
+}
+
+/// Tries every method on `problem`, and shows its first quantity over evaluations in a panel.
+pub fn over_evaluations(problem: &impl Problem, outputs: &mut Outputs) -> Result<Panel, Failure> {
+    let methods = measured(problem);
+    outputs.numbers(problem.name(), "the same in numbers", &csv(problem, &methods))?;
+    Ok(panel(problem.title(), (0, &problem.quantities()[0]), &methods, ("evaluations", |run| run.evaluations)))
+}
+
+/// Tries every method on `problem` and prints what comes out.
+fn measured(problem: &impl Problem) -> Vec<MethodRuns> {
     let size = |count: u64| problem.duration() / count as f64;
     let counts = || step_counts(problem.most_steps());
     let mut progress = Progress::new(problem.name(), 10);
@@ -74,15 +83,13 @@ pub fn report(problem: &impl Problem, outputs: &mut Outputs) -> Result<(), Failu
     add(runs("Dop8", problem, counts().map(|count| Dop8::new(size(count)))));
     add(runs("Gauss4", problem, counts().map(|count| Gauss4::new(size(count)))));
     add(runs("Gauss6", problem, counts().map(|count| Gauss6::new(size(count)))));
-    add(runs("Ode45", problem, tolerances().map(|rtol| Ode45::new().rtol(rtol).atol(rtol / 100.0))));
-    add(runs("Dop853", problem, tolerances().map(|rtol| Dop853::new().rtol(rtol).atol(rtol / 100.0))));
-    add(runs("Ode15s", problem, tolerances().map(|rtol| Ode15s::new().rtol(rtol).atol(rtol / 100.0))));
-    add(runs("Radau5", problem, tolerances().map(|rtol| Radau5::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Ode45", problem, problem.tolerances().map(|rtol| Ode45::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Dop853", problem, problem.tolerances().map(|rtol| Dop853::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Ode15s", problem, problem.tolerances().map(|rtol| Ode15s::new().rtol(rtol).atol(rtol / 100.0))));
+    add(runs("Radau5", problem, problem.tolerances().map(|rtol| Radau5::new().rtol(rtol).atol(rtol / 100.0))));
     drop(progress);
     print(problem, &methods);
-    let figure = figure(problem, &methods);
-    outputs.picture(problem.name(), problem.title(), &figure)?;
-    outputs.numbers(problem.name(), "the same in numbers", &csv(&methods))
+    methods
 }
 
 fn print(problem: &impl Problem, methods: &[MethodRuns]) {
@@ -94,16 +101,17 @@ fn print(problem: &impl Problem, methods: &[MethodRuns]) {
     let mut table = Table::new(&headers);
     for method in methods {
         let cheapest = |target: f64| {
-            let good = method.runs.iter().filter(|run| run.error <= target);
+            let good = method.runs.iter().filter(|run| run.error() <= target);
             let run = good.min_by(|one, other| one.milliseconds.total_cmp(&other.milliseconds));
             run.map_or("–".to_owned(), |run| format!("{:.0}, {:.3}", run.evaluations, run.milliseconds))
         };
-        let best = method.runs.iter().map(|run| run.error).reduce(f64::min);
+        let best = method.runs.iter().map(Run::error).reduce(f64::min);
         let best = best.map_or("fails".to_owned(), |error| format!("{error:.0e}"));
         table.row(std::iter::once(method.name.to_owned()).chain(TARGETS.map(cheapest)).chain([best]));
     }
     table.print();
-    remark(&format!("Error: {}. The quickest run that keeps it; a Jacobian counts", problem.quantity()));
+    let what = problem.quantities().first().map_or("", |quantity| quantity.what);
+    remark(&format!("Error: {what}. The quickest run that keeps it; a Jacobian counts"));
     remark("as one evaluation for each component of the state.");
     for MethodRuns { name, failure, .. } in methods {
         if let Some(error) = failure {
@@ -112,26 +120,41 @@ fn print(problem: &impl Problem, methods: &[MethodRuns]) {
     }
 }
 
+/// Each quantity over evaluations, and a single one over time, too.
 fn figure(problem: &impl Problem, methods: &[MethodRuns]) -> Figure {
-    let panel = |title: &str, across: &str, work: fn(&Run) -> f64| {
-        let start = Panel::new(title, "error", "1").logarithmic().over(across);
-        methods.iter().enumerate().fold(start, |panel, (index, method)| {
-            let points: Vec<(f64, f64)> = method.runs.iter().map(|run| (work(run), run.error.max(1e-17))).collect();
-            panel.dots(method.name, index, &points)
-        })
+    let over_evaluations = |(index, quantity): (usize, &Quantity)| {
+        let title = if index == 0 { problem.title() } else { "" };
+        panel(title, (index, quantity), methods, ("evaluations", |run| run.evaluations))
     };
-    let panels = vec![
-        panel(problem.title(), "evaluations", |run| run.evaluations),
-        panel("", "time [ms]", |run| run.milliseconds),
-    ];
-    Figure { columns: 2, panels, shared_legend: true }
+    let mut panels: Vec<Panel> = problem.quantities().iter().enumerate().map(over_evaluations).collect();
+    if let [single] = problem.quantities() {
+        panels.push(panel("", (0, single), methods, ("time [ms]", |run| run.milliseconds)));
+    }
+    Figure { columns: panels.len(), panels, shared_legend: true }
 }
 
-fn csv(methods: &[MethodRuns]) -> Csv {
-    let mut csv = Csv::new(&["method", "error", "evaluations", "time [ms]"].map(String::from));
+/// A quantity of the problem, by its number, against the work.
+fn panel(
+    title: &str,
+    (index, quantity): (usize, &Quantity),
+    methods: &[MethodRuns],
+    (across, work): (&str, fn(&Run) -> f64),
+) -> Panel {
+    let start = Panel::new(title, quantity.name, "1").logarithmic().over(across);
+    methods.iter().enumerate().fold(start, |panel, (colour, method)| {
+        let points: Vec<(f64, f64)> = method.runs.iter().map(|run| (work(run), run.errors[index].max(1e-17))).collect();
+        panel.dots(method.name, colour, &points)
+    })
+}
+
+/// All numbers of the runs.
+fn csv(problem: &impl Problem, methods: &[MethodRuns]) -> Csv {
+    let quantities = problem.quantities().iter().map(|quantity| quantity.name);
+    let headers = std::iter::once("method").chain(quantities).chain(["evaluations", "time [ms]"]);
+    let mut csv = Csv::new(&headers.map(String::from).collect::<Vec<_>>());
     for method in methods {
-        for Run { error, evaluations, milliseconds } in &method.runs {
-            csv.named_row(method.name, [*error, *evaluations, *milliseconds]);
+        for Run { errors, evaluations, milliseconds } in &method.runs {
+            csv.named_row(method.name, errors.iter().copied().chain([*evaluations, *milliseconds]));
         }
     }
     csv

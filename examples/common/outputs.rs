@@ -1,4 +1,4 @@
-//! Where an example writes its files.
+//! Where an example finds the workspace, and writes its files.
 
 use std::path::{Path, PathBuf};
 
@@ -7,10 +7,10 @@ use super::figure::Figure;
 use super::table::headline;
 use super::{Context, Failure, plot};
 
-/// The folder of the workspace, in which the package of the examples has a folder.
-fn workspace() -> &'static Path {
+/// The folder of the workspace: the nearest one above the package of the example that has a lock file.
+pub fn workspace() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-    package.parent().unwrap_or(package)
+    package.ancestors().find(|folder| folder.join("Cargo.lock").is_file()).unwrap_or(package)
 }
 
 /// The files of one example, in a folder of their own.
