@@ -96,9 +96,9 @@ pub mod generic {
     pub use redysim_model::pseudo::PseudoInertia;
     pub use redysim_model::spatial::{Mat3, Pose, Vec3};
     pub use redysim_model::{
-        AccelerationMethod, Actuation, Attachment, Body, BodyFrame, CodegenOptions, Cut, CutEnd, CutKind, CutSide,
-        Diagnostic, Diagnostics, Faults, Frame, GenericMechanism, Inertia, JointKind, JointRange, Link, LinkPoint,
-        Lint, Loaded, LockError, Loop, Mobility, Model, MovingJoint, PublicInterface, Quantity, RunTimeParameter,
+        AccelerationMethod, Attachment, Body, BodyFrame, CodegenOptions, Cut, CutEnd, CutKind, CutSide, Diagnostic,
+        Diagnostics, Faults, Frame, GenericMechanism, Inertia, JointKind, JointRange, Link, LinkPoint, Lint, Loaded,
+        LockError, Loop, Mobility, Model, MovingJoint, PerVelocity, PublicInterface, Quantity, RunTimeParameter,
         Severity, Spring, Tree,
     };
 }

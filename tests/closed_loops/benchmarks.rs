@@ -48,6 +48,7 @@ fn exact_angle(windows: f64, duration: f64) -> f64 {
 
 /// 81 links and 80 constraints. A debug build has time for the first fold only: release builds take all of 10 s.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn forty_windows_fold_and_open_again() {
     let duration = if cfg!(debug_assertions) { 0.7 } else { 10.0 };
     let windows = generic("n_fourbar_40");

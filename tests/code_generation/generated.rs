@@ -1,14 +1,9 @@
 //! The source file that redysim prints is Rust, and the same mechanism as the macro's.
 
-use redysim::redysim;
+use super::operation_counts::Gripper;
 
 mod printed {
     include!("../generated/gripper.rs");
-}
-
-redysim! {
-    /// The gripper of the ReDySim paper.
-    struct Gripper("models/gripper.toml");
 }
 
 #[test]

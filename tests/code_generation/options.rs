@@ -1,12 +1,8 @@
 //! Options of code generation: what is not selected is not generated, and what is generated is as without options.
 
+use super::operation_counts::Kr5;
 use crate::common::random::{Random, State};
 use redysim::{ConfigurationSpace, InverseDynamics, Mechanism, OperationCount, Operations, redysim};
-
-redysim! {
-    /// Six joints in a row, with everything.
-    struct Kr5("models/kr5.toml");
-}
 
 redysim! {
     /// For a controller.

@@ -1,6 +1,7 @@
 //! A pruned mechanism is wrong by less than its tolerance, measured in states that the generator has not seen, and it
 //! is cheaper.
 
+use super::operation_counts::Kr5;
 use crate::common::random::Random;
 use redysim::generic::Model;
 use redysim::{Operations, redysim};
@@ -44,11 +45,6 @@ robots! {
     To4, 1e-4;
     To5, 1e-5;
     To6, 1e-6;
-}
-
-redysim! {
-    /// The whole robot.
-    struct Kr5("models/kr5.toml");
 }
 
 const NAMES: [&str; 5] = ["inverse_dynamics", "forward_dynamics", "mass_matrix", "bias_forces", "gravity_forces"];
@@ -110,7 +106,7 @@ fn errors<R: Robot>(states: usize) -> [f64; 5] {
 }
 
 fn holds<R: Robot>() {
-    let errors = errors::<R>(20_000);
+    let errors = errors::<R>(if cfg!(debug_assertions) { 2_000 } else { 20_000 });
     for (name, error) in NAMES.iter().zip(errors) {
         println!("{name} to {:e}: {error:.2e}", R::TOLERANCE);
         assert!(error <= R::TOLERANCE, "{name} to {:e}: {error:e}", R::TOLERANCE);
@@ -136,7 +132,7 @@ fn a_larger_tolerance_never_costs_more() {
             assert!(coarser <= finer, "{name}: {coarser} after {finer}");
         }
     }
-    // Inverse dynamics, forward dynamics, mass matrix at 1 %, of 333, 591 and 159.
+    // Inverse dynamics, forward dynamics, mass matrix at 1 %, of 330, 582 and 159.
     let [inverse, forward, mass, ..] = flops(&To2::OPS);
     assert!(inverse <= 250 && forward <= 500 && mass <= 85, "{inverse} {forward} {mass}");
 }

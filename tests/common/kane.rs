@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Pose};
-use redysim_model::{Frame, JointKind, Link, LinkPoint, Model};
+use redysim_model::{Frame, JointKind, Link, LinkPoint, Model, PerVelocity};
 use std::ops::Range;
 
 /// Everything the tests compare, at one state.
@@ -209,16 +209,22 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         frames: Vec::new(),
     };
     for (link, JointState { q, v, first: joint, rate }) in model.links.iter().zip(joint_states(model, q, v)) {
-        // Joints of several freedoms have no physics of their own.
-        let (&[q], &[v]) = (&q[..], &v[..]) else { continue };
-        let JointPhysics { armature, damping, friction, friction_velocity, stiffness, rest } = link.physics;
-        let stretch = q - rest;
-        sums.matrix[(joint, joint)] += rate * rate * armature;
-        let dissipative = damping * v + friction * v / v.hypot(friction_velocity);
-        sums.passive[joint] += rate * (dissipative + stiffness * stretch);
-        sums.dissipated += dissipative * v;
-        sums.kinetic += 0.5 * armature * v.powi(2);
-        sums.potential += 0.5 * stiffness * stretch.powi(2);
+        let nv = v.len();
+        let numbers = |numbers: &PerVelocity<f64>| numbers.of_velocities(nv, 0.0);
+        let [armature, damping, friction, friction_velocity, stiffness] = {
+            let JointPhysics { armature, damping, friction, friction_velocity, stiffness, .. } = &link.physics;
+            [armature, damping, friction, friction_velocity, stiffness].map(numbers)
+        };
+        let (stretch, against_springs) = springs_in_joint(link, &q, &stiffness);
+        for i in 0..nv {
+            let at = joint + i;
+            sums.matrix[(at, at)] += rate * rate * armature[i];
+            let dissipative = damping[i] * v[i] + friction[i] * v[i] / v[i].hypot(friction_velocity[i]);
+            sums.passive[at] += rate * (dissipative + against_springs[i]);
+            sums.dissipated += dissipative * v[i];
+            sums.kinetic += 0.5 * armature[i] * v[i].powi(2);
+            sums.potential += 0.5 * stiffness[i] * stretch[i].powi(2);
+        }
     }
     for spring in &model.springs {
         let end = |LinkPoint { link, point }: LinkPoint| {
@@ -334,6 +340,47 @@ fn steps(link: &Link) -> Vec<(JointKind, Vector3<f64>)> {
         (JointKind::Free, Some(angles)) => [x, y, z].into_iter().map(slide).chain(angles).collect(),
         _ => vec![],
     }
+}
+
+/// How far a joint is from where its springs are relaxed, and the forces against them, for each velocity.
+///
+/// A rotation vector φ has the rate J⁻¹ ω with J⁻¹ = 1 + ½ φ̂ + (1/θ² − cot(θ/2)/2θ) φ̂² at the angular velocity ω in the
+/// turned axes. Source: Chirikjian, *Stochastic Models, Information Theory, and Lie Groups*, volume 2, Birkhäuser 2012,
+/// section 10.6.
+fn springs_in_joint(link: &Link, q: &[f64], stiffness: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let (nq, nv) = sizes(link);
+    let mut rest = vec![0.0; q.len()];
+    if nq > nv {
+        rest[nq - 1] = 1.0;
+    }
+    rest.iter_mut().zip(&link.physics.rest).for_each(|(rest, given)| *rest = *given);
+    if nq == nv {
+        let stretch: Vec<f64> = q.iter().zip(&rest).map(|(q, rest)| q - rest).collect();
+        let forces = stretch.iter().zip(stiffness).map(|(stretch, stiffness)| stretch * stiffness).collect();
+        return (stretch, forces);
+    }
+    let [relaxed, turned] = [&rest, q].map(|q| orientation(&q[nq - 4..]));
+    let turn = Rotation3::from_matrix_unchecked(relaxed.transpose() * turned);
+    let quaternion =
+        UnitQuaternion::new_normalize(Quaternion::new(rest[nq - 1], rest[nq - 4], rest[nq - 3], rest[nq - 2]))
+            .inverse()
+            * UnitQuaternion::new_normalize(Quaternion::new(q[nq - 1], q[nq - 4], q[nq - 3], q[nq - 2]));
+    let vector = quaternion.scaled_axis();
+    let (angle, cross) = (vector.norm(), vector.cross_matrix());
+    let second = 1.0 / angle.powi(2) - 0.5 / (angle * (0.5 * angle).tan());
+    let rates = Matrix3::identity() + cross * 0.5 + cross * cross * second;
+    let times = |k: &[f64], e: &Vector3<f64>| e.component_mul(&Vector3::from_column_slice(k));
+    let moment = rates.transpose() * times(&stiffness[nv - 3..], &vector);
+    if nv == 3 {
+        return (vector.as_slice().to_vec(), moment.as_slice().to_vec());
+    }
+    let displacement =
+        relaxed.transpose() * (Vector3::from_column_slice(&q[..3]) - Vector3::from_column_slice(&rest[..3]));
+    let force = turn.matrix().transpose() * times(&stiffness[..3], &displacement);
+    (
+        [displacement, vector].map(|v| v.as_slice().to_vec()).concat(),
+        [force, moment].map(|v| v.as_slice().to_vec()).concat(),
+    )
 }
 
 /// How many coordinates and velocities a joint has.

@@ -16,3 +16,4 @@ pub mod random;
 pub mod styles;
 #[cfg(feature = "generic")]
 pub mod text;
+pub mod traced;

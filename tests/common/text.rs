@@ -1,8 +1,8 @@
 //! Mechanisms from the text of their model files.
 
+use super::traced::traced;
 use redysim::Function;
 use redysim::generic::{GenericMechanism, Model};
-use redysim_codegen::functions::trace;
 use redysim_model::Tree;
 
 /// The mechanism, by the run-time path.
@@ -13,8 +13,9 @@ pub fn mechanism(text: &str) -> GenericMechanism {
 /// Flops of inverse dynamics, forward dynamics and the mass matrix.
 pub fn flops(text: &str) -> [u32; 3] {
     let tree = Tree::new(&Model::from_toml(text, "test.toml").expect("a good model").model);
-    let functions = trace(&tree).expect("no pass changes a value");
-    [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix].map(|wanted| {
-        functions.iter().find(|traced| traced.function == wanted).expect("a function").expressions.count().flops()
+    let functions = [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix];
+    let traced = traced(&tree, &functions);
+    functions.map(|wanted| {
+        traced.iter().find(|traced| traced.function == wanted).expect("a function").expressions.count().flops()
     })
 }

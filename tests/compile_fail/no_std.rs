@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_program_without_std_allocator_and_panics_links_and_runs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let status = Command::new(env!("CARGO"))

@@ -50,6 +50,7 @@ fn package(name: &str) -> PathBuf {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn an_edited_model_is_compiled_again() {
     let package = package("follower");
     for (mass, torque) in [("2.0", "20"), ("3.0", "30")] {
@@ -61,6 +62,7 @@ fn an_edited_model_is_compiled_again() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_fault_is_shown_at_its_line_and_column_of_the_model() {
     let package = package("faulty");
     fs::write(package.join("models/pendulum.toml"), MODEL.replace("MASS", "\"heavy\"")).unwrap();

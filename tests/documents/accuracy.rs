@@ -4,8 +4,8 @@
 
 use std::fmt::Write;
 
+use super::figures::Kr5;
 use crate::common::methods::{WithMethod, every_adaptive};
-use crate::common::models::Kr5;
 use redysim::{Dop853, ForwardSimulation, Integrator, Ode, Pd, Radau5, ZeroTorque};
 
 const DOF: usize = Kr5::NV;

@@ -45,12 +45,21 @@ where
     (-angle.sin() - exact[2]).hypot(angle.cos() - exact[3])
 }
 
+/// The quantity in a cell such as `0.24 mm`, in units of which these are the sizes.
+fn quantity(cell: &str, units: &[(&str, f64)]) -> f64 {
+    let (number, unit) = cell.split_once(' ').expect("a number and its unit");
+    let (_, unit) = units.iter().find(|(name, _)| *name == unit).expect("a unit of the table");
+    number.parse::<f64>().expect("a number") * unit
+}
+
 /// A length such as `0.24 mm`, m.
 fn length(cell: &str) -> f64 {
-    let (number, unit) = cell.split_once(' ').expect("a number and its unit");
-    let units = [("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9), ("pm", 1e-12)];
-    let (_, unit) = units.into_iter().find(|(name, _)| *name == unit).expect("a unit of length");
-    number.parse::<f64>().expect("a number") * unit
+    quantity(cell, &[("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9), ("pm", 1e-12)])
+}
+
+/// A time such as `3.8 ms`, ms.
+fn milliseconds(cell: &str) -> f64 {
+    quantity(cell, &[("ms", 1.0), ("s", 1e3)])
 }
 
 #[test]
@@ -58,9 +67,13 @@ fn the_errors_of_the_benchmarks_are_those_that_the_table_states() {
     let mut problem = String::new();
     let mut runs = Vec::new();
     for row in table("docs/accuracy.md", "| problem | method | span | error | time |") {
-        let [title, method, span, stated, _] = row.as_slice() else { panic!("{row:?}") };
+        let [title, method, span, stated, time] = row.as_slice() else { panic!("{row:?}") };
         if !title.is_empty() {
             problem.clone_from(title);
+        }
+        // Unoptimised, a run takes some fifty times as long.
+        if cfg!(debug_assertions) && milliseconds(time) > 25.0 {
+            continue;
         }
         runs.push([&problem, method, span, stated].map(String::clone));
     }
@@ -83,8 +96,6 @@ fn the_errors_of_the_benchmarks_are_those_that_the_table_states() {
             ("A02, two windows", "`Ode45`, rtol 1e-6, atol 1e-8") => {
                 error_of_windows(&Windows, span, &Ode45::new().rtol(1e-6).atol(1e-8))
             }
-            // In debug builds this takes minutes.
-            ("A02, forty windows (generic path)", _) if cfg!(debug_assertions) => return,
             ("A02, forty windows (generic path)", "`Ode4`, 10 ms") => {
                 let path = format!("{}/models/n_fourbar_40.toml", env!("CARGO_MANIFEST_DIR"));
                 let forty = GenericMechanism::new(Model::load(path).expect("a good model").model);

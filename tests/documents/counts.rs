@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::documented::read;
+use redysim::Function;
 
 const ROBOTS: [&str; 5] = ["peers/kr5", "peers/gripper", "peers/humanoid30", "peers/chain10", "test/kr5_origin_axis"];
 
@@ -54,6 +55,20 @@ fn the_documentation_states_which_kr5_takes_how_many_operations() {
         [format!("[{} for inverse dynamics](docs", of_peers[0]), format!("| inverse dynamics | {} | 5 |", shipped[0])]
     {
         assert!(readme.contains(&part), "README.md lacks: {part}");
+    }
+}
+
+#[test]
+fn the_readme_tells_of_every_function() {
+    let readme = read("README.md");
+    let table: Vec<&str> = readme
+        .lines()
+        .skip_while(|line| *line != "| function | gives |")
+        .take_while(|line| line.starts_with('|'))
+        .collect();
+    for function in Function::ALL {
+        let call = format!("`{function}(");
+        assert!(table.iter().any(|row| row.contains(&call)), "README.md lacks {function} among the functions");
     }
 }
 

@@ -5,9 +5,15 @@
 mod common;
 #[path = "../common/documented.rs"]
 mod documented;
+#[cfg(feature = "generic")]
+#[path = "../common/scenes/mod.rs"]
+mod scenes;
 
 mod accuracy;
 mod benchmarks;
+mod ci;
 mod counts;
 mod figures;
+mod floating_and_walking;
+mod index;
 mod packages;

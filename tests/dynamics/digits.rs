@@ -43,6 +43,7 @@ fn random_trees(style: Style) -> impl Iterator<Item = Tree> {
 
 /// All passes, and each one off, against none of them, on numbers as they are or rounded otherwise.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn no_pass_costs_forces_or_the_mass_matrix_a_factor_of_four() {
     let switched_off: [fn(&mut Passes); 7] = [
         |_| {},

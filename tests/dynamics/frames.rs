@@ -5,6 +5,7 @@ use crate::common::call::frames;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::dual::{Dual, moving};
 use crate::common::random::{Random, State};
+use crate::robots::Gripper;
 use redysim::generic::{Frame, GenericMechanism, Link, Model, Pose};
 use redysim::{Dispatch, FrameState, Frames, GravityForces, LinkKinematics, Mechanism, Scalar, Wrench};
 use redysim::{OperationCount, redysim};
@@ -65,7 +66,6 @@ fn a_mechanism_has_the_frames_of_its_file() {
 
 #[test]
 fn a_mechanism_without_frames_has_no_functions_of_frames() {
-    redysim! { struct Gripper("models/gripper.toml"); }
     assert_eq!((Gripper::NF, Gripper::FRAME_NAMES), (0, [""; 0]));
     assert_eq!(Gripper::OPS.frame_jacobians, OperationCount::NONE);
     let model = model(&text("gripper"));
@@ -127,6 +127,22 @@ fn velocity_is_the_derivative_of_position_and_bias_that_of_velocity_at_constant_
         for (jacobian, bias) in Machine::frame_jacobians(&along).into_iter().zip(bias) {
             assert_close("linear", &rates(times(&jacobian.linear, &constant)), &bias.linear, 1e-13);
             assert_close("angular", &rates(times(&jacobian.angular, &constant)), &bias.angular, 1e-13);
+        }
+    }
+}
+
+/// By central differences, whose error is of second order in the step.
+#[test]
+fn a_jacobian_takes_joint_velocities_to_differences_of_positions() {
+    const STEP: f64 = 1e-5;
+    for State { q, v, .. } in states() {
+        let [behind, ahead] = [-STEP, STEP].map(|step| {
+            let q: [f64; Machine::NQ] = std::array::from_fn(|joint| q[joint] + step * v[joint]);
+            Machine::frame_kinematics(&q, &[0.0; Machine::NV]).map(|state| state.origin)
+        });
+        for (frame, jacobian) in Machine::frame_jacobians(&q.try_into().unwrap()).iter().enumerate() {
+            let difference = [0, 1, 2].map(|k| (ahead[frame][k] - behind[frame][k]) / (2.0 * STEP));
+            assert_close("velocity", &difference, &times(&jacobian.linear, &v), 1e-7);
         }
     }
 }
@@ -216,7 +232,9 @@ fn a_jacobian_costs_nothing_for_joints_that_do_not_carry_its_frame() {
 
 #[test]
 fn frames_stay_on_their_links_where_joints_are_locked() {
-    redysim! { struct Held("models/test/frames.toml", locked = { hand = "20 deg", fore = 0.4 }); }
+    redysim! {
+        struct Held("models/test/frames.toml", locked = { hand = "20 deg", fore = 0.4 }, functions = [frame_kinematics]);
+    }
     let at = |[rail, upper, nut]: [f64; 3], wrist: [f64; 2]| [rail, upper, wrist[0], wrist[1], nut];
     let (q, v) = ([0.3, -0.5, 0.7], [1.1, 0.2, -0.6]);
     let held = Held::frame_kinematics(&q, &v);

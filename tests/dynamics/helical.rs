@@ -12,7 +12,7 @@ const PITCH: f64 = 0.0007957747154594768;
 /// With the arm locked away the nut alone has τ = (J + m p²) a + m g p.
 #[test]
 fn a_nut_on_a_screw_moves_as_its_closed_form() {
-    redysim! { struct Nut("models/test/spindle.toml", locked = { arm = 0 }); }
+    redysim! { struct Nut("models/test/spindle.toml", locked = { arm = 0 }, functions = [gravity_forces, inverse_dynamics, mass_matrix]); }
     // The arm's axis crosses the screw's at a right angle, 0.3 m off, and the arm stands 30° and −0.05 · 30° along.
     let [[inertia]] = Nut::mass_matrix(&[0.4]);
     let [gravity] = Nut::gravity_forces(&[0.4]);

@@ -4,15 +4,16 @@ use super::random_trees::models::{Joints, mimic_some, random_model};
 use super::random_trees::state_in_space;
 use crate::common::random::{Random, State};
 use crate::common::styles::Style;
-use redysim::generic::{Actuation, GenericMechanism, Link, Model};
+use crate::common::traced::traced;
+use redysim::generic::{GenericMechanism, Link, Model, PerVelocity};
 use redysim::{HybridDynamics, HybridMotion, InverseDynamics, Mechanism, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::denoc::{Method, Untraced, hybrid_dynamics, integrate, inverse_dynamics, neutral};
 use redysim_model::{Function, Tree};
 
-redysim! { struct Floating("models/kr5_floating.toml"); }
+redysim! { pub struct Floating("models/kr5_floating.toml", functions = [hybrid_dynamics, inverse_dynamics, mass_matrix]); }
 
-const TREES: u64 = 60;
+const TREES: u64 = if cfg!(debug_assertions) { 4 } else { 60 };
 
 /// Forces from accelerations that were found with M⁻¹: some roundings times the condition of the passive joints' part
 /// of M, which on ordinary trees of ten joints is below 1e4.
@@ -41,7 +42,7 @@ fn partly_actuated(random: &mut Random) -> Model {
         for link in &mut model.links {
             link.actuated = (random.below(2) == 0).into();
             if random.below(3) == 0 {
-                (link.physics.damping, link.physics.armature) = (1.3, 0.2);
+                (link.physics.damping, link.physics.armature) = (1.3.into(), 0.2.into());
             }
         }
         if Tree::new(&model).has_passive_joints() {
@@ -55,7 +56,7 @@ fn partly_actuated_joints(random: &mut Random) -> Model {
     loop {
         let mut model = random_model(random, Joints::InSeries, true, true);
         for link in &mut model.links {
-            link.actuated = Actuation::PerVelocity((0..link.joint.dof()).map(|_| random.below(2) == 0).collect());
+            link.actuated = PerVelocity::Each((0..link.joint.dof()).map(|_| random.below(2) == 0).collect());
         }
         let mixed =
             |link: &Link| (1..link.joint.dof()).contains(&link.actuated_velocities().iter().filter(|x| **x).count());
@@ -87,8 +88,7 @@ fn both_methods_and_the_traced_expressions_find_a_motion_on_random_trees() {
         };
         let tree = Tree::new(&model);
         let actuated = tree.actuated();
-        let functions = trace(&tree).expect("no pass changes a value");
-        let traced = functions.iter().find(|traced| traced.function == Function::HybridDynamics).expect("of this tree");
+        let [hybrid] = traced(&tree, &[Function::HybridDynamics]).try_into().expect("of this tree");
         let [q, v, u] = match seed < TREES {
             true => [3.0, 2.0, 10.0].map(|bound| random.vector(tree.nv(), bound)),
             false => {
@@ -96,7 +96,7 @@ fn both_methods_and_the_traced_expressions_find_a_motion_on_random_trees() {
                 [q, v, a]
             }
         };
-        let found = traced.expressions.evaluate(&[&q, &v, &u]);
+        let found = hybrid.expressions.evaluate(&[&q, &v, &u]);
         let (a, tau) = found.split_at(tree.nv());
         let by_expressions = HybridMotion { a: a.to_vec(), tau: tau.to_vec() };
         let by = |method| hybrid_dynamics(method, &tree, &Untraced, &q, &v, &u);

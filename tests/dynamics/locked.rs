@@ -2,13 +2,9 @@
 
 use crate::common::comparison::Comparison;
 use crate::common::random::{Random, State};
+use crate::robots::{Gantry, Kr5};
 use nalgebra::{Matrix5, Vector5};
 use redysim::{LinkState, redysim};
-
-redysim! {
-    /// Six joints in a row.
-    struct Kr5("models/kr5.toml");
-}
 
 redysim! {
     /// Whose hand does not turn.
@@ -21,17 +17,20 @@ redysim! {
 }
 
 redysim! {
-    /// Prismatic and oblique joints in scrambled order.
-    struct Gantry("models/test/gantry.toml");
-}
-
-redysim! {
-    struct LockedGantry("models/test/gantry.toml", locked = { along = 0.25, gripper = -0.8, camera = "90 deg" });
+    struct LockedGantry(
+        "models/test/gantry.toml",
+        locked = { along = 0.25, gripper = -0.8, camera = "90 deg" },
+        functions = [inverse_dynamics, link_kinematics]
+    );
 }
 
 redysim! {
     /// Two fingers in the plane, of which all but the root are locked.
-    struct Pendulum("models/gripper.toml", locked = { joint2 = 0.5, joint3 = -0.9, joint4 = 2.0 });
+    struct Pendulum(
+        "models/gripper.toml",
+        locked = { joint2 = 0.5, joint3 = -0.9, joint4 = 2.0 },
+        functions = [inverse_dynamics, forward_dynamics]
+    );
 }
 
 const SIXTH: f64 = 40.0 * std::f64::consts::PI / 180.0;

@@ -13,7 +13,11 @@ use redysim_model::LockError;
 
 redysim! {
     /// KR5 whose platform is held, at a quaternion of another length than 1.
-    struct Held("models/kr5_floating.toml", locked = { base = [0.3, -0.2, 0.5, 0.1, -0.4, 0.2, 0.7] });
+    struct Held(
+        "models/kr5_floating.toml",
+        locked = { base = [0.3, -0.2, 0.5, 0.1, -0.4, 0.2, 0.7] },
+        functions = [inverse_dynamics, forward_dynamics, mass_matrix, bias_forces, energy, link_kinematics]
+    );
 }
 
 const POSITION: [f64; 3] = [0.3, -0.2, 0.5];

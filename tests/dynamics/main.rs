@@ -3,6 +3,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/robots.rs"]
+mod robots;
 
 mod digits;
 mod frames;
@@ -18,6 +20,7 @@ mod long_functions;
 mod mimic;
 mod parameters;
 mod peer_trees;
+mod physics_in_space;
 mod placement;
 mod positions;
 mod random_trees;

@@ -8,7 +8,7 @@ use crate::common::random::{Random, State};
 use redysim::generic::Model;
 use redysim::lanes::F64x4;
 use redysim::{batch, redysim};
-use redysim_model::denoc::{self, Untraced};
+use redysim_model::denoc::{self, Method, Untraced};
 use redysim_model::spatial::Vec3;
 use redysim_model::{CutKind, CutSide, GenericMechanism, Link, LockError, Loop, Tree};
 
@@ -101,6 +101,69 @@ fn lanes_and_batches_of_a_mechanism_with_mimics_compute_what_single_states_do() 
             in_lanes[i].to_array().into_iter().for_each(|lane| assert_near(lane, single[i], "lane"));
         }
     }
+}
+
+/// A motor that weighs nothing lifts two platforms by racks: only together do their joints meet inertia, m r² each.
+#[test]
+fn a_joint_without_mass_moves_what_joints_that_mimic_it_move() {
+    let rack = |name: &str, multiplier: f64, mass: f64| {
+        format!(
+            "[[link]]\nname = '{name}'\nparent = 'base'\njoint = 'prismatic'\naxis = [0, 0, 1]\n\
+             mimic = {{ joint = 'motor', multiplier = {multiplier:?} }}\nmass = {mass:?}\n"
+        )
+    };
+    let lift = |masses: [f64; 2]| {
+        let [up, down] = [("up", 0.03), ("down", -0.02)]
+            .map(|(name, multiplier)| rack(name, multiplier, masses[usize::from(name == "down")]));
+        let text = format!(
+            "name = 'lift'\ngravity = [0, 0, -9.81]\nfunctions = ['forward_dynamics', 'inverse_dynamics', 'mass_matrix']\n\
+             [[link]]\nname = 'motor'\nparent = 'base'\njoint = 'revolute'\naxis = [1, 0, 0]\nmass = 0\n{up}{down}"
+        );
+        Model::from_toml(text, "lift.toml").map(|loaded| loaded.model)
+    };
+    let model = lift([5.0, 3.0]).unwrap_or_else(|faults| panic!("{faults}"));
+    let tree = Tree::new(&model);
+    let inertia = 5.0 * 0.03 * 0.03 + 3.0 * 0.02 * 0.02;
+    let weight = 9.81 * (5.0 * 0.03 - 3.0 * 0.02);
+    for method in [Method::Recursion, Method::Factorisation] {
+        let a = denoc::forward_dynamics(method, &tree, &Untraced, &[0.4], &[2.0], &[1.5]);
+        assert_near(a[0], (1.5 - weight) / inertia, "acceleration");
+    }
+    let faults = lift([0.0, 0.0]).expect_err("nothing has mass").to_string();
+    assert!(faults.contains("link `motor`: its joint `motor` moves no mass"), "{faults}");
+}
+
+/// A wheel behind coaxial joints that turn it back as far as they turn it does not move at all, but for the roundoff of
+/// 1 + 0.3 + 0.4 − 1.7. Each of the joints meets inertia by itself.
+#[test]
+fn joints_of_a_group_whose_motions_cancel_are_refused() {
+    let text = |last: f64| {
+        let follower = |name: &str, parent: &str, multiplier: f64, body: &str| {
+            format!(
+                "[[link]]\nname = '{name}'\nparent = '{parent}'\njoint = 'revolute'\norigin = {{}}\naxis = [0.48, -0.6, 0.64]\n\
+                 mimic = {{ joint = 'carrier', multiplier = {multiplier:?} }}\n{body}\n"
+            )
+        };
+        let body = "mass = 2.0\ncom = [0.3, 0.1, -0.2]\ninertia = { xx = 0.1, yy = 0.2, zz = 0.15 }";
+        let followers = [
+            follower("first", "carrier", 0.3, "mass = 0"),
+            follower("second", "first", 0.4, "mass = 0"),
+            follower("wheel", "second", last, body),
+        ];
+        "name = 'wheel'\ngravity = [0, 0, 0]\n[[link]]\nname = 'carrier'\nparent = 'base'\njoint = 'revolute'\n\
+         axis = [0.48, -0.6, 0.64]\nmass = 0\n"
+            .to_owned()
+            + &followers.concat()
+    };
+    let faults = Model::from_toml(text(-1.7), "wheel.toml").expect_err("it stands still").to_string();
+    assert!(faults.contains("joint `carrier` meets no inertia at any position"), "{faults}");
+    // About the axis n: n·I n + m |n × c|², at twice the speed of the carrier.
+    let model = Model::from_toml(text(0.3), "wheel.toml").unwrap_or_else(|faults| panic!("{faults}")).model;
+    let (n, com) = (Vec3([0.48, -0.6, 0.64]), Vec3([0.3, 0.1, -0.2]));
+    let arm = n.cross(com);
+    let inertia = 0.1 * n[0] * n[0] + 0.2 * n[1] * n[1] + 0.15 * n[2] * n[2] + 2.0 * arm.dot(arm);
+    let a = denoc::forward_dynamics(Method::Recursion, &Tree::new(&model), &Untraced, &[0.4], &[2.0], &[1.5]);
+    assert_near(a[0], 1.5 / (4.0 * inertia), "acceleration");
 }
 
 #[test]

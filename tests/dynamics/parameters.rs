@@ -1,5 +1,6 @@
 //! Parameters that are given at run time: a robot that picks up a load, loses gravity, or wears its joints.
 
+use crate::common::random::Random;
 use redysim::generic::{GenericMechanism, Inertia, Model, Vec3};
 use redysim::lanes::F64x4;
 use redysim::{
@@ -44,10 +45,10 @@ fn other() -> GenericMechanism {
     let tool = &mut model.links[5];
     (tool.mass, tool.com) = (4.5, Vec3([0.02, -0.05, 0.21]));
     tool.inertia = Inertia { xx: 0.031, yy: 0.035, zz: 0.018, xy: 0.002, yz: -0.001, xz: 0.003 };
-    model.links[1].physics.damping = 1.7;
-    (model.links[2].physics.friction, model.links[2].physics.friction_velocity) = (2.5, 0.04);
-    model.links[0].physics.armature = 0.8;
-    (model.links[3].physics.stiffness, model.links[3].physics.rest) = (30.0, 0.4);
+    model.links[1].physics.damping = 1.7.into();
+    (model.links[2].physics.friction, model.links[2].physics.friction_velocity) = (2.5.into(), 0.04.into());
+    model.links[0].physics.armature = 0.8.into();
+    (model.links[3].physics.stiffness, model.links[3].physics.rest) = (30.0.into(), vec![0.4]);
     GenericMechanism::new(model)
 }
 
@@ -111,6 +112,36 @@ fn a_robot_with_parameters_is_the_generic_robot_with_these_numbers() {
     assert_close(&[found.kinetic, found.potential], &[expected.kinetic, expected.potential], 1e-13);
     let (found, expected) = (robot.link_kinematics(&Q, &V), redysim::LinkKinematics::link_kinematics(&generic, &q, &v));
     found.iter().zip(&expected).for_each(|(found, expected)| assert_close(&found.com, &expected.com, 1e-13));
+}
+
+/// Whatever the parameters: τ = M a + bias, accelerations give back the forces, the kinetic energy is ½ vᵀ M v, and the power
+/// of gravity is what the potential energy loses. Tensors of random numbers are mostly those of no body, which identities do
+/// not ask; the mass matrix is kept positive by the rotor and the other links.
+#[test]
+fn identities_hold_with_parameters_at_random() {
+    let mut random = Random::new(5);
+    for _ in 0..200 {
+        let parameters = OTHER.map(|nominal| nominal * (1.0 + random.within(0.5)));
+        let robot = Carrying::new(&parameters);
+        let [q, v, a] = [(); 3].map(|()| [(); 6].map(|()| random.within(3.0)));
+        let matrix = robot.mass_matrix(&q);
+        let times = |x: &[f64; 6]| matrix.map(|row| dot(&row, x));
+        let (tau, bias, inertial) = (robot.inverse_dynamics(&q, &v, &a), robot.bias_forces(&q, &v), times(&a));
+        assert_close(&std::array::from_fn::<f64, 6, _>(|i| inertial[i] + bias[i]), &tau, 1e-12);
+        // By the condition of the matrix, which light wrists of arms have.
+        assert_close(&robot.forward_dynamics(&q, &v, &tau), &a, 1e-8);
+        assert_close(&[0.5 * dot(&v, &times(&v))], &[robot.energy(&q, &v).kinetic], 1e-12);
+        let constant = |value: f64| Dual { value, slope: 0.0 };
+        let along = std::array::from_fn(|i| Dual { value: q[i], slope: v[i] });
+        let dual = Carrying::new(&parameters.map(constant));
+        let fallen = dual.energy(&along, &v.map(constant)).potential.slope;
+        let resting = robot.bias_forces(&q, &[0.0; 6]);
+        assert_close(&[dot(&resting, &v)], &[fallen], 1e-11);
+    }
+}
+
+fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[test]

@@ -149,7 +149,9 @@ fn the_random_trees_have_joints_of_both_kinds_with_rotors_dampers_and_springs() 
     };
     assert!(count(|link| link.joint.name() == "revolute") > 50);
     assert!(count(|link| link.joint.name() == "prismatic") > 30);
-    assert!(count(|link| link.physics.armature > 0.0) > 30);
-    assert!(count(|link| link.physics.damping > 0.0) > 30);
-    assert!(count(|link| link.physics.stiffness > 0.0 && link.physics.rest > 0.0) > 10);
+    assert!(count(|link| link.physics.armature.values()[0] > 0.0) > 30);
+    assert!(count(|link| link.physics.damping.values()[0] > 0.0) > 30);
+    assert!(
+        count(|link| link.physics.stiffness.values()[0] > 0.0 && link.physics.rest.iter().any(|rest| *rest > 0.0)) > 10
+    );
 }

@@ -5,9 +5,15 @@
 use crate::common::call::*;
 use crate::common::comparison::Comparison;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
-use crate::common::models::{Kr5, Kr5OriginAxis, generic};
+use crate::common::models::generic;
 use crate::common::random::{Random, State};
-use redysim::{LinkState, TreeDynamics};
+use crate::robots::Kr5;
+use redysim::{LinkState, TreeDynamics, redysim};
+
+redysim! {
+    /// The same robot, described by origins and axes.
+    struct Kr5OriginAxis("models/test/kr5_origin_axis.toml");
+}
 
 /// Compares what does not depend on how the links' frames are turned.
 fn assert_same_robot(by_dh: &impl TreeDynamics<DoubleDouble>, by_axes: &impl TreeDynamics<DoubleDouble>) {

@@ -9,8 +9,9 @@
 
 use crate::common::call::*;
 use crate::common::double_double::DoubleDouble;
-use crate::common::models::{Gantry, Gripper, Kr5, generic};
+use crate::common::models::generic;
 use crate::common::random::Random;
+use crate::robots::{Gantry, Gripper, Kr5};
 use redysim::{Scalar, TreeDynamics};
 
 const STATES: usize = 1000;

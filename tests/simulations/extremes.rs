@@ -2,9 +2,10 @@
 //! number.
 #![cfg(feature = "generic")]
 
+use super::free_fall_reference::Kr5;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::methods::{WithMethod, every_adaptive, every_fixed};
-use crate::common::models::{Kr5, generic};
+use crate::common::models::generic;
 use crate::common::random::Random;
 use redysim::{
     Dop853, ForwardDynamics, ForwardSimulation, IntegrationError, Integrator, InverseDynamics, Ode45, ZeroTorque,

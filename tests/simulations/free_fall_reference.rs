@@ -3,8 +3,10 @@
 //! Where the files come from: `tests/reference/README.md`.
 #![cfg(feature = "generic")]
 
-use crate::common::models::{Gripper, Kr5};
-use redysim::{ForwardSimulation, Integrator, Ode45, TreeDynamics, Vector, ZeroTorque};
+use redysim::{ForwardSimulation, Integrator, Ode45, TreeDynamics, Vector, ZeroTorque, redysim};
+
+redysim! { pub struct Kr5("models/kr5.toml"); }
+redysim! { struct Gripper("models/gripper.toml"); }
 
 /// t, then the coordinates and velocities there.
 fn rows(text: &str, dof: usize) -> Vec<(f64, Vec<f64>)> {

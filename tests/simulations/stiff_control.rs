@@ -2,7 +2,7 @@
 //! that the equation is stiff, and implicit ones take it in a few hundred evaluations.
 #![cfg(feature = "generic")]
 
-use crate::common::models::Kr5;
+use super::free_fall_reference::Kr5;
 use redysim::integrate::FixedStep;
 use redysim::integrate::stability::{LinearStability, largest_stable_step};
 use redysim::{

@@ -1,4 +1,5 @@
-//! A compiled mechanism computes what the generic path computes, at a thousand random states of each model.
+//! A compiled mechanism computes what the generic path computes, at a thousand random states of each model, of which tests for
+//! every processor take the first three hundred.
 //!
 //! Both run in double-double here. In `f64`, a thousand states hold a few components that are small differences of
 //! large terms, of which neither path has twelve digits; in 31 digits, what is left between the two is the roundoff of
@@ -6,21 +7,25 @@
 //! matter of `tests/dynamics/roundings.rs`.
 #![cfg(feature = "generic")]
 
+use crate::NATIVE;
 use crate::common::call::*;
 use crate::common::comparison::Comparison;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
-use crate::common::models::{Gantry, Gripper, Kr5, Kr5Drives, generic};
+use crate::common::models::generic;
 use crate::common::random::{Random, State};
+use crate::robots::{Gantry, Gripper, Kr5, Kr5Drives};
 use redysim::{LinkState, Mechanism, TreeDynamics, redysim};
 use std::f64::consts::PI;
 
 redysim! { struct Springs("models/test/springs.toml"); }
-redysim! { struct Floating("models/kr5_floating.toml"); }
+redysim! { pub struct Floating("models/kr5_floating.toml"); }
+redysim! { struct Quadruped("models/quadruped.toml"); }
 redysim! { struct Pendulum("models/spherical_pendulum.toml"); }
 redysim! { struct Mimics("models/parallel_gripper.toml"); }
 redysim! { struct Series("models/test/joints_in_series.toml"); }
 
-const STATES: usize = 1000;
+const SAMPLE: usize = 1000;
+const STATES: usize = if NATIVE { SAMPLE } else { 300 };
 
 fn states(mechanism: &impl Mechanism) -> impl Iterator<Item = State> {
     let mut random = Random::new(1);
@@ -44,6 +49,17 @@ const ACCELERATIONS: f64 = 1e-10;
 /// Some of the samples are within a degree of the gimbal of Euler angles.
 const ACCELERATIONS_NEAR_A_GIMBAL: f64 = 1e-9;
 
+/// The error of a force as a share of the largest that its joint takes in all states, per unit of the tolerance for
+/// single components: five roundings of a constant.
+const OF_THE_LARGEST: f64 = 1e-3;
+
+/// Adds a sample of each component.
+fn add_each(comparisons: &mut [Comparison], computed: &[f64], expected: &[f64]) {
+    for (index, comparison) in comparisons.iter_mut().enumerate() {
+        comparison.add(&computed[index..=index], &expected[index..=index]);
+    }
+}
+
 /// Compares every function of `compiled` with the one of `generic`.
 fn assert_same_functions(
     compiled: &impl TreeDynamics<DoubleDouble>,
@@ -56,14 +72,23 @@ fn assert_same_functions(
     let [mut inverse, mut forward, mut matrix, mut bias, mut coriolis, mut gravity, mut passive] =
         ["inverse", "forward", "mass matrix", "bias", "coriolis matrix", "gravity", "passive"].map(new);
     let [mut kinetic, mut potential] = ["kinetic", "potential"].map(new);
+    let of_joints = |function: &str| -> Vec<Comparison> {
+        let joint = |i| new(&format!("{function}, force {i} of its largest")).with_floor(1.0);
+        (0..generic.nv()).map(joint).collect()
+    };
+    let [mut inverse_of_joints, mut bias_of_joints] = ["inverse", "bias"].map(of_joints);
     for State { q, v, a } in states(generic) {
         let (q, v, a) = (exact(&q), exact(&v), exact(&a));
         let tau = inverse_dynamics(generic, &q, &v, &a);
-        inverse.add(&rounded(inverse_dynamics(compiled, &q, &v, &a)), &rounded(&tau));
+        let ours = rounded(inverse_dynamics(compiled, &q, &v, &a));
+        inverse.add(&ours, &rounded(&tau));
+        add_each(&mut inverse_of_joints, &ours, &rounded(&tau));
         let ours = forward_dynamics(compiled, &q, &v, &tau);
         forward.add(&rounded(ours), &rounded(forward_dynamics(generic, &q, &v, &tau)));
         matrix.add(&rounded(mass_matrix(compiled, &q).concat()), &rounded(mass_matrix(generic, &q).concat()));
-        bias.add(&rounded(bias_forces(compiled, &q, &v)), &rounded(bias_forces(generic, &q, &v)));
+        let [ours, theirs] = [rounded(bias_forces(compiled, &q, &v)), rounded(bias_forces(generic, &q, &v))];
+        bias.add(&ours, &theirs);
+        add_each(&mut bias_of_joints, &ours, &theirs);
         let ours = coriolis_matrix(compiled, &q, &v).concat();
         coriolis.add(&rounded(ours), &rounded(coriolis_matrix(generic, &q, &v).concat()));
         gravity.add(&rounded(gravity_forces(compiled, &q)), &rounded(gravity_forces(generic, &q)));
@@ -72,10 +97,12 @@ fn assert_same_functions(
         kinetic.add(&rounded([ours.kinetic]), &rounded([theirs.kinetic]));
         potential.add(&rounded([ours.potential]), &rounded([theirs.potential]));
     }
-    let all = [inverse, matrix, gravity, passive, kinetic, potential];
+    let all = [matrix, gravity, passive, kinetic, potential];
     all.iter().for_each(|comparison| comparison.assert_within(constants));
-    // A few components of the bias and elements of the Coriolis matrix are smaller than what their terms cancel to.
-    bias.assert_within(4.0 * constants);
+    // A few components of the forces and elements of the Coriolis matrix are smaller than what their terms cancel to.
+    [&inverse, &bias].iter().for_each(|comparison| comparison.assert_within(4.0 * constants));
+    let of_their_largest = inverse_of_joints.iter().chain(&bias_of_joints);
+    of_their_largest.for_each(|comparison| comparison.assert_within(OF_THE_LARGEST * constants));
     coriolis.assert_within(10.0 * constants);
     // The mass matrix of KR5 has condition 1e7, which is what multiplies the roundoff of constants here.
     forward.assert_within(accelerations);
@@ -111,7 +138,7 @@ fn assert_same_dynamics_in_f64(compiled: &impl TreeDynamics<f64>, generic: &impl
     let sample = |seed: u64| {
         let mut random = Random::new(seed);
         let mut inverse = Comparison::new(format!("{} inverse in f64, sample {seed}", generic.name()));
-        for State { q, v, a } in (0..STATES).map(|_| state(&mut random, generic)) {
+        for State { q, v, a } in (0..SAMPLE).map(|_| state(&mut random, generic)) {
             inverse.add(&inverse_dynamics(compiled, &q, &v, &a), &inverse_dynamics(generic, &q, &v, &a));
         }
         inverse.assert_within(2e-11);
@@ -205,6 +232,14 @@ fn a_floating_arm_compiled_is_the_same_generic() {
     assert_same_functions(&Floating, &generic("kr5_floating"), CONSTANTS_WITH_PLATFORM, ACCELERATIONS);
     assert_same_kinematics(&Floating, &generic("kr5_floating"));
     assert_same_positions(&Floating, &generic("kr5_floating"));
+}
+
+/// Four legs side by side, in `f64` in lanes and in double-double one after the other.
+#[test]
+fn a_quadruped_compiled_is_the_same_generic() {
+    assert_same_functions(&Quadruped, &generic("quadruped"), CONSTANTS_WITH_PLATFORM, ACCELERATIONS);
+    assert_same_dynamics_in_f64(&Quadruped, &generic("quadruped"));
+    assert_same_kinematics(&Quadruped, &generic("quadruped"));
 }
 
 #[test]

@@ -5,7 +5,8 @@
 
 use crate::common::call::inverse_dynamics;
 use crate::common::comparison::Comparison;
-use crate::common::models::{Gripper, Kr5, generic};
+use crate::common::models::generic;
+use crate::robots::{Gripper, Kr5};
 use redysim::InverseDynamics;
 
 /// One row of a reference file.

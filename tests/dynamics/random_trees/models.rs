@@ -1,11 +1,13 @@
 //! Random trees of bodies of a few kilogrammes and decimetres.
 
+use super::state_in_space;
+use crate::common::kane::kane;
 use crate::common::random::Random;
 use crate::common::styles::{inertia, link, offset, placed};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use redysim_model::joint::{EulerSequence, JointPhysics};
+use redysim_model::joint::{EulerSequence, JointPhysics, LinkJoint};
 use redysim_model::spatial::{Pose, Vec3};
-use redysim_model::{Frame, JointKind, Link, LinkPoint, Mimic, Model, Spring};
+use redysim_model::{Frame, Inertia, JointKind, Link, LinkPoint, Mimic, Model, PerVelocity, Spring};
 
 fn rotation(random: &mut Random) -> Matrix3<f64> {
     // A third of all rotations are quarter turns, as in most machines.
@@ -36,13 +38,16 @@ pub enum Joints {
     InSeries,
 }
 
-/// A tree of up to twelve links, with three frames of interest. `with_physics` are its joints of one freedom,
+/// A tree of up to twelve links, with three frames of interest. `with_physics` are its joints,
 /// `with_springs` the tree between points.
 pub fn random_model(random: &mut Random, joints: Joints, with_physics: bool, with_springs: bool) -> Model {
     let mut model = bare_model(random, joints);
     if with_physics {
-        let on_axis = model.links.iter_mut().filter(|link| link.joint.dof() == 1);
-        on_axis.for_each(|link| link.physics = joint_physics(random));
+        for link in model.links.iter_mut() {
+            if let Some(joint) = LinkJoint::of(link) {
+                link.physics = joint_physics(random, joint);
+            }
+        }
     }
     if with_springs {
         model.springs = (0..3).map(|_| spring(random, &model)).collect();
@@ -126,17 +131,56 @@ pub fn mimic_some(random: &mut Random, model: &mut Model) {
     }
 }
 
-/// What acts in a joint: each of its parts in half of the joints.
-fn joint_physics(random: &mut Random) -> JointPhysics {
-    let mut some = |largest: f64| if random.below(2) == 0 { 0.0 } else { 0.5 * largest + random.within(0.5 * largest) };
-    JointPhysics {
-        armature: some(0.5),
-        damping: some(2.0),
-        friction: some(4.0),
-        friction_velocity: 0.05 + some(0.2),
-        stiffness: some(20.0),
-        rest: some(1.0),
+/// Takes mass and inertia from half of the links whose joints mimic others or are mimicked, wherever the mass matrix of the
+/// mechanism stays regular by Kane's equations: their joints move none by themselves, or none that they do not share.
+pub fn empty_some(random: &mut Random, model: &mut Model) {
+    let is_mimicked = |model: &Model, link: usize| {
+        model.links.iter().any(|other| other.mimic.is_some_and(|mimic| mimic.link == link))
+    };
+    for link in 0..model.links.len() {
+        if random.below(2) == 0 || !(model.links[link].mimic.is_some() || is_mimicked(model, link)) {
+            continue;
+        }
+        let full = model.links[link].clone();
+        let empty = Link { mass: 0.0, inertia: Inertia::default(), ..full.clone() };
+        model.links[link] = Link { physics: JointPhysics { armature: 0.0.into(), ..full.physics.clone() }, ..empty };
+        let state = state_in_space(random, model);
+        let eigenvalues = kane(model, &state.q, &state.v).matrix.symmetric_eigenvalues();
+        if eigenvalues.min() < 1e-6 * eigenvalues.max() {
+            model.links[link] = full;
+        }
     }
+}
+
+/// What acts in a joint: each of its parts in half of the joints, on each of several velocities or on half of them. Rotations
+/// have one stiffness in half of the joints.
+fn joint_physics(random: &mut Random, joint: LinkJoint) -> JointPhysics {
+    let nv = joint.nv();
+    let mut some = |largest: f64| if random.below(2) == 0 { 0.0 } else { 0.5 * largest + random.within(0.5 * largest) };
+    if nv == 1 {
+        return JointPhysics {
+            armature: some(0.5).into(),
+            damping: some(2.0).into(),
+            friction: some(4.0).into(),
+            friction_velocity: (0.05 + some(0.2)).into(),
+            stiffness: some(20.0).into(),
+            rest: vec![some(1.0)],
+        };
+    }
+    let mut each = |least: f64, largest: f64| PerVelocity::Each((0..nv).map(|_| least + some(largest)).collect());
+    let mut physics = JointPhysics {
+        armature: each(0.0, 0.5),
+        damping: each(0.0, 2.0),
+        friction: each(0.0, 4.0),
+        friction_velocity: each(0.05, 0.2),
+        stiffness: each(0.0, 20.0),
+        rest: random.vector(joint.nq(), 1.0),
+    };
+    if let (PerVelocity::Each(stiffness), 0) = (&mut physics.stiffness, random.below(2)) {
+        stiffness[nv - 2..].fill(12.0);
+        stiffness[nv.saturating_sub(3)] = 12.0;
+    }
+    physics
 }
 
 /// A frame somewhere on a link, or on the ground; a third of them stand on the origin of the link's frame.
