@@ -2,10 +2,11 @@
 //! this file that are named `counted_…`, calls included.
 //!
 //! Without an argument it prints what can be counted, and the number of calls; with the name of a function it calls
-//! that.
+//! that; with a number behind the name, it takes the states so often, several times, and prints the least time of a call, ns.
 
 use redysim::redysim;
 use std::hint::black_box;
+use std::time::Instant;
 
 redysim! {
     /// Six joints in a row; the last link's rounded inertia belongs to no body.
@@ -51,12 +52,12 @@ macro_rules! counted {
         /// What can be counted.
         const NAMES: &[&str] = &[$(stringify!($inverse), stringify!($forward), stringify!($matrix)),*];
 
-        fn call(name: &str) {
+        fn call(name: &str, rounds: Option<usize>) {
             $(
                 match name {
-                    stringify!($inverse) => calls($inverse),
-                    stringify!($forward) => calls($forward),
-                    stringify!($matrix) => calls($matrix),
+                    stringify!($inverse) => calls($inverse, rounds),
+                    stringify!($forward) => calls($forward, rounds),
+                    stringify!($matrix) => calls($matrix, rounds),
                     _ => {}
                 }
             )*
@@ -70,23 +71,38 @@ counted! {
     Humanoid30: counted_humanoid30_inverse_dynamics, counted_humanoid30_forward_dynamics, counted_humanoid30_mass_matrix;
 }
 
-fn calls<const N: usize, R>(function: fn(&State<N>) -> R) {
+/// How often the time of all rounds is taken, of which the least counts.
+const REPETITIONS: usize = 40;
+
+fn calls<const N: usize, R>(function: fn(&State<N>) -> R, rounds: Option<usize>) {
     let mut count = 0.0;
-    for _ in 0..CALLS {
-        // Numbers that fill an interval evenly: multiples of the golden ratio, without whole parts.
-        let state = [std::f64::consts::PI, 3.0, 10.0].map(|bound| {
+    // Numbers that fill an interval evenly: multiples of the golden ratio, without whole parts.
+    let states: [State<N>; CALLS] = core::array::from_fn(|_| {
+        [std::f64::consts::PI, 3.0, 10.0].map(|bound| {
             core::array::from_fn(|_| {
                 count += 1.0;
                 bound * (2.0 * (count * 1.618_033_988_749_895_f64).fract() - 1.0)
             })
-        });
-        black_box(function(black_box(&state)));
-    }
+        })
+    });
+    let once = || {
+        for state in &states {
+            black_box(function(black_box(state)));
+        }
+    };
+    let Some(rounds) = rounds else { return once() };
+    let time = |_| {
+        let start = Instant::now();
+        (0..rounds).for_each(|_| once());
+        start.elapsed().as_nanos() as f64 / (rounds * CALLS) as f64
+    };
+    println!("{:.1}", (0..REPETITIONS).map(time).fold(f64::INFINITY, f64::min));
 }
 
 fn main() {
-    match std::env::args().nth(1) {
-        Some(name) => call(&name),
+    let mut arguments = std::env::args().skip(1);
+    match arguments.next() {
+        Some(name) => call(&name, arguments.next().and_then(|rounds| rounds.parse().ok())),
         None => NAMES.iter().for_each(|name| println!("{name} {CALLS}")),
     }
 }

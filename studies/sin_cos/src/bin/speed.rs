@@ -13,7 +13,7 @@ redysim! {
     struct Kr5("../../../../models/kr5.toml");
 }
 
-/// Keeps the compiler from leaving out what nobody looks at.
+/// Keeps the compiler from leaving out an unused result.
 fn done<T>(value: T) {
     black_box(value);
 }
