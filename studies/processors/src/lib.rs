@@ -2,6 +2,9 @@
 //! `single_<robot>_<scalar>_<function>` for one state, `lanes_…` for the states of a vector, and
 //! `single_sin_cos_all_<scalar>_<number of angles>`; `batch_<robot>_<scalar>_<function>` for many states.
 
+#[cfg(feature = "every")]
+pub mod every;
+
 use redysim::redysim;
 
 redysim! {
