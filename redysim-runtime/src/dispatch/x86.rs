@@ -2,8 +2,8 @@
 //!
 //! # Safety
 //!
-//! Every `unsafe` block of this file calls a function that is compiled for target features which the program is not
-//! compiled for; that is undefined on a processor without them, and harmless on one that has them. The types are
+//! Every `unsafe` block of this file, but for one that reads what was just written and has its own proof, calls a function
+//! that is compiled for target features which the program is not compiled for; that is undefined on a processor without them, and harmless on one that has them. The types are
 //! private to this crate, and so are the traits through which generic code of this crate reaches them, so that no other
 //! crate can name them, make a value of one, or call a function for one. This crate does so in two places,
 //! [`batch`](crate::batch) and [`Dispatched`](super::Dispatched), both behind
@@ -23,6 +23,7 @@ use crate::trigonometry::several::several;
 use crate::trigonometry::{double, single, turns};
 use core::arch::x86_64::*;
 use core::fmt;
+use core::mem::MaybeUninit;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// Whether multiply and add round once.
@@ -47,6 +48,13 @@ macro_rules! assigning {
     };
 }
 
+/// The size in bytes up to which a result is returned in registers, two numbers at most.
+///
+/// LLVM makes a function part of one with more target features only if none of its calls return several numbers in registers:
+/// how these are passed might depend on the features. Such a result, as that of `energy`, goes through memory, so that code
+/// for AVX2 that calls a function for AVX2 by way of a trait becomes one piece.
+const IN_REGISTERS: usize = 16;
+
 /// `Scalar::with_target_features` of a number whose operations need `$features`.
 macro_rules! with_target_features {
     ($features:literal) => {
@@ -56,8 +64,22 @@ macro_rules! with_target_features {
             fn enabled<R>(computation: impl FnOnce() -> R) -> R {
                 computation()
             }
-            // SAFETY: the processor has these features, see the head of the file.
-            unsafe { enabled(computation) }
+            if size_of::<R>() > IN_REGISTERS {
+                // SAFETY: the processor has these features, see the head of the file.
+                return unsafe { enabled(computation) };
+            }
+            let mut result = MaybeUninit::uninit();
+            // SAFETY: as above.
+            unsafe {
+                enabled(
+                    #[inline(always)]
+                    || {
+                        result.write(computation());
+                    },
+                )
+            };
+            // SAFETY: `enabled` has returned, so the closure has run to its end, where it has written the result.
+            unsafe { result.assume_init() }
         }
     };
 }
