@@ -2,8 +2,8 @@
 
 use redysim::{
     BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, FrameJacobian, Frames,
-    GravityForces, InverseDynamics, LinkKinematics, LinkState, LoopClosure, MassCenter, MassMatrix, MechanicalEnergy,
-    Mechanism, Momentum, PassiveForces, Scalar, TotalMomentum, Vector,
+    GravityForces, HybridDynamics, HybridMotion, InverseDynamics, LinkKinematics, LinkState, LoopClosure, MassCenter,
+    MassMatrix, MechanicalEnergy, Mechanism, Momentum, PassiveForces, Scalar, TotalMomentum, Vector,
 };
 
 fn vector<S: Scalar, V: Vector<S>>(values: &[S]) -> V {
@@ -71,6 +71,19 @@ pub fn difference<S: Scalar>(m: &impl ConfigurationSpace<S>, q0: &[S], q1: &[S])
 
 pub fn neutral<S: Scalar>(m: &impl ConfigurationSpace<S>) -> Vec<S> {
     m.neutral().as_ref().to_vec()
+}
+
+pub fn hybrid_dynamics<S: Scalar, M: HybridDynamics<S>>(
+    m: &M,
+    q: &[S],
+    v: &[S],
+    u: &[S],
+) -> HybridMotion<M::Velocities> {
+    m.hybrid_dynamics(&vector(q), &vector(v), &vector(u))
+}
+
+pub fn dissipated_power<S: Scalar>(m: &impl ConfigurationSpace<S>, q: &[S], v: &[S]) -> S {
+    m.dissipated_power(&vector(q), &vector(v))
 }
 
 pub fn link_kinematics<S: Scalar>(m: &impl LinkKinematics<S>, q: &[S], v: &[S]) -> Vec<LinkState<S>> {

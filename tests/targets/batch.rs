@@ -1,6 +1,7 @@
 //! Many states at once give, for each, what the state gives alone on the processor that the program runs on.
 
 use crate::robots::{Gripper, Kr5};
+use crate::robots_in_space::{Floating, Pendulum, Series};
 use redysim::batch::{self, Batched};
 use redysim::{
     BiasForces, ConfigurationSpace, Dispatch, Dispatched, ForwardDynamics, GravityForces, InverseDynamics,
@@ -75,6 +76,54 @@ fn any_number_of_states_gives_the_bits_of_each_alone() {
         each_state_is_as_if_alone::<f64>(count);
         each_state_is_as_if_alone::<f32>(count);
     }
+}
+
+/// The bits of a batch and of a dispatched mechanism are those of each state in code for the same processor, whose lanes
+/// hold other numbers of coordinates than of velocities.
+macro_rules! each_state_in_space_is_as_if_alone {
+    ($robot:ident, $scalar:ty) => {{
+        const NQ: usize = $robot::NQ;
+        const NV: usize = $robot::NV;
+        for count in [0, 1, 7, 9, 17, 100] {
+            let robot = $robot.dispatched();
+            let q: Vec<[$scalar; NQ]> = numbers(1, count);
+            let [v, u]: [Vec<[$scalar; NV]>; 2] = [2, 3].map(|seed| numbers(seed, count));
+            let mut found = vec![[0.0; NV]; count];
+            let alone = |function: &dyn Fn(usize) -> [$scalar; NV]| (0..count).map(function).collect::<Vec<_>>();
+            let name = format!("{} in {}, {count} states", $robot::NAME, stringify!($scalar));
+            batch::inverse_dynamics(&$robot, &q, &v, &u, &mut found).unwrap();
+            let expected = alone(&|i| robot.inverse_dynamics(&q[i], &v[i], &u[i]));
+            assert_eq!(bits(&found), bits(&expected), "{name}: inverse dynamics");
+            batch::forward_dynamics(&$robot, &q, &v, &u, &mut found).unwrap();
+            let expected = alone(&|i| robot.forward_dynamics(&q[i], &v[i], &u[i]));
+            assert_eq!(bits(&found), bits(&expected), "{name}: forward dynamics");
+            batch::bias_forces(&$robot, &q, &v, &mut found).unwrap();
+            assert_eq!(bits(&found), bits(&alone(&|i| robot.bias_forces(&q[i], &v[i]))), "{name}: bias forces");
+            batch::gravity_forces(&$robot, &q, &mut found).unwrap();
+            assert_eq!(bits(&found), bits(&alone(&|i| robot.gravity_forces(&q[i]))), "{name}: gravity forces");
+            let mut matrices = vec![[[0.0; NV]; NV]; count];
+            batch::mass_matrix(&$robot, &q, &mut matrices).unwrap();
+            for (matrix, q) in matrices.iter().zip(&q) {
+                assert_eq!(bits(matrix), bits(&robot.mass_matrix(q)), "{name}: mass matrix");
+            }
+            // The coordinates that are beside those of others are their own: no two states have the same forces.
+            assert!(count < 2 || found[0] != found[1], "{name}");
+        }
+    }};
+}
+
+#[test]
+fn states_with_more_coordinates_than_velocities_give_the_bits_of_each_alone() {
+    each_state_in_space_is_as_if_alone!(Floating, f64);
+    each_state_in_space_is_as_if_alone!(Floating, f32);
+    each_state_in_space_is_as_if_alone!(Pendulum, f64);
+    each_state_in_space_is_as_if_alone!(Pendulum, f32);
+}
+
+#[test]
+fn states_of_joints_in_series_give_the_bits_of_each_alone() {
+    each_state_in_space_is_as_if_alone!(Series, f64);
+    each_state_in_space_is_as_if_alone!(Series, f32);
 }
 
 #[test]

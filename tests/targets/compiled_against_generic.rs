@@ -8,21 +8,23 @@
 #![cfg(feature = "generic")]
 
 use crate::NATIVE;
+use crate::c::{Fourbar, Machine};
 use crate::common::call::*;
 use crate::common::comparison::Comparison;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::models::generic;
 use crate::common::random::{Random, State};
 use crate::robots::{Gantry, Gripper, Kr5, Kr5Drives};
-use redysim::{LinkState, Mechanism, TreeDynamics, redysim};
+use crate::robots_in_space::{Floating, Pendulum, Series};
+use redysim::{
+    CenterOfMass, ConfigurationSpace, Energy, Frames, Function, HybridDynamics, HybridMotion, LinkState, LoopClosure,
+    Mechanism, Momentum, TreeDynamics, Vector, Wrench, redysim,
+};
 use std::f64::consts::PI;
 
 redysim! { struct Springs("models/test/springs.toml"); }
-redysim! { pub struct Floating("models/kr5_floating.toml"); }
 redysim! { struct Quadruped("models/quadruped.toml"); }
-redysim! { struct Pendulum("models/spherical_pendulum.toml"); }
 redysim! { struct Mimics("models/parallel_gripper.toml"); }
-redysim! { struct Series("models/test/joints_in_series.toml"); }
 
 const SAMPLE: usize = 1000;
 const STATES: usize = if NATIVE { SAMPLE } else { 300 };
@@ -269,6 +271,107 @@ fn joints_that_mimic_others_compiled_are_the_same_generic() {
     assert_same_functions(&Mimics, &generic("parallel_gripper"), CONSTANTS, ACCELERATIONS);
     assert_same_kinematics(&Mimics, &generic("parallel_gripper"));
     assert_same_positions(&Mimics, &generic("parallel_gripper"));
+}
+
+/// What a function gives at a state, with the accelerations or forces `a`.
+type Values<'a> = &'a mut dyn FnMut(Function, Vec<DoubleDouble>);
+
+/// Calls `see` with the values of each function that every tree has.
+fn of_trees(robot: &impl TreeDynamics<DoubleDouble>, [q, v, a]: [&[DoubleDouble]; 3], see: Values<'_>) {
+    let one = |values: &[[DoubleDouble; 3]]| values.concat();
+    see(Function::InverseDynamics, inverse_dynamics(robot, q, v, a));
+    see(Function::ForwardDynamics, forward_dynamics(robot, q, v, a));
+    see(Function::MassMatrix, mass_matrix(robot, q).concat());
+    see(Function::BiasForces, bias_forces(robot, q, v));
+    see(Function::CoriolisMatrix, coriolis_matrix(robot, q, v).concat());
+    see(Function::GravityForces, gravity_forces(robot, q));
+    see(Function::PassiveForces, passive_forces(robot, q, v));
+    let Energy { kinetic, potential } = energy(robot, q, v);
+    see(Function::Energy, vec![kinetic, potential]);
+    let CenterOfMass { position, velocity } = center_of_mass(robot, q, v);
+    see(Function::CenterOfMass, one(&[position, velocity]));
+    let Momentum { linear, angular } = momentum(robot, q, v);
+    see(Function::Momentum, one(&[linear, angular]));
+    let links = link_kinematics(robot, q, v).into_iter().flat_map(|link| {
+        let LinkState { rotation, origin, com, velocity, angular_velocity, .. } = link;
+        [rotation.concat(), one(&[origin, com, velocity, angular_velocity])].concat()
+    });
+    see(Function::LinkKinematics, links.collect());
+    see(Function::CoordinateRates, coordinate_rates(robot, q, v));
+    see(Function::Integrate, integrate(robot, q, a));
+    see(Function::Difference, difference(robot, q, &integrate(robot, q, v)));
+    let numbers = |values: &[DoubleDouble]| values.to_vec();
+    see(Function::DissipatedPower, numbers(&[dissipated_power(robot, q, v)]));
+    see(Function::Neutral, neutral(robot));
+}
+
+fn of_hybrid(robot: &impl HybridDynamics<DoubleDouble>, [q, v, a]: [&[DoubleDouble]; 3], see: Values<'_>) {
+    let HybridMotion { a, tau } = hybrid_dynamics(robot, q, v, a);
+    see(Function::HybridDynamics, [a.as_ref(), tau.as_ref()].concat());
+}
+
+fn of_frames<M: Frames<DoubleDouble>>(robot: &M, [q, v, a]: [&[DoubleDouble]; 3], see: Values<'_>) {
+    let number = |i: usize| a[i % a.len()];
+    let wrenches = M::Wrenches::from_fn(robot.nf(), |frame| Wrench {
+        force: [number(frame), number(frame + 1), number(frame + 2)],
+        moment: [number(frame + 3), number(frame + 4), number(frame + 5)],
+    });
+    let [kinematics, jacobians, bias, forces] = frames(robot, q, v, &wrenches);
+    see(Function::FrameKinematics, kinematics);
+    see(Function::FrameJacobians, jacobians);
+    see(Function::FrameBias, bias);
+    see(Function::FrameForces, forces);
+}
+
+fn of_loops<M>(robot: &M, [q, v, _]: [&[DoubleDouble]; 3], see: Values<'_>)
+where
+    M: ConfigurationSpace<DoubleDouble> + LoopClosure<DoubleDouble, M>,
+{
+    see(Function::LoopResidual, loop_residual(robot, q));
+    see(Function::LoopJacobian, loop_jacobian(robot, q).concat());
+    see(Function::LoopBias, loop_bias(robot, q, v));
+}
+
+/// Robots that together have every function, at states with quaternions of any length: what the compiled and the generic
+/// path give differs by roundings of constants, of the largest value that a function has in all states.
+#[test]
+fn every_function_of_the_table_is_compiled_as_it_is_generic() {
+    let mut covered: Vec<Function> = Vec::new();
+    macro_rules! compare {
+        ($robot:expr, $generic:expr, [$($values:ident),*]) => {{
+            let generic = generic($generic);
+            let mut values: [Vec<(Function, Vec<Vec<f64>>)>; 2] = [vec![], vec![]];
+            for State { q, v, a } in states(&generic).take(100) {
+                let state = [exact(&q), exact(&v), exact(&a)];
+                let state = state.each_ref().map(Vec::as_slice);
+                let [ours, theirs] = &mut values;
+                $($values($robot, state, &mut |function, found| add(ours, function, found));)*
+                $($values(&generic, state, &mut |function, found| add(theirs, function, found));)*
+            }
+            let [ours, theirs] = values;
+            assert_eq!(ours.len(), theirs.len());
+            for ((function, found), (_, expected)) in ours.iter().zip(&theirs) {
+                let mut comparison = Comparison::new(format!("{} {function:?}", $generic)).with_floor(1.0);
+                found.iter().zip(expected).for_each(|(found, expected)| comparison.add(found, expected));
+                let of_accelerations = [Function::ForwardDynamics, Function::HybridDynamics].contains(function);
+                comparison.assert_within(if of_accelerations { ACCELERATIONS } else { 1e-14 });
+                covered.push(*function);
+            }
+        }};
+    }
+    fn add(values: &mut Vec<(Function, Vec<Vec<f64>>)>, function: Function, found: Vec<DoubleDouble>) {
+        match values.iter_mut().find(|(of, _)| *of == function) {
+            Some((_, all)) => all.push(rounded(found)),
+            None => values.push((function, vec![rounded(found)])),
+        }
+    }
+    compare!(&Floating, "kr5_floating", [of_trees, of_hybrid]);
+    compare!(&Series, "test/joints_in_series", [of_trees, of_hybrid]);
+    compare!(&Kr5Drives, "kr5_drives", [of_trees]);
+    compare!(&Machine, "test/frames", [of_trees, of_frames]);
+    compare!(&Fourbar, "fourbar", [of_trees, of_loops]);
+    let missing: Vec<_> = Function::ALL.iter().filter(|function| !covered.contains(function)).collect();
+    assert!(missing.is_empty(), "{missing:?} are not compared");
 }
 
 #[test]

@@ -2,6 +2,8 @@
 //! on x86-64, and hold with any `-C target-cpu`.
 
 use crate::robots::{Gripper, Kr5};
+use crate::robots_in_space::{Floating, Pendulum, Series};
+use redysim::ConfigurationSpace;
 use redysim::Real;
 use redysim::lanes::{F32x16, F64x8, pack, unpack};
 
@@ -94,4 +96,47 @@ fn a_state_in_a_lane_gives_the_bits_it_gives_alone() {
         let gravity: [[f32; 6]; 16] = unpack(Kr5::gravity_forces(&pack::<F32x16, _, 16, 6>(&single)));
         assert_eq!(gravity, single.map(|q| Kr5::gravity_forces(&q)));
     }
+}
+
+/// Inverse and forward dynamics and the mass matrix of `LANES` states in lanes, against each alone.
+macro_rules! a_state_in_a_lane_is_as_if_alone {
+    ($robot:ident, $lanes:ty, $scalar:ty, $count:literal, $numbers:ident) => {
+        const _: () = assert!($robot::NQ >= $robot::NV);
+        for _ in 0..20 {
+            let q: [[$scalar; $robot::NQ]; $count] = core::array::from_fn(|_| $numbers.vector(3.0));
+            let [v, u]: [[[$scalar; $robot::NV]; $count]; 2] =
+                core::array::from_fn(|_| core::array::from_fn(|_| $numbers.vector(3.0)));
+            let in_lanes = pack::<$lanes, _, $count, { $robot::NQ }>(&q);
+            let [v_in_lanes, u_in_lanes] = [&v, &u].map(pack::<$lanes, _, $count, { $robot::NV }>);
+            let inverse: [[$scalar; $robot::NV]; $count] =
+                unpack($robot::inverse_dynamics(&in_lanes, &v_in_lanes, &u_in_lanes));
+            let forward: [[$scalar; $robot::NV]; $count] =
+                unpack($robot::forward_dynamics(&in_lanes, &v_in_lanes, &u_in_lanes));
+            let moved: [[$scalar; $robot::NQ]; $count] = unpack($robot.integrate(&in_lanes, &v_in_lanes));
+            let matrix: [[[$scalar; $robot::NV]; $count]; $robot::NV] = $robot::mass_matrix(&in_lanes).map(unpack);
+            for lane in 0..$count {
+                let (q, v, u) = (&q[lane], &v[lane], &u[lane]);
+                assert_eq!(inverse[lane], $robot::inverse_dynamics(q, v, u), "{} inverse", $robot::NAME);
+                assert_eq!(forward[lane], $robot::forward_dynamics(q, v, u), "{} forward", $robot::NAME);
+                assert_eq!(moved[lane], $robot.integrate(q, v), "{} integrate", $robot::NAME);
+                assert_eq!(matrix.map(|row| row[lane]), $robot::mass_matrix(q), "{} matrix", $robot::NAME);
+            }
+        }
+    };
+}
+
+#[test]
+fn a_state_with_quaternions_in_a_lane_gives_the_bits_it_gives_alone() {
+    let mut numbers = Numbers(3);
+    a_state_in_a_lane_is_as_if_alone!(Floating, F64x8, f64, 8, numbers);
+    a_state_in_a_lane_is_as_if_alone!(Floating, F32x16, f32, 16, numbers);
+    a_state_in_a_lane_is_as_if_alone!(Pendulum, F64x8, f64, 8, numbers);
+    a_state_in_a_lane_is_as_if_alone!(Pendulum, F32x16, f32, 16, numbers);
+}
+
+#[test]
+fn a_state_of_joints_in_series_in_a_lane_gives_the_bits_it_gives_alone() {
+    let mut numbers = Numbers(4);
+    a_state_in_a_lane_is_as_if_alone!(Series, F64x8, f64, 8, numbers);
+    a_state_in_a_lane_is_as_if_alone!(Series, F32x16, f32, 16, numbers);
 }

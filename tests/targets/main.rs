@@ -16,3 +16,4 @@ mod compiled_against_generic;
 mod deterministic;
 mod inverse_dynamics_reference;
 mod processors;
+mod robots_in_space;

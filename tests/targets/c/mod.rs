@@ -11,8 +11,8 @@ mod program;
 use crate::NATIVE;
 use crate::common::call;
 use crate::common::random::Random;
-use crate::compiled_against_generic::Floating;
 use crate::robots::{Gripper, Kr5};
+use crate::robots_in_space::Floating;
 use program::{InC, State, compilers, is_of, numbers};
 use rayon::prelude::*;
 use redysim::function::Argument;
@@ -23,8 +23,8 @@ use redysim::{
 use redysim_codegen::CScalar;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-redysim! { struct Fourbar("models/fourbar.toml"); }
-redysim! { struct Machine("models/test/frames.toml"); }
+redysim! { pub struct Fourbar("models/fourbar.toml"); }
+redysim! { pub struct Machine("models/test/frames.toml"); }
 redysim! { struct Given("models/gripper.toml", parameters = ["gravity", "link3.mass", "link3.com", "link3.inertia", "joint2.damping"]); }
 redysim! { struct Worn("models/test/bushing.toml", parameters = ["hull.damping", "ball.stiffness", "ball.rest"]); }
 redysim! { struct Pendulum("models/simple_pendulum.toml", functions = [gravity_forces]); }
