@@ -17,6 +17,11 @@ redysim! {
     pub struct Gantry("models/test/gantry.toml");
 }
 
+redysim! {
+    /// A quaternion and an angular velocity.
+    pub struct Pendulum("models/spherical_pendulum.toml");
+}
+
 fn allocations(work: impl FnOnce()) -> u64 {
     allocation_counter::measure(work).count_total
 }
@@ -28,7 +33,7 @@ fn allocations_are_seen() {
 
 macro_rules! assert_nothing_allocated {
     ($mechanism:ident, $scalar:ty) => {
-        let (q, v, x) = black_box(([0.1 as $scalar; $mechanism::NV], [0.2; $mechanism::NV], [0.3; $mechanism::NV]));
+        let (q, v, x) = black_box(([0.1 as $scalar; $mechanism::NQ], [0.2; $mechanism::NV], [0.3; $mechanism::NV]));
         let calls: [(&str, &dyn Fn()); 8] = [
             ("inverse_dynamics", &|| _ = black_box($mechanism::inverse_dynamics(&q, &v, &x))),
             ("forward_dynamics", &|| _ = black_box($mechanism::forward_dynamics(&q, &v, &x))),
@@ -54,6 +59,8 @@ fn functions_allocate_nothing() {
     assert_nothing_allocated!(Kr5, f32);
     assert_nothing_allocated!(Gantry, f64);
     assert_nothing_allocated!(Gantry, f32);
+    assert_nothing_allocated!(Pendulum, f64);
+    assert_nothing_allocated!(Pendulum, f32);
 }
 
 #[test]
@@ -105,10 +112,12 @@ fn integrators_allocate_nothing() {
 fn inverse_and_forward_dynamics_and_mass_matrix_of_the_run_time_path_allocate_nothing_after_construction() {
     use redysim::generic::Workspace;
 
-    for name in ["kr5", "gripper", "test/gantry", "peers/humanoid30", "test/springs", "parallel_gripper"] {
+    let of_one_freedom = ["kr5", "gripper", "test/gantry", "peers/humanoid30", "test/springs", "parallel_gripper"];
+    let of_several = ["kr5_floating", "spherical_pendulum", "test/joints_in_series"];
+    for name in of_one_freedom.into_iter().chain(of_several) {
         let mechanism = common::models::generic(name);
-        let nv = mechanism.tree().nv();
-        let (q, v, x) = (vec![0.1; nv], vec![0.2; nv], vec![0.3; nv]);
+        let (nq, nv) = (mechanism.tree().nq(), mechanism.tree().nv());
+        let (q, v, x) = (vec![0.1; nq], vec![0.2; nv], vec![0.3; nv]);
         let (mut vector, mut matrix) = (vec![0.0; nv], vec![0.0; nv * nv]);
         let allocates_nothing = |function: &str, call: &mut dyn FnMut(&mut Workspace<f64>)| {
             let mut workspace = Workspace::for_tree(mechanism.tree());
@@ -132,10 +141,12 @@ fn the_room_of_one_mechanism_serves_another() {
     use redysim::{ForwardDynamics, InverseDynamics, MassMatrix};
 
     let mut workspace = Workspace::default();
-    for name in ["kr5", "test/springs", "gripper", "parallel_gripper", "test/gantry", "kr5"] {
+    let names =
+        ["kr5", "test/springs", "kr5_floating", "gripper", "spherical_pendulum", "parallel_gripper", "test/gantry"];
+    for name in names.into_iter().chain(["kr5"]) {
         let mechanism = common::models::generic(name);
-        let nv = mechanism.tree().nv();
-        let (q, v, x): (Vec<f64>, Vec<f64>, Vec<f64>) = (vec![0.4; nv], vec![-0.2; nv], vec![0.3; nv]);
+        let (nq, nv) = (mechanism.tree().nq(), mechanism.tree().nv());
+        let (q, v, x): (Vec<f64>, Vec<f64>, Vec<f64>) = (vec![0.4; nq], vec![-0.2; nv], vec![0.3; nv]);
         let (mut vector, mut matrix) = (vec![0.0; nv], vec![0.0; nv * nv]);
         mechanism.inverse_dynamics_in(&mut workspace, &q, &v, &x, &mut vector);
         assert_eq!(vector, mechanism.inverse_dynamics(&q, &v, &x), "{name}");
