@@ -12,6 +12,7 @@ pub mod kane;
 pub mod methods;
 #[cfg(feature = "generic")]
 pub mod models;
+pub mod quadrature;
 pub mod random;
 pub mod styles;
 #[cfg(feature = "generic")]

@@ -12,5 +12,6 @@ mod heavy_top;
 mod hybrid;
 mod iftomm_pendulum;
 mod impedance;
+mod nodding_tops;
 mod stiff_control;
 mod tangent_errors;
