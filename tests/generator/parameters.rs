@@ -70,7 +70,7 @@ fn share(seed: usize) -> f64 {
 }
 
 /// Parameters: all of some links and joints, and gravity.
-const ROBOTS: [(&str, &[&str]); 5] = [
+const ROBOTS: [(&str, &[&str]); 8] = [
     ("peers/kr5", &PAYLOAD),
     (
         "kr5_drives",
@@ -90,6 +90,16 @@ const ROBOTS: [(&str, &[&str]); 5] = [
     ("gripper", &["link1.mass", "link3.com", "link4.inertia", "gravity", "link2.damping"]),
     ("fourbar", &["gravity", "crank.mass", "coupler.mass", "coupler.com"]),
     ("peers/chain40", &["gravity", "link20.mass", "link20.damping"]),
+    // On joints in series, under a free base and on a quaternion.
+    (
+        "test/joints_in_series",
+        &["gravity", "sleeve.mass", "wrist.com", "probe.inertia", "carriage.mass", "swivel.com", "wrist.damping"],
+    ),
+    (
+        "floating_three_link",
+        &["gravity", "satellite.mass", "satellite.com", "link3.inertia", "link2.mass", "joint1.damping"],
+    ),
+    ("spherical_pendulum", &["gravity", "bob.mass", "bob.com", "pivot.armature"]),
 ];
 
 #[test]
