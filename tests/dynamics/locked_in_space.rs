@@ -4,12 +4,18 @@
 use crate::common::comparison::Comparison;
 use crate::common::models::generic;
 use crate::common::random::{Random, State};
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
-use redysim::generic::{GenericMechanism, Model, Vec3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
+use redysim::generic::{
+    CutKind, CutSide, Frame, GenericMechanism, Inertia, JointKind, Link, Loop, Mat3, Model, Pose, Vec3,
+};
 use redysim::{
     BiasForces, ForwardDynamics, InverseDynamics, LinkKinematics, LinkState, MassMatrix, MechanicalEnergy, redysim,
 };
-use redysim_model::LockError;
+use redysim_codegen::functions::trace;
+use redysim_model::denoc::{Untraced, evaluate};
+use redysim_model::rotation::roll_pitch_yaw;
+use redysim_model::{Function, LockError, Tree};
+use std::array;
 
 redysim! {
     /// KR5 whose platform is held, at a quaternion of another length than 1.
@@ -90,6 +96,93 @@ fn links_stand_where_the_platform_is_held() {
     }
     // Numbers of up to a few metres and metres per second, in which small ones keep fewer digits.
     links.assert_within(1e-9);
+}
+
+/// An arm, a body on `joint`, which is locked or fixed, and a tool on it; a frame on each, and a cut between the tool and the
+/// ground.
+fn on_an_arm(joint: Link) -> Model {
+    let part = |name: &str, parent, joint| Link {
+        mass: 1.3,
+        com: Vec3([0.1, -0.2, 0.05]),
+        inertia: Inertia { xx: 0.03, yy: 0.05, zz: 0.04, xy: 0.004, yz: -0.003, xz: 0.002 },
+        ..Link::new(name, parent, joint)
+    };
+    let at = |x: f64| Pose { rotation: roll_pitch_yaw([0.3, x, -0.8]), position: Vec3([0.2, -x, 0.4]) };
+    let arm = Link { axis: Vec3([0.6, 0.0, 0.8]), ..part("arm", None, JointKind::Revolute) };
+    let body = Link { name: "body".into(), joint_name: "body".into(), parent: Some(0), ..joint };
+    let body = Link { mass: 0.9, com: Vec3([0.05, 0.1, -0.2]), inertia: arm.inertia, ..body };
+    let tool = Link { placement: at(0.7), ..part("tool", Some(1), JointKind::Spherical) };
+    let side = |link, x: f64| CutSide { link, point: Vec3([x, 0.3, -0.1]), axis: Vec3([0.0, 0.0, 1.0]) };
+    let frame = |link: usize| Frame { name: format!("frame{link}"), link: Some(link), placement: at(link as f64) };
+    Model {
+        links: vec![arm, body, tool],
+        loops: vec![Loop { name: "cut".into(), joint: CutKind::Revolute, a: side(None, 0.5), b: side(Some(2), -0.2) }],
+        frames: (0..3).map(frame).collect(),
+        ..Model::new("arm", Vec3([0.4, -1.1, -9.6]))
+    }
+}
+
+/// Where the joint, of which `motion` is the pose at the coordinates `values`, is locked, the body is fixed at that pose: all
+/// functions agree to a few roundings, on the run-time path and traced; accelerations times the condition of a matrix of
+/// ordinary size.
+fn assert_locked_is_fixed(joint: Link, values: &[f64], (turned, moved): (Rotation3<f64>, Vector3<f64>)) {
+    let placement = Pose { rotation: roll_pitch_yaw([-0.4, 0.9, 0.2]), position: Vec3([0.3, 0.1, -0.2]) };
+    let motion =
+        Pose { rotation: Mat3(array::from_fn(|i| array::from_fn(|j| turned[(i, j)]))), position: Vec3(moved.into()) };
+    let name = format!("{:?} at {values:?}", joint.joint);
+    let fixed = Link {
+        placement: Pose {
+            rotation: placement.rotation * motion.rotation,
+            position: placement.position + placement.rotation * motion.position,
+        },
+        ..Link::new("body", Some(0), JointKind::Fixed)
+    };
+    let locked = on_an_arm(Link { placement, ..joint }).locked(&[("body", values)]).expect("as many numbers");
+    let [locked, fixed] = [locked, on_an_arm(fixed)].map(|model| Tree::new(&model));
+    assert_eq!((locked.nq(), locked.nv()), (fixed.nq(), fixed.nv()), "{name}");
+    let traced = trace(&locked).expect("no pass changes a value");
+    let mut random = Random::new(9);
+    for function in Function::ALL.iter().copied().filter(|function| !function.needs_passive_joints()) {
+        let mut comparisons = ["run-time path", "traced"]
+            .map(|path| Comparison::new(format!("{name}, {path} {function:?}")).with_floor(1.0));
+        for _ in 0..10 {
+            let arguments: Vec<Vec<f64>> = function
+                .signature()
+                .arguments
+                .iter()
+                .map(|argument| random.vector(fixed.argument_length(*argument), 2.0))
+                .collect();
+            let arguments: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
+            let expected = evaluate(function, &fixed, &Untraced, &arguments);
+            comparisons[0].add(&evaluate(function, &locked, &Untraced, &arguments), &expected);
+            let of_locked = traced.iter().find(|traced| traced.function == function).expect("every function");
+            comparisons[1].add(&of_locked.expressions.evaluate(&arguments), &expected);
+        }
+        let tolerance = if function == Function::ForwardDynamics { 1e-12 } else { 1e-13 };
+        comparisons.iter().for_each(|comparison| comparison.assert_within(tolerance));
+    }
+}
+
+#[test]
+fn a_spherical_joint_that_is_locked_is_a_link_fixed_at_its_quaternion() {
+    let [w, x, y, z] = QUATERNION;
+    let turned = Rotation3::from_matrix_unchecked(axes());
+    assert_locked_is_fixed(Link::new("body", None, JointKind::Spherical), &[x, y, z, w], (turned, Vector3::zeros()));
+}
+
+#[test]
+fn a_planar_joint_that_is_locked_is_a_link_fixed_where_it_slid_and_turned() {
+    let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), 0.7);
+    let joint = Link::new("body", None, JointKind::Planar);
+    assert_locked_is_fixed(joint, &[0.2, -0.5, 0.7], (turned, Vector3::new(0.2, -0.5, 0.0)));
+}
+
+#[test]
+fn a_helical_joint_that_is_locked_is_a_link_fixed_where_its_screw_led() {
+    let (axis, offset, pitch, at) = (Vector3::new(0.0, 0.6, 0.8), 0.3, 0.25, 1.1);
+    let joint = Link { axis: Vec3(axis.into()), offset, pitch, ..Link::new("body", None, JointKind::Helical) };
+    let turned = Rotation3::from_axis_angle(&Unit::new_unchecked(axis), offset + at);
+    assert_locked_is_fixed(joint, &[at], (turned, axis * (pitch * (offset + at))));
 }
 
 #[test]

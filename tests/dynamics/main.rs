@@ -24,6 +24,8 @@ mod physics_in_space;
 mod placement;
 mod positions;
 mod random_trees;
+#[cfg(feature = "generic")]
+mod redysim_examples;
 mod roundings;
 mod series_joints;
 mod space_joints;

@@ -15,7 +15,7 @@ use crate::common::random::{Random, State};
 use crate::common::styles::Style;
 use crate::common::traced::traced;
 use models::{Joints, empty_some, mimic_some, random_model};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
 use redysim_model::denoc::{self, Method, Untraced};
@@ -161,6 +161,30 @@ fn quaternion(random: &mut Random) -> Vec<f64> {
     random.vector(4, size)
 }
 
+/// Position and velocity of the centre of mass, and linear momentum and angular momentum about it, by the partial velocities
+/// of each link: Σ m J_v v and Σ (c − C) × m J_v v + I J_ω v.
+fn center_and_momentum(model: &Model, expected: &Kane, v: &[f64]) -> [Vec<f64>; 2] {
+    let velocities = DVector::from_row_slice(v);
+    let [mut weighted, mut linear, mut angular] = [Vector3::zeros(); 3];
+    let parts: Vec<_> = model.links.iter().zip(&expected.links).collect();
+    let mass: f64 = model.links.iter().map(|link| link.mass).sum();
+    for (link, body) in &parts {
+        weighted += link.mass * body.com;
+        linear += link.mass * body.jacobians(v.len()).0 * &velocities;
+    }
+    let center = weighted / mass;
+    for (link, body) in parts {
+        let (translation, rotation) = body.jacobians(v.len());
+        let i = link.inertia;
+        let own = Matrix3::new(i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz);
+        let velocity = Vector3::from_column_slice((translation * &velocities).as_slice());
+        angular += (body.com - center).cross(&(link.mass * velocity));
+        angular += body.rotation * own * body.rotation.transpose() * rotation * &velocities;
+    }
+    let two = |a: Vector3<f64>, b: Vector3<f64>| a.iter().chain(b.iter()).copied().collect::<Vec<f64>>();
+    [two(center, linear / mass), two(linear, angular)]
+}
+
 /// The accelerations that Kane's equations give, and how many roundings the condition of M makes of one.
 fn accelerations(expected: &Kane, tau: &DVector<f64>) -> (DVector<f64>, f64) {
     let eigenvalues = expected.matrix.clone().symmetric_eigenvalues();
@@ -186,7 +210,7 @@ fn forces(expected: &Kane, a: &[f64]) -> DVector<f64> {
 #[test]
 fn recursions_agree_with_kanes_equations() {
     let mut errors = Errors::default();
-    on_random_trees(|_, tree, State { q, v, a }, expected| {
+    on_random_trees(|model, tree, State { q, v, a }, expected| {
         for (path, tree) in [("tree", tree), ("base parameters", &base_parameters(tree, Vanishing::TensorYy))] {
             let mut add = |what: &str, computed: &[f64], expected: &[f64], tolerance| {
                 errors.add(&format!("{path}: {what}"), computed, expected, tolerance);
@@ -203,6 +227,13 @@ fn recursions_agree_with_kanes_equations() {
             let energy = denoc::energy(tree, &Untraced, q, v);
             add("kinetic", &[energy.kinetic], &[expected.kinetic], 1e-12);
             add("potential", &[energy.potential - expected.potential + 1.0], &[1.0], 1e-12);
+            if path == "tree" {
+                // Of what is regrouped, the dynamics is the same and the centre of mass another.
+                let [center, momentum] = center_and_momentum(model, expected, v);
+                let computed = denoc::evaluate(Function::CenterOfMass, tree, &Untraced, &[q, v]);
+                add("centre of mass", &computed, &center, 1e-12);
+                add("momentum", &denoc::evaluate(Function::Momentum, tree, &Untraced, &[q, v]), &momentum, 1e-12);
+            }
             let (wanted, condition) = accelerations(expected, &tau);
             for method in [Method::Factorisation, Method::Recursion] {
                 let found = denoc::forward_dynamics(method, tree, &Untraced, q, v, tau.as_slice());
@@ -332,7 +363,7 @@ fn traced_expressions_agree_with_kanes_equations_where_joints_mimic_others() {
 fn traced_expressions_agree(seeds: impl Iterator<Item = u64>) {
     let (mut errors, mut random) = (Errors::default(), Random::new(1));
     let mut traced: Option<(Tree, Vec<TracedFunction>)> = None;
-    on_trees(seeds, |_, tree, State { q, v, a }, expected| {
+    on_trees(seeds, |model, tree, State { q, v, a }, expected| {
         if traced.as_ref().is_none_or(|(of, _)| of != tree) {
             traced = Some((tree.clone(), trace(tree).expect("no pass changes a value")));
         }
@@ -361,6 +392,9 @@ fn traced_expressions_agree(seeds: impl Iterator<Item = u64>) {
         let energies = evaluated(functions, "energy", &[q, v]);
         errors.add("kinetic", &energies[..1], &[expected.kinetic], 1e-12);
         errors.add("potential", &[energies[1] - expected.potential + 1.0], &[1.0], 1e-12);
+        let [center, momentum] = center_and_momentum(model, expected, v);
+        errors.add("center_of_mass", &evaluated(functions, "center_of_mass", &[q, v]), &center, 1e-12);
+        errors.add("momentum", &evaluated(functions, "momentum", &[q, v]), &momentum, 1e-12);
         let links = evaluated(functions, "link_kinematics", &[q, v]);
         let wanted = expected.links.iter().flat_map(|body| {
             let vectors = [&body.origin, &body.com, &body.velocity, &body.angular_velocity];
