@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 use redysim_model::joint::JointPhysics;
 use redysim_model::spatial::{Mat3, Pose};
-use redysim_model::{Frame, JointKind, Link, LinkPoint, Model, PerVelocity};
+use redysim_model::{Frame, JointKind, Link, LinkPoint, Loop, Model, PerVelocity};
 use std::ops::Range;
 
 /// Everything the tests compare, at one state.
@@ -29,6 +29,8 @@ pub struct Kane {
     pub links: Vec<Body>,
     /// The frames of interest, in the model's order.
     pub frames: Vec<Body>,
+    /// The points of the sides a and b of each loop, as frames with the axes of their links, in the model's order.
+    pub loops: Vec<[Body; 2]>,
 }
 
 /// A link or a frame of interest in the base frame. The centre of mass of a frame is its origin.
@@ -196,6 +198,12 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
     let ground = Body::ground();
     let on_link = |frame: &Frame| frame.link.map_or(&ground, |link| &links[link]).fixed(&frame.placement);
     let frames = model.frames.iter().map(on_link).collect();
+    let at_point = |link: Option<usize>, point| {
+        let on = Pose { rotation: Mat3::identity(), position: point };
+        link.map_or(&ground, |link| &links[link]).fixed(&on)
+    };
+    let sides = |cut: &Loop| [&cut.a, &cut.b].map(|side| at_point(side.link, side.point));
+    let loops = model.loops.iter().map(sides).collect();
     let g = Vector3::from(model.gravity.0);
     let mut sums = Kane {
         matrix: DMatrix::zeros(dof, dof),
@@ -207,6 +215,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         potential: 0.0,
         links: Vec::new(),
         frames: Vec::new(),
+        loops: Vec::new(),
     };
     for (link, JointState { q, v, first: joint, rate }) in model.links.iter().zip(joint_states(model, q, v)) {
         let nv = v.len();
@@ -227,10 +236,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         }
     }
     for spring in &model.springs {
-        let end = |LinkPoint { link, point }: LinkPoint| {
-            let on = Pose { rotation: Mat3::identity(), position: point };
-            link.map_or(&ground, |link| &links[link]).fixed(&on)
-        };
+        let end = |LinkPoint { link, point }: LinkPoint| at_point(link, point);
         let (a, b) = (end(spring.a), end(spring.b));
         let line = b.origin - a.origin;
         let (length, direction) = (line.norm(), line.normalize());
@@ -256,7 +262,7 @@ pub fn kane(model: &Model, q: &[f64], v: &[f64]) -> Kane {
         sums.kinetic += 0.5 * (link.mass * speed.dot(&speed) + w.dot(&(inertia * w)));
         sums.potential -= link.mass * g.dot(&body.com);
     }
-    Kane { links, frames, ..sums }
+    Kane { links, frames, loops, ..sums }
 }
 
 /// All links, whatever their order: a link is placed as soon as its parent is.
