@@ -57,6 +57,23 @@ impl Contacts {
         Some(contacts)
     }
 
+    /// No contacts, with a warning if the scenario has some: inverse dynamics has no ground.
+    pub fn left_out(reader: &mut Reader<'_, '_>) -> Contacts {
+        if let Field::Value(given) = reader.field(&keys::CONTACT, |_, _, _| Some(())) {
+            let title = format!(
+                "{}: `contact` applies only to `redysim forward`: the forces of `redysim inverse` are those without the \
+                 ground",
+                reader.item()
+            );
+            let help =
+                "let `redysim forward` follow the trajectory, with `law = \"computed-torque\"` or with the joints \
+                        under `prescribed`, for forces on the ground; for forces in the air, leave `contact` out"
+                    .to_owned();
+            reader.warning_at(given.span(), Message { title, label: "not in these forces".into(), help });
+        }
+        Contacts::default()
+    }
+
     /// `mechanism`, whose model has the frames, with these contacts.
     pub fn under<'a>(&'a self, mechanism: &'a GenericMechanism) -> Ground<'a> {
         Grounded::new(mechanism, &self.list).expect("the frames were found in the model")

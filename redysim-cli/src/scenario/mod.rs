@@ -212,7 +212,7 @@ fn read(
     let trajectory = Prescribed::read(&mut reader, &subject);
     let followed = trajectory.as_ref().map(Option::as_ref);
     let contacts = match dynamics {
-        Dynamics::Inverse => Some(Contacts::default()),
+        Dynamics::Inverse => Some(Contacts::left_out(&mut reader)),
         Dynamics::Forward => Contacts::read(&mut reader, mechanism.model()),
     };
     let (inverse, forward) = match dynamics {

@@ -192,6 +192,54 @@ fn a_ground_without_contacts_is_warned_of() {
 }
 
 #[test]
+fn contacts_are_not_in_the_forces_of_inverse_dynamics_which_is_warned_of() {
+    let folder = scratch("contact-inverse");
+    let still = "trajectory = { from = [0, 0, 0, 0, 0, 0, 1], to = [0, 0, 0, 0, 0, 0, 1], duration = 0.1 }\n\
+                 inverse = { end = 0.1, step = 0.1 }\n";
+    let forces = |name: &str, rest: &str| {
+        let run = call(&folder, &["inverse", &scenario(&folder, "parcel.toml", rest), "-o", name]);
+        assert_eq!(run.code, 0, "{}", run.output());
+        (run.stderr, fs::read(folder.join(name).join("tor.csv")).unwrap())
+    };
+    let (without, in_the_air) = forces("without", still);
+    assert!(!without.contains("contact"), "{without}");
+    let (warned, forces) = forces("with", &format!("{still}[[contact]]\n{CORNERS}{HUNT_CROSSLEY}"));
+    for words in ["`contact` applies only to `redysim forward`", "not in these forces", "computed-torque", "prescribed"]
+    {
+        assert!(warned.contains(words), "{words}: {warned}");
+    }
+    assert!(forces == in_the_air);
+    assert!(!folder.join("with/contacts.csv").exists());
+}
+
+/// The four-bar of the paper, let go, with a frame on its coupler that touches the ground.
+#[test]
+fn a_coupler_of_a_four_bar_that_touches_the_ground_keeps_the_balance_of_energy() {
+    let folder = scratch("contact-fourbar");
+    let model = fs::read_to_string(model("fourbar.toml")).unwrap();
+    let frame = "[[frame]]\nname = 'tip'\nlink = 'coupler'\norigin = { xyz = [0.2304, 0, 0] }\n";
+    fs::write(folder.join("fourbar.toml"), format!("{model}{frame}")).unwrap();
+    let scenario = "model = 'fourbar.toml'\ninitial = { q = [0.0, 0.9844, 4.3144] }\n\
+                    ground = { point = [0, -0.145, 0], normal = [0, 1, 0] }\n[forward]\nend = 0.2\nstep = 0.002\n\
+                    integrator = { method = 'Ode45', rtol = 1e-11, atol = 1e-13 }\n[[contact]]\nframe = 'tip'\n\
+                    law = 'hunt-crossley'\nstiffness = 1e5\ndamping = 0.3\nfriction = 0.4\nslip_velocity = 0.01\n";
+    fs::write(folder.join("trial.toml"), scenario).unwrap();
+    let output = succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
+    assert!(output.contains("1 contact, 1 touch-down"), "{output}");
+    let energy = Table::csv(&folder.join("run/energy.csv"));
+    let exchanged = energy.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    for row in &energy.rows {
+        let [kinetic, potential, total, work, drift, ground, loss] = row[1..].try_into().unwrap();
+        assert!((kinetic + potential + ground - total).abs() < 1e-12 && work == 0.0, "{row:?}");
+        assert!((total + loss - energy.rows[0][3] - drift).abs() < 1e-9, "{row:?}");
+        // Tolerances of 1e-11 over some hundred steps.
+        assert!(drift.abs() < 1e-8 * exchanged, "{row:?} of {exchanged}");
+    }
+    let lost = energy.rows.last().unwrap()[7];
+    assert!(lost > 1e-3 * exchanged, "{lost} of {exchanged}");
+}
+
+#[test]
 fn contacts_as_data_read_back_to_the_same_bits() {
     let foot = |name: &str| FrameNames::One(name.into());
     let several = FrameNames::Several(vec!["top_left_rear".into(), "top_left_front".into()]);
