@@ -8,14 +8,42 @@ pub fn quoted(text: &str) -> String {
     format!("`{}{more}`", shown.replace("\\\"", "\"").replace("\\'", "'"))
 }
 
-/// The name that `text` was probably meant to be: the nearest by insertions, deletions, replacements and swaps.
+/// The name that `text` was probably meant to be, whatever the case of its letters: the nearest by insertions, deletions,
+/// replacements and swaps, or else the only one that begins with three or more letters of `text`. `None` if several are as
+/// near.
+///
+/// ```
+/// use redysim_toml::words::nearest;
+///
+/// assert_eq!(nearest("dmaping", ["damping", "stiffness"]), Some("damping"));
+/// assert_eq!(nearest("Stiff", ["damping", "stiffness"]), Some("stiffness"));
+/// assert_eq!(nearest("link7", ["link1", "link2"]), None);
+/// ```
 pub fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let near = |name: &&str| {
-        let longer = text.chars().count().max(name.chars().count());
-        Some(strsim::damerau_levenshtein(text, name)).filter(|distance| *distance <= (longer / 3).max(1))
-    };
-    let candidates = names.into_iter().filter_map(|name| Some((near(&name)?, name)));
-    candidates.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
+    let text = text.to_lowercase();
+    let length = text.chars().count();
+    // The least distance, and the one name at it; `None` for several. The same of names that begin with the text.
+    let (mut least, mut near) = (usize::MAX, None);
+    let (mut longer, mut is_only) = (None, true);
+    for name in names {
+        let lower = name.to_lowercase();
+        let other = lower.chars().count();
+        if length >= 3 && lower.starts_with(&text) {
+            is_only &= longer.is_none_or(|longer| longer == name);
+            longer = Some(name);
+        }
+        let most = (length.max(other) / 3).max(1).min(length.max(other).saturating_sub(1)).min(least);
+        if length.abs_diff(other) > most {
+            continue;
+        }
+        let distance = strsim::damerau_levenshtein(&text, &lower);
+        if distance < least && distance <= most {
+            (least, near) = (distance, Some(name));
+        } else if distance == least && near.is_some_and(|near| near != name) {
+            near = None;
+        }
+    }
+    near.or(longer.filter(|_| is_only))
 }
 
 /// A list of names, shortened to the first 20.
@@ -47,6 +75,36 @@ mod tests {
         assert_eq!(nearest("nmae", keys), Some("name"));
         assert_eq!(nearest("colour", keys), None);
         assert_eq!(nearest("link1", ["arm", "link2"]), Some("link2"));
+        assert_eq!(nearest("", keys), None);
+    }
+
+    #[test]
+    fn names_of_one_letter_are_not_near_each_other() {
+        assert_eq!(nearest("b", ["a"]), None);
+        assert_eq!(nearest("A", ["a", "b"]), Some("a"));
+        assert_eq!(nearest("kd", ["kp"]), Some("kp"));
+    }
+
+    #[test]
+    fn the_case_of_letters_is_of_no_account() {
+        assert_eq!(nearest("PID", ["p", "pd", "pid"]), Some("pid"));
+        assert_eq!(nearest("ode46", ["Ode45", "Ode15s"]), Some("Ode45"));
+        assert_eq!(nearest("RK4", ["Rk4", "Euler"]), Some("Rk4"));
+    }
+
+    #[test]
+    fn the_one_name_that_begins_with_the_text_is_near() {
+        assert_eq!(nearest("damp", ["damping", "friction"]), Some("damping"));
+        assert_eq!(nearest("fric", ["friction", "friction_velocity"]), None);
+        assert_eq!(nearest("da", ["damping", "friction"]), None);
+    }
+
+    #[test]
+    fn of_several_names_as_near_none_is_taken() {
+        let links: Vec<_> = (1..=6).map(|link| format!("link{link}")).collect();
+        assert_eq!(nearest("link7", links.iter().map(String::as_str)), None);
+        assert_eq!(nearest("lnik6", links.iter().map(String::as_str)), Some("link6"));
+        assert_eq!(nearest("link7", ["link1", "link1"]), Some("link1"));
     }
 
     #[test]
