@@ -66,6 +66,15 @@ impl Quantity {
         Quantity::OF_LINKS.iter().find(|(_, quantity)| *quantity == self).map_or(keys::GRAVITY.name, |(name, _)| name)
     }
 
+    /// What is appended to the name for each of its numbers, where their count does not depend on the joint.
+    pub(crate) fn components(self) -> &'static [&'static str] {
+        match self {
+            Quantity::Gravity | Quantity::Com => &["x", "y", "z"],
+            Quantity::Inertia => &["xx", "yy", "zz", "xy", "yz", "xz"],
+            _ => &[],
+        }
+    }
+
     /// Whether it belongs to a joint that moves, not to a body.
     pub fn is_of_joint(self) -> bool {
         !matches!(self, Quantity::Gravity | Quantity::Mass | Quantity::Com | Quantity::Inertia)
@@ -79,9 +88,9 @@ impl Quantity {
             components.iter().map(|component| (suffix(component), rule)).collect()
         };
         match self {
-            Quantity::Gravity | Quantity::Com => all(&["x", "y", "z"], ParameterRule::Finite),
+            Quantity::Gravity | Quantity::Com => all(self.components(), ParameterRule::Finite),
             Quantity::Mass => all(&[""], ParameterRule::NotNegative),
-            Quantity::Inertia => all(&["xx", "yy", "zz", "xy", "yz", "xz"], ParameterRule::Inertia),
+            Quantity::Inertia => all(self.components(), ParameterRule::Inertia),
             Quantity::Rest => {
                 let mut rest = all(joint.map_or(&[""], LinkJoint::coordinate_names), ParameterRule::Finite);
                 for (_, rule) in &mut rest[joint.map_or(0..0, LinkJoint::quaternion)] {

@@ -172,16 +172,32 @@ pub(crate) fn unknown_parameter(item: &str, name: &str) -> Message {
     message(format!("{item}: unknown parameter {} in `parameters`", quoted(name)), "unknown parameter", help)
 }
 
-pub(crate) fn unknown_quantity(item: &str, name: &str, quantity: &str) -> Message {
+/// `owner` has no `quantity`.
+pub(crate) fn unknown_quantity(item: &str, name: &str, owner: &str, quantity: &str) -> Message {
     let names = Quantity::OF_LINKS.map(|(name, _)| name);
-    let meant = did_you_mean(nearest(quantity, names));
-    let help = format!("{meant}Links and joints have: {}", names.join(", "));
+    let meant = nearest(quantity, names).map(|quantity| format!("{owner}.{quantity}"));
+    let help = format!("{}Links and joints have: {}", did_you_mean(meant.as_deref()), names.join(", "));
     message(format!("{item}: unknown parameter {} in `parameters`", quoted(name)), "unknown parameter", help)
 }
 
-pub(crate) fn parameter_of_unknown(item: &str, name: &str, owner: &str, owners: &[&str]) -> Message {
-    let meant = did_you_mean(nearest(owner, owners.iter().copied()));
-    let help = format!("{meant}Links and joints: {}", owners.join(", "));
+/// The parameter `whole` exists, of which `name` is a component or is meant to be.
+pub(crate) fn component_of_parameter(item: &str, name: &str, whole: &str, quantity: Quantity) -> Message {
+    let (whole, numbers) = (quoted(whole), quantity.components());
+    let help = match numbers {
+        [] | [_] => format!("write {whole}"),
+        numbers => format!("write {whole}, which gives all {} of its numbers: {}", numbers.len(), numbers.join(", ")),
+    };
+    message(format!("{item}: unknown parameter {} in `parameters`", quoted(name)), "part of a parameter", help)
+}
+
+pub(crate) fn parameter_of_unknown(
+    item: &str,
+    name: &str,
+    [owner, quantity]: [&str; 2],
+    owners: &[&str],
+) -> Message {
+    let meant = nearest(owner, owners.iter().copied()).map(|owner| format!("{owner}.{quantity}"));
+    let help = format!("{}Links and joints: {}", did_you_mean(meant.as_deref()), shortened(owners));
     message(format!("{item}: parameter {} of an unknown link or joint", quoted(name)), "unknown link or joint", help)
 }
 

@@ -222,8 +222,18 @@ fn parameter(
     let Some((owner, quantity)) = text.rsplit_once('.') else {
         return reader.error_at(place, messages::unknown_parameter(reader.item(), text));
     };
-    let Some((_, quantity)) = Quantity::OF_LINKS.into_iter().find(|(name, _)| *name == quantity) else {
-        return reader.error_at(place, messages::unknown_quantity(reader.item(), text, quantity));
+    let known = |wanted: &str| Quantity::OF_LINKS.into_iter().find(|(name, _)| *name == wanted);
+    let Some((written, quantity)) = known(quantity) else {
+        let of_gravity = (Quantity::Gravity.name(), Quantity::Gravity);
+        let whole = match owner.rsplit_once('.') {
+            Some((_, of)) => known(of),
+            None => Some(of_gravity).filter(|(name, _)| *name == owner),
+        };
+        let message = match whole {
+            Some((_, whole)) => messages::component_of_parameter(reader.item(), text, owner, whole),
+            None => messages::unknown_quantity(reader.item(), text, owner, quantity),
+        };
+        return reader.error_at(place, message);
     };
     let names = links.iter().map(|link| {
         let joint = link.joint_name().filter(|_| quantity.is_of_joint()).map(|name| name.get_ref().as_str());
@@ -234,7 +244,7 @@ fn parameter(
         None if links.iter().any(|link| link.name.value().is_none()) => None,
         None => {
             let owners: Vec<&str> = names.filter_map(|(joint, link)| joint.or(link)).collect();
-            reader.error_at(place, messages::parameter_of_unknown(reader.item(), text, owner, &owners))
+            reader.error_at(place, messages::parameter_of_unknown(reader.item(), text, [owner, written], &owners))
         }
     }
 }
