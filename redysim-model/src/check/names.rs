@@ -3,7 +3,7 @@
 use crate::messages;
 use crate::schema::Document;
 use redysim_toml::{Field, Findings, Spanned};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// The name of the ground.
@@ -57,15 +57,15 @@ fn unique<'a>(what: &str, names: impl Iterator<Item = &'a Spanned<String>>, find
 /// Moving joints have names of their own. Where two links share a name, that was reported, and their joints are not.
 fn joints_unique(document: &Document, findings: &mut Findings) {
     let moving = document.links.iter().filter(|link| link.joint.value().is_none_or(|joint| joint.dof() > 0));
-    let (mut links_seen, mut named) = (Vec::new(), Vec::new());
+    let (mut links_seen, mut named) = (HashSet::new(), Vec::new());
     for link in moving {
         let (Some(name), Some(joint_name)) = (link.name.value(), link.joint_name()) else {
             continue;
         };
-        if link.joint_name.is_missing() && links_seen.contains(&name) {
+        if link.joint_name.is_missing() && links_seen.contains(name) {
             continue;
         }
-        links_seen.push(name);
+        links_seen.insert(name);
         named.push(joint_name);
     }
     unique("joint", named.into_iter(), findings);

@@ -3,7 +3,7 @@
 use super::names::BASE;
 use crate::messages;
 use crate::schema::{Document, PointTable};
-use redysim_toml::{Field, Findings, Spanned};
+use redysim_toml::{Diagnostics, Field, Findings, Spanned};
 
 /// The link that the key `key` of an item names; `Some(None)` is the ground. A name that is not known is reported.
 pub(super) fn carrier(
@@ -33,7 +33,9 @@ fn find(document: &Document, name: &str) -> Option<Option<usize>> {
 fn unknown(document: &Document, item: &str, key: &str, name: &Spanned<String>, findings: &mut Findings) {
     if document.links_complete && document.links.iter().all(|link| link.name.value().is_some()) {
         let links = document.links.iter().filter_map(|link| link.name.value()).map(String::as_str);
-        findings.error(name.span(), messages::unknown_link(item, key, name.get_ref(), links));
+        // A suggestion compares the name with all others: of very many unknown names only those that are shown have one.
+        let is_shown = findings.errors() < Diagnostics::MOST_SHOWN;
+        findings.error(name.span(), messages::unknown_link(item, key, name.get_ref(), links, is_shown));
     }
 }
 

@@ -30,9 +30,23 @@ pub(crate) fn duplicate_name(what: &str, name: &str, first_line: usize) -> Messa
     )
 }
 
-pub(crate) fn unknown_link<'a>(item: &str, key: &str, name: &str, links: impl Iterator<Item = &'a str>) -> Message {
+/// What other formats and simulators call the ground.
+const GROUND: &[&str] = &["", "world", "ground", "map", "root", "fixed", "inertial", "origin", "base_link", "universe"];
+
+/// `links` are the names of all; `suggests` is whether the nearest is looked for.
+pub(crate) fn unknown_link<'a>(
+    item: &str,
+    key: &str,
+    name: &str,
+    links: impl Iterator<Item = &'a str>,
+    suggests: bool,
+) -> Message {
     let all: Vec<_> = std::iter::once("base").chain(links).collect();
-    let meant = did_you_mean(nearest(name, all.iter().copied()));
+    let meant = match name.trim().to_lowercase().as_str() {
+        ground if GROUND.contains(&ground) => "did you mean `base`, the ground? ".into(),
+        _ if suggests => did_you_mean(nearest(name, all.iter().copied())),
+        _ => String::new(),
+    };
     message(
         format!("{item}: unknown link {} in `{key}`", quoted(name)),
         "unknown link",

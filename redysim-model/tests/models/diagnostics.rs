@@ -161,3 +161,16 @@ fn invalid_files_have_a_public_interface() {
     assert_eq!(fixed.joints.len(), 1);
     assert_eq!(fixed.joints[0].name, "upper");
 }
+
+/// A suggestion compares a name with all others, so that of very many unknown ones only those that are shown have it.
+#[test]
+fn of_very_many_unknown_links_those_that_are_shown_have_a_suggestion() {
+    let link = |index: usize| {
+        let keys = "joint = 'revolute'\naxis = [0, 0, 1]\nmass = 1.0\ncom = [1, 0, 0]\n";
+        format!("[[link]]\nname = 'body{index}'\nparent = 'boddy{index}'\n{keys}")
+    };
+    let links: String = (0..30).map(link).collect();
+    let faults = Model::from_toml(format!("name = 'm'\ngravity = [0, 0, 0]\n{links}"), "m.toml").unwrap_err();
+    let has_suggestion: Vec<bool> = faults.errors().map(|error| error.help().contains("did you mean")).collect();
+    assert_eq!(has_suggestion, (0..30).map(|index| index < 20).collect::<Vec<_>>());
+}

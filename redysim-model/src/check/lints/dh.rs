@@ -69,15 +69,23 @@ pub(super) fn check(document: &Document, model: &Model, found: &mut Found) {
 /// joint is fixed. Locks are no part of a convention.
 fn chains<'a>(document: &'a Document, model: &Model) -> impl Iterator<Item = Vec<&'a LinkTable>> {
     let links = &document.links;
+    let moves = |link: &usize| joint(&links[*link]) != JointKind::Fixed;
     let path = |tip: usize| {
         let mut path: Vec<usize> = chain(model, Some(tip)).collect();
         path.reverse();
         path
     };
-    let moves = |link: &usize| joint(&links[*link]) != JointKind::Fixed;
-    let paths: Vec<Vec<usize>> = (0..links.len()).filter(moves).map(path).collect();
-    let inner: Vec<usize> = paths.iter().flat_map(|path| &path[..path.len() - 1]).copied().collect();
-    let to_tips = paths.into_iter().filter(move |path| path.last().is_some_and(|tip| !inner.contains(tip)));
+    // Those that carry a moving link, whose own carriers are marked once.
+    let mut is_inner = vec![false; links.len()];
+    for link in (0..links.len()).filter(moves) {
+        for carrier in chain(model, model.links[link].parent) {
+            if std::mem::replace(&mut is_inner[carrier], true) {
+                break;
+            }
+        }
+    }
+    let tips = (0..links.len()).filter(moves).filter(move |&link| !is_inner[link]);
+    let to_tips = tips.map(path);
     let from_first = to_tips.map(move |path| path.into_iter().skip_while(|link| !moves(link)).collect::<Vec<_>>());
     let whole = from_first.filter(move |chain| chain.len() >= SHORTEST && chain.iter().all(moves));
     whole.map(move |chain| chain.into_iter().map(|link| &links[link]).collect())
