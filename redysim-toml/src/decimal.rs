@@ -37,12 +37,18 @@ pub fn with_decimal_points(text: &str) -> Option<String> {
     (written != text).then_some(written)
 }
 
-/// The first value of a line of TOML that is a number with a decimal comma, and how it is written with a point.
-pub(crate) fn value_with_comma(line: &str) -> Option<(Range<usize>, String)> {
+/// The first value of a line of TOML that is a number with a decimal comma, and how it is written with a point; with
+/// `arrays` also an array of such numbers, which is otherwise one of more numbers.
+pub(crate) fn value_with_comma(line: &str, arrays: bool) -> Option<(Range<usize>, String)> {
     let line = line.split('#').next().unwrap_or_default();
     line.match_indices('=').find_map(|(equals, _)| {
         let rest = &line[equals + 1..];
         let start = line.len() - rest.trim_start().len();
+        if arrays && line[start..].starts_with('[') {
+            let value = start..start + line[start..].rfind(']')? + 1;
+            let written = with_decimal_points(&line[value.clone()])?;
+            return Some((value, written));
+        }
         let of_a_number = |c: char| c.is_ascii_digit() || "+-,.eE".contains(c);
         let length = line[start..].find(|c| !of_a_number(c)).unwrap_or(line.len() - start);
         let value = line[start..start + length].trim_end_matches(',');
@@ -79,6 +85,13 @@ mod tests {
     }
 
     #[test]
+    fn arrays_of_a_line_are_found_on_request() {
+        let line = "com = [0,1, 0,05] # m";
+        assert_eq!(value_with_comma(line, true), Some((6..17, "[0.1, 0.05]".to_owned())));
+        assert_eq!(value_with_comma(line, false), None);
+    }
+
+    #[test]
     fn values_of_a_line_are_found_where_they_stand() {
         for (line, found) in [
             ("mass = 0,5", Some((7..10, "0.5"))),
@@ -87,7 +100,11 @@ mod tests {
             ("mass = 1.5 2 # or = 0,5", None),
             ("name = a1,2", None),
         ] {
-            assert_eq!(value_with_comma(line), found.map(|(place, written)| (place, written.to_owned())), "{line}");
+            assert_eq!(
+                value_with_comma(line, false),
+                found.map(|(place, written)| (place, written.to_owned())),
+                "{line}"
+            );
         }
     }
 }

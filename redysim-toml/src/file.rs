@@ -6,13 +6,13 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, Error};
 
-use crate::decimal::value_with_comma;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::findings::Findings;
 use crate::key::Keys;
 use crate::messages;
 use crate::reader::Reader;
 use crate::source::Source;
+use crate::syntax::{explained, first_line_of_key, single_header, unclosed_bracket};
 use crate::value::Table;
 
 /// Reads the text of a file whose table has the keys `keys`. Messages call the file `file_name` and what it describes
@@ -84,26 +84,46 @@ impl<'s> Parsed<'s> {
         if !self.is_valid() && text[start..].starts_with('<') {
             return findings.error(start..start + 1, messages::xml());
         }
+        // What stands in a bracket that is not closed is read as a part of it.
+        let unclosed = if self.is_valid() { None } else { unclosed_bracket(text) };
         let mut lines = Vec::new();
+        let mut has_second_header = false;
         for error in &self.errors {
             let span = error.span().unwrap_or_default();
             let line = self.source.place(&span).line;
+            if unclosed.is_some_and(|(open, _)| line >= findings.line(&(open..open))) {
+                break;
+            }
             if lines.contains(&line) {
                 continue;
             }
             if lines.len() == MOST_SYNTAX_ERRORS {
                 return findings.error(span, messages::more_is_not_toml());
             }
-            lines.push(line);
-            let place = self.source.place(&span);
-            match value_with_comma(place.text) {
-                Some((value, written)) => {
-                    let start = span.start.saturating_sub(place.span.start);
-                    let found = &place.text[value.clone()];
-                    findings.error(start + value.start..start + value.end, messages::comma_in_toml(found, &written));
+            if error.message() == "duplicate key" {
+                match single_header(self.source, &span) {
+                    // The keys below a second header seem to be there twice as well.
+                    _ if has_second_header => {}
+                    Some((place, name, other)) => {
+                        let line = findings.line(&place);
+                        findings.error(place, messages::syntax::single_header(&name, line, other));
+                        has_second_header = true;
+                    }
+                    None => {
+                        let key = text.get(span.clone()).unwrap_or_default();
+                        let first = first_line_of_key(self.source, &span);
+                        findings.error(span, messages::syntax::duplicate_key(key, first));
+                    }
                 }
-                None => findings.error(span, messages::syntax(error.message())),
+                lines.push(line);
+                continue;
             }
+            lines.push(line);
+            let (place, message) = explained(self.source, span, error.message());
+            findings.error(place, message);
+        }
+        if let Some((open, close)) = unclosed {
+            findings.error(open..open + 1, messages::syntax::unclosed_bracket(close));
         }
     }
 }

@@ -55,6 +55,7 @@ mod messages;
 mod nearby;
 mod reader;
 mod source;
+mod syntax;
 mod units;
 mod value;
 pub mod words;

@@ -3,6 +3,8 @@
 //! The title names the item, the rule and the value found; the label repeats the rule in a few words beside the caret;
 //! the help has the remedy. `item` is "link `arm`" or "the scenario".
 
+pub(crate) mod syntax;
+
 use std::ops::RangeInclusive;
 
 use crate::diagnostic::Message;
@@ -11,20 +13,6 @@ use crate::words::{did_you_mean, nearest, quoted};
 
 fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> Message {
     Message::new(title, label, help)
-}
-
-pub(crate) fn syntax(reason: &str) -> Message {
-    let help = match reason {
-        "duplicate key" => "a key may occur only once in a table: delete one of the two, or rename it",
-        _ => "correct the TOML first; the rest of the file is checked after that",
-    };
-    message(format!("TOML: {reason}"), reason, help)
-}
-
-/// `written` is the value `found` with a decimal point.
-pub(crate) fn comma_in_toml(found: &str, written: &str) -> Message {
-    let title = format!("TOML: {} has a decimal comma", quoted(found));
-    message(title, "a decimal comma", format!("TOML writes decimals with a point: {written}"))
 }
 
 /// The number or angle under `path` is the string `found`; `written` is the value with a decimal point.
