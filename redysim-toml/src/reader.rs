@@ -70,13 +70,20 @@ impl<'a, 'f> Reader<'a, 'f> {
         for found in self.table.keys().filter(|found| keys.names().all(|name| name != found.get_ref())) {
             let absent = keys.names().filter(|name| !self.table.contains_key(*name));
             let hint = keys.hint(found.get_ref());
-            let meant = hint.map_or_else(|| nearest(found.get_ref(), absent), |hint| hint.key);
+            let in_lower_case = || keys.names().find(|name| name.eq_ignore_ascii_case(found.get_ref()));
+            let meant =
+                hint.map_or_else(|| in_lower_case().or_else(|| nearest(found.get_ref(), absent)), |hint| hint.key);
             let path = format!("{}{}", self.prefix, found.get_ref());
             let help = hint.map_or("", |hint| hint.help);
             self.findings.error(found.span(), messages::unknown_key(self.item, &path, meant, help, keys));
             self.misspelt.extend(meant);
         }
         self
+    }
+
+    /// Takes a key that is missing as one that has an error, because that has been or is going to be reported.
+    pub fn excuse(&mut self, key: &Key) {
+        self.misspelt.push(key.name);
     }
 
     /// Reads a required key with `read`, and reports it if it is missing.

@@ -35,6 +35,13 @@ pub(super) fn check(document: &Document, findings: &mut Findings) {
     joints_unique(document, findings);
 }
 
+/// Whether each link has a name of its own.
+pub(super) fn are_usable(document: &Document) -> bool {
+    let mut seen = HashSet::new();
+    let is_usable = |name: &String| name != BASE && !name.trim().is_empty();
+    document.links.iter().all(|link| link.name.value().is_some_and(|name| is_usable(name) && seen.insert(name)))
+}
+
 fn not_blank(item: &str, key: &str, name: &Field<String>, findings: &mut Findings) {
     if let Some(name) = name.spanned().filter(|name| name.get_ref().trim().is_empty()) {
         findings.error(name.span(), messages::blank_name(item, key));

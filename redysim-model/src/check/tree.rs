@@ -1,6 +1,6 @@
 //! Parents: known, and leading to the ground.
 
-use super::names::BASE;
+use super::names::{self, BASE};
 use crate::messages;
 use crate::schema::{Document, PointTable};
 use redysim_toml::{Diagnostics, Field, Findings, Spanned};
@@ -29,9 +29,9 @@ fn find(document: &Document, name: &str) -> Option<Option<usize>> {
     document.links.iter().position(|link| link.name.value().is_some_and(|known| known == name)).map(Some)
 }
 
-/// Reports a link name that is not known, unless a link's own name is unreadable: that one may be meant.
+/// Reports a link name that is not known, unless a link's own name has an error: that one may be meant.
 fn unknown(document: &Document, item: &str, key: &str, name: &Spanned<String>, findings: &mut Findings) {
-    if document.links_complete && document.links.iter().all(|link| link.name.value().is_some()) {
+    if document.links_complete && names::are_usable(document) {
         let links = document.links.iter().filter_map(|link| link.name.value()).map(String::as_str);
         // A suggestion compares the name with all others: of very many unknown names only those that are shown have one.
         let is_shown = findings.errors() < Diagnostics::MOST_SHOWN;

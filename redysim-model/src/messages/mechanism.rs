@@ -54,6 +54,13 @@ pub(crate) fn unknown_link<'a>(
     )
 }
 
+/// `found` is what others call a kind of joint; `help` is what to write.
+pub(crate) fn foreign_joint_kind(item: &str, path: &KeyPath, found: &str, help: &str) -> Message {
+    let kinds = JointKind::ALL.map(|(name, _)| name);
+    let help = format!("{help}. The kinds of joints are: {}", kinds.join(", "));
+    message(format!("{item}: `{path}` cannot be {}", quoted(found)), "not one of the kinds", help)
+}
+
 pub(crate) fn own_parent(item: &str) -> Message {
     message(
         format!("{item}: it is its own parent"),

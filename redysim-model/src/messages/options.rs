@@ -190,12 +190,7 @@ pub(crate) fn component_of_parameter(item: &str, name: &str, whole: &str, quanti
     message(format!("{item}: unknown parameter {} in `parameters`", quoted(name)), "part of a parameter", help)
 }
 
-pub(crate) fn parameter_of_unknown(
-    item: &str,
-    name: &str,
-    [owner, quantity]: [&str; 2],
-    owners: &[&str],
-) -> Message {
+pub(crate) fn parameter_of_unknown(item: &str, name: &str, [owner, quantity]: [&str; 2], owners: &[&str]) -> Message {
     let meant = nearest(owner, owners.iter().copied()).map(|owner| format!("{owner}.{quantity}"));
     let help = format!("{}Links and joints: {}", did_you_mean(meant.as_deref()), shortened(owners));
     message(format!("{item}: parameter {} of an unknown link or joint", quoted(name)), "unknown link or joint", help)

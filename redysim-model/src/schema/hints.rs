@@ -17,6 +17,18 @@ const DH_IS_STANDARD: &str = "`dh_standard` has the standard (distal) parameters
     with `b` are mostly those of Khalil and Kleinfinger (modified): write them under `dh`";
 const SCENARIO: &str = "a model has no state: initial positions and velocities go into a scenario, under `[initial]`";
 
+/// Keys of the model, below a header of another table.
+const OF_MODEL: Hint = Hint::new(
+    &["gravity", "allow", "functions", "tolerance", "forward_dynamics", "parameters"],
+    "it is a key of the whole model, and a key belongs to the table whose header is above it: write it at the top of the \
+     file, before the first [[link]]",
+);
+const LOCKED: Hint = Hint::new(
+    &["locked"],
+    "the locked joints are a table at the top of the file, before the first [[link]], as in `locked = { joint6 = \"90 deg\" \
+     }`; a joint that never moves is `joint = \"fixed\"`",
+);
+
 pub(super) const MODEL: &[Hint] = &[
     Hint::new(
         &["joint", "joints"],
@@ -98,7 +110,27 @@ pub(super) const LINK: &[Hint] = &[
     Hint::key(&["passive", "motor", "motorised"], "actuated")
         .with_help("A joint without a motor has `actuated = false`"),
     Hint::new(&["q", "q0", "initial", "home"], SCENARIO),
-    Hint::new(&["gravity"], "gravity is that of the whole model: write it at the top of the file, before any [[link]]"),
+    OF_MODEL,
+    LOCKED,
+];
+
+pub(super) const LOOP: &[Hint] = &[OF_MODEL, LOCKED];
+
+pub(super) const FRAME: &[Hint] = &[OF_MODEL, LOCKED];
+
+/// What other formats and textbooks call joints, with the kind, or what to write for it.
+pub(super) const JOINT_KINDS: &[(&[&str], &str)] = &[
+    (
+        &["hinge", "continuous", "rotary", "rotational", "rotation", "pin", "turning", "r", "rot", "swivel"],
+        "write `revolute`, whose turns have no bounds",
+    ),
+    (&["slider", "linear", "translational", "translation", "sliding", "p", "t", "slide"], "write `prismatic`"),
+    (&["screw", "h"], "write `helical`, with its `pitch` beside it"),
+    (&["ball", "balljoint", "ball_joint", "ball-and-socket", "socket", "s", "quaternion"], "write `spherical`"),
+    (&["cardan", "hooke", "u"], "write `universal`"),
+    (&["c"], "write `cylindrical`"),
+    (&["floating", "float", "6dof", "freeflyer", "free-flyer", "six_dof"], "write `free`"),
+    (&["weld", "rigid", "none", "static"], "write `fixed`"),
 ];
 
 pub(super) const DH_TABLE: &[Hint] = &[
@@ -133,6 +165,8 @@ pub(super) const RANGE_TABLE: &[Hint] = &[
 ];
 
 pub(super) const SPRING: &[Hint] = &[
+    OF_MODEL,
+    LOCKED,
     Hint::key(&["k", "spring_constant", "rate"], "stiffness"),
     Hint::key(&["c", "d", "damping_coefficient"], "damping"),
     Hint::key(&["rest_length", "free_length", "natural_length", "l0", "rest"], "length"),

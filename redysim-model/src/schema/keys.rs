@@ -230,7 +230,8 @@ pub(crate) const MIMIC_OFFSET: Key =
     Key::new("offset", "\"10 deg\"", "coordinate where that joint's is zero; without a unit rad or m")
         .with_default("0");
 
-pub(crate) const LOOP: Keys = Keys::new("A loop", &[NAME, CUT_JOINT, LINK_A, POINT_A, AXIS_A, LINK_B, POINT_B, AXIS_B]);
+pub(crate) const LOOP: Keys =
+    Keys::new("A loop", &[NAME, CUT_JOINT, LINK_A, POINT_A, AXIS_A, LINK_B, POINT_B, AXIS_B]).with_hints(hints::LOOP);
 pub(crate) const CUT_JOINT: Key =
     Key::new("joint", "\"revolute\"", "revolute, prismatic, universal, cylindrical, planar, spherical or weld")
         .with_default("required");
@@ -247,7 +248,7 @@ pub(crate) const AXIS_B: Key =
     Key::new("axis_b", "[0.0, 0.0, 1.0]", "as `axis_a`, in the frame of link b; prismatic cuts have none")
         .with_default("z");
 
-pub(crate) const FRAME: Keys = Keys::new("A frame", &[NAME, FRAME_LINK, FRAME_ORIGIN]);
+pub(crate) const FRAME: Keys = Keys::new("A frame", &[NAME, FRAME_LINK, FRAME_ORIGIN]).with_hints(hints::FRAME);
 pub(crate) const FRAME_LINK: Key =
     Key::new("link", "\"link6\"", "the link on which it stands, or `base`").with_default("required");
 pub(crate) const FRAME_ORIGIN: Key = ORIGIN.with_default("the frame of its link");

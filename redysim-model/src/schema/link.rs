@@ -1,8 +1,8 @@
 //! A `[[link]]` table.
 
 use super::item::item;
-use super::keys;
 use super::origin::origin;
+use super::{hints, keys};
 use crate::joint::{EulerSequence, Joint, LinkJoint, Measure};
 use crate::messages;
 use crate::model::{Inertia, JointKind, JointRange};
@@ -164,7 +164,7 @@ impl LinkTable {
         let mut reader = Reader::new(at.table, at.header.clone(), &item, &keys::LINK, findings);
         let name = reader.required(&keys::NAME, Reader::text);
         let parent = reader.required(&keys::PARENT, Reader::text);
-        let joint = reader.required(&keys::JOINT, |reader, key| named(reader, key, &JointKind::ALL));
+        let joint = reader.required(&keys::JOINT, joint_kind);
         let pitch = match joint.value() {
             Some(JointKind::Helical) => reader.required(&keys::PITCH, Reader::number),
             _ => reader.number(&keys::PITCH),
@@ -296,6 +296,19 @@ pub(super) fn coordinates<'a>(
         return reader.error(value, messages::without_orientation(reader.item(), path));
     }
     Some(values)
+}
+
+/// The kind of a joint. Names of other formats lead to those of this one.
+fn joint_kind(reader: &mut Reader<'_, '_>, key: &Key) -> Field<JointKind> {
+    reader.field(key, |reader, path, value| {
+        let Some(found) = name_of(value) else { return reader.wrong_type(path, value, "a string") };
+        let lower = found.to_lowercase();
+        let known = JointKind::ALL.iter().any(|(name, _)| *name == found);
+        match hints::JOINT_KINDS.iter().find(|(names, _)| !known && names.contains(&lower.as_str())) {
+            Some((_, help)) => reader.error(value, messages::foreign_joint_kind(reader.item(), path, found, help)),
+            None => reader.choose(path, value, found, &JointKind::ALL),
+        }
+    })
 }
 
 /// One of several names, each of which stands for something.

@@ -30,7 +30,7 @@ use crate::public_interface::{MovingJoint, ParameterNumber, PublicInterface};
 use crate::run_time::RunTimeParameter;
 use redysim_runtime::{Functions, ParameterRule};
 use redysim_toml::words::quoted;
-use redysim_toml::{DeValue, Field, Findings, Parsed, Reader, Spanned, TableAt};
+use redysim_toml::{DeValue, Field, Findings, Parsed, Reader, Spanned, Table, TableAt, Value};
 use std::ops::Range;
 
 /// The documentation of the keys of a model file, and of the lints that `allow` may name, as tables in Markdown, each with
@@ -76,13 +76,19 @@ impl Document {
         let item = name.map_or("the model".into(), |name| format!("model {}", quoted(name)));
         let mut reader = Reader::new(root, file.start(), &item, &keys::MODEL, findings);
         let name = reader.required(&keys::NAME, Reader::text);
+        if is_in_tables(root, keys::GRAVITY.name) {
+            // The table reports it, and where it belongs.
+            reader.excuse(&keys::GRAVITY);
+        }
         let gravity = reader.required(&keys::GRAVITY, Reader::vector);
         let allowed = allowed(&mut reader);
         let links = reader.tables(&keys::LINKS);
         let loops = reader.tables(&keys::LOOPS);
         let frames = reader.tables(&keys::FRAMES);
         let springs = reader.tables(&keys::SPRINGS);
-        let links_complete = links.as_ref().is_some_and(|links| links.iter().all(Option::is_some));
+        // A table of another name may be meant as a link.
+        let are_known = root.iter().all(|(key, value)| !is_tables(value) || is_known(key.get_ref()));
+        let links_complete = are_known && links.as_ref().is_some_and(|links| links.iter().all(Option::is_some));
         let mut links: Vec<_> = entries(links).map(|(i, table)| LinkTable::read(table, i, findings)).collect();
         let loops = entries(loops).map(|(i, table)| LoopTable::read(table, i, findings)).collect();
         let frames = entries(frames).map(|(i, table)| FrameTable::read(table, i, findings)).collect();
@@ -146,6 +152,22 @@ impl Document {
             parameters,
         }
     }
+}
+
+/// Whether a value has headers `[[..]]`.
+fn is_tables(value: &Value<'_>) -> bool {
+    value.get_ref().as_array().is_some_and(|array| array.iter().any(|entry| entry.get_ref().is_table()))
+}
+
+/// Whether the key is one of a model.
+fn is_known(key: &str) -> bool {
+    keys::MODEL.names().any(|name| name == key)
+}
+
+/// Whether one of the tables below the top of the file has the key.
+fn is_in_tables(root: &Table<'_>, key: &str) -> bool {
+    let entries = root.values().filter_map(|value| value.get_ref().as_array()).flat_map(|array| array.iter());
+    entries.filter_map(|entry| entry.get_ref().as_table()).any(|table| table.contains_key(key))
 }
 
 /// The lints that the file allows.
