@@ -8,8 +8,12 @@ use crate::{ConfigurationSpace, InverseDynamics, LengthMismatch, Real, TorqueLaw
 /// [`difference`](ConfigurationSpace::difference).
 ///
 /// For a model that is right it leaves the linear error dynamics ë + Kd ė + Kp e = 0, the same for every joint and
-/// every pose. It takes one inverse dynamics; no matrix is formed. The gains multiply accelerations: Kp 1/s², Kd 1/s.
-/// Kd = 2√Kp is critically damped.
+/// every pose, exactly where the velocities are the rates of the coordinates. For ė the law takes v_d − v; of a
+/// quaternion, whose velocity is in axes that turn, ė is v_d − v − ω × e up to products of errors, so that there the
+/// equation holds near the trajectory, and the better the slower it turns beside the gains.
+///
+/// It takes one inverse dynamics; no matrix is formed. The gains multiply accelerations: Kp 1/s², Kd 1/s. Kd = 2√Kp is
+/// critically damped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ComputedTorque<'m, M, T, V> {
     /// The mechanism as the controller knows it.
