@@ -5,6 +5,8 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use redysim_toml::{similar_file, why_missing};
+
 /// One clear message, what to do about it, and the exit code that scripts see. Its `Display` is what the command prints.
 #[derive(Clone, Debug)]
 pub struct Failure {
@@ -44,9 +46,20 @@ impl Failure {
 
     /// A file or folder could not be read or written (`doing`: "read", "write", "make the folder").
     pub(crate) fn file(doing: &str, path: &Path, error: &io::Error) -> Self {
-        let failure = Self::outside(format!("cannot {doing} {}: {error}", path.display()));
+        let error_text = error.to_string();
+        let why = error_text.split(" (os error").next().unwrap_or_default();
+        let failure = |why: &str| Self::outside(format!("cannot {doing} {}: {why}", path.display()));
+        let folder = path.parent().unwrap_or(path);
+        if error.kind() == io::ErrorKind::NotFound && doing == "read" {
+            let similar = similar_file(path, &[folder, Path::new("")]);
+            let similar = similar.map(|file| format!("did you mean `{}`? ", file.display())).unwrap_or_default();
+            return failure(&why_missing(folder)).help(format!("{similar}A path is taken from {}", current_folder()));
+        }
+        let failure = failure(why);
         match error.kind() {
-            io::ErrorKind::NotFound => failure.help(from_current_folder()),
+            io::ErrorKind::NotFound => {
+                failure.help(format!("is the path right? It is taken from {}", current_folder()))
+            }
             io::ErrorKind::PermissionDenied => failure.help("its permissions forbid it"),
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
                 failure.help("make room on the disk, or write elsewhere with --output")
@@ -97,10 +110,10 @@ impl Failure {
     }
 }
 
-/// Where a path is taken from.
-fn from_current_folder() -> String {
+/// The folder from which paths are taken.
+fn current_folder() -> String {
     let folder = std::env::current_dir().map_or(String::new(), |folder| format!(", {}", folder.display()));
-    format!("is the path right? It is taken from the current folder{folder}")
+    format!("the current folder{folder}")
 }
 
 impl fmt::Display for Failure {

@@ -1,7 +1,7 @@
 //! The path of a model file.
 
-use redysim_toml::similar_file;
-use std::path::{Component, Path, PathBuf};
+use redysim_toml::{path_from, similar_file, why_missing};
+use std::path::{Path, PathBuf};
 use syn::LitStr;
 
 /// Where the literal leads.
@@ -36,11 +36,7 @@ impl Located {
         }
         let folder = self.path.parent().unwrap_or(&self.from);
         let (shown, from) = (canonical(folder.to_path_buf()), self.from.display());
-        let why = if shown.is_dir() {
-            format!("it does not exist in {}", shown.display())
-        } else {
-            format!("the folder {} does not exist", shown.display())
-        };
+        let why = why_missing(folder);
         let (base, otherwise) = if self.is_beside_caller {
             ("this Rust file", "one that does not begin with \"./\" or \"../\" is relative to that of Cargo.toml")
         } else {
@@ -60,12 +56,7 @@ impl Located {
 
     /// The path by which the literal would name `file`.
     fn as_written(&self, file: &Path) -> String {
-        let (from, to): (Vec<_>, Vec<_>) = (self.from.components().collect(), file.components().collect());
-        let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-        let up = std::iter::repeat_n(Component::ParentDir, from.len() - common);
-        let path: Vec<_> =
-            up.chain(to[common..].iter().copied()).map(|part| part.as_os_str().to_string_lossy()).collect();
-        let path = path.join("/");
+        let path = path_from(&self.from, file);
         if self.is_beside_caller && !path.starts_with("..") { format!("./{path}") } else { path }
     }
 }

@@ -162,7 +162,7 @@ impl Model {
 fn of_bytes(bytes: Vec<u8>, name: String, options: String) -> Result<Loaded, Faults> {
     match String::from_utf8(bytes) {
         Ok(text) => Model::from_toml_with(text, name, options),
-        Err(error) => Err(nothing_of(name, messages::not_utf8(error.utf8_error().valid_up_to() + 1), &options, false)),
+        Err(error) => Err(nothing_of(name, messages::not_utf8(error.as_bytes()), &options, false)),
     }
 }
 

@@ -16,7 +16,7 @@
 //! | [`read`] | reads a file from its text to a value, with all of these |
 //! | [`with_decimal_points`] | numbers with a decimal comma, as they are to be written |
 //! | [`radians`] | angles with a unit |
-//! | [`similar_file`] | the file that a path was probably meant to name |
+//! | [`similar_file`], [`why_missing`], [`path_from`] | the file that a missing one was probably meant to be, and where it is |
 //! | [`words`] | quoted values, nearest names, short numbers: for further messages |
 //!
 //! # Example
@@ -67,9 +67,9 @@ pub use file::{Parsed, parse, read};
 pub use findings::Findings;
 pub use key::{Hint, Key, KeyPath, Keys};
 pub use kind::Kind;
-pub use nearby::similar_file;
+pub use nearby::{path_from, similar_file, why_missing};
 pub use reader::{Reader, TableAt, name_of};
-pub use source::Source;
+pub use source::{Source, not_utf8_because};
 pub use units::radians;
 pub use value::{Array, LARGE_ANGLE, NEARLY_QUARTER_TURN, ROUNDED_ANGLE, Table, Value};
 

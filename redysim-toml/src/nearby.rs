@@ -1,7 +1,7 @@
 //! The file that a path was probably meant to name.
 
 use crate::words::nearest;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// How many folders below one are searched.
 const DEPTH: usize = 2;
@@ -9,21 +9,50 @@ const DEPTH: usize = 2;
 /// How many entries are looked at, so that a path into a large folder is reported at once.
 const MOST: usize = 2000;
 
-/// The TOML file in or below `folders` whose name is the nearest to that of the missing file `wanted`; of equally near
-/// ones the first found, in the order of `folders`. Hidden folders, Cargo's `target` and links are not searched.
+/// The TOML file in or below `folders` whose name is the nearest to that of the missing file `wanted`, or the URDF or CSV
+/// file if `wanted` is one; of the same names the first found, in the order of `folders`. Hidden folders, Cargo's `target`
+/// and links are not searched.
 pub fn similar_file(wanted: &Path, folders: &[&Path]) -> Option<PathBuf> {
     let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase());
+    let own = wanted.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let extension = ["urdf", "csv"].into_iter().find(|known| *known == own).unwrap_or("toml");
     let (mut files, mut left) = (Vec::new(), MOST);
     for folder in folders {
-        collect(folder, DEPTH, &mut left, &mut files);
+        collect(folder, extension, DEPTH, &mut left, &mut files);
     }
     let stems: Vec<String> = files.iter().map(|file| stem(file).unwrap_or_default()).collect();
     let near = nearest(&stem(wanted)?, stems.iter().map(String::as_str))?;
     files.into_iter().zip(&stems).find(|(_, stem)| *stem == near).map(|(file, _)| file)
 }
 
-/// The TOML files in `folder`, then those in the folders in it, by name.
-fn collect(folder: &Path, depth: usize, left: &mut usize, files: &mut Vec<PathBuf>) {
+/// Why a file in `folder` cannot be read that is missing, as a part of a sentence.
+pub fn why_missing(folder: &Path) -> String {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let shown = std::fs::canonicalize(here).unwrap_or_else(|_| here.components().collect());
+    match shown.is_dir() {
+        true => format!("it does not exist in {}", shown.display()),
+        false => format!("the folder {} does not exist", shown.display()),
+    }
+}
+
+/// The path that leads from the folder `from` to `file`, with `..` where it has to; both are absolute.
+///
+/// ```
+/// use redysim_toml::path_from;
+/// use std::path::Path;
+///
+/// assert_eq!(path_from(Path::new("/robots/scenarios"), Path::new("/robots/kr5.toml")), "../kr5.toml");
+/// ```
+pub fn path_from(from: &Path, file: &Path) -> String {
+    let (from, to): (Vec<_>, Vec<_>) = (from.components().collect(), file.components().collect());
+    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let up = std::iter::repeat_n(Component::ParentDir, from.len() - common);
+    let path: Vec<_> = up.chain(to[common..].iter().copied()).map(|part| part.as_os_str().to_string_lossy()).collect();
+    path.join("/")
+}
+
+/// The files with the extension in `folder`, then those in the folders in it, by name.
+fn collect(folder: &Path, extension: &str, depth: usize, left: &mut usize, files: &mut Vec<PathBuf>) {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = std::fs::read_dir(here) else { return };
     let mut entries: Vec<_> = entries.flatten().take(*left).collect();
@@ -33,14 +62,14 @@ fn collect(folder: &Path, depth: usize, left: &mut usize, files: &mut Vec<PathBu
     for entry in entries {
         let (name, path) = (entry.file_name(), folder.join(entry.file_name()));
         let Ok(kind) = entry.file_type() else { continue };
-        let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+        let is_wanted = path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension));
         if kind.is_dir() && depth > 0 && name != "target" && !name.to_string_lossy().starts_with('.') {
             folders.push(path);
-        } else if kind.is_file() && is_toml && name != "Cargo.toml" {
+        } else if kind.is_file() && is_wanted && name != "Cargo.toml" {
             files.push(path);
         }
     }
-    folders.iter().for_each(|folder| collect(folder, depth - 1, left, files));
+    folders.iter().for_each(|folder| collect(folder, extension, depth - 1, left, files));
 }
 
 #[cfg(test)]

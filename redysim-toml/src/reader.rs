@@ -258,11 +258,39 @@ impl<'a, 'f> Reader<'a, 'f> {
                 None => inner.wrong_type(path, value, "a string"),
             })
         };
+        if let Some(default) = default.filter(|_| !table.contains_key(tag.name)) {
+            inner.expect_default(tag, kinds, default)?;
+        }
         let kind = match default {
             Some(default) => by_name(&mut inner, tag).value_or(default)?,
             None => *inner.required(tag, by_name).value()?,
         };
         Some(read(inner.without_unknown_keys(kind.keys), kind.kind))
+    }
+
+    /// Reports a table without a kind whose keys are those of another than the default one: the other keys follow.
+    fn expect_default<K>(&mut self, tag: &Key, kinds: &[Kind<K>], default: &Kind<K>) -> Option<()> {
+        let table = self.table;
+        let mut others: Vec<_> =
+            table.keys().filter(|key| default.keys.names().all(|name| name != key.get_ref())).collect();
+        others.sort_by_key(|key| key.span().start);
+        let for_tag = others.iter().find(|key| {
+            let hint = default.keys.hint(key.get_ref());
+            hint.map_or_else(|| nearest(key.get_ref(), [tag.name]), |hint| hint.key) == Some(tag.name)
+        });
+        if let Some(key) = for_tag {
+            let path = format!("{}{}", self.prefix, key.get_ref());
+            let message = messages::unknown_key(self.item, &path, Some(tag.name), "", default.keys);
+            return self.error_at(key.span(), message);
+        }
+        let has_all = |kind: &&Kind<K>| table.keys().all(|key| kind.keys.names().any(|name| name == key.get_ref()));
+        let having: Vec<_> = kinds.iter().filter(|kind| kind.same_as.is_none()).filter(has_all).collect();
+        if let (Some(key), false) = (others.first(), having.is_empty()) {
+            let (path, names) = (self.path(tag), having.iter().map(|kind| kind.name).collect::<Vec<_>>());
+            let message = messages::kind_missing(self.item, &path, default.name, key.get_ref(), &names);
+            return self.error_at(key.span(), message);
+        }
+        Some(())
     }
 
     /// Looks up the kind of the name `found`.
@@ -393,6 +421,11 @@ impl<'a, 'f> Reader<'a, 'f> {
         read: impl Fn(&mut Self, &KeyPath, &'a Value<'a>) -> Option<T>,
     ) -> Option<[T; 3]> {
         let array = self.array(path, value, &format!("an array of {wanted}"))?;
+        let is_nested = array.iter().any(|element| element.get_ref().is_array());
+        if array.len() != 3 && is_nested {
+            // A bracket too many is one error.
+            return self.wrong_length(path, value, wanted, array.len());
+        }
         let elements = self.elements(path, array, read);
         if array.len() != 3 {
             return self.wrong_length(path, value, wanted, array.len());

@@ -48,6 +48,17 @@ impl Source {
     }
 }
 
+/// Why a file with these bytes, which are not UTF-8, cannot be read, behind its name: "is UTF-16, not UTF-8", or the line
+/// that has another encoding.
+pub fn not_utf8_because(bytes: &[u8]) -> String {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return "is UTF-16, not UTF-8".into();
+    }
+    let valid = std::str::from_utf8(bytes).map_or_else(|error| error.valid_up_to(), str::len);
+    let line = bytes[..valid].iter().filter(|byte| **byte == b'\n').count() + 1;
+    format!("is not UTF-8: line {line} has another encoding (byte {})", valid + 1)
+}
+
 /// The last character boundary of `text` that is not after `index`.
 fn floor_boundary(text: &str, index: usize) -> usize {
     let index = index.min(text.len());

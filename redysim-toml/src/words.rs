@@ -9,8 +9,8 @@ pub fn quoted(text: &str) -> String {
 }
 
 /// The name that `text` was probably meant to be, whatever the case of its letters: the nearest by insertions, deletions,
-/// replacements and swaps, or else the only one that begins with three or more letters of `text`. `None` if several are as
-/// near.
+/// replacements and swaps, or else the only one that begins with three or more letters of `text`. Of several as near it is
+/// the one that has the same letters, or none.
 ///
 /// ```
 /// use redysim_toml::words::nearest;
@@ -22,8 +22,13 @@ pub fn quoted(text: &str) -> String {
 pub fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let text = text.to_lowercase();
     let length = text.chars().count();
+    let letters = |text: &str| {
+        let mut letters: Vec<char> = text.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
     // The least distance, and the one name at it; `None` for several. The same of names that begin with the text.
-    let (mut least, mut near) = (usize::MAX, None);
+    let (mut least, mut near) = ((usize::MAX, true), None);
     let (mut longer, mut is_only) = (None, true);
     for name in names {
         let lower = name.to_lowercase();
@@ -32,12 +37,16 @@ pub fn nearest<'a>(text: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
             is_only &= longer.is_none_or(|longer| longer == name);
             longer = Some(name);
         }
-        let most = (length.max(other) / 3).max(1).min(length.max(other).saturating_sub(1)).min(least);
+        let most = (length.max(other) / 3).max(1).min(length.max(other).saturating_sub(1)).min(least.0);
         if length.abs_diff(other) > most {
             continue;
         }
         let distance = strsim::damerau_levenshtein(&text, &lower);
-        if distance < least && distance <= most {
+        if distance > most {
+            continue;
+        }
+        let distance = (distance, letters(&text) != letters(&lower));
+        if distance < least {
             (least, near) = (distance, Some(name));
         } else if distance == least && near.is_some_and(|near| near != name) {
             near = None;
@@ -105,6 +114,7 @@ mod tests {
         assert_eq!(nearest("link7", links.iter().map(String::as_str)), None);
         assert_eq!(nearest("lnik6", links.iter().map(String::as_str)), Some("link6"));
         assert_eq!(nearest("link7", ["link1", "link1"]), Some("link1"));
+        assert_eq!(nearest("Ode54", ["Ode4", "Ode5", "Ode45", "Ode23"]), Some("Ode45"));
     }
 
     #[test]

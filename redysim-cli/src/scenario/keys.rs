@@ -3,8 +3,11 @@
 
 use redysim_toml::{Key, Keys};
 
+use super::hints;
+
 pub const SCENARIO: Keys =
-    Keys::new("A scenario", &[NAME, MODEL, INITIAL, TRAJECTORY, INVERSE, FORWARD, GROUND, CONTACT, RUN]);
+    Keys::new("A scenario", &[NAME, MODEL, INITIAL, TRAJECTORY, INVERSE, FORWARD, GROUND, CONTACT, RUN])
+        .with_hints(hints::SCENARIO);
 pub const NAME: Key = Key::new("name", "\"swing\"", "what the results are called").with_default("the name of the file");
 pub const MODEL: Key =
     Key::new("model", "\"../models/kr5.toml\"", "a model file or a URDF, from the folder of the scenario")
@@ -15,7 +18,7 @@ pub const RUN: Key =
 
 pub const INITIAL: Key = Key::of_table("initial", "{ q = [0, \"60 deg\"], v = [0, 0] }", "", &[&INITIAL_KEYS])
     .with_default("the neutral position at rest");
-const INITIAL_KEYS: Keys = Keys::new("`initial`", &[Q, V, ASSEMBLE, HELD]);
+const INITIAL_KEYS: Keys = Keys::new("`initial`", &[Q, V, ASSEMBLE, HELD]).with_hints(hints::INITIAL);
 pub const Q: Key = Key::of_table(
     "q",
     "[0, \"60 deg\"]",
@@ -80,14 +83,15 @@ pub const THROUGH: Key =
 
 pub const INVERSE: Key = Key::of_table("inverse", "{ end = 1.0, step = 0.01 }", "s", &[&INVERSE_KEYS])
     .with_default("required by `redysim inverse`");
-const INVERSE_KEYS: Keys = Keys::new("`inverse`", &[START, END, STEP]);
+const INVERSE_KEYS: Keys = Keys::new("`inverse`", &[START, END, STEP]).with_hints(hints::INVERSE);
 pub const START: Key = Key::new("start", "0.0", "s").with_default("0");
 pub const END: Key = Key::new("end", "1.0", "s").with_default("required");
 pub const STEP: Key = Key::new("step", "0.01", "s, from one row of the results to the next").with_default("required");
 
 pub const FORWARD: Key = Key::of_table("forward", "{ end = 1.0, step = 0.01 }", "s", &[&FORWARD_KEYS])
     .with_default("required by `redysim forward`");
-const FORWARD_KEYS: Keys = Keys::new("`forward`", &[START, END, STEP, INTEGRATOR, FOLLOWING, TORQUE, STABILISATION]);
+const FORWARD_KEYS: Keys = Keys::new("`forward`", &[START, END, STEP, INTEGRATOR, FOLLOWING, TORQUE, STABILISATION])
+    .with_hints(hints::FORWARD);
 pub const FOLLOWING: Key = Key::new(
     "prescribed",
     "[\"joint1\"]",
@@ -98,8 +102,10 @@ pub const FOLLOWING: Key = Key::new(
 pub const INTEGRATOR: Key =
     Key::of_table("integrator", "{ method = \"Ode45\", rtol = 1e-6, atol = 1e-8 }", "", &[&FIXED_STEP, &ADAPTIVE_STEP])
         .with_default("`Ode45`");
-pub const FIXED_STEP: Keys = Keys::new("An integrator with steps of one size", &[METHOD, INTEGRATOR_STEP]);
-pub const ADAPTIVE_STEP: Keys = Keys::new("An integrator with steps from tolerances", &[METHOD, RTOL, ATOL, MAX_STEP]);
+pub const FIXED_STEP: Keys =
+    Keys::new("An integrator with steps of one size", &[METHOD, INTEGRATOR_STEP]).with_hints(hints::FIXED_STEP);
+pub const ADAPTIVE_STEP: Keys = Keys::new("An integrator with steps from tolerances", &[METHOD, RTOL, ATOL, MAX_STEP])
+    .with_hints(hints::ADAPTIVE_STEP);
 pub const METHOD: Key = Key::new("method", "\"Ode45\"", "").with_default("`Ode45`");
 pub const INTEGRATOR_STEP: Key = Key::new("step", "0.001", "s, of the integration").with_default("required");
 pub const RTOL: Key = Key::new("rtol", "1e-6", "").with_default("1e-3");
@@ -123,11 +129,13 @@ pub const TORQUE: Key = Key::of_table(
     &[&ZERO_TORQUE, &P, &PD, &PID, &PD_GRAVITY, &TRACKING_PD, &COMPUTED_TORQUE, &IMPEDANCE, &FORCE_TABLE],
 )
 .with_default("`free`");
-pub const ZERO_TORQUE: Keys = Keys::new("The law `free`", &[LAW]);
-pub const P: Keys = Keys::new("The law `p`", &[LAW, DRIVEN, TARGET, KP, LIMITS]);
-pub const PD: Keys = Keys::new("The law `pd`", &[LAW, DRIVEN, TARGET, KP, KD, LIMITS]);
-pub const PID: Keys = Keys::new("The law `pid`", &[LAW, DRIVEN, TARGET, KP, KI, KD, TRACKING_RATE, LIMITS]);
-pub const PD_GRAVITY: Keys = Keys::new("The law `pd-gravity`", &[LAW, DRIVEN, TARGET, KP, KD, PAYLOAD, LIMITS]);
+pub const ZERO_TORQUE: Keys = Keys::new("The law `free`", &[LAW]).with_hints(hints::LAW);
+pub const P: Keys = Keys::new("The law `p`", &[LAW, DRIVEN, TARGET, KP, LIMITS]).with_hints(hints::FEEDBACK);
+pub const PD: Keys = Keys::new("The law `pd`", &[LAW, DRIVEN, TARGET, KP, KD, LIMITS]).with_hints(hints::FEEDBACK);
+pub const PID: Keys =
+    Keys::new("The law `pid`", &[LAW, DRIVEN, TARGET, KP, KI, KD, TRACKING_RATE, LIMITS]).with_hints(hints::FEEDBACK);
+pub const PD_GRAVITY: Keys =
+    Keys::new("The law `pd-gravity`", &[LAW, DRIVEN, TARGET, KP, KD, PAYLOAD, LIMITS]).with_hints(hints::FEEDBACK);
 pub const TRACKING_PD: Keys = Keys::new("The law `tracking-pd`", &[LAW, DRIVEN, KP, KD, LIMITS]);
 pub const COMPUTED_TORQUE: Keys = Keys::new("The law `computed-torque`", &[LAW, KP, KD, LIMITS]);
 pub const IMPEDANCE: Keys = Keys::new(
@@ -293,6 +301,21 @@ mod tests {
                 assert!(!key.default.is_empty(), "`{}` of {}", key.name, keys.owner);
                 key.tables.iter().for_each(|table| check(table));
             }
+        }
+        check(&super::SCENARIO);
+    }
+
+    #[test]
+    fn hints_are_about_names_that_are_not_keys_and_lead_to_keys_that_are() {
+        fn check(keys: &Keys) {
+            for hint in keys.hints {
+                let is_other = hint.names.iter().all(|name| keys.names().all(|key| key != *name));
+                assert!(is_other, "{hint:?} of {}", keys.owner);
+                let is_key = hint.key.is_none_or(|meant| keys.names().any(|key| key == meant));
+                assert!(is_key, "{hint:?} of {}", keys.owner);
+                assert!(hint.key.is_some() || !hint.help.is_empty(), "{hint:?} of {}", keys.owner);
+            }
+            keys.keys.iter().flat_map(|key| key.tables).for_each(|table| check(table));
         }
         check(&super::SCENARIO);
     }

@@ -5,6 +5,7 @@ mod forces;
 mod forward;
 mod frames;
 mod held;
+mod hints;
 pub mod in_space;
 mod initial;
 mod integrator;
@@ -27,7 +28,8 @@ use std::path::{Path, PathBuf};
 
 use redysim_model::{Diagnostic, GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
-use redysim_toml::{DeValue, Field, Key, Message, Reader};
+use redysim_toml::words::did_you_mean;
+use redysim_toml::{DeValue, Field, Key, Message, Reader, not_utf8_because, path_from, similar_file};
 use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
@@ -53,8 +55,8 @@ pub use trajectory::{Prescribed, Spread, USUAL_THROUGH};
 /// If it cannot be read.
 pub fn read_text(path: &Path) -> Result<String, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
-    String::from_utf8(bytes).map_err(|_| {
-        Failure::input(format!("{} is not UTF-8", path.display()))
+    String::from_utf8(bytes).map_err(|error| {
+        Failure::input(format!("{} {}", path.display(), not_utf8_because(error.as_bytes())))
             .help("save the file as UTF-8; TOML allows no other encoding")
     })
 }
@@ -197,7 +199,10 @@ fn read(
             Err(faults) if faults.unread => {
                 let why = faults.errors().map(Diagnostic::title).collect::<String>();
                 let title = format!("{}: {why}", model_path.display());
-                let help = "the path of the model is taken from the folder of the scenario".into();
+                let help = format!(
+                    "{}the path of the model is taken from the folder of the scenario",
+                    meant_from(folder, &model_path)
+                );
                 return reader.error_at(named.span(), Message { title, label: "named here".into(), help });
             }
             read => model::loaded(&model_path, read, quiet).map(ModelFile::from),
@@ -245,6 +250,20 @@ fn read(
         forward,
         contacts,
     })
+}
+
+/// "did you mean `../models/kr5.toml`? ", of a missing file that a scenario in `folder` names, if one of similar name is near.
+pub fn meant_from(folder: &Path, missing: &Path) -> String {
+    let absolute = |path: &Path| {
+        let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+        std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())
+    };
+    if missing.exists() {
+        return String::new();
+    }
+    let similar = similar_file(missing, &[missing.parent().unwrap_or(folder), folder, Path::new("")]);
+    let written = similar.map(|file| path_from(&absolute(folder), &absolute(&file)));
+    did_you_mean(written.as_deref())
 }
 
 /// The file as a document that can be edited. It is parsed again for that: the parts that this run does not read must

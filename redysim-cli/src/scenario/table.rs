@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::meant_from;
 use crate::failure::Failure;
 use crate::layout::Component;
 use crate::table::{self, Column};
@@ -29,7 +30,10 @@ impl InputTable {
     pub fn read(path: &Path) -> Result<InputTable, Failure> {
         let text = table::read_text(path).map_err(|fault| match path.is_file() {
             true => fault,
-            false => fault.help("the path of a table is taken from the folder of the scenario"),
+            false => {
+                let meant = meant_from(path.parent().unwrap_or(path), path);
+                fault.help(format!("{meant}the path of a table is taken from the folder of the scenario"))
+            }
         })?;
         InputTable::of_text(text, path)
     }

@@ -205,8 +205,8 @@ fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
             ["unknown key `forward.torqe`", "sample 0, scenario", "integrator, prescribed, torque"],
         ),
         (
-            "[over]\nmodel.link.link3.mass = [1]",
-            ["`model.link` has nothing of the name `link3`", "did you mean", "link2"],
+            "[over]\nmodel.link.lnik2.mass = [1]",
+            ["`model.link` has nothing of the name `lnik2`", "did you mean", "link2"],
         ),
         ("[over]\nmodel.link.link2.mas = [1]", ["link `link2`: unknown key `mas`", "sample 0, ", "mass"]),
         ("[over]\ninverse.end = [1]", ["`inverse.end` has no effect", "forward", "`run`"]),

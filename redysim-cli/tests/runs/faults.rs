@@ -178,7 +178,7 @@ fn decimal_commas_are_refused_with_the_number_that_is_meant() {
 #[test]
 fn an_unknown_law_is_refused_and_so_is_one_without_its_trajectory() {
     let swing = |law: &str| format!("{SWING}torque = {{ {law} }}\n");
-    refuses("law", "forward", &swing("law = 'pdd'"), 1, &["cannot be `pdd`", "did you mean `pd`?"]);
+    refuses("law", "forward", &swing("law = 'PID'"), 1, &["cannot be `PID`", "did you mean `pid`?"]);
     refuses("gain", "forward", &swing("law = 'p', target = [0, 0]"), 1, &["`forward.torque.kp` is missing"]);
     let law = "law = 'tracking-pd', kp = 1, kd = 1";
     let words = ["follows a trajectory, but the scenario does not define one", "add a table `[trajectory]`"];
@@ -376,4 +376,52 @@ fn a_wrong_command_line_ends_with_exit_code_2() {
         fail(&folder, arguments, 2);
     }
     succeed(&folder, &["forward", "--help"]);
+}
+
+#[test]
+fn missing_files_are_reported_with_the_folder_and_the_nearest_name() {
+    let folder = scratch("faults-nearest");
+    fs::copy(crate::common::model("two_link.toml"), folder.join("two_link.toml")).unwrap();
+    fs::write(folder.join("trial.toml"), format!("model = 'two_lnk.toml'\n{SWING}")).unwrap();
+    let words = ["it does not exist in ", "faults-nearest", "did you mean `two_link.toml`?", "folder of the scenario"];
+    refuses_in(&folder, "forward", "trial.toml", 1, &words);
+    let words = ["cannot read tril.toml: it does not exist in ", "faults-nearest", "did you mean `trial.toml`?"];
+    for command in ["forward", "inverse", "sweep"] {
+        refuses_in(&folder, command, "tril.toml", 3, &words);
+    }
+    fs::write(folder.join("arm.urdf"), "").unwrap();
+    refuses_in(&folder, "import", "amr.urdf", 3, &["cannot read amr.urdf", "did you mean `arm.urdf`?"]);
+    fs::write(folder.join("motion.csv"), "").unwrap();
+    let table =
+        "model = 'two_link.toml'\n[trajectory]\nkind = 'csv'\nfile = 'moton.csv'\n[inverse]\nend = 1.0\nstep = 0.1\n";
+    fs::write(folder.join("trial.toml"), table).unwrap();
+    refuses_in(&folder, "inverse", "trial.toml", 1, &["did you mean `motion.csv`?", "folder of the scenario"]);
+}
+
+/// Names of other tools, and keys in another table, are one error that says what to write.
+#[test]
+fn keys_of_other_tools_lead_to_those_of_a_scenario() {
+    for (name, rest, words) in [
+        ("dt", SWING.replace("step", "dt"), ["unknown key `forward.dt`", "did you mean `step`?"]),
+        ("T", SWING.replace("end", "T"), ["unknown key `forward.T`", "did you mean `end`?"]),
+        (
+            "solver",
+            format!("{SWING}solver = 'Ode45'\n"),
+            ["unknown key `forward.solver`", "did you mean `integrator`?"],
+        ),
+        ("gravity", format!("{SWING}gravity = [0, 0, 0]\n"), ["unknown key `forward.gravity`", "that of the model"]),
+        ("law", format!("{SWING}law = 'pd'\n"), ["unknown key `forward.law`", "did you mean `torque`?"]),
+        (
+            "type",
+            format!("{SWING}torque = {{ type = 'pd', kp = 3 }}\n"),
+            ["unknown key `forward.torque.type`", "did you mean `law`?"],
+        ),
+        (
+            "kind",
+            format!("{SWING}torque = {{ target = [0, 0], kp = 3 }}\n"),
+            ["`forward.torque.law` is missing", "p, pd, pid, pd-gravity"],
+        ),
+    ] {
+        refuses(&format!("hints-{name}"), "forward", &rest, 1, &words);
+    }
 }

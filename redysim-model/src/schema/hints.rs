@@ -158,10 +158,11 @@ pub(super) const INERTIA_TABLE: &[Hint] =
     &[Hint::key(&["yx", "iyx"], "xy"), Hint::key(&["zy", "izy"], "yz"), Hint::key(&["zx", "izx"], "xz")];
 
 pub(super) const RANGE_TABLE: &[Hint] = &[
-    Hint::key(&["lower", "upper", "min", "max", "limits"], "position")
+    Hint::key(&["lower", "upper", "min", "max", "limits", "q", "angle", "positions"], "position")
         .with_help("It has both ends, as in `position = [\"-170 deg\", \"170 deg\"]`"),
     Hint::key(&["effort", "torque", "max_effort", "max_torque"], "force"),
-    Hint::key(&["speed", "max_velocity"], "velocity"),
+    Hint::key(&["speed", "max_velocity", "v", "qd", "dq", "qdot"], "velocity"),
+    Hint::key(&["a", "qdd", "ddq", "max_acceleration"], "acceleration"),
 ];
 
 pub(super) const SPRING: &[Hint] = &[

@@ -128,7 +128,9 @@ fn a_file_that_cannot_be_read_is_a_diagnostic() {
     assert_eq!(shown(models()), "cannot read the model file: it is a directory");
     let binary = tempfile::NamedTempFile::new().unwrap();
     fs::write(&binary, b"name = \"\xff\"").unwrap();
-    assert_eq!(shown(binary.path().to_owned()), "the model file is not UTF-8 (byte 9)");
+    assert_eq!(shown(binary.path().to_owned()), "the model file is not UTF-8: line 1 has another encoding (byte 9)");
+    fs::write(&binary, b"\xff\xfen\0a\0").unwrap();
+    assert_eq!(shown(binary.path().to_owned()), "the model file is UTF-16, not UTF-8");
 }
 
 #[test]

@@ -146,6 +146,15 @@ pub(crate) fn unknown_kind(item: &str, path: &KeyPath, found: &str, kinds: &[(&s
     message(format!("{item}: `{path}` cannot be {}", quoted(found)), "not one of the kinds", help)
 }
 
+/// The kind is not named; the default has no `key`, but those in `having` do.
+pub(crate) fn kind_missing(item: &str, path: &KeyPath, default: &str, key: &str, having: &[&str]) -> Message {
+    message(
+        format!("{item}: `{path}` is missing, and the default, {default}, has no {}", quoted(key)),
+        "a key of another kind",
+        format!("add `{path}`, which is one of: {}", having.join(", ")),
+    )
+}
+
 pub(crate) fn unknown_name(item: &str, what: &str, found: &str, names: &[&str]) -> Message {
     let meant = did_you_mean(nearest(found, names.iter().copied()));
     let help = format!("{meant}The {what}s are: {}", names.join(", "));
