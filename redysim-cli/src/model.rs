@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::output::to_stderr;
 use crate::urdf::{self, Base, Imported};
 use redysim_model::{CodegenOptions, Diagnostic, Diagnostics, Faults, Loaded, Model};
+use redysim_toml::words::shortened;
 
 /// A model with the file that it is read from: a model file, or a URDF.
 ///
@@ -164,9 +165,18 @@ fn shown(found: &[Diagnostic]) -> Option<String> {
     (!found.is_empty()).then(|| format!("{}\n", Diagnostics(found.to_vec())))
 }
 
-/// The failure of a file that is a scenario where a model is wanted.
+/// The failure of a file that is a scenario, or something else, where a model is wanted.
 pub fn not_a_model(path: &Path) -> Option<Failure> {
     let table: toml::Table = std::fs::read_to_string(path).ok()?.parse().ok()?;
+    let has = |key: &str| table.contains_key(key);
+    if !table.is_empty() && !["name", "gravity", "link", "loop", "frame", "spring", "model"].into_iter().any(has) {
+        let failure = Failure::input(format!("{} is not a model: it has none of a model's keys", path.display()));
+        let found: Vec<_> = table.keys().map(String::as_str).collect();
+        return Some(failure.help(format!(
+            "a model file has `name`, `gravity` and a [[link]] for each link; this file has {}",
+            shortened(&found)
+        )));
+    }
     let model = table.get("model").filter(|_| !table.contains_key("link"))?.as_str()?;
     let model = path.with_file_name("").join(model);
     let failure = Failure::input(format!("{} is a scenario, not a model", path.display()));

@@ -8,7 +8,7 @@ use crate::model::{not_a_model, show};
 use crate::number::counted;
 use crate::output::{print, to_stderr, visible};
 use crate::summary::Summary;
-use redysim_model::{Diagnostic, Diagnostics, Faults, Loaded, Model, Severity};
+use redysim_model::{Diagnostic, Faults, Loaded, Model, Severity};
 use serde::Serialize;
 
 /// Show the faults, warnings and notes of a model, the first 20 of each, then what it is.
@@ -115,34 +115,47 @@ impl<'a> Finding<'a> {
 
 /// Checks the model.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
-    let (diagnostics, summary) = match arguments.load()? {
-        Ok(loaded) => {
-            let summary = (arguments.json || !quiet).then(|| Summary::of(&loaded)).transpose();
-            ([loaded.warnings, loaded.notes].concat(), summary.map_err(Failure::input))
-        }
-        Err(faults) => match arguments.not_a_model() {
-            // Of its keys none is a model's: that goes without saying.
-            Some(failure) if !arguments.json => return Err(failure),
-            other => {
-                let failure = other.unwrap_or_else(|| failure(arguments, &faults));
-                (faults.diagnostics.0, Err(failure))
-            }
-        },
-    };
+    match arguments.load()? {
+        Ok(loaded) => show_model(arguments, &loaded, quiet),
+        Err(faults) => Err(show_faults(arguments, &faults, quiet)?),
+    }
+}
+
+/// Shows what is odd about a model, and what it is.
+fn show_model(arguments: &Arguments, loaded: &Loaded, quiet: bool) -> Result<(), Failure> {
+    let diagnostics = [&loaded.warnings[..], &loaded.notes].concat();
     if arguments.json {
-        print_json(arguments, &diagnostics, summary.as_ref().ok().and_then(Option::as_ref))?;
-    } else {
-        show(&Diagnostics(diagnostics).filtered(|found| !quiet || found.severity() == Severity::Error));
+        let mut summary = Summary::of(loaded);
+        let counted = summary.count(loaded).map_err(Failure::input);
+        print_json(arguments, &diagnostics, counted.is_ok().then_some(&summary))?;
+        return counted;
     }
-    match summary {
-        Ok(Some(summary)) if !arguments.json => {
-            summary.generator_warnings.iter().for_each(|warning| to_stderr(&format!("warning: {warning}\n")));
-            print(&visible(&summary.to_string()))?;
-        }
-        Ok(_) => {}
-        Err(failure) => return Err(failure),
+    if quiet {
+        return Ok(());
     }
-    Ok(())
+    show(&diagnostics);
+    let mut summary = Summary::of(loaded);
+    // What is known is printed before what takes its time.
+    print(&visible(&summary.to_string()))?;
+    summary.count(loaded).map_err(Failure::input)?;
+    summary.generator_warnings.iter().for_each(|warning| to_stderr(&format!("warning: {warning}\n")));
+    print(&summary.operations_table())
+}
+
+/// Shows why a file is not a model; returns the failure of the command.
+fn show_faults(arguments: &Arguments, faults: &Faults, quiet: bool) -> Result<Failure, Failure> {
+    let failure = match arguments.not_a_model() {
+        // Of its keys none is a model's: that goes without saying.
+        Some(failure) if !arguments.json => return Ok(failure),
+        // What cannot be read has one error, which says so.
+        None if faults.unread && !arguments.json => return Ok(Failure::outside(faults)),
+        other => other.unwrap_or_else(|| failure(arguments, faults)),
+    };
+    match arguments.json {
+        true => print_json(arguments, &faults.diagnostics, None)?,
+        false => show(&faults.diagnostics.clone().filtered(|found| !quiet || found.severity() == Severity::Error)),
+    }
+    Ok(failure)
 }
 
 fn failure(arguments: &Arguments, faults: &Faults) -> Failure {

@@ -124,15 +124,11 @@ fn counts<S: Serializer>(count: &OperationCount, serializer: S) -> Result<S::Ok,
 }
 
 impl Summary {
-    /// Of a checked model and what is asked of it: this traces every function.
-    ///
-    /// # Errors
-    ///
-    /// If the generator's check of itself fails.
-    pub fn of(loaded: &Loaded) -> Result<Summary, PassError> {
+    /// Of a checked model, without operations: these take the time of tracing every function, which of a long model is
+    /// most of it.
+    pub fn of(loaded: &Loaded) -> Summary {
         let model = &loaded.model;
         let found = Mobility::of(model);
-        let Counted { operations, warnings } = redysim_codegen::operations(model, &loaded.options)?;
         let named = loaded.warnings.iter().filter(|warning| warning.lint().is_some());
         let titles = named.chain(&loaded.notes).map(|found| found.title().to_string());
         let joints = |actuated: bool| {
@@ -140,7 +136,7 @@ impl Summary {
             let chosen = model.moving_links().filter(move |link| is_actuated(link) == actuated);
             chosen.map(|link| link.joint_name.clone()).collect()
         };
-        Ok(Summary {
+        Summary {
             name: model.name.clone(),
             gravity: model.gravity.0,
             mass: model.mass(),
@@ -153,14 +149,26 @@ impl Summary {
             links: model.links.iter().map(|link| link_summary(model, link)).collect(),
             loops: loop_summaries(model, &found.added),
             springs: model.springs.iter().map(|spring| spring_summary(model, spring)).collect(),
-            operations: operations
-                .into_iter()
-                .filter(|(function, _)| !model.loops.is_empty() || !function.needs_loops())
-                .map(|(function, count)| FunctionSummary { function: function.name(), count })
-                .collect(),
-            lints: titles.chain(warnings.iter().cloned()).collect(),
-            generator_warnings: warnings,
-        })
+            operations: Vec::new(),
+            lints: titles.collect(),
+            generator_warnings: Vec::new(),
+        }
+    }
+
+    /// Counts the operations of each compiled function of the model.
+    ///
+    /// # Errors
+    ///
+    /// If the generator's check of itself fails.
+    pub fn count(&mut self, loaded: &Loaded) -> Result<(), PassError> {
+        let Counted { operations, warnings } = redysim_codegen::operations(&loaded.model, &loaded.options)?;
+        let has_loops = !loaded.model.loops.is_empty();
+        let counted = operations.into_iter().filter(|(function, _)| has_loops || !function.needs_loops());
+        self.operations =
+            counted.map(|(function, count)| FunctionSummary { function: function.name(), count }).collect();
+        self.lints.extend(warnings.iter().cloned());
+        self.generator_warnings = warnings;
+        Ok(())
     }
 }
 

@@ -1,4 +1,4 @@
-//! The summary as a text.
+//! The summary as a text: what the model is, then what its functions cost.
 
 use super::{LinkSummary, Summary};
 use crate::number::{counted, rounded};
@@ -34,16 +34,21 @@ impl Display for Summary {
             row(f, "spring", visible_name(&format!("{name}{ends}, {numbers}")).into_owned())?;
         }
         writeln!(f)?;
-        self.write_links(f)?;
-        writeln!(f, "\n  {:<20}{:>8}{:>18}", "compiled function", "flops", "sine-cosine pairs")?;
-        for each in &self.operations {
-            writeln!(f, "  {:<20}{:>8}{:>18}", each.function, each.count.flops(), each.count.trig)?;
-        }
-        Ok(())
+        self.write_links(f)
     }
 }
 
 impl Summary {
+    /// What each compiled function costs, below the rest.
+    pub fn operations_table(&self) -> String {
+        let head = format!("\n  {:<20}{:>8}{:>18}\n", "compiled function", "flops", "sine-cosine pairs");
+        let rows = self
+            .operations
+            .iter()
+            .map(|each| format!("  {:<20}{:>8}{:>18}\n", each.function, each.count.flops(), each.count.trig));
+        std::iter::once(head).chain(rows).collect()
+    }
+
     /// "5 revolute, 1 prismatic".
     fn kinds(&self) -> String {
         let count = |kind: &str| self.links.iter().filter(|link| link.kind == kind).count();

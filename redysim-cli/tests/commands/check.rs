@@ -300,3 +300,24 @@ fn links_are_those_of_the_model() {
         assert_eq!((found["name"].as_str(), found["mass"].as_f64()), (Some(link.name.as_str()), Some(link.mass)));
     }
 }
+
+/// One error names the folder that was searched and a file of similar name.
+#[test]
+fn a_missing_model_is_one_error() {
+    let folder = scratch("check-missing");
+    std::fs::copy(root().join("models/two_link.toml"), folder.join("two_link.toml")).unwrap();
+    let output = crate::common::fail(&folder, &["check", "two_lnk.toml"], 3);
+    assert!(output.contains("it does not exist in ") && output.contains("check-missing"), "{output}");
+    assert!(output.contains("did you mean `two_link.toml`?") && !output.contains("os error"), "{output}");
+    assert_eq!(output.matches("error").count(), 1, "{output}");
+    let output = crate::common::fail(&folder, &["check", "nowhere/two_link.toml"], 3);
+    assert!(output.contains("the folder nowhere does not exist"), "{output}");
+}
+
+/// Of the keys of another file none is a model's.
+#[test]
+fn another_toml_file_is_one_error() {
+    let output = crate::common::fail(&root(), &["check", "Cargo.toml"], 1);
+    assert!(output.contains("Cargo.toml is not a model: ") && output.contains("workspace"), "{output}");
+    assert_eq!(output.matches("error").count(), 1, "{output}");
+}
