@@ -176,7 +176,10 @@ fn unchecked(
     match value.get_ref() {
         DeValue::Array(array) if array.len() != of.len() => {
             let names: Vec<_> = of.iter().map(|&index| components[index].name.as_str()).collect();
-            let wanted = format!("{} values, one for each of {}", of.len(), names.join(", "));
+            let wanted = match &names[..] {
+                [name] => format!("1 value, that of {name}"),
+                names => format!("{} values, one for each of {}", names.len(), names.join(", ")),
+            };
             reader.wrong_length(path, value, &wanted, array.len())
         }
         DeValue::Array(array) => {

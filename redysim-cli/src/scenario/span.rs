@@ -52,8 +52,9 @@ impl Span {
         } else if count > MOST {
             Message {
                 title: format!(
-                    "{item}: steps of {:?} s are {count:.0} rows, and no more than {MOST:.0} are written",
-                    span.step
+                    "{item}: steps of {:?} s are {} rows, and no more than {MOST:.0} are written",
+                    span.step,
+                    if count < 1e15 { format!("{count:.0}") } else { format!("{count:.0e}") }
                 ),
                 label: "too far for this step".into(),
                 help: "give a larger `step`: it sets what is written, not how exactly the motion is computed".into(),

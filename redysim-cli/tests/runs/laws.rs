@@ -231,6 +231,20 @@ fn a_law_that_drives_away_is_named_and_not_the_tolerance() {
     assert!(steps.contains("take a `step` of the integrator below 0.05 s"), "{steps}");
 }
 
+/// A negative gain makes steps as small as a stiff equation does, for which an implicit method is no remedy.
+#[test]
+fn a_law_that_drives_away_is_not_called_stiff() {
+    let folder = scratch("laws-not-stiff");
+    for (model, target) in [("simple_pendulum.toml", "[1]"), ("kr5.toml", "[1, 1, 1, 1, 1, 1]")] {
+        let law = format!("{{ law = 'pd', target = {target}, kp = -400, kd = 1 }}");
+        let rest = format!("[forward]\nend = 3.0\nstep = 0.1\ntorque = {law}\nintegrator = {{ method = 'Ode45' }}\n");
+        let path = scenario(&folder, model, &rest);
+        let shown = crate::common::call(&folder, &["forward", &path, "-o", "run", "--force"]).stderr;
+        assert!(shown.contains("`kp` has the sign that drives away") && !shown.contains("Ode15s"), "{shown}");
+        assert_eq!(shown.matches("= help: ").count(), 1, "{shown}");
+    }
+}
+
 /// An arm whose light wrist is driven away: the steps become so small that the end would never come.
 #[test]
 fn a_motion_without_bound_whose_end_would_never_come_is_ended() {
@@ -246,6 +260,7 @@ fn a_motion_without_bound_whose_end_would_never_come_is_ended() {
     ] {
         assert!(run.stderr.contains(part), "{part}: {}", run.stderr);
     }
+    assert_eq!(run.stderr.matches("= help: ").count(), 1, "one error has both: {}", run.stderr);
 }
 
 /// The crank rests where it was sent, and the loops stay closed.

@@ -1,6 +1,6 @@
 //! Closed loops under control, and what keeps them closed, against closed forms.
 
-use crate::common::{AGAINST_CLOSED_FORMS, Table, call, deviation, fail, root, scenario, scratch, succeed};
+use crate::common::{AGAINST_CLOSED_FORMS, Table, call, deviation, fail, refuses_in, root, scenario, scratch, succeed};
 use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::LoopClosure;
 
@@ -138,4 +138,20 @@ fn what_assembly_changes_of_the_start_is_reported() {
     assert!(output.contains("the start moves rocker by -2.694e-5 rad"), "{output}");
     // The rocker turns at 1.4045 rad/s when the crank is at zero and turns at 4.7124 rad/s; the coupler then stands.
     assert!(output.contains("its speeds change: rocker by -97.6 rad/s, coupler by 77 rad/s"), "{output}");
+}
+
+/// One error names the loop, in numbers that a person reads, and what to do.
+#[test]
+fn a_start_whose_loops_stay_open_is_one_error() {
+    for (initial, words) in [
+        (
+            "assemble = false",
+            ["the start leaves the loop `crank-coupler` open by 0.038 m", "leave `initial.assemble` out"],
+        ),
+        ("held = ['crank', 'rocker']", ["the loop `crank-coupler` is closed: it stays open by", "`initial.held`"]),
+    ] {
+        let rest = format!("initial = {{ q = [0, 1.5, 4.0], {initial} }}\n[forward]\nend = 0.1\nstep = 0.1\n");
+        let folder = scratch("loops-open");
+        refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", &rest), 1, &words);
+    }
 }

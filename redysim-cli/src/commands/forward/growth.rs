@@ -35,7 +35,7 @@ impl Growth {
         let rest = (end - t) / (t - since) * taken as f64;
         (taken >= PACE && rest > ENDLESS).then(|| {
             let at = size(t);
-            let message = format!("the motion grows without bound: at t = {at} s the rest would take {rest:.0e} steps");
+            let message = format!("{}, and at t = {at} s the rest would take {rest:.0e} steps", self.warning);
             Failure::input(message).help(&self.help)
         })
     }
@@ -101,14 +101,15 @@ fn wanted(law: &Torque, t: f64, layout: &Layout) -> Vec<(usize, f64)> {
 }
 
 /// What is known of the gains of a law whose motion grows.
-struct Gains {
-    help: String,
+pub struct Gains {
+    pub help: String,
     /// Whether one is negative.
-    drive_away: bool,
+    pub drive_away: bool,
 }
 
 impl Gains {
-    fn of(law: &Torque) -> Gains {
+    /// Of the gains of a law.
+    pub fn of(law: &Torque) -> Gains {
         let none = &Vec::new();
         let (kp, ki, kd) = match law {
             Torque::P { kp, .. } => (kp, none, none),

@@ -14,7 +14,7 @@ use crate::interrupt;
 use crate::number::size;
 use crate::results::{self, Balance, Ended, Files, Outcome, Record, Sink, Summary};
 use crate::scenario::{Dynamics, Forward, Ground, Integrator, Scenario, Tolerances, keys, missing};
-use growth::Growth;
+use growth::{Gains, Growth};
 use observer::RunObserver;
 use system::System;
 
@@ -90,7 +90,9 @@ fn move_on<'a>(
             let failure = explained(error, (scenario, forward), &system);
             // The remedies of an integration that fails are those for right motions.
             Ended::Failed(match &growth {
-                Some(growth) if !growth.from_nowhere => failure.help(&growth.help),
+                Some(growth) if !growth.from_nowhere => {
+                    failure.and(&format!("; {}", growth.warning)).help(&growth.help)
+                }
                 _ => failure,
             })
         }
@@ -98,6 +100,10 @@ fn move_on<'a>(
         (Ok(_), None) if record.next().is_some() => Ended::Interrupted,
         (Ok(_), None) => Ended::Complete,
     };
+    // A run that fails has both in its error.
+    if let Some(growth) = growth.as_ref().filter(|growth| !growth.from_nowhere && !matches!(ended, Ended::Failed(_))) {
+        record.warn(&growth.warning, &growth.help);
+    }
     let outcome = Outcome {
         ended,
         integrator: Some(forward.integrator.name()),
@@ -190,11 +196,14 @@ fn explained(
             Failure::input(message).help("take larger steps or tolerances in `integrator`, or an earlier `end`")
         }
         IntegrationError::Stiff { t, step, remaining } => {
-            let message = format!(
-                "the equation is stiff at t = {t:?} s: stability, not accuracy, keeps the steps at {} s, and \
-                 the rest would take about {remaining} of them",
-                size(step)
-            );
+            let steps = format!("the steps at {} s, and the rest would take about {remaining} of them", size(step));
+            let Gains { help, drive_away } = Gains::of(forward.torque.unlimited());
+            if drive_away {
+                // An implicit method would follow the joints on their way.
+                return Failure::input(format!("at t = {} s a motion that grows keeps {steps}", size(t))).help(help);
+            }
+            let message =
+                format!("the equation is stiff at t = {t:?} s: stability, not accuracy, keeps {steps}");
             Failure::outside(message)
                 .help(format!("take an implicit method, as in: {}, or lower gains or dampings", implicit()))
         }

@@ -70,10 +70,6 @@ impl<'a, 'r> RunObserver<'a, 'r> {
         if self.growth.is_none() {
             let from_nowhere = self.record.balance().wrong_part().is_some();
             self.growth = self.distances.see(self.scenario, self.forward, (t, &q, self.steps), from_nowhere);
-            // At once, for such a motion takes ever smaller steps.
-            if let Some(growth) = self.growth.as_ref().filter(|growth| !growth.from_nowhere) {
-                self.record.warn(&growth.warning, &growth.help);
-            }
         }
     }
 }

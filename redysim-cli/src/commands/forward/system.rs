@@ -2,13 +2,13 @@
 
 use redysim_runtime::{
     ClosedLoop, ClosedLoopHybridSimulation, ClosedLoopSimulation, ForcedMotion, ForwardDynamics, ForwardSimulation,
-    HybridMotion, HybridSimulation, LoopError, Ode, SimulationState, Stabilisation, ZeroTorque,
+    HybridMotion, HybridSimulation, LoopError, LoopRows, Ode, SimulationState, Stabilisation, ZeroTorque,
 };
 
 use super::ground::OnGround;
 use crate::failure::Failure;
 use crate::layout::Component;
-use crate::number::rounded;
+use crate::number::{rounded, size};
 use crate::output::to_stdout;
 use crate::results::{GroundSample, Sample};
 use crate::scenario::{Forward, Ground, Scenario, Spread};
@@ -98,7 +98,28 @@ impl<'a> System<'a> {
             return Ok(state(&initial.q, &initial.v));
         }
         let loops = ClosedLoop::new(self.ground());
-        let failed = |reason| Failure::input(format!("the start: {}", loops.with_names(reason)));
+        let failed = |reason: LoopError<f64>| {
+            let name = reason.row().and_then(|row| self.ground().loop_name(row));
+            let whose = name.map_or("a loop".to_owned(), |name| format!("the loop `{name}`"));
+            match reason {
+                LoopError::NotClosed { position_residual, .. } => {
+                    let open = size(position_residual);
+                    let failure = Failure::input(format!("the start leaves {whose} open by {open} m (or a sine)"));
+                    failure.help("leave `initial.assemble` out: the start is then moved until the loops are closed")
+                }
+                LoopError::CannotClose { position_residual, .. }
+                | LoopError::NoConvergence { position_residual, .. } => {
+                    let open = size(position_residual);
+                    let failure = Failure::input(format!(
+                        "the start cannot be moved until {whose} is closed: it stays open by {open} m (or a sine)"
+                    ));
+                    failure.help(
+                        "give another `initial.q`, nearer to a closed position, or other joints in `initial.held`",
+                    )
+                }
+                _ => Failure::input(format!("the start: {}", loops.with_names(reason))),
+            }
+        };
         if !initial.assemble {
             // Without projection, loops may be open: they stay as far open as they are, or feedback closes them.
             if forward.stabilisation == Stabilisation::Projection {
