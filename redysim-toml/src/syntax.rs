@@ -407,7 +407,7 @@ mod tests {
 
     #[test]
     fn brackets_that_are_not_closed_are_found() {
-        let at = |text: &str| unclosed_bracket(text).map(|(at, close)| (at, close));
+        let at = |text: &str| unclosed_bracket(text);
         assert_eq!(at("a = [1, 2\nb = 3\n"), Some((4, ']')));
         assert_eq!(at("a = [[1, 2], [3, 4]\n[[link]]\n"), Some((4, ']')));
         assert_eq!(at("a = { b = 1\n[[link]]\n"), Some((4, '}')));
