@@ -165,8 +165,12 @@ impl Panel {
         self
     }
 
-    /// Measures the vertical axis in thousandths, millionths, … of the unit where the values are that small.
+    /// Measures the vertical axis in thousandths, millionths, … of the unit where the values are that small. The unit 1,
+    /// of plain numbers, stays.
     pub fn prefixed(mut self) -> Self {
+        if self.unit == "1" {
+            return self;
+        }
         let values = self.curves.iter().flat_map(Curve::values).chain(self.held.iter().copied());
         let size = peak(values.filter(|value| drawable(*value)));
         let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| size * factor >= 0.5).unwrap_or((1.0, ""));
@@ -251,6 +255,8 @@ mod tests {
             assert!((panel.curves[0].points[1].1 + shown).abs() <= 1e-12 * shown, "{size}: {:?}", panel.curves);
             assert!((panel.curves[1].points[0].1 - shown / 2.0).abs() <= 1e-12 * shown, "one scale for all curves");
         }
+        let part_of_a_quaternion = Panel::new("", "quaternion", "1").line("", 1, &[0.0], &[0.1]).prefixed();
+        assert_eq!((&*part_of_a_quaternion.unit, part_of_a_quaternion.curves[0].points[0].1), ("1", 0.1));
     }
 
     #[test]

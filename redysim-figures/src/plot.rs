@@ -49,8 +49,6 @@ const PALETTE: [RGBColor; 10] = [
 ];
 /// When all colours are taken, they come again in dashes.
 pub(crate) const DASH: (i32, i32) = (7, 3);
-/// How many colours there are beside black.
-pub(crate) const COLOURS: usize = PALETTE.len() - 1;
 pub(crate) const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 
@@ -148,9 +146,10 @@ fn left_room(panel: &Panel) -> i32 {
     (TITLE_INSET + TITLE_HEIGHT + label + 2 * TICK).max(LEFT)
 }
 
-/// What stands above a coordinate system: the title and, unless it is shared, the legend: behind the title if there is
-/// room for it, or below.
+/// What stands above a coordinate system: the title in as many lines as it needs and, unless it is shared, the legend:
+/// behind the title if there is room for it, or below.
 struct Head<'a> {
+    title: Vec<String>,
     legend: Option<Legend<'a>>,
     legend_top: i32,
     height: i32,
@@ -159,15 +158,17 @@ struct Head<'a> {
 impl<'a> Head<'a> {
     fn of(panel: &'a Panel, place: &Place) -> Self {
         let right = place.width - RIGHT;
+        let title = text::wrapped_title(&panel.title, right - place.left);
+        let further = legend::ROW * (title.len() as i32 - 1);
         let behind = place.left + 30 + text::title_width(&panel.title);
-        let legend = Some(Legend::of(panel, behind, right)).filter(Legend::is_row);
+        let legend = Some(Legend::of(panel, behind, right)).filter(|legend| further == 0 && legend.is_row());
         match (place.own_legend, legend) {
-            (false, _) => Head { legend: None, legend_top: 0, height: HEAD },
-            (true, Some(legend)) => Head { legend: Some(legend), legend_top: 0, height: HEAD },
+            (false, _) => Head { title, legend: None, legend_top: 0, height: HEAD + further },
+            (true, Some(legend)) => Head { title, legend: Some(legend), legend_top: 0, height: HEAD },
             (true, None) => {
                 let legend = Legend::of(panel, place.left, right);
-                let height = HEAD + legend::ROW * legend.rows();
-                Head { legend: Some(legend), legend_top: legend::ROW, height }
+                let height = HEAD + further + legend::ROW * legend.rows();
+                Head { title, legend: Some(legend), legend_top: further + legend::ROW, height }
             }
         }
     }
@@ -177,8 +178,10 @@ fn draw_panel(area: &Area<'_>, panel: &Panel, row: &Row, last: bool, place: &Pla
     let (head, body) = area.split_vertically(row.head * FINE);
     let left_middle = Pos::new(HPos::Left, VPos::Center);
     let bold = ("sans-serif", text::TITLE * FINE).into_font().style(FontStyle::Bold).color(&INK).pos(left_middle);
-    head.draw(&Text::new(panel.title.clone(), (place.left * FINE, HEADLINE * FINE), bold))?;
-    let Head { legend, legend_top, .. } = Head::of(panel, place);
+    let Head { title, legend, legend_top, .. } = Head::of(panel, place);
+    for (line, y) in title.into_iter().zip((HEADLINE..).step_by(legend::ROW as usize)) {
+        head.draw(&Text::new(line, (place.left * FINE, y * FINE), bold.clone()))?;
+    }
     legend.iter().try_for_each(|legend| legend.draw(&head, legend_top))?;
     // Where one panel of the row has the title of the axis, the others have as much room.
     let below = if row.last { TICK_LABELS + TIME_TITLE } else { TICK_LABELS };

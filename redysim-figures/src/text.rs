@@ -35,6 +35,11 @@ pub fn title_width(text: &str) -> i32 {
     10 * width(text, TITLE) / 9
 }
 
+/// A panel's title in lines of a width of at most `room`.
+pub fn wrapped_title(text: &str, room: i32) -> Vec<String> {
+    wrapped(text, TITLE, 9 * room / 10)
+}
+
 /// The text in lines of a width of at most `room`, broken at spaces. A wider word is shortened in the middle.
 pub fn wrapped(text: &str, size: i32, room: i32) -> Vec<String> {
     let mut lines = vec![String::new()];

@@ -12,8 +12,9 @@ use crate::results::names::Picture;
 
 /// Draw what a run has written: motion, torques, energy and λ, as SVG and PNG.
 ///
-/// Curves share a panel if they have one unit and their sizes are within a factor of ten, six at most; energies always
-/// do.
+/// Joints of one branch, such as a leg or an arm, share a panel, seven at most, if their curves have one unit and sizes
+/// within a factor of ten; panels of about one size have the same limits. A joint has the same colour in all pictures.
+/// Energies share one panel.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  redysim plot results/kuka/inverse -o pictures")]
 pub struct Arguments {
@@ -68,11 +69,11 @@ fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<
     })
 }
 
-/// The charts below each other: energies together, as parts of one sum; other curves by their sizes.
+/// The charts below each other: energies together, as parts of one sum; other curves by groups and sizes.
 fn figure(charts: &[Chart]) -> Option<Figure> {
     let panels = |chart: &Chart| match chart.picture {
         Picture::Energy => vec![panel(chart).merged().prefixed()],
-        _ => panel(chart).multiples(),
+        _ => panel(chart).multiples(&chart.curves.iter().map(|curve| curve.place.group).collect::<Vec<_>>()),
     };
     (!charts.is_empty()).then(|| Figure::of_charts(charts.iter().map(panels).collect()))
 }
@@ -81,6 +82,6 @@ fn panel(chart: &Chart) -> Panel {
     let empty = Panel::new(chart.title, chart.quantity, &chart.unit);
     chart.curves.iter().fold(empty, |panel, curve| {
         // The palette's first colour, black, is for references.
-        panel.line(&curve.name, curve.colour + 1, &chart.t, &curve.values)
+        panel.line(&curve.name, curve.place.number + 1, &chart.t, &curve.values)
     })
 }

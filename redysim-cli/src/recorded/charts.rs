@@ -1,6 +1,7 @@
 //! What of the tables is worth a look: curves that belong into one coordinate system.
 
 use super::Recorded;
+use super::groups::{Groups, Place};
 use super::thin::with_peaks;
 use crate::failure::Failure;
 use crate::results::names::{self, Picture};
@@ -31,8 +32,11 @@ pub struct Chart {
 pub struct Curve {
     /// As the legend shows it.
     pub name: String,
-    /// Number of its colour: the same for curves of one name in all charts of joints.
+    /// Number of its colour where all curves of a chart stand in one coordinate system: the same for curves of one name
+    /// in all charts of joints.
     pub colour: usize,
+    /// Where it stands if groups of joints have coordinate systems of their own: the same in all charts of joints.
+    pub place: Place,
     /// A value at each of the chart's instants.
     pub values: Vec<f64>,
 }
@@ -43,9 +47,18 @@ impl Recorded {
     /// # Errors
     /// If a table cannot be read.
     pub fn charts(&self) -> Result<Vec<Chart>, Failure> {
-        let motion = self.motion()?;
+        let (motion, mut torques) = (self.motion()?, self.table(names::TOR)?);
+        let of_joints = ["q", "tau", "v", "a"].map(|symbol| {
+            let table = if symbol == "tau" { &torques } else { &motion };
+            table.iter().flat_map(|table| table.of(symbol)).map(curve_name).collect::<Vec<_>>()
+        });
+        let model = self.model().ok();
+        let mut joints = Styles::of(Groups::of(model.as_ref(), of_joints.into_iter().flatten()));
+        // That nothing drives a body through space need not be seen.
+        let drives =
+            |column: &Column| !joints.groups.floats(curve_name(column)) || column.values.iter().any(|v| *v != 0.0);
+        torques.iter_mut().for_each(|table| table.columns.retain(drives));
         let mut charts = Vec::new();
-        let mut joints = Colours::default();
         if let Some(table) = &motion {
             charts.extend(by_unit(table, Picture::Motion, &["q"], &mut joints, |unit| match unit {
                 "m" => ("Joint displacements", "displacement"),
@@ -53,20 +66,22 @@ impl Recorded {
                 _ => ("Joint angles", "angle"),
             }));
         }
-        if let Some(table) = self.table(names::TOR)? {
-            charts.extend(by_unit(&table, Picture::Torques, &["tau"], &mut joints, |unit| match unit {
+        if let Some(table) = &torques {
+            charts.extend(by_unit(table, Picture::Torques, &["tau"], &mut joints, |unit| match unit {
                 "N" => ("Joint forces", "force"),
                 _ => ("Joint torques", "torque"),
             }));
         }
         if let Some(table) = self.table(names::ENERGY)? {
             let energies = ["kinetic", "potential", "ground", "total", "work", "ground_loss"];
-            let (all, drift) = (&mut Colours::default(), &mut Colours::default());
+            let (all, drift) =
+                (&mut Styles::of_columns(&table, &energies), &mut Styles::of_columns(&table, &["drift"]));
             charts.extend(by_unit(&table, Picture::Energy, &energies, all, |_| ("Energy", "energy")));
             charts.extend(by_unit(&table, Picture::Energy, &["drift"], drift, |_| ("Drift of the energy", "drift")));
         }
         if let Some(table) = self.table(names::LAMBDA)? {
-            charts.extend(by_unit(&table, Picture::Multipliers, &["lambda"], &mut Colours::default(), |_| {
+            let multipliers = &mut Styles::of_columns(&table, &["lambda"]);
+            charts.extend(by_unit(&table, Picture::Multipliers, &["lambda"], multipliers, |_| {
                 ("Lagrange multipliers", "λ")
             }));
         }
@@ -80,15 +95,28 @@ impl Recorded {
     }
 }
 
-/// The numbers of colours by the names of curves: a new name gets the next number.
-#[derive(Default)]
-struct Colours(Vec<String>);
+/// How curves are told apart, by their names.
+struct Styles {
+    /// Those that have a colour: its number is their place here, and a new one gets the next.
+    coloured: Vec<String>,
+    groups: Groups,
+}
 
-impl Colours {
-    fn number(&mut self, name: &str) -> usize {
-        self.0.iter().position(|known| known == name).unwrap_or_else(|| {
-            self.0.push(name.to_owned());
-            self.0.len() - 1
+impl Styles {
+    fn of(groups: Groups) -> Styles {
+        Styles { coloured: Vec::new(), groups }
+    }
+
+    /// Of columns that are about no joints.
+    fn of_columns(table: &Table, symbols: &[&str]) -> Styles {
+        let columns = symbols.iter().flat_map(|symbol| table.of(symbol));
+        Styles::of(Groups::of(None, columns.map(curve_name)))
+    }
+
+    fn colour(&mut self, name: &str) -> usize {
+        self.coloured.iter().position(|known| known == name).unwrap_or_else(|| {
+            self.coloured.push(name.to_owned());
+            self.coloured.len() - 1
         })
     }
 }
@@ -103,13 +131,13 @@ fn by_unit(
     table: &Table,
     picture: Picture,
     symbols: &[&str],
-    colours: &mut Colours,
+    styles: &mut Styles,
     words: impl Fn(&str) -> (&'static str, &'static str),
 ) -> Vec<Chart> {
     let columns: Vec<_> = symbols
         .iter()
         .flat_map(|symbol| table.of(symbol))
-        .map(|column| (colours.number(curve_name(column)), column))
+        .map(|column| (styles.colour(curve_name(column)), column))
         .collect();
     let mut units: Vec<&str> = Vec::new();
     for (_, column) in &columns {
@@ -125,6 +153,7 @@ fn by_unit(
         let curve = |(colour, column): &&(usize, &Column)| Curve {
             name: curve_name(column).to_owned(),
             colour: *colour,
+            place: styles.groups.place(curve_name(column)),
             values: pick(&column.values),
         };
         let (title, quantity) = words(unit);

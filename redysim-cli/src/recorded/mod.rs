@@ -1,6 +1,7 @@
 //! What a run has left behind: the tables of a results folder, and the model that they are about.
 
 mod charts;
+mod groups;
 mod thin;
 
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! What the pictures of `redysim plot` look like: texts, axes and curves in their places.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +11,7 @@ use resvg::usvg::{Group, Node, Options, Rect, Tree};
 
 /// The SVG pictures of a run.
 fn pictures(run: &Path) -> Vec<(PathBuf, String)> {
-    succeed(run, &["plot", "."]);
+    succeed(run, &["plot", ".", "--force"]);
     let paths = fs::read_dir(run).unwrap().map(|entry| entry.unwrap().path());
     let pictures = paths.filter(|path| path.extension().is_some_and(|extension| extension == "svg"));
     pictures.map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
@@ -79,6 +80,8 @@ fn lines(svg: &str, colour: &str) -> Vec<[f64; 4]> {
 
 const INK: &str = "#282828";
 const PALETTE: [&str; 6] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+/// More colours that curves may have.
+const FURTHER: [&str; 4] = ["#787878", "#78461E", "#969600", "#000000"];
 
 /// The coordinate systems: the boxes between their axes. Ticks are shorter than these.
 fn panels(svg: &str) -> Vec<[f64; 4]> {
@@ -98,7 +101,7 @@ fn axes_end_with_the_curves(path: &Path, svg: &str) {
     let panels = panels(svg);
     assert!(!panels.is_empty(), "{}", path.display());
     for [left, top, right, bottom] in panels {
-        let curves = PALETTE.iter().flat_map(|colour| lines(svg, colour));
+        let curves = PALETTE.iter().chain(&FURTHER).flat_map(|colour| lines(svg, colour));
         let within = |curve: &[f64; 4]| {
             curve[0] >= left - 2.0 && curve[2] <= right + 2.0 && curve[1] >= top - 2.0 && curve[3] <= bottom + 2.0
         };
@@ -172,4 +175,90 @@ fn every_torque_of_the_kr5_is_seen_beside_those_that_are_larger() {
         let tallest = lines(&svg, colour).into_iter().map(height).fold(0.0, f64::max);
         assert!(tallest > 0.1 * panel, "{colour}: {tallest} of {panel}");
     }
+}
+
+/// The legends of the panels: in each the names, and how the sample beside them is drawn.
+fn legends(svg: &str) -> Vec<Vec<(String, String)>> {
+    let panels = panels(svg);
+    let colours = [PALETTE.as_slice(), &FURTHER].concat();
+    let mut legends = vec![Vec::new(); panels.len()];
+    for (text, place) in texts(svg) {
+        // The picture is drawn four times as large as it is shown.
+        let [left, top, bottom] = [place.left(), place.top(), place.bottom()].map(|length| 4.0 * f64::from(length));
+        let beside = |[from, y, to, end]: &[f64; 4]| {
+            from + 140.0 > left && *to < left && y == end && top - 10.0 < *y && *y < bottom + 10.0
+        };
+        let pieces = |colour: &str| lines(svg, colour).iter().filter(|line| beside(line)).count();
+        let styles = colours.iter().map(|colour| (colour, pieces(colour))).filter(|(_, pieces)| *pieces > 0);
+        let style: String = styles.map(|(colour, pieces)| format!("{colour} in {pieces}")).collect();
+        let below =
+            panels.iter().enumerate().filter(|(_, [from, y, to, _])| (*from..*to).contains(&left) && *y > bottom);
+        if let (false, Some((panel, _))) = (style.is_empty(), below.min_by(|a, b| a.1[1].total_cmp(&b.1[1]))) {
+            legends[panel].push((text, style));
+        }
+    }
+    legends
+}
+
+/// Every panel of joints has those of one branch, in colours of which none comes twice, and a joint has one colour in all
+/// panels. Returns the joints that have one of their own.
+fn branches_stand_apart(run: &Path, branch: impl Fn(&str) -> String) -> BTreeSet<String> {
+    let mut styles: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let pictures = pictures(run);
+    for (path, svg) in pictures.iter().filter(|(path, _)| !path.ends_with("energy.svg")) {
+        for legend in legends(svg) {
+            let branches: BTreeSet<String> = legend
+                .iter()
+                .flat_map(|(names, _)| names.split(", "))
+                .flat_map(|names| names.split(" … "))
+                .map(&branch)
+                .collect();
+            assert_eq!(branches.len(), 1, "{}: {legend:?}", path.display());
+            let different: BTreeSet<&String> = legend.iter().map(|(_, style)| style).collect();
+            assert_eq!(different.len(), legend.len(), "{}: {legend:?}", path.display());
+            for (names, style) in legend {
+                let first = names.split([',', ' ']).next().unwrap();
+                // The components of a joint in space are coordinates here and velocities there.
+                if !first.contains('.') {
+                    styles.entry(first.to_owned()).or_default().insert(style);
+                }
+            }
+        }
+    }
+    styles.iter().for_each(|(joint, styles)| assert_eq!(styles.len(), 1, "{joint}: {styles:?}"));
+    styles.into_keys().collect()
+}
+
+#[test]
+fn each_branch_of_a_humanoid_has_panels_of_its_own_and_a_joint_one_colour_in_all_pictures() {
+    let run = swing(&scratch("pictures-humanoid"), "peers/humanoid30.toml", 30, 1.0, 40);
+    let ends = [6, 12, 14, 21, 28, 30];
+    let branch = |joint: &str| {
+        let number: usize = joint.strip_prefix("link").unwrap().parse().unwrap();
+        ends.iter().position(|end| number <= *end).unwrap().to_string()
+    };
+    assert_eq!(branches_stand_apart(&run, branch).len(), 30);
+    look_right(&run);
+}
+
+#[test]
+fn each_leg_of_a_quadruped_has_panels_of_its_own_and_a_base_that_nothing_drives_has_none_of_forces() {
+    let legs = ["rear_right", "rear_left", "front_right", "front_left"];
+    let joints: Vec<String> =
+        legs.iter().flat_map(|leg| ["hip", "thigh", "knee"].map(|joint| format!("{leg}_{joint}"))).collect();
+    let to: Vec<f64> = (0..12).map(|joint| 0.2 + 0.1 * f64::from(joint)).collect();
+    let lift = format!(
+        "trajectory = {{ joints = {joints:?}, from = {:?}, to = {to:?}, duration = 0.2 }}\n\
+         [forward]\nend = 0.2\nstep = 0.01\ntorque = {{ law = 'computed-torque', kp = 400.0, kd = 40.0 }}\n",
+        [0; 12]
+    );
+    let run = results(&scratch("pictures-quadruped"), "forward", "quadruped.toml", &lift);
+    let branch = |joint: &str| legs.iter().find(|leg| joint.starts_with(*leg)).unwrap_or(&"base").to_string();
+    let own: Vec<String> = branches_stand_apart(&run, branch).into_iter().collect();
+    let mut all = joints;
+    all.sort();
+    assert_eq!(own, all);
+    let torques = fs::read_to_string(run.join("torques.svg")).unwrap();
+    assert!(!torques.contains("base.") && !torques.contains("Joint forces"), "{torques}");
+    look_right(&run);
 }
