@@ -1,4 +1,4 @@
-//! The operation counts that `docs/performance.md` tells are those that the tests hold.
+//! The counts of operations and instructions that the documentation tells are those that tests and studies hold.
 
 use std::collections::BTreeMap;
 
@@ -84,4 +84,72 @@ fn the_changelog_has_the_operations_of_the_snapshot() {
     );
     let changelog = read("CHANGELOG.md").split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(changelog.contains(&sentence), "CHANGELOG.md lacks: {sentence}");
+}
+
+/// The robots and functions of a study of instructions, with their names in its counts and in the documentation.
+fn counted_functions() -> impl Iterator<Item = (String, String)> {
+    let robots = [("kr5", "KR5"), ("gripper", "gripper"), ("humanoid30", "tree of 30")];
+    robots.into_iter().flat_map(|(robot, called)| {
+        [Function::InverseDynamics, Function::ForwardDynamics, Function::MassMatrix]
+            .map(|function| (format!("{robot}_{function}"), format!("{called}, {}", function.name().replace('_', " "))))
+    })
+}
+
+/// From processor and function to the counts of a study; `None` for what is not counted.
+fn instructions(study: &str) -> BTreeMap<(String, String), Vec<Option<u32>>> {
+    let count = |word: &str| (word != "-").then(|| word.parse().expect("a count"));
+    let row = |line: &str| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        ((words[0].to_string(), words[1].to_string()), words[2..].iter().map(|word| count(word)).collect())
+    };
+    read(&format!("studies/{study}/counts.txt")).lines().filter(|line| !line.starts_with('#')).map(row).collect()
+}
+
+const PROCESSORS: [&str; 2] = ["x86-64", "x86-64-v3"];
+
+fn written(count: Option<u32>) -> String {
+    count.map_or("not counted".into(), |count| count.to_string())
+}
+
+#[test]
+fn the_table_of_instructions_is_that_of_the_study() {
+    let counts = instructions("instructions");
+    let documentation = read("docs/performance.md");
+    let mut rows = 0;
+    for (function, called) in counted_functions() {
+        let count = |processor: &str| counts.get(&(processor.into(), function.clone())).and_then(|of| of[0]);
+        let counts = PROCESSORS.map(count);
+        rows += counts.iter().flatten().count();
+        let row = format!("\n| {called} | {} |\n", counts.map(written).join(" | "));
+        assert!(documentation.contains(&row), "docs/performance.md lacks the row{row}");
+    }
+    assert_eq!(rows, counts.len(), "docs/performance.md has no row for some of the counts");
+}
+
+#[test]
+fn the_table_of_instructions_in_c_is_that_of_the_studies() {
+    let (in_c, in_rust) = (instructions("c"), instructions("instructions"));
+    let documentation = read("docs/c.md");
+    let mut rows = 0;
+    for (function, called) in counted_functions() {
+        let cells = PROCESSORS.map(|processor| {
+            let key = (processor.to_string(), function.clone());
+            let [c, rust] = in_c[&key][..] else { panic!("{function} has not two counts") };
+            assert_eq!(
+                rust,
+                in_rust.get(&key).and_then(|of| of[0]),
+                "{key:?}: studies/c/counts.txt has another count of Rust"
+            );
+            rows += 1;
+            let more = c.zip(rust).map(|(c, rust)| (100.0 * (f64::from(c) / f64::from(rust) - 1.0)).round());
+            let more = more.map(|more| match more {
+                0.0 => " 0 %".into(),
+                more => format!(" {}{} %", if more < 0.0 { '−' } else { '+' }, more.abs()),
+            });
+            format!("{} | {} |{}", written(c), written(rust), more.unwrap_or_default())
+        });
+        let row = format!("\n| {called} | {} |\n", cells.join(" | "));
+        assert!(documentation.contains(&row), "docs/c.md lacks the row{row}");
+    }
+    assert_eq!(rows, in_c.len(), "docs/c.md has no row for some of the counts");
 }

@@ -8,7 +8,7 @@
 #![cfg(feature = "generic")]
 
 use crate::NATIVE;
-use crate::c::{Fourbar, Machine};
+use crate::c::bits::{Fourbar, Machine};
 use crate::common::call::*;
 use crate::common::comparison::Comparison;
 use crate::common::double_double::{DoubleDouble, exact, rounded};

@@ -1,11 +1,11 @@
 //! The header for C++ and the package of CMake: a program finds one mechanism where it is installed and builds another
 //! one with itself, and computes what Rust computes, to the bit.
 
-use super::Given;
-use super::program::compilers;
-use crate::robots::Kr5;
+use super::compilers::{self, compilers, cpp_compiler};
+use super::parameters::{Given, OF_GIVEN};
+use crate::robots::{Gripper, Kr5};
 use redysim::{FUSED, LinkState};
-use redysim_codegen::{COptions, CppFiles, cpp_files};
+use redysim_codegen::{COptions, CScalar, CppFiles, cpp_files};
 use redysim_model::Model;
 use std::path::Path;
 use std::process::Command;
@@ -13,6 +13,7 @@ use std::process::Command;
 const USER: &str = r#"
 #include "given.hpp"
 #include "kr5.hpp"
+#include "single.hpp"
 #include <cinttypes>
 #include <cstdint>
 #include <cstdio>
@@ -70,26 +71,59 @@ int main()
         print(robot::gravity_forces(robot::Robot(parameters), q));
         print(robot::mass_matrix(robot::Robot(parameters), robot::joint_trig(other, q)));
     }
+    {
+        namespace robot = redysim::single;
+        static_assert(sizeof(robot::Number) == sizeof(float), "single precision");
+        const robot::Coordinates q{{0.3f, -0.8f, 1.1f, 2.0f}};
+        const robot::Velocities v{{1.0f, -2.0f, 3.0f, 0.5f}};
+        const robot::JointTrig trig = robot::joint_trig(q);
+        print(robot::bias_forces(q, v));
+        print(robot::mass_matrix(trig));
+        print(robot::energy(q, v).kinetic);
+        for (const robot::LinkState &link : robot::link_kinematics(trig, v)) {
+            print(link.rotation[0][1]);
+            print(link.velocity[0]);
+        }
+    }
     return 0;
 }
 "#;
 
+/// @next@ is a minor version that the package does not have.
 const BUILD: &str = "\
 cmake_minimum_required(VERSION 3.16)
 project(user LANGUAGES C CXX)
-find_package(kr5 REQUIRED)
+find_package(kr5 @next@ QUIET)
+if(kr5_FOUND)
+    message(FATAL_ERROR \"kr5 ${kr5_VERSION} is taken for version @next@\")
+endif()
+find_package(kr5 @version@ REQUIRED)
+if(NOT kr5_VERSION STREQUAL \"@whole@\")
+    message(FATAL_ERROR \"the version of kr5 is '${kr5_VERSION}', not @whole@\")
+endif()
 add_subdirectory(given)
+add_subdirectory(single)
 add_executable(user user.cpp)
 set_target_properties(user PROPERTIES CXX_STANDARD 11 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
 target_compile_options(user PRIVATE -pedantic -Wall -Wextra -Wconversion -Wshadow -Wold-style-cast -Werror)
-target_link_libraries(user PRIVATE kr5::kr5 given::given)
+target_link_libraries(user PRIVATE kr5::kr5 given::given single::single)
 ";
 
+/// [`BUILD`] with the versions.
+fn build_file() -> String {
+    let [major, minor] = [env!("CARGO_PKG_VERSION_MAJOR"), env!("CARGO_PKG_VERSION_MINOR")]
+        .map(|number| number.parse::<usize>().expect("a number"));
+    BUILD
+        .replace("@version@", &format!("{major}.{minor}"))
+        .replace("@next@", &format!("{major}.{}", minor + 1))
+        .replace("@whole@", env!("CARGO_PKG_VERSION"))
+}
+
 /// Writes the files of a model to a folder.
-fn write(model: &str, name: &str, options: &str, folder: &Path) {
+fn write(model: &str, name: &str, options: &str, scalar: CScalar, folder: &Path) {
     let file = format!("{}/models/{model}.toml", env!("CARGO_MANIFEST_DIR"));
     let loaded = Model::load_with(&file, &file, options).unwrap_or_else(|faults| panic!("{faults}"));
-    let form = COptions { prefix: Some(name.to_string()), ..COptions::default() };
+    let form = COptions { prefix: Some(name.to_string()), scalar };
     let CppFiles { c, header, cmake } = cpp_files(&loaded.model, &form, &loaded.options).expect("code in C++");
     std::fs::create_dir_all(folder).expect("a folder");
     let files = [
@@ -101,12 +135,11 @@ fn write(model: &str, name: &str, options: &str, folder: &Path) {
     files.into_iter().for_each(|(file, text)| std::fs::write(folder.join(file), text).expect("a file"));
 }
 
-/// Runs a program in a folder and returns what it prints.
-fn run(folder: &Path, program: &str, arguments: &[&str]) -> String {
-    let output = Command::new(program).args(arguments).current_dir(folder).output();
-    let output = output.unwrap_or_else(|error| panic!("{program}: {error}"));
+/// Runs a command and returns what it prints.
+fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    assert!(output.status.success(), "{program} {arguments:?}: {out}{err}");
+    assert!(output.status.success(), "{command:?}: {out}{err}");
     out
 }
 
@@ -134,47 +167,52 @@ fn rust() -> Vec<f64> {
     all.push(4.0);
     all.extend([default, heavy.gravity_forces(&q)].concat());
     all.extend(heavy.mass_matrix(&q).concat());
+
+    let (q, v) = ([0.3_f32, -0.8, 1.1, 2.0], [1.0_f32, -2.0, 3.0, 0.5]);
+    let of = |link: &LinkState<f32>| [link.rotation[0][1], link.velocity[0]];
+    let single = [
+        Gripper::bias_forces(&q, &v).to_vec(),
+        Gripper::mass_matrix(&q).concat(),
+        vec![Gripper::energy(&q, &v).kinetic],
+    ];
+    all.extend(single.concat().into_iter().map(f64::from));
+    all.extend(Gripper::link_kinematics(&q, &v).iter().flat_map(of).map(f64::from));
     all
 }
 
 #[test]
 fn a_program_in_cpp_that_cmake_builds_computes_the_same_bits() {
     let expected: Vec<u64> = rust().into_iter().map(f64::to_bits).collect();
-    let runs = |name: &str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
-    if !runs("cmake") {
+    if !Command::new("cmake").arg("--version").output().is_ok_and(|output| output.status.success()) {
         eprintln!("SKIPPED: there is no CMake here");
         return;
     }
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cpp");
     let _ = std::fs::remove_dir_all(&root);
-    let options = "parameters = [\"gravity\", \"link3.mass\", \"link3.com\", \"link3.inertia\", \"joint2.damping\"]";
-    write("kr5", "kr5", "", &root.join("kr5"));
-    write("gripper", "given", options, &root.join("given"));
+    write("kr5", "kr5", "", CScalar::F64, &root.join("kr5"));
+    write("gripper", "given", OF_GIVEN, CScalar::F64, &root.join("given"));
+    write("gripper", "single", "", CScalar::F32, &root.join("single"));
     std::fs::write(root.join("user.cpp"), USER).expect("a file");
-    std::fs::write(root.join("CMakeLists.txt"), BUILD).expect("a file");
+    std::fs::write(root.join("CMakeLists.txt"), build_file()).expect("a file");
     let fused = if FUSED { "-DREDYSIM_FMA" } else { "" };
     let c_flags = format!("-DCMAKE_C_FLAGS=-O1 -pedantic -Wall -Wextra -Wconversion -Werror {fused}");
-    for c in compilers() {
-        let cpp = if c.contains("clang") { "clang++" } else { "c++" };
-        if !runs(cpp) {
-            eprintln!("SKIPPED: {cpp} is not here");
-            continue;
-        }
-        let installed = root.join(format!("installed-{cpp}"));
-        let installed = installed.to_str().expect("a path in UTF-8");
-        let build = |source: &str, folder: &str, more: [&str; 2]| {
-            let c = format!("-DCMAKE_C_COMPILER={c}");
-            let always = ["-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=Debug", &c, &c_flags];
-            run(&root, "cmake", &[&always[..], &more].concat());
-            run(&root, "cmake", &["--build", folder]);
+    for (index, c) in compilers().iter().enumerate() {
+        let Some(cpp) = cpp_compiler(c) else { continue };
+        // CMake takes compilers with their flags from these variables.
+        let cmake = |arguments: &[&str]| {
+            run(Command::new("cmake").args(arguments).env("CC", c).env("CXX", &cpp).current_dir(&root));
         };
-        let [of_robot, of_user] = ["kr5", "user"].map(|name| format!("{name}-{cpp}"));
-        build("kr5", &of_robot, [&format!("-DCMAKE_INSTALL_PREFIX={installed}"), "--no-warn-unused-cli"]);
-        run(&root, "cmake", &["--install", &of_robot]);
-        let found_in = format!("-DCMAKE_PREFIX_PATH={installed}");
-        build(".", &of_user, [&found_in, &format!("-DCMAKE_CXX_COMPILER={cpp}")]);
-        let program = root.join(&of_user).join("user");
-        let printed = run(&root, program.to_str().expect("a path in UTF-8"), &[]);
+        let build = |source: &str, folder: &str, more: &str| {
+            cmake(&["-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=Debug", &c_flags, more]);
+            cmake(&["--build", folder]);
+        };
+        let [installed, of_robot, of_user] = ["installed", "kr5", "user"].map(|name| format!("{name}-{index}"));
+        let installed = root.join(installed);
+        let installed = installed.to_str().expect("a path in UTF-8");
+        build("kr5", &of_robot, &format!("-DCMAKE_INSTALL_PREFIX={installed}"));
+        cmake(&["--install", &of_robot]);
+        build(".", &of_user, &format!("-DCMAKE_PREFIX_PATH={installed}"));
+        let printed = run(&mut compilers::program(&root.join(&of_user).join("user")));
         let found: Vec<u64> =
             printed.lines().map(|bits| u64::from_str_radix(bits, 16).expect("bits of a number")).collect();
         assert_eq!(found, expected, "{cpp}");

@@ -1,5 +1,6 @@
-//! A mechanism in C, compiled with the machine's compiler, whose functions are called from here.
+//! A mechanism in C, compiled for the target of the tests, whose functions are called from here.
 
+use super::compilers;
 use redysim::function::Argument;
 use redysim::generic::Model;
 use redysim::{Function, Mechanism, Real};
@@ -8,23 +9,12 @@ use redysim_model::{PublicInterface, Tree};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What C code must be free of.
 const WARNINGS: [&str; 8] =
     ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion", "-Wshadow", "-Werror"];
-
-/// The compilers that the machine has: its own, `CC` if that is set, and Clang.
-pub fn compilers() -> Vec<String> {
-    let own = std::env::var("CC").unwrap_or("cc".into());
-    let runs = |name: &String| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
-    let found: Vec<String> = [own, "clang".into()].into_iter().filter(runs).collect();
-    if found.is_empty() {
-        eprintln!("SKIPPED: there is no C compiler here; install one, or name it in the variable CC");
-    }
-    found
-}
 
 /// A mechanism in C in a folder of its own.
 pub struct InC {
@@ -91,8 +81,8 @@ impl InC {
     fn compile(&self, compiler: &str, flags: &[&str], sources: &[String], program: &str) -> PathBuf {
         let program = self.folder.join(program);
         let sources = sources.iter().map(|source| self.folder.join(source));
-        let output =
-            Command::new(compiler).args(WARNINGS).args(flags).args(sources).arg("-o").arg(&program).arg("-lm").output();
+        let mut command = compilers::command(compiler);
+        let output = command.args(WARNINGS).args(flags).args(sources).arg("-o").arg(&program).arg("-lm").output();
         succeeded(&format!("{compiler} {flags:?} {}", path(&program)), &output.expect("the compiler runs"));
         program
     }
@@ -101,7 +91,7 @@ impl InC {
     pub fn read_by_cpp(&self, compiler: &str) {
         let cpp = |source: &Path| {
             let flags = ["-x", "c++", "-std=c++11", "-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"];
-            Command::new(compiler).args(flags).arg(source).output().expect("the compiler runs")
+            compilers::command(compiler).args(flags).arg(source).output().expect("the compiler runs")
         };
         let empty = self.folder.join("empty.cpp");
         std::fs::write(&empty, "").expect("a file");
@@ -118,7 +108,7 @@ impl InC {
     pub fn check(&self, compiler: &str, flags: &[&str]) {
         let sources = [format!("{}.c", self.prefix), format!("{}_check.c", self.prefix)];
         let program = self.compile(compiler, flags, &sources, "check");
-        succeeded(path(&program), &Command::new(&program).output().expect("the check runs"));
+        succeeded(path(&program), &compilers::program(&program).output().expect("the check runs"));
     }
 
     /// What every function, and joint trigonometry if the robot has angles, gives in each of the states, one after the other.
@@ -130,8 +120,8 @@ impl InC {
         for number in states.iter().flatten().flatten() {
             input.extend(self.bytes(number.to_f64()));
         }
-        let mut child =
-            Command::new(&program).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the driver runs");
+        let mut command = compilers::program(&program);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the driver runs");
         let mut stdin = child.stdin.take().expect("its input");
         // From another thread, since the driver writes while it reads.
         let writer = std::thread::spawn(move || stdin.write_all(&input));
@@ -145,7 +135,11 @@ impl InC {
     pub fn statuses(&self, compiler: &str, lists: &[Vec<f64>]) -> Vec<usize> {
         let (prefix, number, count) = (&self.prefix, self.scalar.type_name(), self.parameters.len());
         let literal = |list: &Vec<f64>| {
-            let written = |number: &f64| if number.is_finite() { format!("{number:?}") } else { "(double)NAN".into() };
+            let written = |&literal: &f64| match self.scalar {
+                _ if !literal.is_finite() => format!("({number})NAN"),
+                CScalar::F64 => format!("{literal:?}"),
+                CScalar::F32 => format!("{:?}f", literal as f32),
+            };
             format!("{{{}}}", list.iter().map(written).collect::<Vec<_>>().join(", "))
         };
         let table = lists.iter().map(literal).collect::<Vec<_>>().join(", ");
@@ -157,7 +151,7 @@ impl InC {
         );
         std::fs::write(self.folder.join("statuses.c"), driver).expect("a file");
         let program = self.compile(compiler, &["-O1"], &[format!("{prefix}.c"), "statuses.c".into()], "statuses");
-        let output = Command::new(&program).output().expect("the program runs");
+        let output = compilers::program(&program).output().expect("the program runs");
         succeeded(path(&program), &output);
         let lines = String::from_utf8(output.stdout).expect("numbers");
         lines.lines().map(|line| line.parse().expect("a number")).collect()

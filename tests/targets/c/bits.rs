@@ -1,0 +1,196 @@
+//! What the functions in C give is what those in Rust give, to the bit, in `double` and in `float`.
+
+use super::compilers::compilers;
+use super::program::{InC, State, numbers};
+use super::{builds, configuration, same_bits, same_bits_by, states, tree, trig, vector};
+use crate::common::call;
+use crate::common::random::Random;
+use crate::robots::{Gripper, Kr5};
+use crate::robots_in_space::Floating;
+use redysim::function::Argument;
+use redysim::{ForwardDynamics, Function, HybridDynamics, InverseDynamics, LoopClosure, Real, Wrench, redysim};
+use redysim_codegen::CScalar;
+use std::f64::consts::FRAC_PI_2;
+
+redysim! { pub struct Fourbar("models/fourbar.toml"); }
+redysim! { pub struct Machine("models/test/frames.toml"); }
+redysim! { struct Pendulum("models/simple_pendulum.toml", functions = [gravity_forces]); }
+redysim! { struct Quadruped("models/quadruped.toml", functions = [inverse_dynamics, forward_dynamics, mass_matrix]); }
+redysim! { struct Humanoid("models/peers/humanoid30.toml", functions = [inverse_dynamics]); }
+redysim! { struct Chain("models/peers/chain40.toml", functions = [inverse_dynamics, forward_dynamics]); }
+
+#[test]
+fn an_arm_computes_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("kr5", "", scalar);
+        let states = states::<T>(&Kr5);
+        same_bits_by::<T>(compilers(), &[&[]], &in_c, &Kr5, &states, trig!(Kr5), &|function, state| {
+            tree(&Kr5, function, state)
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+fn fingers_with_parallel_axes_compute_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("gripper", "", scalar);
+        same_bits::<T>(&in_c, &Gripper, trig!(Gripper), &|function, state| tree(&Gripper, function, state));
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
+fn a_floating_arm_with_quaternion_and_hybrid_dynamics_computes_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("kr5_floating", "", scalar);
+        same_bits::<T>(&in_c, &Floating, trig!(Floating), &|function, state| match function {
+            Function::HybridDynamics => {
+                let [q, v, u] = [Argument::Coordinates, Argument::Velocities, Argument::Given];
+                let motion =
+                    HybridDynamics::hybrid_dynamics(&Floating, &vector(state, q), &vector(state, v), &vector(state, u));
+                Some([motion.a, motion.tau].concat())
+            }
+            _ => tree(&Floating, function, state),
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+fn closed_loops_compute_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("fourbar", "", scalar);
+        same_bits::<T>(&in_c, &Fourbar, trig!(Fourbar), &|function, state| {
+            let [q, v]: [[T; Fourbar::NV]; 2] =
+                [Argument::Coordinates, Argument::Velocities].map(|name| vector(state, name));
+            match function {
+                Function::LoopResidual => Some(LoopClosure::loop_residual(&Fourbar, &q).to_vec()),
+                Function::LoopJacobian => Some(LoopClosure::loop_jacobian(&Fourbar, &q).concat()),
+                Function::LoopBias => Some(LoopClosure::loop_bias(&Fourbar, &q, &v).to_vec()),
+                _ => tree(&Fourbar, function, state),
+            }
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+fn frames_and_wrenches_compute_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("test/frames", "", scalar);
+        same_bits::<T>(&in_c, &Machine, trig!(Machine), &|function, state| {
+            let wrenches = numbers(state, Argument::Wrenches);
+            let wrench = |i: usize| {
+                let of = |first: usize| core::array::from_fn(|k| wrenches[6 * i + first + k]);
+                Wrench { force: of(0), moment: of(3) }
+            };
+            let wrenches: [Wrench<T>; Machine::NF] = core::array::from_fn(wrench);
+            let [q, v] = [Argument::Coordinates, Argument::Velocities].map(|name| numbers(state, name));
+            let [kinematics, jacobians, bias, forces] = call::frames(&Machine, q, v, &wrenches);
+            match function {
+                Function::FrameKinematics => Some(kinematics),
+                Function::FrameJacobians => Some(jacobians),
+                Function::FrameBias => Some(bias),
+                Function::FrameForces => Some(forces),
+                _ => tree(&Machine, function, state),
+            }
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+fn the_loops_of_a_long_chain_compute_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("peers/chain40", "functions = [\"inverse_dynamics\", \"forward_dynamics\"]", scalar);
+        same_bits::<T>(&in_c, &Chain, trig!(Chain), &|function, state| {
+            let [q, v, a, tau] =
+                [Argument::Coordinates, Argument::Velocities, Argument::Accelerations, Argument::Forces]
+                    .map(|name| vector(state, name));
+            match function {
+                Function::InverseDynamics => Some(InverseDynamics::inverse_dynamics(&Chain, &q, &v, &a).to_vec()),
+                Function::ForwardDynamics => Some(ForwardDynamics::forward_dynamics(&Chain, &q, &v, &tau).to_vec()),
+                _ => configuration(&Chain, function, state),
+            }
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
+fn four_legs_side_by_side_compute_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let functions = "functions = [\"inverse_dynamics\", \"forward_dynamics\", \"mass_matrix\"]";
+        let in_c = InC::new("quadruped", functions, scalar);
+        let states = states::<T>(&Quadruped);
+        same_bits_by(compilers(), builds(), &in_c, &Quadruped, &states, trig!(Quadruped), &|function, state| {
+            let [v, a, tau] = [Argument::Velocities, Argument::Accelerations, Argument::Forces]
+                .map(|name| vector::<T, [T; Quadruped::NV]>(state, name));
+            let q = vector(state, Argument::Coordinates);
+            match function {
+                Function::InverseDynamics => Some(InverseDynamics::inverse_dynamics(&Quadruped, &q, &v, &a).to_vec()),
+                Function::ForwardDynamics => Some(ForwardDynamics::forward_dynamics(&Quadruped, &q, &v, &tau).to_vec()),
+                Function::MassMatrix => Some(Quadruped::mass_matrix(&q).concat()),
+                _ => configuration(&Quadruped, function, state),
+            }
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
+fn two_arms_and_two_legs_side_by_side_compute_the_same_bits_in_c() {
+    let in_c = InC::new("peers/humanoid30", "functions = [\"inverse_dynamics\"]", CScalar::F64);
+    let states = states::<f64>(&Humanoid);
+    same_bits_by(compilers(), builds(), &in_c, &Humanoid, &states, trig!(Humanoid), &|function, state| {
+        let [q, v, a] = [Argument::Coordinates, Argument::Velocities, Argument::Accelerations]
+            .map(|name| vector::<f64, [f64; Humanoid::NV]>(state, name));
+        match function {
+            Function::InverseDynamics => Some(InverseDynamics::inverse_dynamics(&Humanoid, &q, &v, &a).to_vec()),
+            _ => configuration(&Humanoid, function, state),
+        }
+    });
+}
+
+/// Angles of every size, many of them beside multiples of quarter turns, where the reduction takes most digits.
+fn pendulums<T: Real>() -> Vec<State<T>> {
+    let mut random = Random::new(2);
+    let angle = |index: usize| {
+        let size = 10.0_f64.powf(random.within(18.0) + 6.0);
+        let multiple = (random.within(size) / FRAC_PI_2).round() * FRAC_PI_2;
+        let beside = 10.0_f64.powf(random.within(10.0) - 10.0);
+        if index.is_multiple_of(2) { random.within(size) } else { multiple * (1.0 + random.within(beside)) }
+    };
+    let state =
+        |q: f64| [q, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0].map(|x| vec![T::from_f64(x)]).into_iter().chain([vec![]]);
+    (0..50_000).map(angle).map(|q| state(q).collect()).collect()
+}
+
+#[test]
+fn sines_of_angles_of_all_sizes_are_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("simple_pendulum", "functions = [\"gravity_forces\"]", scalar);
+        let states = pendulums::<T>();
+        same_bits_by(compilers(), builds(), &in_c, &Pendulum, &states, trig!(Pendulum), &|function, state| {
+            match function {
+                Function::GravityForces => {
+                    Some(Pendulum::gravity_forces(&vector::<T, [T; 1]>(state, Argument::Coordinates)).to_vec())
+                }
+                _ => configuration(&Pendulum, function, state),
+            }
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
