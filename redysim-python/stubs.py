@@ -25,18 +25,18 @@ def records() -> str:
         if record is not None:
             lines = getattr(robot, function).__doc__.splitlines()
             parts = [line.split("`")[1] for line in lines if line.strip().startswith("- `")]
-            text += f"class {class_name(record)}(np.recarray):\n"
-            text += "".join(f"    {part}: Array\n" for part in parts) + "\n"
+            text += f"@type_check_only\nclass {class_name(record)}(np.recarray):\n"
+            text += "".join(f"    {part}: _Array\n" for part in parts) + "\n"
     return text
 
 
 def functions() -> str:
     text = ""
     for function, arguments, record in _core.table_of_functions():
-        result = class_name(record) if record else "Array"
+        result = class_name(record) if record else "_Array"
         parameters = "".join(f", {argument}: ArrayLike" for argument in arguments)
         documentation = textwrap.indent(getattr(_core.Mechanism, function).__doc__, " " * 8)
-        text += f"    def {function}(self{parameters}, *, out: np.ndarray | None = None) -> {result}:\n"
+        text += f"    def {function}(self{parameters}, *, out: _Out | None = None) -> {result}:\n"
         text += f'        """{documentation.lstrip()}\n        """\n\n'
     return text
 

@@ -1,14 +1,34 @@
 from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, final, type_check_only
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._results import Motion
 
-Array = NDArray[np.float64]
+__all__ = [
+    "ModelWarning",
+    "RedysimError",
+    "load",
+    "restored",
+    "Mechanism",
+    "compute",
+    "page",
+    "read_results",
+    "runs_of_scenario",
+    "simulate",
+    "Rows",
+    "Sampler",
+    "Study",
+    "table_of_functions",
+    "__version__",
+]
+
+_Array = NDArray[np.float64]
+# Within `Mechanism`, np is the number of run-time parameters.
+_Out = NDArray[Any]
 
 __version__: str
 
@@ -24,6 +44,9 @@ def load(
     """Reads a model file (TOML) or a URDF, with run-time parameters such as "gravity", "tool.mass" or
     "joint2.damping"; by default those of the file."""
 
+def restored(
+    source: tuple[bytes, str | PathLike[str], bool, Sequence[str] | None], values: ArrayLike | None, compiled: bool
+) -> Mechanism: ...
 def table_of_functions() -> list[tuple[str, list[str], str | None]]: ...
 def runs_of_scenario(path: str | PathLike[str]) -> list[str]: ...
 def compute(path: str | PathLike[str], dynamics: str, folder: str | PathLike[str], force: bool) -> dict[str, Any]: ...
@@ -33,11 +56,12 @@ def simulate(
     owner: Mechanism,
     times: list[float],
     start: tuple[ArrayLike, ArrayLike],
-    torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None,
-    events: list[tuple[Callable[[float, Array, Array], float], float, bool]],
+    torque: Callable[[float, _Array, _Array], ArrayLike] | ArrayLike | None,
+    events: list[tuple[Callable[[float, _Array, _Array], float], float, bool]],
     method: dict[str, Any],
 ) -> dict[str, Any]: ...
 
+@final
 class Study:
     """A study: a scenario, and the values of each sample at paths into it."""
 
@@ -53,18 +77,20 @@ class Study:
     def sample(self, index: int) -> str: ...
     def __len__(self) -> int: ...
 
+@final
 class Sampler:
     """Computes the rows of samples."""
 
-    def __init__(self, text: str) -> None: ...
+    def __new__(cls, text: str) -> Sampler: ...
     def row(self, sample: str) -> tuple[int, str] | None: ...
     def failed_row(self, sample: str, reason: str) -> str: ...
 
+@final
 class Rows:
     """The rows of a study in its folder."""
 
     path: Path
-    def __init__(self, folder: str | PathLike[str], study: Study, force: bool) -> None: ...
+    def __new__(cls, folder: str | PathLike[str], study: Study, force: bool) -> Rows: ...
     def missing(self) -> list[int]: ...
     def add(self, index: int, row: str) -> None: ...
     def finish(self) -> None: ...
@@ -72,6 +98,7 @@ class Rows:
     def __len__(self) -> int: ...
 
 # The records.
+@final
 class Mechanism:
     """A mechanism that was read from a model file or a URDF: names, sizes and functions."""
 
@@ -105,7 +132,7 @@ class Mechanism:
     def parameter_names(self) -> list[str]:
         """Names of the run-time parameters."""
     @property
-    def parameters(self) -> Array:
+    def parameters(self) -> _Array:
         """Values of the run-time parameters, (np,), or (k, np) of k robots."""
     def with_parameters(self, parameters: ArrayLike | dict[str, ArrayLike]) -> Mechanism:
         """The mechanism with other values of its run-time parameters, (np,), or (k, np) of k robots, each of
@@ -135,6 +162,12 @@ class Mechanism:
     def force_units(self) -> list[str]:
         """Units of the joint forces: N m or N."""
     @property
+    def loop_row_names(self) -> list[str]:
+        """Names of the rows of the loop constraints, as in results: the loop, and the number of the row in it, from 1."""
+    @property
+    def loop_force_units(self) -> list[str]:
+        """Units of the multipliers of the loop constraints: N, or N m for a row that aligns directions."""
+    @property
     def link_names(self) -> list[str]:
         """Names of the links."""
     @property
@@ -160,8 +193,8 @@ class Mechanism:
         q: ArrayLike | None = None,
         v: ArrayLike | None = None,
         *,
-        torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None = None,
-        events: Callable[[float, Array, Array], float] | Sequence[Callable[[float, Array, Array], float]] | None = None,
+        torque: Callable[[float, _Array, _Array], ArrayLike] | ArrayLike | None = None,
+        events: Callable[[float, _Array, _Array], float] | Sequence[Callable[[float, _Array, _Array], float]] | None = None,
         integrator: str = "Ode45",
         rtol: float = 1e-6,
         atol: float = 1e-9,

@@ -1,5 +1,6 @@
 //! Functions as C, compiled by the system's compiler, kept in a folder for the next time.
 
+use crate::compiler::{Compiler, unwritten};
 use crate::load::fault;
 use libloading::Library;
 use pyo3::PyErr;
@@ -7,15 +8,11 @@ use redysim_codegen::{CLibrary, c_library};
 use redysim_model::{CodegenOptions, Function, Model, RunTimeParameter};
 use std::env;
 use std::ffi::OsString;
-use std::fs;
-use std::io;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
 
 /// All names in the C code begin with it.
 const PREFIX: &str = "mechanism";
-/// With all instructions of this processor, and products and sums fused where it can.
-const FLAGS: &str = "-std=c99 -O3 -march=native -DREDYSIM_FMA -fno-math-errno";
 
 /// A function of several states: how many there are, where each argument begins, how many numbers it is to the next
 /// state, and where the results go.
@@ -40,13 +37,12 @@ impl Compiled {
     /// # Errors
     /// If the compiler is missing or fails, or the library cannot be written.
     pub fn new(model: &Model, parameters: &[RunTimeParameter], compiler: Option<OsString>) -> Result<Compiled, PyErr> {
-        let compiler = compiler.or_else(|| env::var_os("CC")).unwrap_or_else(|| "cc".into());
-        let version = run(&compiler, Command::new(&compiler).arg("--version"))?;
+        let compiler = Compiler::new(compiler)?;
         let options = CodegenOptions { parameters: parameters.to_vec(), ..CodegenOptions::default() };
         let made = c_library(model, PREFIX, &options);
         let CLibrary { files, functions, given } = made.map_err(|error| fault(&error.to_string(), ""))?;
         let (header, source) = (files.header, files.source);
-        let key = [source.as_bytes(), header.as_bytes(), &version.stdout, FLAGS.as_bytes(), &processor()].concat();
+        let key = [source.as_bytes(), header.as_bytes(), &compiler.key(), &processor()].concat();
         let folder = folder()?;
         let path = folder.join(format!("{PREFIX}-{:032x}{}", hash(&key), env::consts::DLL_SUFFIX));
         if !path.exists() {
@@ -98,7 +94,7 @@ impl Compiled {
 }
 
 /// Compiles the source to the library at `path`, which is there whole or not at all.
-fn compile(compiler: &OsString, folder: &Path, path: &Path, (header, source): (&str, &str)) -> Result<(), PyErr> {
+fn compile(compiler: &Compiler, folder: &Path, path: &Path, (header, source): (&str, &str)) -> Result<(), PyErr> {
     let draft = tempfile::tempdir_in(folder).map_err(|error| unwritten(folder, &error))?;
     let write = |name: &str, text: &str| {
         let path = draft.path().join(name);
@@ -107,24 +103,10 @@ fn compile(compiler: &OsString, folder: &Path, path: &Path, (header, source): (&
     write(&format!("{PREFIX}.h"), header)?;
     let source = write(&format!("{PREFIX}.c"), source)?;
     let library = draft.path().join("library");
-    let mut command = Command::new(compiler);
-    command.args(FLAGS.split(' ')).args(["-fPIC", "-shared", "-o"]).arg(&library).arg(&source).arg("-lm");
-    let Output { status, stderr, .. } = run(compiler, &mut command)?;
-    if !status.success() {
-        let first = String::from_utf8_lossy(&stderr);
-        let first =
-            first.lines().find(|line| line.contains("error")).or(first.lines().next()).unwrap_or_default().to_owned();
-        let message = format!("the C compiler `{}` fails ({status}): {first}", compiler.display());
-        return Err(fault(&message, "gcc 4.9 and clang 6 and later compile it; name one by compile(compiler=...)"));
-    }
-    fs::rename(&library, path).map_err(|error| unwritten(path, &error))
-}
-
-fn run(compiler: &OsString, command: &mut Command) -> Result<Output, PyErr> {
-    command.stdin(Stdio::null()).output().map_err(|error| {
-        let message = format!("the C compiler `{}` cannot be run: {error}", compiler.display());
-        fault(&message, "install one, as by `apt install gcc`, or name another one by compile(compiler=...) or CC")
-    })
+    compiler.compile(&source, &library, folder)?;
+    // Some file systems find only now that there is no room.
+    let written = File::open(&library).and_then(|file| file.sync_all());
+    written.and_then(|()| fs::rename(&library, path)).map_err(|error| unwritten(path, &error))
 }
 
 /// Where libraries are kept.
@@ -150,9 +132,4 @@ fn processor() -> Vec<u8> {
 fn hash(bytes: &[u8]) -> u128 {
     let step = |hash: u128, byte: &u8| (hash ^ u128::from(*byte)).wrapping_mul(0x1_0000_0000_0000_0000_0000_013b);
     bytes.iter().fold(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d, step)
-}
-
-fn unwritten(path: &Path, error: &io::Error) -> PyErr {
-    let message = format!("compiled functions cannot be written to {}: {error}", path.display());
-    fault(&message, "name another folder by the environment variable REDYSIM_CACHE")
 }

@@ -10,23 +10,24 @@ pub fn of(function: Function) -> String {
     let result = signature.result.form();
     text += "\nParameters\n----------\n";
     for argument in signature.arguments {
-        text += &entry(argument.name(), &argument.form());
+        text += &entry(function, argument.name(), &argument.form());
     }
     let out = "What is returned, to be written to: an array of the dtype and the shape of the result, such as an earlier \
                result. It must not overlap an argument.";
     text += &format!("out : numpy.ndarray, optional\n{}\n", wrapped(out, 4));
     let many =
         if signature.arguments.is_empty() { "" } else { " An argument of one state counts for each of k states." };
-    format!("{text}\nReturns\n-------\n{}{}", entry(result.name, &result), wrapped(many.trim(), 0))
+    format!("{text}\nReturns\n-------\n{}{}", entry(function, result.name, &result), wrapped(many.trim(), 0))
         .trim_end()
         .to_owned()
 }
 
 /// A parameter or a result.
-fn entry(name: &str, form: &Form) -> String {
+fn entry(function: Function, name: &str, form: &Form) -> String {
     // The six numbers of a wrench are an axis of the array; parts of a result have names.
     let Some(structure) = form.structure else {
-        return format!("{name} : float64, {}\n{}\n", shapes(form.lengths, ""), wrapped(&sentence(form.what), 4));
+        let what = sentence(&with_units(function, name, form.what));
+        return format!("{name} : float64, {}\n{}\n", shapes(form.lengths, ""), wrapped(&what, 4));
     };
     if name == "wrenches" {
         let what = format!("{}: force (N), then moment about the frame's origin (N m).", form.what);
@@ -37,11 +38,30 @@ fn entry(name: &str, form: &Form) -> String {
         .iter()
         .map(|(part, lengths, what)| {
             let shape = if lengths.is_empty() { String::new() } else { format!(", each {}", shape(lengths, "")) };
-            wrapped(&format!("- `{part}`{shape}: {}", sentence(what)), 4) + "\n"
+            wrapped(&format!("- `{part}`{shape}: {}", sentence(&with_units(function, part, what))), 4) + "\n"
         })
         .collect();
     let what = wrapped(&format!("{}, as a record array with the parts", form.what), 4);
     format!("{name} : numpy.recarray, {}\n{what}\n\n{parts}", shapes(form.lengths, ""))
+}
+
+/// What an argument, a result or a part of one is, with the units where the table leaves them to the function.
+fn with_units(function: Function, name: &str, what: &str) -> String {
+    let units = match (function, name) {
+        (Function::CoordinateRates, "result") => "rad/s or m/s; of components of quaternions 1/s",
+        (Function::Integrate | Function::Neutral, "result") => "rad or m; components of quaternions are dimensionless",
+        (Function::HybridDynamics, "u") => "rad/s² or m/s²; of forces N m or N",
+        (Function::LoopResidual, "result") => "m; dimensionless where it aligns directions",
+        (Function::LoopJacobian, "jacobian") => {
+            "m/rad, or dimensionless for sliding joints; 1/rad or 1/m where it aligns directions"
+        }
+        (Function::LoopBias, "result") => "m/s²; 1/s² where it aligns directions",
+        (Function::FrameJacobians, "linear") => "m/rad, or dimensionless for sliding joints",
+        (Function::FrameJacobians, "angular") => "dimensionless, or rad/m for sliding joints",
+        (_, "rotation") => "dimensionless",
+        _ => return what.to_owned(),
+    };
+    format!("{what} ({units})")
 }
 
 fn sentence(what: &str) -> String {

@@ -2,9 +2,11 @@
 
 mod arrays;
 mod compiled;
+mod compiler;
 mod evaluator;
 mod load;
 mod mechanism;
+mod method;
 mod robots;
 mod scenario;
 mod simulate;

@@ -1,5 +1,7 @@
 //! `redysim.Mechanism`: a model with its functions.
 
+mod names;
+
 use crate::arrays::{self, Input, Inputs, Layout};
 use crate::compiled::{Compiled, Entry};
 use crate::evaluator::{Evaluator, OfRobots};
@@ -12,9 +14,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 use redysim_cli::ModelFile;
-use redysim_model::joint::{LinkJoint, Measure};
 use redysim_model::{CodegenOptions, Function, Model, PublicInterface, Tree};
-use redysim_runtime::function::Dimension;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::ptr;
@@ -184,12 +184,6 @@ fn one_state<'py>(
     Ok(Some(array))
 }
 
-impl Mechanism {
-    fn measures(&self, of: fn(LinkJoint) -> Vec<Measure>) -> impl Iterator<Item = Measure> {
-        self.file.model.moving_links().filter_map(LinkJoint::of).flat_map(of)
-    }
-}
-
 #[pymethods]
 impl Mechanism {
     /// Its name.
@@ -208,36 +202,6 @@ impl Mechanism {
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.file.warnings.clone()
-    }
-
-    /// Number of coordinates.
-    #[getter]
-    fn nq(&self) -> usize {
-        self.interface().size(Dimension::Coordinates)
-    }
-
-    /// Number of velocities.
-    #[getter]
-    fn nv(&self) -> usize {
-        self.interface().size(Dimension::Velocities)
-    }
-
-    /// Number of links.
-    #[getter]
-    fn nl(&self) -> usize {
-        self.interface().size(Dimension::Links)
-    }
-
-    /// Number of rows of the loop constraints.
-    #[getter]
-    fn nc(&self) -> usize {
-        self.interface().size(Dimension::LoopRows)
-    }
-
-    /// Number of frames of interest.
-    #[getter]
-    fn nf(&self) -> usize {
-        self.interface().size(Dimension::Frames)
     }
 
     /// Number of run-time parameters.
@@ -305,60 +269,6 @@ impl Mechanism {
     #[getter]
     fn gravity(&self) -> PyResult<(f64, f64, f64)> {
         Ok(self.one()?.model.gravity.0.into())
-    }
-
-    /// Names of the moving joints.
-    #[getter]
-    fn joint_names(&self) -> Vec<&str> {
-        self.interface().joints.iter().map(|joint| joint.name.as_str()).collect()
-    }
-
-    /// Names of the coordinates; a joint of one coordinate gives it its own name.
-    #[getter]
-    fn coordinate_names(&self) -> Vec<&str> {
-        self.interface().coordinate_names().collect()
-    }
-
-    /// Names of the velocities.
-    #[getter]
-    fn velocity_names(&self) -> Vec<&str> {
-        self.interface().velocity_names().collect()
-    }
-
-    /// Units of the coordinates: rad, m, or 1 for a component of a quaternion.
-    #[getter]
-    fn coordinate_units(&self) -> Vec<&'static str> {
-        self.measures(LinkJoint::coordinate_measures).map(Measure::unit).collect()
-    }
-
-    /// Units of what the velocities change: rad or m.
-    #[getter]
-    fn velocity_units(&self) -> Vec<&'static str> {
-        self.measures(LinkJoint::velocity_measures).map(Measure::unit).collect()
-    }
-
-    /// Units of the joint forces: N m or N.
-    #[getter]
-    fn force_units(&self) -> Vec<&'static str> {
-        self.measures(LinkJoint::velocity_measures).map(Measure::unit_of_force).collect()
-    }
-
-    /// Names of the links.
-    #[getter]
-    fn link_names(&self) -> &[String] {
-        &self.interface().links
-    }
-
-    /// Names of the frames of interest.
-    #[getter]
-    fn frame_names(&self) -> &[String] {
-        &self.interface().frames
-    }
-
-    /// Whether each velocity has an actuator.
-    #[getter]
-    fn actuated(&self) -> Vec<bool> {
-        self.interface().actuated().collect()
     }
 
     /// Writes the functions as C, compiles them by the system's compiler, and has every later call run the compiled code.
@@ -439,7 +349,7 @@ impl Mechanism {
     /// Returns
     /// -------
     /// Motion
-    ///     t, q, v, a, tau, energies and events.
+    ///     t, q, v, a, tau, the multipliers of loops, energies and events.
     ///
     /// Raises
     /// ------

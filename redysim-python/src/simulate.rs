@@ -3,6 +3,7 @@
 use crate::arrays::{Input, Layout};
 use crate::load::fault;
 use crate::mechanism::Mechanism;
+use crate::method::{Method, Task};
 use crate::scenario::PATIENCE;
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -13,32 +14,12 @@ use redysim_runtime::function::Argument;
 use redysim_runtime::integrate::algorithm::Formula;
 use redysim_runtime::integrate::{Direction, ObservedStep, Observer};
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopSimulation, Dop8, Dop853, Event, ForwardDynamics, ForwardSimulation, Gauss4, Gauss6,
-    IntegrationError, Integrator, MechanicalEnergy, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45, Radau5,
-    SemiImplicitEuler, Solution, Step, TorqueLaw,
+    ClosedLoop, ClosedLoopSimulation, Event, ForwardDynamics, ForwardSimulation, IntegrationError, MechanicalEnergy,
+    Occurrence, Ode, Solution, Step, TorqueLaw,
 };
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-
-/// The names of the integrators.
-const FIXED: [&str; 6] = ["SemiImplicitEuler", "Ode4", "Ode5", "Dop8", "Gauss4", "Gauss6"];
-const ADAPTIVE: [&str; 4] = ["Ode45", "Dop853", "Ode15s", "Radau5"];
-
-/// The method of an integration, and its settings.
-#[derive(FromPyObject)]
-pub struct Method {
-    #[pyo3(item)]
-    integrator: String,
-    #[pyo3(item)]
-    rtol: f64,
-    #[pyo3(item)]
-    atol: f64,
-    #[pyo3(item)]
-    max_step: Option<f64>,
-    #[pyo3(item)]
-    step: Option<f64>,
-}
 
 /// The first exception of a function of Python; numbers that it should have given are NaN then, at which the integration
 /// ends.
@@ -93,6 +74,8 @@ struct Rows {
     v: Vec<Vec<f64>>,
     a: Vec<Vec<f64>>,
     tau: Vec<Vec<f64>>,
+    /// Multipliers of the loop constraints; none for a tree.
+    multipliers: Vec<Vec<f64>>,
     /// Kinetic and potential energy, and the work of the joint forces less what is dissipated.
     energy: Vec<Vec<f64>>,
 }
@@ -109,11 +92,11 @@ impl System<'_> {
     fn add(&mut self, mechanism: &GenericMechanism, t: f64, state: &Vec<f64>, rows: &mut Rows) -> PyResult<()> {
         let parts = ForwardSimulation::new(mechanism, ()).split(state);
         let (mut q, mut v, work) = (parts.q, parts.v, parts.actuator_energy);
-        let (tau, a) = match self {
+        let (tau, a, multipliers) = match self {
             System::Tree(simulation) => {
                 let tau = simulation.torque(t, state);
                 let a = mechanism.forward_dynamics(&q, &v, &tau);
-                (tau, a)
+                (tau, a, Vec::new())
             }
             System::Loops(simulation) => {
                 let loops = simulation.loops();
@@ -125,7 +108,7 @@ impl System<'_> {
                 state[..q.len()].copy_from_slice(&q);
                 state[q.len()..q.len() + v.len()].copy_from_slice(&v);
                 let forced = simulation.forced_motion(t, &state).map_err(failed)?;
-                (forced.tau, forced.motion.accelerations)
+                (forced.tau, forced.motion.accelerations, forced.motion.multipliers)
             }
         };
         let energy = mechanism.energy(&q, &v);
@@ -135,6 +118,7 @@ impl System<'_> {
         rows.v.push(v);
         rows.a.push(a);
         rows.tau.push(tau);
+        rows.multipliers.push(multipliers);
         Ok(())
     }
 }
@@ -180,61 +164,6 @@ impl Observer<f64, Vec<f64>> for Keeper<'_> {
             self.states.push((t, state.clone()));
         }
         Ok(self.step(&observed.step()))
-    }
-}
-
-/// What is integrated, by whatever method.
-struct Task<'t, 'e, G> {
-    ode: &'t mut dyn Ode<f64, Vec<f64>>,
-    interval: (f64, f64),
-    start: Vec<f64>,
-    events: &'t mut [Event<'e, f64, Vec<f64>>],
-    keeper: &'t mut Keeper<'e>,
-    on_event: G,
-}
-
-type Solved = Result<Solution<f64, Vec<f64>>, IntegrationError<f64>>;
-
-impl<G: FnMut(Occurrence<'_, f64, Vec<f64>>) -> ControlFlow<()>> Task<'_, '_, G> {
-    fn by(self, method: &impl Integrator<f64>) -> Solved {
-        let Task { ode, interval, start, events, keeper, on_event } = self;
-        method.run_with_events(ode, interval, start, events, keeper, on_event)
-    }
-}
-
-impl Method {
-    /// # Errors
-    /// If the method is unknown, or a setting is missing.
-    fn check(&self) -> PyResult<()> {
-        let name = self.integrator.as_str();
-        let message = match (FIXED.contains(&name), ADAPTIVE.contains(&name), self.step) {
-            (true, _, None) => format!("{name} takes steps of one size: give `step`, s"),
-            (_, true, Some(_)) => format!("{name} chooses its steps: give `max_step` in place of `step`"),
-            (false, false, _) => {
-                format!("integrator must be one of {}, not {name:?}", [&FIXED[..], &ADAPTIVE].concat().join(", "))
-            }
-            _ => return Ok(()),
-        };
-        Err(PyValueError::new_err(message))
-    }
-
-    /// Integrates by the method, which is one of those that [`check`](Self::check) knows.
-    fn run<G: FnMut(Occurrence<'_, f64, Vec<f64>>) -> ControlFlow<()>>(&self, task: Task<'_, '_, G>) -> Solved {
-        let Method { rtol, atol, max_step, step, .. } = *self;
-        let max_step = max_step.unwrap_or(0.1 * (task.interval.1 - task.interval.0).abs());
-        let step = step.unwrap_or(f64::NAN);
-        match self.integrator.as_str() {
-            "SemiImplicitEuler" => task.by(&SemiImplicitEuler::new(step)),
-            "Ode4" => task.by(&Ode4::new(step)),
-            "Ode5" => task.by(&Ode5::new(step)),
-            "Dop8" => task.by(&Dop8::new(step)),
-            "Gauss4" => task.by(&Gauss4::new(step)),
-            "Gauss6" => task.by(&Gauss6::new(step)),
-            "Dop853" => task.by(&Dop853::new().rtol(rtol).atol(atol).max_step(max_step)),
-            "Ode15s" => task.by(&Ode15s::new().rtol(rtol).atol(atol).max_step(max_step)),
-            "Radau5" => task.by(&Radau5::new().rtol(rtol).atol(atol).max_step(max_step)),
-            _ => task.by(&Ode45::new().rtol(rtol).atol(atol).max_step(max_step)),
-        }
     }
 }
 
@@ -384,7 +313,15 @@ fn found<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
     found.set_item("t", PyArray1::from_vec(py, rows.t))?;
-    for (name, rows) in [("q", rows.q), ("v", rows.v), ("a", rows.a), ("tau", rows.tau), ("energy", rows.energy)] {
+    let tables = [
+        ("q", rows.q),
+        ("v", rows.v),
+        ("a", rows.a),
+        ("tau", rows.tau),
+        ("multipliers", rows.multipliers),
+        ("energy", rows.energy),
+    ];
+    for (name, rows) in tables {
         found.set_item(name, PyArray2::from_vec2(py, &rows)?)?;
     }
     let occurrences = occurred.iter().map(|(event, t, state)| {

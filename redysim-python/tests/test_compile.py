@@ -1,6 +1,8 @@
 """Compiled functions: their values, and what can go wrong."""
 
+import contextlib
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -107,6 +109,59 @@ def test_a_compiler_that_fails_is_reported(tmp_path):
     compiler.chmod(0o755)
     with pytest.raises(redysim.RedysimError, match="fails .*: file.c:1: error: no"):
         redysim.load(MODELS / "kr5.toml").compile(compiler=str(compiler))
+
+
+@contextlib.contextmanager
+def no_file_larger(size):
+    """Refuses what would make a file larger, as a disk that is full does."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+# The header of the gripper has 19 kB, the source 126 kB, and what GCC makes of it as assembly some 800 kB.
+@pytest.mark.parametrize(("size", "message"), [
+    (1_000, r"compiled functions cannot be written to .*mechanism\.h: File too large"),
+    (50_000, r"compiled functions cannot be written to .*mechanism\.c: File too large"),
+    (200_000, r"the C compiler `cc` fails \(.*\): .*File too large"),
+], ids=["header", "source", "assembly"])
+def test_a_full_disk_is_one_error_and_leaves_nothing(tmp_path, monkeypatch, size, message):
+    cache, temporary = tmp_path / "cache", tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setenv("REDYSIM_CACHE", str(cache))
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    robot = redysim.load(MODELS / "gripper.toml")
+    with no_file_larger(size), pytest.raises(redysim.RedysimError, match=message) as error:
+        robot.compile()
+    text = str(error.value)
+    assert text.count("error: ") == 1 + text.count("fatal error: ") and "= help: make room" in text
+    assert "REDYSIM_CACHE" in text and ("TMPDIR" in text) == ("the C compiler" in text)
+    assert list(cache.iterdir()) == list(temporary.iterdir()) == [] and not robot.is_compiled
+    robot.compile()
+    assert robot.is_compiled and list(cache.iterdir()) == [robot.library]
+
+
+@pytest.mark.parametrize("reason", ["No space left on device", "File too large", "Disk quota exceeded"])
+def test_a_linker_without_room_is_reported_by_its_reason(tmp_path, monkeypatch, reason):
+    monkeypatch.setenv("REDYSIM_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("TMPDIR", "/a/folder/for/temporary/files")
+    compiler = tmp_path / "cc"
+    # It leaves a part of the library, and the last line has the word "error".
+    compiler.write_text(f"""#!/bin/sh
+[ "$1" = --version ] && exit 0
+while [ $# -gt 1 ]; do [ "$1" = -o ] && echo part > "$2"; shift; done
+echo "/usr/bin/ld: final link failed: {reason}" >&2
+echo "collect2: error: ld returned 1 exit status" >&2
+exit 1
+""")
+    compiler.chmod(0o755)
+    with pytest.raises(redysim.RedysimError, match=f"fails .*: /usr/bin/ld: final link failed: {reason}\n.*help: make room") as error:
+        redysim.load(MODELS / "gripper.toml").compile(compiler=str(compiler))
+    assert str(tmp_path / "cache") in str(error.value) and "in /a/folder/for/temporary/files" in str(error.value)
+    assert list((tmp_path / "cache").iterdir()) == []
 
 
 def test_a_file_that_has_changed_is_reported(tmp_path):

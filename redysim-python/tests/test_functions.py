@@ -1,5 +1,6 @@
 """Functions over arrays: shapes, dtypes, memory, and faults of arguments."""
 
+import re
 import threading
 import time
 
@@ -114,24 +115,22 @@ def test_hybrid_dynamics_give_what_forward_dynamics_give(rng):
     np.testing.assert_array_equal(motion.tau[~actuated], u[~actuated])
 
 
-def test_other_threads_run_during_a_call(kr5, rng):
-    xs = states(kr5, rng, (200_000,))
-    running = threading.Event()
-    during = []
-
-    def compute():
-        running.set()
-        kr5.forward_dynamics(*xs)
-        running.clear()
-
-    worker = threading.Thread(target=compute)
+@pytest.mark.parametrize(("is_compiled", "count"), [(False, 200_000), (True, 4_000_000)], ids=["recursions", "compiled"])
+def test_other_threads_run_during_a_call(kr5, rng, monkeypatch, tmp_path, is_compiled, count):
+    if is_compiled:
+        monkeypatch.setenv("REDYSIM_CACHE", str(tmp_path))
+        kr5.compile()
+    q, v, _ = states(kr5, rng)
+    # The call takes at least some 50 ms, of which a thread that runs beside it counts the milliseconds.
+    tau = rng.uniform(-1, 1, (count, 6))
+    out = np.zeros_like(tau)
+    worker = threading.Thread(target=kr5.forward_dynamics, args=(q, v, tau), kwargs={"out": out})
+    during = 0
     worker.start()
-    running.wait()
-    while running.is_set():
-        during.append(time.perf_counter())
+    while worker.is_alive():
+        during += 1
         time.sleep(0.001)
-    worker.join()
-    assert len(during) > 10
+    assert during > 10 and out[-1].any()
 
 
 FAULTS = {
@@ -177,10 +176,30 @@ def test_out_must_not_overlap_an_argument(kr5):
         kr5.gravity_forces(q, out=q)
 
 
-def test_every_function_has_a_docstring_with_shapes_and_units():
-    for name, arguments, _ in FUNCTIONS:
-        text = getattr(redysim.Mechanism, name).__doc__
-        assert "Returns\n-------" in text
-        for argument in arguments:
-            assert f"\n{argument} : float64, (" in text
-        assert all(len(line) <= 100 for line in text.splitlines())
+UNIT = re.compile(
+    r"\b(rad|m|kg m²|kg m|kg|N m s|N s|N m|N|J|W)(/s²|/s|/rad|/m)?(?=[.,;)]| or | and )|\b1/(s²|s|rad|m)|dimensionless"
+)
+
+
+def described(text):
+    """What a docstring tells of each argument and of each result, or of each part of it, without the lines on shapes."""
+    names = r"\n(?=\w+ : |(?: {4})- `|An argument of one state)"
+    sections = text[text.index("Parameters\n---") :].replace("\n\nReturns\n-------", "")
+    for entry in re.split(names, sections)[1:]:
+        name, _, what = entry.strip().partition("\n" if " : " in entry.split("\n")[0] else ":")
+        if "recarray" not in name and not name.startswith(("out", "An argument")):
+            yield name, " ".join(what.split())
+
+
+@pytest.mark.parametrize(("name", "arguments", "record"), FUNCTIONS)
+def test_every_function_has_a_docstring_with_shapes_and_units(name, arguments, record):
+    text = getattr(redysim.Mechanism, name).__doc__
+    assert "Returns\n-------" in text
+    for argument in arguments:
+        assert f"\n{argument} : float64, (" in text
+    assert all(len(line) <= 100 for line in text.splitlines())
+    entries = list(described(text))
+    # Of a record each part.
+    assert len(entries) == len(arguments) + (text.count("\n    - `") if record else 1)
+    for entry, what in entries:
+        assert UNIT.search(what), f"{entry}: {what}"

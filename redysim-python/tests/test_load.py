@@ -69,6 +69,13 @@ def test_the_stubs_are_those_of_the_package():
     assert TARGET.read_text(encoding="utf-8") == stubs(), "run redysim-python/stubs.py"
 
 
+def test_the_stubs_have_what_the_package_has(tmp_path):
+    # In a folder of its own, where the cache of mypy is.
+    command = [sys.executable, "-m", "mypy.stubtest", "redysim._core"]
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert run.returncode == 0, run.stdout + run.stderr
+
+
 def test_the_version_is_that_of_redysim():
     manifest = (HERE.parent / "Cargo.toml").read_text(encoding="utf-8")
     assert f'version = "{redysim.__version__}"' in manifest

@@ -1,14 +1,34 @@
 from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, final, type_check_only
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._results import Motion
 
-Array = NDArray[np.float64]
+__all__ = [
+    "ModelWarning",
+    "RedysimError",
+    "load",
+    "restored",
+    "Mechanism",
+    "compute",
+    "page",
+    "read_results",
+    "runs_of_scenario",
+    "simulate",
+    "Rows",
+    "Sampler",
+    "Study",
+    "table_of_functions",
+    "__version__",
+]
+
+_Array = NDArray[np.float64]
+# Within `Mechanism`, np is the number of run-time parameters.
+_Out = NDArray[Any]
 
 __version__: str
 
@@ -24,6 +44,9 @@ def load(
     """Reads a model file (TOML) or a URDF, with run-time parameters such as "gravity", "tool.mass" or
     "joint2.damping"; by default those of the file."""
 
+def restored(
+    source: tuple[bytes, str | PathLike[str], bool, Sequence[str] | None], values: ArrayLike | None, compiled: bool
+) -> Mechanism: ...
 def table_of_functions() -> list[tuple[str, list[str], str | None]]: ...
 def runs_of_scenario(path: str | PathLike[str]) -> list[str]: ...
 def compute(path: str | PathLike[str], dynamics: str, folder: str | PathLike[str], force: bool) -> dict[str, Any]: ...
@@ -33,11 +56,12 @@ def simulate(
     owner: Mechanism,
     times: list[float],
     start: tuple[ArrayLike, ArrayLike],
-    torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None,
-    events: list[tuple[Callable[[float, Array, Array], float], float, bool]],
+    torque: Callable[[float, _Array, _Array], ArrayLike] | ArrayLike | None,
+    events: list[tuple[Callable[[float, _Array, _Array], float], float, bool]],
     method: dict[str, Any],
 ) -> dict[str, Any]: ...
 
+@final
 class Study:
     """A study: a scenario, and the values of each sample at paths into it."""
 
@@ -53,61 +77,72 @@ class Study:
     def sample(self, index: int) -> str: ...
     def __len__(self) -> int: ...
 
+@final
 class Sampler:
     """Computes the rows of samples."""
 
-    def __init__(self, text: str) -> None: ...
+    def __new__(cls, text: str) -> Sampler: ...
     def row(self, sample: str) -> tuple[int, str] | None: ...
     def failed_row(self, sample: str, reason: str) -> str: ...
 
+@final
 class Rows:
     """The rows of a study in its folder."""
 
     path: Path
-    def __init__(self, folder: str | PathLike[str], study: Study, force: bool) -> None: ...
+    def __new__(cls, folder: str | PathLike[str], study: Study, force: bool) -> Rows: ...
     def missing(self) -> list[int]: ...
     def add(self, index: int, row: str) -> None: ...
     def finish(self) -> None: ...
     def close(self) -> None: ...
     def __len__(self) -> int: ...
 
+@type_check_only
 class Energy(np.recarray):
-    kinetic: Array
-    potential: Array
+    kinetic: _Array
+    potential: _Array
 
+@type_check_only
 class CenterOfMass(np.recarray):
-    position: Array
-    velocity: Array
+    position: _Array
+    velocity: _Array
 
+@type_check_only
 class Momentum(np.recarray):
-    linear: Array
-    angular: Array
+    linear: _Array
+    angular: _Array
 
+@type_check_only
 class HybridMotion(np.recarray):
-    a: Array
-    tau: Array
+    a: _Array
+    tau: _Array
 
+@type_check_only
 class LinkState(np.recarray):
-    rotation: Array
-    origin: Array
-    com: Array
-    velocity: Array
-    angular_velocity: Array
+    rotation: _Array
+    origin: _Array
+    com: _Array
+    velocity: _Array
+    angular_velocity: _Array
 
+@type_check_only
 class FrameState(np.recarray):
-    rotation: Array
-    origin: Array
-    velocity: Array
-    angular_velocity: Array
+    rotation: _Array
+    origin: _Array
+    velocity: _Array
+    angular_velocity: _Array
 
+@type_check_only
 class FrameJacobian(np.recarray):
-    linear: Array
-    angular: Array
+    linear: _Array
+    angular: _Array
 
+@type_check_only
 class FrameAcceleration(np.recarray):
-    linear: Array
-    angular: Array
+    linear: _Array
+    angular: _Array
 
+@final
 class Mechanism:
     """A mechanism that was read from a model file or a URDF: names, sizes and functions."""
 
@@ -141,7 +176,7 @@ class Mechanism:
     def parameter_names(self) -> list[str]:
         """Names of the run-time parameters."""
     @property
-    def parameters(self) -> Array:
+    def parameters(self) -> _Array:
         """Values of the run-time parameters, (np,), or (k, np) of k robots."""
     def with_parameters(self, parameters: ArrayLike | dict[str, ArrayLike]) -> Mechanism:
         """The mechanism with other values of its run-time parameters, (np,), or (k, np) of k robots, each of
@@ -171,6 +206,12 @@ class Mechanism:
     def force_units(self) -> list[str]:
         """Units of the joint forces: N m or N."""
     @property
+    def loop_row_names(self) -> list[str]:
+        """Names of the rows of the loop constraints, as in results: the loop, and the number of the row in it, from 1."""
+    @property
+    def loop_force_units(self) -> list[str]:
+        """Units of the multipliers of the loop constraints: N, or N m for a row that aligns directions."""
+    @property
     def link_names(self) -> list[str]:
         """Names of the links."""
     @property
@@ -196,8 +237,8 @@ class Mechanism:
         q: ArrayLike | None = None,
         v: ArrayLike | None = None,
         *,
-        torque: Callable[[float, Array, Array], ArrayLike] | ArrayLike | None = None,
-        events: Callable[[float, Array, Array], float] | Sequence[Callable[[float, Array, Array], float]] | None = None,
+        torque: Callable[[float, _Array, _Array], ArrayLike] | ArrayLike | None = None,
+        events: Callable[[float, _Array, _Array], float] | Sequence[Callable[[float, _Array, _Array], float]] | None = None,
         integrator: str = "Ode45",
         rtol: float = 1e-6,
         atol: float = 1e-9,
@@ -209,7 +250,7 @@ class Mechanism:
         """The model as the text of a model file."""
     def page(self) -> str:
         """The page of HTML that shows the model in 3D and moves its joints by sliders, as `redysim show` makes it."""
-    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, out: _Out | None = None) -> _Array:
         """τ = M(q) a + bias(q, v), N m or N: the joint forces of the tree.
 
         Parameters
@@ -231,7 +272,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, tau: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, tau: ArrayLike, *, out: _Out | None = None) -> _Array:
         """a = M(q)⁻¹ (τ − bias(q, v)), rad/s² or m/s²: the accelerations of the tree.
 
         Parameters
@@ -253,7 +294,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def mass_matrix(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def mass_matrix(self, q: ArrayLike, *, out: _Out | None = None) -> _Array:
         """M(q), the generalised inertia matrix, symmetric: kg m², kg m or kg.
 
         Parameters
@@ -271,7 +312,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def bias_forces(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def bias_forces(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> _Array:
         """C(q, v) v + g(q) and the passive forces, N m or N: the joint forces at zero
         acceleration.
 
@@ -292,7 +333,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> _Array:
         """C(q, v) of the Christoffel symbols: C v are the joint forces of the velocities, without
         gravity and passive forces; Ṁ − 2 C is skew-symmetric.
 
@@ -313,7 +354,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def gravity_forces(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def gravity_forces(self, q: ArrayLike, *, out: _Out | None = None) -> _Array:
         """g(q), N m or N: the joint forces of gravity alone, at rest.
 
         Parameters
@@ -331,7 +372,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def passive_forces(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def passive_forces(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> _Array:
         """The part of the bias that damping, friction and springs take, N m or N.
 
         Parameters
@@ -351,7 +392,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def energy(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Energy:
+    def energy(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> Energy:
         """Kinetic and potential energy, J, with those of rotors and springs; the potential of
         gravity is zero at the base frame's origin.
 
@@ -376,7 +417,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def center_of_mass(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> CenterOfMass:
+    def center_of_mass(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> CenterOfMass:
         """Position (m) and velocity (m/s) of the centre of mass of all links, in the base frame.
 
         Parameters
@@ -399,7 +440,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def momentum(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Momentum:
+    def momentum(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> Momentum:
         """Linear momentum (N s) and angular momentum about the centre of mass (N m s) of all
         links, in the axes of the base frame.
 
@@ -423,7 +464,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def hybrid_dynamics(self, q: ArrayLike, v: ArrayLike, u: ArrayLike, *, out: np.ndarray | None = None) -> HybridMotion:
+    def hybrid_dynamics(self, q: ArrayLike, v: ArrayLike, u: ArrayLike, *, out: _Out | None = None) -> HybridMotion:
         """Accelerations and joint forces where u is given: the acceleration of a velocity whose
         joint has an actuator, else its force.
 
@@ -434,7 +475,8 @@ class Mechanism:
         v : float64, (nv,) or (k, nv)
             Joint velocities, rad/s or m/s.
         u : float64, (nv,) or (k, nv)
-            Of each velocity with an actuator its acceleration, of the others the joint force.
+            Of each velocity with an actuator its acceleration, of the others the joint force
+            (rad/s² or m/s²; of forces N m or N).
         out : numpy.ndarray, optional
             What is returned, to be written to: an array of the dtype and the shape of the
             result, such as an earlier result. It must not overlap an argument.
@@ -449,7 +491,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def link_kinematics(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> LinkState:
+    def link_kinematics(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> LinkState:
         """Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity
         (rad/s) of every link, in the base frame.
 
@@ -468,7 +510,8 @@ class Mechanism:
         links : numpy.recarray, (nl,) or (k, nl)
             Position and velocity of each link, as a record array with the parts
 
-            - `rotation`, each (3, 3): The link's axes as columns: rotation[row][column].
+            - `rotation`, each (3, 3): The link's axes as columns: rotation[row][column]
+              (dimensionless).
             - `origin`, each (3,): Origin of the link's frame, m.
             - `com`, each (3,): Centre of mass, m.
             - `velocity`, each (3,): Velocity of the origin, m/s.
@@ -476,7 +519,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def frame_kinematics(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> FrameState:
+    def frame_kinematics(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> FrameState:
         """Rotation, origin, velocity of the origin (m/s) and angular velocity (rad/s) of every
         frame of interest, in the base frame.
 
@@ -495,14 +538,15 @@ class Mechanism:
         frames : numpy.recarray, (nf,) or (k, nf)
             Position and velocity of each frame of interest, as a record array with the parts
 
-            - `rotation`, each (3, 3): The frame's axes as columns: rotation[row][column].
+            - `rotation`, each (3, 3): The frame's axes as columns: rotation[row][column]
+              (dimensionless).
             - `origin`, each (3,): m.
             - `velocity`, each (3,): Velocity of the origin, m/s.
             - `angular_velocity`, each (3,): rad/s.
         An argument of one state counts for each of k states.
         """
 
-    def frame_jacobians(self, q: ArrayLike, *, out: np.ndarray | None = None) -> FrameJacobian:
+    def frame_jacobians(self, q: ArrayLike, *, out: _Out | None = None) -> FrameJacobian:
         """J(q) of every frame of interest, in the axes of the base frame: the velocity of its
         origin is linear · v, its angular velocity angular · v.
 
@@ -519,12 +563,14 @@ class Mechanism:
         jacobians : numpy.recarray, (nf,) or (k, nf)
             The Jacobian of each frame of interest, as a record array with the parts
 
-            - `linear`, each (3, nv): linear · v is the velocity of the frame's origin.
-            - `angular`, each (3, nv): angular · v is its angular velocity.
+            - `linear`, each (3, nv): linear · v is the velocity of the frame's origin (m/rad,
+              or dimensionless for sliding joints).
+            - `angular`, each (3, nv): angular · v is its angular velocity (dimensionless, or
+              rad/m for sliding joints).
         An argument of one state counts for each of k states.
         """
 
-    def frame_bias(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> FrameAcceleration:
+    def frame_bias(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> FrameAcceleration:
         """J̇ v of every frame of interest: the acceleration of its origin (m/s²) and its angular
         acceleration (rad/s²) at zero joint accelerations, in the base frame.
 
@@ -548,7 +594,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def frame_forces(self, q: ArrayLike, wrenches: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def frame_forces(self, q: ArrayLike, wrenches: ArrayLike, *, out: _Out | None = None) -> _Array:
         """Σ Jᵀ w, N m or N: the joint forces that do the same work as wrenches on the mechanism at
         the origins of its frames, in the axes of the base frame.
 
@@ -570,7 +616,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def loop_residual(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def loop_residual(self, q: ArrayLike, *, out: _Out | None = None) -> _Array:
         """How far the loops are from closed: of each cut, the point of side b minus the point of
         side a in the base frame, m, then what aligns directions, sines.
 
@@ -585,11 +631,12 @@ class Mechanism:
         Returns
         -------
         result : float64, (nc,) or (k, nc)
-            A number for each row of the loop constraints.
+            A number for each row of the loop constraints (m; dimensionless where it aligns
+            directions).
         An argument of one state counts for each of k states.
         """
 
-    def loop_jacobian(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def loop_jacobian(self, q: ArrayLike, *, out: _Out | None = None) -> _Array:
         """J(q), by rows: the residual of the loops changes at the rates J v.
 
         Parameters
@@ -603,11 +650,12 @@ class Mechanism:
         Returns
         -------
         jacobian : float64, (nc, nv) or (k, nc, nv)
-            The Jacobian by rows.
+            The Jacobian by rows (m/rad, or dimensionless for sliding joints; 1/rad or 1/m where
+            it aligns directions).
         An argument of one state counts for each of k states.
         """
 
-    def loop_bias(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def loop_bias(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> _Array:
         """J̇ v: the second derivative of the residual of the loops at zero joint accelerations.
 
         Parameters
@@ -623,11 +671,12 @@ class Mechanism:
         Returns
         -------
         result : float64, (nc,) or (k, nc)
-            A number for each row of the loop constraints.
+            A number for each row of the loop constraints (m/s²; 1/s² where it aligns
+            directions).
         An argument of one state counts for each of k states.
         """
 
-    def coordinate_rates(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def coordinate_rates(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> _Array:
         """q̇ = N(q) v, rad/s or m/s: the rates of the coordinates.
 
         Parameters
@@ -643,11 +692,11 @@ class Mechanism:
         Returns
         -------
         result : float64, (nq,) or (k, nq)
-            Joint coordinates, or their rates.
+            Joint coordinates, or their rates (rad/s or m/s; of components of quaternions 1/s).
         An argument of one state counts for each of k states.
         """
 
-    def integrate(self, q: ArrayLike, dv: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def integrate(self, q: ArrayLike, dv: ArrayLike, *, out: _Out | None = None) -> _Array:
         """q ⊞ dv, rad or m: the coordinates that the velocities dv, constant over a unit of time,
         lead to from q.
 
@@ -664,11 +713,12 @@ class Mechanism:
         Returns
         -------
         result : float64, (nq,) or (k, nq)
-            Joint coordinates, or their rates.
+            Joint coordinates, or their rates (rad or m; components of quaternions are
+            dimensionless).
         An argument of one state counts for each of k states.
         """
 
-    def difference(self, q0: ArrayLike, q1: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def difference(self, q0: ArrayLike, q1: ArrayLike, *, out: _Out | None = None) -> _Array:
         """q₁ ⊟ q₀, rad or m: the velocities that lead from q0 to q1 in a unit of time, the inverse
         of `integrate`.
 
@@ -689,7 +739,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def dissipated_power(self, q: ArrayLike, v: ArrayLike, *, out: np.ndarray | None = None) -> Array:
+    def dissipated_power(self, q: ArrayLike, v: ArrayLike, *, out: _Out | None = None) -> _Array:
         """The power that damping and friction take, W; never negative.
 
         Parameters
@@ -709,7 +759,7 @@ class Mechanism:
         An argument of one state counts for each of k states.
         """
 
-    def neutral(self, *, out: np.ndarray | None = None) -> Array:
+    def neutral(self, *, out: _Out | None = None) -> _Array:
         """The coordinates at which every joint is at its zero position, rad or m.
 
         Parameters
@@ -721,6 +771,7 @@ class Mechanism:
         Returns
         -------
         result : float64, (nq,) or (k, nq)
-            Joint coordinates, or their rates.
+            Joint coordinates, or their rates (rad or m; components of quaternions are
+            dimensionless).
         """
 

@@ -92,6 +92,13 @@ class Recording:
         """Joint forces, (m, nv), N m or N."""
         return self.tables["tor"].values
 
+    @property
+    def multipliers(self) -> NDArray:
+        """Multipliers λ of the loop constraints, (m, nc), N, or N m for a row that aligns directions:
+        M a + h = τ + Jᵀ λ, where h is `bias_forces` and J `loop_jacobian`. Closed loops have a table `lambda`
+        with their names, those of `Mechanism.loop_row_names`: the loop, and the number of the row in it."""
+        return self.tables["lambda"].values if "lambda" in self.tables else np.empty((len(self.t), 0))
+
     def to_pandas(self) -> pandas.DataFrame:
         """Motion, joint forces and energy as one data frame over t."""
         import pandas
@@ -216,6 +223,9 @@ class Motion(Recording):
             "tor": Table(t, forces, found["tau"]),
             "energy": Table(t, names, energies),
         }
+        if mechanism.nc > 0:
+            rows = [("lambda", *row) for row in zip(mechanism.loop_row_names, mechanism.loop_force_units)]
+            self.tables["lambda"] = Table(t, rows, found["multipliers"])
 
     def page(self) -> str:
         with tempfile.TemporaryDirectory(prefix="redysim-") as folder:

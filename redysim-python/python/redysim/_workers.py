@@ -125,20 +125,26 @@ class Dask(Given):
 
 
 class Ray(Given):
-    """A cluster of Ray, which has what a dead worker leaves computed by others, too."""
+    """A cluster of Ray, which has what a dead worker leaves computed by others, too, and reports it as lost after the
+    fourth that it was on."""
+
+    LOSSES = ("NodeDiedError", "ObjectLostError", "OutOfMemoryError", "WorkerCrashedError")
+    """What it reports where a worker or its machine has died, or where rows are lost with the machine that had them."""
 
     def __init__(self, ray):
         super().__init__(ray)
         self.remote = ray.remote(run_samples)
+        self.losses = tuple(getattr(ray.exceptions, name) for name in self.LOSSES if hasattr(ray.exceptions, name))
 
     def slots(self) -> int:
-        return 2 * int(self.executor.cluster_resources().get("CPU", 1))
+        # As long as no machine is there, the cluster has no entry for its processors, or none of them.
+        return 2 * max(int(self.executor.cluster_resources().get("CPU", 0)), 1)
 
     def submit(self, _, *arguments) -> Future:
         return self.remote.remote(*arguments).future()
 
     def is_loss(self, error: BaseException) -> bool:
-        return isinstance(error, self.executor.exceptions.WorkerCrashedError)
+        return isinstance(error, self.losses)
 
 
 def workers(executor, jobs: int | None):

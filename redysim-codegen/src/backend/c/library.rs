@@ -1,7 +1,8 @@
 //! Functions of many states, for a library that is compiled where it runs: several states at a time in the lanes of vectors.
 //!
 //! They need GCC or Clang, whose vector extensions write a function over lanes as over numbers. The code for one state beside
-//! them is that of [`c_files`](super::c_files).
+//! them is that of [`c_files`](super::c_files). The command line of GCC can keep it to vectors of 256 bits; lanes have those of 512
+//! also then.
 
 use super::body::{COSINES, GIVEN, SINES};
 use super::comment::statement;

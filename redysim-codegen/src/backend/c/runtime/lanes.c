@@ -17,6 +17,14 @@
 #include <arm_neon.h>
 #endif
 
+/*
+ * From here to the end, vectors have what bits there are, also where the command line keeps GCC's code for one state to 256 of
+ * them (-mprefer-vector-width=256).
+ */
+#if defined(__AVX512F__) && defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
+#pragma GCC target("prefer-vector-width=none")
+#endif
+
 typedef double redysim_lanes __attribute__((vector_size(8 * REDYSIM_LANES)));
 typedef uint64_t redysim_lanes_bits __attribute__((vector_size(8 * REDYSIM_LANES)));
 typedef union {
