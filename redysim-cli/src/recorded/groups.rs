@@ -88,7 +88,7 @@ impl Groups {
         if on_branches.iter().map(|&link| model.links[link].dof()).sum::<usize>() <= MOST {
             tie(&mut cluster, &links, &on_branches);
         }
-        let mut clusters: Vec<(usize, Vec<(usize, Vec<Joint>)>)> = Vec::new();
+        let mut clusters: Ordered<Ordered<Vec<Joint>>> = Vec::new();
         for (index, joint) in layout.joints.iter().enumerate() {
             let names = |components: &[crate::layout::Component]| -> Vec<(String, usize)> {
                 components.iter().map(|component| component.name.clone()).zip(0..).collect()
@@ -112,8 +112,11 @@ impl Joint {
     }
 }
 
-/// What stands under a key in the order of insertion, or nothing yet.
-fn entry<T: Default>(all: &mut Vec<(usize, T)>, key: usize) -> &mut T {
+/// Values by key, in the order of insertion.
+type Ordered<T> = Vec<(usize, T)>;
+
+/// The value of a key, which is inserted if it is missing.
+fn entry<T: Default>(all: &mut Ordered<T>, key: usize) -> &mut T {
     let index = all.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
         all.push((key, T::default()));
         all.len() - 1
