@@ -36,10 +36,10 @@ fn tests() -> Vec<(String, String)> {
 fn what_a_debug_build_leaves_out_runs_in_release_or_natively() {
     let script = read(".ci/run").replace("\\\n", " ");
     let command = |start: &str, end: &str| {
-        let found = script.lines().find_map(|line| line.strip_prefix(start)?.strip_suffix(end));
+        let found = script.lines().find_map(|line| line.split_once(start)?.1.strip_suffix(end));
         found.unwrap_or_else(|| panic!("`{start} ..{end}`, with all tests of its programs")).split_whitespace()
     };
-    let release: Vec<&str> = command("step cargo test --release --workspace ", "").collect();
+    let release: Vec<&str> = command("cargo test --release --workspace ", "").collect();
     assert!(!release.contains(&"--"), "all tests of a program: {release:?}");
     let words: Vec<&str> =
         release.into_iter().chain(command("native cargo test ", " -- --ignored c:: --skip deterministic::")).collect();
