@@ -67,7 +67,8 @@ def _head(runs: list[dict]) -> list[str]:
         if not any(ours):
             continue
         against = [_ratios(times, peers) for peers in (["cppadcodegen", "casadi"], ["pinocchio"])]
-        rows.append([f"[{title(run)}](#{_anchor(title(run))})", " / ".join(map(nanoseconds, ours)), *against])
+        name = f"[{title(run)}](#{_anchor(title(run))})" + (f", {run['remark']}" if "remark" in run else "")
+        rows.append([name, " / ".join(map(nanoseconds, ours)), *against])
     header = [
         "KR5: inverse dynamics / forward dynamics / mass matrix",
         "redysim, f64, native, ns",
