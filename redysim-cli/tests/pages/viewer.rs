@@ -5,7 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::common::{model, results, robot, scratch, shipped, slide, succeed, swing, turn};
+use redysim_model::{GenericMechanism, Model};
+use redysim_runtime::{Frames, Mechanism};
+
+use crate::common::{Table, model, results, robot, scratch, shipped, slide, succeed, swing, turn};
 
 /// Makes the page of the results in `folder` and has `viewer/test.mjs` look at it, and hold it against the results of
 /// the same motion at more instants if there are.
@@ -134,9 +137,9 @@ fn the_page_moves_a_spherical_pendulum_as_its_kinematics() {
     plays(&coarse, Some(&run("spherical_pendulum_finer", "spherical_pendulum.toml", initial, 1400)));
 }
 
-/// The results of a shipped scenario.
-fn run_of(name: &str) -> PathBuf {
-    let folder = folder(&format!("camera_{name}"));
+/// The results of a shipped scenario, in a folder for one test.
+fn run_of(name: &str, test: &str) -> PathBuf {
+    let folder = folder(&format!("{test}_{name}"));
     succeed(&folder, &["forward", &shipped(name), "-o", "run", "--force", "--quiet"]);
     folder.join("run")
 }
@@ -144,7 +147,7 @@ fn run_of(name: &str) -> PathBuf {
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_camera_follows_a_trunk_that_trots_over_the_ground() {
-    let run = run_of("quadruped");
+    let run = run_of("quadruped", "camera");
     films(&run, &[], ["follow", "trunk", "y"]);
     films(&run, &["--camera", "fixed"], ["fixed", "trunk", "y"]);
     films(&run, &["--camera", "follow"], ["follow", "trunk", "y"]);
@@ -153,7 +156,7 @@ fn the_camera_follows_a_trunk_that_trots_over_the_ground() {
 #[test]
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_camera_follows_a_platform_in_the_air_on_request_in_all_directions() {
-    let run = run_of("kr5_floating");
+    let run = run_of("kr5_floating", "camera");
     films(&run, &[], ["fixed", "platform", "none"]);
     films(&run, &["--camera", "follow"], ["follow", "platform", "none"]);
 }
@@ -162,4 +165,30 @@ fn the_camera_follows_a_platform_in_the_air_on_request_in_all_directions() {
 #[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
 fn the_camera_has_nothing_to_follow_where_the_base_is_fixed() {
     films(&swing(&folder("camera_kr5"), "kr5.toml", 6, 4.0, 100), &[], ["none", "link1", "none"]);
+}
+
+/// Writes the places of the frames of the model `name` in each row of a run of it to `points.csv`.
+fn write_points(run: &Path, name: &str) {
+    let mechanism = GenericMechanism::new(Model::load(model(&format!("{name}.toml"))).unwrap().model);
+    let frames = mechanism.model().frames.iter();
+    let headers = frames.flat_map(|frame| ["x", "y", "z"].map(|axis| format!(",{axis} {} [m]", frame.name)));
+    let mut points = format!("t [s]{}\n", headers.collect::<String>());
+    for row in Table::csv(&run.join("statevar.csv")).rows {
+        let (q, v) = (row[1..=mechanism.nq()].to_vec(), vec![0.0; mechanism.nv()]);
+        let numbers = mechanism.frame_kinematics(&q, &v).into_iter().flat_map(|state| state.origin);
+        let numbers = numbers.map(|number| format!(",{number:?}")).collect::<String>();
+        points += &format!("{}{numbers}\n", row[0]);
+    }
+    fs::write(run.join("points.csv"), points).unwrap();
+}
+
+#[test]
+#[ignore = "needs node and Chromium: run redysim-cli/viewer/check"]
+fn the_page_draws_forces_of_the_ground_at_the_feet_and_footprints_where_they_touch_down() {
+    for (name, normal) in [("quadruped", "y"), ("parcel", "z")] {
+        let run = run_of(name, "contacts");
+        write_points(&run, name);
+        succeed(&run, &["animate", ".", "--force"]);
+        node("contacts.mjs", &run, [normal]);
+    }
 }

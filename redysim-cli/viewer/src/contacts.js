@@ -46,6 +46,19 @@ export class Contacts {
     });
     for (const { time: begun, mark } of this.footprints) mark.visible = begun <= time;
   }
+
+  /** What is drawn, in the base frame, m: start and tip of the arrow of each place, null where there is none, and the places
+   * of the footprints. */
+  drawn() {
+    const at = (object) => object.getWorldPosition(new Vector3()).toArray();
+    const arrows = this.arrows.map((arrow) => (isSeen(arrow) ? { start: at(arrow), tip: at(arrow.cone) } : null));
+    return { arrows, footprints: this.footprints.filter(({ mark }) => isSeen(mark)).map(({ mark }) => at(mark)) };
+  }
+}
+
+/** Whether an object is in a scene and visible there. */
+function isSeen({ visible, parent, isScene }) {
+  return visible && (isScene || (parent !== null && isSeen(parent)));
 }
 
 /** An arrow that no limb hides, for it lies along the one that it acts on. */

@@ -54,6 +54,8 @@ window.redysim = Object.defineProperties(
     links: () => data.bodies.slice(1).map(drawn),
     /** Body and corners in the base frame, m, of the box around each mesh. */
     meshes: () => (stage?.mechanism.layers.meshes ?? []).map(boxed),
+    /** Arrows of contact forces and footprints, in the base frame, m, as they are drawn. */
+    contacts: () => stage?.contacts?.drawn(),
     /** What is drawn, as the address of a PNG, and the names over it. */
     picture: () => stage.picture(),
     /** Where the camera is, m. */

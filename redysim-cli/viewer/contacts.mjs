@@ -1,0 +1,99 @@
+// Plays the page `animation.html` of a results folder in headless Chromium, and holds the arrows of the forces of the ground and
+// the footprints against `contacts.csv`: node contacts.mjs FOLDER NORMAL, where NORMAL is x, y or z, the outward normal of
+// ground through the origin, and the table `points.csv` of the folder has the places of the frames in contact.
+
+import assert from "node:assert/strict";
+import { join, resolve } from "node:path";
+import { drag, GL, inBrowser } from "./browser.mjs";
+import { table } from "./table.mjs";
+
+/** Positions are sums of a few numbers of some metres. */
+const TOLERANCE = 1e-9;
+/** The page has forces in single precision. */
+const SINGLE = 1e-6;
+/** An arrow of three.js that is so close to y is drawn along it. */
+const ALONG_Y = 0.99999;
+
+const folder = resolve(process.argv[2]);
+const normal = "xyz".indexOf(process.argv[3]);
+const [contacts, points] = await Promise.all(["contacts", "points"].map((name) => table(join(folder, `${name}.csv`))));
+const names = contacts.headers.filter((header) => header.startsWith("force_x ")).map((header) => header.slice(8, -4));
+const vector = ({ rows, column }, row, prefix, name, unit) =>
+  ["x", "y", "z"].map((axis) => rows[row][column(`${prefix}${axis} ${name} [${unit}]`)]);
+const force = (row, name) => vector(contacts, row, "force_", name, "N");
+const point = (row, name) => vector(points, row, "", name, "m");
+const touching = (row, name) => contacts.rows[row][contacts.column(`touching ${name} [1]`)] === 1;
+const last = contacts.t.length - 1;
+const rows = [...Array(41).keys()].map((part) => Math.round((part / 40) * last));
+/** The rows in which a place touches down, also where it stands at the start. */
+const touchDowns = (name) =>
+  [...contacts.t.keys()].filter((row) => touching(row, name) && !(row > 0 && touching(row - 1, name)));
+
+await inBrowser(join(folder, "animation.html"), GL, { width: 1280, height: 800 }, async (page) => {
+  const scales = [];
+  const prints = [];
+  for (const row of rows) {
+    await drag(page, "#time", contacts.t[row]);
+    const { arrows, footprints } = await page.evaluate(() => redysim.contacts());
+    assert.equal(arrows.length, names.length);
+    names.forEach((name, place) => scales.push(...arrowIsThatOfTheForce(arrows[place], row, name)));
+    footprintsAreThoseOfTouchDowns(footprints, row);
+    prints.push(footprints.length);
+  }
+  assert.ok(scales.length > rows.length / 2, "a mechanism that is in the air shows nothing");
+  // The longest are cut: arrows are of one scale but for these.
+  const scale = Math.max(...scales);
+  const cut = scales.filter((other) => other < scale * (1 - 10 * SINGLE)).length;
+  assert.ok(cut < scales.length / 4, `${cut} of ${scales.length} arrows are shorter than their forces`);
+  assert.ok(new Set(prints).size > 1, "footprints must become visible on the way");
+  await theLayerHidesThem(page);
+});
+console.log(`${folder}: forces and footprints are those of the contacts`);
+
+/** m/N, of an arrow that is shown. */
+function arrowIsThatOfTheForce(arrow, row, name) {
+  const acting = force(row, name);
+  const size = Math.hypot(...acting);
+  const what = `the arrow of ${name} at ${contacts.t[row]} s`;
+  assert.equal(arrow !== null, size > 0, `${what} is shown where there is a force`);
+  if (!arrow) return [];
+  near(arrow.start, point(row, name), TOLERANCE, what);
+  const along = difference(arrow.tip, arrow.start);
+  const length = Math.hypot(...along);
+  const [drawn, expected] = [along.map((value) => value / length), acting.map((value) => value / size)];
+  const upright = Math.abs(expected[1]) > ALONG_Y;
+  near(drawn, upright ? [0, Math.sign(expected[1]), 0] : expected, SINGLE, `the direction of ${what}`);
+  return [length / size];
+}
+
+/** A footprint lies a little above the ground, so that it is seen. */
+function footprintsAreThoseOfTouchDowns(footprints, row) {
+  const begun = names.flatMap((name) => touchDowns(name).filter((begin) => begin <= row).map((begin) => point(begin, name)));
+  const what = `footprints at ${contacts.t[row]} s`;
+  assert.equal(footprints.length, begun.length, what);
+  begun.forEach((place, index) => {
+    const print = footprints[index];
+    const onGround = (at) => at.map((value, axis) => (axis === normal ? 0 : value));
+    near(onGround(print), onGround(place), TOLERANCE, what);
+    assert.ok(print[normal] > 0 && print[normal] < 0.02, `${what}: ${print} is on the ground`);
+  });
+}
+
+async function theLayerHidesThem(page) {
+  const drawn = () => page.evaluate(() => redysim.picture()[0]);
+  const shown = await drawn();
+  await page.setChecked("[data-layer=contacts]", false);
+  assert.notEqual(await drawn(), shown, "forces and footprints are drawn");
+  const { arrows, footprints } = await page.evaluate(() => redysim.contacts());
+  assert.ok(arrows.every((arrow) => arrow === null) && footprints.length === 0, "the layer hides all of them");
+  await page.setChecked("[data-layer=contacts]", true);
+  await page.screenshot({ path: join(folder, "contacts.png") });
+}
+
+function near(found, expected, most, what) {
+  assert.ok(Math.hypot(...difference(found, expected)) <= most, `${what}: ${found}, not ${expected}`);
+}
+
+function difference(a, b) {
+  return a.map((value, axis) => value - b[axis]);
+}
