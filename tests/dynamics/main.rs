@@ -8,6 +8,7 @@ mod robots;
 
 mod digits;
 mod frames;
+mod gaits;
 mod helical;
 mod hybrid;
 mod identities;
