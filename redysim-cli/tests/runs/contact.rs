@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
+use std::path::Path;
 
 use redysim_cli::{Contact, Forward, FrameNames, Ground, Results, Scenario};
 
@@ -275,6 +276,12 @@ fn contacts_as_data_read_back_to_the_same_bits() {
     assert_eq!(serde_json::from_str::<Scenario>(&json).unwrap(), written, "{json}");
 }
 
+/// The largest error of the energy balance of the results in `run`, J, as `run.toml` states it.
+fn energy_drift(folder: &Path) -> f64 {
+    let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
+    run.lines().find_map(|line| line.strip_prefix("energy_drift = ")).unwrap().parse().unwrap()
+}
+
 /// Four seconds at full speed, and a second each to start and to stop: five strides of 0.3 m. Slipping and the sinking of
 /// feet take 2 % of the way; the trunk tilts by two degrees.
 #[test]
@@ -307,8 +314,7 @@ fn the_quadruped_trots_five_strides_on_diagonal_legs_without_falling() {
         assert!([4, 10, 16, 22].iter().all(|&column| row[column] >= 0.0), "no foot is held back: {row:?}");
     }
     assert!(pairs.iter().all(|rows| *rows > 90), "{pairs:?}");
-    let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
-    let drift = run.lines().find_map(|line| line.strip_prefix("energy_drift = ")).unwrap().parse::<f64>().unwrap();
+    let drift = energy_drift(&folder);
     assert!(drift < 1e-5, "{drift} J of the 4 J that are exchanged");
     succeed(&folder, &["animate", "run", "--quiet"]);
     let page = data(&fs::read_to_string(folder.join("run/animation.html")).unwrap());
@@ -341,6 +347,11 @@ fn the_hexapod_stands_and_its_feet_carry_its_weight() {
     let normals = |row: &Vec<f64>| (0..6).map(|foot| row[4 + 6 * foot]).sum::<f64>();
     let carried = normals(contacts.rows.last().unwrap());
     assert!((carried / (14.0 * 9.81) - 1.0).abs() < 1e-3, "{carried} N");
+    let energy = Table::csv(&folder.join("run/energy.csv"));
+    let [.., ground, lost] = energy.rows.last().unwrap()[..] else { panic!("columns of the ground") };
+    let drift = energy_drift(&folder);
+    println!("{drift:e} J, {lost} J lost to the ground, which holds {ground} J");
+    assert!(drift < 1e-8 && lost > 1e-3, "{drift} J of the {lost} J that the ground takes");
 }
 
 /// Six steps, the last of which puts the feet beside each other, carry the hips 1 m forward, less what feet slip on ground
@@ -379,8 +390,7 @@ fn the_biped_walks_six_steps_upright_on_one_foot_and_then_the_other() {
     }
     let [left, right] = [[true, false], [false, true]];
     assert_eq!(carried, [right, left, right, left, right, left]);
-    let run = fs::read_to_string(folder.join("run/run.toml")).unwrap();
-    let drift = run.lines().find_map(|line| line.strip_prefix("energy_drift = ")).unwrap().parse::<f64>().unwrap();
+    let drift = energy_drift(&folder);
     assert!(drift < 1e-5, "{drift} J of the 1.6 J that are exchanged");
 }
 
