@@ -1,4 +1,4 @@
-//! Spherical and free joints that are locked: a floating arm is one that stands where its base is held.
+//! Joints of several freedoms that are locked: a floating arm is one that stands where its base is held.
 #![cfg(feature = "generic")]
 
 use crate::common::comparison::Comparison;
@@ -13,6 +13,7 @@ use redysim::{
 };
 use redysim_codegen::functions::trace;
 use redysim_model::denoc::{Untraced, evaluate};
+use redysim_model::joint::EulerSequence;
 use redysim_model::rotation::roll_pitch_yaw;
 use redysim_model::{Function, LockError, Tree};
 use std::array;
@@ -183,6 +184,44 @@ fn a_helical_joint_that_is_locked_is_a_link_fixed_where_its_screw_led() {
     let joint = Link { axis: Vec3(axis.into()), offset, pitch, ..Link::new("body", None, JointKind::Helical) };
     let turned = Rotation3::from_axis_angle(&Unit::new_unchecked(axis), offset + at);
     assert_locked_is_fixed(joint, &[at], (turned, axis * (pitch * (offset + at))));
+}
+
+#[test]
+fn a_universal_joint_that_is_locked_is_a_link_fixed_where_it_turned_about_x_and_then_y() {
+    let turned =
+        Rotation3::from_axis_angle(&Vector3::x_axis(), 0.4) * Rotation3::from_axis_angle(&Vector3::y_axis(), -1.2);
+    let joint = Link::new("body", None, JointKind::Universal);
+    assert_locked_is_fixed(joint, &[0.4, -1.2], (turned, Vector3::zeros()));
+}
+
+#[test]
+fn a_cylindrical_joint_that_is_locked_is_a_link_fixed_where_it_slid_and_turned_about_its_axis() {
+    let axis = Vector3::new(0.48, -0.64, 0.6);
+    let joint = Link { axis: Vec3(axis.into()), ..Link::new("body", None, JointKind::Cylindrical) };
+    let turned = Rotation3::from_axis_angle(&Unit::new_unchecked(axis), 0.9);
+    assert_locked_is_fixed(joint, &[-0.35, 0.9], (turned, -0.35 * axis));
+}
+
+/// Rotations about the axes of a sequence, each as those before it have turned it.
+fn turned_by(axes: [Unit<Vector3<f64>>; 3], angles: [f64; 3]) -> Rotation3<f64> {
+    let turns = axes.iter().zip(angles).map(|(axis, angle)| Rotation3::from_axis_angle(axis, angle));
+    turns.fold(Rotation3::identity(), |turned, turn| turned * turn)
+}
+
+#[test]
+fn a_spherical_joint_in_euler_angles_that_is_locked_is_a_link_fixed_at_them() {
+    let (x, z, angles) = (Vector3::x_axis(), Vector3::z_axis(), [0.5, -0.8, 1.3]);
+    let joint = Link { coordinates: Some(EulerSequence::Zxz), ..Link::new("body", None, JointKind::Spherical) };
+    assert_locked_is_fixed(joint, &angles, (turned_by([z, x, z], angles), Vector3::zeros()));
+}
+
+#[test]
+fn a_free_joint_in_euler_angles_that_is_locked_is_a_link_fixed_at_its_position_and_them() {
+    let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
+    let (position, angles) = (Vector3::new(0.3, -0.2, 0.5), [0.5, -0.8, 1.3]);
+    let joint = Link { coordinates: Some(EulerSequence::Zxy), ..Link::new("body", None, JointKind::Free) };
+    let values: Vec<f64> = position.iter().copied().chain(angles).collect();
+    assert_locked_is_fixed(joint, &values, (turned_by([z, x, y], angles), position));
 }
 
 #[test]
