@@ -3,7 +3,11 @@
 mod common;
 
 use common::methods::{WithMethod, every_adaptive, every_fixed};
-use redysim::{Event, ForwardSimulation, Integrator, LinkState, Wrench, ZeroTorque, redysim};
+use redysim::integrate::Ends;
+use redysim::{
+    AnyContactLaw, Contact, Event, ForwardSimulation, GroundPlane, Grounded, HuntCrossleyContact, Integrator,
+    LinkState, Ode, ReDySimContact, Vector, Wrench, ZeroTorque, redysim,
+};
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
@@ -20,6 +24,14 @@ redysim! {
 redysim! {
     /// A quaternion and an angular velocity.
     pub struct Pendulum("models/spherical_pendulum.toml");
+}
+
+redysim! {
+    /// A box with a frame on each corner.
+    pub struct Parcel(
+        "models/parcel.toml",
+        functions = [forward_dynamics, frame_kinematics, frame_jacobians, frame_bias, frame_forces]
+    );
 }
 
 fn allocations(work: impl FnOnce()) -> u64 {
@@ -77,34 +89,91 @@ fn functions_of_frames_allocate_nothing() {
     assert_eq!(allocations(all), 0);
 }
 
-/// A fall of KR5 with an event on the way.
-struct Fall;
+/// Integrates for 0.3 s, on the way an event at which `passing` changes its sign once.
+fn assert_integrates_without_allocating<Y: Vector<f64>>(
+    name: &str,
+    method: &impl Integrator<f64>,
+    ode: &mut impl Ode<f64, Y>,
+    start: Y,
+    passing: impl Fn(f64, &Y) -> f64,
+) {
+    let mut passages = 0;
+    let run = || {
+        let events = &mut [Event::any(&passing)];
+        let on_event = |_: redysim::Occurrence<'_, f64, _>| {
+            passages += 1;
+            ControlFlow::Continue(())
+        };
+        let end = method.solve_with_events(ode, (0.0, 0.3), start, events, |_| ControlFlow::Continue(()), on_event);
+        black_box(end.is_ok());
+    };
+    assert_eq!(allocations(run), 0, "{name}");
+    assert_eq!(passages, 1, "{name} finds the passage");
+}
 
-impl WithMethod for Fall {
+/// A fall of KR5, and a turn of the pendulum, whose quaternion steps and events correct.
+struct Motions;
+
+impl WithMethod for Motions {
     fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
         let mut fall = ForwardSimulation::new(&Kr5, ZeroTorque);
         let start = fall.state(&[0.1; Kr5::NV], &[0.0; Kr5::NV]);
-        let passing = |_t: f64, y: &[f64; 2 * Kr5::NV + 1]| y[1] + 0.1;
-        let mut passages = 0;
-        let run = || {
-            let events = &mut [Event::any(&passing)];
-            let on_event = |_: redysim::Occurrence<'_, f64, _>| {
-                passages += 1;
-                ControlFlow::Continue(())
-            };
-            let end =
-                method.solve_with_events(&mut fall, (0.0, 0.3), start, events, |_| ControlFlow::Continue(()), on_event);
-            black_box(end.is_ok());
-        };
-        assert_eq!(allocations(run), 0, "{name}");
-        assert_eq!(passages, 1, "{name} finds the passage");
+        assert_integrates_without_allocating(name, method, &mut fall, start, |_, y| y[1] + 0.1);
+        let mut turn = ForwardSimulation::new(&Pendulum, ZeroTorque);
+        let start = turn.state(&[0.0, 0.0, 0.0, 1.0], &[0.0, 8.0, 1.0]);
+        assert_integrates_without_allocating(name, method, &mut turn, start, |_, y| y[1] - 0.5);
     }
 }
 
 #[test]
 fn integrators_allocate_nothing() {
-    every_fixed(1e-3, &mut Fall);
-    every_adaptive(1e-6, 1e-8, &mut Fall);
+    every_fixed(1e-3, &mut Motions);
+    every_adaptive(1e-6, 1e-8, &mut Motions);
+}
+
+/// The parcel lands on its corners, which have either law of contact.
+struct Landing;
+
+impl WithMethod for Landing {
+    fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
+        let ground = GroundPlane::new([0.0; 3], [0.0, 0.0, 1.0]).expect("a plane");
+        let laws = [
+            AnyContactLaw::HuntCrossley(HuntCrossleyContact {
+                stiffness: 2e4,
+                exponent: 1.5,
+                damping: 0.8,
+                friction: 0.5,
+                slip_velocity: 0.01,
+            }),
+            AnyContactLaw::ReDySim(ReDySimContact {
+                stiffness: 5e3,
+                damping: 40.0,
+                leaving_speed: 5.0,
+                friction: 0.5,
+                sliding_damping: 100.0,
+            }),
+        ];
+        let contacts =
+            [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| Contact::new(corner, ground, laws[corner % 2]).expect("a law"));
+        let grounded = Grounded::new(&Parcel, &contacts).expect("frames of the parcel");
+        let mut simulation = ForwardSimulation::new(&grounded, ZeroTorque);
+        let start = simulation.state(&[0.0, 0.0, 0.3, 0.1, 0.05, 0.0, 0.99], &[1.0, 0.0, -1.0, 0.5, -1.0, 0.3]);
+        let mut touch_downs = 0;
+        let run = || {
+            let end = grounded.run(method, &mut simulation, (0.0, 0.3), start, &mut Ends, |event| {
+                touch_downs += u32::from(event.touching);
+            });
+            assert!(black_box(end).is_ok());
+        };
+        assert_eq!(allocations(run), 0, "{name}");
+        assert!(touch_downs > 1, "{name}: {touch_downs} touch-downs");
+    }
+}
+
+#[test]
+fn runs_on_the_ground_allocate_nothing() {
+    every_fixed(1e-3, &mut Landing);
+    every_adaptive(1e-6, 1e-8, &mut Landing);
 }
 
 #[cfg(feature = "generic")]
