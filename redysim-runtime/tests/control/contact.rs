@@ -7,7 +7,7 @@ use redysim_runtime::integrate::{Ends, EveryStep};
 use redysim_runtime::{
     AnyContactLaw, ConfigurationSpace, Contact, ContactError, ContactEvent, ContactLaw, ForwardDynamics,
     ForwardSimulation, FrameState, GroundPlane, Grounded, HuntCrossleyContact, IntegrationError, Integrator,
-    MechanicalEnergy, Ode45, ReDySimContact, SemiImplicitEuler, Solution, Statistics, Step, ZeroTorque,
+    MechanicalEnergy, Ode45, ReDySimContact, Real, SemiImplicitEuler, Solution, Statistics, Step, ZeroTorque,
 };
 
 const BALL: Ball = Ball { mass: 0.5 };
@@ -209,6 +209,63 @@ fn contacts_of_one_frame_and_of_several_add_up() {
     let mut penetrations = vec![];
     grounded.reactions(&q, &v, |contact, reaction| penetrations.push((contact.frame(), reaction.penetration)));
     assert_eq!(penetrations, [(0, 0.01), (0, 0.01), (1, 0.01)]);
+}
+
+/// Forces, power, energy and accelerations of the ball in a state on ground through the origin.
+fn grounded_ball<S: Real>(law: AnyContactLaw<S>, normal: [f32; 3], q: [f32; 3], v: [f32; 3]) -> [Vec<f64>; 4] {
+    let numbers = |vector: [f32; 3]| vector.map(|x| S::from_f64(f64::from(x)));
+    let ground = GroundPlane::new([S::zero(); 3], numbers(normal)).unwrap();
+    let contacts = [Contact::new(0, ground, law).unwrap()];
+    let grounded = Grounded::new(&BALL, &contacts).unwrap();
+    let (q, v) = (numbers(q), numbers(v));
+    let one = |x: S| vec![x.to_f64()];
+    let all = |vector: [S; 3]| vector.map(Real::to_f64).to_vec();
+    [
+        all(grounded.ground_forces(&q, &v)),
+        one(grounded.ground_power(&q, &v)),
+        one(grounded.ground_energy(&q, &v)),
+        all(grounded.forward_dynamics(&q, &v, &[S::zero(); 3])),
+    ]
+}
+
+/// In states in which the ball hits the ground, slides and leaves it, on level ground, whose heights are exact, and on
+/// inclined ground. Parts of a force cancel where the ball leaves: an error is a share of their sizes, which are those of
+/// the same speed into the ground.
+#[test]
+fn forces_energies_and_powers_in_single_precision_are_those_in_double_precision_to_a_few_roundings() {
+    // Of parameters that are exact in single precision.
+    fn laws<S: Real>() -> [AnyContactLaw<S>; 2] {
+        let [stiffness, exponent, damping, friction, slip_velocity] =
+            [2e5, 1.5, 0.125, 0.3125, 0.0625].map(S::from_f64);
+        let hunt = HuntCrossleyContact { stiffness, exponent, damping, friction, slip_velocity };
+        let [stiffness, damping, leaving_speed, friction, sliding_damping] =
+            [1e4, 8.0, 5.0, 0.3125, 20.0].map(S::from_f64);
+        let redysim = ReDySimContact { stiffness, damping, leaving_speed, friction, sliding_damping };
+        [AnyContactLaw::HuntCrossley(hunt), AnyContactLaw::ReDySim(redysim)]
+    }
+    let (mut worst, mut pushed) = (0.0_f64, 0);
+    for (single, double) in laws::<f32>().into_iter().zip(laws::<f64>()) {
+        for normal in [[0.0, 0.0, 1.0], [0.25, -0.5, 1.0]] {
+            for depth in [3e-4_f32, 2e-3, 0.017] {
+                for speed in [-3.0_f32, -0.2, 0.0, 0.3, 7.0] {
+                    let (q, v) = ([0.1 * depth, 0.3 * depth, -depth], [0.7 * speed, 0.2, speed]);
+                    let found = grounded_ball(single, normal, q, v);
+                    let expected = grounded_ball(double, normal, q, v);
+                    let hits = grounded_ball(double, normal, q, [v[0], v[1], -speed.abs()]);
+                    let force = hits[0].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                    let scales = [force, force * f64::from(speed.abs().max(1.0)), hits[2][0], force / BALL.mass];
+                    for ((found, expected), scale) in found.iter().zip(&expected).zip(scales) {
+                        for (found, expected) in found.iter().zip(expected) {
+                            worst = worst.max((found - expected).abs() / scale);
+                        }
+                    }
+                    pushed += usize::from(force > 0.0 && expected[0][2] > 0.0);
+                }
+            }
+        }
+    }
+    println!("{:.1} roundings in {pushed} states", worst / f64::from(f32::EPSILON));
+    assert!(worst < 8.0 * f64::from(f32::EPSILON) && pushed > 40, "{worst:e} in {pushed} states");
 }
 
 /// A step of 10 ms under the damping of 500 N s/m throws a ball of 0.5 kg back nine times as fast as it came, out of the
