@@ -97,7 +97,7 @@ impl Robot {
             .map_err(|error| document.fault_at("robot", "", format!("URDF: {error}")))?;
         unique(document, "link", urdf.links.iter().map(|link| link.name.as_str()))?;
         unique(document, "joint", urdf.joints.iter().map(|joint| joint.name.as_str()))?;
-        let root = root(document, &urdf)?;
+        let root = root(document, &urdf, base)?;
         let inertial_of = |name: &str| {
             let link = urdf.links.iter().find(|link| link.name == name);
             link.map_or(Inertial::none(), |link| Inertial::of(&link.inertial))
@@ -310,8 +310,8 @@ fn unique<'n>(document: &Document, tag: &str, names: impl Iterator<Item = &'n st
     Ok(())
 }
 
-/// The link that no joint carries, if the links and joints are a tree on it.
-fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot) -> Result<&'u str, Failure> {
+/// The link that no joint carries, if the links and joints are a tree on it that moves.
+fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot, base: Base) -> Result<&'u str, Failure> {
     let mut carried: HashMap<&str, &str> = HashMap::new();
     for joint in &urdf.joints {
         for end in [&joint.parent.link, &joint.child.link] {
@@ -328,8 +328,10 @@ fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot) -> Result<&'u str, Fa
     }
     let roots: Vec<&str> =
         urdf.links.iter().map(|link| link.name.as_str()).filter(|name| !carried.contains_key(name)).collect();
-    if urdf.joints.is_empty() && !urdf.links.is_empty() {
-        return Err(document.fault_at("robot", "", "the robot has no joints: nothing of it moves"));
+    if base == Base::Fixed && urdf.joints.is_empty() && !urdf.links.is_empty() {
+        return Err(document
+            .fault_at("robot", "", "the robot has no joints: nothing of it moves")
+            .help("with `--base free` its link floats"));
     }
     match roots.as_slice() {
         [root] => on_root(document, urdf, root).map(|()| *root),

@@ -665,3 +665,24 @@ fn a_fault_of_the_root_link_of_a_floating_robot_is_reported_on_its_line() {
     let run = import_from(&folder, &["--base", "free"]);
     assert!(run.code == 1 && run.stderr.contains("robot.urdf:2: link `bus`"), "{}", run.output());
 }
+
+/// A body of 2 kg whose centre of mass is 0.1 m above its origin.
+#[test]
+fn a_robot_of_one_link_without_joints_floats_on_a_free_base_and_is_refused_on_a_fixed_one() {
+    let urdf = "<robot name=\"drone\">\n<link name=\"hull\"><inertial><origin xyz=\"0 0 0.1\"/><mass value=\"2\"/>\
+                <inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link></robot>";
+    for options in [&["--base", "free"][..], &["--base", "free", "--fuse-fixed"]] {
+        let (mechanism, run) = import(urdf, options);
+        let [hull] = &mechanism.model().links[..] else { panic!("{}", run.stdout) };
+        assert_eq!((hull.name.as_str(), hull.joint_name.as_str(), hull.joint.name()), ("hull", "base", "free"));
+        assert_eq!(hull.actuated_velocities(), [false; 6]);
+        assert!(!run.stderr.contains("warning"), "{}", run.stderr);
+        let matrix = mechanism.mass_matrix(&vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+        assert!(close(matrix[0][0], 2.0) && close(matrix[3][3], 0.1 + 0.02) && close(matrix[5][5], 0.3), "{matrix:?}");
+    }
+    let run = import_from(&folder_with(urdf), &[]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    for words in ["robot.urdf:1: the robot has no joints: nothing of it moves", "`--base free`"] {
+        assert!(run.stderr.contains(words), "`{words}` in:\n{}", run.stderr);
+    }
+}
