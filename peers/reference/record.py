@@ -11,16 +11,20 @@ from mujoco_side import MujocoSide
 from pinocchio_side import PinocchioSide
 from tree import Tree
 
-TREES, STATES = 20, 2
+# Trees, and the kinds of their joints, the last of which is fixed.
+ON_AXES, IN_SPACE = 20, 10
+OF_ONE_FREEDOM = ["revolute", "revolute", "revolute", "prismatic", "prismatic", "fixed"]
+OF_SEVERAL = ["revolute", "prismatic", "spherical", "spherical", "planar", "free", "fixed"]
+STATES = 2
 
 
 def lines(tree: Tree, random: numpy.random.Generator) -> list[str]:
     """The table of a tree at random states."""
-    sides, n = [PinocchioSide(tree), MujocoSide(tree)], len(tree.moving)
+    sides, n = [PinocchioSide(tree), MujocoSide(tree)], tree.nv
     table = []
     for state in range(STATES):
         given = {
-            "q": random.uniform(-numpy.pi, numpy.pi, n),
+            "q": tree.random_position(random),
             "v": random.uniform(-3, 3, n),
             "a": random.uniform(-10, 10, n),
             "tau": random.uniform(-10, 10, n),
@@ -38,9 +42,9 @@ def lines(tree: Tree, random: numpy.random.Generator) -> list[str]:
 def main() -> None:
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    for index in range(1, TREES + 1):
+    for index in range(1, ON_AXES + IN_SPACE + 1):
         random = numpy.random.default_rng(index)
-        tree = Tree.grown(f"peer_tree_{index:02}", random)
+        tree = Tree.grown(f"peer_tree_{index:02}", OF_ONE_FREEDOM if index <= ON_AXES else OF_SEVERAL, random)
         (folder / f"{index:02}.toml").write_text(tree.model_file())
         (folder / f"{index:02}.csv").write_text("\n".join(lines(tree, random)) + "\n")
 

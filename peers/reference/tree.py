@@ -6,6 +6,9 @@ import numpy
 import pinocchio
 
 PHYSICS = ["armature", "damping", "stiffness", "rest"]
+# What redysim has of each joint that moves: how many coordinates, of which the last four are a quaternion where they are more
+# than the velocities, and how many velocities.
+SIZES = {"revolute": (1, 1), "prismatic": (1, 1), "spherical": (4, 3), "planar": (3, 3), "free": (7, 6)}
 
 
 @dataclass
@@ -33,9 +36,9 @@ class Link:
     parent: int | None
     joint: str
     origin: Placement
-    # Unit vector in the link's frame.
+    # Unit vector in the link's frame, of a joint of one freedom.
     axis: numpy.ndarray
-    # Of armature, damping, stiffness and rest.
+    # Of armature, damping, stiffness and rest, for each velocity.
     physics: dict[str, float]
     mass: float
     # Centre of mass and principal axes of inertia, and the principal moments.
@@ -47,6 +50,10 @@ class Link:
         """About the centre of mass, in the link's axes."""
         rotation = self.principal.rotation
         return rotation @ numpy.diag(self.moments) @ rotation.T
+
+    @property
+    def has_axis(self) -> bool:
+        return SIZES.get(self.joint) == (1, 1)
 
 
 @dataclass
@@ -70,10 +77,10 @@ class Tree:
     order: list[int]
 
     @classmethod
-    def grown(cls, name: str, random: numpy.random.Generator) -> "Tree":
-        """A tree of two to eight links on revolute, prismatic and some fixed joints, in any order, and two frames."""
+    def grown(cls, name: str, kinds: list[str], random: numpy.random.Generator) -> "Tree":
+        """A tree of two to eight links on joints of these kinds, the last of them fixed, in any order, and two frames."""
         count = int(random.integers(2, 9))
-        links = [link(random, index) for index in range(count)]
+        links = [link(random, index, kinds) for index in range(count)]
         frames = [
             # A third of the second frames stand on the ground.
             Frame("tip", count - 1, placement(random, 0.3)),
@@ -86,6 +93,25 @@ class Tree:
     def moving(self) -> list[Link]:
         """The links on joints that move, in the order of the model file."""
         return [self.links[index] for index in self.order if self.links[index].joint != "fixed"]
+
+    @property
+    def nv(self) -> int:
+        return sum(SIZES[link.joint][1] for link in self.moving)
+
+    def parts(self, vector: numpy.ndarray, size: int) -> list[numpy.ndarray]:
+        """The coordinates (`size` 0) or velocities (1) of each joint that moves."""
+        return numpy.split(vector, numpy.cumsum([SIZES[link.joint][size] for link in self.moving])[:-1])
+
+    def random_position(self, random: numpy.random.Generator) -> numpy.ndarray:
+        """Angles, rad, and displacements, m, of up to π, and any orientation."""
+        parts = []
+        for coordinates, velocities in (SIZES[link.joint] for link in self.moving):
+            quaternion = 4 if coordinates > velocities else 0
+            parts.append(random.uniform(-numpy.pi, numpy.pi, coordinates - quaternion))
+            if quaternion:
+                drawn = random.normal(size=quaternion)
+                parts.append(drawn / numpy.linalg.norm(drawn))
+        return numpy.concatenate(parts)
 
     def children(self, index: int | None) -> list[int]:
         return [child for child, link in enumerate(self.links) if link.parent == index]
@@ -115,8 +141,9 @@ class Tree:
                 f'joint = "{link.joint}"',
                 f"origin = {origin(link.origin)}",
             ]
-            if link.joint != "fixed":
+            if link.has_axis:
                 lines.append(f"axis = {vector(link.axis)}")
+            if link.joint != "fixed":
                 lines += [f"{key} = {float(link.physics[key])!r}" for key in PHYSICS if link.physics[key] != 0]
             lines += [
                 f"mass = {link.mass!r}",
@@ -129,19 +156,23 @@ class Tree:
         return "\n".join(lines) + "\n"
 
 
-def link(random: numpy.random.Generator, index: int) -> Link:
-    """A body of a few kilogrammes and decimetres; half of the joints have each part of what acts in them."""
+def link(random: numpy.random.Generator, index: int, kinds: list[str]) -> Link:
+    """A body of a few kilogrammes and decimetres; half of the joints have each part of what acts in them.
+
+    A spring of a spherical joint is relaxed at zero. In joints with displacements and rotations nothing acts: the velocities
+    of which the programs have the armature, and those that they damp, are in other axes.
+    """
     # Mostly on the one before, so that chains get long, else on any, or on the ground.
     parent = index - 1 if random.random() < 2 / 3 else int(random.integers(-1, index))
-    kinds = ["revolute", "revolute", "revolute", "prismatic", "prismatic", "fixed"]
-    joint = kinds[random.integers(len(kinds) if index > 1 else 5)]
+    joint = kinds[random.integers(len(kinds) if index > 1 else len(kinds) - 1)]
     axis = random.normal(size=3)
     largest = {"armature": 0.5, "damping": 2.0, "stiffness": 20.0, "rest": 1.0}
     a, b, c = random.uniform(0.002, 0.01, 3)
     physics = {key: float(random.uniform(0.1, 1) * most) for key, most in largest.items()}
     left_out = [key for key in PHYSICS if random.random() < 0.5]
     # A rest is that of a spring.
-    left_out += ["rest"] if "stiffness" in left_out else []
+    left_out += ["rest"] if "stiffness" in left_out or joint == "spherical" else []
+    left_out += PHYSICS if joint in ["planar", "free"] else []
     return Link(
         name=f"link{index}",
         parent=None if parent < 0 else parent,

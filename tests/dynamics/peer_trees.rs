@@ -1,4 +1,4 @@
-//! On random trees with rotors, dampers and springs, Pinocchio and MuJoCo compute the same, component by component.
+//! On random trees of joints of all kinds, with rotors, dampers and springs, Pinocchio and MuJoCo compute the same, component by component.
 //!
 //! What their numbers are, and where they come from: `tests/reference/README.md`.
 #![cfg(feature = "generic")]
@@ -6,7 +6,7 @@
 use crate::common::call;
 use crate::common::comparison::Comparison;
 use crate::common::dual::{Dual, moving};
-use redysim::generic::{GenericMechanism, Model};
+use redysim::generic::{GenericMechanism, Link, Model};
 use redysim::{
     ForwardDynamics, Frames, InverseDynamics, MassMatrix, MechanicalEnergy, PassiveForces, Scalar, Vector, Wrench,
     redysim,
@@ -17,8 +17,16 @@ use std::path::PathBuf;
 redysim! { struct Tree07("tests/reference/peer_trees/07.toml"); }
 redysim! { struct Tree10("tests/reference/peer_trees/10.toml"); }
 redysim! { struct Tree18("tests/reference/peer_trees/18.toml"); }
+redysim! {
+    // Its gravity points up.
+    #[allow(deprecated)]
+    struct Tree21("tests/reference/peer_trees/21.toml");
+}
+redysim! { struct Tree24("tests/reference/peer_trees/24.toml"); }
 
-const TREES: usize = 20;
+/// The trees whose joints have one freedom, and those with spherical, planar and free joints as well.
+const ON_AXES: std::ops::RangeInclusive<usize> = 1..=20;
+const IN_SPACE: std::ops::RangeInclusive<usize> = 21..=30;
 
 /// A component is held to 1e-11 of itself, or of this part of the quantity's largest component on the tree: what
 /// vanishes for one program is roundoff of the others, up to 1e-14 of the largest.
@@ -83,9 +91,9 @@ where
     let matrix = call::mass_matrix(mechanism, q);
     let upper: Vec<f64> = matrix.iter().enumerate().flat_map(|(i, row)| row[i..].to_vec()).collect();
     let [kinematics, jacobians, bias, external] = call::frames(mechanism, q, v, &wrenches(wrench));
-    // J̇ along q̇ = v.
-    let constant = call::constants::<Dual<f64>>(v);
-    let [_, moving_jacobians, _, _] = call::frames(mechanism, &moving(q, v), &constant, &wrenches(wrench));
+    // J̇ along q̇ = N(q) v.
+    let (rates, constant) = (call::coordinate_rates(mechanism, q, v), call::constants::<Dual<f64>>(v));
+    let [_, moving_jacobians, _, _] = call::frames(mechanism, &moving(q, &rates), &constant, &wrenches(wrench));
     let energy = call::energy(mechanism, q, v);
     let driven = sum(tau, &passive);
     let without_passive = difference(&inverse, &passive);
@@ -108,11 +116,11 @@ where
 }
 
 /// Holds what is `computed` at each state of a tree against the table of that tree. Nothing in the table is left out.
-fn assert_agrees(tree: usize, nv: usize, computed: impl Fn(&State) -> Vec<(&'static str, Vec<f64>)>) {
+fn assert_agrees(tree: usize, sizes: [usize; 2], computed: impl Fn(&State) -> Vec<(&'static str, Vec<f64>)>) {
     let states = states(tree);
     let mut comparisons = BTreeMap::new();
     for state in &states {
-        assert_eq!(state["q"].len(), nv, "tree {tree}");
+        assert_eq!(["q", "v"].map(|given| state[given].len()), sizes, "tree {tree}");
         let computed = computed(state);
         assert_eq!(computed.len() + 5, state.len(), "tree {tree}: quantities");
         for (quantity, numbers) in computed {
@@ -127,31 +135,43 @@ fn assert_agrees(tree: usize, nv: usize, computed: impl Fn(&State) -> Vec<(&'sta
 
 #[test]
 fn the_run_time_path_agrees_with_pinocchio_and_mujoco_on_random_trees() {
-    for tree in 1..=TREES {
+    for tree in ON_AXES.chain(IN_SPACE) {
         let mechanism = generic(tree);
-        assert_agrees(tree, mechanism.tree().nv(), |state| computed(&mechanism, state));
+        let sizes = [mechanism.tree().nq(), mechanism.tree().nv()];
+        assert_agrees(tree, sizes, |state| computed(&mechanism, state));
     }
 }
 
 #[test]
 fn compiled_functions_agree_with_pinocchio_and_mujoco_on_random_trees() {
-    assert_agrees(7, Tree07::NV, |state| computed(&Tree07, state));
-    assert_agrees(10, Tree10::NV, |state| computed(&Tree10, state));
-    assert_agrees(18, Tree18::NV, |state| computed(&Tree18, state));
+    assert_agrees(7, [Tree07::NQ, Tree07::NV], |state| computed(&Tree07, state));
+    assert_agrees(10, [Tree10::NQ, Tree10::NV], |state| computed(&Tree10, state));
+    assert_agrees(18, [Tree18::NQ, Tree18::NV], |state| computed(&Tree18, state));
+    assert_agrees(21, [Tree21::NQ, Tree21::NV], |state| computed(&Tree21, state));
+    assert_agrees(24, [Tree24::NQ, Tree24::NV], |state| computed(&Tree24, state));
 }
 
 /// What is not there agrees with everything.
 #[test]
-fn the_random_trees_have_joints_of_both_kinds_with_rotors_dampers_and_springs() {
-    let models: Vec<Model> = (1..=TREES).map(|tree| generic(tree).model().clone()).collect();
-    let count = |is: fn(&redysim::generic::Link) -> bool| {
-        models.iter().flat_map(|model| &model.links).filter(|l| is(l)).count()
+fn the_random_trees_have_joints_of_all_kinds_with_rotors_dampers_and_springs() {
+    let count = |trees: std::ops::RangeInclusive<usize>, is: fn(&Link) -> bool| -> usize {
+        trees.map(|tree| generic(tree).model().links.iter().filter(|link| is(link)).count()).sum()
     };
-    assert!(count(|link| link.joint.name() == "revolute") > 50);
-    assert!(count(|link| link.joint.name() == "prismatic") > 30);
-    assert!(count(|link| link.physics.armature.values()[0] > 0.0) > 30);
-    assert!(count(|link| link.physics.damping.values()[0] > 0.0) > 30);
-    assert!(
-        count(|link| link.physics.stiffness.values()[0] > 0.0 && link.physics.rest.iter().any(|rest| *rest > 0.0)) > 10
-    );
+    let is_driven = |link: &Link| link.physics.armature.values()[0] > 0.0;
+    let is_damped = |link: &Link| link.physics.damping.values()[0] > 0.0;
+    assert!(count(ON_AXES, |link| link.joint.name() == "revolute") > 50);
+    assert!(count(ON_AXES, |link| link.joint.name() == "prismatic") > 30);
+    assert!(count(ON_AXES, is_driven) > 30 && count(ON_AXES, is_damped) > 30);
+    assert!(count(ON_AXES, |link| has_spring(link) && link.physics.rest.iter().any(|rest| *rest > 0.0)) > 10);
+    assert!(count(IN_SPACE, |link| link.joint.name() == "spherical") > 10);
+    assert!(count(IN_SPACE, |link| link.joint.name() == "planar") > 5);
+    assert!(count(IN_SPACE, |link| link.joint.name() == "free") > 5);
+    // On links that move.
+    assert!(count(IN_SPACE, |link| link.joint.dof() > 1 && link.parent.is_some()) > 15);
+    assert!(count(IN_SPACE, |link| link.joint.name() == "spherical" && has_spring(link)) > 3);
+    assert!(count(IN_SPACE, |link| link.joint.name() == "spherical" && link.physics.armature.values()[0] > 0.0) > 5);
+}
+
+fn has_spring(link: &Link) -> bool {
+    link.physics.stiffness.values()[0] > 0.0
 }
