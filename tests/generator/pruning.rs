@@ -115,7 +115,7 @@ fn forces_accelerations_and_masses_of_a_spherical_joint_on_an_arm_stay_within_th
     let (model, tree) = (with_range(model.clone(), range), Tree::new(&model));
     let names = ["inverse_dynamics", "forward_dynamics", "mass_matrix"];
     let whole = whole(&model, &names);
-    let tolerances: &[f64] = if cfg!(debug_assertions) { &[1e-1] } else { &[1e-1, 2e-2] };
+    let tolerances: &[f64] = if cfg!(debug_assertions) { &[1e-1] } else { &[1e-1, 1e-3] };
     for &tolerance in tolerances {
         for (whole_function, pruned) in whole.iter().zip(traced(&model, &names, tolerance)) {
             let function = pruned.function;
