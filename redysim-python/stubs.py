@@ -2,6 +2,7 @@
 """Writes the stubs of the package, python/redysim/_core.pyi: what is in stubs.pyi by hand, and the
 functions of the installed package with their docstrings."""
 
+import re
 import textwrap
 from pathlib import Path
 
@@ -30,19 +31,25 @@ def records() -> str:
     return text
 
 
+def documented(method: str) -> str:
+    """The docstring of a method."""
+    text = textwrap.indent(getattr(_core.Mechanism, method).__doc__, " " * 8)
+    return f'        """{text.lstrip()}\n        """\n'
+
+
 def functions() -> str:
     text = ""
     for function, arguments, record in _core.table_of_functions():
         result = class_name(record) if record else "_Array"
         parameters = "".join(f", {argument}: ArrayLike" for argument in arguments)
-        documentation = textwrap.indent(getattr(_core.Mechanism, function).__doc__, " " * 8)
         text += f"    def {function}(self{parameters}, *, out: _Out | None = None) -> {result}:\n"
-        text += f'        """{documentation.lstrip()}\n        """\n\n'
+        text += documented(function) + "\n"
     return text
 
 
 def stubs() -> str:
     by_hand = (HERE / "stubs.pyi").read_text(encoding="utf-8")
+    by_hand = re.sub(" +# The documentation of (\\w+)\\.\n", lambda found: documented(found[1]), by_hand)
     return by_hand.replace(RECORDS, records()).replace(PLACE, functions())
 
 

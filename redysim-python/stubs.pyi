@@ -135,8 +135,7 @@ class Mechanism:
     def parameters(self) -> _Array:
         """Values of the run-time parameters, (np,), or (k, np) of k robots."""
     def with_parameters(self, parameters: ArrayLike | dict[str, ArrayLike]) -> Mechanism:
-        """The mechanism with other values of its run-time parameters, (np,), or (k, np) of k robots, each of
-        which computes one of k states; a dictionary has names with values, () or (k,)."""
+        # The documentation of with_parameters.
     @property
     def mass(self) -> float:
         """Mass of all links, kg."""
@@ -183,8 +182,7 @@ class Mechanism:
     def library(self) -> Path | None:
         """The library of compiled functions, if they are compiled."""
     def compile(self, *, compiler: str | None = None) -> Mechanism:
-        """Writes the functions as C, compiles them by the system's compiler, and has every later call run the
-        compiled code."""
+        # The documentation of compile.
     def check_unchanged(self) -> None:
         """Fails if the file has changed since it was loaded."""
     def simulate(
@@ -201,7 +199,7 @@ class Mechanism:
         max_step: float | None = None,
         step: float | None = None,
     ) -> Motion:
-        """The motion from q and v at the first instant of t to the last."""
+        # The documentation of simulate.
     def to_toml(self) -> str:
         """The model as the text of a model file."""
     def page(self) -> str:

@@ -6,6 +6,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
+use tempfile::NamedTempFile;
 
 /// Writes `contents` to `path`: first beside it under another name, so that an interruption or a full disk leaves
 /// nothing half-written. An existing file is kept unless `force` is given. Links are followed; a device or a pipe is
@@ -14,11 +15,24 @@ use crate::failure::Failure;
 /// # Errors
 /// If the file is there and `force` is not given, or if it cannot be written.
 pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failure> {
-    let written = match place(path, force)? {
-        Place::Open => write_into(path, contents),
-        Place::File(target) => replace(&target, contents),
-    };
-    written.map_err(|error| Failure::file("write", path, &error))
+    Draft::new(path, contents, force)?.publish()
+}
+
+/// Writes files that belong together to `folder`, which is made if it is not there, as [`write_file`] does: where one
+/// cannot be written, none is.
+///
+/// # Errors
+/// As [`write_file`].
+pub fn write_together(folder: &Path, files: &[(PathBuf, &[u8])], force: bool) -> Result<(), Failure> {
+    let is_new = !folder.exists();
+    make_folder(folder)?;
+    let drafts = files.iter().map(|(path, contents)| Draft::new(path, contents, force));
+    let drafts: Result<Vec<Draft>, Failure> = drafts.collect();
+    if drafts.is_err() && is_new {
+        // A folder that cannot be deleted is no reason to report something else.
+        let _ = fs::remove_dir(folder);
+    }
+    drafts?.into_iter().try_for_each(Draft::publish)
 }
 
 /// Writes what was made of the file `source`, as [`write_file`] does.
@@ -143,17 +157,51 @@ fn write_into(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
 }
 
-/// Writes a draft beside the file and renames it to the file when it is complete; a draft that fails is deleted.
-fn replace(target: &Path, contents: &[u8]) -> io::Result<()> {
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut draft = drafts().tempfile_in(folder)?;
-    if let Ok(before) = fs::metadata(target) {
-        draft.as_file().set_permissions(before.permissions())?;
+/// What is to be written, on the disk in full but under another name; deleted if it is not published.
+struct Draft<'a> {
+    path: &'a Path,
+    state: State<'a>,
+}
+
+enum State<'a> {
+    /// For what takes what is written.
+    Waiting(&'a [u8]),
+    /// Beside the file that it is to be.
+    Written(NamedTempFile, PathBuf),
+}
+
+impl<'a> Draft<'a> {
+    fn new(path: &'a Path, contents: &'a [u8], force: bool) -> Result<Draft<'a>, Failure> {
+        let state = match place(path, force)? {
+            Place::Open => State::Waiting(contents),
+            Place::File(target) => {
+                let file = beside(&target, contents).map_err(|error| Failure::file("write", path, &error))?;
+                State::Written(file, target)
+            }
+        };
+        Ok(Draft { path, state })
     }
-    draft.write_all(contents)?;
-    draft.as_file().sync_all()?;
-    draft.persist(target)?;
-    Ok(())
+
+    /// Gives it its name.
+    fn publish(self) -> Result<(), Failure> {
+        let published = match self.state {
+            State::Waiting(contents) => write_into(self.path, contents),
+            State::Written(file, target) => file.persist(target).map(drop).map_err(io::Error::from),
+        };
+        published.map_err(|error| Failure::file("write", self.path, &error))
+    }
+}
+
+/// A file beside another one, with its permissions.
+fn beside(target: &Path, contents: &[u8]) -> io::Result<NamedTempFile> {
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = drafts().tempfile_in(folder)?;
+    if let Ok(before) = fs::metadata(target) {
+        file.as_file().set_permissions(before.permissions())?;
+    }
+    file.write_all(contents)?;
+    file.as_file().sync_all()?;
+    Ok(file)
 }
 
 /// Drafts with the permissions of any new file.

@@ -1,4 +1,4 @@
-"""Time of a function for each state, by the run-time path and compiled: the table of docs/python.md.
+"""Time of a function for each state, by the run-time path and compiled: the tables of docs/python.md.
 
     python redysim-python/benches/compiled.py
 """
@@ -21,32 +21,48 @@ ROWS = [
     ("chain of 20", "chain_20", "forward_dynamics"),
 ]
 STATES = 65_536
+BATCH, STATES_OF_BATCH = "peers/kr5", 512
 
 
-def fastest(function, arguments, out, repetitions):
-    """The least of several times of a call, s: a machine with other work is slower, not faster."""
-    calls = max(1, 20_000 // len(np.atleast_2d(arguments[0])))
-    if len(arguments) == 1:
-        run = of_one_argument
-    else:
-        run = of_three_arguments
-    best = np.inf
-    for _ in range(repetitions):
-        start = time.perf_counter()
-        run(calls, function, *arguments, out)
-        best = min(best, (time.perf_counter() - start) / calls)
-    return best
+def seconds(function, arguments, out, calls=20_000):
+    """The time of a call, s, as a program makes it: `function(*arguments)` makes a tuple and a dictionary, too."""
+    calls = max(1, calls // len(np.atleast_2d(arguments[0])))
+    run = {(1, True): of_one, (3, True): of_three, (1, False): of_one_anew, (3, False): of_three_anew}
+    run = run[len(arguments), out is not None]
+    start = time.perf_counter()
+    run(calls, function, *arguments, out)
+    return (time.perf_counter() - start) / calls
 
 
-# As a program calls them: `function(*arguments)` makes a tuple and a dictionary, too.
-def of_one_argument(calls, function, q, out):
+def fastest(functions, arguments, out, repetitions, calls=20_000):
+    """For each function the least of several times of a call, in turns: a machine with other work is slower, not faster."""
+    times = [[seconds(function, arguments, out, calls) for function in functions] for _ in range(repetitions)]
+    return np.min(times, axis=0)
+
+
+def of_one(calls, function, q, out):
     for _ in range(calls):
         function(q, out=out)
 
 
-def of_three_arguments(calls, function, q, v, a, out):
+def of_three(calls, function, q, v, a, out):
     for _ in range(calls):
         function(q, v, a, out=out)
+
+
+def of_one_anew(calls, function, q, _):
+    for _ in range(calls):
+        function(q)
+
+
+def of_three_anew(calls, function, q, v, a, _):
+    for _ in range(calls):
+        function(q, v, a)
+
+
+def states(robot, name, shape, rng):
+    """Random arguments of a function."""
+    return [rng.uniform(-1, 1, (*shape, robot.nv)) for _ in range(1 if name == "mass_matrix" else 3)]
 
 
 def main(repetitions):
@@ -58,12 +74,20 @@ def main(repetitions):
         compiled.compile()
         cells = [f"{label}, {name.replace('_', ' ')}"]
         for shape in ((), (STATES,)):
-            arguments = [rng.uniform(-1, 1, (*shape, plain.nv)) for _ in range(1 if name == "mass_matrix" else 3)]
+            arguments = states(plain, name, shape, rng)
             out = getattr(plain, name)(*arguments)
-            times = [fastest(getattr(robot, name), arguments, out, repetitions) for robot in (plain, compiled)]
-            each = [1e9 * seconds / (shape or (1,))[0] for seconds in times]
+            times = fastest([getattr(robot, name) for robot in (plain, compiled)], arguments, out, repetitions)
+            each = [1e9 * time_of_call / (shape or (1,))[0] for time_of_call in times]
             cells += [*(f"{ns:.0f}" for ns in each), f"{each[0] / each[1]:.1f} ×"]
         print("| " + " | ".join(cells) + " |")
+    # So few are computed by one thread.
+    robot = redysim.load(MODELS / f"{BATCH}.toml").compile()
+    print(f"\n| ns for each of {STATES_OF_BATCH} states, one thread | compiled |\n|---|---|")
+    for name in ("inverse_dynamics", "forward_dynamics"):
+        arguments = states(robot, name, (STATES_OF_BATCH,), rng)
+        function = getattr(robot, name)
+        [best] = fastest([function], arguments, function(*arguments), repetitions, 200_000)
+        print(f"| {BATCH}, {name.replace('_', ' ')} | {1e9 * best / STATES_OF_BATCH:.1f} |")
 
 
 if __name__ == "__main__":

@@ -393,7 +393,7 @@ fn new<'py>(
     let kind = match &layout.structure {
         // SAFETY: the type lives as long as NumPy.
         None => unsafe { npyffi::get_type_object(py, npyffi::NpyTypes::PyArray_Type) },
-        Some(_) => RECORDS.import(py, "numpy", "recarray")?.as_type_ptr(),
+        Some(_) => RECORDS.import(py, "redysim._records", "Records")?.as_type_ptr(),
     };
     let mut axes: [npyffi::npy_intp; 4] = [0; 4];
     axes.iter_mut().zip(shape).for_each(|(axis, &size)| *axis = size as npyffi::npy_intp);

@@ -8,8 +8,12 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// With all instructions of this processor, and products and sums fused where it can.
-const FLAGS: &str = "-std=c99 -O3 -march=native -DREDYSIM_FMA -fno-math-errno";
+/// With products and sums fused where the processor can.
+const FLAGS: &str = "-std=c99 -O3 -DREDYSIM_FMA -fno-math-errno";
+
+/// Has the compiler take all instructions of this processor.
+const FOR_THIS_PROCESSOR: &str =
+    if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { "-march=native" } else { "-mcpu=native" };
 
 /// What has GCC 12 or later keep the code for one state to vectors of 256 bits: one of 512 bits may slow down the numbers around
 /// it by more than it saves. Lanes stay wide by a pragma in the source. Clang, which has no such pragma, keeps to 256 bits by
@@ -41,7 +45,7 @@ impl Compiler {
 
     /// What its code depends on, beside the source and the processor.
     pub fn key(&self) -> Vec<u8> {
-        [&self.version[..], FLAGS.as_bytes(), NARROW.as_bytes()].concat()
+        [&self.version[..], FLAGS.as_bytes(), FOR_THIS_PROCESSOR.as_bytes(), NARROW.as_bytes()].concat()
     }
 
     /// Compiles a source to a library, which is to be kept in `folder`.
@@ -50,7 +54,7 @@ impl Compiler {
     /// If it fails.
     pub fn compile(&self, source: &Path, library: &Path, folder: &Path) -> Result<(), PyErr> {
         let mut command = Command::new(&self.name);
-        command.args(FLAGS.split(' ')).args(self.narrow()?).args(["-fPIC", "-shared", "-o"]);
+        command.args(FLAGS.split(' ')).arg(FOR_THIS_PROCESSOR).args(self.narrow()?).args(["-fPIC", "-shared", "-o"]);
         let Output { status, stderr, .. } = self.run(command.arg(library).arg(source).arg("-lm"))?;
         if status.success() {
             return Ok(());

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+KINDS = ("revolute", "prismatic", "continuous", "fixed")
+
 
 def inertia(rng) -> np.ndarray:
     """The inertia of a body about its centre of mass, kg m², as real ones are."""
@@ -14,8 +16,8 @@ def numbers(values) -> str:
     return " ".join(repr(float(value)) for value in values)
 
 
-def random_urdf(rng, joints: int, serial: bool = False) -> str:
-    """A robot of revolute and prismatic joints, whose links branch unless it is serial."""
+def random_urdf(rng, joints: int, serial: bool = False, kinds=KINDS) -> str:
+    """A robot whose links branch unless it is serial, on joints of these kinds; the first one moves."""
     parts = []
     for index in range(joints + 1):
         i = inertia(rng).tolist()
@@ -28,7 +30,7 @@ def random_urdf(rng, joints: int, serial: bool = False) -> str:
     for index in range(1, joints + 1):
         parent = index - 1 if serial else int(rng.integers(max(0, index - 3), index))
         axis = rng.normal(size=3)
-        kind = "prismatic" if rng.uniform() < 0.25 else "revolute"
+        kind = kinds[0] if index == 1 or rng.uniform() < 0.4 else rng.choice(kinds)
         parts.append(f"""
   <joint name="joint{index}" type="{kind}">
     <parent link="link{parent}"/><child link="link{index}"/>

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import resource
+import runpy
 import shutil
 import subprocess
 import sys
@@ -11,7 +12,7 @@ import time
 import numpy as np
 import pytest
 import redysim
-from conftest import MODELS
+from conftest import MODELS, skip
 from test_functions import FUNCTIONS, ROBOTS, arguments
 
 
@@ -56,7 +57,7 @@ def bits(result):
 ])
 def test_states_in_lanes_have_the_bits_of_each_alone(cache, rng, model, compiler):
     if shutil.which(compiler) is None:
-        pytest.skip(f"{compiler} is not installed")
+        skip(f"{compiler} is not installed")
     robot = redysim.load(MODELS / model).compile(compiler=compiler)
     for name, names, _ in FUNCTIONS:
         xs = arguments(robot, names, rng, (21,))
@@ -88,14 +89,33 @@ def test_the_compiled_library_is_kept(cache):
     assert redysim.load(MODELS / "rp.toml").compile().library != first.library
 
 
+BENCH = MODELS.parent / "redysim-python/benches/compiled.py"
+
+
 def test_the_times_of_the_documentation_are_measured_for_every_row(cache):
-    command = [sys.executable, str(MODELS.parent / "redysim-python/benches/compiled.py"), "1"]
-    table = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    command = [sys.executable, str(BENCH), "1"]
+    tables = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
     document = (MODELS.parent / "docs/python.md").read_text()
-    names = [line.split(" | ")[0] for line in table if not line.startswith("|---")]
-    assert len(names) == 8
+    names = [line.split(" | ")[0] for line in tables if line and not line.startswith("|---")]
+    assert len(names) == 8 + 3
     for name in names:
         assert f"\n{name} | " in document, name
+
+
+@pytest.mark.parametrize("anew", [False, True], ids=["out", "a new array"])
+@pytest.mark.parametrize("name", ["inverse_dynamics", "forward_dynamics", "mass_matrix"])
+def test_a_compiled_function_takes_at_most_a_fifth_of_the_time_for_one_state(cache, rng, name, anew):
+    fastest = runpy.run_path(str(BENCH))["fastest"]
+    plain, compiled = redysim.load(MODELS / "kr5.toml"), redysim.load(MODELS / "kr5.toml").compile()
+    functions = [getattr(robot, name) for robot in (plain, compiled)]
+    xs = rng.uniform(-1, 1, (1 if name == "mass_matrix" else 3, 6))
+    out = None if anew else functions[0](*xs)
+    # On a machine with other work, in two attempts of three.
+    gains = []
+    while len(gains) < 3 and sum(gain >= 5 for gain in gains) < 2:
+        by_path, by_code = fastest(functions, xs, out, 20, 2000)
+        gains.append(by_path / by_code)
+    assert sum(gain >= 5 for gain in gains) >= 2, gains
 
 
 def test_a_missing_compiler_is_named():

@@ -1,12 +1,14 @@
 """Models, what is wrong with them, and what the package says of itself."""
 
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 import redysim
-from conftest import MODELS
+from conftest import MODELS, skip
 from random_urdf import random_urdf
 
 HERE = Path(__file__).parents[1]
@@ -44,7 +46,7 @@ def test_warnings_of_a_model_are_warnings():
 
 def test_the_root_of_a_urdf_may_float(tmp_path, rng):
     path = tmp_path / "robot.urdf"
-    path.write_text(random_urdf(rng, 3))
+    path.write_text(random_urdf(rng, 3, kinds=("revolute", "prismatic")))
     assert redysim.load(path).nv == 3
     assert redysim.load(path, base="free").nv == 9
     with pytest.raises(ValueError, match='base must be "fixed" or "free", not "loose"'):
@@ -53,11 +55,32 @@ def test_the_root_of_a_urdf_may_float(tmp_path, rng):
         redysim.load(MODELS / "kr5.toml", base="free")
 
 
-def test_a_fault_of_a_urdf_has_its_line(tmp_path, rng):
+@pytest.fixture(scope="module")
+def command():
+    """The command `redysim`, which .ci/python builds."""
+    found = os.environ.get("REDYSIM_COMMAND") or shutil.which("redysim")
+    return found or skip("the command `redysim` is neither in REDYSIM_COMMAND nor in PATH")
+
+
+FAULTS_OF_URDF = {
+    "it ends early": ("</robot>", ""),
+    "a parent that is not there": ('parent link="link0"', 'parent link="nothing"'),
+    "a link with two parents": ('child link="link2"', 'child link="link1"'),
+    "an unknown kind of joint": ('type="revolute"', 'type="revolving"'),
+    "a negative mass": ('mass value="', 'mass value="-'),
+    "a number that is none": ('<axis xyz="', '<axis xyz="upward '),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS_OF_URDF)
+def test_the_fault_of_a_urdf_is_shown_as_by_the_command(tmp_path, rng, command, fault):
     path = tmp_path / "robot.urdf"
-    path.write_text(random_urdf(rng, 3).replace("prismatic", "revolute").replace('parent link="link0"', 'parent link="nothing"'))
-    with pytest.raises(redysim.RedysimError, match=r"robot.urdf:\d+: .*nothing"):
+    path.write_text(random_urdf(rng, 3).replace(*FAULTS_OF_URDF[fault]))
+    with pytest.raises(redysim.RedysimError) as error:
         redysim.load(path)
+    run = subprocess.run([command, "import", path, "--quiet"], capture_output=True, text=True, timeout=60)
+    assert run.returncode == 1 and run.stderr.strip() == str(error.value).strip()
+    assert str(error.value).count("error: ") == 1 and "robot.urdf:" in str(error.value)
 
 
 def test_the_stubs_are_those_of_the_package():
@@ -69,9 +92,16 @@ def test_the_stubs_are_those_of_the_package():
     assert TARGET.read_text(encoding="utf-8") == stubs(), "run redysim-python/stubs.py"
 
 
-def test_the_stubs_have_what_the_package_has(tmp_path):
+SETTINGS = str(HERE / "pyproject.toml")
+
+
+@pytest.mark.parametrize("check", [
+    ["mypy.stubtest", "redysim", "--mypy-config-file", SETTINGS],
+    ["mypy", "--package", "redysim", "--config-file", SETTINGS],
+], ids=["stubs", "types"])
+def test_the_package_is_as_it_is_typed(tmp_path, check):
     # In a folder of its own, where the cache of mypy is.
-    command = [sys.executable, "-m", "mypy.stubtest", "redysim._core"]
+    command = [sys.executable, "-m", *check]
     run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
     assert run.returncode == 0, run.stdout + run.stderr
 

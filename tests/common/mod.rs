@@ -17,4 +17,5 @@ pub mod random;
 pub mod styles;
 #[cfg(feature = "generic")]
 pub mod text;
+pub mod tools;
 pub mod traced;

@@ -54,6 +54,7 @@ assert(both(:, 2), expected, 1e-13);
 % Names and parameters; those of the model are the default, and gravity is linear in them.
 model = given('model');
 assert(model.parameter_names{4}, 'link3.mass');
+assert(model.parameter_units{4}, 'kg');
 assert(kr5('model').velocity_units{1}, 'rad/s');
 q = [0.3 -0.8 1.1 2];
 p = model.parameters;

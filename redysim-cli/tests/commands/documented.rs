@@ -6,7 +6,7 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::common::{Table, WALKING, bash, cargo, root, scratch, succeed};
+use crate::common::{Table, WALKING, bash, cargo, root, scratch, skip, succeed};
 
 /// What takes five to ten seconds in a debug build: robots that walk, and hundreds of four-bars.
 const SLOW: [&str; 4] = [WALKING[0], WALKING[1], WALKING[2], "fourbar_tolerances"];
@@ -119,7 +119,7 @@ pub fn run_all(name: &str, document: &str, least: usize) -> (PathBuf, String) {
             }
             // Not every machine has it; `.ci/run` installs it.
             Step::Compiled(command) if is_by_cmake(&command) && !has("cmake") => {
-                eprintln!("SKIPPED: there is no CMake here");
+                skip("there is no CMake here");
             }
             Step::Compiled(command) => {
                 let run = bash(&folder, &command, &[]);

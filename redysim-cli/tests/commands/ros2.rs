@@ -1,6 +1,6 @@
 //! The plugin of docs/ros2.md compiles against the interface that it implements, and its parts agree.
 
-use crate::common::bash;
+use crate::common::{bash, skip};
 use crate::documented::{has, run_all};
 use std::fs;
 use std::path::Path;
@@ -59,7 +59,7 @@ int main() {
 fn the_plugin_for_ros_2_compiles_and_its_torques_are_the_sum_of_its_parts() {
     let (folder, _) = run_all("documented-ros2", "docs/ros2.md", 2);
     if !(has("c++") && Path::new("/usr/include/eigen3").is_dir()) {
-        eprintln!("SKIPPED: there is no C++ compiler or no Eigen here");
+        skip("there is no C++ compiler or no Eigen here");
         return;
     }
     let package = folder.join("kr5_inverse_dynamics_solver");

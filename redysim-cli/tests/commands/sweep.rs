@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+#[cfg(target_os = "linux")]
+use crate::common::running::shown;
 use crate::common::{Table, call, fail, model, names, scenario, scratch, succeed};
 #[cfg(unix)]
-use crate::common::{on_a_full_disk, program};
+use crate::common::{on_a_full_disk, program, running::Running};
 
 const FALL: &str = "initial = { q = [0, 1] }\n[forward]\nend = 0.1\nstep = 0.05\n\
                     torque = { law = 'pd', target = [0.5, 0.5], kp = 10.0, kd = [1.0, 1.0] }\n";
@@ -157,6 +159,41 @@ fn a_killed_sweep_goes_on_to_the_rows_of_one_that_was_not() {
     assert!(kept < 61, "it was killed in time");
     succeed(&folder, &["sweep", "study.toml", "--output", "killed", "--quiet", "--jobs", "1"]);
     assert_eq!(fs::read_to_string(&rows).unwrap(), whole);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_keeps_whole_rows_and_the_same_command_goes_on_to_those_of_a_sweep_without_it() {
+    let drawn = "[samples]\ncount = 60\nforward.end = { uniform = [0.2, 0.5] }\n";
+    let folder = sweep("sweep-interrupted", drawn);
+    let command = ["sweep", "study.toml", "--output", "part"];
+    let rows = folder.join("part/rows.csv");
+    let run = Running::into(&folder, &command, rows.clone());
+    run.wait(|rows| fs::metadata(rows).is_ok_and(|file| file.len() > 600));
+    run.interrupt();
+    let (code, error) = run.end();
+    assert_eq!(code, Some(130), "{error}");
+    let kept = fs::read_to_string(&rows).unwrap();
+    let count = kept.lines().count() - 1;
+    assert!(kept.ends_with('\n') && (1..60).contains(&count), "{kept}");
+    let message = format!("interrupted: {count} of 60 samples are in part/rows.csv; the same command goes on");
+    assert!(error.contains(&message), "{error}");
+    assert!(!error.contains('%'), "no terminal, no bar: {error}");
+    // Whole rows, in whatever order.
+    let whole = text(&folder);
+    assert!(kept.lines().all(|row| whole.lines().any(|other| other == row)), "{kept}");
+    let again = call(&folder, &command);
+    assert!(again.code == 0 && again.stderr.contains(" of 60 are there already"), "{}", again.output());
+    assert_eq!(fs::read_to_string(&rows).unwrap(), whole);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_shows_how_far_a_long_sweep_is_and_how_long_it_will_take() {
+    let folder = scratch("sweep-progress");
+    study(&folder, "[samples]\ncount = 2000\nforward.end = { uniform = [1.0, 2.0] }\n");
+    let bar = shown(&folder, "sweep study.toml --output rows --jobs 1");
+    assert!(bar.contains(" %, ") && bar.contains(" left") && bar.contains("the same command goes on"), "{bar}");
 }
 
 #[cfg(unix)]

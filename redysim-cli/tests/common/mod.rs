@@ -8,6 +8,8 @@ mod robot;
 pub mod running;
 mod scenarios;
 mod table;
+#[path = "../../../tests/common/tools.rs"]
+mod tools;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,6 +21,7 @@ pub use refusals::{refuses, refuses_in};
 pub use robot::{BALLS, robot};
 pub use scenarios::{AGAINST_CLOSED_FORMS, LIFT, LONG, SWING, WALKING, results, scenario, slide, swing, turn};
 pub use table::{Table, deviation};
+pub use tools::skip;
 
 /// The repository.
 pub fn root() -> PathBuf {

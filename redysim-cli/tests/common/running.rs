@@ -11,7 +11,7 @@ use super::{names, program};
 
 pub struct Running {
     child: Child,
-    /// The folder that it writes into until it ends.
+    /// What it writes into until it ends.
     draft: PathBuf,
 }
 
@@ -28,6 +28,12 @@ impl Running {
         let run = Running { child, draft };
         run.wait(Path::exists);
         run
+    }
+
+    /// Begins a run of the program in `folder`, which writes into `place` from the start.
+    pub fn into(folder: &Path, arguments: &[&str], place: PathBuf) -> Running {
+        let child = program(folder, arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        Running { child, draft: place }
     }
 
     /// Waits until the draft is as it should be.
@@ -85,6 +91,17 @@ impl Drop for Running {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+/// What a terminal shows of the first two seconds of a run in `folder`, after which Ctrl-C is pressed.
+#[cfg(target_os = "linux")]
+pub fn shown(folder: &Path, arguments: &str) -> String {
+    let run = format!("'{}' {arguments}", env!("CARGO_BIN_EXE_redysim"));
+    let for_two_seconds = format!("timeout --foreground --signal INT 2 {run}");
+    let mut terminal = Command::new("script");
+    terminal.args(["--quiet", "--return", "--command", &for_two_seconds, "/dev/null"]).current_dir(folder);
+    let output = terminal.stdin(Stdio::null()).output().unwrap();
+    String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
 /// Interrupts a run after a moment for some rows.

@@ -3,9 +3,9 @@
 
 use std::fs;
 use std::path::Path;
-#[cfg(target_os = "linux")]
-use std::process::{Command, Stdio};
 
+#[cfg(target_os = "linux")]
+use crate::common::running;
 use crate::common::running::{Running, interrupted};
 use crate::common::{LONG, Table, names, scenario, scratch, succeed};
 
@@ -14,12 +14,7 @@ use crate::common::{LONG, Table, names, scenario, scratch, succeed};
 fn shown(name: &str, options: &str) -> String {
     let folder = scratch(name);
     let path = scenario(&folder, "two_link.toml", LONG);
-    let run = format!("'{}' forward '{path}' -o run {options}", env!("CARGO_BIN_EXE_redysim"));
-    let for_two_seconds = format!("timeout --foreground --signal INT 2 {run}");
-    let mut terminal = Command::new("script");
-    terminal.args(["--quiet", "--return", "--command", &for_two_seconds, "/dev/null"]).current_dir(&folder);
-    let output = terminal.stdin(Stdio::null()).output().unwrap();
-    String::from_utf8_lossy(&output.stdout).into_owned()
+    running::shown(&folder, &format!("forward '{path}' -o run {options}"))
 }
 
 /// Another run ignores the draft of a run in progress, and reports the draft of a run that was killed.

@@ -145,6 +145,29 @@ fn a_full_disk_leaves_nothing_half_written() {
     assert!(output.contains("cannot write the table ") && output.contains("make room on the disk"), "{output}");
 }
 
+/// Every other file finds room.
+#[test]
+fn a_full_disk_leaves_none_of_the_files_that_belong_together() {
+    let folder = scratch("output-full-together");
+    let model = model("two_link.toml");
+    for options in [&["--language", "c"][..], &["--language", "cpp"], &["--mex"], &["--fmu", "--source-only"]] {
+        let generate = |out: &'static str| [&["generate", &model, "--quiet", "-o", out][..], options].concat();
+        succeed(&folder, &generate("whole"));
+        let files = || names(&folder.join("whole")).into_iter().map(|name| folder.join("whole").join(name));
+        let contents: Vec<Vec<u8>> = files().map(|path| fs::read(path).unwrap()).collect();
+        let largest = contents.iter().map(Vec::len).max().unwrap();
+        let kilobytes = u32::try_from((largest - 1) / 1024).unwrap();
+        let error = on_a_full_disk(&folder, kilobytes, &generate("none"));
+        assert_eq!(error.matches("error: ").count(), 1, "{options:?}: {error}");
+        assert!(error.contains("error: cannot write none/two_link"), "{options:?}: {error}");
+        assert_eq!(names(&folder), ["whole"], "{options:?}");
+        // Those that are there stay as they are.
+        on_a_full_disk(&folder, kilobytes, &[&generate("whole")[..], &["--force", "--name", "two_link"]].concat());
+        assert!(files().map(|path| fs::read(path).unwrap()).eq(contents), "{options:?}");
+        fs::remove_dir_all(folder.join("whole")).unwrap();
+    }
+}
+
 #[test]
 fn a_full_device_is_reported() {
     let folder = scratch("output-full-device");

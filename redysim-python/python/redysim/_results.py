@@ -186,7 +186,7 @@ class Results(Recording):
 class Event(NamedTuple):
     """A crossing of zero of one of the functions of `simulate`."""
 
-    index: int
+    index: int  # type: ignore[assignment]
     """Which of the functions it was."""
     t: float
     """When, s."""

@@ -113,10 +113,10 @@ def sweep(
     """
     if format not in ("csv", "parquet"):
         raise ValueError(f'format must be "csv" or "parquet", not {format!r}')
+    path = Path(scenario.path if isinstance(scenario, Scenario) else scenario)
     if over is None and samples is None:
-        study = _core.Study.load(Path(fspath(scenario)))
+        study = _core.Study.load(path)
     else:
-        path = Path(scenario.path if isinstance(scenario, Scenario) else scenario)
         text = definition(path, over, samples, run, outcomes)
         study = _core.Study.from_toml(text, Path.cwd(), path.stem)
     for warning in study.warnings:

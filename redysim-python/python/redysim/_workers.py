@@ -246,9 +246,9 @@ class Computation:
             # All others of the pool are lost with it, but for those that were done before.
             wait(self.running)
             for future, indices in list(self.running.items()):
-                if future.exception() is not None:
+                if (error := future.exception()) is not None:
                     del self.running[future]
-                    lost.append((indices, future.exception()))
+                    lost.append((indices, error))
         self.pool.recover()
         for indices, error in lost:
             self.suspects.extend(indices)

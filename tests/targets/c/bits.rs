@@ -19,6 +19,46 @@ redysim! { struct Quadruped("models/quadruped.toml", functions = [inverse_dynami
 redysim! { struct Humanoid("models/peers/humanoid30.toml", functions = [inverse_dynamics]); }
 redysim! { struct Chain("models/peers/chain40.toml", functions = [inverse_dynamics, forward_dynamics]); }
 
+/// What Rust computes of an arm on a floating base.
+pub fn by_floating<T: Real>(function: Function, state: &State<T>) -> Option<Vec<T>> {
+    if function != Function::HybridDynamics {
+        return tree(&Floating, function, state);
+    }
+    let [q, v, u] = [Argument::Coordinates, Argument::Velocities, Argument::Given];
+    let motion = HybridDynamics::hybrid_dynamics(&Floating, &vector(state, q), &vector(state, v), &vector(state, u));
+    Some([motion.a, motion.tau].concat())
+}
+
+/// What Rust computes of a closed loop.
+pub fn by_fourbar<T: Real>(function: Function, state: &State<T>) -> Option<Vec<T>> {
+    let [q, v]: [[T; Fourbar::NV]; 2] = [Argument::Coordinates, Argument::Velocities].map(|name| vector(state, name));
+    match function {
+        Function::LoopResidual => Some(LoopClosure::loop_residual(&Fourbar, &q).to_vec()),
+        Function::LoopJacobian => Some(LoopClosure::loop_jacobian(&Fourbar, &q).concat()),
+        Function::LoopBias => Some(LoopClosure::loop_bias(&Fourbar, &q, &v).to_vec()),
+        _ => tree(&Fourbar, function, state),
+    }
+}
+
+/// What Rust computes of frames and wrenches.
+pub fn by_machine<T: Real>(function: Function, state: &State<T>) -> Option<Vec<T>> {
+    let wrenches = numbers(state, Argument::Wrenches);
+    let wrench = |i: usize| {
+        let of = |first: usize| core::array::from_fn(|k| wrenches[6 * i + first + k]);
+        Wrench { force: of(0), moment: of(3) }
+    };
+    let wrenches: [Wrench<T>; Machine::NF] = core::array::from_fn(wrench);
+    let [q, v] = [Argument::Coordinates, Argument::Velocities].map(|name| numbers(state, name));
+    let [kinematics, jacobians, bias, forces] = call::frames(&Machine, q, v, &wrenches);
+    match function {
+        Function::FrameKinematics => Some(kinematics),
+        Function::FrameJacobians => Some(jacobians),
+        Function::FrameBias => Some(bias),
+        Function::FrameForces => Some(forces),
+        _ => tree(&Machine, function, state),
+    }
+}
+
 #[test]
 fn an_arm_computes_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
@@ -47,15 +87,7 @@ fn fingers_with_parallel_axes_compute_the_same_bits_in_c() {
 fn a_floating_arm_with_quaternion_and_hybrid_dynamics_computes_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("kr5_floating", "", scalar);
-        same_bits::<T>(&in_c, &Floating, trig!(Floating), &|function, state| match function {
-            Function::HybridDynamics => {
-                let [q, v, u] = [Argument::Coordinates, Argument::Velocities, Argument::Given];
-                let motion =
-                    HybridDynamics::hybrid_dynamics(&Floating, &vector(state, q), &vector(state, v), &vector(state, u));
-                Some([motion.a, motion.tau].concat())
-            }
-            _ => tree(&Floating, function, state),
-        });
+        same_bits::<T>(&in_c, &Floating, trig!(Floating), &by_floating);
     }
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);
@@ -65,16 +97,7 @@ fn a_floating_arm_with_quaternion_and_hybrid_dynamics_computes_the_same_bits_in_
 fn closed_loops_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("fourbar", "", scalar);
-        same_bits::<T>(&in_c, &Fourbar, trig!(Fourbar), &|function, state| {
-            let [q, v]: [[T; Fourbar::NV]; 2] =
-                [Argument::Coordinates, Argument::Velocities].map(|name| vector(state, name));
-            match function {
-                Function::LoopResidual => Some(LoopClosure::loop_residual(&Fourbar, &q).to_vec()),
-                Function::LoopJacobian => Some(LoopClosure::loop_jacobian(&Fourbar, &q).concat()),
-                Function::LoopBias => Some(LoopClosure::loop_bias(&Fourbar, &q, &v).to_vec()),
-                _ => tree(&Fourbar, function, state),
-            }
-        });
+        same_bits::<T>(&in_c, &Fourbar, trig!(Fourbar), &by_fourbar);
     }
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);
@@ -84,23 +107,7 @@ fn closed_loops_compute_the_same_bits_in_c() {
 fn frames_and_wrenches_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("test/frames", "", scalar);
-        same_bits::<T>(&in_c, &Machine, trig!(Machine), &|function, state| {
-            let wrenches = numbers(state, Argument::Wrenches);
-            let wrench = |i: usize| {
-                let of = |first: usize| core::array::from_fn(|k| wrenches[6 * i + first + k]);
-                Wrench { force: of(0), moment: of(3) }
-            };
-            let wrenches: [Wrench<T>; Machine::NF] = core::array::from_fn(wrench);
-            let [q, v] = [Argument::Coordinates, Argument::Velocities].map(|name| numbers(state, name));
-            let [kinematics, jacobians, bias, forces] = call::frames(&Machine, q, v, &wrenches);
-            match function {
-                Function::FrameKinematics => Some(kinematics),
-                Function::FrameJacobians => Some(jacobians),
-                Function::FrameBias => Some(bias),
-                Function::FrameForces => Some(forces),
-                _ => tree(&Machine, function, state),
-            }
-        });
+        same_bits::<T>(&in_c, &Machine, trig!(Machine), &by_machine);
     }
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);

@@ -3,6 +3,7 @@
 //! Where the tests run under an emulator, `REDYSIM_RUNNER` is the command that runs a program, as `qemu-aarch64 -L
 //! /usr/aarch64-linux-gnu`, and `CC` and `CXX` name compilers for the target, as in `studies/aarch64/run`.
 
+use crate::common::tools::skip;
 use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
@@ -14,7 +15,14 @@ static RUNNER: LazyLock<Option<String>> =
 static COMPILERS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let own = std::env::var("CC").ok();
     if RUNNER.is_none() {
-        return [own.unwrap_or("cc".into()), "clang".into()].into_iter().filter(|name| runs(name)).collect();
+        let there_are = |name: &String| {
+            let runs = runs(name);
+            if !runs {
+                skip(&format!("the C compiler `{name}` cannot be run"));
+            }
+            runs
+        };
+        return [own.unwrap_or("cc".into()), "clang".into()].into_iter().filter(there_are).collect();
     }
     let own =
         own.filter(|own| runs(own)).expect("with REDYSIM_RUNNER, CC names a compiler for the target of the tests");
@@ -23,7 +31,7 @@ static COMPILERS: LazyLock<Vec<String>> = LazyLock::new(|| {
     if links(&clang) {
         vec![own, clang]
     } else {
-        eprintln!("SKIPPED: {clang} links no program");
+        skip(&format!("{clang} links no program"));
         vec![own]
     }
 });
@@ -32,7 +40,7 @@ static COMPILERS: LazyLock<Vec<String>> = LazyLock::new(|| {
 /// follow the name.
 pub fn compilers() -> &'static [String] {
     if COMPILERS.is_empty() {
-        eprintln!("SKIPPED: there is no C compiler here; install one, or name it in the variable CC");
+        skip("there is no C compiler here; install one, or name it in the variable CC");
     }
     &COMPILERS
 }
@@ -47,7 +55,7 @@ pub fn cpp_compiler(c: &str) -> Option<String> {
     };
     let found = cpp.filter(|name| runs(name));
     if found.is_none() {
-        eprintln!("SKIPPED: there is no compiler of C++ beside {c}");
+        skip(&format!("there is no compiler of C++ beside {c}"));
     }
     found
 }

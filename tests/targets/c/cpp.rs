@@ -1,12 +1,17 @@
 //! The header for C++ and the package of CMake: a program finds one mechanism where it is installed and builds another
-//! one with itself, and computes what Rust computes, to the bit.
+//! one with itself, and computes what Rust computes, to the bit; so does each function of the header, whatever its shapes.
 
+use super::bits::{by_floating, by_fourbar, by_machine};
 use super::compilers::{self, compilers, cpp_compiler};
 use super::parameters::{Given, OF_GIVEN};
+use super::program::State;
+use crate::NATIVE;
+use crate::common::tools::skip;
 use crate::robots::{Gripper, Kr5};
-use redysim::{FUSED, LinkState};
+use redysim::function::{Argument, Dimension};
+use redysim::{FUSED, Function, LinkState};
 use redysim_codegen::{COptions, CScalar, CppFiles, cpp_files};
-use redysim_model::Model;
+use redysim_model::{Model, Tree};
 use std::path::Path;
 use std::process::Command;
 
@@ -105,15 +110,20 @@ add_subdirectory(given)
 add_subdirectory(single)
 add_executable(user user.cpp)
 set_target_properties(user PROPERTIES CXX_STANDARD 11 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
-target_compile_options(user PRIVATE -pedantic -Wall -Wextra -Wconversion -Wshadow -Wold-style-cast -Werror)
+target_compile_options(user PRIVATE @warnings@)
 target_link_libraries(user PRIVATE kr5::kr5 given::given single::single)
 ";
+
+/// What C++ code must be free of.
+const WARNINGS: [&str; 7] =
+    ["-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wold-style-cast", "-Werror"];
 
 /// [`BUILD`] with the versions.
 fn build_file() -> String {
     let [major, minor] = [env!("CARGO_PKG_VERSION_MAJOR"), env!("CARGO_PKG_VERSION_MINOR")]
         .map(|number| number.parse::<usize>().expect("a number"));
     BUILD
+        .replace("@warnings@", &WARNINGS.join(" "))
         .replace("@version@", &format!("{major}.{minor}"))
         .replace("@next@", &format!("{major}.{}", minor + 1))
         .replace("@whole@", env!("CARGO_PKG_VERSION"))
@@ -184,7 +194,7 @@ fn rust() -> Vec<f64> {
 fn a_program_in_cpp_that_cmake_builds_computes_the_same_bits() {
     let expected: Vec<u64> = rust().into_iter().map(f64::to_bits).collect();
     if !Command::new("cmake").arg("--version").output().is_ok_and(|output| output.status.success()) {
-        eprintln!("SKIPPED: there is no CMake here");
+        skip("there is no CMake here");
         return;
     }
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cpp");
@@ -216,5 +226,109 @@ fn a_program_in_cpp_that_cmake_builds_computes_the_same_bits() {
         let found: Vec<u64> =
             printed.lines().map(|bits| u64::from_str_radix(bits, 16).expect("bits of a number")).collect();
         assert_eq!(found, expected, "{cpp}");
+    }
+}
+
+/// A program that calls functions, whose arguments are [`argument`].
+const CALLS: &str = r#"
+#include "robot.hpp"
+#include <cinttypes>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+
+namespace robot = redysim::robot;
+
+template <typename T> static T filled(std::size_t seed)
+{
+    std::array<double, sizeof(T) / sizeof(double)> numbers;
+    for (std::size_t i = 0; i < numbers.size(); i++) {
+        numbers[i] = 0.25 * static_cast<double>(seed) - 0.125 * static_cast<double>(i);
+    }
+    T value;
+    std::memcpy(&value, &numbers, sizeof value);
+    return value;
+}
+
+template <typename T> static void print(const T &result)
+{
+    std::array<std::uint64_t, sizeof(T) / sizeof(std::uint64_t)> bits;
+    static_assert(sizeof bits == sizeof result, "a result is made of numbers");
+    std::memcpy(&bits, &result, sizeof result);
+    for (const std::uint64_t number : bits) {
+        std::printf("%016" PRIx64 "\n", number);
+    }
+}
+
+int main()
+{
+@calls@    return 0;
+}
+"#;
+
+/// The numbers of an argument, which differ from each other and from those of the others.
+fn argument(argument: Argument, length: usize) -> Vec<f64> {
+    let seed = Argument::ALL.iter().position(|other| *other == argument).expect("a known argument") + 1;
+    (0..length).map(|i| 0.25 * seed as f64 - 0.125 * i as f64).collect()
+}
+
+/// The program that calls `functions`.
+fn calls(functions: &[Function]) -> String {
+    let takes =
+        |argument: &Argument| functions.iter().any(|function| function.signature().arguments.contains(argument));
+    let define = |(index, argument): (usize, Argument)| {
+        let kind = match argument {
+            Argument::Wrenches => "std::array<robot::Wrench, robot::nf>",
+            Argument::Forces => "robot::Forces",
+            _ if argument.dimension() == Dimension::Coordinates => "robot::Coordinates",
+            _ => "robot::Velocities",
+        };
+        format!("    const auto {} = filled<{kind}>({});\n", argument.name(), index + 1)
+    };
+    let arguments = Argument::ALL.into_iter().enumerate().filter(|(_, argument)| takes(argument)).map(define);
+    let call = |function: &Function| {
+        let names: Vec<&str> = function.signature().arguments.iter().map(|argument| argument.name()).collect();
+        format!("    print(robot::{function}({}));\n", names.join(", "))
+    };
+    CALLS.replace("@calls@", &arguments.chain(functions.iter().map(call)).collect::<String>())
+}
+
+#[test]
+fn every_function_of_the_header_gives_the_bits_of_rust_for_loops_frames_wrenches_and_hybrid_dynamics() {
+    type Call = fn(Function, &State<f64>) -> Option<Vec<f64>>;
+    let cases: [(&str, Call, Function); 3] = [
+        ("fourbar", by_fourbar, Function::LoopJacobian),
+        ("test/frames", by_machine, Function::FrameForces),
+        // Takes some seconds.
+        ("kr5_floating", by_floating, Function::HybridDynamics),
+    ];
+    for (model, by_rust, among) in &cases[..if NATIVE { 3 } else { 2 }] {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cpp-calls-{}", model.replace('/', "-")));
+        write(model, "robot", "", CScalar::F64, &folder);
+        let header = std::fs::read_to_string(folder.join("robot.hpp")).expect("the header");
+        let declared = |function: &&Function| header.contains(&format!(" {function}("));
+        let functions: Vec<Function> = Function::ALL.iter().filter(declared).copied().collect();
+        assert!(functions.contains(among));
+        std::fs::write(folder.join("user.cpp"), calls(&functions)).expect("a file");
+        let tree = Tree::new(
+            &Model::load(format!("{}/models/{model}.toml", env!("CARGO_MANIFEST_DIR"))).expect("a good model").model,
+        );
+        let state: State<f64> =
+            Argument::ALL.into_iter().map(|each| argument(each, tree.argument_length(each))).collect();
+        let by_rust = |function: &Function| by_rust(*function, &state).expect("a function of the mechanism");
+        let expected: Vec<String> =
+            functions.iter().flat_map(by_rust).map(|number| format!("{:016x}", number.to_bits())).collect();
+        for c in compilers() {
+            let Some(cpp) = cpp_compiler(c) else { continue };
+            let fused: &[&str] = if FUSED { &["-DREDYSIM_FMA"] } else { &[] };
+            run(compilers::command(c)
+                .args(["-std=c99", "-O0", "-c", "robot.c", "-o", "robot.o"])
+                .args(fused)
+                .current_dir(&folder));
+            let compile = ["-std=c++11", "user.cpp", "robot.o", "-o", "user", "-lm"];
+            run(compilers::command(&cpp).args(WARNINGS).args(compile).current_dir(&folder));
+            let printed = run(&mut compilers::program(&folder.join("user")));
+            assert_eq!(printed.lines().collect::<Vec<_>>(), expected, "{model} by {cpp}");
+        }
     }
 }

@@ -113,12 +113,14 @@ fn same_bits<T: Real>(in_c: &InC, mechanism: &impl Mechanism, trig: impl Fn(&[T]
     same_bits_by(own, &[&[]], in_c, mechanism, &states::<T>(mechanism), trig, called);
 }
 
+/// The flag by which a compiler takes all instructions of the processor at hand.
+const FOR_HERE: &str = if cfg!(target_arch = "x86_64") { "-march=native" } else { "-mcpu=native" };
+
 /// The flags of the builds that give the same bits: with the vectors that every processor of this kind has, with those of the
 /// processor at hand, which fused operations on x86-64 need, and without any. Compiled for every processor, the first alone:
 /// `.ci/run` compiles these tests for the processor at hand, once with fused operations and once without. Under an emulator,
 /// there is no processor at hand.
 fn builds() -> &'static [&'static [&'static str]] {
-    const FOR_HERE: &str = if cfg!(target_arch = "x86_64") { "-march=native" } else { "-mcpu=native" };
     match (NATIVE, is_native()) {
         (true, true) => &[&[], &[FOR_HERE], &["-DREDYSIM_VECTORS=0"]],
         (true, false) => &[&[], &["-DREDYSIM_VECTORS=0"]],

@@ -89,3 +89,21 @@ fn what_acts_in_joints_of_several_freedoms_is_the_same_bits_in_c_and_checked_as_
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);
 }
+
+#[test]
+fn run_time_parameters_have_units_in_c() {
+    let units = |model: &str, options: &str| -> Vec<String> {
+        let source = InC::new(model, options, CScalar::F64).source();
+        let (_, table) = source.split_once("_parameter_units[").expect("the table");
+        let lines = table.lines().skip(1).take_while(|line| *line != "};");
+        // As C has the letter ² in UTF-8.
+        lines.map(|line| line.trim_matches([' ', '"', ',']).replace("\\302\\262", "²")).collect()
+    };
+    let of_inertia = ["kg m²"; 6];
+    let of_gripper = [&["m/s²"; 3][..], &["kg"], &["m"; 3], &of_inertia, &["N m s/rad"]].concat();
+    assert_eq!(units("gripper", OF_GIVEN), of_gripper);
+    let of_hull = [["N s/m"; 3], ["N m s/rad"; 3]].concat();
+    let of_ball = [&["N m/rad"; 3][..], &["1"; 4]].concat();
+    let options = "parameters = [\"hull.damping\", \"ball.stiffness\", \"ball.rest\"]";
+    assert_eq!(units("test/bushing", options), [of_hull, of_ball].concat());
+}

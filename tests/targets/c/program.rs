@@ -1,6 +1,7 @@
 //! A mechanism in C, compiled for the target of the tests, whose functions are called from here.
 
 use super::compilers;
+use crate::common::tools::skip;
 use redysim::function::Argument;
 use redysim::generic::Model;
 use redysim::{Function, Mechanism, Real};
@@ -9,6 +10,8 @@ use redysim_model::{PublicInterface, Tree};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+#[cfg(target_os = "linux")]
+use std::process::Command;
 use std::process::{Output, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -77,6 +80,11 @@ impl InC {
         std::fs::read_to_string(self.folder.join(format!("{}.c", self.prefix))).expect("the source")
     }
 
+    /// Replaces the source.
+    pub fn set_source(&self, text: &str) {
+        std::fs::write(self.folder.join(format!("{}.c", self.prefix)), text).expect("a file");
+    }
+
     /// Compiles the source with `compiler` and `flags`, without warnings.
     fn compile(&self, compiler: &str, flags: &[&str], sources: &[String], program: &str) -> PathBuf {
         let program = self.folder.join(program);
@@ -96,7 +104,7 @@ impl InC {
         let empty = self.folder.join("empty.cpp");
         std::fs::write(&empty, "").expect("a file");
         if !cpp(&empty).status.success() {
-            eprintln!("SKIPPED: {compiler} has no C++");
+            skip(&format!("{compiler} has no C++"));
             return;
         }
         let user = self.folder.join("user.cpp");
@@ -104,11 +112,34 @@ impl InC {
         succeeded(&format!("{compiler} -x c++"), &cpp(&user));
     }
 
-    /// Compiles the program that checks the code, and runs it.
+    /// Compiles the program that checks the code, and runs it: it finds no fault.
     pub fn check(&self, compiler: &str, flags: &[&str]) {
+        succeeded(&format!("{} by {compiler} {flags:?}", self.prefix), &self.run_check(compiler, flags));
+    }
+
+    /// Compiles the program that checks the code, and runs it.
+    pub fn run_check(&self, compiler: &str, flags: &[&str]) -> Output {
         let sources = [format!("{}.c", self.prefix), format!("{}_check.c", self.prefix)];
         let program = self.compile(compiler, flags, &sources, "check");
-        succeeded(path(&program), &compilers::program(&program).output().expect("the check runs"));
+        compilers::program(&program).output().expect("the check runs")
+    }
+
+    /// The symbols of the compiled source with their kinds, as `nm` shows them.
+    #[cfg(target_os = "linux")]
+    pub fn symbols(&self, compiler: &str, flags: &[&str]) -> Vec<(String, String)> {
+        let object = self.folder.join("object.o");
+        // In code for any address, pointers to constants are written when it is loaded.
+        let flags = [&WARNINGS[..], flags, &["-fno-pie", "-c"]].concat();
+        let mut command = compilers::command(compiler);
+        command.args(&flags).arg(self.folder.join(format!("{}.c", self.prefix))).arg("-o").arg(&object);
+        succeeded(&format!("{compiler} {flags:?}"), &command.output().expect("the compiler runs"));
+        let output = Command::new("nm").arg("--portability").arg(&object).output().expect("nm runs");
+        succeeded("nm", &output);
+        let symbol = |line: &str| {
+            let mut words = line.split_whitespace().map(str::to_string);
+            words.next().zip(words.next()).expect("a name and a kind")
+        };
+        String::from_utf8(output.stdout).expect("text").lines().map(symbol).collect()
     }
 
     /// What every function, and joint trigonometry if the robot has angles, gives in each of the states, one after the other.

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 use super::{Arguments, Fmi, check_folder, failure, folder, load, report};
 use crate::failure::Failure;
-use crate::output::{check_beside, make_folder, to_stderr, write_beside};
+use crate::output::{check_beside, to_stderr, write_together};
 use redysim_codegen::{FmiVersion, FmuFiles, fmu_files};
 use redysim_model::Loaded;
 use zip::write::SimpleFileOptions;
@@ -34,8 +34,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let entries = files.files.iter().map(|(path, text)| (path.clone(), text.as_bytes()));
     let entries = entries.chain(compiled.iter().map(|(path, code)| (path.clone(), code.as_slice())));
     let archive = archive(entries).map_err(|error| Failure::file("make the archive", &path, &error))?;
-    make_folder(folder)?;
-    write_beside(&arguments.model, &path, &archive, arguments.force)?;
+    write_together(folder, &[(path.clone(), &archive)], arguments.force)?;
     if !quiet {
         files.sources().for_each(|(name, text)| {
             if name == format!("{}.c", files.prefix) {

@@ -10,7 +10,7 @@ use clap::builder::PossibleValuesParser;
 
 use crate::failure::Failure;
 use crate::model;
-use crate::output::{check_beside, make_folder, print, to_stderr, write_beside};
+use crate::output::{check_beside, print, to_stderr, write_beside, write_together};
 use redysim_codegen::{
     CFiles, COptions, CScalar, CppFiles, MexFiles, SourceError, c_files, cpp_files, mex_files, source_file_with,
 };
@@ -208,10 +208,8 @@ fn write_all(
     for (path, _) in &files {
         check_beside(&arguments.model, path, arguments.force)?;
     }
-    make_folder(folder)?;
-    for (path, text) in &files {
-        write_beside(&arguments.model, path, text.as_bytes(), arguments.force)?;
-    }
+    let contents: Vec<_> = files.iter().map(|(path, text)| (path.clone(), text.as_bytes())).collect();
+    write_together(folder, &contents, arguments.force)?;
     if !quiet {
         report(&files[0].1);
         let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();

@@ -5,6 +5,7 @@ use super::comment::{documentation, statement};
 use super::names::Prefix;
 use super::results::InC;
 use super::scalar::{CScalar, Numbers};
+use super::units::Units;
 use crate::angles::{Angle, Term};
 use crate::mechanism::{FunctionProgram, MechanismProgram, TrigProgram};
 use crate::policies::LONGEST_UNROLLED;
@@ -27,6 +28,7 @@ pub struct Writer<'a> {
     pub mechanism: &'a MechanismProgram<'a>,
     pub prefix: &'a Prefix,
     pub scalar: CScalar,
+    pub units: &'a Units,
 }
 
 /// How a function is called: which arguments precede those of its signature after the coordinates.

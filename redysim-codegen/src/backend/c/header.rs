@@ -4,7 +4,6 @@ use super::comment::{documentation, plain, statement, string};
 use super::function::Writer;
 use super::parametric;
 use super::results::brackets;
-use super::units::Units;
 use crate::backend::head::{VERSION, model_hash};
 use redysim_model::{Function, Model};
 use redysim_runtime::function::{Argument, Structure};
@@ -29,13 +28,13 @@ impl Table {
 }
 
 /// The tables that have elements.
-pub fn tables(writer: &Writer, model: &Model) -> Vec<Table> {
+pub fn tables(writer: &Writer) -> Vec<Table> {
     let interface = writer.mechanism.interface;
     let strings = |name, length, what, values: Vec<&str>| {
         let values = values.into_iter().map(string).collect();
         Table { name, length, element: STRINGS.into(), what, values }
     };
-    let units = Units::of(model);
+    let units = writer.units;
     let texts = |units| <[String]>::iter(units).map(String::as_str).collect();
     let parameters = &interface.parameters;
     let number = writer.scalar.type_name().to_string();
@@ -83,6 +82,7 @@ pub fn tables(writer: &Writer, model: &Model) -> Vec<Table> {
             "Names of the run-time parameters.",
             parameters.iter().map(|parameter| parameter.name.as_str()).collect(),
         ),
+        strings("parameter_units", "NP", "Units of the run-time parameters.", texts(&units.parameters)),
         strings(
             "parameter_rules",
             "NP",
@@ -101,14 +101,14 @@ pub fn tables(writer: &Writer, model: &Model) -> Vec<Table> {
 }
 
 /// The definitions of the tables.
-pub fn definitions_of_tables(writer: &Writer, model: &Model) -> String {
+pub fn definitions_of_tables(writer: &Writer) -> String {
     let definition = |Table { name, length, element, values, .. }: Table| {
         let (name, length) = (writer.prefix.item(name), writer.prefix.constant(length));
         // A line for each, however long, since a string does not go on in the next.
         let values: String = values.iter().map(|value| format!("    {value},\n")).collect();
         format!("const {element} {name}[{length}] = {{\n{values}}};\n")
     };
-    tables(writer, model).into_iter().map(definition).collect()
+    tables(writer).into_iter().map(definition).collect()
 }
 
 /// The whole header; `head` is its first comment.
@@ -156,7 +156,7 @@ pub fn header(writer: &Writer, model: &Model, head: &str) -> String {
         }
     }
     text += "\n";
-    for Table { name, length, element, what, .. } in tables(writer, model) {
+    for Table { name, length, element, what, .. } in tables(writer) {
         text += &documentation([what]);
         text += &format!("extern const {element} {}[{}];\n", prefix.item(name), prefix.constant(length));
     }

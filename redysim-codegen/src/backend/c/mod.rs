@@ -34,6 +34,7 @@ use runtime::Needed;
 use scalar::Abreast;
 pub use scalar::CScalar;
 use std::collections::BTreeSet;
+use units::Units;
 
 /// How a mechanism is written in C.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -169,8 +170,8 @@ pub fn mex_files(model: &Model, prefix: Option<String>, codegen: &CodegenOptions
             prefix: writer.prefix.as_str().to_string(),
             header: printing.header(),
             source: printing.source(),
-            gateway: mex::gateway(writer, model, &head),
-            help: mex::help(writer, model),
+            gateway: mex::gateway(writer, &head),
+            help: mex::help(writer),
             check: check_matlab::check(writer, &printing.reference()),
         }
     })
@@ -234,7 +235,8 @@ fn printed<T>(
     let traced = &traced(model, codegen, &Passes::default())?;
     let interface = PublicInterface::new(model, codegen);
     let mechanism = MechanismProgram::new(model, &interface, traced, &RESERVED);
-    let writer = Writer { mechanism: &mechanism, prefix: &prefix, scalar: options.scalar };
+    let units = Units::of(model, &codegen.parameters);
+    let writer = Writer { mechanism: &mechanism, prefix: &prefix, scalar: options.scalar, units: &units };
     Ok(print(&Printing { model, codegen, traced, writer }))
 }
 
@@ -252,7 +254,7 @@ impl Printing<'_> {
     }
 
     fn source(&self) -> String {
-        source(&self.writer, self.model, &self.head(&[]))
+        source(&self.writer, &self.head(&[]))
     }
 
     /// The values that a check compares with.
@@ -289,7 +291,7 @@ const ABOUT: &[&str] = &[
 ];
 
 /// The source; `head` is its first comment.
-fn source(writer: &Writer, model: &Model, head: &str) -> String {
+fn source(writer: &Writer, head: &str) -> String {
     let mut parts = vec![
         head.to_string()
             + &format!(
@@ -297,7 +299,7 @@ fn source(writer: &Writer, model: &Model, head: &str) -> String {
                 writer.prefix.as_str()
             ),
         runtime::parts(needed(writer), writer.scalar),
-        header::definitions_of_tables(writer, model),
+        header::definitions_of_tables(writer),
     ];
     if let Some(lumped) = &writer.mechanism.lumped {
         parts.push(parametric::definitions(writer, lumped));

@@ -23,7 +23,8 @@ pub fn declarations(writer: &Writer, lumped: &Program) -> String {
     ]) + &format!("typedef struct {{\n    {number} {GIVEN}[{}];\n}} {prefix}_t;\n", numbers(lumped));
     let init = documentation([
         format!(
-            "The robot with the given parameters, in the order of {prefix}_parameter_names: kg, m, kg m² and so on."
+            "The robot with the given parameters, in the order of {prefix}_parameter_names and the units of \
+             {prefix}_parameter_units."
         ),
         String::new(),
         format!(

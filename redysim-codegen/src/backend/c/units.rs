@@ -1,7 +1,7 @@
-//! The units of a mechanism's coordinates, velocities, accelerations and joint forces.
+//! The units of a mechanism's coordinates, velocities, accelerations, joint forces and run-time parameters.
 
-use redysim_model::Model;
 use redysim_model::joint::{LinkJoint, Measure};
+use redysim_model::{Model, Quantity, RunTimeParameter};
 
 /// Units in the model's order; "1" is that of a component of a quaternion.
 pub struct Units {
@@ -9,11 +9,13 @@ pub struct Units {
     pub velocities: Vec<String>,
     pub accelerations: Vec<String>,
     pub forces: Vec<String>,
+    /// Of each number of each parameter.
+    pub parameters: Vec<String>,
 }
 
 impl Units {
-    /// The units of a model.
-    pub fn of(model: &Model) -> Units {
+    /// The units of a model with run-time parameters.
+    pub fn of(model: &Model, parameters: &[RunTimeParameter]) -> Units {
         let joints = || model.moving_links().filter_map(LinkJoint::of);
         let velocities: Vec<Measure> = joints().flat_map(LinkJoint::velocity_measures).collect();
         let of_velocities =
@@ -23,6 +25,35 @@ impl Units {
             velocities: of_velocities("/s"),
             accelerations: of_velocities("/s²"),
             forces: velocities.iter().map(|measure| measure.unit_of_force().into()).collect(),
+            parameters: parameters.iter().flat_map(|parameter| of_parameter(*parameter, model)).collect(),
         }
+    }
+}
+
+/// The units of the numbers of a parameter.
+fn of_parameter(parameter: RunTimeParameter, model: &Model) -> Vec<String> {
+    let joint = parameter.link.and_then(|link| LinkJoint::of(&model.links[link]));
+    let by_velocity = |of: fn(Measure) -> String| -> Vec<String> {
+        joint.map(LinkJoint::velocity_measures).unwrap_or_default().into_iter().map(of).collect()
+    };
+    match parameter.quantity {
+        Quantity::Gravity => vec!["m/s²".into(); 3],
+        Quantity::Mass => vec!["kg".into()],
+        Quantity::Com => vec!["m".into(); 3],
+        Quantity::Inertia => vec!["kg m²".into(); 6],
+        Quantity::Armature => by_velocity(|measure| if measure == Measure::Angle { "kg m²" } else { "kg" }.into()),
+        Quantity::Damping => by_velocity(|measure| match measure {
+            Measure::Angle => "N m s/rad".into(),
+            _ => "N s/m".into(),
+        }),
+        Quantity::Friction => by_velocity(|measure| measure.unit_of_force().into()),
+        Quantity::FrictionVelocity => by_velocity(|measure| format!("{}/s", measure.unit())),
+        Quantity::Stiffness => by_velocity(|measure| format!("{}/{}", measure.unit_of_force(), measure.unit())),
+        Quantity::Rest => {
+            let measures = joint.map(LinkJoint::coordinate_measures).unwrap_or_default();
+            measures.into_iter().map(|measure| measure.unit().into()).collect()
+        }
+        // A quantity without a unit here would be one without in the C code and the FMU.
+        _ => vec!["1".into(); parameter.values(model).len()],
     }
 }

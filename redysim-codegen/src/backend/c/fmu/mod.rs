@@ -75,7 +75,7 @@ pub fn options(given: &CodegenOptions) -> CodegenOptions {
 pub fn files(printing: &Printing, version: FmiVersion) -> FmuFiles {
     let Printing { model, writer, .. } = printing;
     let prefix = writer.prefix.as_str();
-    let variables = Variables::of(model, writer.mechanism.interface, &printing.codegen.parameters);
+    let variables = Variables::of(model, writer.mechanism.interface, writer.units);
     let dependencies = description::dependencies(printing.traced, &variables);
     let names = [model.name.as_str(), prefix];
     let description = Description { version, names, variables: &variables, dependencies: &dependencies };

@@ -1,8 +1,8 @@
 //! The variables of an FMU, in the order of their value references.
 
 use crate::backend::c::units::Units;
-use redysim_model::joint::{LinkJoint, Measure};
-use redysim_model::{Model, PublicInterface, Quantity, RunTimeParameter};
+use redysim_model::joint::LinkJoint;
+use redysim_model::{Model, PublicInterface};
 use redysim_runtime::ParameterRule;
 use std::ops::Range;
 
@@ -59,9 +59,8 @@ pub struct Variables {
 }
 
 impl Variables {
-    /// The variables of a model with run-time parameters.
-    pub fn of(model: &Model, interface: &PublicInterface, parameters: &[RunTimeParameter]) -> Variables {
-        let units = Units::of(model);
+    /// The variables of a model.
+    pub fn of(model: &Model, interface: &PublicInterface, units: &Units) -> Variables {
         let mut neutral = Vec::new();
         let mut quaternions = Vec::new();
         for joint in model.moving_links().filter_map(LinkJoint::of) {
@@ -84,15 +83,14 @@ impl Variables {
             all.extend(variables);
             first..all.len()
         };
-        let units_of_parameters = parameters.iter().flat_map(|parameter| units_of(*parameter, model));
-        let of_parameter = |(number, unit): (&redysim_model::ParameterNumber, String)| Variable {
+        let of_parameter = |(number, unit): (&redysim_model::ParameterNumber, &String)| Variable {
             name: format!("parameters.{}", number.name),
             description: format!("Parameter {} of the model", number.name),
-            unit: fmi(&unit),
+            unit: fmi(unit),
             role: Role::Parameter { start: number.value, not_negative: number.rule == ParameterRule::NotNegative },
             derivative_of: None,
         };
-        let parameters = add(interface.parameters.iter().zip(units_of_parameters).map(of_parameter).collect());
+        let parameters = add(interface.parameters.iter().zip(&units.parameters).map(of_parameter).collect());
         let of = |names: &[&str], units: &[String], name: &dyn Fn(&str) -> String, what: &str, role: Role| {
             let variable = |(each, unit): (&&str, &String)| Variable {
                 name: name(each),
@@ -146,34 +144,6 @@ impl Variables {
 /// A unit as FMI writes it.
 fn fmi(unit: &str) -> String {
     unit.replace(' ', ".").replace('²', "2")
-}
-
-/// The units of the numbers of a parameter.
-fn units_of(parameter: RunTimeParameter, model: &Model) -> Vec<String> {
-    let joint = parameter.link.and_then(|link| LinkJoint::of(&model.links[link]));
-    let by_velocity = |of: fn(Measure) -> String| -> Vec<String> {
-        joint.map(LinkJoint::velocity_measures).unwrap_or_default().into_iter().map(of).collect()
-    };
-    match parameter.quantity {
-        Quantity::Gravity => vec!["m/s2".into(); 3],
-        Quantity::Mass => vec!["kg".into()],
-        Quantity::Com => vec!["m".into(); 3],
-        Quantity::Inertia => vec!["kg.m2".into(); 6],
-        Quantity::Armature => by_velocity(|measure| if measure == Measure::Angle { "kg.m2" } else { "kg" }.into()),
-        Quantity::Damping => by_velocity(|measure| match measure {
-            Measure::Angle => "N.m.s/rad".into(),
-            _ => "N.s/m".into(),
-        }),
-        Quantity::Friction => by_velocity(|measure| measure.unit_of_force().into()),
-        Quantity::FrictionVelocity => by_velocity(|measure| format!("{}/s", measure.unit())),
-        Quantity::Stiffness => by_velocity(|measure| format!("{}/{}", measure.unit_of_force(), measure.unit())),
-        Quantity::Rest => {
-            let measures = joint.map(LinkJoint::coordinate_measures).unwrap_or_default();
-            measures.into_iter().map(|measure| measure.unit().into()).collect()
-        }
-        // A quantity without a unit here would be one without in the FMU.
-        _ => vec!["1".into(); parameter.values(model).len()],
-    }
 }
 
 /// The exponents of kg, m, s and rad in a unit.
