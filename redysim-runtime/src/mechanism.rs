@@ -1,6 +1,8 @@
 //! The traits a mechanism implements, one for each function, so that a program asks for what it uses and a compiled
 //! type offers what it has. Compiled types and the generic path implement the same traits and can be swapped.
 
+use core::ops::Range;
+
 use crate::{Scalar, Vector};
 
 /// Sizes and names of a mechanism.
@@ -69,6 +71,18 @@ pub enum VelocityCoordinates {
     Quaternion(usize),
     /// Coordinates of another kind.
     Unknown,
+}
+
+impl VelocityCoordinates {
+    /// Their indices; none of coordinates of another kind.
+    pub(crate) fn indices(self) -> Range<usize> {
+        match self {
+            Self::One(first) => first..first + 1,
+            Self::Position(first) => first..first + 3,
+            Self::Quaternion(first) => first..first + 4,
+            Self::Unknown => 0..0,
+        }
+    }
 }
 
 /// Coordinates and velocities of a mechanism over the scalar `S`. The types of vectors carry their lengths: arrays for

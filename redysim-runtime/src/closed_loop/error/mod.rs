@@ -72,12 +72,21 @@ pub enum LoopError<S> {
         /// The number that is given again.
         velocity: usize,
     },
-    /// A velocity is prescribed whose joint has several coordinates, so that one number is not its position.
+    /// A velocity is prescribed, but not all others that its coordinates depend on: the three angular velocities of an
+    /// orientation, and for the linear velocities of a free joint, which are in the axes of its link, all six.
+    PartOfJoint {
+        /// The velocity.
+        velocity: usize,
+        /// A velocity of the same joint that is not prescribed.
+        missing: usize,
+    },
+    /// A velocity is prescribed whose joint has several coordinates of an unknown kind
+    /// ([`Mechanism::coordinates_of_velocity`](crate::Mechanism::coordinates_of_velocity)).
     NoCoordinate {
         /// The velocity.
         velocity: usize,
     },
-    /// The trajectory or a gain does not have one component for each independent velocity.
+    /// The trajectory or a gain does not have one element for each independent coordinate or velocity.
     WrongLength(LengthMismatch),
     /// A joint needs a force that neither its actuator nor the loops can give.
     Unactuated {
@@ -138,6 +147,7 @@ impl<S> LoopError<S> {
             Self::Unreachable { velocity, .. }
             | Self::VelocityOutOfRange { velocity, .. }
             | Self::RepeatedVelocity { velocity }
+            | Self::PartOfJoint { velocity, .. }
             | Self::NoCoordinate { velocity }
             | Self::Unactuated { velocity, .. }
             | Self::SingularInertia { velocity } => Some(*velocity),
@@ -193,12 +203,21 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             Self::RepeatedVelocity { velocity } => {
                 write!(f, "velocity {velocity} is prescribed twice; name each independent velocity once")
             }
+            Self::PartOfJoint { velocity, missing } => write!(
+                f,
+                "velocity {velocity} is prescribed without velocity {missing} of the same joint, whose orientation takes \
+                 all of them; prescribe all velocities of the joint, or none"
+            ),
             Self::NoCoordinate { velocity } => write!(
                 f,
-                "velocity {velocity} cannot be prescribed by a trajectory: its joint has several coordinates; \
-                 prescribe velocities of joints that have one"
+                "velocity {velocity} cannot be prescribed by a trajectory: its joint has several coordinates that are \
+                 not a position or a quaternion; prescribe velocities of other joints"
             ),
-            Self::WrongLength(mismatch) => write!(f, "{mismatch}; give one for each independent velocity"),
+            Self::WrongLength(mismatch) => write!(
+                f,
+                "{mismatch}; give one for each coordinate of the independent joints in `trajectory.q`, and one for each \
+                 independent velocity elsewhere"
+            ),
             Self::Unactuated { velocity, force } => write!(
                 f,
                 "the joint of velocity {velocity} needs a force of {force:?} that neither its actuator nor the \

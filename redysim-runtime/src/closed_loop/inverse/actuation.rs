@@ -6,7 +6,10 @@ use crate::closed_loop::independent::{Completion, check_independent, roundoff_to
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::linear_algebra::{add_scaled, dot, largest, product, zeros};
 use crate::vector::entry;
-use crate::{InverseDynamics, LengthMismatch, LoopClosure, Mechanism, Motion, Real, Vector};
+use crate::{
+    ConfigurationSpace, InverseDynamics, LengthMismatch, LoopClosure, Mechanism, Motion, Real, Vector,
+    VelocityCoordinates,
+};
 
 /// Closed loops, the velocities that determine all others, and those that have actuators.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +20,7 @@ pub(super) struct Actuation<'m, M, C> {
 }
 
 impl<M, C> Actuation<'_, M, C> {
-    /// Checks that all velocities exist, that no independent one is repeated, and that each of these has a coordinate.
+    /// Checks that all velocities exist, that no independent one is repeated, and that a trajectory can prescribe each.
     pub fn check<S: Real>(&self) -> Result<(), LoopError<S>>
     where
         M: InverseDynamics<S>,
@@ -27,33 +30,81 @@ impl<M, C> Actuation<'_, M, C> {
         if let Some(&velocity) = self.actuated.iter().find(|&&index| index >= count) {
             return Err(LoopError::VelocityOutOfRange { velocity, count });
         }
-        match self.independent.iter().zip(self.coordinates()).find(|(_, coordinate)| coordinate.is_none()) {
-            Some((&velocity, _)) => Err(LoopError::NoCoordinate { velocity }),
-            None => Ok(()),
-        }
+        self.independent.iter().try_for_each(|&velocity| self.check_prescribed(velocity))
     }
 
-    /// The coordinates of the independent velocities, in their order; `None` for one whose joint has several.
-    pub fn coordinates(&self) -> impl Iterator<Item = Option<usize>> + '_
+    /// Checks that the independent velocities determine the coordinates that this one of them changes: of an orientation all
+    /// three, of a position in the axes of its link those of the orientation too.
+    fn check_prescribed<S>(&self, velocity: usize) -> Result<(), LoopError<S>>
     where
         M: Mechanism,
     {
-        self.independent.iter().map(|&velocity| self.loops.mechanism.coordinate_of_velocity(velocity))
+        let mechanism = self.loops.mechanism;
+        let all_that_change = |coordinates: VelocityCoordinates| {
+            let missing = (0..mechanism.nv())
+                .find(|i| mechanism.coordinates_of_velocity(*i) == coordinates && !self.independent.contains(i));
+            missing.map_or(Ok(()), |missing| Err(LoopError::PartOfJoint { velocity, missing }))
+        };
+        match mechanism.coordinates_of_velocity(velocity) {
+            VelocityCoordinates::One(_) => Ok(()),
+            orientation @ VelocityCoordinates::Quaternion(_) => all_that_change(orientation),
+            position @ VelocityCoordinates::Position(first) => all_that_change(position)
+                .and_then(|()| all_that_change(VelocityCoordinates::Quaternion(first + 3))),
+            VelocityCoordinates::Unknown => Err(LoopError::NoCoordinate { velocity }),
+        }
     }
 
-    /// Checks that a trajectory has a component for each independent velocity.
-    pub fn check_motion<S: Real, I: Vector<S>>(&self, wanted: &Motion<I, I>) -> Result<(), LengthMismatch> {
-        let Motion { q, v, a } = wanted;
-        self.check_lengths([("trajectory.q", q), ("trajectory.v", v), ("trajectory.a", a)])
+    /// The independent coordinates, those that the independent velocities change, in the order of a trajectory: that of the
+    /// velocities, each coordinate once.
+    fn coordinates(&self) -> impl Iterator<Item = usize> + '_
+    where
+        M: Mechanism,
+    {
+        let changed_by = |velocity: usize| self.loops.mechanism.coordinates_of_velocity(velocity);
+        let is_new = move |(i, velocity): &(usize, &usize)| {
+            !self.independent.iter().take(*i).any(|earlier| changed_by(*earlier) == changed_by(**velocity))
+        };
+        let velocities = self.independent.iter().enumerate().filter(is_new);
+        velocities.flat_map(move |(_, &velocity)| changed_by(velocity).indices())
     }
 
-    /// Checks that vectors have a component for each independent velocity.
+    /// Checks that a trajectory has an element for each independent coordinate and velocity.
+    pub fn check_motion<S: Real, P: Vector<S>, I: Vector<S>>(&self, wanted: &Motion<P, I>) -> Result<(), LengthMismatch>
+    where
+        M: Mechanism,
+    {
+        LengthMismatch::check("trajectory.q", wanted.q.as_ref(), self.coordinates().count())?;
+        self.check_lengths([("trajectory.v", &wanted.v), ("trajectory.a", &wanted.a)])
+    }
+
+    /// Checks that vectors have an element for each independent velocity.
     pub fn check_lengths<S: Real, I: Vector<S>, const N: usize>(
         &self,
         vectors: [(&'static str, &I); N],
     ) -> Result<(), LengthMismatch> {
         let expected = self.independent.len();
         vectors.into_iter().try_for_each(|(name, vector)| LengthMismatch::check(name, vector.as_ref(), expected))
+    }
+
+    /// The position `q` with these independent coordinates.
+    pub fn moved_to<S: Real, P: Vector<S>>(&self, mut q: M::Coordinates, independent: &P) -> M::Coordinates
+    where
+        M: ConfigurationSpace<S>,
+    {
+        for (coordinate, &value) in self.coordinates().zip(independent.as_ref()) {
+            if let Some(element) = q.as_mut().get_mut(coordinate) {
+                *element = value;
+            }
+        }
+        q
+    }
+
+    /// Of velocities, or what is as many, the independent ones.
+    pub fn independent_of<S: Real, V: Vector<S>, I: Vector<S>>(&self, velocities: &V) -> I {
+        I::from_fn(self.independent.len(), |i| match self.independent.get(i) {
+            Some(&velocity) => entry(velocities, velocity),
+            None => S::from_f64(f64::NAN),
+        })
     }
 
     /// Motion and forces at the closed position `q` for these velocities and accelerations of the independent joints.

@@ -1,13 +1,16 @@
 //! Computed torque for closed loops.
 
+use core::marker::PhantomData;
+
 use super::LoopForces;
 use super::actuation::Actuation;
 use crate::closed_loop::{ClosedLoop, LoopError};
 use crate::vector::entry;
-use crate::{InverseDynamics, LengthMismatch, LoopClosure, Motion, Real, TorqueLaw, Trajectory, Vector};
+use crate::{InverseDynamics, LengthMismatch, LoopClosure, Mechanism, Motion, Real, TorqueLaw, Trajectory, Vector};
 
 /// Computed torque of a mechanism with closed loops: the forces of its actuators that give the independent coordinates
-/// the accelerations q̈_d + Kd ė + Kp e, with the error e = q_d(t) − q.
+/// the accelerations q̈_d + Kd ė + Kp e, with the error e = q_d(t) ⊟ q, the mechanism's
+/// [`difference`](crate::ConfigurationSpace::difference).
 ///
 /// The other coordinates follow from the loops, and the forces are those that
 /// [`ClosedLoopInverse`](crate::ClosedLoopInverse) finds for such a motion. For a model that is right they leave ë + Kd
@@ -16,21 +19,27 @@ use crate::{InverseDynamics, LengthMismatch, LoopClosure, Motion, Real, TorqueLa
 ///
 /// It expects positions with closed loops: in a [`ClosedLoopSimulation`](crate::ClosedLoopSimulation), the projection.
 #[derive(Debug)]
-pub struct ClosedLoopComputedTorque<'m, S, M, T, I, C = M> {
+pub struct ClosedLoopComputedTorque<'m, S, M, T, I, C = M, P = I> {
     actuation: Actuation<'m, M, C>,
     trajectory: T,
     kp: I,
     kd: I,
     last_error: Option<LoopError<S>>,
+    independent_coordinates: PhantomData<fn() -> P>,
 }
 
-impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I, C> {
-    /// The law that has the joints of the velocities `independent` (and actuated) follow `trajectory`, whose component
-    /// i belongs to velocity `independent[i]` and to its
-    /// [coordinate](crate::Mechanism::coordinate_of_velocity), as do those of the gains.
+impl<'m, S, M, T, I, C, P> ClosedLoopComputedTorque<'m, S, M, T, I, C, P>
+where
+    S: Real,
+    T: Trajectory<S, P, I>,
+    I: Vector<S>,
+    P: Vector<S>,
+{
+    /// The law that has the joints of the velocities `independent` (and actuated) follow `trajectory`, which is one as for
+    /// [`ClosedLoopInverse::at`](super::ClosedLoopInverse::at). Element i of the gains belongs to velocity `independent[i]`.
     pub fn new(loops: ClosedLoop<'m, M, C>, independent: &'m [usize], trajectory: T, [kp, kd]: [I; 2]) -> Self {
         let actuation = Actuation { loops, independent, actuated: independent };
-        Self { actuation, trajectory, kp, kd, last_error: None }
+        Self { actuation, trajectory, kp, kd, last_error: None, independent_coordinates: PhantomData }
     }
 
     /// Sets which joints have actuators, if not just the independent ones.
@@ -43,8 +52,11 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
         self.last_error
     }
 
-    /// Checks that the desired motion and the gains have a component for each independent velocity.
-    fn check(&self, desired: &Motion<I, I>) -> Result<(), LengthMismatch> {
+    /// Checks that the desired motion and the gains have an element for each independent coordinate and velocity.
+    fn check(&self, desired: &Motion<P, I>) -> Result<(), LengthMismatch>
+    where
+        M: Mechanism,
+    {
         self.actuation.check_motion(desired)?;
         self.actuation.check_lengths([("kp", &self.kp), ("kd", &self.kd)])
     }
@@ -63,33 +75,30 @@ impl<'m, S: Real, M, T, I: Vector<S>, C> ClosedLoopComputedTorque<'m, S, M, T, I
     where
         M: InverseDynamics<S>,
         C: LoopClosure<S, M>,
-        T: Trajectory<S, I, I>,
     {
         self.actuation.check()?;
         let desired = self.trajectory.at(t);
         self.check(&desired).map_err(LoopError::WrongLength)?;
-        let nan = || S::from_f64(f64::NAN);
-        let count = self.actuation.independent.len();
-        let mut velocities = self.actuation.independent.iter();
-        let speeds = I::from_fn(count, |_| velocities.next().map_or_else(nan, |&velocity| entry(v, velocity)));
-        let mut coordinates = self.actuation.coordinates();
-        let positions = I::from_fn(count, |_| coordinates.next().flatten().map_or_else(nan, |index| entry(q, index)));
-        let wanted = I::from_fn(count, |i| {
+        let target = self.actuation.moved_to(q.clone(), &desired.q);
+        let error: I = self.actuation.independent_of(&self.actuation.loops.mechanism.difference(q, &target));
+        let speeds: I = self.actuation.independent_of(v);
+        let wanted = I::from_fn(self.actuation.independent.len(), |i| {
             entry(&desired.a, i)
                 + entry(&self.kd, i) * (entry(&desired.v, i) - entry(&speeds, i))
-                + entry(&self.kp, i) * (entry(&desired.q, i) - entry(&positions, i))
+                + entry(&self.kp, i) * entry(&error, i)
         });
         self.actuation.forces(q.clone(), &speeds, &wanted)
     }
 }
 
-impl<S, M, T, I, C> TorqueLaw<S, M> for ClosedLoopComputedTorque<'_, S, M, T, I, C>
+impl<S, M, T, I, C, P> TorqueLaw<S, M> for ClosedLoopComputedTorque<'_, S, M, T, I, C, P>
 where
     S: Real,
     M: InverseDynamics<S>,
     C: LoopClosure<S, M>,
-    T: Trajectory<S, I, I>,
+    T: Trajectory<S, P, I>,
     I: Vector<S>,
+    P: Vector<S>,
 {
     fn check_lengths(&self, t: S, _mechanism: &M) -> Result<(), LengthMismatch> {
         self.check(&self.trajectory.at(t))

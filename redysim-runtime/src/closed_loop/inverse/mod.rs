@@ -57,21 +57,24 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
         Self { actuation: Actuation { actuated, ..self.actuation }, ..self }
     }
 
-    /// The motion and the forces at time `t`. Component i of the trajectory belongs to velocity `independent[i]` and to
-    /// its [coordinate](crate::Mechanism::coordinate_of_velocity): the joint has one coordinate, or there is an error.
-    /// The position found is the guess for the next instant.
+    /// The motion and the forces at time `t`. Element i of the trajectory's velocities and accelerations belongs to velocity
+    /// `independent[i]`; its coordinates are those that these velocities change, in their order, each once: the
+    /// [coordinate](crate::Mechanism::coordinate_of_velocity) of a joint that has one, the quaternion of a spherical joint, all
+    /// of whose velocities are independent, or none, and position and quaternion of a free joint.
+    ///
+    /// The position found is the guess for the next instant; an orientation turns the shortest way there.
     ///
     /// # Errors
     /// [`LoopError::Unreachable`], [`LoopError::RankDeficient`] if the independent coordinates do not determine the
     /// others, [`LoopError::InconsistentVelocity`] if they contradict each other, [`LoopError::Unactuated`] if there
     /// are too few actuators, [`LoopError::WrongLength`], [`LoopError::RepeatedVelocity`],
-    /// [`LoopError::VelocityOutOfRange`], [`LoopError::NoCoordinate`], [`LoopError::SingularInertia`] and
-    /// [`LoopError::NotFinite`].
+    /// [`LoopError::VelocityOutOfRange`], [`LoopError::PartOfJoint`], [`LoopError::NoCoordinate`],
+    /// [`LoopError::SingularInertia`] and [`LoopError::NotFinite`].
     #[allow(clippy::type_complexity, reason = "the sizes come from the types")]
-    pub fn at<S: Real, I: Vector<S>>(
+    pub fn at<S: Real, P: Vector<S>, I: Vector<S>>(
         &mut self,
         t: S,
-        trajectory: &impl Trajectory<S, I, I>,
+        trajectory: &impl Trajectory<S, P, I>,
     ) -> Result<LoopForces<Q, M::Velocities, C::Rows>, LoopError<S>>
     where
         M: MassMatrix<S> + InverseDynamics<S, Coordinates = Q>,
@@ -88,35 +91,32 @@ impl<'m, M, Q, C> ClosedLoopInverse<'m, M, Q, C> {
     }
 
     /// The closed position with the independent coordinates at `wanted`, on the branch of the previous one.
-    fn follow<S: Real, I: Vector<S>>(&self, t: S, wanted: &I) -> Result<Q, LoopError<S>>
+    fn follow<S: Real, P: Vector<S>>(&self, t: S, wanted: &P) -> Result<Q, LoopError<S>>
     where
         M: MassMatrix<S, Coordinates = Q>,
         C: LoopClosure<S, M>,
         Q: Vector<S>,
     {
+        let Actuation { loops, independent, .. } = self.actuation;
+        let mechanism = loops.mechanism;
         let mut q = self.q.clone();
-        let displacement = |(i, coordinate): (usize, Option<usize>)| match coordinate {
-            Some(coordinate) => entry(wanted, i) - entry(&q, coordinate),
-            None => S::from_f64(f64::NAN),
-        };
-        let (farthest, at) = largest(self.actuation.coordinates().enumerate().map(displacement));
+        let way = mechanism.difference(&q, &self.actuation.moved_to(q.clone(), wanted));
+        let (farthest, at) = largest(independent.iter().map(|&velocity| entry(&way, velocity)));
         if !farthest.is_finite() {
             return Err(LoopError::NotFinite);
         }
         let moves = (farthest.to_f64() / LARGEST_MOVE) as usize + 1;
         let moves = moves.min(MOST_MOVES);
         for left in (0..moves).rev() {
-            let part = S::one() / S::from_f64((left + 1) as f64);
-            for (i, coordinate) in self.actuation.coordinates().enumerate() {
-                let target = entry(wanted, i);
-                if let Some(element) = coordinate.and_then(|coordinate| q.as_mut().get_mut(coordinate)) {
-                    *element = if left == 0 { target } else { *element + part * (target - *element) };
-                }
+            let mut target = self.actuation.moved_to(q.clone(), wanted);
+            if left > 0 {
+                let part = S::one() / S::from_f64((left + 1) as f64);
+                let way = mechanism.difference(&q, &target);
+                target = mechanism.integrate(&q, &M::Velocities::from_fn(mechanism.nv(), |i| part * entry(&way, i)));
             }
-            let solution =
-                self.actuation.loops.solve_position(Metric::Mass, q, self.actuation.independent, ITERATIONS)?;
+            let solution = loops.solve_position(Metric::Mass, target, independent, ITERATIONS)?;
             if solution.status != NewtonStatus::Converged {
-                let velocity = self.actuation.independent.get(at).copied().unwrap_or(0);
+                let velocity = independent.get(at).copied().unwrap_or(0);
                 return Err(LoopError::Unreachable { t, velocity, position_residual: solution.position_residual });
             }
             q = solution.q;
