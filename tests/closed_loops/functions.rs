@@ -4,23 +4,30 @@
 //! As in `tests/targets/compiled_against_generic.rs` everything runs in double-double, so that nothing but mistakes is left to see.
 #![cfg(feature = "generic")]
 
-use crate::common::call::{loop_bias, loop_jacobian, loop_residual};
+use crate::balls::BallPlatform;
+use crate::common::call::{coordinate_rates, loop_bias, loop_jacobian, loop_residual};
 use crate::common::comparison::Comparison;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::dual::{Dual, moving};
 use crate::common::models::generic;
 use crate::common::random::Random;
-use crate::linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
+use crate::linkages::{Andrews, BallFourbar, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
 use crate::redundant::{Bricard, FourbarSpatial};
 use redysim::generic::GenericMechanism;
-use redysim::{ConfigurationSpace, LoopClosure, LoopRows};
+use redysim::{ConfigurationSpace, LoopClosure, LoopRows, Mechanism, redysim};
+use std::f64::consts::PI;
 
-const STATES: usize = 200;
+redysim! {
+    /// Cuts of the kinds that the others lack, between links on spherical and free joints.
+    struct Cuts("models/test/cuts.toml", functions = [loop_residual, loop_jacobian, loop_bias]);
+}
 
-/// Coordinates and velocities.
-fn states(dof: usize) -> impl Iterator<Item = [Vec<DoubleDouble>; 2]> {
-    let mut random = Random::new(3);
-    (0..STATES).map(move |_| random.state(dof)).map(|state| [exact(&state.q), exact(&state.v)])
+const STATES: usize = if cfg!(debug_assertions) { 50 } else { 200 };
+
+/// Coordinates, with quaternions of any length, and velocities.
+fn states<M: Mechanism>(mechanism: &M) -> impl Iterator<Item = [Vec<DoubleDouble>; 2]> + use<M> {
+    let (mut random, nq, nv) = (Random::new(3), mechanism.nq(), mechanism.nv());
+    (0..STATES).map(move |_| [random.vector(nq, PI), random.vector(nv, 3.0)].map(|values| exact(&values)))
 }
 
 /// Calls `$check` with the compiled type and the generic mechanism of each model.
@@ -35,6 +42,9 @@ macro_rules! on_every_model {
         $check(&Leg, &generic("leg"));
         $check(&Andrews, &generic("andrews"));
         $check(&NFourbar2, &generic("n_fourbar_2"));
+        $check(&BallFourbar, &generic("ball_fourbar"));
+        $check(&BallPlatform, &generic("ball_platform"));
+        $check(&Cuts, &generic("test/cuts"));
     };
 }
 
@@ -47,7 +57,7 @@ fn compiled_is_generic() {
         let name = compiled.name();
         let new = |function: &str| Comparison::new(format!("{name} {function}"));
         let [mut residual, mut jacobian, mut bias] = ["residual", "jacobian", "bias"].map(new);
-        for [q, v] in states(compiled.nv()) {
+        for [q, v] in states(compiled) {
             residual.add(&rounded(loop_residual(compiled, &q)), &rounded(loop_residual(generic, &q)));
             let by_rows = loop_jacobian(generic, &q);
             assert_eq!(by_rows.len(), compiled.nc(), "{name}");
@@ -73,7 +83,7 @@ where
         rows.iter().map(|row| row.iter().zip(v).fold(zero, |sum, (&j, &v)| sum + j * v)).collect()
     };
     for [q, v] in states {
-        let moving = moving(&q, &v);
+        let moving = moving(&q, &coordinate_rates(mechanism, &q, &v));
         let rates: Vec<DoubleDouble> = loop_residual(mechanism, &moving).iter().map(|row| row.rate).collect();
         jacobian.add(&rounded(times(loop_jacobian(mechanism, &q), &v)), &rounded(rates));
         let rates = loop_jacobian(mechanism, &moving).iter().map(|row| row.iter().map(|j| j.rate).collect()).collect();
@@ -91,12 +101,12 @@ fn jacobian_and_bias_are_the_derivatives_of_the_residual() {
         M: ConfigurationSpace<DoubleDouble> + LoopClosure<DoubleDouble, M>,
         M: ConfigurationSpace<Dual<DoubleDouble>> + LoopClosure<Dual<DoubleDouble>, M>,
     {
-        let dof = compiled.nv();
-        assert_derivatives(compiled, states(dof));
-        assert_derivatives(generic, states(dof));
+        assert_derivatives(compiled, states(compiled));
+        assert_derivatives(generic, states(generic));
     }
     on_every_model!(check);
-    assert_derivatives(&generic("n_fourbar_40"), states(81).take(3));
+    let long = generic("n_fourbar_40");
+    assert_derivatives(&long, states(&long).take(3));
 }
 
 #[test]
@@ -108,4 +118,6 @@ fn only_rows_that_vary_are_kept() {
     // In the axes of an oblique base frame no component of the gap vanishes, but the axes are still parallel.
     assert_eq!(FourbarSpatial::NC, 3);
     assert_eq!(Bricard::NC, 5);
+    // Of a universal joint four, of three balls nine; of a universal, a planar, a cylindrical and a prismatic cut all.
+    assert_eq!((BallFourbar::NC, BallPlatform::NC, Cuts::NC), (4, 9, 4 + 3 + 4 + 5));
 }

@@ -7,6 +7,7 @@ mod common;
 mod linkages;
 
 mod assembly;
+mod balls;
 mod benchmarks;
 mod control;
 mod cut_kinds;

@@ -3,7 +3,7 @@
 //! After a change that is meant to alter the counts, `INSTA_UPDATE=always cargo test --release --test code_generation operation_counts::`
 //! writes the new ones to `snapshots/`.
 
-use crate::linkages::{Andrews, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
+use crate::linkages::{Andrews, BallFourbar, Fourbar, FourbarGui, Leg, NFourbar2, SliderCrank, ThreeRrr};
 use redysim::{Function, OperationCount, Operations, redysim};
 use redysim_codegen::functions::trace;
 use redysim_model::{Model, Tree};
@@ -204,4 +204,9 @@ fn andrews() {
 #[test]
 fn n_fourbar_2() {
     insta::assert_snapshot!(table(&NFourbar2::OPS));
+}
+
+#[test]
+fn ball_fourbar() {
+    insta::assert_snapshot!(table(&BallFourbar::OPS));
 }

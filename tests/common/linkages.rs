@@ -37,3 +37,8 @@ redysim! {
     /// Two windows.
     pub struct NFourbar2("models/n_fourbar_2.toml");
 }
+
+redysim! {
+    /// In space, with a ball and a universal joint at the cut.
+    pub struct BallFourbar("models/ball_fourbar.toml");
+}

@@ -9,6 +9,7 @@ pub use redysim_codegen::accuracy::double_double;
 pub mod dual;
 pub mod elliptic;
 pub mod kane;
+pub mod kane_loops;
 pub mod methods;
 #[cfg(feature = "generic")]
 pub mod models;

@@ -8,7 +8,7 @@
 #![cfg(feature = "generic")]
 
 use crate::NATIVE;
-use crate::c::bits::{Fourbar, Machine};
+use crate::c::bits::{BallFourbar, Cuts, Fourbar, Machine};
 use crate::common::call::*;
 use crate::common::comparison::Comparison;
 use crate::common::double_double::{DoubleDouble, exact, rounded};
@@ -253,6 +253,14 @@ fn a_spherical_pendulum_compiled_is_the_same_generic() {
 }
 
 #[test]
+fn loops_through_a_ball_compiled_are_the_same_generic() {
+    assert_same_outside(&BallFourbar, &generic("ball_fourbar"));
+    assert_same_functions(&BallFourbar, &generic("ball_fourbar"), CONSTANTS, ACCELERATIONS);
+    assert_same_kinematics(&BallFourbar, &generic("ball_fourbar"));
+    assert_same_positions(&BallFourbar, &generic("ball_fourbar"));
+}
+
+#[test]
 fn joints_in_series_compiled_are_the_same_generic() {
     assert_same_outside(&Series, &generic("test/joints_in_series"));
     assert_same_functions(
@@ -370,6 +378,8 @@ fn every_function_of_the_table_is_compiled_as_it_is_generic() {
     compare!(&Kr5Drives, "kr5_drives", [of_trees]);
     compare!(&Machine, "test/frames", [of_trees, of_frames]);
     compare!(&Fourbar, "fourbar", [of_trees, of_loops]);
+    compare!(&BallFourbar, "ball_fourbar", [of_trees, of_loops]);
+    compare!(&Cuts, "test/cuts", [of_loops]);
     let missing: Vec<_> = Function::ALL.iter().filter(|function| !covered.contains(function)).collect();
     assert!(missing.is_empty(), "{missing:?} are not compared");
 }

@@ -4,14 +4,17 @@
 #[path = "../../../tests/common/kane.rs"]
 #[allow(dead_code, reason = "of what it evaluates, a part is compared")]
 mod kane;
+#[path = "../../../tests/common/kane_loops.rs"]
+mod kane_loops;
 
 use std::fs;
 use std::path::Path;
 
 use crate::common::{Table, WALKING, root, scratch, succeed};
-use kane::{Kane, kane};
-use nalgebra::{DMatrix, DVector, Vector3};
-use redysim_model::{CutKind, GenericMechanism, Model};
+use kane::kane;
+use kane_loops::loop_rows;
+use nalgebra::{DVector, Vector3};
+use redysim_model::{GenericMechanism, Model};
 use redysim_runtime::Mechanism;
 
 /// Of a motion, s at least, and as a share of it: in less, one that begins slowly is hardly more than rounding.
@@ -125,15 +128,12 @@ impl Written {
         Table::csv(&folder.join("traj.csv")).columns(1 + nq + nv..1 + nq + 2 * nv)
     }
 
-    /// The rows of J that λ multiplies, from a position at which no row vanishes that does not vanish everywhere.
-    ///
-    /// All loops of the shipped scenarios are cut at points whose difference has three components: what its components
-    /// along their axes are, Kane's Jacobians of the points give. A planar loop has two; axes stay parallel by themselves.
+    /// The rows of J that λ multiplies, from a position at which no row vanishes that does not vanish everywhere: of a planar
+    /// loop two, since its axes stay parallel by themselves.
     fn kept_rows(&self) -> Vec<bool> {
-        let model = self.mechanism.model();
-        assert!(model.loops.iter().all(|cut| matches!(cut.joint, CutKind::Revolute | CutKind::Spherical)));
+        let (model, dof) = (self.mechanism.model(), self.mechanism.nv());
         let anywhere: Vec<f64> = (0..self.mechanism.nq()).map(|i| 0.3 + 1.7 * (i as f64).sin()).collect();
-        let rows = loop_rows(&kane(model, &anywhere, &vec![0.0; self.mechanism.nv()]), self.mechanism.nv());
+        let rows = loop_rows(model, &kane(model, &anywhere, &vec![0.0; dof]), dof);
         rows.row_iter().map(|row| row.amax() > 1e-9 * rows.amax()).collect()
     }
 
@@ -145,7 +145,7 @@ impl Written {
             let (q, dof) = (&self.q[k], self.v[k].len());
             let equations = kane(self.mechanism.model(), q, &self.v[k]);
             // Jacobians of the frames and of the points of loops are those of Kane's kinematics as well.
-            let all = loop_rows(&equations, dof);
+            let all = loop_rows(self.mechanism.model(), &equations, dof);
             let rows = all.row_iter().zip(&kept).filter(|(_, kept)| **kept).map(|(row, _)| row.transpose());
             let rows: Vec<DVector<f64>> = rows.collect();
             assert_eq!(rows.len(), self.lambda[k].len(), "a multiplier for each condition");
@@ -165,15 +165,6 @@ impl Written {
         }
         worst / largest
     }
-}
-
-/// How the way from side a to side b of each loop changes with each velocity, three rows for a loop.
-fn loop_rows(equations: &Kane, dof: usize) -> DMatrix<f64> {
-    let mut rows = DMatrix::zeros(3 * equations.loops.len(), dof);
-    for (i, [a, b]) in equations.loops.iter().enumerate() {
-        rows.rows_mut(3 * i, 3).copy_from(&(b.jacobians(dof).0 - a.jacobians(dof).0));
-    }
-    rows
 }
 
 /// Accelerations are those that are written, and differences of the velocities.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use redysim_cli::{Initial, Scenario, Values};
 
-use crate::common::{AGAINST_CLOSED_FORMS, BALLS, Table, call, deviation, fail, root, scenario, scratch, succeed};
+use crate::common::{AGAINST_CLOSED_FORMS, Table, call, deviation, fail, root, scenario, scratch, succeed};
 
 const TOP: &str = "spherical_pendulum.toml";
 const ROBOT: &str = "kr5_floating.toml";
@@ -319,37 +319,6 @@ fn data_have_the_components_of_a_joint_that_a_file_gives_by_one_name() {
     assert_eq!((q.len(), q["base.y"], q["base.qz"]), (7, 2.0, 1.0));
     assert_eq!((v.len(), v["base.wz"], v["joint1"]), (7, 6.0, 7.0));
     assert_eq!(Scenario::from_toml(read.to_toml(), &file).unwrap(), read);
-}
-
-#[test]
-fn a_loop_through_a_spherical_joint_stays_closed_and_keeps_its_energy() {
-    let folder = scratch("in-space-loop");
-    fs::write(folder.join("balls.toml"), BALLS).unwrap();
-    let law = "torque = { law = 'pd', target = [1], kp = 20, kd = 0 }";
-    let rest = format!(
-        "model = 'balls.toml'\n[initial]\nv = {{ crank = 3, 'coupler.wx' = 1 }}\n\
-         [forward]\nend = 1.0\nstep = 0.1\n{AGAINST_CLOSED_FORMS}{law}\n"
-    );
-    fs::write(folder.join("trial.toml"), rest).unwrap();
-    let printed = succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
-    assert!(printed.contains("coupler.qy by -0.3162 1"), "{printed}");
-    let text = fs::read_to_string(folder.join("run/run.toml")).unwrap();
-    let run: toml::Table = text.parse().unwrap();
-    let number = |key: &str| run["run"][key].as_float().unwrap();
-    assert!(number("worst_position_residual") < 1e-12 && number("energy_drift") < 1e-9, "{text}");
-    assert!(number("energy_exchanged") > 0.5, "{text}");
-}
-
-#[test]
-fn prescribing_a_spherical_joint_of_a_loop_is_refused() {
-    let folder = scratch("in-space-loop-prescribed");
-    fs::write(folder.join("balls.toml"), BALLS).unwrap();
-    let rest = "model = 'balls.toml'\n[trajectory]\njoints = ['coupler']\nfrom = [0, 0, 0, 1]\nto = [0, 0, 1, 1]\n\
-                duration = 1.0\n[inverse]\nend = 1.0\nstep = 0.1\n";
-    fs::write(folder.join("trial.toml"), rest).unwrap();
-    let shown = fail(&folder, &["inverse", "trial.toml"], 1);
-    assert!(shown.contains("the joint `coupler`, which has several coordinates"), "{shown}");
-    assert!(shown.contains("trial.toml:2:1") && shown.contains("prescribe joints with one coordinate"), "{shown}");
 }
 
 /// The error of every joint obeys ë + 20 ė + 100 e = 0, so that e = e₀ (1 + 10 t) exp(−10 t), however the platform moves.

@@ -4,6 +4,7 @@
 mod common;
 
 mod again;
+mod balls_in_loops;
 mod contact;
 mod data;
 mod equations;

@@ -8,11 +8,15 @@ use crate::common::random::Random;
 use crate::robots::{Gripper, Kr5};
 use crate::robots_in_space::Floating;
 use redysim::function::Argument;
-use redysim::{ForwardDynamics, Function, HybridDynamics, InverseDynamics, LoopClosure, Real, Wrench, redysim};
+use redysim::{
+    ConfigurationSpace, ForwardDynamics, Function, HybridDynamics, InverseDynamics, LoopClosure, Real, Wrench, redysim,
+};
 use redysim_codegen::CScalar;
 use std::f64::consts::FRAC_PI_2;
 
 redysim! { pub struct Fourbar("models/fourbar.toml"); }
+redysim! { pub struct BallFourbar("models/ball_fourbar.toml"); }
+redysim! { pub struct Cuts("models/test/cuts.toml", functions = [loop_residual, loop_jacobian, loop_bias]); }
 redysim! { pub struct Machine("models/test/frames.toml"); }
 redysim! { struct Pendulum("models/simple_pendulum.toml", functions = [gravity_forces]); }
 redysim! { struct Quadruped("models/quadruped.toml", functions = [inverse_dynamics, forward_dynamics, mass_matrix]); }
@@ -31,13 +35,7 @@ pub fn by_floating<T: Real>(function: Function, state: &State<T>) -> Option<Vec<
 
 /// What Rust computes of a closed loop.
 pub fn by_fourbar<T: Real>(function: Function, state: &State<T>) -> Option<Vec<T>> {
-    let [q, v]: [[T; Fourbar::NV]; 2] = [Argument::Coordinates, Argument::Velocities].map(|name| vector(state, name));
-    match function {
-        Function::LoopResidual => Some(LoopClosure::loop_residual(&Fourbar, &q).to_vec()),
-        Function::LoopJacobian => Some(LoopClosure::loop_jacobian(&Fourbar, &q).concat()),
-        Function::LoopBias => Some(LoopClosure::loop_bias(&Fourbar, &q, &v).to_vec()),
-        _ => tree(&Fourbar, function, state),
-    }
+    of_loops(&Fourbar, function, state).or_else(|| tree(&Fourbar, function, state))
 }
 
 /// What Rust computes of frames and wrenches.
@@ -93,11 +91,49 @@ fn a_floating_arm_with_quaternion_and_hybrid_dynamics_computes_the_same_bits_in_
     compare::<f32>(CScalar::F32);
 }
 
+/// The functions of closed loops.
+fn of_loops<T: Real, M>(m: &M, function: Function, state: &State<T>) -> Option<Vec<T>>
+where
+    M: ConfigurationSpace<T> + LoopClosure<T, M>,
+{
+    let [q, v] = [Argument::Coordinates, Argument::Velocities].map(|argument| numbers(state, argument));
+    Some(match function {
+        Function::LoopResidual => call::loop_residual(m, q),
+        Function::LoopJacobian => call::loop_jacobian(m, q).concat(),
+        Function::LoopBias => call::loop_bias(m, q, v),
+        _ => return None,
+    })
+}
+
 #[test]
 fn closed_loops_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("fourbar", "", scalar);
         same_bits::<T>(&in_c, &Fourbar, trig!(Fourbar), &by_fourbar);
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+fn loops_through_quaternions_compute_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("ball_fourbar", "", scalar);
+        same_bits::<T>(&in_c, &BallFourbar, trig!(BallFourbar), &|function, state| {
+            of_loops(&BallFourbar, function, state).or_else(|| tree(&BallFourbar, function, state))
+        });
+    }
+    compare::<f64>(CScalar::F64);
+    compare::<f32>(CScalar::F32);
+}
+
+#[test]
+fn cuts_of_every_kind_compute_the_same_bits_in_c() {
+    fn compare<T: Real>(scalar: CScalar) {
+        let in_c = InC::new("test/cuts", "functions = [\"loop_residual\", \"loop_jacobian\", \"loop_bias\"]", scalar);
+        same_bits::<T>(&in_c, &Cuts, trig!(Cuts), &|function, state| {
+            of_loops(&Cuts, function, state).or_else(|| configuration(&Cuts, function, state))
+        });
     }
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);
