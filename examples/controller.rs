@@ -97,7 +97,7 @@ impl Run {
         let (mut q, mut v) = (START, START_VELOCITY);
         let mut progress = Progress::new(name, SAMPLES);
         for &t in &run.t {
-            let tau = controller.torque(t, &q, &v);
+            let tau = controller.torque(&Kr5, t, &q, &v);
             run.error.push(path.at(t).q.iter().zip(&q).map(|(desired, q)| desired - q).collect());
             run.q.push(q);
             run.v.push(v);
@@ -183,7 +183,7 @@ fn nanoseconds_per_cycle(controller: &mut impl TorqueLaw<f64, Kr5>, run: &Run) -
     let mut pass = || {
         let begun = Instant::now();
         for ((&t, q), v) in run.t.iter().zip(&run.q).zip(&run.v) {
-            black_box(controller.torque(black_box(t), black_box(q), black_box(v)));
+            black_box(controller.torque(&Kr5, black_box(t), black_box(q), black_box(v)));
         }
         begun.elapsed().as_nanos() as f64 / run.t.len() as f64
     };

@@ -94,7 +94,7 @@ impl Run {
         };
         let mut torques = law;
         let mut robot = ForwardSimulation::new(&Kr5, |t: f64, q: &Joints, v: &Joints| {
-            let by_law: Joints = TorqueLaw::<f64, Kr5>::torque(&mut law, t, q, v);
+            let by_law: Joints = law.torque(&Kr5, t, q, v);
             let [state] = Kr5::frame_kinematics(q, v);
             let contact = Wrench { force: [wall(&state, start), 0.0, 0.0], moment: [0.0; 3] };
             let by_wall = Kr5::frame_forces(q, &[contact]);
@@ -115,7 +115,7 @@ impl Run {
             run.desired.push(target(t, start).origin[0] - start.origin[0]);
             run.moved.push(state.origin[0] - start.origin[0]);
             run.force.push(-wall(&state, start));
-            run.tau.push(TorqueLaw::<f64, Kr5>::torque(&mut torques, t, &parts.q, &parts.v).to_vec());
+            run.tau.push(torques.torque(&Kr5, t, &parts.q, &parts.v).to_vec());
         }
         Ok(run)
     }

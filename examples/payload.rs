@@ -117,7 +117,7 @@ impl Run {
             let desired = path.at(t);
             run.feedforward.push(model.inverse_dynamics(&desired.q, &desired.v, &desired.a).to_vec());
             run.error.push(desired.q.iter().zip(&q).map(|(desired, q)| desired - q).collect());
-            let tau = TorqueLaw::<f64, Kr5>::torque(&mut controller, t, &q, &v);
+            let tau = controller.torque(robot, t, &q, &v);
             let mut held = ForwardSimulation::new(robot, |_: f64, _: &Joints, _: &Joints| tau);
             let method = Ode45::new().rtol(1e-10).atol(1e-12).max_step(PERIOD);
             let state = held.state(&q, &v);

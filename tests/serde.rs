@@ -119,8 +119,8 @@ impl Kr5Hold {
 fn torque_laws_and_trajectories_ask_for_the_same_forces_after_they_are_read() {
     let (q, v) = ([0.2; 6], [0.1; 6]);
     let mut law = Kr5Hold::law();
-    let asked: [f64; 6] = TorqueLaw::<f64, Kr5>::torque(&mut law, 0.7, &q, &v);
-    assert_eq!(TorqueLaw::<f64, Kr5>::torque(&mut kept(&law), 0.7, &q, &v), asked);
+    let asked: [f64; 6] = law.torque(&Kr5, 0.7, &q, &v);
+    assert_eq!(kept(&law).torque(&Kr5, 0.7, &q, &v), asked);
     let pid = Pid {
         trajectory: Kr5Hold::law().trajectory,
         kp: [1.0; 6],

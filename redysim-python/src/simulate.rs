@@ -41,7 +41,7 @@ enum Law<'a> {
 }
 
 impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
-    fn torque(&mut self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
+    fn torque(&mut self, _mechanism: &GenericMechanism, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
         match self {
             Law::Constant(tau) => tau.clone(),
             Law::Function { function, owner, raised } => {

@@ -69,6 +69,8 @@ mod control;
 #[cfg(feature = "std")]
 mod dispatch;
 mod dual;
+#[cfg(feature = "simulation")]
+mod exponential;
 mod floats;
 mod frames;
 pub mod function;
@@ -143,6 +145,9 @@ pub use scalar::{FUSED, Real, Scalar};
 #[cfg(feature = "simulation")]
 pub use simulate::{ForwardSimulation, SimulationState};
 #[cfg(feature = "simulation")]
-pub use trajectory::{Cycloid, Motion, SetPoint, Trajectory, TrajectoryError, ViaPoints};
+pub use trajectory::{
+    ConstantDirection, Cycloid, ManifoldSpline, Motion, SetPoint, TangentTrajectory, Trajectory, TrajectoryError,
+    ViaPoints,
+};
 pub use trigonometry::unfused::unfused_sin_cos;
 pub use vector::{LengthMismatch, Vector};

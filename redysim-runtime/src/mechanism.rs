@@ -43,8 +43,8 @@ pub trait Mechanism {
         (self.nq() == self.nv() && index < self.nv()).then_some(index)
     }
     /// The coordinates that velocity `index` changes, by which tolerances weigh [errors](crate::Ode::error_norm) of
-    /// coordinates. The default has the [coordinate of that velocity alone](Self::coordinate_of_velocity), and does not
-    /// know those of others.
+    /// coordinates, and torque laws and trajectories know what turns. The default has the
+    /// [coordinate of that velocity alone](Self::coordinate_of_velocity), and does not know those of others.
     fn coordinates_of_velocity(&self, index: usize) -> VelocityCoordinates {
         self.coordinate_of_velocity(index).map_or(VelocityCoordinates::Unknown, VelocityCoordinates::One)
     }
@@ -65,9 +65,11 @@ pub trait Mechanism {
 pub enum VelocityCoordinates {
     /// The coordinate with this index, whose rate is the velocity.
     One(usize),
-    /// The position of an origin in three coordinates, the first of which has this index.
+    /// The position of an origin in three coordinates, the first of which has this index. A quaternion follows, and the
+    /// three velocities are those of the origin in its axes.
     Position(usize),
-    /// The orientation as a quaternion in four coordinates, the first of which has this index.
+    /// The orientation as a quaternion in four coordinates, the first of which has this index. The three velocities are the
+    /// angular velocity in its axes.
     Quaternion(usize),
     /// Coordinates of another kind.
     Unknown,

@@ -131,8 +131,8 @@ where
         }
         let SimulationState { q, v, .. } = self.split(state);
         let SimulationState { q: dq, v: dv, .. } = self.split(direction);
-        let tau = self.law.torque(t, &q, &v);
-        let dtau = torque_tangent(&mut self.law, t, (&q, &v), (&dq, &dv));
+        let tau = self.law.torque(self.mechanism, t, &q, &v);
+        let dtau = torque_tangent(&mut self.law, self.mechanism, t, (&q, &v), (&dq, &dv));
         let Some(da) = self.mechanism.forward_dynamics_tangent((&q, &v, &tau), (&dq, &dv, &dtau)) else {
             return false;
         };
@@ -277,7 +277,7 @@ pub(crate) fn law_torque<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
 ) -> M::Velocities {
     let own = mechanism.nq() + mechanism.nv() + 1;
     let of_law = state.as_ref().get(own..).unwrap_or_default();
-    law.torque_with_state(t, at, of_law, rates.as_mut().get_mut(own..).unwrap_or_default())
+    law.torque_with_state(mechanism, t, at, of_law, rates.as_mut().get_mut(own..).unwrap_or_default())
 }
 
 /// Component `i` of [q, v, energy] with `nq` and `nv` coordinates and velocities.
@@ -301,15 +301,18 @@ pub(crate) fn dot<S: Real, V: Vector<S>>(tau: &V, v: &V) -> S {
 /// The derivative of a law's joint forces along `(dq, dv)`: what the law says, or else central differences.
 fn torque_tangent<S: Real, M: ConfigurationSpace<S>>(
     law: &mut impl TorqueLaw<S, M>,
+    mechanism: &M,
     t: S,
     (q, v): (&M::Coordinates, &M::Velocities),
     (dq, dv): (&M::Coordinates, &M::Velocities),
 ) -> M::Velocities {
-    if let Some(dtau) = law.torque_tangent(t, (q, v), (dq, dv)) {
+    if let Some(dtau) = law.torque_tangent(mechanism, t, (q, v), (dq, dv)) {
         return dtau;
     }
     let [state, slope] = [(q, v), (dq, dv)].map(|(q, v)| largest(q.as_ref()).maximum(largest(v.as_ref())));
-    central_difference(v.as_ref().len(), state, slope, |step| law.torque(t, &moved(q, dq, step), &moved(v, dv, step)))
+    central_difference(v.as_ref().len(), state, slope, |step| {
+        law.torque(mechanism, t, &moved(q, dq, step), &moved(v, dv, step))
+    })
 }
 
 /// (∂N/∂q dq) v: what the mechanism computes, or else central differences, which for constant N are zero exactly.

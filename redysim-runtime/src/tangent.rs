@@ -1,8 +1,11 @@
-//! Small changes of a configuration as velocities: errors of coordinates, weighed on the tangent.
+//! Small changes of a configuration as velocities: errors of coordinates, weighed on the tangent, and slopes of
+//! differences.
 
 use core::ops::Range;
 
+use crate::exponential::{inverse_right_jacobian, mapped};
 use crate::integrate::{Tolerances, finite};
+use crate::linear_algebra::{dot, zeros};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, Real, Vector, VelocityCoordinates};
 
@@ -68,4 +71,40 @@ fn displacement<S: Real, Y: Vector<S>, M: ConfigurationSpace<S>>(
 /// √Σ yᵢ² of some components.
 fn length<S: Real, Y: Vector<S>>(y: &Y, components: Range<usize>) -> S {
     components.fold(S::zero(), |sum, i| sum + entry(y, i) * entry(y, i)).sqrt()
+}
+
+/// N⁺ dq: the velocities at which coordinates change by `dq`, and by the nearest that they can where they are constrained.
+///
+/// The columns of N belong to a joint of one velocity, or are those of a rotation and of a quaternion: orthogonal.
+pub(crate) fn velocities<S: Real, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    q: &M::Coordinates,
+    dq: &M::Coordinates,
+) -> M::Velocities {
+    let nv = mechanism.nv();
+    M::Velocities::from_fn(nv, |velocity| {
+        if let VelocityCoordinates::One(coordinate) = mechanism.coordinates_of_velocity(velocity) {
+            return entry(dq, coordinate);
+        }
+        let unit = M::Velocities::from_fn(nv, |i| if i == velocity { S::one() } else { S::zero() });
+        let column = mechanism.coordinate_rates(q, &unit);
+        dot(column.as_ref(), dq.as_ref()) / dot(column.as_ref(), column.as_ref())
+    })
+}
+
+/// The derivative of the error e = `target` ⊟ q along `dq` at a constant target: −J(−e)⁻¹ N⁺ dq, with the right Jacobian J of
+/// the exponential.
+pub(crate) fn error_slope<S: Real, M: ConfigurationSpace<S>>(
+    mechanism: &M,
+    q: &M::Coordinates,
+    target: &M::Coordinates,
+    dq: &M::Coordinates,
+) -> M::Velocities {
+    let negative = |v: &M::Velocities| M::Velocities::from_fn(mechanism.nv(), |i| -entry(v, i));
+    let moved = negative(&velocities(mechanism, q, dq));
+    if mechanism.nq() == mechanism.nv() {
+        return moved;
+    }
+    let (back, still) = (negative(&mechanism.difference(q, target)), zeros(mechanism.nv()));
+    mapped(mechanism, inverse_right_jacobian, (&back, &still), (&moved, &still)).0
 }

@@ -61,7 +61,7 @@ fn pressed<'a>(
 ) -> impl FnMut(f64, &Vec<f64>, &Vec<f64>) -> Vec<f64> + 'a {
     move |t, q, v| {
         let by_wrench = robot.frame_forces(q, &vec![wrench]);
-        let by_law = TorqueLaw::<f64, GenericMechanism>::torque(law, t, q, v);
+        let by_law = law.torque(robot, t, q, v);
         by_law.iter().zip(&by_wrench).map(|(a, b)| a + b).collect()
     }
 }
@@ -176,7 +176,7 @@ fn null_space_damping_slows_the_motions_that_leave_the_task_alone_and_nothing_el
     let (q, v) = (Q.to_vec(), vec![0.5, -0.3, 0.8, -1.0, 0.2, 0.6]);
     let accelerations = |null_space_damping| {
         let mut law = Impedance { null_space_damping, ..law };
-        let tau = TorqueLaw::<f64, GenericMechanism>::torque(&mut law, 0.0, &q, &v);
+        let tau = law.torque(&robot, 0.0, &q, &v);
         robot.forward_dynamics(&q, &v, &tau)
     };
     let (with, without) = (accelerations(rate), accelerations(0.0));
@@ -260,6 +260,6 @@ fn a_frame_that_the_mechanism_lacks_is_refused_before_a_simulation_begins() {
     let mut law = Impedance { frame: 1, ..held(&robot) };
     let mismatch = LengthMismatch { vector: "frames", length: 1, expected: 2 };
     assert_eq!(law.check_lengths(0.0, &robot), Err(mismatch));
-    let tau = TorqueLaw::<f64, GenericMechanism>::torque(&mut law, 0.0, &Q.to_vec(), &vec![0.0; robot.nv()]);
+    let tau = law.torque(&robot, 0.0, &Q.to_vec(), &vec![0.0; robot.nv()]);
     assert!(tau.iter().all(|tau: &f64| tau.is_nan()) && tau.len() == 6);
 }

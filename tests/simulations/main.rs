@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod attitude_control;
 mod chaotic_pendulums;
 mod contact;
 mod extremes;
@@ -15,3 +16,4 @@ mod impedance;
 mod nodding_tops;
 mod stiff_control;
 mod tangent_errors;
+mod trajectories_in_space;

@@ -10,7 +10,7 @@ use super::Values;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Trajectory {
-    /// A cycloid from rest to rest: [`redysim_runtime::Cycloid`].
+    /// A cycloid from rest to rest: [`redysim_runtime::Cycloid`], of spherical and free joints along a constant screw.
     Cycloid {
         /// The joints.
         joints: Option<Vec<String>>,
@@ -21,7 +21,7 @@ pub enum Trajectory {
         /// How long it takes, s.
         duration: f64,
     },
-    /// q = `from` + `speed` t.
+    /// q = `from` + `speed` t, of spherical and free joints q = `from` ⊞ `speed` t.
     ConstantSpeed {
         /// The joints.
         joints: Option<Vec<String>>,
@@ -30,7 +30,7 @@ pub enum Trajectory {
         /// The speed, rad/s or m/s.
         speed: Values,
     },
-    /// The motion of least jerk through points: [`redysim_runtime::ViaPoints::minimum_jerk`].
+    /// The motion of least jerk through points: [`redysim_runtime::ManifoldSpline::minimum_jerk`].
     MinimumJerk {
         /// The joints.
         joints: Option<Vec<String>>,
@@ -39,7 +39,7 @@ pub enum Trajectory {
         /// The points, rad or m.
         points: Vec<Values>,
     },
-    /// A cubic spline through points: [`redysim_runtime::ViaPoints::cubic`].
+    /// A cubic spline through points: [`redysim_runtime::ManifoldSpline::cubic`].
     Cubic {
         /// The joints.
         joints: Option<Vec<String>>,

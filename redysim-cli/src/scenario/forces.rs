@@ -41,11 +41,17 @@ impl Forces {
 type Pair<'a> = (&'a Vec<f64>, &'a Vec<f64>);
 
 impl TorqueLaw<f64, GenericMechanism> for &Forces {
-    fn torque(&mut self, t: f64, _q: &Vec<f64>, _v: &Vec<f64>) -> Vec<f64> {
+    fn torque(&mut self, _mechanism: &GenericMechanism, t: f64, _q: &Vec<f64>, _v: &Vec<f64>) -> Vec<f64> {
         self.at(t)
     }
 
-    fn torque_tangent(&mut self, _t: f64, _at: Pair<'_>, (_, dv): Pair<'_>) -> Option<Vec<f64>> {
+    fn torque_tangent(
+        &mut self,
+        _mechanism: &GenericMechanism,
+        _t: f64,
+        _at: Pair<'_>,
+        (_, dv): Pair<'_>,
+    ) -> Option<Vec<f64>> {
         Some(vec![0.0; dv.len()])
     }
 }

@@ -55,16 +55,22 @@ impl<'a> Law<'a> {
 }
 
 impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
-    fn torque(&mut self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
-        self.chosen_mut().torque(t, q, v)
+    fn torque(&mut self, mechanism: &GenericMechanism, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
+        self.chosen_mut().torque(mechanism, t, q, v)
     }
 
     fn check_lengths(&self, t: f64, mechanism: &GenericMechanism) -> Result<(), LengthMismatch> {
         self.chosen().check_lengths(t, mechanism)
     }
 
-    fn torque_tangent(&mut self, t: f64, at: Pair<'_>, slopes: Pair<'_>) -> Option<Vec<f64>> {
-        self.chosen_mut().torque_tangent(t, at, slopes)
+    fn torque_tangent(
+        &mut self,
+        mechanism: &GenericMechanism,
+        t: f64,
+        at: Pair<'_>,
+        slopes: Pair<'_>,
+    ) -> Option<Vec<f64>> {
+        self.chosen_mut().torque_tangent(mechanism, t, at, slopes)
     }
 
     fn state_count(&self, mechanism: &GenericMechanism) -> usize {
@@ -75,8 +81,15 @@ impl TorqueLaw<f64, GenericMechanism> for Law<'_> {
         self.chosen().initial_state(index)
     }
 
-    fn torque_with_state(&mut self, t: f64, at: Pair<'_>, state: &[f64], rates: &mut [f64]) -> Vec<f64> {
-        self.chosen_mut().torque_with_state(t, at, state, rates)
+    fn torque_with_state(
+        &mut self,
+        mechanism: &GenericMechanism,
+        t: f64,
+        at: Pair<'_>,
+        state: &[f64],
+        rates: &mut [f64],
+    ) -> Vec<f64> {
+        self.chosen_mut().torque_with_state(mechanism, t, at, state, rates)
     }
 
     fn track(&self, saturation_error: &Vec<f64>, rates: &mut [f64]) {

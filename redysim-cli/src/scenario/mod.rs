@@ -13,7 +13,6 @@ mod joints;
 pub mod keys;
 mod law;
 mod limits;
-mod moving;
 mod prescribed;
 mod resolution;
 pub mod shorthand;

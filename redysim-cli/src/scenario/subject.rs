@@ -136,11 +136,18 @@ pub mod tests {
     use super::*;
     use crate::layout::tests::free_base_with_arm;
 
+    const LINKS: &str = "name = 'robot'\ngravity = [0, 0, -9.81]\n\
+        [[link]]\nname = 'body'\njoint_name = 'base'\nparent = 'base'\njoint = 'free'\norigin = {}\n\
+        mass = 1\ncom = [0, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\nactuated = false\n\
+        [[link]]\nname = 'arm'\nparent = 'body'\norigin = {}\njoint = 'revolute'\naxis = [0, 0, 1]\nmass = 1\n\
+        com = [1, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\n";
+
     /// What `read` makes of a forward run of a free joint `base` and a revolute joint `arm`, whose loops have a
-    /// mobility of six. Layout and mobility are made by hand.
+    /// mobility of six. Loops, layout and mobility are made by hand.
     pub fn with_free_base<T>(read: impl FnOnce(&Subject<'_>) -> T) -> T {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/fourbar.toml");
-        let model = Model::load(path).unwrap().model;
+        let links = Model::from_toml(LINKS, "robot.toml").unwrap().model.links;
+        let model = Model { links, ..Model::load(path).unwrap().model };
         let mobility = OnceCell::from(Mobility { mobility: 6, ..Mobility::default() });
         let (layout, folder) = (free_base_with_arm(), Path::new(""));
         read(&Subject { dynamics: Dynamics::Forward, layout: &layout, model: &model, mobility, folder, held: None })

@@ -1,14 +1,16 @@
 //! Prescribed motions.
 
 use std::ops::Range;
+use std::sync::Arc;
 
-use redysim_model::Mobility;
-use redysim_runtime::{Cycloid, Motion, Trajectory, TrajectoryError, ViaPoints};
+use redysim_model::{GenericMechanism, Link, Mobility, Model};
+use redysim_runtime::{
+    ConstantDirection, Cycloid, ManifoldSpline, Mechanism, Motion, TangentTrajectory, Trajectory, TrajectoryError,
+};
 use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 
 use super::joints::{Quantity, points, some, values};
 use super::keys;
-use super::moving::Moving;
 use super::subject::{Dynamics, Subject, given, spread};
 use super::table::InputTable;
 use crate::failure::Failure;
@@ -28,25 +30,21 @@ pub struct Prescribed {
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
     pub table: Option<InputTable>,
-    moving: Moving,
     motion: Path,
 }
 
 #[derive(Clone, Debug)]
 enum Path {
+    /// Of joints of one coordinate, which ends at its very end.
     Cycloid(Cycloid<f64, Vec<f64>>),
-    /// q₀ ⊞ w(t), for joints of several coordinates: a turn about a fixed axis, or a screw motion.
-    Screw {
-        from: Vec<f64>,
-        way: Cycloid<f64, Vec<f64>>,
-    },
-    /// q₀ ⊞ v t.
-    ConstantSpeed {
-        from: Vec<f64>,
-        speed: Vec<f64>,
-    },
-    ViaPoints(ViaPoints<f64, Vec<f64>, Vec<f64>>),
+    Screw(Screw<Cycloid<f64, [f64; 1]>>),
+    ConstantSpeed(Screw<fn(f64) -> Motion<[f64; 1], [f64; 1]>>),
+    ViaPoints(Spline),
 }
+
+/// q₀ ⊞ s(t) w: a turn about a fixed axis, or a screw motion.
+type Screw<L> = TangentTrajectory<Arc<GenericMechanism>, Vec<f64>, ConstantDirection<Vec<f64>, L>>;
+type Spline = ManifoldSpline<Arc<GenericMechanism>, Vec<f64>, Vec<f64>, Vec<f64>, f64>;
 
 #[derive(Clone, Copy)]
 enum Tag {
@@ -85,7 +83,7 @@ impl Prescribed {
             reader.table_of_kind(&keys::TRAJECTORY, &keys::MOTION_KIND, &KINDS, &KINDS[0], |mut reader, tag| {
                 let chosen = some(&mut reader, &keys::PRESCRIBED, joints).value_or(usual.clone())?;
                 let (of_q, of_v) = (layout.coordinates_of(&chosen), layout.velocities_of(&chosen));
-                let moving = Moving::new(layout, &chosen);
+                let space = Arc::new(alone(subject.model, &chosen));
                 let coordinates = |reader: &mut Reader<'_, '_>, key: &Key| {
                     let read = |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, layout, &of_q);
                     reader.required(key, read).value().cloned()
@@ -97,12 +95,12 @@ impl Prescribed {
                         let duration = reader.required(&keys::DURATION, Reader::positive);
                         let spanned = duration.spanned()?;
                         let (from, to, duration) = (from?, to?, *spanned.get_ref());
-                        if moving.is_linear() {
+                        if space.nq() == space.nv() {
                             Path::Cycloid(accepted(&mut reader, spanned, Cycloid::new(from, to, duration))?)
                         } else {
-                            let way = moving.difference(&from, &to);
-                            let way = Cycloid::new(vec![0.0; way.len()], way, duration);
-                            Path::Screw { way: accepted(&mut reader, spanned, way)?, from }
+                            let law = Cycloid::new([0.0], [1.0], duration);
+                            let screw = law.and_then(|law| TangentTrajectory::along_screw(space, from, &to, law));
+                            Path::Screw(accepted(&mut reader, spanned, screw)?)
                         }
                     }
                     Tag::ConstantSpeed => {
@@ -110,24 +108,22 @@ impl Prescribed {
                         let speed = |reader: &mut _, key: &_| values(reader, key, Quantity::Rate, layout, &of_v);
                         let speed = reader.required(&keys::SPEED, speed);
                         place = speed.spanned().map(Spanned::span);
-                        Path::ConstantSpeed { from: from?, speed: speed.value()?.clone() }
+                        let way = ConstantDirection { way: speed.value()?.clone(), law: uniform as fn(f64) -> _ };
+                        Path::ConstantSpeed(TangentTrajectory { mechanism: space, from: from?, way })
                     }
                     Tag::Via(smooth) => {
                         let times = reader.required(&keys::TIMES, Reader::numbers);
                         let points = |reader: &mut _, key: &_| points(reader, key, layout, &of_q);
                         let points = reader.required(&keys::POINTS, points);
                         let spanned = times.spanned()?;
-                        let mut points = points.value()?.clone();
-                        // Quaternions are not zero: they have length 1.
-                        let _ = follow(&moving, &mut points);
-                        let through = smooth.through(spanned.get_ref().clone(), points);
+                        let through = smooth.through(space, spanned.get_ref().clone(), points.value()?.clone());
                         Path::ViaPoints(accepted(&mut reader, spanned, through)?)
                     }
                     Tag::Table => {
                         let smooth = reader.choice(&keys::THROUGH, &SMOOTH).value_or(SMOOTH[0].1);
                         let read = subject.table(&mut reader, &keys::MOTION_FILE, |table| {
                             let smooth = smooth.unwrap_or(SMOOTH[0].1);
-                            let through = from_table(&table, layout, &moving, [&of_q, &of_v], smooth)?;
+                            let through = from_table(&table, layout, space, [&of_q, &of_v], smooth)?;
                             Ok((table, through))
                         });
                         let (read, through) = read.filter(|_| smooth.is_some())?;
@@ -136,7 +132,7 @@ impl Prescribed {
                     }
                 };
                 let (joints, coordinates, velocities) = (chosen, of_q, of_v);
-                let prescribed = Prescribed { joints, coordinates, velocities, place: 0..0, table, moving, motion };
+                let prescribed = Prescribed { joints, coordinates, velocities, place: 0..0, table, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
                     // A law that follows a trajectory checks it by itself.
@@ -196,16 +192,9 @@ impl Trajectory<f64, Vec<f64>, Vec<f64>> for Prescribed {
     fn at(&self, t: f64) -> Motion<Vec<f64>, Vec<f64>> {
         match &self.motion {
             Path::Cycloid(cycloid) => cycloid.at(t),
-            Path::Screw { from, way } => {
-                let Motion { q, v, a } = way.at(t);
-                Motion { q: self.moving.integrate(from, &q), v, a }
-            }
-            Path::ViaPoints(through) if self.moving.is_linear() => through.at(t),
-            Path::ViaPoints(through) => self.moving.of_coordinates(through.at(t)),
-            Path::ConstantSpeed { from, speed } => {
-                let way: Vec<f64> = speed.iter().map(|speed| speed * t).collect();
-                Motion { q: self.moving.integrate(from, &way), v: speed.clone(), a: vec![0.0; speed.len()] }
-            }
+            Path::Screw(screw) => screw.at(t),
+            Path::ConstantSpeed(screw) => screw.at(t),
+            Path::ViaPoints(through) => through.at(t),
         }
     }
 }
@@ -236,12 +225,13 @@ impl Trajectory<f64, Vec<f64>, Vec<f64>> for Spread<'_> {
 impl Smooth {
     fn through(
         self,
+        space: Arc<GenericMechanism>,
         times: Vec<f64>,
         points: Vec<Vec<f64>>,
-    ) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, TrajectoryError<f64>> {
+    ) -> Result<Spline, TrajectoryError<f64>> {
         match self {
-            Smooth::LeastJerk => ViaPoints::minimum_jerk(times, points),
-            Smooth::Cubic => ViaPoints::cubic(times, points),
+            Smooth::LeastJerk => ManifoldSpline::minimum_jerk(space, times, points),
+            Smooth::Cubic => ManifoldSpline::cubic(space, times, points),
         }
     }
 }
@@ -261,12 +251,29 @@ fn accepted<T, V>(reader: &mut Reader<'_, '_>, at: &Spanned<V>, made: Result<T, 
     .ok()
 }
 
-/// Puts the quaternions of each point on the side of those before it; fails with a point whose quaternion is zero.
-fn follow(moving: &Moving, points: &mut [Vec<f64>]) -> Result<(), (usize, usize)> {
-    for k in 0..points.len() {
-        let (before, points) = points.split_at_mut(k);
-        let before = before.last().map(Vec::as_slice);
-        moving.follow(before, &mut points[0]).map_err(|coordinate| (k, coordinate))?;
+/// The joints `chosen` of a model, each by itself on the base, in this order: the space of their positions.
+fn alone(model: &Model, chosen: &[usize]) -> GenericMechanism {
+    let moving: Vec<&Link> = model.moving_links().collect();
+    let links = chosen.iter().map(|&joint| Link { parent: None, ..moving[joint].clone() }).collect();
+    let model = Model { links, loops: Vec::new(), frames: Vec::new(), springs: Vec::new(), ..model.clone() };
+    GenericMechanism::new(model)
+}
+
+/// The time law of a constant speed, s(t) = t.
+fn uniform(t: f64) -> Motion<[f64; 1], [f64; 1]> {
+    Motion { q: [t], v: [1.0], a: [0.0] }
+}
+
+/// Gives the quaternions of the coordinates `of` length 1; fails with the first coordinate of one that is zero.
+fn normalise(layout: &Layout, of: &[usize], q: &mut [f64]) -> Result<(), usize> {
+    for joint in layout.joints.iter().filter(|joint| joint.is_in_space()) {
+        let Some(first) = of.iter().position(|&coordinate| coordinate == joint.orientation().start) else { continue };
+        let quaternion = &mut q[first..first + 4];
+        let length = quaternion.iter().map(|component| component * component).sum::<f64>().sqrt();
+        if length == 0.0 {
+            return Err(first);
+        }
+        quaternion.iter_mut().for_each(|component| *component /= length);
     }
     Ok(())
 }
@@ -276,25 +283,26 @@ fn follow(moving: &Moving, points: &mut [Vec<f64>]) -> Result<(), (usize, usize)
 fn from_table(
     table: &InputTable,
     layout: &Layout,
-    moving: &Moving,
+    space: Arc<GenericMechanism>,
     [of_q, of_v]: [&[usize]; 2],
     smooth: Smooth,
-) -> Result<ViaPoints<f64, Vec<f64>, Vec<f64>>, Failure> {
+) -> Result<Spline, Failure> {
     let q = table.of_components("q", &layout.coordinates, of_q, Some(""));
     let [v, a] = [("v", "/s"), ("a", "/s^2")]
         .map(|(symbol, per)| table.of_components(symbol, &layout.velocities, of_v, Some(per)));
     let mut q = q?;
-    if let Err((row, coordinate)) = q.as_deref_mut().map_or(Ok(()), |q| follow(moving, q)) {
+    for (row, q) in q.iter_mut().flatten().enumerate() {
+        let Err(coordinate) = normalise(layout, of_q, q) else { continue };
         let (t, joint) = (table.t[row], layout.coordinates[of_q[coordinate]].joint);
         let message = format!("at t = {t:?} s the quaternion of the joint `{}` is zero", layout.joints[joint].name);
         return Err(table.fault(&message, "a quaternion is x, y, z, w, of any length but zero: 0, 0, 0, 1 for none"));
     }
     let through = match (q, v?, a?) {
         (None, ..) => return Err(table.fault("it has no coordinates", "add a column `q <joint> [rad]` for each joint")),
-        (Some(q), None, None) => smooth.through(table.t.clone(), q),
+        (Some(q), None, None) => smooth.through(space, table.t.clone(), q),
         (Some(q), Some(v), Some(a)) => {
-            let rows = q.into_iter().zip(v).zip(a).map(|((q, v), a)| moving.in_coordinates(Motion { q, v, a }));
-            ViaPoints::through(table.t.clone(), rows.collect())
+            let rows = q.into_iter().zip(v).zip(a).map(|((q, v), a)| Motion { q, v, a });
+            ManifoldSpline::through(space, table.t.clone(), rows.collect())
         }
         (Some(_), v, _) => {
             let (there, missing) = if v.is_some() { ("velocities", "a") } else { ("accelerations", "v") };

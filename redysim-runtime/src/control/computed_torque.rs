@@ -1,6 +1,7 @@
 //! Computed torque of trees.
 
 use super::{check_gains, check_motion, spring_and_damper};
+use crate::tangent::error_slope;
 use crate::vector::entry;
 use crate::{ConfigurationSpace, InverseDynamics, LengthMismatch, Real, TorqueLaw, Trajectory, Vector};
 
@@ -51,7 +52,7 @@ where
     N: InverseDynamics<S, Coordinates = M::Coordinates, Velocities = M::Velocities>,
     T: Trajectory<S, M::Coordinates, M::Velocities>,
 {
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+    fn torque(&mut self, _mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         self.mechanism.inverse_dynamics(q, v, &self.acceleration(t, q, v))
     }
 
@@ -62,16 +63,14 @@ where
 
     fn torque_tangent(
         &mut self,
+        _mechanism: &M,
         t: S,
         (q, v): (&M::Coordinates, &M::Velocities),
         (dq, dv): (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
-        if self.mechanism.nq() != self.mechanism.nv() {
-            // The derivative of the difference is not that of the coordinates.
-            return None;
-        }
+        let de = error_slope(self.mechanism, q, &self.trajectory.at(t).q, dq);
         let a = self.acceleration(t, q, v);
-        let da = spring_and_damper(&self.kp, &self.kd, dq, dv);
+        let da = spring_and_damper(&self.kp, &self.kd, &de, dv);
         self.mechanism.inverse_dynamics_tangent((q, v, &a), (dq, dv, &da))
     }
 }

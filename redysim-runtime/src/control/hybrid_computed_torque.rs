@@ -41,7 +41,7 @@ where
     A: AsRef<[bool]>,
     F: Fn(&M::Coordinates, &M::Velocities) -> M::Velocities,
 {
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+    fn torque(&mut self, _mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         let desired = self.trajectory.at(t);
         let error = self.mechanism.difference(q, &desired.q);
         let external = (self.external)(q, v);

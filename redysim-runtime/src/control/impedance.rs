@@ -158,7 +158,7 @@ where
 {
     /// Returns NaN if the frame does not exist or, with null-space damping, if [`OperationalSpace::new`] fails (mass
     /// matrix not positive definite, or Jacobian not finite).
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+    fn torque(&mut self, _mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         let nv = self.mechanism.nv();
         let not_a_number = || M::Velocities::from_fn(nv, |_| S::from_f64(f64::NAN));
         let (states, jacobians) = (self.mechanism.frame_kinematics(q, v), self.mechanism.frame_jacobians(q));

@@ -36,8 +36,8 @@ where
     M: ConfigurationSpace<S>,
     L: TorqueLaw<S, M>,
 {
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
-        let asked = self.law.torque(t, q, v);
+    fn torque(&mut self, mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        let asked = self.law.torque(mechanism, t, q, v);
         self.applied(&asked)
     }
 
@@ -49,12 +49,13 @@ where
     /// Zero for forces that are cut off.
     fn torque_tangent(
         &mut self,
+        mechanism: &M,
         t: S,
         (q, v): (&M::Coordinates, &M::Velocities),
         slopes: (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
-        let slope = self.law.torque_tangent(t, (q, v), slopes)?;
-        let asked = self.law.torque(t, q, v);
+        let slope = self.law.torque_tangent(mechanism, t, (q, v), slopes)?;
+        let asked = self.law.torque(mechanism, t, q, v);
         Some(M::Velocities::from_fn(v.as_ref().len(), |i| {
             let is_cut_off = entry(&asked, i).abs() > entry(&self.limits, i);
             if is_cut_off { S::zero() } else { entry(&slope, i) }
@@ -71,12 +72,13 @@ where
 
     fn torque_with_state(
         &mut self,
+        mechanism: &M,
         t: S,
         at: (&M::Coordinates, &M::Velocities),
         state: &[S],
         rates: &mut [S],
     ) -> M::Velocities {
-        let asked = self.law.torque_with_state(t, at, state, rates);
+        let asked = self.law.torque_with_state(mechanism, t, at, state, rates);
         let applied = self.applied(&asked);
         let saturation_error = M::Velocities::from_fn(asked.as_ref().len(), |i| entry(&applied, i) - entry(&asked, i));
         self.law.track(&saturation_error, rates);

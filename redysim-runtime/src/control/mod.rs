@@ -12,12 +12,17 @@
 //! | [`Impedance`] | springs and dampers on a frame, and gravity forces or the bias of a model |
 //! | [`Limited`] | any law within the limits of the actuators |
 //!
-//! All but [`Impedance`] take one gain for each velocity. [`ComputedTorque`], [`HybridComputedTorque`] and
-//! [`PdGravity`] take position errors from the mechanism's `difference`; the others subtract coordinates from
-//! coordinates, and are for joints of one coordinate (revolute, prismatic and helical ones). Torques are N m (N for a prismatic joint), proportional gains
-//! N m/rad (N/m) and derivative gains N m s/rad (N s/m) by default. One gain for all joints is written
-//! `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation checks the lengths of gains and targets before it
-//! starts, and rejects laws of coordinate differences for mechanisms with NQ ≠ NV ([`TorqueLaw::check_lengths`]).
+//! All but [`Impedance`] take one gain for each velocity. Their position errors are e = q_d ⊟ q, the mechanism's
+//! [`difference`](ConfigurationSpace::difference): q_d − q of joints of one coordinate, and of an orientation the rotation
+//! vector in the link's axes that leads to the desired one the shorter way, |e| ≤ π. Torques are N m (N for a prismatic
+//! joint), proportional gains N m/rad (N/m) and derivative gains N m s/rad (N s/m) by default. One gain for all joints is
+//! written `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation checks the lengths of gains and targets
+//! before it starts ([`TorqueLaw::check_lengths`]).
+//!
+//! For a constant set point q_d and equal gains along the axes of a rotation, the springs have the potential ½ Kp |e|²,
+//! and an isolated body comes to rest at its target from almost everywhere. At half a turn, |e| = π, the shorter way
+//! changes and the moment with it: the attitudes at which a continuous law cannot decide (S. P. Bhat and D. S. Bernstein,
+//! *A topological obstruction to continuous global stabilization of rotational motion*, Syst. Control Lett. 39, 2000).
 
 mod computed_torque;
 mod hybrid_computed_torque;
@@ -49,8 +54,8 @@ pub use spring_damper::{Pd, Proportional, ProportionalDerivative, TrackingPd};
 /// [`torque_with_state`](Self::torque_with_state). A simulation integrates z with the motion, so that every method and
 /// its error control apply to it, and rejected steps leave no trace. By default, a law has no state.
 pub trait TorqueLaw<S: Scalar, M: ConfigurationSpace<S>> {
-    /// The joint forces at time `t` (s) for coordinates `q` and velocities `v`.
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities;
+    /// The joint forces of `mechanism`, the one that moves, at time `t` (s) for coordinates `q` and velocities `v`.
+    fn torque(&mut self, mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities;
 
     /// Checks, before a simulation of `mechanism` begins at the time `t`, that the vectors of the law have the lengths
     /// that it needs. Arrays always have. By default, nothing is checked.
@@ -66,11 +71,12 @@ pub trait TorqueLaw<S: Scalar, M: ConfigurationSpace<S>> {
     /// integrators. `None`, the default, leaves it to differences of [`torque`](Self::torque).
     fn torque_tangent(
         &mut self,
+        mechanism: &M,
         t: S,
         at: (&M::Coordinates, &M::Velocities),
         slopes: (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
-        let _ = (t, at, slopes);
+        let _ = (mechanism, t, at, slopes);
         None
     }
 
@@ -91,13 +97,14 @@ pub trait TorqueLaw<S: Scalar, M: ConfigurationSpace<S>> {
     /// written to `rates`, which has the length of `state`. For a law without states it is [`torque`](Self::torque).
     fn torque_with_state(
         &mut self,
+        mechanism: &M,
         t: S,
         at: (&M::Coordinates, &M::Velocities),
         state: &[S],
         rates: &mut [S],
     ) -> M::Velocities {
         let _ = (state, rates);
-        self.torque(t, at.0, at.1)
+        self.torque(mechanism, t, at.0, at.1)
     }
 
     /// Adds the anti-windup correction for the saturation error τ_applied − τ to the rates. [`Limited`] calls it; by
@@ -113,7 +120,7 @@ where
     M: ConfigurationSpace<S>,
     F: FnMut(S, &M::Coordinates, &M::Velocities) -> M::Velocities,
 {
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+    fn torque(&mut self, _mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         self(t, q, v)
     }
 }
@@ -129,12 +136,13 @@ pub fn uniform<S: Scalar, M: ConfigurationSpace<S>>(mechanism: &M, gain: S) -> M
 pub struct ZeroTorque;
 
 impl<S: Scalar, M: ConfigurationSpace<S>> TorqueLaw<S, M> for ZeroTorque {
-    fn torque(&mut self, _t: S, _q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+    fn torque(&mut self, _mechanism: &M, _t: S, _q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         M::Velocities::from_fn(v.as_ref().len(), |_| S::zero())
     }
 
     fn torque_tangent(
         &mut self,
+        _mechanism: &M,
         _t: S,
         _at: (&M::Coordinates, &M::Velocities),
         (_, dv): (&M::Coordinates, &M::Velocities),
@@ -149,16 +157,6 @@ fn check_gains<S: Scalar, V: Vector<S>>(mechanism: &impl Mechanism, kp: &V, kd: 
     LengthMismatch::check("kd", kd.as_ref(), mechanism.nv())
 }
 
-/// Checks that there is a coordinate for each velocity and that a vector has an element for each.
-fn check_coordinates<S: Scalar, Q: Vector<S>>(
-    mechanism: &impl Mechanism,
-    name: &'static str,
-    q: &Q,
-) -> Result<(), LengthMismatch> {
-    LengthMismatch::check(name, q.as_ref(), mechanism.nq())?;
-    LengthMismatch::check(name, q.as_ref(), mechanism.nv())
-}
-
 /// Checks that a motion moves all coordinates.
 pub(crate) fn check_motion<S: Scalar, Q: Vector<S>, V: Vector<S>>(
     mechanism: &impl Mechanism,
@@ -169,7 +167,7 @@ pub(crate) fn check_motion<S: Scalar, Q: Vector<S>, V: Vector<S>>(
     LengthMismatch::check("trajectory.a", motion.a.as_ref(), mechanism.nv())
 }
 
-/// −Kp dq − Kd dv.
-fn spring_and_damper<S: Real, Q: Vector<S>, V: Vector<S>>(kp: &V, kd: &V, dq: &Q, dv: &V) -> V {
-    V::from_fn(dv.as_ref().len(), |i| -entry(kp, i) * entry(dq, i) - entry(kd, i) * entry(dv, i))
+/// Kp e − Kd v, also of slopes of e and v.
+fn spring_and_damper<S: Real, V: Vector<S>>(kp: &V, kd: &V, e: &V, v: &V) -> V {
+    V::from_fn(v.as_ref().len(), |i| entry(kp, i) * entry(e, i) - entry(kd, i) * entry(v, i))
 }

@@ -32,7 +32,7 @@ where
     N: GravityForces<S, Coordinates = M::Coordinates, Velocities = M::Velocities>,
     T: Trajectory<S, M::Coordinates, M::Velocities>,
 {
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+    fn torque(&mut self, _mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         let desired = self.trajectory.at(t);
         let error = self.mechanism.difference(q, &desired.q);
         let gravity = self.mechanism.gravity_forces(q);

@@ -1,17 +1,18 @@
 //! PID control of the joints.
 
-use super::{check_coordinates, check_gains, check_motion};
+use super::{check_gains, check_motion};
 use crate::vector::entry;
 use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Trajectory, Vector};
 
-/// PID control of each joint: τ = Kp e + z + Kd ė, with the error e = q_d(t) − q and the integral action z.
+/// PID control of each joint: τ = Kp e + z + Kd (v_d(t) − v), with the error e = q_d(t) ⊟ q, the mechanism's
+/// [`difference`](ConfigurationSpace::difference), and the integral action z.
 ///
 /// The integral action changes by
 ///
 /// ż = Ki e + Kt (τ_applied − τ).
 ///
 /// The integral action z, N m or N, is a state of the law (see [`TorqueLaw`]): a simulation integrates it together with
-/// the motion, to the same tolerances.
+/// the motion, to the same tolerances. Of an orientation it is a moment in the link's axes, which turns with the link.
 ///
 /// # Saturation and anti-windup
 ///
@@ -91,14 +92,14 @@ pub fn tracking_rates<S: Real, V: Vector<S>>(kp: &V, ki: &V, kd: &V) -> V {
 impl<T, V> Pid<T, V> {
     /// Moves [`integral`](Self::integral) on by the sampling period `dt`, s, over which the forces `applied` act instead
     /// of those that [`torque`](TorqueLaw::torque) returns at `t`, `q` and `v`: by dt ż (Euler's method).
-    pub fn advance<S, Q>(&mut self, (t, dt): (S, S), q: &Q, v: &V, applied: &V)
+    pub fn advance<S, M>(&mut self, mechanism: &M, (t, dt): (S, S), q: &M::Coordinates, v: &V, applied: &V)
     where
         S: Real,
-        Q: Vector<S>,
+        M: ConfigurationSpace<S, Velocities = V>,
         V: Vector<S>,
-        T: Trajectory<S, Q, V>,
+        T: Trajectory<S, M::Coordinates, V>,
     {
-        let (asked, mut rates) = self.force_and_rates(t, q, v, self.integral.as_ref());
+        let (asked, mut rates) = self.force_and_rates(mechanism, t, (q, v), self.integral.as_ref());
         let saturation_error = V::from_fn(v.as_ref().len(), |i| entry(applied, i) - entry(&asked, i));
         self.follow(&saturation_error, rates.as_mut());
         for (integral, &rate) in self.integral.as_mut().iter_mut().zip(rates.as_ref()) {
@@ -107,16 +108,16 @@ impl<T, V> Pid<T, V> {
     }
 
     /// τ and Ki e with the integral action z.
-    fn force_and_rates<S, Q>(&self, t: S, q: &Q, v: &V, z: &[S]) -> (V, V)
+    fn force_and_rates<S, M>(&self, mechanism: &M, t: S, (q, v): (&M::Coordinates, &V), z: &[S]) -> (V, V)
     where
         S: Real,
-        Q: Vector<S>,
+        M: ConfigurationSpace<S, Velocities = V>,
         V: Vector<S>,
-        T: Trajectory<S, Q, V>,
+        T: Trajectory<S, M::Coordinates, V>,
     {
         let desired = self.trajectory.at(t);
         let count = v.as_ref().len();
-        let error = V::from_fn(count, |i| entry(&desired.q, i) - entry(q, i));
+        let error = mechanism.difference(q, &desired.q);
         let force = V::from_fn(count, |i| {
             entry(&self.kp, i) * entry(&error, i)
                 + z.get(i).copied().unwrap_or(S::from_f64(f64::NAN))
@@ -146,14 +147,12 @@ where
     T: Trajectory<S, M::Coordinates, M::Velocities>,
 {
     /// The force with z in [`integral`](Pid::integral).
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
-        self.force_and_rates(t, q, v, self.integral.as_ref()).0
+    fn torque(&mut self, mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+        self.force_and_rates(mechanism, t, (q, v), self.integral.as_ref()).0
     }
 
     fn check_lengths(&self, t: S, mechanism: &M) -> Result<(), LengthMismatch> {
-        let desired = self.trajectory.at(t);
-        check_coordinates(mechanism, "trajectory.q", &desired.q)?;
-        check_motion(mechanism, &desired)?;
+        check_motion(mechanism, &self.trajectory.at(t))?;
         check_gains(mechanism, &self.kp, &self.kd)?;
         LengthMismatch::check("ki", self.ki.as_ref(), mechanism.nv())?;
         LengthMismatch::check("tracking", self.tracking.as_ref(), mechanism.nv())?;
@@ -170,12 +169,13 @@ where
 
     fn torque_with_state(
         &mut self,
+        mechanism: &M,
         t: S,
-        (q, v): (&M::Coordinates, &M::Velocities),
+        at: (&M::Coordinates, &M::Velocities),
         state: &[S],
         rates: &mut [S],
     ) -> M::Velocities {
-        let (force, of_error) = self.force_and_rates(t, q, v, state);
+        let (force, of_error) = self.force_and_rates(mechanism, t, at, state);
         for (rate, &of_error) in rates.iter_mut().zip(of_error.as_ref()) {
             *rate = of_error;
         }

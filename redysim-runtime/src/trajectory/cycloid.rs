@@ -13,7 +13,8 @@ use crate::{Real, Vector};
 /// θ(t) = θ₀ + (θ₁ − θ₀)/T · (t − T/(2π) sin(2πt/T)), 0 ≤ t ≤ T,
 ///
 /// with vanishing velocity and acceleration at both ends, and rest before and after. It is for joints of one
-/// coordinate, whose velocity is its rate (revolute, prismatic and helical ones). Source: eq. (1) of S. V. Shah, P. V.
+/// coordinate, whose velocity is its rate (revolute, prismatic and helical ones);
+/// [`TangentTrajectory::along_screw`](crate::TangentTrajectory::along_screw) takes one as the time law of any joints. Source: eq. (1) of S. V. Shah, P. V.
 /// Nandihal and S. K. Saha, *Recursive dynamics simulator (ReDySim)*, Theor. Appl. Mech. Lett. 2, 063011 (2012).
 ///
 /// ```

@@ -1,14 +1,29 @@
 //! Motions prescribed in advance: coordinates, velocities and accelerations as functions of time.
+//!
+//! | trajectory | of | q(t) |
+//! |---|---|---|
+//! | [`SetPoint`] | any joints | rest |
+//! | [`Cycloid`] | joints of one coordinate | from rest to rest |
+//! | [`ViaPoints`] | joints of one coordinate | through points: of least jerk, cubic, or with given velocities |
+//! | [`TangentTrajectory`] | any joints | q₀ ⊞ w(t): along a [constant screw](ConstantDirection) by any time law, or any way |
+//! | [`ManifoldSpline`] | any joints | through points, as [`ViaPoints`] |
 
+mod chart;
 mod cycloid;
+mod manifold_spline;
 mod set_point;
 mod spline;
+mod tangent;
 mod via_points;
 
 use core::fmt;
 
+use crate::LengthMismatch;
+
 pub use cycloid::Cycloid;
+pub use manifold_spline::ManifoldSpline;
 pub use set_point::SetPoint;
+pub use tangent::{ConstantDirection, TangentTrajectory};
 pub use via_points::ViaPoints;
 
 /// A motion at one time.
@@ -72,6 +87,13 @@ pub enum TrajectoryError<S> {
         /// Its time, s.
         t: S,
     },
+    /// A vector has another length than the mechanism needs.
+    WrongLength(LengthMismatch),
+    /// No way leads to a point: a coordinate is not finite, or a quaternion zero.
+    NoWay {
+        /// The point's number, counted from 0.
+        point: usize,
+    },
 }
 
 impl<S: fmt::Debug> fmt::Display for TrajectoryError<S> {
@@ -95,6 +117,14 @@ impl<S: fmt::Debug> fmt::Display for TrajectoryError<S> {
                 f,
                 "the points of a motion must follow each other in time, but point {point} (counted from 0) is at \
                  t = {t:?} s and the one before it at {previous:?} s; sort them, and drop the one that is there twice"
+            ),
+            Self::WrongLength(mismatch) => {
+                write!(f, "the vectors of a motion must have the lengths of those of its mechanism: {mismatch}")
+            }
+            Self::NoWay { point } => write!(
+                f,
+                "no way leads to point {point} (counted from 0) of a motion: its coordinates must be finite, and its \
+                 quaternions of length 1"
             ),
         }
     }

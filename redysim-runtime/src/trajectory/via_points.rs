@@ -15,7 +15,7 @@ use crate::{Real, Vector};
 ///
 /// [`minimum_jerk`](Self::minimum_jerk) and [`cubic`](Self::cubic) find velocities and accelerations themselves,
 /// [`through`](Self::through) takes them as they are. For joints of one coordinate, whose velocity is its rate
-/// (revolute, prismatic and helical ones). `T` holds the times, `[S; N]` or `Vec<S>`, one for each point.
+/// (revolute, prismatic and helical ones); [`ManifoldSpline`](crate::ManifoldSpline) is for any. `T` holds the times, `[S; N]` or `Vec<S>`, one for each point.
 ///
 /// ```
 /// use redysim_runtime::{Trajectory, ViaPoints};
@@ -98,11 +98,9 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
 
     fn smoothest(times: T, q: T::Of<V>, smoothness: Smoothness<S>) -> Result<Self, TrajectoryError<S>> {
         let coordinates = q.as_ref();
-        if coordinates.len() != times.as_ref().len() {
-            let (times, points) = (times.as_ref().len(), coordinates.len());
-            return Err(TrajectoryError::DifferentCounts { times, points });
-        }
-        let mut points = T::Of::<Motion<V, V>>::from_fn(coordinates.len(), |k| resting(&coordinates[k]));
+        check_times(&times, coordinates.len())?;
+        let rest = |q: &V| resting(q, q.as_ref().len());
+        let mut points = T::Of::<Motion<V, V>>::from_fn(coordinates.len(), |k| rest(&coordinates[k]));
         check(&times, points.as_ref())?;
         smooth::<S, V, T>(&times, &mut points, smoothness);
         Ok(Self { times, points, scalar: PhantomData })
@@ -123,6 +121,11 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
         }
     }
 
+    /// The points, with their velocities and accelerations.
+    pub(super) fn points(&self) -> &[Motion<V, V>] {
+        self.points.as_ref()
+    }
+
     /// The first time and the last, s.
     pub fn span(&self) -> (S, S) {
         (entry(&self.times, 0), entry(&self.times, self.times.as_ref().len() - 1))
@@ -131,28 +134,41 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
 
 impl<S: Real, V: Vector<S>, T: Vector<S>> Trajectory<S, V, V> for ViaPoints<S, V, T> {
     fn at(&self, t: S) -> Motion<V, V> {
-        let (times, points) = (self.times.as_ref(), self.points.as_ref());
-        // NaN is no time before any, so that what becomes of it is NaN.
-        let after = times.partition_point(|&time| time <= t);
-        let standing = match after {
-            0 if t < times[0] => Some(&points[0]),
-            _ if t > times[times.len() - 1] => points.last(),
-            _ => None,
-        };
-        if let Some(point) = standing {
-            return resting(&point.q);
+        let points = self.points.as_ref();
+        match place(self.times.as_ref(), t) {
+            Place::Rest(k) => resting(&points[k].q, points[k].v.as_ref().len()),
+            Place::Point(k) => points[k].clone(),
+            Place::Between { left, h, s } => between(&points[left], &points[left + 1], h, s),
         }
-        let right = after.clamp(1, times.len() - 1);
-        let left = right - 1;
-        let (from, to) = (&points[left], &points[right]);
-        if t == times[left] {
-            return from.clone();
-        }
-        if t == times[right] {
-            return to.clone();
-        }
-        let h = times[right] - times[left];
-        between(from, to, h, (t - times[left]) / h)
+    }
+}
+
+/// Where a time is among those of points.
+pub(super) enum Place<S> {
+    /// Before the first point or after the last, with the index of that.
+    Rest(usize),
+    /// At the point with this index.
+    Point(usize),
+    /// Behind the point `left`, at the part `s` of the way to the next, which takes the time `h`.
+    Between { left: usize, h: S, s: S },
+}
+
+/// Where `t` is among `times`, of which there are at least two. Between the first two, if it is not a number.
+pub(super) fn place<S: Real>(times: &[S], t: S) -> Place<S> {
+    let last = times.len() - 1;
+    let right = times.partition_point(|&time| time <= t).max(1).min(last);
+    let left = right - 1;
+    let (from, to) = (times[left], times[right]);
+    if t < from {
+        Place::Rest(left)
+    } else if t > to {
+        Place::Rest(right)
+    } else if t == from {
+        Place::Point(left)
+    } else if t == to {
+        Place::Point(right)
+    } else {
+        Place::Between { left, h: to - from, s: (t - from) / (to - from) }
     }
 }
 
@@ -163,7 +179,7 @@ impl<S: fmt::Debug, V: Clone + fmt::Debug, T: Vector<S> + fmt::Debug> fmt::Debug
 }
 
 /// The polynomial of degree 5 between two points, `h` apart in time, at the part `s` of the way.
-fn between<S: Real, V: Vector<S>>(from: &Motion<V, V>, to: &Motion<V, V>, h: S, s: S) -> Motion<V, V> {
+pub(super) fn between<S: Real, V: Vector<S>>(from: &Motion<V, V>, to: &Motion<V, V>, h: S, s: S) -> Motion<V, V> {
     let c = S::from_f64;
     // Coefficients of s⁰ to s⁵: the first three from the start, the others from what these miss at the end.
     let coefficients = |joint| {
@@ -194,23 +210,30 @@ fn between<S: Real, V: Vector<S>>(from: &Motion<V, V>, to: &Motion<V, V>, h: S, 
     }
 }
 
-fn resting<S: Real, V: Vector<S>>(q: &V) -> Motion<V, V> {
-    let zero = V::from_fn(q.as_ref().len(), |_| S::zero());
+/// Rest at `q`, with `nv` velocities.
+pub(super) fn resting<S: Real, Q: Clone, V: Vector<S>>(q: &Q, nv: usize) -> Motion<Q, V> {
+    let zero = V::from_fn(nv, |_| S::zero());
     Motion { q: q.clone(), v: zero.clone(), a: zero }
 }
 
 fn check<S: Real, V: Vector<S>, T: Vector<S>>(times: &T, points: &[Motion<V, V>]) -> Result<(), TrajectoryError<S>> {
-    let times = times.as_ref();
-    if times.len() != points.len() {
-        return Err(TrajectoryError::DifferentCounts { times: times.len(), points: points.len() });
-    }
-    if points.len() < 2 {
-        return Err(TrajectoryError::TooFewPoints { given: points.len() });
-    }
+    check_times(times, points.len())?;
     let joints = points[0].q.as_ref().len();
     let lengths = points.iter().flat_map(|point| [&point.q, &point.v, &point.a]).map(|part| part.as_ref().len());
     if let Some(to) = lengths.into_iter().find(|&length| length != joints) {
         return Err(TrajectoryError::DifferentLengths { from: joints, to });
+    }
+    Ok(())
+}
+
+/// Checks that there are at least two points, and a time for each, later than that before it.
+pub(super) fn check_times<S: Real, T: Vector<S>>(times: &T, points: usize) -> Result<(), TrajectoryError<S>> {
+    let times = times.as_ref();
+    if times.len() != points {
+        return Err(TrajectoryError::DifferentCounts { times: times.len(), points });
+    }
+    if points < 2 {
+        return Err(TrajectoryError::TooFewPoints { given: points });
     }
     for (k, pair) in times.windows(2).enumerate() {
         if !(pair[1] > pair[0] && (pair[1] - pair[0]).is_finite()) {

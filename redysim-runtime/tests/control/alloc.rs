@@ -149,14 +149,14 @@ fn pid_and_limits_are_checked_for_a_component_of_each_velocity() {
     let mut short = Limited { law: pid([2, 1, 2, 2]), limits: vec![1.0] };
     let (at, mut rates) = ((Q.to_vec(), V.to_vec()), [0.0_f64; 3]);
     let short: &mut dyn TorqueLaw<f64, DynamicArm> = &mut short;
-    let force = short.torque_with_state(0.0, (&at.0, &at.1), &[0.0], &mut rates);
+    let force = short.torque_with_state(&DynamicArm(2), 0.0, (&at.0, &at.1), &[0.0], &mut rates);
     assert!(force.len() == 2 && force[1].is_nan() && rates[1].is_nan());
 }
 
 #[test]
 fn a_law_that_is_evaluated_outside_a_simulation_gives_nan_for_a_missing_gain() {
     let mut short_gain = Proportional { target: vec![0.0; 2], kp: vec![1.0] };
-    let torque = TorqueLaw::<f64, DynamicArm>::torque(&mut short_gain, 0.0, &Q.to_vec(), &V.to_vec());
+    let torque = short_gain.torque(&DynamicArm(2), 0.0, &Q.to_vec(), &V.to_vec());
     assert!(torque.len() == 2 && torque[0] == -0.5 && torque[1].is_nan());
 }
 

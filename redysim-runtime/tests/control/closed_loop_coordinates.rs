@@ -4,8 +4,8 @@
 use crate::slider_crank::{ByAngle, ByCosine, CRANK, ROD, by_cosine};
 use redysim_runtime::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ComputedTorque, ConfigurationSpace,
-    IntegrationError, Integrator, LengthMismatch, LoopClosure, LoopError, Mechanism, Motion, Ode45, Pd, Proportional,
-    TorqueLaw, TrackingPd,
+    Integrator, LoopClosure, LoopError, Mechanism, Motion, Ode45, Pd, Pid, Proportional, SetPoint, TorqueLaw,
+    TrackingPd,
 };
 use std::f64::consts::TAU;
 
@@ -150,33 +150,36 @@ fn computed_torque_of_a_tree_takes_position_errors_on_the_tangent() {
     for t in [0.0, 0.1, 0.3] {
         // The crank's error stays below π, where its angle and the shortest way agree.
         let q = [2.5, 0.3, 0.8];
-        let expected = TorqueLaw::<f64, ByAngle>::torque(&mut angle, t, &q, &V);
-        let found = TorqueLaw::<f64, ByCosine>::torque(&mut cosine, t, &by_cosine(&q), &V);
+        let expected = angle.torque(&ByAngle, t, &q, &V);
+        let found = cosine.torque(&ByCosine, t, &by_cosine(&q), &V);
         close("torque", &found, &expected, TOLERANCE);
     }
     // Beyond π the shortest way is the other one.
-    let far = TorqueLaw::<f64, ByCosine>::torque(&mut cosine, 0.0, &by_cosine(&[-3.2, 0.3, 0.8]), &V);
-    let near = TorqueLaw::<f64, ByCosine>::torque(&mut cosine, 0.0, &by_cosine(&[-3.2 + TAU, 0.3, 0.8]), &V);
+    let far = cosine.torque(&ByCosine, 0.0, &by_cosine(&[-3.2, 0.3, 0.8]), &V);
+    let near = cosine.torque(&ByCosine, 0.0, &by_cosine(&[-3.2 + TAU, 0.3, 0.8]), &V);
     close("torque", &far, &near, TOLERANCE);
 }
 
 #[test]
-fn laws_that_subtract_coordinates_are_refused_where_these_outnumber_the_velocities() {
-    let mismatch = Err(LengthMismatch { vector: "target", length: 4, expected: 3 });
-    let law = Pd { target: [1.0, 0.0, 0.0, 0.0], kp: [1.0; 3], kd: [1.0; 3] };
-    assert_eq!(law.check_lengths(0.0, &ByCosine), mismatch);
-    let mut simulation = ClosedLoopSimulation::new(ClosedLoop::new(&ByCosine), law);
-    let start = simulation.state(&by_cosine(&closed(0.5)), &V);
-    let error = Ode45::new().integrate(&mut simulation, (0.0, 1.0), start).unwrap_err();
-    assert_eq!(Err(error), mismatch.map_err(IntegrationError::WrongLength));
-    let law = Proportional { target: [1.0, 0.0, 0.0, 0.0], kp: [1.0; 3] };
-    assert_eq!(law.check_lengths(0.0, &ByCosine), mismatch);
-    let trajectory = |_: f64| Motion { q: [1.0, 0.0, 0.0, 0.0], v: [0.0; 3], a: [0.0; 3] };
-    let law = TrackingPd { trajectory, kp: [1.0; 3], kd: [1.0; 3] };
-    let mismatch = Err(LengthMismatch { vector: "trajectory.q", length: 4, expected: 3 });
-    assert_eq!(law.check_lengths(0.0, &ByCosine), mismatch);
-    let law = ComputedTorque { mechanism: &ByCosine, trajectory, kp: [1.0; 3], kd: [1.0; 3] };
-    assert_eq!(law.check_lengths(0.0, &ByCosine), Ok(()));
+fn springs_and_integral_action_do_not_depend_on_the_coordinates() {
+    let (kp, ki, kd, v) = ([4.0, 3.0, 2.0], [1.0, 0.9, 0.8], [0.7, 0.6, 0.5], &V);
+    // The crank's error stays below π, where its angle and the shortest way agree.
+    let (q, target) = ([2.5, 0.3, 0.8], [-0.4, 0.1, 1.0]);
+    let (at, to) = (by_cosine(&q), by_cosine(&target));
+    let (angle, cosine) = (SetPoint::new(&ByAngle, target), SetPoint::new(&ByCosine, to));
+    let expected = Proportional { target, kp }.torque(&ByAngle, 0.0, &q, v);
+    close("P", &Proportional { target: to, kp }.torque(&ByCosine, 0.0, &at, v), &expected, TOLERANCE);
+    let expected = Pd { target, kp, kd }.torque(&ByAngle, 0.0, &q, v);
+    close("PD", &Pd { target: to, kp, kd }.torque(&ByCosine, 0.0, &at, v), &expected, TOLERANCE);
+    let expected = TrackingPd { trajectory: angle, kp, kd }.torque(&ByAngle, 0.0, &q, v);
+    close("tracking", &TrackingPd { trajectory: cosine, kp, kd }.torque(&ByCosine, 0.0, &at, v), &expected, TOLERANCE);
+    let [tracking, integral] = [[0.0; 3], [0.3, -0.2, 0.1]];
+    let (mut rates, mut expected_rates) = ([0.0; 3], [0.0; 3]);
+    let mut pid = Pid { trajectory: angle, kp, ki, kd, tracking, integral };
+    let expected = pid.torque_with_state(&ByAngle, 0.0, (&q, v), &integral, &mut expected_rates);
+    let mut pid = Pid { trajectory: cosine, kp, ki, kd, tracking, integral };
+    close("PID", &pid.torque_with_state(&ByCosine, 0.0, (&at, v), &integral, &mut rates), &expected, TOLERANCE);
+    close("PID's rates", &rates, &expected_rates, TOLERANCE);
 }
 
 #[test]

@@ -13,7 +13,7 @@ const KP: [f64; 2] = [10.0, 20.0];
 const KD: [f64; 2] = [1.0, 2.0];
 
 fn torque(mut law: impl TorqueLaw<f64, Arm>, t: f64) -> [f64; 2] {
-    law.torque(t, &Q, &V)
+    law.torque(&Arm, t, &Q, &V)
 }
 
 fn swing(t: f64) -> Motion<[f64; 2], [f64; 2]> {
@@ -141,5 +141,5 @@ fn pd_with_gravity_rests_off_its_set_point_by_the_weight_that_it_does_not_know_o
 fn laws_work_in_single_precision() {
     let law = Pd { target: [1.0_f32; 2], kp: uniform(&Arm, 2.0), kd: uniform(&Arm, 1.0) };
     let mut law = law;
-    assert_eq!(TorqueLaw::<f32, Arm>::torque(&mut law, 0.0, &[0.5; 2], &[1.0; 2]), [0.0, 0.0]);
+    assert_eq!(law.torque(&Arm, 0.0, &[0.5; 2], &[1.0; 2]), [0.0, 0.0]);
 }

@@ -65,7 +65,7 @@ fn the_tangent_of_a_simulation_is_its_linearisation() {
     let mut with_law = ForwardSimulation::new(&pendulum, law);
     by_law(&mut |direction| tangent(&mut with_law, direction), 1e-14);
     // A law that is only a function of f64 is differenced; the mechanism is not.
-    let closure = |t: f64, q: &[f64; 1], v: &[f64; 1]| TorqueLaw::<f64, Pendulum>::torque(&mut law.clone(), t, q, v);
+    let closure = |t: f64, q: &[f64; 1], v: &[f64; 1]| law.clone().torque(&pendulum, t, q, v);
     let mut with_closure = ForwardSimulation::new(&pendulum, closure);
     by_law(&mut |direction| tangent(&mut with_closure, direction), 1e-9);
 }

@@ -7,6 +7,7 @@ mod mechanisms;
 mod slider_crank;
 
 mod alloc;
+mod attitude;
 mod closed_loop_coordinates;
 mod closed_loop_hybrid;
 mod contact;

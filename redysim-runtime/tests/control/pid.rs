@@ -135,7 +135,7 @@ fn in_lasting_saturation_the_integral_settles_where_the_force_exceeds_its_limit_
 #[test]
 fn limits_cut_off_the_forces_of_any_law_in_both_directions_and_keep_nan() {
     let mut law = Limited { law: |_: f64, q: &[f64; 2], _: &[f64; 2]| *q, limits: [1.0, f64::INFINITY] };
-    let mut torque = |q| TorqueLaw::<f64, Arm>::torque(&mut law, 0.0, &q, &[0.0; 2]);
+    let mut torque = |q| law.torque(&Arm, 0.0, &q, &[0.0; 2]);
     assert_eq!(torque([3.0, 1e9]), [1.0, 1e9]);
     assert_eq!(torque([-3.0, -1e9]), [-1.0, -1e9]);
     assert_eq!(torque([0.5, 0.0]), [0.5, 0.0]);
@@ -146,7 +146,7 @@ fn limits_cut_off_the_forces_of_any_law_in_both_directions_and_keep_nan() {
 fn the_slope_of_a_limited_force_is_zero_where_it_is_cut_off() {
     let pd = Pd { target: [0.0; 2], kp: [10.0; 2], kd: [1.0; 2] };
     let mut law = Limited { law: pd, limits: [5.0; 2] };
-    let slope = TorqueLaw::<f64, Arm>::torque_tangent(&mut law, 0.0, (&[1.0, 0.1], &[0.0; 2]), (&[1.0; 2], &[1.0; 2]));
+    let slope = law.torque_tangent(&Arm, 0.0, (&[1.0, 0.1], &[0.0; 2]), (&[1.0; 2], &[1.0; 2]));
     assert_eq!(slope, Some([0.0, -11.0]));
 }
 
@@ -155,7 +155,7 @@ fn a_joint_without_integral_gain_has_no_integral_action_under_limits() {
     let pid = Pid { ki: [0.0], tracking: [5.0], ..with_poles(FREE, SetPoint::new(&FREE, [1.0])) };
     let mut limited = Limited { law: pid, limits: [2.0] };
     let mut rates = [f64::NAN];
-    let force = TorqueLaw::<f64, Cart>::torque_with_state(&mut limited, 0.0, (&[0.0], &[0.0]), &[0.0], &mut rates);
+    let force = limited.torque_with_state(&FREE, 0.0, (&[0.0], &[0.0]), &[0.0], &mut rates);
     assert_eq!((force, rates), ([2.0], [0.0]));
 }
 
@@ -175,7 +175,7 @@ fn pure_integral_control_under_limits_has_tracking_rate_zero_and_finite_torques(
     let mut law = Limited { law: pid, limits: [20.0] };
     for (z, expected) in [(0.0, 0.0), (30.0, 20.0)] {
         let mut rates = [f64::NAN];
-        let force = TorqueLaw::<f64, Cart>::torque_with_state(&mut law, 0.0, (&[0.0], &[0.0]), &[z], &mut rates);
+        let force = law.torque_with_state(&cart, 0.0, (&[0.0], &[0.0]), &[z], &mut rates);
         assert_eq!((force, rates), ([expected], [6.0]));
     }
     let mut simulation = ForwardSimulation::new(&cart, law);
@@ -195,8 +195,8 @@ fn a_sampled_controller_converges_to_the_simulated_one_with_its_period() {
         let (dt, mut q, mut v) = (1.0 / f64::from(count), [0.0], [0.0]);
         for k in 0..count {
             let t = f64::from(k) * dt;
-            let tau = TorqueLaw::<f64, Cart>::torque(&mut pid, t, &q, &v);
-            pid.advance((t, dt), &q, &v, &tau);
+            let tau = pid.torque(&cart, t, &q, &v);
+            pid.advance(&cart, (t, dt), &q, &v, &tau);
             let [a] = cart.forward_dynamics(&q, &v, &tau);
             (q, v) = ([q[0] + dt * v[0]], [v[0] + dt * a]);
         }
@@ -209,7 +209,7 @@ fn a_sampled_controller_converges_to_the_simulated_one_with_its_period() {
 #[test]
 fn a_sampled_controller_follows_the_force_that_its_actuator_gives() {
     let mut pid = Pid { tracking: [4.0], ..with_poles(FREE, SetPoint::new(&FREE, [1.0])) };
-    pid.advance((0.0, 0.1), &[0.0], &[0.0], &[2.0]);
+    pid.advance(&FREE, (0.0, 0.1), &[0.0], &[0.0], &[2.0]);
     assert_eq!(pid.integral, [0.1 * (12.0 + 4.0 * (2.0 - 22.0))]);
 }
 

@@ -1,8 +1,9 @@
-// Three mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
+// Mechanisms written by hand, for tests and for the examples in the documentation, which include this file.
 
 use redysim_runtime::{
     Arguments, ConfigurationSpace, Energy, ForwardDynamics, FrameAcceleration, FrameJacobian, FrameState, Frames,
-    GravityForces, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar, Vector, Wrench,
+    GravityForces, InverseDynamics, LinkState, MechanicalEnergy, Mechanism, Real, Scalar, Vector, VelocityCoordinates,
+    Wrench,
 };
 
 pub const GRAVITY: f64 = 9.81;
@@ -264,6 +265,70 @@ impl<S: Scalar> Frames<S> for Ball {
     }
     fn frame_forces(&self, _: &[S; 3], wrenches: &Self::Wrenches) -> [S; 3] {
         std::array::from_fn(|axis| wrenches[0].force[axis] + wrenches[1].force[axis])
+    }
+}
+
+/// A body that turns about its centre of mass; q is a unit quaternion (x, y, z, w), v the angular velocity in its axes.
+#[derive(Clone, Copy)]
+pub struct Top;
+
+impl Top {
+    /// Principal moments of inertia, kg m².
+    pub const INERTIA: [f64; 3] = [0.5, 0.8, 1.1];
+
+    /// p q.
+    pub fn product([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> [f64; 4] {
+        [
+            d * x + a * w + b * z - c * y,
+            d * y + b * w + c * x - a * z,
+            d * z + c * w + a * y - b * x,
+            d * w - a * x - b * y - c * z,
+        ]
+    }
+}
+
+impl Mechanism for Top {
+    without_names!("top", 4, 3);
+
+    fn coordinates_of_velocity(&self, index: usize) -> VelocityCoordinates {
+        if index < 3 { VelocityCoordinates::Quaternion(0) } else { VelocityCoordinates::Unknown }
+    }
+}
+
+impl ConfigurationSpace<f64> for Top {
+    type Coordinates = [f64; 4];
+    type Velocities = [f64; 3];
+    type State = [f64; 8];
+    type Matrix = [[f64; 3]; 3];
+    type Links = [LinkState<f64>; 3];
+
+    fn coordinate_rates(&self, q: &[f64; 4], v: &[f64; 3]) -> [f64; 4] {
+        Self::product(*q, [0.5 * v[0], 0.5 * v[1], 0.5 * v[2], 0.0])
+    }
+    fn integrate(&self, q: &[f64; 4], dv: &[f64; 3]) -> [f64; 4] {
+        let angle = dv[0].hypot(dv[1]).hypot(dv[2]);
+        let share = if angle == 0.0 { 0.5 } else { (0.5 * angle).sin() / angle };
+        let length = q.iter().map(|component| component * component).sum::<f64>().sqrt();
+        let turn = [share * dv[0], share * dv[1], share * dv[2], (0.5 * angle).cos()];
+        Self::product(q.map(|component| component / length), turn)
+    }
+    fn difference(&self, q0: &[f64; 4], q1: &[f64; 4]) -> [f64; 3] {
+        let [x, y, z, w] = Self::product([-q0[0], -q0[1], -q0[2], q0[3]], *q1);
+        let sin = x.hypot(y).hypot(z);
+        let share = if sin == 0.0 { 2.0 / w } else { 2.0 * sin.atan2(w.abs()) / sin * 1.0_f64.copysign(w) };
+        [share * x, share * y, share * z]
+    }
+    fn neutral(&self) -> [f64; 4] {
+        [0.0, 0.0, 0.0, 1.0]
+    }
+}
+
+impl ForwardDynamics<f64> for Top {
+    /// Euler's equations.
+    fn forward_dynamics(&self, _: &[f64; 4], v: &[f64; 3], tau: &[f64; 3]) -> [f64; 3] {
+        let [a, b, c] = Self::INERTIA;
+        let [x, y, z] = *v;
+        [(tau[0] - (c - b) * y * z) / a, (tau[1] - (a - c) * z * x) / b, (tau[2] - (b - a) * x * y) / c]
     }
 }
 

@@ -9,10 +9,10 @@ use redysim::integrate::Ends;
 use redysim::nalgebra as dynamics;
 use redysim::{
     AnyContactLaw, ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, Compensation,
-    ConfigurationSpace, Contact, Dop853, Event, ForwardSimulation, FrameGains, FrameState, Gauss6, GroundPlane,
+    ConfigurationSpace, Contact, Cycloid, Dop853, Event, ForwardSimulation, FrameGains, FrameState, Gauss6, GroundPlane,
     Grounded, HuntCrossleyContact, HybridSimulation, Impedance, IndependentMotion, Integrator, Limited,
-    MechanicalEnergy, Motion, Ode5, Ode15s, Ode45, OperationalSpace, Pd, PdGravity, Pid, Radau5, ReDySimContact,
-    SemiImplicitEuler, SetPoint, Wrench, ZeroTorque, redysim, tracking_rates,
+    ManifoldSpline, MechanicalEnergy, Motion, Ode5, Ode15s, Ode45, OperationalSpace, Pd, PdGravity, Pid, Radau5, ReDySimContact,
+    SemiImplicitEuler, SetPoint, TangentTrajectory, TrackingPd, Trajectory, Wrench, ZeroTorque, redysim, tracking_rates,
 };
 
 redysim! {
@@ -93,6 +93,7 @@ extern "C" fn main() -> i32 {
             && a_pole_swings_on_a_cart_that_follows_a_motion().is_some_and(|swings| swings)
             && a_parcel_bounces_and_keeps_its_energy_account().is_some_and(|kept| kept)
             && a_top_keeps_its_energy_and_its_quaternion_its_length().is_some_and(|kept| kept)
+            && a_top_follows_attitudes().is_some_and(|follows| follows)
             && stays_closed_when_it_turns().is_some_and(|closed| closed)
             && stops_at_an_event_with_stable_steps().is_some_and(|stopped| stopped)
             && rests_under_limited_pid().is_some_and(|rests| rests)
@@ -205,6 +206,25 @@ fn a_top_keeps_its_energy_and_its_quaternion_its_length() -> Option<bool> {
     let apart = (0..4).fold(0.0, |sum, i| sum + (sign * again[i] - end.q[i]) * (sign * again[i] - end.q[i]));
     let turns = Top::momentum(&end.q, &end.v).angular.iter().any(|component| component * component > 1e-3);
     Some(-1e-5 < gained && gained < 1e-5 && -1e-9 < length && length < 1e-9 && apart < 1e-18 && turns)
+}
+
+/// A top is pulled along a turn about a fixed axis, and along a motion through three attitudes.
+fn a_top_follows_attitudes() -> Option<bool> {
+    let upright: [f64; 4] = Top.neutral();
+    let [left, right] = [[1.0, 0.0, 0.3], [-1.0, 0.2, 0.0]].map(|way| Top.integrate(&upright, &way));
+    let turn = TangentTrajectory::along_screw(&Top, upright, &left, Cycloid::new([0.0], [1.0], 0.4).ok()?).ok()?;
+    let nod = ManifoldSpline::minimum_jerk(&Top, [0.0, 0.2, 0.4], [upright, left, right]).ok()?;
+    Some(ends_near(turn, &left)? && ends_near(nod, &right)?)
+}
+
+/// Whether the top is near `end` after 0.5 s under springs and dampers to the trajectory.
+fn ends_near(trajectory: impl Trajectory<f64, [f64; 4], [f64; 3]>, end: &[f64; 4]) -> Option<bool> {
+    let law = TrackingPd { trajectory, kp: [400.0; 3], kd: [10.0; 3] };
+    let mut simulation = ForwardSimulation::new(&Top, law);
+    let start = simulation.state(&Top.neutral(), &[0.0; 3]);
+    let reached = Ode45::new().integrate(&mut simulation, (0.0, 0.5), start).ok()?;
+    let left = Top.difference(&simulation.split(&reached.y).q, end);
+    Some(dot(&left, &left) < 1e-2)
 }
 
 /// A box falls on a corner under both laws of contact: what it has lost the ground has taken.

@@ -30,5 +30,5 @@ pub fn desired_motion(t: Real) -> Motion<Joints, Joints> {
 pub fn control(t: Real, q: &Joints, v: &Joints) -> Joints {
     let mut law =
         ComputedTorque { mechanism: &Kr5, trajectory: desired_motion, kp: [400.0; Kr5::NV], kd: [40.0; Kr5::NV] };
-    TorqueLaw::<Real, Kr5>::torque(&mut law, t, q, v)
+    law.torque(&Kr5, t, q, v)
 }

@@ -30,16 +30,16 @@ impl<'a> OnGround<'a> {
 }
 
 impl TorqueLaw<f64, Ground<'_>> for OnGround<'_> {
-    fn torque(&mut self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
-        self.law.torque(t, q, v)
+    fn torque(&mut self, ground: &Ground<'_>, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
+        self.law.torque(ground.mechanism(), t, q, v)
     }
 
     fn check_lengths(&self, t: f64, _ground: &Ground<'_>) -> Result<(), LengthMismatch> {
         self.law.check_lengths(t, self.mechanism())
     }
 
-    fn torque_tangent(&mut self, t: f64, at: Pair<'_>, slopes: Pair<'_>) -> Option<Vec<f64>> {
-        self.law.torque_tangent(t, at, slopes)
+    fn torque_tangent(&mut self, ground: &Ground<'_>, t: f64, at: Pair<'_>, slopes: Pair<'_>) -> Option<Vec<f64>> {
+        self.law.torque_tangent(ground.mechanism(), t, at, slopes)
     }
 
     fn state_count(&self, _ground: &Ground<'_>) -> usize {
@@ -50,12 +50,19 @@ impl TorqueLaw<f64, Ground<'_>> for OnGround<'_> {
         if index < self.law.state_count(self.mechanism()) { self.law.initial_state(index) } else { 0.0 }
     }
 
-    fn torque_with_state(&mut self, t: f64, (q, v): Pair<'_>, state: &[f64], rates: &mut [f64]) -> Vec<f64> {
-        let of_law = self.law.state_count(self.mechanism());
+    fn torque_with_state(
+        &mut self,
+        ground: &Ground<'_>,
+        t: f64,
+        (q, v): Pair<'_>,
+        state: &[f64],
+        rates: &mut [f64],
+    ) -> Vec<f64> {
+        let of_law = self.law.state_count(ground.mechanism());
         if let Some(rate) = rates.get_mut(of_law) {
-            *rate = self.ground.ground_power(q, v);
+            *rate = ground.ground_power(q, v);
         }
         let (state, rates) = (state.get(..of_law), rates.get_mut(..of_law));
-        self.law.torque_with_state(t, (q, v), state.unwrap_or_default(), rates.unwrap_or_default())
+        self.law.torque_with_state(ground.mechanism(), t, (q, v), state.unwrap_or_default(), rates.unwrap_or_default())
     }
 }

@@ -4,12 +4,11 @@ mod faults;
 mod impedance;
 mod payload;
 mod read;
-mod tangent;
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, HybridComputedTorque, Limited, Motion, Pd, PdGravity, Pid,
-    Proportional, SetPoint, TrackingPd, Trajectory, ZeroTorque,
+    ClosedLoop, ClosedLoopComputedTorque, ComputedTorque, HybridComputedTorque, Limited, Pd, PdGravity, Pid,
+    Proportional, SetPoint, TrackingPd, ZeroTorque,
 };
 
 use super::Ground;
@@ -20,7 +19,6 @@ use super::subject::spread;
 use super::trajectory::Prescribed;
 use crate::layout::Layout;
 pub use impedance::HeldFrame;
-use tangent::OnTangent;
 
 /// A torque law, as the scenario has it: its values are those of the joints that it drives.
 #[derive(Clone, Debug)]
@@ -122,37 +120,19 @@ impl Torque {
             |joints: &[usize], values: &[f64]| spread(&layout.coordinates_of(joints), values, &layout.coordinates);
         let whole =
             |joints: &[usize], values: &[f64]| spread(&layout.velocities_of(joints), values, &layout.velocities);
-        let rest = || vec![0.0; layout.nv()];
-        // Where coordinates are not as many as velocities, their differences are.
-        let on_tangent = layout.nq() != layout.nv();
         match self {
             Torque::Zero => Law::total(ZeroTorque),
             Torque::P { joints, target, kp } => {
-                let (target, kp) = (positions(joints, target), whole(joints, kp));
-                if on_tangent {
-                    let law = Proportional { target: rest(), kp };
-                    return Law::total(OnTangent { mechanism, target: SetPoint::new(mechanism, target), law });
-                }
-                Law::total(Proportional { target, kp })
+                Law::total(Proportional { target: positions(joints, target), kp: whole(joints, kp) })
             }
             Torque::Pd { joints, target, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
-                let target = positions(joints, target);
-                if on_tangent {
-                    let law = Pd { target: rest(), kp, kd };
-                    return Law::total(OnTangent { mechanism, target: SetPoint::new(mechanism, target), law });
-                }
-                Law::total(Pd { target, kp, kd })
+                Law::total(Pd { target: positions(joints, target), kp, kd })
             }
             Torque::Pid { joints, target, kp, ki, kd, tracking_rate } => {
                 let [kp, ki, kd, tracking] = [kp, ki, kd, tracking_rate].map(|gains| whole(joints, gains));
                 let trajectory = SetPoint::new(mechanism, positions(joints, target));
-                if on_tangent {
-                    let origin = SetPoint::new(mechanism, rest());
-                    let law = Pid { trajectory: origin, kp, ki, kd, tracking, integral: rest() };
-                    return Law::total(OnTangent { mechanism, target: trajectory, law });
-                }
-                Law::total(Pid { trajectory, kp, ki, kd, tracking, integral: rest() })
+                Law::total(Pid { trajectory, kp, ki, kd, tracking, integral: vec![0.0; layout.nv()] })
             }
             Torque::PdGravity { joints, target, kp, kd, laden } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
@@ -172,12 +152,7 @@ impl Torque {
             }
             Torque::TrackingPd { joints, trajectory, kp, kd } => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(joints, gains));
-                let target = trajectory.spread(layout);
-                if on_tangent {
-                    let rates = move |t: f64| Motion { q: vec![0.0; layout.nv()], ..target.at(t) };
-                    return Law::total(OnTangent { mechanism, target, law: TrackingPd { trajectory: rates, kp, kd } });
-                }
-                Law::total(TrackingPd { trajectory: target, kp, kd })
+                Law::total(TrackingPd { trajectory: trajectory.spread(layout), kp, kd })
             }
             Torque::Computed { actuated, trajectory, kp, kd } if mechanism.model().loops.is_empty() => {
                 let [kp, kd] = [kp, kd].map(|gains| whole(&trajectory.joints, gains));

@@ -105,7 +105,7 @@ where
     }
 
     /// Not numbers where no forces give the motion; [`last_error`](Self::last_error) then says why.
-    fn torque(&mut self, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
+    fn torque(&mut self, _mechanism: &M, t: S, q: &M::Coordinates, v: &M::Velocities) -> M::Velocities {
         match self.forces(t, q, v) {
             Ok(found) => {
                 self.last_error = None;

@@ -1,0 +1,241 @@
+//! Motion through positions of joints with orientations.
+
+use core::fmt;
+use core::marker::PhantomData;
+use core::ops::Deref;
+
+use super::chart;
+use super::via_points::{Place, between, check_times, place, resting};
+use super::{Motion, Trajectory, TrajectoryError, ViaPoints};
+use crate::exponential::{orientations, set};
+use crate::linear_algebra::zeros;
+use crate::vector::entry;
+use crate::{ConfigurationSpace, LengthMismatch, Real, Vector, VelocityCoordinates};
+
+/// A motion through positions at given times, of any mechanism: [`ViaPoints`] for joints with orientations, too.
+///
+/// Between two points, orientations move on the tangent at the first: R(t) = Rₖ exp(φ(t)), where the rotation vector φ is
+/// the polynomial of degree 5 that has the angular velocities and accelerations of both points, by the right Jacobian of
+/// the exponential and its derivative. From a point it goes to the next the shorter way. Other coordinates move by
+/// polynomials of their own, as those of [`ViaPoints`] do, to the same digit; among them the position of a free joint, so
+/// that it goes straight through points on a line, however the link turns. Before the first point and after the last it
+/// stands there. q(t) is twice continuously differentiable.
+///
+/// [`through`](Self::through) takes velocities and accelerations as they are. [`minimum_jerk`](Self::minimum_jerk) and
+/// [`cubic`](Self::cubic) find those of [`ViaPoints`] for the points unrolled: the rotation vectors φₖ from each orientation
+/// to the next, laid end to end in one tangent space, to which parallel transport along these rotations takes them (by
+/// half their angles); it takes the velocities and accelerations back. So of rotations about one axis each is the scalar
+/// spline of their angle, all turn with the base, and none depends on the first axes. Jerk and snap of other rotations
+/// jump at the points by products of small rotations. P. E. Jupp and J. T. Kent, *Fitting smooth paths to spherical data*,
+/// Appl. Statist. 36 (1987); K. Hüper and F. Silva Leite, *On the geometry of rolling and interpolation curves on Sⁿ, SOₙ,
+/// and Grassmann manifolds*, J. Dyn. Control Syst. 13 (2007).
+///
+/// Quaternions have length 1. A quaternion and its negative are the same orientation: each point takes that nearer to the
+/// point before it.
+///
+/// ```
+/// # #[allow(dead_code)]
+/// # mod mechanisms { include!("../../tests/mechanisms/mod.rs"); }
+/// # use mechanisms::Top;
+/// use redysim_runtime::{ConfigurationSpace, ManifoldSpline, Trajectory};
+///
+/// let upright = Top.neutral();
+/// let [left, right]: [[f64; 4]; 2] = [[1.5, 0.0, 0.3], [-1.5, 0.2, 0.0]].map(|way| Top.integrate(&upright, &way));
+/// let nod = ManifoldSpline::minimum_jerk(&Top, [0.0, 1.0, 3.0], [upright, left, right])?;
+/// assert_eq!(nod.at(1.0).q, left);
+/// assert_eq!(nod.at(3.0).v, [0.0; 3]);
+/// # Ok::<(), redysim_runtime::TrajectoryError<f64>>(())
+/// ```
+#[derive(Clone)]
+pub struct ManifoldSpline<P, Q: Clone, V: Clone, T: Vector<S>, S> {
+    mechanism: P,
+    times: T,
+    points: T::Of<Motion<Q, V>>,
+    scalar: PhantomData<S>,
+}
+
+impl<S, M, P, T> ManifoldSpline<P, M::Coordinates, M::Velocities, T, S>
+where
+    S: Real,
+    M: ConfigurationSpace<S>,
+    P: Deref<Target = M>,
+    T: Vector<S>,
+{
+    /// The motion that has the given coordinates, velocities and accelerations at the given times, s. `mechanism` is a
+    /// reference `&M`, or a pointer that owns it, such as `Arc<M>`.
+    ///
+    /// # Errors
+    /// [`TrajectoryError`], for fewer than two points, a point without a time, times that do not grow, vectors of another
+    /// length than the mechanism needs, or a point to which no way leads, as to a quaternion of length zero.
+    pub fn through(
+        mechanism: P,
+        times: T,
+        points: T::Of<Motion<M::Coordinates, M::Velocities>>,
+    ) -> Result<Self, TrajectoryError<S>> {
+        check_times(&times, points.as_ref().len())?;
+        let mut spline = Self { mechanism, times, points, scalar: PhantomData };
+        spline.check_points()?;
+        spline.follow_quaternions();
+        Ok(spline)
+    }
+
+    /// The motion of small jerk from rest at the first point to rest at the last, through those between without a stop, as
+    /// [`ViaPoints::minimum_jerk`].
+    ///
+    /// # Errors
+    /// As [`through`](Self::through).
+    pub fn minimum_jerk(mechanism: P, times: T, q: T::Of<M::Coordinates>) -> Result<Self, TrajectoryError<S>> {
+        Self::resting_at(mechanism, times, &q)?.smoothed(ViaPoints::minimum_jerk)
+    }
+
+    /// The motion of small acceleration from rest at the first point to rest at the last, through those between without a
+    /// stop, as [`ViaPoints::cubic`]: its acceleration is continuous between the ends, and jumps at both.
+    ///
+    /// # Errors
+    /// As [`through`](Self::through).
+    pub fn cubic(mechanism: P, times: T, q: T::Of<M::Coordinates>) -> Result<Self, TrajectoryError<S>> {
+        Self::resting_at(mechanism, times, &q)?.smoothed(ViaPoints::cubic)
+    }
+
+    /// The first time and the last, s.
+    pub fn span(&self) -> (S, S) {
+        (entry(&self.times, 0), entry(&self.times, self.times.as_ref().len().saturating_sub(1)))
+    }
+
+    /// The motion that rests at each point.
+    fn resting_at(mechanism: P, times: T, q: &T::Of<M::Coordinates>) -> Result<Self, TrajectoryError<S>> {
+        let q = q.as_ref();
+        check_times(&times, q.len())?;
+        let (mut each, nv) = (q.iter(), mechanism.nv());
+        let points = T::Of::<Motion<M::Coordinates, M::Velocities>>::from_fn(q.len(), |_| {
+            each.next().map_or_else(|| resting(&mechanism.neutral(), nv), |q| resting(q, nv))
+        });
+        Self::through(mechanism, times, points)
+    }
+
+    /// The same points, with the velocities and accelerations of a spline through the unrolled points.
+    fn smoothed(
+        mut self,
+        spline: fn(T, T::Of<M::Velocities>) -> Result<ViaPoints<S, M::Velocities, T>, TrajectoryError<S>>,
+    ) -> Result<Self, TrajectoryError<S>> {
+        let mechanism: &M = &self.mechanism;
+        let unrolled = unrolled::<S, M, T>(mechanism, self.points.as_ref());
+        let unrolled = unrolled.as_ref();
+        let mut each = unrolled.iter();
+        let flat = T::Of::<M::Velocities>::from_fn(unrolled.len(), |_| {
+            each.next().map_or_else(|| zeros(mechanism.nv()), |point| point.coordinates.clone())
+        });
+        let flat = spline(self.times.clone(), flat)?;
+        for ((point, flat), Unrolled { axes, .. }) in self.points.as_mut().iter_mut().zip(flat.points()).zip(unrolled) {
+            let back = M::Velocities::from_fn(mechanism.nv(), |i| -entry(axes, i));
+            let [v, a] = [&flat.v, &flat.a].map(|part| chart::turned_back(mechanism, &back, part));
+            let about = Motion { q: chart::coordinates(mechanism, &point.q, &point.q), v, a };
+            Motion { v: point.v, a: point.a, .. } = chart::motion(mechanism, &point.q, &about);
+        }
+        Ok(self)
+    }
+
+    /// Checks that the points are as long as the mechanism needs, and that a way leads from each to the next.
+    fn check_points(&self) -> Result<(), TrajectoryError<S>> {
+        let mechanism: &M = &self.mechanism;
+        let mut before = None;
+        for (point, Motion { q, v, a }) in self.points.as_ref().iter().enumerate() {
+            LengthMismatch::check("q", q.as_ref(), mechanism.nq())
+                .and_then(|()| LengthMismatch::check("v", v.as_ref(), mechanism.nv()))
+                .and_then(|()| LengthMismatch::check("a", a.as_ref(), mechanism.nv()))
+                .map_err(TrajectoryError::WrongLength)?;
+            let way = chart::coordinates(mechanism, before.unwrap_or(q), q);
+            if !way.as_ref().iter().all(|component| component.is_finite()) {
+                return Err(TrajectoryError::NoWay { point });
+            }
+            before = Some(q);
+        }
+        Ok(())
+    }
+
+    /// Takes of each quaternion and its negative the one that is nearer to that of the point before.
+    fn follow_quaternions(&mut self) {
+        let mut before: Option<M::Coordinates> = None;
+        for Motion { q, .. } in self.points.as_mut() {
+            for (_, angular) in orientations(&*self.mechanism) {
+                let kind = self.mechanism.coordinates_of_velocity(angular);
+                let (VelocityCoordinates::Quaternion(first), Some(before)) = (kind, &before) else { continue };
+                let quaternion = first..first + 4;
+                let cosine = quaternion.clone().fold(S::zero(), |sum, i| sum + entry(before, i) * entry(q, i));
+                if cosine < S::zero() {
+                    quaternion.for_each(|i| set(q, i, -entry(q, i)));
+                }
+            }
+            before = Some(q.clone());
+        }
+    }
+}
+
+/// A point in the tangent space to which the motion is unrolled.
+#[derive(Clone)]
+struct Unrolled<V> {
+    /// Its coordinates there.
+    coordinates: V,
+    /// The rotation vectors that parallel transport makes of its axes, in the axes of the first point.
+    axes: V,
+}
+
+/// Lays the ways between `points` end to end.
+fn unrolled<S: Real, M: ConfigurationSpace<S>, T: Vector<S>>(
+    mechanism: &M,
+    points: &[Motion<M::Coordinates, M::Velocities>],
+) -> T::Of<Unrolled<M::Velocities>> {
+    let (nv, first) = (mechanism.nv(), mechanism.neutral());
+    let own = |i: usize| chart::own_coordinate(mechanism, i).is_some();
+    let mut here = Unrolled { coordinates: zeros(nv), axes: zeros(nv) };
+    let mut axes = first.clone();
+    let (mut before, mut each) = (None, points.iter());
+    T::Of::from_fn(points.len(), |_| {
+        let Some(Motion { q, .. }) = each.next() else { return here.clone() };
+        let way = chart::coordinates(mechanism, before.unwrap_or(q), q);
+        before = Some(q);
+        let carried = chart::turned_back(mechanism, &here.axes, &way);
+        let half = M::Velocities::from_fn(nv, |i| if own(i) { S::zero() } else { S::from_f64(0.5) * entry(&way, i) });
+        axes = mechanism.integrate(&axes, &half);
+        let coordinates = M::Velocities::from_fn(nv, |i| {
+            if own(i) { entry(&carried, i) } else { entry(&here.coordinates, i) + entry(&carried, i) }
+        });
+        here = Unrolled { coordinates, axes: mechanism.difference(&first, &axes) };
+        here.clone()
+    })
+}
+
+impl<S, M, P, T> Trajectory<S, M::Coordinates, M::Velocities> for ManifoldSpline<P, M::Coordinates, M::Velocities, T, S>
+where
+    S: Real,
+    M: ConfigurationSpace<S>,
+    P: Deref<Target = M>,
+    T: Vector<S>,
+{
+    fn at(&self, t: S) -> Motion<M::Coordinates, M::Velocities> {
+        let (mechanism, points): (&M, _) = (&self.mechanism, self.points.as_ref());
+        match place(self.times.as_ref(), t) {
+            Place::Rest(k) => resting(&points[k].q, mechanism.nv()),
+            Place::Point(k) => points[k].clone(),
+            Place::Between { left, h, s } => {
+                let from = &points[left].q;
+                let [start, end] = [left, left + 1].map(|k| chart::motion_about(mechanism, from, &points[k]));
+                chart::motion(mechanism, from, &between(&start, &end, h, s))
+            }
+        }
+    }
+}
+
+impl<P, Q, V, T, S> fmt::Debug for ManifoldSpline<P, Q, V, T, S>
+where
+    P: fmt::Debug,
+    Q: Clone + fmt::Debug,
+    V: Clone + fmt::Debug,
+    T: Vector<S> + fmt::Debug,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("ManifoldSpline");
+        shown.field("mechanism", &self.mechanism).field("times", &self.times);
+        shown.field("points", &self.points.as_ref()).finish()
+    }
+}
