@@ -12,8 +12,8 @@ use crate::linkages::BallFourbar;
 use nalgebra::DVector;
 use redysim::generic::{CutKind, CutSide, GenericMechanism, JointKind, Loop, Vec3};
 use redysim::{
-    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConfigurationSpace, Dop853, Integrator,
-    LoopError, LoopForces, Motion, redysim,
+    ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConfigurationSpace, Dop853,
+    Integrator, LoopError, LoopForces, Motion, redysim,
 };
 
 redysim! {
@@ -200,19 +200,21 @@ fn the_same_platform_on_a_free_joint_cut_at_the_ball_takes_the_same_forces() {
         assert_near(&found.forces, &[&[0.0; 3], &expected.forces[..]].concat(), "forces");
         assert_obeys_kane(&floating, &found.motion, &found.forces, &found.multipliers);
 
-        let whole = Motion { q: found.motion.q[..7].to_vec(), v: found.motion.v[..6].to_vec(), a: found.motion.a[..6].to_vec() };
-        let mut by_all = ClosedLoopInverse::new(ClosedLoop::new(&floating), &[0, 1, 2, 3, 4, 5], found.motion.q.clone());
+        let whole = Motion {
+            q: found.motion.q[..7].to_vec(),
+            v: found.motion.v[..6].to_vec(),
+            a: found.motion.a[..6].to_vec(),
+        };
+        let mut by_all =
+            ClosedLoopInverse::new(ClosedLoop::new(&floating), &[0, 1, 2, 3, 4, 5], found.motion.q.clone());
         by_all = by_all.actuated(&rods);
         let again = by_all.at(0.0, &|_: f64| whole.clone()).expect("within reach");
         assert_near(&again.forces, &found.forces, "forces for position and orientation");
         // The coordinates stand in the order of the velocities.
         let [position, orientation] = [whole.q[..3].to_vec(), whole.q[3..].to_vec()];
         let turned_round = |values: &[f64]| [&values[3..], &values[..3]].concat();
-        let other = Motion {
-            q: [orientation, position].concat(),
-            v: turned_round(&whole.v),
-            a: turned_round(&whole.a),
-        };
+        let other =
+            Motion { q: [orientation, position].concat(), v: turned_round(&whole.v), a: turned_round(&whole.a) };
         let mut other_order =
             ClosedLoopInverse::new(ClosedLoop::new(&floating), &[3, 4, 5, 0, 1, 2], found.motion.q.clone());
         other_order = other_order.actuated(&rods);
@@ -310,7 +312,10 @@ fn an_independent_ball_takes_a_quaternion_that_is_not_zero() {
     let short = |_: f64| Motion { q: [0.0; 3], v: [0.0; 3], a: [0.0; 3] };
     let error = ClosedLoopInverse::new(loops, &BALL, platform()).at(0.0, &short).unwrap_err();
     let message = error.to_string();
-    assert!(message.starts_with("`trajectory.q` must have 4 elements, but it has 3; give one for each coor"), "{message}");
+    assert!(
+        message.starts_with("`trajectory.q` must have 4 elements, but it has 3; give one for each coor"),
+        "{message}"
+    );
     let zero = |_: f64| Motion { q: [0.0; 4], v: [0.0; 3], a: [0.0; 3] };
     let error = ClosedLoopInverse::new(loops, &BALL, platform()).at(0.0, &zero).unwrap_err();
     assert_eq!(error, LoopError::NotFinite);

@@ -48,8 +48,9 @@ impl<M, C> Actuation<'_, M, C> {
         match mechanism.coordinates_of_velocity(velocity) {
             VelocityCoordinates::One(_) => Ok(()),
             orientation @ VelocityCoordinates::Quaternion(_) => all_that_change(orientation),
-            position @ VelocityCoordinates::Position(first) => all_that_change(position)
-                .and_then(|()| all_that_change(VelocityCoordinates::Quaternion(first + 3))),
+            position @ VelocityCoordinates::Position(first) => {
+                all_that_change(position).and_then(|()| all_that_change(VelocityCoordinates::Quaternion(first + 3)))
+            }
             VelocityCoordinates::Unknown => Err(LoopError::NoCoordinate { velocity }),
         }
     }
