@@ -114,10 +114,7 @@ where
     }
 
     /// The same points, with the velocities and accelerations of a spline through the unrolled points.
-    fn smoothed(
-        mut self,
-        spline: fn(T, T::Of<M::Velocities>) -> Result<ViaPoints<S, M::Velocities, T>, TrajectoryError<S>>,
-    ) -> Result<Self, TrajectoryError<S>> {
+    fn smoothed(mut self, spline: Smoothing<S, M::Velocities, T>) -> Result<Self, TrajectoryError<S>> {
         let mechanism: &M = &self.mechanism;
         let unrolled = unrolled::<S, M, T>(mechanism, self.points.as_ref());
         let unrolled = unrolled.as_ref();
@@ -170,6 +167,9 @@ where
         }
     }
 }
+
+/// Makes a spline through points at given times.
+type Smoothing<S, V, T> = fn(T, <T as Vector<S>>::Of<V>) -> Result<ViaPoints<S, V, T>, TrajectoryError<S>>;
 
 /// A point in the tangent space to which the motion is unrolled.
 #[derive(Clone)]
