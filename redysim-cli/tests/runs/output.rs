@@ -145,7 +145,6 @@ fn a_full_disk_leaves_nothing_half_written() {
     assert!(output.contains("cannot write the table ") && output.contains("make room on the disk"), "{output}");
 }
 
-/// Every other file finds room.
 #[test]
 fn a_full_disk_leaves_none_of_the_files_that_belong_together() {
     let folder = scratch("output-full-together");
