@@ -273,6 +273,22 @@ fn the_forces_along_the_recorded_motion_of_a_free_robot_are_those_that_made_it()
 }
 
 #[test]
+fn points_about_one_axis_are_passed_by_the_polynomial_of_the_angle() {
+    let folder = scratch("in-space-angle");
+    let rest = "[trajectory]\nkind = 'minimum-jerk'\ntimes = [0, 2]\n\
+                points = [{ pivot = [0, 0, 0, 1] }, { pivot = { axis = [1, 2, 2], angle = 2 } }]\n\
+                [inverse]\nend = 2.0\nstep = 0.5\n";
+    succeed(&folder, &["inverse", &scenario(&folder, TOP, rest), "-o", "run", "--quiet"]);
+    let quarter = &Table::csv(&folder.join("run/traj.csv")).rows[1];
+    // 2 (10 s³ − 15 s⁴ + 6 s⁵) at s = 1/4, and its rate.
+    let (angle, rate) = (2.0 * 0.103_515_625_f64, 1.054_687_5);
+    let (sin, cos) = (0.5 * angle).sin_cos();
+    let third = sin / 3.0;
+    let expected = [0.5, third, 2.0 * third, 2.0 * third, cos, rate / 3.0, 2.0 * rate / 3.0, 2.0 * rate / 3.0];
+    assert!(deviation(&[quarter[..8].to_vec()], &[expected.to_vec()]) < 1e-14, "{quarter:?}");
+}
+
+#[test]
 fn points_on_either_side_of_the_quaternions_are_passed_the_short_way() {
     let folder = scratch("in-space-points");
     let through = |last: &str| {
