@@ -95,8 +95,10 @@ fn a_pendulum_in_space_under_pid_comes_to_rest_at_its_target_by_its_weight() {
     assert!(integral.iter().zip(&weight).all(|(z, weight)| (z - weight).abs() < 1e-4), "{integral:?} {weight:?}");
 }
 
+type Law<'m> = Box<dyn TorqueLaw<f64, GenericMechanism> + 'm>;
+
 /// The laws that have slopes.
-fn with_slopes<'m>(body: &'m GenericMechanism) -> Vec<(&'static str, Box<dyn TorqueLaw<f64, GenericMechanism> + 'm>)> {
+fn with_slopes(body: &GenericMechanism) -> Vec<(&'static str, Law<'_>)> {
     let (target, nv) =
         (body.integrate(&body.neutral(), &(0..body.nv()).map(|i| 0.3 - 0.2 * i as f64).collect()), body.nv());
     let (kp, kd): (Vec<f64>, Vec<f64>) = (0..nv).map(|i| (20.0 + i as f64, 3.0 - 0.2 * i as f64)).unzip();

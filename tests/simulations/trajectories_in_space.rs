@@ -269,7 +269,7 @@ fn unrolled_splines_meet_a_smooth_motion_the_better_the_closer_its_points() {
     let top = generic("spherical_pendulum");
     let tumble = |t: f64| {
         let s = t * t * t * (10.0 + t * (6.0 * t - 15.0));
-        let middle = top.integrate(&top.neutral(), &vec![2.0 * s, -1.0 * s, 0.5 * s]);
+        let middle = top.integrate(&top.neutral(), &vec![2.0 * s, -s, 0.5 * s]);
         top.integrate(&middle, &vec![0.3 * s * s, 1.8 * s, -2.2 * s])
     };
     let error = |count: u32| {

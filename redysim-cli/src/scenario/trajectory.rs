@@ -38,10 +38,12 @@ enum Path {
     /// Of joints of one coordinate, which ends at its very end.
     Cycloid(Cycloid<f64, Vec<f64>>),
     Screw(Screw<Cycloid<f64, [f64; 1]>>),
-    ConstantSpeed(Screw<fn(f64) -> Motion<[f64; 1], [f64; 1]>>),
+    ConstantSpeed(Screw<TimeLaw>),
     ViaPoints(Spline),
 }
 
+/// s(t), its rate and its acceleration, as the motion of one coordinate.
+type TimeLaw = fn(f64) -> Motion<[f64; 1], [f64; 1]>;
 /// q₀ ⊞ s(t) w: a turn about a fixed axis, or a screw motion.
 type Screw<L> = TangentTrajectory<Arc<GenericMechanism>, Vec<f64>, ConstantDirection<Vec<f64>, L>>;
 type Spline = ManifoldSpline<Arc<GenericMechanism>, Vec<f64>, Vec<f64>, Vec<f64>, f64>;
