@@ -179,8 +179,25 @@ class Mechanism:
     def parameters(self) -> _Array:
         """Values of the run-time parameters, (np,), or (k, np) of k robots."""
     def with_parameters(self, parameters: ArrayLike | dict[str, ArrayLike]) -> Mechanism:
-        """The mechanism with other values of its run-time parameters, (np,), or (k, np) of k robots, each of
-        which computes one of k states; a dictionary has names with values, () or (k,)."""
+        """The mechanism with other values of its run-time parameters, compiled if this one is. What depends on them alone is
+        computed once.
+
+        Parameters
+        ----------
+        parameters : float64, (np,) or (k, np), or dict
+            Values in the order of `parameter_names`; of k robots, each of which computes one of k states. A dictionary has
+            names with values, () or (k,); the other ones stay as they are.
+
+        Returns
+        -------
+        Mechanism
+            Another mechanism: this one stays as it is.
+
+        Raises
+        ------
+        ValueError
+            If no rigid body or joint can have a value: the first one, with its name and the rule.
+        """
     @property
     def mass(self) -> float:
         """Mass of all links, kg."""
@@ -227,8 +244,26 @@ class Mechanism:
     def library(self) -> Path | None:
         """The library of compiled functions, if they are compiled."""
     def compile(self, *, compiler: str | None = None) -> Mechanism:
-        """Writes the functions as C, compiles them by the system's compiler, and has every later call run the
-        compiled code."""
+        """Writes the functions as C, compiles them by the system's compiler, and has every later call run the compiled code.
+
+        The library is kept in a folder, under a name that depends on the model, the compiler and the processor: the next time
+        it is loaded.
+
+        Parameters
+        ----------
+        compiler : str, optional
+            The compiler; by default the environment variable CC, or cc.
+
+        Returns
+        -------
+        Mechanism
+            The mechanism itself.
+
+        Raises
+        ------
+        RedysimError
+            If the compiler is missing or fails, or if the file has changed since it was loaded.
+        """
     def check_unchanged(self) -> None:
         """Fails if the file has changed since it was loaded."""
     def simulate(
@@ -245,7 +280,42 @@ class Mechanism:
         max_step: float | None = None,
         step: float | None = None,
     ) -> Motion:
-        """The motion from q and v at the first instant of t to the last."""
+        """The motion from q and v at the first instant of t to the last.
+
+        Parameters
+        ----------
+        t : float64, (m,)
+            The instants at which the motion is returned, s: the start first, the end last.
+        q : float64, (nq,), optional
+            Coordinates at the start, rad or m; by default the zero position. Loops are closed from there, where possible with
+            the joints that have an actuator as they are.
+        v : float64, (nv,), optional
+            Velocities at the start, rad/s or m/s; by default zero.
+        torque : callable or float64, (nv,), optional
+            Joint forces, N m or N: constant, or a function of t, q and v; by default zero.
+        events : sequence of callables, optional
+            Functions of t, q and v whose crossings of zero are found. As for scipy.integrate.solve_ivp, an attribute
+            `direction` selects rising (1) or falling (-1) ones, and with `terminal = True` one ends the motion.
+        integrator : str
+            Steps from tolerances: Ode45, Dop853, and for stiff equations Ode15s, Radau5. Steps of one size:
+            SemiImplicitEuler, Ode4, Ode5, Dop8, Gauss4, Gauss6.
+        rtol, atol : float
+            Relative and absolute tolerance.
+        max_step : float, optional
+            The largest step from tolerances, s; by default a tenth of the motion.
+        step : float, optional
+            The size of steps of one size, s.
+
+        Returns
+        -------
+        Motion
+            t, q, v, a, tau, the multipliers of loops, energies and events.
+
+        Raises
+        ------
+        RedysimError
+            If the motion cannot be computed to its end; or what a function of yours raises.
+        """
     def to_toml(self) -> str:
         """The model as the text of a model file."""
     def page(self) -> str:
