@@ -213,15 +213,16 @@ where
     T: Vector<S>,
 {
     fn at(&self, t: S) -> Motion<M::Coordinates, M::Velocities> {
-        let (mechanism, points): (&M, _) = (&self.mechanism, self.points.as_ref());
-        match place(self.times.as_ref(), t) {
-            Place::Rest(k) => resting(&points[k].q, mechanism.nv()),
-            Place::Point(k) => points[k].clone(),
-            Place::Between { left, h, s } => {
-                let from = &points[left].q;
-                let [start, end] = [left, left + 1].map(|k| chart::motion_about(mechanism, from, &points[k]));
-                chart::motion(mechanism, from, &between(&start, &end, h, s))
+        let mechanism: &M = &self.mechanism;
+        match place(self.times.as_ref(), self.points.as_ref(), t) {
+            Some(Place::Rest(point)) => resting(&point.q, mechanism.nv()),
+            Some(Place::Point(point)) => point.clone(),
+            Some(Place::Between { from, to, h, s }) => {
+                let [start, end] = [from, to].map(|point| chart::motion_about(mechanism, &from.q, point));
+                chart::motion(mechanism, &from.q, &between(&start, &end, h, s))
             }
+            // There are two points at least.
+            None => resting(&mechanism.neutral(), mechanism.nv()),
         }
     }
 }

@@ -71,9 +71,13 @@ pub(super) fn smooth<S: Real, V: Vector<S>, T: Vector<S>>(
     for k in 1..count.saturating_sub(1) {
         let [left, right] = [k, k + 1].map(|k| entry(times, k) - entry(times, k - 1));
         let Equations { blocks: [l, m, u], ways } = smoothness(left, right);
-        let inverse = inverse(difference(m, product(l, upper[k - 1])));
-        upper[k] = product(inverse, u);
-        let [before, here, after] = &mut points[k - 1..=k + 1] else { return };
+        let (Some([eliminated, here_upper]), Some([before, here, after])) =
+            (upper.get_mut(k - 1..=k), points.get_mut(k - 1..=k + 1))
+        else {
+            return;
+        };
+        let inverse = inverse(difference(m, product(l, *eliminated)));
+        *here_upper = product(inverse, u);
         for joint in 0..here.q.as_ref().len() {
             let [from, to] = [way(&before.q, &here.q, joint), way(&here.q, &after.q, joint)];
             let known = times_pair(l, [entry(&before.v, joint), entry(&before.a, joint)]);
@@ -82,9 +86,9 @@ pub(super) fn smooth<S: Real, V: Vector<S>, T: Vector<S>>(
         }
     }
     for k in (1..count.saturating_sub(1)).rev() {
-        let [here, after] = &mut points[k..=k + 1] else { return };
+        let (Some(upper), Some([here, after])) = (upper.get(k), points.get_mut(k..=k + 1)) else { return };
         for joint in 0..here.q.as_ref().len() {
-            let from_right = times_pair(upper[k], [entry(&after.v, joint), entry(&after.a, joint)]);
+            let from_right = times_pair(*upper, [entry(&after.v, joint), entry(&after.a, joint)]);
             let [v, a] = [entry(&here.v, joint), entry(&here.a, joint)];
             set(here, joint, [v - from_right[0], a - from_right[1]]);
         }

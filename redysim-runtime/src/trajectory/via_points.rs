@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 
 use super::spline::{Smoothness, least_acceleration, least_jerk, smooth};
 use super::{Motion, Trajectory, TrajectoryError};
+use crate::linear_algebra::zeros;
 use crate::vector::entry;
 use crate::{Real, Vector};
 
@@ -99,8 +100,10 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
     fn smoothest(times: T, q: T::Of<V>, smoothness: Smoothness<S>) -> Result<Self, TrajectoryError<S>> {
         let coordinates = q.as_ref();
         check_times(&times, coordinates.len())?;
-        let rest = |q: &V| resting(q, q.as_ref().len());
-        let mut points = T::Of::<Motion<V, V>>::from_fn(coordinates.len(), |k| rest(&coordinates[k]));
+        let mut each = coordinates.iter();
+        let mut points = T::Of::<Motion<V, V>>::from_fn(coordinates.len(), |_| {
+            each.next().map_or_else(|| resting(&zeros(0), 0), |q| resting(q, q.as_ref().len()))
+        });
         check(&times, points.as_ref())?;
         smooth::<S, V, T>(&times, &mut points, smoothness);
         Ok(Self { times, points, scalar: PhantomData })
@@ -108,12 +111,14 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
 
     /// Gives the ends the accelerations of the cubics that begin and end there.
     fn accelerate_ends(&mut self) {
-        let last = self.points.as_ref().len() - 1;
-        for (end, neighbour) in [(0, 1), (last, last - 1)] {
+        let last = self.points.as_ref().len().saturating_sub(1);
+        for (end, neighbour) in [(0, 1), (last, last.saturating_sub(1))] {
             let h = entry(&self.times, neighbour) - entry(&self.times, end);
-            let [of_end, of_neighbour] = [end, neighbour].map(|k| self.points.as_ref()[k].clone());
+            let points = self.points.as_mut();
+            let Some(of_neighbour) = points.get(neighbour).cloned() else { return };
+            let Some(of_end) = points.get_mut(end) else { return };
             let c = S::from_f64;
-            self.points.as_mut()[end].a = V::from_fn(of_end.q.as_ref().len(), |joint| {
+            of_end.a = V::from_fn(of_end.q.as_ref().len(), |joint| {
                 let way = entry(&of_neighbour.q, joint) - entry(&of_end.q, joint);
                 let speeds = c(4.0) * entry(&of_end.v, joint) + c(2.0) * entry(&of_neighbour.v, joint);
                 (c(6.0) * way / h - speeds) / h
@@ -134,42 +139,43 @@ impl<S: Real, V: Vector<S>, T: Vector<S>> ViaPoints<S, V, T> {
 
 impl<S: Real, V: Vector<S>, T: Vector<S>> Trajectory<S, V, V> for ViaPoints<S, V, T> {
     fn at(&self, t: S) -> Motion<V, V> {
-        let points = self.points.as_ref();
-        match place(self.times.as_ref(), t) {
-            Place::Rest(k) => resting(&points[k].q, points[k].v.as_ref().len()),
-            Place::Point(k) => points[k].clone(),
-            Place::Between { left, h, s } => between(&points[left], &points[left + 1], h, s),
+        match place(self.times.as_ref(), self.points.as_ref(), t) {
+            Some(Place::Rest(point)) => resting(&point.q, point.v.as_ref().len()),
+            Some(Place::Point(point)) => point.clone(),
+            Some(Place::Between { from, to, h, s }) => between(from, to, h, s),
+            // There are two points at least.
+            None => resting(&zeros(0), 0),
         }
     }
 }
 
 /// Where a time is among those of points.
-pub(super) enum Place<S> {
-    /// Before the first point or after the last, with the index of that.
-    Rest(usize),
-    /// At the point with this index.
-    Point(usize),
-    /// Behind the point `left`, at the part `s` of the way to the next, which takes the time `h`.
-    Between { left: usize, h: S, s: S },
+pub(super) enum Place<'p, S, P> {
+    /// Before the first point or after the last, which is this.
+    Rest(&'p P),
+    /// At this point.
+    Point(&'p P),
+    /// Between two points, at the part `s` of the way, which takes the time `h`.
+    Between { from: &'p P, to: &'p P, h: S, s: S },
 }
 
-/// Where `t` is among `times`, of which there are at least two. Between the first two, if it is not a number.
-pub(super) fn place<S: Real>(times: &[S], t: S) -> Place<S> {
-    let last = times.len() - 1;
-    let right = times.partition_point(|&time| time <= t).max(1).min(last);
-    let left = right - 1;
-    let (from, to) = (times[left], times[right]);
-    if t < from {
-        Place::Rest(left)
-    } else if t > to {
-        Place::Rest(right)
-    } else if t == from {
-        Place::Point(left)
-    } else if t == to {
-        Place::Point(right)
+/// Where `t` is among the `times` of `points`; between the first two, if it is not a number. `None` without two points.
+pub(super) fn place<'p, S: Real, P>(times: &[S], points: &'p [P], t: S) -> Option<Place<'p, S, P>> {
+    let right = times.partition_point(|&time| time <= t).max(1).min(times.len().saturating_sub(1));
+    let left = right.saturating_sub(1);
+    let (&start, &end) = (times.get(left)?, times.get(right)?);
+    let (from, to) = (points.get(left)?, points.get(right)?);
+    Some(if t < start {
+        Place::Rest(from)
+    } else if t > end {
+        Place::Rest(to)
+    } else if t == start {
+        Place::Point(from)
+    } else if t == end {
+        Place::Point(to)
     } else {
-        Place::Between { left, h: to - from, s: (t - from) / (to - from) }
-    }
+        Place::Between { from, to, h: end - start, s: (t - start) / (end - start) }
+    })
 }
 
 impl<S: fmt::Debug, V: Clone + fmt::Debug, T: Vector<S> + fmt::Debug> fmt::Debug for ViaPoints<S, V, T> {
@@ -199,7 +205,7 @@ pub(super) fn between<S: Real, V: Vector<S>>(from: &Motion<V, V>, to: &Motion<V,
         let coefficients = coefficients(joint);
         (order..6).rev().fold(S::zero(), |sum, power| {
             let factor = (0..order).map(|down| (power - down) as f64).product::<f64>();
-            sum * s + c(factor) * coefficients[power]
+            sum * s + c(factor) * entry(&coefficients, power)
         })
     };
     let len = from.q.as_ref().len();
@@ -218,7 +224,7 @@ pub(super) fn resting<S: Real, Q: Clone, V: Vector<S>>(q: &Q, nv: usize) -> Moti
 
 fn check<S: Real, V: Vector<S>, T: Vector<S>>(times: &T, points: &[Motion<V, V>]) -> Result<(), TrajectoryError<S>> {
     check_times(times, points.len())?;
-    let joints = points[0].q.as_ref().len();
+    let joints = points.first().map_or(0, |point| point.q.as_ref().len());
     let lengths = points.iter().flat_map(|point| [&point.q, &point.v, &point.a]).map(|part| part.as_ref().len());
     if let Some(to) = lengths.into_iter().find(|&length| length != joints) {
         return Err(TrajectoryError::DifferentLengths { from: joints, to });
@@ -236,8 +242,9 @@ pub(super) fn check_times<S: Real, T: Vector<S>>(times: &T, points: usize) -> Re
         return Err(TrajectoryError::TooFewPoints { given: points });
     }
     for (k, pair) in times.windows(2).enumerate() {
-        if !(pair[1] > pair[0] && (pair[1] - pair[0]).is_finite()) {
-            return Err(TrajectoryError::TimesOutOfOrder { point: k + 1, previous: pair[0], t: pair[1] });
+        let &[previous, t] = pair else { continue };
+        if !(t > previous && (t - previous).is_finite()) {
+            return Err(TrajectoryError::TimesOutOfOrder { point: k + 1, previous, t });
         }
     }
     Ok(())
