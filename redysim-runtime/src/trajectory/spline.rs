@@ -80,8 +80,9 @@ pub(super) fn smooth<S: Real, V: Vector<S>, T: Vector<S>>(
         *here_upper = product(inverse, u);
         for joint in 0..here.q.as_ref().len() {
             let [from, to] = [way(&before.q, &here.q, joint), way(&here.q, &after.q, joint)];
-            let known = times_pair(l, [entry(&before.v, joint), entry(&before.a, joint)]);
-            let wanted = [0, 1].map(|row| ways[0][row] * from + ways[1][row] * to - known[row]);
+            let [first, second] = times_pair(l, [entry(&before.v, joint), entry(&before.a, joint)]);
+            let [[l0, l1], [r0, r1]] = ways;
+            let wanted = [l0 * from + r0 * to - first, l1 * from + r1 * to - second];
             set(here, joint, times_pair(inverse, wanted));
         }
     }
@@ -103,16 +104,18 @@ fn set<S: Real, V: Vector<S>>(point: &mut Motion<V, V>, joint: usize, [v, a]: Pa
     }
 }
 
-fn times_pair<S: Real>(a: Square<S>, x: Pair<S>) -> Pair<S> {
-    a.map(|row| row[0] * x[0] + row[1] * x[1])
+// By patterns and not by indices, whose bounds the compiler checks where it does not inline closures of `array::map`.
+
+fn times_pair<S: Real>([[a, b], [c, d]]: Square<S>, [x, y]: Pair<S>) -> Pair<S> {
+    [a * x + b * y, c * x + d * y]
 }
 
-fn product<S: Real>(a: Square<S>, b: Square<S>) -> Square<S> {
-    a.map(|row| [0, 1].map(|column| row[0] * b[0][column] + row[1] * b[1][column]))
+fn product<S: Real>([[a, b], [c, d]]: Square<S>, [[e, f], [g, h]]: Square<S>) -> Square<S> {
+    [[a * e + b * g, a * f + b * h], [c * e + d * g, c * f + d * h]]
 }
 
-fn difference<S: Real>(a: Square<S>, b: Square<S>) -> Square<S> {
-    [0, 1].map(|row| [0, 1].map(|column| a[row][column] - b[row][column]))
+fn difference<S: Real>([[a, b], [c, d]]: Square<S>, [[e, f], [g, h]]: Square<S>) -> Square<S> {
+    [[a - e, b - f], [c - g, d - h]]
 }
 
 fn inverse<S: Real>([[a, b], [c, d]]: Square<S>) -> Square<S> {
