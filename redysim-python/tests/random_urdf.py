@@ -17,7 +17,7 @@ def numbers(values) -> str:
 
 
 def random_urdf(rng, joints: int, serial: bool = False, kinds=KINDS) -> str:
-    """A robot whose links branch unless it is serial, on joints of these kinds; the first one moves."""
+    """A robot whose links branch unless it is serial, on joints of these kinds; what the base carries moves."""
     parts = []
     for index in range(joints + 1):
         i = inertia(rng).tolist()
@@ -30,7 +30,7 @@ def random_urdf(rng, joints: int, serial: bool = False, kinds=KINDS) -> str:
     for index in range(1, joints + 1):
         parent = index - 1 if serial else int(rng.integers(max(0, index - 3), index))
         axis = rng.normal(size=3)
-        kind = kinds[0] if index == 1 or rng.uniform() < 0.4 else rng.choice(kinds)
+        kind = kinds[0] if parent == 0 or rng.uniform() < 0.4 else rng.choice(kinds)
         parts.append(f"""
   <joint name="joint{index}" type="{kind}">
     <parent link="link{parent}"/><child link="link{index}"/>

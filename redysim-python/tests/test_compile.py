@@ -3,7 +3,6 @@
 import contextlib
 import os
 import resource
-import runpy
 import shutil
 import subprocess
 import sys
@@ -100,22 +99,6 @@ def test_the_times_of_the_documentation_are_measured_for_every_row(cache):
     assert len(names) == 8 + 3
     for name in names:
         assert f"\n{name} | " in document, name
-
-
-@pytest.mark.parametrize("anew", [False, True], ids=["out", "a new array"])
-@pytest.mark.parametrize("name", ["inverse_dynamics", "forward_dynamics", "mass_matrix"])
-def test_a_compiled_function_takes_at_most_a_fifth_of_the_time_for_one_state(cache, rng, name, anew):
-    fastest = runpy.run_path(str(BENCH))["fastest"]
-    plain, compiled = redysim.load(MODELS / "kr5.toml"), redysim.load(MODELS / "kr5.toml").compile()
-    functions = [getattr(robot, name) for robot in (plain, compiled)]
-    xs = rng.uniform(-1, 1, (1 if name == "mass_matrix" else 3, 6))
-    out = None if anew else functions[0](*xs)
-    # On a machine with other work, in two attempts of three.
-    gains = []
-    while len(gains) < 3 and sum(gain >= 5 for gain in gains) < 2:
-        by_path, by_code = fastest(functions, xs, out, 20, 2000)
-        gains.append(by_path / by_code)
-    assert sum(gain >= 5 for gain in gains) >= 2, gains
 
 
 def test_a_missing_compiler_is_named():

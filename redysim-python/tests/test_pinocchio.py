@@ -175,7 +175,9 @@ def test_jacobians_of_frames_and_joint_forces_of_wrenches_are_those_of_pinocchio
     found = pair.robot.frame_jacobians(q)
     forces = np.zeros(pair.robot.nv)
     for index, frame in enumerate(pair.frames()):
-        jacobian = pin.computeFrameJacobian(pair.model, pair.data, pq, frame, pin.LOCAL_WORLD_ALIGNED)[:, pair.v]
+        jacobian = pin.computeFrameJacobian(pair.model, pair.data, pq, frame, pin.LOCAL_WORLD_ALIGNED)
+        # A matrix of one column comes as a vector.
+        jacobian = jacobian.reshape(6, -1)[:, pair.v]
         close(found.linear[index], jacobian[:3])
         close(found.angular[index], jacobian[3:])
         forces += jacobian.T @ wrenches[index]
