@@ -29,7 +29,7 @@ pub fn write_together(folder: &Path, files: &[(PathBuf, &[u8])], force: bool) ->
     let drafts = files.iter().map(|(path, contents)| Draft::new(path, contents, force));
     let drafts: Result<Vec<Draft>, Failure> = drafts.collect();
     if drafts.is_err() && is_new {
-        // A folder that cannot be deleted is no reason to report something else.
+        // The first error is reported, also if the folder cannot be deleted.
         let _ = fs::remove_dir(folder);
     }
     drafts?.into_iter().try_for_each(Draft::publish)

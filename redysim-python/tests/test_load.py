@@ -67,7 +67,7 @@ FAULTS_OF_URDF = {
     "a parent that is not there": ('parent link="link0"', 'parent link="nothing"'),
     "a link with two parents": ('child link="link2"', 'child link="link1"'),
     "an unknown kind of joint": ('type="revolute"', 'type="revolving"'),
-    "a number that is none": ('<axis xyz="', '<axis xyz="upward '),
+    "an invalid number": ('<axis xyz="', '<axis xyz="upward '),
 }
 
 

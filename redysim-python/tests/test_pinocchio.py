@@ -194,7 +194,7 @@ def test_the_centre_of_mass_is_that_of_pinocchio(tmp_path):
 
 
 def test_spherical_joints_are_those_of_pinocchio(tmp_path, rng):
-    # A URDF has none.
+    # URDF does not support spherical joints.
     model, parent, text = pin.Model(), 0, 'name = "balls"\ngravity = [0, 0, -9.81]\n'
     for index, kind in enumerate(["spherical", "revolute", "spherical"]):
         xyz, rpy, axis, com = rng.uniform(-1, 1, (4, 3))

@@ -15,5 +15,5 @@ class Records(np.recarray):
     __array_finalize__ = np.ndarray.__array_finalize__  # type: ignore[assignment]
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> Any:
-        """Pickles a record array of NumPy, which is read where there is no redysim, too."""
+        """Pickles a record array of NumPy, which programs without redysim can read."""
         return self.view(np.recarray).__reduce_ex__(protocol)
