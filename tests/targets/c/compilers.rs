@@ -55,7 +55,7 @@ pub fn cpp_compiler(c: &str) -> Option<String> {
     };
     let found = cpp.filter(|name| runs(name));
     if found.is_none() {
-        skip(&format!("there is no compiler of C++ beside {c}"));
+        skip(&format!("{c} comes without a C++ compiler"));
     }
     found
 }
