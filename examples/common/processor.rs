@@ -39,10 +39,12 @@ fn microarchitecture(fields: &HashMap<&str, &str>) -> Option<&'static str> {
     let field = |x86, arm| fields.get(x86).or_else(|| fields.get(arm)).copied();
     let vendor = field("vendor_id", "CPU implementer")?;
     let numbers = [field("cpu family", ""), field("model", "CPU part"), field("stepping", "")];
+    let has = |flag: &str| fields.get("flags").is_some_and(|flags| flags.split(' ').any(|found| found == flag));
     TABLE.lines().filter(|line| !line.starts_with('#')).find_map(|line| {
         let cells: Vec<&str> = line.split(',').collect();
-        let [maker, ranges @ .., name] = cells.as_slice() else { return None };
-        (*maker == vendor && ranges.iter().zip(numbers).all(|(range, text)| covers(range, text))).then_some(*name)
+        let [maker, ranges @ .., flag, name] = cells.as_slice() else { return None };
+        let fits = *maker == vendor && ranges.iter().zip(numbers).all(|(range, text)| covers(range, text));
+        (fits && (flag.is_empty() || has(flag))).then_some(*name)
     })
 }
 

@@ -68,9 +68,10 @@ def _plain(brand: str) -> str:
 def _microarchitecture(about: dict[str, str]) -> str | None:
     vendor = about.get("vendor_id", about.get("CPU implementer"))
     numbers = [about.get("cpu family"), about.get("model", about.get("CPU part")), about.get("stepping")]
+    flags = ["", *about.get("flags", "").split()]
     lines = [line for line in TABLE.read_text().splitlines() if not line.startswith("#")]
-    for maker, *ranges, found in csv.reader(lines):
-        if maker == vendor and all(_covers(cell, number) for cell, number in zip(ranges, numbers)):
+    for maker, *ranges, flag, found in csv.reader(lines):
+        if maker == vendor and flag in flags and all(_covers(cell, number) for cell, number in zip(ranges, numbers)):
             return found
     return None
 

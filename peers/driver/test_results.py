@@ -35,6 +35,8 @@ class Processors(unittest.TestCase):
         self.assertEqual(name("AuthenticAMD", 26, 2, 1, "AMD EPYC"), "AMD EPYC (Zen 5)")
         self.assertEqual(name("AuthenticAMD", 25, 17, 1, "AMD EPYC 9354 32-Core Processor"), "AMD EPYC 9354 (Zen 4)")
         self.assertEqual(name("GenuineIntel", 6, 9999, 0, "Intel(R) New(TM) CPU"), "Intel New")
+        self.assertEqual(name("GenuineIntel", 6, 167, 1, XEON), "Intel Xeon (Rocket Lake)")
+        self.assertEqual(name("GenuineIntel", 6, 167, 1, XEON, "fpu amx_tile"), "Intel Xeon (Sapphire Rapids or later)")
         arm = processor.described("CPU implementer\t: 0x41\nCPU part\t: 0xd0c\nFeatures\t: fp asimd\n")
         self.assertEqual((arm["name"], arm["features"]), ("Neoverse N1", ["asimd"]))
 

@@ -25,6 +25,14 @@ fn a_name_is_the_plain_brand_with_the_microarchitecture() {
 }
 
 #[test]
+fn a_virtual_machine_with_another_model_s_number_is_named_by_its_instructions() {
+    let rocket_lake = x86("GenuineIntel", 6, 167, 1, "Intel(R) Xeon(R) Processor");
+    assert_eq!(name_in(&rocket_lake).unwrap(), "Intel Xeon (Rocket Lake)");
+    let with_matrices = rocket_lake.replace("flags\t\t: fpu", "flags\t\t: fpu amx_tile");
+    assert_eq!(name_in(&with_matrices).unwrap(), "Intel Xeon (Sapphire Rapids or later)");
+}
+
+#[test]
 fn aarch64_is_named_by_the_core_s_part() {
     assert_eq!(name_in("CPU implementer\t: 0x41\nCPU part\t: 0xd0c\n").unwrap(), "Neoverse N1");
     assert_eq!(name_in("CPU implementer\t: 0x61\nCPU part\t: 0x022\n").unwrap(), "Apple M1");

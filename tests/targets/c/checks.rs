@@ -166,3 +166,29 @@ fn products_and_sums_that_the_compiler_fuses_stay_within_the_stated_roundings() 
         compilers().iter().for_each(|compiler| in_c.check(compiler, &flags));
     }
 }
+
+/// As on processors with arithmetic of 16 bits (`-march=sapphirerapids`), and on the x87.
+#[test]
+fn excess_precision_of_narrower_types_is_accepted_and_of_the_own_type_reported() {
+    for (scalar, own, accepted, refused) in
+        [(CScalar::F64, "double", &[0, 1, 16, 32][..], &[2, -1][..]), (CScalar::F32, "float", &[0, 16], &[1, 2, -1])]
+    {
+        let in_c = InC::new("pppr", "", scalar);
+        for compiler in compilers() {
+            let compile = |method| {
+                let flags = ["-U__FLT_EVAL_METHOD__".into(), format!("-D__FLT_EVAL_METHOD__={method}")];
+                in_c.compile_source(compiler, &flags.each_ref().map(String::as_str))
+            };
+            for method in accepted {
+                let output = compile(method);
+                assert!(output.status.success(), "{compiler} {method}: {}", String::from_utf8_lossy(&output.stderr));
+            }
+            for method in refused {
+                let output = compile(method);
+                let errors = String::from_utf8_lossy(&output.stderr);
+                let message = format!("{own} is computed with excess precision: compile with -msse2 -mfpmath=sse");
+                assert!(!output.status.success() && errors.contains(&message), "{compiler} {method}: {errors}");
+            }
+        }
+    }
+}

@@ -124,6 +124,22 @@ impl InC {
         compilers::program(&program).output().expect("the check runs")
     }
 
+    /// What a compiler reports of the source, without linking it.
+    pub fn compile_source(&self, compiler: &str, flags: &[&str]) -> Output {
+        let object = self.folder.join("source.o");
+        let source = self.folder.join(format!("{}.c", self.prefix));
+        let mut command = compilers::command(compiler);
+        command
+            .args(WARNINGS)
+            .args(flags)
+            .arg("-c")
+            .arg(source)
+            .arg("-o")
+            .arg(object)
+            .output()
+            .expect("the compiler runs")
+    }
+
     /// The symbols of the compiled source with their kinds, as `nm` shows them.
     #[cfg(target_os = "linux")]
     pub fn symbols(&self, compiler: &str, flags: &[&str]) -> Vec<(String, String)> {

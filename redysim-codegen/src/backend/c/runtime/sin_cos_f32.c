@@ -5,7 +5,8 @@
  * The angle is reduced to |r| <= pi/4 with a tail that carries what a float cannot: by subtracting pi/2 in three parts, or,
  * after many turns, in integers. Then two polynomials in r^2, of least relative error, are evaluated.
  */
-#if FLT_EVAL_METHOD != 0
+/* C23 (5.2.5.3.3): with 16 and 32, only types narrower than float are computed as wider ones. */
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16 && FLT_EVAL_METHOD != 32
 #error "float is computed with excess precision: compile with -msse2 -mfpmath=sse, or define REDYSIM_LIBM"
 #endif
 #ifdef __FAST_MATH__

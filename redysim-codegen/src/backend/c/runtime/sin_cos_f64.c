@@ -6,7 +6,9 @@
  * where that is not enough (many quarter turns, or an angle beside a multiple of pi/2), with more digits. Then two
  * polynomials in r^2, of least relative error, are evaluated.
  */
-#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1
+/* C23 (5.2.5.3.3): with 16, 32 and 64, only types narrower than double are computed as wider ones. */
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1 && FLT_EVAL_METHOD != 16 && FLT_EVAL_METHOD != 32 && \
+    FLT_EVAL_METHOD != 64
 #error "double is computed with excess precision: compile with -msse2 -mfpmath=sse, or define REDYSIM_LIBM"
 #endif
 #ifdef __FAST_MATH__
