@@ -17,8 +17,8 @@ export const GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe
 export const NO_GL = ["--disable-gpu", "--disable-3d-apis"];
 
 /**
- * The page at `path` in a fresh browser; fails on console errors (but `expected` ones) and on any request but for the
- * page.
+ * The page at `path` in a fresh browser, or the one that it has in a frame; fails on console errors (but `expected` ones) and
+ * on any request but for the page.
  */
 export async function inBrowser(path, flags, viewport, look, expected) {
   const profile = await mkdtemp(join(tmpdir(), "redysim-viewer-"));
@@ -35,8 +35,9 @@ export async function inBrowser(path, flags, viewport, look, expected) {
       if (request.url() !== url && !/^(data|blob):/.test(request.url())) faults.push(`it asked for ${request.url()}`);
     });
     await page.goto(url);
-    await page.waitForFunction(() => window.redysim);
-    await look(page);
+    const shown = (await (await page.$("iframe"))?.contentFrame()) ?? page;
+    await shown.waitForFunction(() => window.redysim);
+    await look(shown);
     assert.deepEqual(faults, []);
   } finally {
     await browser.close();

@@ -1,12 +1,15 @@
 """The programs of the documentation run."""
 
+import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import nbformat
 import pytest
+from conftest import skip
 from nbclient import NotebookClient
 
 ROOT = Path(__file__).parents[2]
@@ -38,7 +41,7 @@ def test_the_notebook_runs(monkeypatch, tmp_path):
     monkeypatch.setenv("REDYSIM_CACHE", str(tmp_path))
     # The environment of the tests, whatever kernels the user has.
     monkeypatch.setenv("JUPYTER_PREFER_ENV_PATH", "1")
-    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}:/usr/bin:/bin")
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}:{os.environ['PATH']}")
     folder = ROOT / "redysim-python/notebooks"
     notebook = nbformat.read(folder / "urdf_to_torques.ipynb", as_version=4)
     NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(folder)}}).execute()
@@ -46,3 +49,18 @@ def test_the_notebook_runs(monkeypatch, tmp_path):
     pages = [output for output in shown if "<iframe" in output.get("data", {}).get("text/html", "")]
     pictures = [output for output in shown if "image/png" in output.get("data", {})]
     assert len(pages) == 2 and len(pictures) == 2
+    for name, page in zip(("model", "motion"), pages):
+        html = f"<!DOCTYPE html><title>A notebook</title>{page['data']['text/html']}"
+        (tmp_path / f"{name}.html").write_text(html, encoding="utf-8")
+    the_pages_move_in_a_browser(tmp_path)
+
+
+def the_pages_move_in_a_browser(folder):
+    """Drags sliders of the pages, in their frames, in Chromium: what redysim-cli/viewer/check installs."""
+    viewer = ROOT / "redysim-cli/viewer"
+    has_browser = Path(os.environ.get("CHROMIUM", "/usr/bin/chromium")).exists() and shutil.which("node")
+    if not (has_browser and (viewer / "node_modules").exists()):
+        skip("node, Chromium and the modules of redysim-cli/viewer are not all there")
+    command = ["node", viewer / "notebook.mjs", folder]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert run.returncode == 0, run.stdout + run.stderr
