@@ -72,6 +72,7 @@
 //! - `std`: [`batch`], [`Dispatched`], and a fused multiply-add that is quicker to compile. Without it the crate is
 //!   `no_std`.
 //! - `nalgebra`: [`nalgebra`](mod@nalgebra), the functions over its vectors, matrices and isometries; without `std` too.
+//! - `serde`: models, results, torque laws, trajectories and integrators serialise and deserialise.
 //! - `deterministic`: the same bits on every target. Without it products and sums are fused where the target can (see
 //!   [`FUSED`]), so that a program compiled with `-C target-cpu=native` may differ from one that is not in the
 //!   last places; within one program, lanes and plain numbers agree to the bit either way, and so do batches and
@@ -122,6 +123,10 @@ mod guides {
     struct ClosedLoops;
     #[doc = include_str!("../docs/controllers.md")]
     struct Controllers;
+    #[doc = include_str!("../docs/frames.md")]
+    struct Frames;
+    #[doc = include_str!("../docs/floating_and_walking.md")]
+    struct FloatingAndWalking;
     #[doc = include_str!("../docs/no_std.md")]
     struct NoStd;
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, SMatrix, SVector, Vector3, Vector5, Vector6};
 use redysim::nalgebra::{self as dynamics, OperationalSpace, Wrench};
-use redysim::{OperationalSpaceError, TaskStatus, redysim};
+use redysim::{ConfigurationSpace, OperationalSpaceError, TaskStatus, redysim};
 
 redysim! { struct Kr5("models/kr5.toml"); }
 redysim! { struct CartPole("models/cart_pole.toml"); }
@@ -28,6 +28,8 @@ fn vectors_and_matrices_hold_the_numbers_of_the_arrays() {
     assert_eq!(dynamics::forward_dynamics(&Kr5, &q, &v, &tau), Vector6::from(Kr5::forward_dynamics(&Q, &V, &torques)));
     assert_eq!(dynamics::bias_forces(&Kr5, &q, &v), Vector6::from(Kr5::bias_forces(&Q, &V)));
     assert_eq!(dynamics::gravity_forces(&Kr5, &q), Vector6::from(Kr5::gravity_forces(&Q)));
+    let lost = dynamics::dissipated_power(&Kr5Drives, &q, &v);
+    assert!(lost == Kr5Drives.dissipated_power(&Q, &V) && lost > 1.0);
     let passive = dynamics::passive_forces(&Kr5Drives, &q, &v);
     assert!(passive == Vector6::from(Kr5Drives::passive_forces(&Q, &V)) && passive.norm() > 1.0);
     assert_eq!(dynamics::energy(&Kr5, &q, &v), Kr5::energy(&Q, &V));

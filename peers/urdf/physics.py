@@ -2,10 +2,14 @@
 
 MuJoCo reads the same URDF, without pictures and shapes. What acts in a joint is in proportion to what resists it at zero, so that
 all of it counts: a rotor of half as much, and a damper and a spring of random sizes. Friction is left out: MuJoCo's sticks.
+
+Joints that mimic others are free in MuJoCo's robot. The velocities of all its joints are G v, where v are redysim's, so that joint
+forces are Gᵀ τ and the mass matrix is Gᵀ M G; accelerations follow from both.
 """
 
 import os
 import sys
+import tomllib
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +18,7 @@ import mujoco
 import numpy
 from comparison import STATES, TOLERANCE, Failed, answers, furthest, furthest_matrix
 from extras import with_keys
+from mimics import Mimic, of_model, resolved
 from peer import Refused
 from robot import example_robots, robots, run_import, without_resistance
 
@@ -40,20 +45,28 @@ class Physics:
 
 
 class Simulator:
-    """MuJoCo's robot; vectors are in the order of `joints`."""
+    """MuJoCo's robot; vectors are in the order of `joints`, and of what acts in the joints in that of `joints` and `mimics`."""
 
-    def __init__(self, urdf: Path, joints: list[str]):
+    def __init__(self, urdf: Path, joints: list[str], mimics: dict[str, Mimic]):
         try:
             self.model = mujoco.MjModel.from_xml_string(self._without_shapes(urdf))
         except ValueError as error:
             raise Refused(f"MuJoCo does not take it: {str(error).splitlines()[0].removeprefix('Error: ')}") from error
-        if self.model.nv != len(joints):
-            raise Refused(f"MuJoCo has {self.model.nv} velocities, redysim {len(joints)}")
+        names = [*joints, *mimics]
+        if self.model.nv != len(names):
+            raise Refused(f"MuJoCo has {self.model.nv} velocities, redysim {len(joints)} and {len(mimics)} that mimic")
+        # Of all joints: coordinates G q + offsets.
+        self.of_all = numpy.zeros((len(names), len(joints)))
+        self.of_all[: len(joints)] = numpy.eye(len(joints))
+        self.offsets = numpy.zeros(len(names))
+        for index, mimic in enumerate(mimics.values(), len(joints)):
+            self.of_all[index, joints.index(mimic.joint)] = mimic.multiplier
+            self.offsets[index] = mimic.offset
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
         self.data = mujoco.MjData(self.model)
-        self.joints = [self.model.joint(name).id for name in joints]
+        self.joints = [self.model.joint(name).id for name in names]
         self.order = [int(self.model.jnt_dofadr[joint]) for joint in self.joints]
-        self.act(Physics(*(numpy.zeros(len(joints)) for _ in range(4))))
+        self.act(Physics(*(numpy.zeros(len(names)) for _ in range(4))))
 
     @staticmethod
     def _without_shapes(urdf: Path) -> str:
@@ -74,41 +87,49 @@ class Simulator:
         model.qpos_spring[dofs] = physics.rest
         model.dof_frictionloss[:] = 0
 
+    def resisting(self) -> numpy.ndarray:
+        """What resists each joint at zero by itself, of those that mimic, too."""
+        return numpy.diag(self._matrix_of_all(numpy.zeros(self.of_all.shape[1])))
+
     def matrix(self, q: numpy.ndarray) -> numpy.ndarray:
-        self._forces(q, numpy.zeros(len(q)), numpy.zeros(len(q)))
-        matrix = numpy.zeros((self.model.nv, self.model.nv))
-        mujoco.mj_fullM(self.model, self.data, matrix)
-        return matrix[numpy.ix_(self.order, self.order)]
+        return self.of_all.T @ self._matrix_of_all(q) @ self.of_all
 
     def forces(self, q: numpy.ndarray, v: numpy.ndarray, a: numpy.ndarray) -> numpy.ndarray:
-        return self._forces(q, v, a)[self.order].copy()
-
-    def _forces(self, q: numpy.ndarray, v: numpy.ndarray, a: numpy.ndarray) -> numpy.ndarray:
         # All joints have one coordinate, so that coordinates and velocities have one order.
         data, order = self.data, self.order
-        data.qpos[order], data.qvel[order], data.qacc[order] = q, v, a
+        data.qpos[order], data.qvel[order], data.qacc[order] = self._place(q), self.of_all @ v, self.of_all @ a
         mujoco.mj_inverse(self.model, data)
-        return data.qfrc_inverse
+        return self.of_all.T @ data.qfrc_inverse[order]
 
     def accelerations(self, q: numpy.ndarray, v: numpy.ndarray, tau: numpy.ndarray) -> numpy.ndarray:
+        if len(self.order) > len(q):
+            return numpy.linalg.solve(self.matrix(q), tau - self.forces(q, v, numpy.zeros(len(q))))
         data, order = self.data, self.order
         data.qpos[order], data.qvel[order], data.qfrc_applied[order] = q, v, tau
         mujoco.mj_forward(self.model, data)
         return data.qacc[order].copy()
+
+    def _place(self, q: numpy.ndarray) -> numpy.ndarray:
+        return self.of_all @ q + self.offsets
+
+    def _matrix_of_all(self, q: numpy.ndarray) -> numpy.ndarray:
+        self.forces(q, numpy.zeros(len(q)), numpy.zeros(len(q)))
+        matrix = numpy.zeros((self.model.nv, self.model.nv))
+        mujoco.mj_fullM(self.model, self.data, matrix)
+        return matrix[numpy.ix_(self.order, self.order)]
 
 
 def row(urdf: Path, model: str, evaluate: Path, file: Path) -> tuple[list[float], int]:
     """Differences of inverse dynamics, mass matrix and forward dynamics, and the number of joints."""
     file.write_text(model)
     joints, _ = answers([evaluate, file], [])
-    if "\nmimic = " in model:
-        raise Refused("joints that mimic others: not compared here")
     if 'joint = "free"' in model or 'joint = "planar"' in model:
         raise Refused("joints of several freedoms: not compared here")
-    peer, n, random = Simulator(urdf, joints), len(joints), numpy.random.default_rng(1)
-    physics = Physics.random(numpy.diag(peer.matrix(numpy.zeros(n))), random)
+    mimics = resolved(of_model(tomllib.loads(model)))
+    peer, n, random = Simulator(urdf, joints, mimics), len(joints), numpy.random.default_rng(1)
+    physics = Physics.random(peer.resisting(), random)
     peer.act(physics)
-    acting = {name: physics.keys(joint) for joint, name in enumerate(joints)}
+    acting = {name: physics.keys(joint) for joint, name in enumerate([*joints, *mimics])}
     file.write_text(with_keys(without_resistance(model), acting))
     motions = [
         (random.uniform(-numpy.pi, numpy.pi, n), random.uniform(-2, 2, n), random.uniform(-5, 5, n))

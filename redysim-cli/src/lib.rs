@@ -34,6 +34,7 @@
 // They panic if the pipe is closed; `output` does not.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
+mod c_compiler;
 mod closed;
 mod commands;
 mod data;
@@ -54,6 +55,7 @@ mod table;
 mod text;
 mod urdf;
 
+pub use c_compiler::c_compiler;
 #[doc(hidden)]
 pub use commands::run;
 pub use data::{

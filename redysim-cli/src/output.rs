@@ -18,19 +18,21 @@ pub fn write_file(path: &Path, contents: &[u8], force: bool) -> Result<(), Failu
     Draft::new(path, contents, force)?.publish()
 }
 
-/// Writes files that belong together to `folder`, which is made if it is not there, as [`write_file`] does: where one
-/// cannot be written, none is.
+/// Writes files that belong together to `folder`, which is made if it is not there. All files are first written in full under
+/// temporary names, so that a full disk leaves none of them; then they are renamed one after the other.
 ///
 /// # Errors
 /// As [`write_file`].
 pub fn write_together(folder: &Path, files: &[(PathBuf, &[u8])], force: bool) -> Result<(), Failure> {
-    let is_new = !folder.exists();
-    make_folder(folder)?;
-    let drafts = files.iter().map(|(path, contents)| Draft::new(path, contents, force));
-    let drafts: Result<Vec<Draft>, Failure> = drafts.collect();
-    if drafts.is_err() && is_new {
-        // The first error is reported, also if the folder cannot be deleted.
-        let _ = fs::remove_dir(folder);
+    let missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+    let made: Vec<&Path> = folder.ancestors().take_while(missing).collect();
+    let drafts = make_folder(folder).and_then(|()| {
+        let drafts = files.iter().map(|(path, contents)| Draft::new(path, contents, force));
+        drafts.collect::<Result<Vec<Draft>, Failure>>()
+    });
+    if drafts.is_err() {
+        // The first error is reported, also if a folder cannot be deleted.
+        made.into_iter().for_each(|folder| drop(fs::remove_dir(folder)));
     }
     drafts?.into_iter().try_for_each(Draft::publish)
 }
@@ -124,7 +126,7 @@ pub fn exists(path: &Path) -> Failure {
 
 /// Where a path leads.
 enum Place {
-    /// To what takes what is written and has no contents to lose.
+    /// To a device or a pipe.
     Open,
     /// To a file, whether it is there or not.
     File(PathBuf),
@@ -141,6 +143,10 @@ fn place(path: &Path, force: bool) -> Result<Place, Failure> {
         Ok(_) if OPEN.iter().any(|open| path.starts_with(open)) => return Ok(Place::Open),
         Ok(found) if !found.is_file() && !found.is_dir() => return Ok(Place::Open),
         Ok(_) if !force => return Err(exists(path)),
+        Ok(found) if found.is_dir() => {
+            let message = format!("cannot write {}: it is a folder", path.display());
+            return Err(Failure::outside(message).help("write elsewhere with --output"));
+        }
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(Failure::file("write", path, &error)),
         _ => {}
     }
@@ -157,16 +163,18 @@ fn write_into(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
 }
 
-/// What is to be written, on the disk in full but under another name; deleted if it is not published.
+/// A file to be written. A regular file is written in full under a temporary name, and deleted unless it is published.
 struct Draft<'a> {
     path: &'a Path,
+    /// Whether a file that is there is overwritten.
+    force: bool,
     state: State<'a>,
 }
 
 enum State<'a> {
-    /// For what takes what is written.
+    /// The contents for a device or pipe.
     Waiting(&'a [u8]),
-    /// Beside the file that it is to be.
+    /// The temporary file, and the path that it is renamed to.
     Written(NamedTempFile, PathBuf),
 }
 
@@ -179,14 +187,19 @@ impl<'a> Draft<'a> {
                 State::Written(file, target)
             }
         };
-        Ok(Draft { path, state })
+        Ok(Draft { path, force, state })
     }
 
-    /// Gives it its name.
+    /// Renames the temporary file, or writes to the device.
     fn publish(self) -> Result<(), Failure> {
         let published = match self.state {
             State::Waiting(contents) => write_into(self.path, contents),
-            State::Written(file, target) => file.persist(target).map(drop).map_err(io::Error::from),
+            State::Written(file, target) if self.force => file.persist(target).map(drop).map_err(io::Error::from),
+            // It may have appeared meanwhile.
+            State::Written(file, target) => match file.persist_noclobber(target) {
+                Err(failed) if failed.error.kind() == io::ErrorKind::AlreadyExists => return Err(exists(self.path)),
+                other => other.map(drop).map_err(io::Error::from),
+            },
         };
         published.map_err(|error| Failure::file("write", self.path, &error))
     }

@@ -127,8 +127,8 @@ impl Lint {
                  than solid steel: kg and g?"
             }
             Lint::RadiusOfGyration => {
-                "mass and inertia of a link are those of a body larger or smaller than the mechanism can have, or denser \
-                 than matter"
+                "mass and inertia of a link are those of a body larger or smaller than the mechanism can have, far larger than \
+                 the link, or denser than matter"
             }
             Lint::InertiaTriangle => "a principal moment of inertia exceeds the sum of the other two",
             Lint::NegativeMoment => {

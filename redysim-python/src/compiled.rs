@@ -7,6 +7,7 @@ use pyo3::PyErr;
 use redysim_codegen::{CLibrary, c_library};
 use redysim_model::{CodegenOptions, Function, Model, RunTimeParameter};
 use std::env;
+use std::error::Error;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -54,8 +55,21 @@ impl Compiled {
 
     fn open(path: PathBuf, functions: &[Function], given: usize) -> Result<Compiled, PyErr> {
         let unusable = |error: libloading::Error| {
-            let message = format!("{} cannot be loaded: {error}", path.display());
-            fault(&message, "delete it, so that it is compiled again")
+            let mut reasons = vec![error.to_string()];
+            let mut cause: Option<&dyn Error> = error.source();
+            while let Some(error) = cause {
+                reasons.push(error.to_string());
+                cause = error.source();
+            }
+            let reason = reasons.join(": ");
+            // A file system that is mounted without the right to run what is on it.
+            let help = if ["failed to map segment", "not permitted", "denied"].iter().any(|word| reason.contains(word))
+            {
+                "its folder may not hold code that runs: name another folder by the environment variable REDYSIM_CACHE"
+            } else {
+                "delete it, so that it is compiled again"
+            };
+            fault(&format!("{} cannot be loaded: {reason}", path.display()), help)
         };
         // SAFETY: the library is the one that `compile` makes of generated code, without code that runs when it is loaded.
         let library = unsafe { Library::new(&path) }.map_err(unusable)?;

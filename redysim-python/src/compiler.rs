@@ -11,7 +11,7 @@ use std::process::{Command, Output, Stdio};
 /// With products and sums fused where the processor can.
 const FLAGS: &str = "-std=c99 -O3 -DREDYSIM_FMA -fno-math-errno";
 
-/// Has the compiler take all instructions of this processor.
+/// The flag that enables all instructions of this processor.
 const FOR_THIS_PROCESSOR: &str =
     if cfg!(any(target_arch = "x86", target_arch = "x86_64")) { "-march=native" } else { "-mcpu=native" };
 
@@ -27,6 +27,8 @@ const WITHOUT_ROOM: [&str; 4] =
 /// A C compiler.
 pub struct Compiler {
     name: OsString,
+    /// Those of the environment variable CC.
+    flags: Vec<OsString>,
     /// What it is, as it states it.
     version: Vec<u8>,
 }
@@ -37,15 +39,22 @@ impl Compiler {
     /// # Errors
     /// If it cannot be run.
     pub fn new(name: Option<OsString>) -> Result<Compiler, PyErr> {
-        let name = name.or_else(|| env::var_os("CC")).unwrap_or_else(|| "cc".into());
-        let mut compiler = Compiler { name, version: Vec::new() };
-        compiler.version = compiler.run(Command::new(&compiler.name).arg("--version"))?.stdout;
+        let (name, flags) = name.map_or_else(redysim_cli::c_compiler, |name| (name, Vec::new()));
+        let mut compiler = Compiler { name, flags, version: Vec::new() };
+        compiler.version = compiler.run(compiler.command().arg("--version"))?.stdout;
         Ok(compiler)
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(&self.name);
+        command.args(&self.flags);
+        command
     }
 
     /// What its code depends on, beside the source and the processor.
     pub fn key(&self) -> Vec<u8> {
-        [&self.version[..], FLAGS.as_bytes(), FOR_THIS_PROCESSOR.as_bytes(), NARROW.as_bytes()].concat()
+        let own = self.flags.iter().map(|flag| flag.as_encoded_bytes()).collect::<Vec<_>>().join(&b' ');
+        [&self.version[..], &own, FLAGS.as_bytes(), FOR_THIS_PROCESSOR.as_bytes(), NARROW.as_bytes()].concat()
     }
 
     /// Compiles a source to a library, which is to be kept in `folder`.
@@ -53,7 +62,7 @@ impl Compiler {
     /// # Errors
     /// If it fails.
     pub fn compile(&self, source: &Path, library: &Path, folder: &Path) -> Result<(), PyErr> {
-        let mut command = Command::new(&self.name);
+        let mut command = self.command();
         command.args(FLAGS.split(' ')).arg(FOR_THIS_PROCESSOR).args(self.narrow()?).args(["-fPIC", "-shared", "-o"]);
         let Output { status, stderr, .. } = self.run(command.arg(library).arg(source).arg("-lm"))?;
         if status.success() {
@@ -75,8 +84,8 @@ impl Compiler {
     fn narrow(&self) -> Result<impl Iterator<Item = &'static str>, PyErr> {
         let flags = NARROW.split(' ');
         let trial = ["-fsyntax-only", "-x", "c", "-"];
-        let is_narrowed = has_vectors_of_512_bits()
-            && self.run(Command::new(&self.name).args(flags.clone()).args(trial))?.status.success();
+        let is_narrowed =
+            has_vectors_of_512_bits() && self.run(self.command().args(flags.clone()).args(trial))?.status.success();
         Ok(flags.take(if is_narrowed { usize::MAX } else { 0 }))
     }
 

@@ -106,6 +106,29 @@ def test_a_missing_compiler_is_named():
         redysim.load(MODELS / "kr5.toml").compile(compiler="no-such-cc")
 
 
+def test_the_variable_cc_may_have_flags_and_may_be_empty(tmp_path, monkeypatch):
+    monkeypatch.setenv("REDYSIM_CACHE", str(tmp_path))
+    q = np.full(6, 0.3)
+    expected = redysim.load(MODELS / "kr5.toml").gravity_forces(q)
+    for variable in ["", " cc -g0", "cc -DUNUSED=1 -g0"]:
+        monkeypatch.setenv("CC", variable)
+        found = redysim.load(MODELS / "kr5.toml").compile().gravity_forces(q)
+        np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13)
+    assert len(list(tmp_path.iterdir())) == 3, "flags count in what is kept"
+
+
+def test_a_library_that_cannot_be_loaded_is_reported_with_its_reason(tmp_path, monkeypatch):
+    monkeypatch.setenv("REDYSIM_CACHE", str(tmp_path))
+    redysim.load(MODELS / "kr5.toml").compile()
+    [library] = tmp_path.iterdir()
+    # What is loaded keeps its file; another process reads the new one.
+    library.unlink()
+    library.write_bytes(b"no library")
+    script = f"import redysim; redysim.load({str(MODELS / 'kr5.toml')!r}).compile()"
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert "file too short" in run.stderr and "delete it, so that it is compiled again" in run.stderr, run.stderr
+
+
 def test_a_compiler_that_fails_is_reported(tmp_path):
     compiler = tmp_path / "cc"
     compiler.write_text('#!/bin/sh\n[ "$1" = --version ] && exit 0\necho "file.c:1: error: no" >&2\nexit 1\n')

@@ -1,6 +1,8 @@
 import multiprocessing
 import os
+import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -215,6 +217,30 @@ def test_a_full_disk_is_one_error_and_loses_no_row(fall, tmp_path, threads, form
     assert kept.endswith("\n") and len(kept) > 15_000
     found = redysim.sweep(fall, **call)
     assert len(found) == 200 and not found.failures
+
+
+def test_rows_in_a_temporary_folder_outlive_what_ends_the_call(fall, threads):
+    call = dict(samples=drawn(200), executor=threads)
+
+    def stop(done, _):
+        if done >= 20:
+            raise KeyboardInterrupt
+
+    with pytest.warns(UserWarning, match="samples are kept: give folder=") as noted, pytest.raises(KeyboardInterrupt):
+        redysim.sweep(fall, progress=stop, **call)
+    folder = re.search(r"folder='(.*)' to go on", str(noted[-1].message))[1]
+    counts = []
+    found = redysim.sweep(fall, folder=folder, progress=lambda done, _: counts.append(done), **call)
+    assert len(found) == 200 and min(counts) > 20
+    shutil.rmtree(Path(folder).parent)
+
+
+def test_a_number_of_processes_that_is_none_is_one_error(fall, threads):
+    for jobs in (0, -1):
+        with pytest.raises(ValueError, match=f"jobs must be 1 or more, not {jobs}"):
+            redysim.sweep(fall, samples=drawn(2), jobs=jobs)
+    with pytest.raises(ValueError, match="leave it out where there is an executor"):
+        redysim.sweep(fall, samples=drawn(2), jobs=2, executor=threads)
 
 
 def test_a_fault_of_a_study_is_one_error_before_anything_is_computed(fall, tmp_path):

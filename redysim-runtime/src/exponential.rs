@@ -1,5 +1,5 @@
-//! The exponential of SO(3) and SE(3), differentiated: what the velocities of rotation vectors and of screws make of the
-//! velocities of joints.
+//! The exponentials of SO(3) and SE(3): right Jacobians, which map rates of rotation vectors and screws to joint velocities,
+//! their inverses and their time derivatives.
 //!
 //! Along q₀ ⊞ w(t), a joint with an orientation has the velocity J(w) ẇ in its link's axes, with the right Jacobian of the
 //! exponential (J. Solà, J. Deray and D. Atchuthan, *A micro Lie theory for state estimation in robotics*, 2018, eqs. 143 to
@@ -7,6 +7,7 @@
 //! of transference (J. M. Selig, *Geometric Fundamentals of Robotics*, 2nd ed., Springer 2005, section 7.6). So a screw here
 //! is a vector of [`Dual`] numbers, and each of its parts one again, which has its time derivative.
 
+use crate::linear_algebra::{cross, dot};
 use crate::vector::entry;
 use crate::{Dual, Mechanism, Real, Scalar, Vector, VelocityCoordinates};
 
@@ -17,13 +18,13 @@ pub(crate) type ScrewMap<S> = fn(Screw<S>, Screw<S>) -> Screw<S>;
 
 /// J(w) x, with the right Jacobian of the exponential, J = 1 − (1 − cos θ)/θ² ŵ + (θ − sin θ)/θ³ ŵ².
 pub(crate) fn right_jacobian<S: Real>(w: Screw<S>, x: Screw<S>) -> Screw<S> {
-    let [second, third] = coefficients(dot(w, w));
+    let [second, third] = coefficients(dot(&w, &w));
     polynomial(w, x, -second, third)
 }
 
 /// J(w)⁻¹ x, with J⁻¹ = 1 + ½ ŵ + (1 − θ/2 cot θ/2)/θ² ŵ², for |w| < 2π.
 pub(crate) fn inverse_right_jacobian<S: Real>(w: Screw<S>, x: Screw<S>) -> Screw<S> {
-    let (square, half) = (dot(w, w), Dual::from_f64(0.5));
+    let (square, half) = (dot(&w, &w), Dual::from_f64(0.5));
     let third = if is_small(square) {
         let [second, third] = coefficients(square);
         (half * second - third) / (Dual::one() - square * third)
@@ -37,7 +38,7 @@ pub(crate) fn inverse_right_jacobian<S: Real>(w: Screw<S>, x: Screw<S>) -> Screw
 
 /// exp(ŵ) x, the screw x in the axes before the motion exp(ŵ).
 pub(crate) fn turned<S: Real>(w: Screw<S>, x: Screw<S>) -> Screw<S> {
-    let square = dot(w, w);
+    let square = dot(&w, &w);
     let [second, third] = coefficients(square);
     polynomial(w, x, Dual::one() - square * third, second)
 }
@@ -98,7 +99,7 @@ fn is_small<S: Real>(square: Dual<Dual<S>>) -> bool {
 /// (1 − cos θ)/θ² and (θ − sin θ)/θ³ of θ²; of small angles by their power series, whose derivatives keep their digits, too.
 fn coefficients<S: Real>(square: Dual<Dual<S>>) -> [Dual<Dual<S>>; 2] {
     if is_small(square) {
-        // 1/2! − θ²/4! + …, 1/3! − θ²/5! + …: the last terms are below 1e-17.
+        // 1/2! − θ²/4! + …, 1/3! − θ²/5! + …: the first terms left out, θ¹⁸/20! and θ¹⁸/21!, are below 1e-18.
         let series = |first: u32| {
             (0..9).rev().fold(Dual::zero(), |rest: Dual<Dual<S>>, k| {
                 let next = f64::from((first + 2 * k + 1) * (first + 2 * k + 2));
@@ -118,13 +119,4 @@ fn polynomial<T: Scalar>(w: [T; 3], x: [T; 3], a: T, b: T) -> [T; 3] {
     let [x0, x1, x2] = x;
     let ([y0, y1, y2], [z0, z1, z2]) = (once, cross(w, once));
     [x0 + a * y0 + b * z0, x1 + a * y1 + b * z1, x2 + a * y2 + b * z2]
-}
-
-fn dot<T: Scalar>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> T {
-    a * x + b * y + c * z
-}
-
-/// a × x.
-pub(crate) fn cross<T: Scalar>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
-    [b * z - c * y, c * x - a * z, a * y - b * x]
 }

@@ -42,9 +42,10 @@ pub trait Mechanism {
     fn coordinate_of_velocity(&self, index: usize) -> Option<usize> {
         (self.nq() == self.nv() && index < self.nv()).then_some(index)
     }
-    /// The coordinates that velocity `index` changes, by which tolerances weigh [errors](crate::Ode::error_norm) of
-    /// coordinates, and torque laws and trajectories know what turns. The default has the
-    /// [coordinate of that velocity alone](Self::coordinate_of_velocity), and does not know those of others.
+    /// The coordinates that velocity `index` changes. Tolerances weigh [errors](crate::Ode::error_norm) of coordinates by it,
+    /// and torque laws and trajectories find orientations by it. The default is the
+    /// [coordinate of that velocity alone](Self::coordinate_of_velocity), and `Unknown` where there is none. Mechanisms with
+    /// quaternions must override it.
     fn coordinates_of_velocity(&self, index: usize) -> VelocityCoordinates {
         self.coordinate_of_velocity(index).map_or(VelocityCoordinates::Unknown, VelocityCoordinates::One)
     }

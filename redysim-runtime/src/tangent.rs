@@ -93,18 +93,21 @@ pub(crate) fn velocities<S: Real, M: ConfigurationSpace<S>>(
 }
 
 /// The derivative of the error e = `target` ⊟ q along `dq` at a constant target: −J(−e)⁻¹ N⁺ dq, with the right Jacobian J of
-/// the exponential.
+/// the exponential; `None` where the mechanism has coordinates of an unknown kind.
 pub(crate) fn error_slope<S: Real, M: ConfigurationSpace<S>>(
     mechanism: &M,
     q: &M::Coordinates,
     target: &M::Coordinates,
     dq: &M::Coordinates,
-) -> M::Velocities {
+) -> Option<M::Velocities> {
     let negative = |v: &M::Velocities| M::Velocities::from_fn(mechanism.nv(), |i| -entry(v, i));
     let moved = negative(&velocities(mechanism, q, dq));
     if mechanism.nq() == mechanism.nv() {
-        return moved;
+        return Some(moved);
     }
-    let (back, still) = (negative(&mechanism.difference(q, target)), zeros(mechanism.nv()));
-    mapped(mechanism, inverse_right_jacobian, (&back, &still), (&moved, &still)).0
+    if (0..mechanism.nv()).any(|i| mechanism.coordinates_of_velocity(i) == VelocityCoordinates::Unknown) {
+        return None;
+    }
+    let (back, zero) = (negative(&mechanism.difference(q, target)), zeros(mechanism.nv()));
+    Some(mapped(mechanism, inverse_right_jacobian, (&back, &zero), (&moved, &zero)).0)
 }

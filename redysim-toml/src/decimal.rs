@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 /// The text with a point for the comma of each number such as 1,5 or -0,25e-3; `None` without such a number. A comma
-/// is that of a number if there is a digit on both its sides, so that the list `0,15,0,0` is that of `0.15` and `0.0`.
+/// is that of a number if there is a digit on both its sides and no point after those behind it, so that the list `0,15,0,0`
+/// is that of `0.15` and `0.0`, and `0,0.5` one of two numbers.
 ///
 /// ```
 /// use redysim_toml::with_decimal_points;
@@ -16,10 +17,11 @@ pub fn with_decimal_points(text: &str) -> Option<String> {
     let digit = |index: Option<usize>| {
         index.and_then(|index| characters.get(index)).is_some_and(|character| character.is_ascii_digit())
     };
+    let begins_another = |index: usize| characters[index..].iter().find(|c| !c.is_ascii_digit()) == Some(&'.');
     // Whether the number that is being read has its point, its comma or its exponent.
     let mut is_complete = false;
     let with_point = |(index, &character): (usize, &char)| match character {
-        ',' if !is_complete && digit(index.checked_sub(1)) && digit(Some(index + 1)) => {
+        ',' if !is_complete && digit(index.checked_sub(1)) && digit(Some(index + 1)) && !begins_another(index + 1) => {
             is_complete = true;
             '.'
         }
@@ -79,7 +81,7 @@ mod tests {
         ] {
             assert_eq!(with_decimal_points(text).as_deref(), Some(written));
         }
-        for text in ["1.5,2.5", "[1, 2]", "a,1", "1,", "1e3,2", ""] {
+        for text in ["1.5,2.5", "[0,0.3, 0.2]", "[1, 2]", "a,1", "1,", "1e3,2", ""] {
             assert_eq!(with_decimal_points(text), None, "{text}");
         }
     }

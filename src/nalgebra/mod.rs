@@ -253,6 +253,19 @@ where
     mechanism.energy(array(q), array(v))
 }
 
+/// [`ConfigurationSpace::dissipated_power`]: the power that damping and friction take, W.
+pub fn dissipated_power<S, M, const NQ: usize, const NV: usize>(
+    mechanism: &M,
+    q: &SVector<S, NQ>,
+    v: &SVector<S, NV>,
+) -> S
+where
+    S: Number,
+    M: ConfigurationSpace<S, Coordinates = [S; NQ], Velocities = [S; NV]>,
+{
+    mechanism.dissipated_power(array(q), array(v))
+}
+
 /// [`MassCenter::center_of_mass`]: where the centre of mass of the mechanism is and how it moves, in the base frame.
 pub fn center_of_mass<S, M, const NQ: usize, const NV: usize>(
     mechanism: &M,

@@ -3,6 +3,7 @@
 
 use crate::common::models::generic;
 use crate::linkages::{Fourbar, NFourbar2 as Windows};
+use redysim::Real;
 use redysim::{
     ClosedLoop, ClosedLoopSimulation, IntegrationError, Integrator, LoopError, Ode4, Stabilisation, ZeroTorque,
 };
@@ -29,7 +30,7 @@ fn the_shipped_start_closes_with_the_crank_held_and_reports_how_far_it_moved() {
 fn a_held_crank_at_rest_stops_the_whole_linkage() {
     for asked in [[0.0_f64, 1.0, 0.0], [0.0, 0.0, -3e8], [0.0, 1e-9, 7.0]] {
         let stopped = ClosedLoop::new(&Fourbar).assemble(&[0.0, 0.9844, 4.3144], &asked, &[0]).expect("it stops");
-        let most = asked.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let most = asked.iter().fold(0.0, |most: f64, v| Real::maximum(most, v.abs()));
         assert!(stopped.v.iter().all(|v| v.abs() < 1e-15 * most), "{asked:?}: {:?}", stopped.v);
         ClosedLoopSimulation::new(ClosedLoop::new(&Fourbar), ZeroTorque)
             .start(&stopped.q, &stopped.v)

@@ -10,6 +10,7 @@ use crate::common::models::generic;
 use crate::common::random::Random;
 use crate::linkages::BallFourbar;
 use nalgebra::DVector;
+use redysim::Real;
 use redysim::generic::{CutKind, CutSide, GenericMechanism, JointKind, Loop, Vec3};
 use redysim::{
     ClosedLoop, ClosedLoopComputedTorque, ClosedLoopInverse, ClosedLoopSimulation, ConfigurationSpace, Dop853,
@@ -51,13 +52,13 @@ fn tilted(random: &mut Random) -> Motion<[f64; 4], [f64; 3]> {
 }
 
 fn largest<'v>(values: impl IntoIterator<Item = &'v f64>) -> f64 {
-    values.into_iter().fold(0.0, |largest, x| if x.abs() <= largest { largest } else { x.abs() })
+    values.into_iter().fold(0.0, |largest, x| Real::maximum(largest, x.abs()))
 }
 
 fn assert_near(found: &[f64], expected: &[f64], what: &str) {
     let size = largest(expected).max(1.0);
     assert_eq!(found.len(), expected.len(), "{what}");
-    let worst = found.iter().zip(expected).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    let worst = found.iter().zip(expected).map(|(x, y)| (x - y).abs()).fold(0.0, Real::maximum);
     assert!(worst < ROUNDOFF * size, "{what}: off by {worst:e}, {found:?} instead of {expected:?}");
 }
 

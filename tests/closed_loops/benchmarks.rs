@@ -5,6 +5,7 @@
 use crate::common::andrews;
 use crate::common::models::generic;
 use crate::linkages::Andrews;
+use redysim::Real;
 use redysim::{ClosedLoop, ClosedLoopSimulation, Integrator, LoopClosure, MechanicalEnergy, Ode4, Ode45, ZeroTorque};
 
 /// Digits of `computed` that are right, of a published number other than zero.
@@ -114,7 +115,8 @@ fn the_other_linkages_keep_their_energy_and_stay_closed() {
         let drift = (mechanism.energy(&state.q, &state.v).total() - before).abs();
         let gap =
             mechanism.loop_residual(&state.q).iter().fold(0.0, |gap: f64, residual: &f64| gap.max(residual.abs()));
-        let moved = state.q.iter().zip(&assembly.q).fold(0.0, |most: f64, (to, from)| most.max((to - from).abs()));
+        let moved =
+            state.q.iter().zip(&assembly.q).fold(0.0, |most: f64, (to, from)| Real::maximum(most, (to - from).abs()));
         println!("{name}: energy off by {drift:.1e} J, open by {gap:.1e} m, moved by {moved:.1} rad");
         assert!(drift < 1e-7 && gap < 1e-13 && moved > 0.01, "{name}: {drift:e} J, {gap:e} m, {moved} rad");
     }

@@ -6,6 +6,7 @@ use crate::common::dual::moving;
 use crate::common::random::Random;
 use crate::linkages::{Fourbar, ThreeRrr};
 use crate::redundant::FourbarSpatial;
+use redysim::Real;
 use redysim::generic::{GenericMechanism, Link, Model};
 use redysim::{
     ClosedLoop, ClosedLoopInverse, ConstrainedHybridMotion, HybridDynamics, HybridMotion, LoopError, Mechanism, Motion,
@@ -20,7 +21,7 @@ const ROUNDOFF: f64 = 1e-11;
 
 fn assert_near(found: &[f64], expected: &[f64], what: &str) {
     let size = expected.iter().fold(1.0_f64, |size, x| size.max(x.abs()));
-    let worst = found.iter().zip(expected).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    let worst = found.iter().zip(expected).map(|(x, y)| (x - y).abs()).fold(0.0, Real::maximum);
     assert!(worst < ROUNDOFF * size, "{what}: {found:?} instead of {expected:?}");
 }
 
@@ -115,9 +116,9 @@ fn the_base_under_a_driven_linkage_moves_so_that_momentum_stays() {
         assert!(tau.iter().enumerate().all(|(i, tau)| i == 6 || *tau == 0.0), "{tau:?}");
         let rates = denoc::coordinate_rates(tree, &closed.q, &closed.v);
         let momentum = denoc::momentum(tree, &Untraced, &moving(&closed.q, &rates), &moving(&closed.v, &a));
-        let scale = 4.0 * a.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+        let scale = 4.0 * a.iter().fold(0.0_f64, |most, a| Real::maximum(most, a.abs()));
         let changes = momentum.linear.iter().chain(&momentum.angular).map(|component| component.rate.abs());
-        assert!(changes.fold(0.0, f64::max) < ROUNDOFF * scale, "{momentum:?}");
+        assert!(changes.fold(0.0, Real::maximum) < ROUNDOFF * scale, "{momentum:?}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! A link without mass that a loop holds: the tree's mass matrix is singular, the closed mechanism moves.
 #![cfg(feature = "generic")]
 
+use redysim::Real;
 use std::fs;
 
 use crate::common::models::generic;
@@ -97,7 +98,7 @@ fn a_four_bar_with_a_massless_coupler_moves_as_lagrange_derived_it() {
         let (a, lambda) = (motion.accelerations, motion.multipliers);
         let size = expected.crank.abs() + expected.rocker.abs() + 1.0;
         assert!(difference(&a[..2], &[expected.crank, expected.rocker]) < 1e-12 * size, "{a:?}");
-        let size = expected.force.iter().fold(1.0, |most: f64, force| most.max(force.abs()));
+        let size = expected.force.iter().fold(1.0, |most: f64, force| Real::maximum(most, force.abs()));
         assert!(difference(&lambda, &expected.force) < 1e-12 * size, "{lambda:?}, {:?}", expected.force);
         assert_eq!(motion.rank, 2);
         let of_model = ClosedLoop::new(&general)
@@ -135,7 +136,9 @@ fn a_coupler_whose_mass_goes_to_zero_moves_ever_more_like_one_without() {
         let errors = [1e-2, 1e-4, 1e-6].map(|mass| {
             let light = with_coupler_of(mass);
             let motion = ClosedLoop::new(&light).dynamics(&q.to_vec(), &v.to_vec(), &tau).expect("regular");
-            let of = |a: &[f64], b: &[f64]| difference(a, b) / b.iter().fold(1.0, |most: f64, b| most.max(b.abs()));
+            let of = |a: &[f64], b: &[f64]| {
+                difference(a, b) / b.iter().fold(1.0, |most: f64, b| Real::maximum(most, b.abs()))
+            };
             of(&motion.accelerations, &exact.accelerations).max(of(&motion.multipliers, &exact.multipliers))
         });
         // In proportion to the mass, which the others weigh some hundred times.
@@ -212,7 +215,7 @@ fn a_massless_coupler_is_solved_to_1e_3_in_single_precision() {
         let exact = ClosedLoop::new(&Massless).dynamics(&q, &v, &[0.7, -0.2, 0.0]).expect("regular");
         let (q, v) = (q.map(|q| q as f32), v.map(|v| v as f32));
         let motion = ClosedLoop::new(&Massless).dynamics(&q, &v, &[0.7, -0.2, 0.0]).expect("regular");
-        let size = exact.accelerations.iter().fold(1.0, |most: f64, a| most.max(a.abs()));
+        let size = exact.accelerations.iter().fold(1.0, |most: f64, a| Real::maximum(most, a.abs()));
         assert!(difference(&motion.accelerations.map(f64::from), &exact.accelerations) < 1e-3 * size, "{motion:?}");
     }
 }
@@ -229,7 +232,7 @@ fn a_massless_coupler_in_space_moves_as_the_one_in_the_plane() {
         let planar = ClosedLoop::new(&Massless).dynamics(&q, &v, &tau).expect("regular");
         let found = ClosedLoop::new(&spatial).dynamics(&q.to_vec(), &v.to_vec(), &tau.to_vec()).expect("redundant");
         assert_eq!(found.rank, 2);
-        let size = planar.accelerations.iter().fold(1.0, |most: f64, a| most.max(a.abs()));
+        let size = planar.accelerations.iter().fold(1.0, |most: f64, a| Real::maximum(most, a.abs()));
         assert!(difference(&found.accelerations, &planar.accelerations) < 1e-9 * size, "{found:?}");
         let norm = |lambda: &[f64]| lambda.iter().map(|x| x * x).sum::<f64>().sqrt();
         assert!(
@@ -252,7 +255,7 @@ fn a_point_mass_on_the_axis_of_the_coupler_moves_with_the_rocker() {
         let (q, v, tau) = (q.to_vec(), v.to_vec(), vec![0.7, -0.2, 0.0]);
         let [on_axis, at_tip] =
             [&on_axis, &at_tip].map(|model| ClosedLoop::new(model).dynamics(&q, &v, &tau).expect("regular"));
-        let size = at_tip.accelerations.iter().fold(1.0, |most: f64, a| most.max(a.abs()));
+        let size = at_tip.accelerations.iter().fold(1.0, |most: f64, a| Real::maximum(most, a.abs()));
         assert!(difference(&on_axis.accelerations, &at_tip.accelerations) < 1e-11 * size, "{on_axis:?}, {at_tip:?}");
     }
 }

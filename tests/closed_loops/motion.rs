@@ -6,6 +6,7 @@
 use crate::common::models::generic;
 use crate::linkages::{Fourbar, NFourbar2 as Windows, SliderCrank};
 use crate::redundant::{Bricard, FourbarSpatial};
+use redysim::Real;
 use redysim::{
     ClosedLoop, ClosedLoopSimulation, Dop853, Integrator, LoopRows, Ode, Ode4, Ode5, Ode15s, Ode45, Stabilisation,
     ZeroTorque,
@@ -56,7 +57,7 @@ fn the_four_bar_falls_as_in_quadruple_precision() {
             assert_eq!(motion.rank, 2);
             let errors = [difference(&now.q, q), difference(&now.v, v), difference(&motion.multipliers, lambda)];
             for (worst, error) in worst.iter_mut().zip(errors) {
-                *worst = worst.max(error);
+                *worst = Real::maximum(*worst, error);
             }
         }
         println!("{worst:?}");

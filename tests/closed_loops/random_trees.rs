@@ -12,6 +12,7 @@ use crate::common::random::Random;
 use crate::common::styles::{link, offset, placed};
 use crate::common::traced::traced;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use redysim::Real;
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{ConfigurationSpace, Scalar};
 use redysim_codegen::functions::TracedFunction;
@@ -269,7 +270,7 @@ impl Errors {
             let error = (x - y).abs() / size;
             assert!(error <= tolerance, "{what}: error {error:.1e}\n{computed:?}\n{expected:?}");
             let worst = self.0.entry(what).or_default();
-            *worst = worst.max(error);
+            *worst = Real::maximum(*worst, error);
         }
     }
 }

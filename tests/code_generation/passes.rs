@@ -3,6 +3,7 @@
 use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::random::{Random, State};
 use crate::common::traced::{traced, traced_with};
+use redysim::Real;
 use redysim_codegen::functions::{TracedFunction, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_model::spatial::{Mat3, Vec3};
@@ -86,7 +87,7 @@ fn difference(before: &[TracedFunction], after: &[TracedFunction], dof: usize) -
                 _ => 1.0,
             };
             let differences = old.iter().zip(&new).map(|(x, y)| (x - y).abs());
-            worst = differences.fold(worst, |worst, x| worst.max(x / (condition * scale.max(1e-9))));
+            worst = differences.fold(worst, |worst, x| Real::maximum(worst, x / (condition * scale.max(1e-9))));
         }
     }
     worst

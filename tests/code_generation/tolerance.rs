@@ -3,6 +3,7 @@
 
 use super::operation_counts::Kr5;
 use crate::common::random::Random;
+use redysim::Real;
 use redysim::generic::Model;
 use redysim::{Operations, redysim};
 use redysim_model::JointRange;
@@ -101,7 +102,7 @@ fn errors<R: Robot>(states: usize) -> [f64; 5] {
             _ => sizes[function][k],
         };
         let shares = worst[function].iter().enumerate().filter(|(_, error)| **error > 0.0);
-        shares.map(|(component, error)| error / scale(component)).fold(0.0, f64::max)
+        shares.map(|(component, error)| error / scale(component)).fold(0.0, Real::maximum)
     })
 }
 
@@ -164,7 +165,7 @@ fn the_readme_states_what_share_of_the_mass_matrix_at_the_position_itself_is_los
         let (exact, pruned) = (Kr5::mass_matrix(&q), To1::mass_matrix(&q));
         for (i, row) in exact.iter().enumerate() {
             for (j, element) in row.iter().enumerate() {
-                worst = worst.max((pruned[i][j] - element).abs() / (exact[i][i] * exact[j][j]).sqrt());
+                worst = Real::maximum(worst, (pruned[i][j] - element).abs() / (exact[i][i] * exact[j][j]).sqrt());
             }
         }
     }

@@ -1,5 +1,7 @@
 //! What "equal to so many digits" means, for every test.
 
+use redysim::Real;
+
 /// What is smaller than this part of the largest value of the run is held against that, not against itself.
 const FLOOR: f64 = 1e-6;
 
@@ -32,7 +34,7 @@ impl Comparison {
     /// The largest error of the run and where it is. NaN counts as infinite.
     pub fn worst(&self) -> (f64, String) {
         let expected = self.samples.iter().flat_map(|(_, expected)| expected);
-        let floor = self.floor * expected.fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let floor = self.floor * expected.fold(0.0_f64, |largest, x| Real::maximum(largest, x.abs()));
         let mut worst = (0.0, String::from("nowhere"));
         for (sample, (computed, expected)) in self.samples.iter().enumerate() {
             for (component, (&x, &reference)) in computed.iter().zip(expected).enumerate() {

@@ -1,6 +1,6 @@
 //! Tools that not every machine has.
 
-/// Reports that a test, or a part of it, is left out for want of a tool.
+/// Reports that a test, or a part of it, is skipped because a tool is missing.
 ///
 /// # Panics
 /// If `REDYSIM_ALL_TOOLS` is set, as by `.ci/run`, where every tool must be there.

@@ -2,6 +2,7 @@
 //! so the steps, are the same on every machine with the feature `deterministic`.
 #![cfg(all(feature = "generic", feature = "deterministic"))]
 
+use redysim::Real;
 use std::fmt::Write;
 
 use super::figures::Kr5;
@@ -27,7 +28,7 @@ impl<O: Ode<f64, State>> WithMethod for Rows<'_, O> {
             writeln!(self.text, "| {name}, {rtol:.0e} | stiff | | | | |").expect("a String takes everything");
             return;
         };
-        let error = (0..DOF).fold(0.0_f64, |worst, i| worst.max((end.y[i] - self.exact[i]).abs()));
+        let error = (0..DOF).fold(0.0_f64, |worst, i| Real::maximum(worst, (end.y[i] - self.exact[i]).abs()));
         let s = end.statistics;
         writeln!(
             self.text,

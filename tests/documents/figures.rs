@@ -4,6 +4,7 @@
 //! README states bounds of them with one digit; a bound ten times what is measured is called stale.
 #![cfg(feature = "generic")]
 
+use redysim::Real;
 use std::f64::consts::{FRAC_PI_3, TAU};
 
 use crate::common::andrews;
@@ -36,10 +37,10 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 /// Largest errors of each component, as a share of its largest value.
 fn shares(pairs: &[(Vec<f64>, Vec<f64>)]) -> f64 {
     let of = |component: usize| {
-        let error = pairs.iter().map(|(a, b)| (a[component] - b[component]).abs()).fold(0.0, f64::max);
-        error / pairs.iter().map(|(_, b)| b[component].abs()).fold(0.0, f64::max)
+        let error = pairs.iter().map(|(a, b)| (a[component] - b[component]).abs()).fold(0.0, Real::maximum);
+        error / pairs.iter().map(|(_, b)| b[component].abs()).fold(0.0, Real::maximum)
     };
-    (0..pairs[0].0.len()).map(of).fold(0.0, f64::max)
+    (0..pairs[0].0.len()).map(of).fold(0.0, Real::maximum)
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use crate::common::chains::{self, Rod};
 use crate::common::random::Random;
 use crate::common::styles::Style;
+use redysim::Real;
 use redysim_codegen::accuracy::{MEASURED, Reference};
 use redysim_codegen::functions::{MethodChoice, MethodFigures, TracedFunction, trace_of};
 use redysim_codegen::passes::Passes;
@@ -30,7 +31,7 @@ fn computed(functions: &[TracedFunction], function: Function) -> &TracedFunction
 fn lost(references: &[Reference], functions: &[TracedFunction], function: Function) -> f64 {
     let traced = computed(functions, function);
     let losses = references.iter().map(|reference| reference.loss_by(function, |x| traced.expressions.evaluate(x)));
-    losses.fold(0.0, f64::max)
+    losses.fold(0.0, Real::maximum)
 }
 
 fn unseen_states(tree: &Tree) -> [Reference<'_>; 4] {
@@ -65,11 +66,11 @@ fn no_pass_costs_forces_or_the_mass_matrix_a_factor_of_four() {
                 switch(&mut passes);
                 let all = traced(&tree, &passes, AccelerationMethod::Recursion);
                 for function in MEASURED.into_iter().filter(|&function| function != Function::ForwardDynamics) {
-                    let least = states.iter().map(|states| states.least_loss(function)).fold(0.0, f64::max);
+                    let least = states.iter().map(|states| states.least_loss(function)).fold(0.0, Real::maximum);
                     let (least, now) = (lost(&states, &none, function).max(least), lost(&states, &all, function));
                     let factor = now / least.max(ROUNDINGS);
                     assert!(factor <= 4.0, "{style:?} {index}, {function:?}: {now:.1e} instead of {least:.1e}");
-                    worst = worst.max(factor);
+                    worst = Real::maximum(worst, factor);
                 }
             }
         }

@@ -3,6 +3,7 @@
 #![cfg(feature = "generic")]
 
 use crate::common::models::generic;
+use redysim::Real;
 use redysim::generic::GenericMechanism;
 use redysim::{Frames, LinkKinematics};
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
@@ -125,7 +126,7 @@ fn assert_rates_are_those_of_the_angles(scenario: &str, jumps: impl Fn(usize) ->
             for joint in 0..rows[0].motion[0].len() {
                 let [before, at, after] = [0, 1, 2].map(|row| rows[row].motion[order + 1][joint]);
                 let change = rows[2].motion[order][joint] - rows[0].motion[order][joint];
-                *worst = worst.max((change - STEP / 3.0 * (before + 4.0 * at + after)).abs());
+                *worst = Real::maximum(*worst, (change - STEP / 3.0 * (before + 4.0 * at + after)).abs());
             }
         }
     }

@@ -5,6 +5,7 @@ use super::random_trees::state_in_space;
 use crate::common::random::{Random, State};
 use crate::common::styles::Style;
 use crate::common::traced::traced;
+use redysim::Real;
 use redysim::generic::{GenericMechanism, Link, Model, PerVelocity};
 use redysim::{HybridDynamics, HybridMotion, InverseDynamics, Mechanism, redysim};
 use redysim_codegen::functions::trace;
@@ -22,7 +23,7 @@ const TOLERANCE: f64 = 1e-11;
 /// The largest difference of two vectors as a share of the largest component.
 fn error(found: &[f64], expected: &[f64]) -> f64 {
     let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-    found.iter().zip(expected).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
+    found.iter().zip(expected).map(|(x, y)| (x - y).abs()).fold(0.0, Real::maximum) / size
 }
 
 /// Inverse dynamics at the accelerations of `motion` gives its forces, and of each velocity it has what `u` gave.

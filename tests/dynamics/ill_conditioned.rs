@@ -47,9 +47,9 @@ fn error_in<S: Real>(method: Method, tree: &Tree, judge: &Tree) -> f64 {
         let found = forward_dynamics(method, tree, &Untraced, &q, &v, &tau);
         let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         let off = |(x, y): (&S, &f64)| if x.is_finite() { (x.to_f64() - y).abs() } else { f64::INFINITY };
-        found.iter().zip(&expected).map(off).fold(0.0, f64::max) / size
+        found.iter().zip(&expected).map(off).fold(0.0, Real::maximum) / size
     });
-    errors.fold(0.0, f64::max)
+    errors.fold(0.0, Real::maximum)
 }
 
 fn error(method: Method, tree: &Tree, judge: &Tree) -> f64 {

@@ -3,6 +3,7 @@
 use crate::common::call::{coriolis_matrix, mass_matrix};
 use crate::common::random::Random;
 use nalgebra::DMatrix;
+use redysim::Real;
 use redysim::generic::{GenericMechanism, Inertia, Model, Vec3};
 use redysim::lanes::F64x4;
 use redysim::{
@@ -55,7 +56,7 @@ fn other() -> GenericMechanism {
 }
 
 fn assert_close(found: &[f64], expected: &[f64], bound: f64) {
-    let largest = expected.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let largest = expected.iter().fold(0.0_f64, |largest, x| Real::maximum(largest, x.abs()));
     for (found, expected) in found.iter().zip(expected) {
         assert!((found - expected).abs() <= bound * largest, "{found} instead of {expected}");
     }

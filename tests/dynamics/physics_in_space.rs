@@ -3,6 +3,7 @@
 #![cfg(feature = "generic")]
 
 use crate::common::text::mechanism;
+use redysim::Real;
 use redysim::generic::{CutKind, CutSide, GenericMechanism, Loop, Model, Vec3};
 use redysim::{
     BiasForces, ClosedLoop, ClosedLoopSimulation, ConfigurationSpace, ForwardDynamics, ForwardSimulation, Integrator,
@@ -32,7 +33,7 @@ fn generic() -> GenericMechanism {
 
 fn assert_close(found: &[f64], expected: &[f64], bound: f64) {
     assert_eq!(found.len(), expected.len());
-    let largest = expected.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let largest = expected.iter().fold(0.0_f64, |largest, x| Real::maximum(largest, x.abs()));
     for (found, expected) in found.iter().zip(expected) {
         assert!((found - expected).abs() <= bound * largest, "{found} instead of {expected}");
     }

@@ -5,7 +5,7 @@
 //! dampers between points. Each has three frames of interest, on links or on the ground. Sixty trees more have spherical
 //! and free joints as well, anywhere, at quaternions of any length; and sixty more joints of every kind, with quaternions
 //! and with Euler angles of any sequence. In sixty more, joints of one freedom mimic others; in half of these,
-//! some of such joints move no mass by themselves. A debug build takes a fifth of each.
+//! some of such joints move no mass by themselves. A debug build takes a tenth of each.
 
 pub mod models;
 
@@ -16,6 +16,7 @@ use crate::common::styles::Style;
 use crate::common::traced::traced;
 use models::{Joints, empty_some, mimic_some, random_model};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use redysim::Real;
 use redysim_codegen::accuracy::Reference;
 use redysim_codegen::functions::{TracedFunction, trace};
 use redysim_model::denoc::{self, Method, Untraced};
@@ -65,7 +66,7 @@ impl Errors {
         let error = if difference == 0.0 { 0.0 } else { difference / size };
         assert!(error <= tolerance, "{what}: error {error:.1e}\n{computed:?}\n{expected:?}");
         let worst = self.0.entry(what.to_string()).or_default();
-        *worst = worst.max(error);
+        *worst = Real::maximum(*worst, error);
     }
 
     /// The same with one added to each component, so that what happens to vanish is held against numbers of size one.
@@ -450,7 +451,8 @@ fn compiled_functions_keep_their_digits_on_trees_of_every_style() {
             let functions = traced(&tree, &computed);
             let reference = Reference::at(&tree, 1);
             for (worst, function) in worst.iter_mut().zip(computed) {
-                *worst = worst.max(reference.loss_by(function, |x| evaluated(&functions, function.name(), x)));
+                *worst =
+                    Real::maximum(*worst, reference.loss_by(function, |x| evaluated(&functions, function.name(), x)));
             }
         }
         println!("{style:?}: forces {:.1e}, matrix {:.1e}, accelerations {:.1e}", worst[0], worst[1], worst[2]);

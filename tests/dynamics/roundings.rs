@@ -12,6 +12,7 @@ use crate::common::double_double::DoubleDouble;
 use crate::common::models::generic;
 use crate::common::random::Random;
 use crate::robots::{Gantry, Gripper, Kr5};
+use redysim::Real;
 use redysim::{Scalar, TreeDynamics};
 
 const STATES: usize = 1000;
@@ -73,7 +74,7 @@ fn worst(what: &str, unit: f64, differences: impl Iterator<Item = (f64, f64, f64
     for (low, high, scale) in differences {
         let error = if low == high { 0.0 } else { (low - high).abs() / scale / unit };
         assert!(error <= ALLOWED, "{what}: {low:e}, not {high:e}: {error:.1} u for terms like {scale:e}");
-        worst = worst.max(error);
+        worst = Real::maximum(worst, error);
     }
     println!("{what}: {worst:.1} u, allowed {ALLOWED} u");
 }
@@ -96,7 +97,7 @@ fn assert_few_roundings<Low: Rounding, High: Rounding>(
     for (function, name) in ["inverse", "bias", "gravity"].iter().enumerate() {
         let largest = |joint: usize| {
             let forces = runs.iter().map(|(_, high)| high.forces[0][joint].abs());
-            forces.fold(0.0, f64::max)
+            forces.fold(0.0, Real::maximum)
         };
         let samples = (0..dof).map(|joint| (joint, largest(joint))).flat_map(|(joint, scale)| {
             let pair = move |(low, high): &(Values, Values)| {
@@ -106,7 +107,7 @@ fn assert_few_roundings<Low: Rounding, High: Rounding>(
         });
         worst(&format!("{what} {name}"), Low::UNIT, samples);
     }
-    let diagonal = |i: usize| runs.iter().map(|(_, high)| high.matrix[i * dof + i]).fold(0.0, f64::max);
+    let diagonal = |i: usize| runs.iter().map(|(_, high)| high.matrix[i * dof + i]).fold(0.0, Real::maximum);
     let diagonal: Vec<f64> = (0..dof).map(diagonal).collect();
     let elements = runs.iter().flat_map(|(low, high)| {
         let scale = |k: usize| (diagonal[k / dof] * diagonal[k % dof]).sqrt();
@@ -114,7 +115,7 @@ fn assert_few_roundings<Low: Rounding, High: Rounding>(
     });
     worst(&format!("{what} matrix"), Low::UNIT, elements);
     for (energy, name) in ["kinetic", "potential"].iter().enumerate() {
-        let scale = runs.iter().fold(0.0_f64, |largest, (_, high)| largest.max(high.energies[energy].abs()));
+        let scale = runs.iter().fold(0.0_f64, |largest, (_, high)| Real::maximum(largest, high.energies[energy].abs()));
         let samples = runs.iter().map(|(low, high)| (low.energies[energy], high.energies[energy], scale));
         worst(&format!("{what} {name}"), Low::UNIT, samples);
     }

@@ -7,6 +7,7 @@ use crate::common::models::generic;
 use crate::common::random::{Random, State};
 use crate::common::styles::{inertia, placed};
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
+use redysim::Real;
 use redysim::generic::{GenericMechanism, JointKind, Link, Model, Vec3};
 use redysim::{ConfigurationSpace, Mechanism, redysim};
 use redysim_model::joint::EulerSequence;
@@ -133,7 +134,7 @@ fn a_free_joint_with_euler_angles_stands_where_its_quaternion_does() {
         about(Vector3::z_axis(), phi) * about(Vector3::x_axis(), theta) * Vector3::y(),
     ];
     let expected: Vec<f64> = force.iter().copied().chain(axes.map(|axis| axis.dot(&moment))).collect();
-    let largest = by_angles.iter().zip(&expected).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+    let largest = by_angles.iter().zip(&expected).map(|(x, y)| (x - y).abs()).fold(0.0, Real::maximum);
     assert!(largest < 1e-14 * 20.0, "{by_angles:?} {expected:?}");
 }
 
@@ -193,8 +194,8 @@ fn a_joint_in_series_is_held_where_the_whole_mechanism_has_it() {
         };
         let of_whole = inverse_dynamics(&Series, &all(&q, true), &all(&v, false), &all(&a, false));
         let found = inverse_dynamics(&Held, &q, &v, &a);
-        let largest = found.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let error = found.iter().zip(&of_whole[7..]).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        let largest = found.iter().fold(0.0_f64, |most, x| Real::maximum(most, x.abs()));
+        let error = found.iter().zip(&of_whole[7..]).map(|(x, y)| (x - y).abs()).fold(0.0, Real::maximum);
         assert!(error < 1e-13 * largest, "{found:?} {of_whole:?}");
     }
 }

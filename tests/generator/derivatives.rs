@@ -1,6 +1,7 @@
 //! A recursion over dual numbers of symbols traces its derivatives, with the steps and the names of the recursion
 //! itself.
 
+use redysim::Real;
 use redysim_codegen::expressions::Expressions;
 use redysim_codegen::graph::Name;
 use redysim_codegen::symbol::{Symbol, Tracer};
@@ -91,7 +92,7 @@ fn traced_derivatives_are_those_of_dual_numbers() {
                 let found = expressions.evaluate(&slices(&numbers));
                 assert_eq!(found.len(), expected.len());
                 for half in [0..expected.len() / 2, expected.len() / 2..expected.len()] {
-                    let scale = expected[half.clone()].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                    let scale = expected[half.clone()].iter().fold(0.0_f64, |most, x| Real::maximum(most, x.abs()));
                     assert!(scale > 0.0, "{robot} {function}: all zero");
                     for i in half {
                         let (found, expected) = (found[i], expected[i]);

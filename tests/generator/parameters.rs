@@ -1,5 +1,6 @@
 //! Run-time parameters: what they cost, and that a robot with parameters is the robot with these numbers.
 
+use redysim::Real;
 use redysim_codegen::functions::{ParametricFunctions, trace_with_parameters};
 use redysim_codegen::passes::Passes;
 use redysim_model::denoc::{Untraced, evaluate};
@@ -131,7 +132,7 @@ fn a_robot_with_parameters_is_the_robot_with_these_numbers() {
                     let found = traced.expressions.evaluate_with(&arguments, |index, _| given[index as usize]);
                     let expected = evaluate(function, &robot, &Untraced, &arguments);
                     assert_eq!(found.len(), expected.len());
-                    let largest = expected.iter().fold(1e-3_f64, |largest, x| largest.max(x.abs()));
+                    let largest = expected.iter().fold(1e-3_f64, |largest, x| Real::maximum(largest, x.abs()));
                     for (found, expected) in found.iter().zip(&expected) {
                         let error = (found - expected).abs() / largest;
                         assert!(error < 1e-12, "{name}, {function:?}: {found} instead of {expected}");

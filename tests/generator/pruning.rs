@@ -5,6 +5,7 @@
 mod random;
 
 use random::Random;
+use redysim::Real;
 use redysim_codegen::functions::{TracedFunction, trace_model, trace_of};
 use redysim_codegen::passes::Passes;
 use redysim_codegen::{implementation_with, source_file_with};
@@ -79,7 +80,7 @@ fn worst(
         _ => sizes[index],
     };
     let shares = errors.iter().enumerate().filter(|(_, error)| **error > 0.0);
-    shares.map(|(index, error)| error / scale(index)).fold(0.0, f64::max)
+    shares.map(|(index, error)| error / scale(index)).fold(0.0, Real::maximum)
 }
 
 #[test]

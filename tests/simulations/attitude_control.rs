@@ -2,6 +2,7 @@
 #![cfg(feature = "generic")]
 
 use crate::common::models::generic;
+use redysim::Real;
 use redysim::generic::GenericMechanism;
 use redysim::{
     ComputedTorque, ConfigurationSpace, ForwardSimulation, GravityForces, Integrator, Mechanism, Motion, Ode45, Pd,
@@ -23,7 +24,7 @@ fn brought(
         Ode45::new().rtol(1e-9).atol(1e-10).integrate(&mut simulation, (0.0, duration), start).expect("it moves").y;
     let parts = simulation.split(&end);
     let left = mechanism.difference(&parts.q, target);
-    let largest = left.iter().chain(&parts.v).fold(0.0, |largest: f64, left| largest.max(left.abs()));
+    let largest = left.iter().chain(&parts.v).fold(0.0, |largest: f64, left| Real::maximum(largest, left.abs()));
     (parts.q, largest, end[mechanism.nq() + mechanism.nv() + 1..].to_vec())
 }
 

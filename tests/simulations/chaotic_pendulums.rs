@@ -2,6 +2,7 @@
 //! right for as long as double precision allows, and keeps its energy ever after.
 #![cfg(feature = "generic")]
 
+use redysim::Real;
 use redysim::{Dop853, ForwardSimulation, Integrator, TreeDynamics, Vector, ZeroTorque, redysim};
 
 redysim! { struct DoublePendulum("models/double_pendulum.toml"); }
@@ -17,7 +18,7 @@ struct Errors {
 
 impl Errors {
     fn until(&self, time: f64) -> f64 {
-        self.coordinates.iter().filter(|(t, _)| *t <= time).fold(0.0, |worst, (_, error)| worst.max(*error))
+        self.coordinates.iter().filter(|(t, _)| *t <= time).fold(0.0, |worst, (_, error)| Real::maximum(worst, *error))
     }
 }
 
@@ -45,7 +46,8 @@ fn release<M: TreeDynamics<f64>>(mechanism: &M, case: &str, start: &[f64], toler
         .solve(&mut simulation, (0.0, 20.0), state, times, |t, state| {
             let row = expected.next().expect("a row for every time");
             let now = copy.split(state);
-            let off = now.q.as_ref().iter().zip(&row[1..]).fold(0.0_f64, |worst, (q, x)| worst.max((q - x).abs()));
+            let off =
+                now.q.as_ref().iter().zip(&row[1..]).fold(0.0_f64, |worst, (q, x)| Real::maximum(worst, (q - x).abs()));
             let energy = (mechanism.energy(&now.q, &now.v).total() - at_rest).abs();
             println!("{case}, {dof} rods, {t} s: {off:.1e} rad, {energy:.1e} J");
             errors.coordinates.push((t, off));

@@ -7,6 +7,7 @@ use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::methods::{WithMethod, every_adaptive, every_fixed};
 use crate::common::models::generic;
 use crate::common::random::Random;
+use redysim::Real;
 use redysim::{
     Dop853, ForwardDynamics, ForwardSimulation, IntegrationError, Integrator, InverseDynamics, Ode45, ZeroTorque,
     redysim,
@@ -62,7 +63,8 @@ fn deviations(q: [f64; DOF], v: [f64; DOF]) -> [f64; 2] {
         [(Kr5::inverse_dynamics(&q, &v, &a), rounded(tau)), (Kr5::forward_dynamics(&q, &v, &given), rounded(wide))];
     pairs.map(|(found, expected)| {
         let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-        found.iter().zip(&expected).fold(0.0_f64, |worst, (found, value)| worst.max((found - value).abs())) / size
+        found.iter().zip(&expected).fold(0.0_f64, |worst, (found, value)| Real::maximum(worst, (found - value).abs()))
+            / size
     })
 }
 

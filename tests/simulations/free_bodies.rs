@@ -8,6 +8,7 @@ use crate::common::models::generic;
 use crate::common::quadrature::integral;
 use core::ops::ControlFlow;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use redysim::Real;
 use redysim::generic::Inertia;
 use redysim::{
     Dop8, Dop853, Event, ForwardSimulation, Gauss4, Gauss6, Integrator, LengthMismatch, LinkState, Occurrence, Ode,
@@ -123,7 +124,7 @@ fn a_body_without_a_moment_turns_over_as_jacobis_functions_do() {
         let (t, state) = step.end();
         let now = copy.split(state);
         let v = Vector3::from(now.v);
-        worst = worst.max((v - expected(t)).norm());
+        worst = Real::maximum(worst, (v - expected(t)).norm());
         turned = turned.max((momentum(&now) - before).norm() / before.norm());
         about += integral(rate_about_momentum, step.start().0, t);
         let placed = axes_of_momentum * in_momentum(t, about) * principal.transpose();
@@ -206,7 +207,7 @@ fn a_heavy_top_keeps_energy_vertical_angular_momentum_and_spin() {
         let now = copy.split(step.end().1);
         let after = top.integrals(&now.q, &now.v);
         for ((worst, before), after) in worst.iter_mut().zip(before).zip(after) {
-            *worst = worst.max((after / before - 1.0).abs());
+            *worst = Real::maximum(*worst, (after / before - 1.0).abs());
         }
         let tilt = top.tilt(&now.q, &now.v);
         tilts = [tilts[0].min(tilt), tilts[1].max(tilt)];
@@ -282,9 +283,9 @@ fn a_floating_arm_without_gravity_keeps_its_momentum_and_its_energy() {
         let ((after, sizes), kinetic) = at(&now.q, &now.v);
         let errors = [0, 1].map(|i| (after[i] - before[i]).norm() / sizes[i]);
         for (worst, error) in worst.iter_mut().zip([errors[0], errors[1], (kinetic / energy - 1.0).abs()]) {
-            *worst = worst.max(error);
+            *worst = Real::maximum(*worst, error);
         }
-        moved = now.q[7..].iter().zip(&q[7..]).fold(moved, |most, (now, then)| most.max((now - then).abs()));
+        moved = now.q[7..].iter().zip(&q[7..]).fold(moved, |most, (now, then)| Real::maximum(most, (now - then).abs()));
         let length = now.q[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
         lengths = lengths.max((length - 1.0).abs());
     };
@@ -312,7 +313,7 @@ fn quaternions_keep_their_length_under_loose_methods() {
         let mut worst = 0.0_f64;
         let on_step = |step: &redysim::Step<'_, f64, _>| {
             let length = copy.split(step.end().1).q.iter().map(|x| x * x).sum::<f64>().sqrt();
-            worst = worst.max((length - 1.0).abs());
+            worst = Real::maximum(worst, (length - 1.0).abs());
         };
         let method = Ode45::new().rtol(tolerance).atol(1e-3 * tolerance);
         let end = method.each_step(&mut simulation, (0.0, 30.0), state, on_step).expect("it spins");
@@ -403,7 +404,7 @@ fn length_error(method: &impl Integrator<f64>) -> f64 {
     let mut worst = 0.0_f64;
     let on_step = |step: &redysim::Step<'_, f64, [f64; 8]>| {
         let length = step.end().1[..4].iter().map(|x| x * x).sum::<f64>().sqrt();
-        worst = worst.max((length - 1.0).abs());
+        worst = Real::maximum(worst, (length - 1.0).abs());
     };
     method.each_step(&mut Uncorrected(simulation), (0.0, 1.0), state, on_step).expect("it spins");
     worst
@@ -436,7 +437,7 @@ fn implicit_methods_agree_about_a_nodding_top() {
     let radau = end(&|ode| Radau5::new().rtol(1e-11).atol(1e-13).integrate(ode, (0.0, 2.0), state).expect("Radau").y);
     let gauss = end(&|ode| Gauss6::new(1e-3).integrate(ode, (0.0, 2.0), state).expect("Gauss").y);
     for (found, name) in [(radau, "Radau5"), (gauss, "Gauss6")] {
-        let error = found.iter().zip(&exact).fold(0.0_f64, |worst, (x, y)| worst.max((x - y).abs()));
+        let error = found.iter().zip(&exact).fold(0.0_f64, |worst, (x, y)| Real::maximum(worst, (x - y).abs()));
         println!("{name}: {error:.1e}");
         // Of velocities of 60 rad/s after 19 turns.
         assert!(error <= 1e-7, "{name}: {error:e}");

@@ -3,6 +3,7 @@
 //! Where the files come from: `tests/reference/README.md`.
 #![cfg(feature = "generic")]
 
+use redysim::Real;
 use redysim::{ForwardSimulation, Integrator, Ode45, TreeDynamics, Vector, ZeroTorque, redysim};
 
 redysim! { pub struct Kr5("models/kr5.toml"); }
@@ -49,7 +50,12 @@ fn free_fall<M: TreeDynamics<f64>>(mechanism: &M, reference: &str) -> Errors {
             let (time, row) = expected.next().expect("a row for every time");
             assert_eq!(t, *time);
             let now = copy.split(state);
-            let off = now.q.as_ref().iter().zip(row).fold(0.0_f64, |worst, (q, exact)| worst.max((q - exact).abs()));
+            let off = now
+                .q
+                .as_ref()
+                .iter()
+                .zip(row)
+                .fold(0.0_f64, |worst, (q, exact)| Real::maximum(worst, (q - exact).abs()));
             errors.coordinates = errors.coordinates.max(off);
             errors.coordinates_at_the_end = off;
             errors.energy = errors.energy.max((mechanism.energy(&now.q, &now.v).total() - at_rest).abs());

@@ -2,6 +2,7 @@
 #![cfg(feature = "generic")]
 
 use crate::common::models::generic;
+use redysim::Real;
 use redysim::generic::GenericMechanism;
 use redysim::{
     ConfigurationSpace, Cycloid, Dop853, ForwardDynamics, HybridMotion, HybridSimulation, IntegrationError, Integrator,
@@ -75,7 +76,7 @@ fn a_satellite_keeps_its_momentum_while_its_arm_follows_a_motion() {
     for part in &parts {
         let (momentum, now) = at(part);
         // Shares of the momentum of a satellite of 500 kg and 83.6 kg m².
-        let off = |now: [f64; 3], before: [f64; 3]| (0..3).map(|i| (now[i] - before[i]).abs()).fold(0.0, f64::max);
+        let off = |now: [f64; 3], before: [f64; 3]| (0..3).map(|i| (now[i] - before[i]).abs()).fold(0.0, Real::maximum);
         let [linear, angular] = [off(momentum.linear, linear) / 55.0, off(momentum.angular, angular) / 4.0];
         assert!(linear < 1e-12 && angular < 1e-12, "at {} s: {linear:e}, {angular:e}", part.0);
         assert!((now - energy).abs() < 1e-11 * energy, "at {} s: {now} instead of {energy} J", part.0);

@@ -2,6 +2,7 @@
 //! it passes an angle close to where it turns.
 #![cfg(feature = "generic")]
 
+use redysim::Real;
 use std::ops::ControlFlow;
 
 use redysim::{
@@ -38,7 +39,7 @@ fn passages(method: &impl Integrator<f64>) -> (Vec<f64>, Statistics) {
 fn worst(times: &[f64]) -> f64 {
     let exact = numbers(include_str!("../reference/exact_pendulum_crossings.csv"));
     assert_eq!((times.len(), exact.len()), (9, 9), "{times:?}");
-    times.iter().zip(exact).fold(0.0, |worst, (time, exact)| worst.max((time - exact[0]).abs()))
+    times.iter().zip(exact).fold(0.0, |worst, (time, exact)| Real::maximum(worst, (time - exact[0]).abs()))
 }
 
 #[test]

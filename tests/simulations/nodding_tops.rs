@@ -11,6 +11,7 @@ use super::free_bodies::{Top, rotation, turn};
 use crate::common::elliptic::jacobi;
 use crate::common::quadrature::integral;
 use nalgebra::Matrix3;
+use redysim::Real;
 use redysim::{Dop8, ForwardSimulation, Integrator, ZeroTorque};
 
 /// How a top starts, where it does not nod at that moment.
@@ -100,7 +101,7 @@ fn followed(start: Start) -> (f64, [f64; 2]) {
         [0, 1].iter().for_each(|&i| turned[i] += integral(|t| closed.rates(t)[i], from, t));
         let now = copy.split(state);
         let found = rotation(&top.body.link_kinematics(&now.q, &now.v)[0]);
-        worst = worst.max((found - closed.attitude(t, turned)).amax());
+        worst = Real::maximum(worst, (found - closed.attitude(t, turned)).amax());
         let tilt = closed.cosine(t).acos();
         tilts = [tilts[0].min(tilt), tilts[1].max(tilt)];
     };

@@ -3,6 +3,7 @@
 #![cfg(feature = "generic")]
 
 use super::free_fall_reference::Kr5;
+use redysim::Real;
 use redysim::integrate::FixedStep;
 use redysim::integrate::stability::{LinearStability, largest_stable_step};
 use redysim::{
@@ -105,7 +106,7 @@ fn implicit_methods_take_a_stiff_controller_in_hundreds_of_evaluations() {
     let radau = stiff(&Radau5::new().rtol(1e-6).atol_each(&tolerances), 1.0).expect("it is for this");
     let judge = stiff(&Radau5::new().rtol(1e-11).atol(1e-13), 1.0).expect("it is for this");
     for (name, solution) in [("Ode15s", bdf), ("Radau5", radau)] {
-        let error = (0..DOF).fold(0.0_f64, |worst, i| worst.max((solution.y[i] - judge.y[i]).abs()));
+        let error = (0..DOF).fold(0.0_f64, |worst, i| Real::maximum(worst, (solution.y[i] - judge.y[i]).abs()));
         println!("{name}: error {error:.1e} rad, {:?}", solution.statistics);
         assert!(error < 1e-5, "{name}: {error:.1e} rad");
         assert!(solution.statistics.evaluations < 900, "{name}: {} evaluations", solution.statistics.evaluations);

@@ -5,6 +5,7 @@
 use crate::common::methods::{WithMethod, every_adaptive};
 use crate::common::models::generic;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3, Vector4};
+use redysim::Real;
 use redysim::integrate::Tolerances;
 use redysim::{
     Dop853, ForwardDynamics, ForwardSimulation, Integrator, Mechanism, Ode, Statistics, Step, Vector,
@@ -160,7 +161,8 @@ fn the_error_of_an_orientation_is_proportional_to_the_tolerance() {
     }
     for name in ["Ode45", "Dop853", "Ode15s", "Radau5"] {
         let shares = proportional.errors.iter().filter(|(of, ..)| of == name).map(|(_, rtol, angle)| angle / rtol);
-        let (least, most) = shares.fold((f64::INFINITY, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
+        let (least, most) =
+            shares.fold((f64::INFINITY, 0.0_f64), |(least, most), x| (least.min(x), Real::maximum(most, x)));
         println!("{name}: {least:.1} to {most:.1} times the tolerance");
         assert!(most < 1e3 && most < 30.0 * least, "{name}: {least} to {most}");
     }

@@ -3,6 +3,7 @@
 
 use crate::common::models::generic;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use redysim::Real;
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{
     ConfigurationSpace, ConstantDirection, Cycloid, LengthMismatch, ManifoldSpline, Motion, TangentTrajectory,
@@ -56,7 +57,7 @@ fn splines(robot: &GenericMechanism) -> [(&'static str, Spline<'_>); 3] {
 
 /// The largest difference of components.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, Real::maximum)
 }
 
 /// Holds velocities and accelerations at `t` against differences of coordinates and velocities.
@@ -71,7 +72,8 @@ fn compare_with_differences(
     let v: Vec<f64> = robot.difference(&behind.q, &ahead.q).iter().map(|way| way / (2.0 * h)).collect();
     let a: Vec<f64> = ahead.v.iter().zip(&behind.v).map(|(ahead, behind)| (ahead - behind) / (2.0 * h)).collect();
     // Truncation h²/6 of third derivatives some hundred times as large, rounding 1e-15/h.
-    let tolerance = 2e-8 * here.v.iter().chain(&here.a).fold(1.0, |largest: f64, part| largest.max(part.abs()));
+    let tolerance =
+        2e-8 * here.v.iter().chain(&here.a).fold(1.0, |largest: f64, part| Real::maximum(largest, part.abs()));
     assert!(apart(&v, &here.v) < tolerance, "{name} at {t}: {v:?}, {:?}", here.v);
     assert!(apart(&a, &here.a) < tolerance, "{name} at {t}: {a:?}, {:?}", here.a);
 }
@@ -277,7 +279,7 @@ fn unrolled_splines_meet_a_smooth_motion_the_better_the_closer_its_points() {
         let points = times.iter().map(|&t| tumble(t)).collect();
         let spline = ManifoldSpline::minimum_jerk(&top, times, points).expect("a motion");
         let between = (0..count).map(|k| (f64::from(k) + 0.5) / f64::from(count));
-        between.map(|t| apart(&top.difference(&spline.at(t).q, &tumble(t)), &[0.0; 3])).fold(0.0, f64::max)
+        between.map(|t| apart(&top.difference(&spline.at(t).q, &tumble(t)), &[0.0; 3])).fold(0.0, Real::maximum)
     };
     let errors = [8, 16, 32].map(error);
     println!("{errors:?}");

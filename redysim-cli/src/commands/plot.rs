@@ -1,6 +1,6 @@
 //! `redysim plot RESULTS`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use redysim_figures::figure::{Figure, Panel};
 use redysim_figures::{plot, png};
@@ -46,27 +46,13 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
             pictures.push((folder.join(format!("{name}.png")), png::png(&figure).map_err(Failure::outside)?));
         }
     }
-    write(folder, &pictures, arguments.force)?;
+    let files: Vec<(PathBuf, &[u8])> =
+        pictures.iter().map(|(path, contents)| (path.clone(), contents.as_slice())).collect();
+    output::write_together(folder, &files, arguments.force)?;
     if !quiet {
         pictures.iter().for_each(|(path, _)| output::to_stdout(&path.display().to_string()));
     }
     Ok(())
-}
-
-/// Writes all of them, or none if one is there already or cannot be written.
-fn write(folder: &Path, pictures: &[(PathBuf, Vec<u8>)], force: bool) -> Result<(), Failure> {
-    pictures.iter().try_for_each(|(path, _)| output::check_place(path, force))?;
-    let made = !folder.is_dir();
-    output::make_folder(folder)?;
-    let fresh: Vec<&PathBuf> = pictures.iter().map(|(path, _)| path).filter(|path| !path.exists()).collect();
-    let written = pictures.iter().try_for_each(|(path, contents)| output::write_file(path, contents, force));
-    written.inspect_err(|_| {
-        // That something of this cannot be undone is no news beside the failure.
-        fresh.iter().for_each(|path| drop(std::fs::remove_file(path)));
-        if made {
-            let _ = std::fs::remove_dir(folder);
-        }
-    })
 }
 
 /// The charts below each other: energies together, as parts of one sum; other curves by groups and sizes.

@@ -30,7 +30,7 @@ pub enum Trajectory {
         /// The speed, rad/s or m/s.
         speed: Values,
     },
-    /// The motion of least jerk through points: [`redysim_runtime::ManifoldSpline::minimum_jerk`].
+    /// A motion of small jerk through points, of least jerk for joints of one coordinate: [`redysim_runtime::ManifoldSpline::minimum_jerk`].
     MinimumJerk {
         /// The joints.
         joints: Option<Vec<String>>,

@@ -35,7 +35,7 @@ pub struct Prescribed {
 
 #[derive(Clone, Debug)]
 enum Path {
-    /// Of joints of one coordinate, which ends at its very end.
+    /// Of joints of one coordinate; its last position is `to` exactly.
     Cycloid(Cycloid<f64, Vec<f64>>),
     Screw(Screw<Cycloid<f64, [f64; 1]>>),
     ConstantSpeed(Screw<TimeLaw>),

@@ -38,6 +38,14 @@ struct Drawn {
 /// # Errors
 /// Every fault of the text at once, or the first of what it names.
 pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<Study, Failure> {
+    let is_scenario =
+        |table: &Table| table.contains_key(scenario_keys::MODEL.name) && !table.contains_key(keys::SCENARIO.name);
+    if text.parse::<Table>().is_ok_and(|table| is_scenario(&table)) {
+        let failure = Failure::input(format!("{shown} is a scenario, not a study"));
+        return Err(
+            failure.help(format!("a study names it, and what varies: scenario = \"{shown}\" and a table [over]"))
+        );
+    }
     let read = redysim_toml::read(text, shown, &keys::STUDY, "the study", |reader| written(reader, usual));
     let (written, _) = read.map_err(Failure::input)?;
     let (places, samples) = samples(&written, folder)?;

@@ -106,10 +106,21 @@ impl<'a> Document<'a> {
             }
         }
         self.check_origin(&item, joint)?;
-        child(joint, "axis").map_or(Ok(()), |axis| self.numbers(&item, axis, "xyz", 3, true))?;
+        child(joint, "axis").map_or(Ok(()), |axis| self.check_axis(&item, joint, axis))?;
         child(joint, "limit").map_or(Ok(()), |limit| self.check_limit(&item, limit))?;
         child(joint, "dynamics").map_or(Ok(()), |dynamics| self.check_dynamics(&item, dynamics))?;
         child(joint, "mimic").map_or(Ok(()), |mimic| self.check_mimic(&item, mimic))
+    }
+
+    fn check_axis(&self, item: &str, joint: Node, axis: Node) -> Result<(), Failure> {
+        self.numbers(item, axis, "xyz", 3, true)?;
+        let is_zero = |text: &str| text.split_whitespace().all(|word| word.parse::<f64>().is_ok_and(|x| x == 0.0));
+        // That of other joints is an axis of the model, which is checked there.
+        if joint.attribute("type") == Some("planar") && axis.attribute("xyz").is_some_and(is_zero) {
+            let message = format!("{item}: its `axis`, the normal of the plane in which it moves, is zero");
+            return Err(self.fault(axis, message).help("give a direction, as in xyz=\"0 0 1\""));
+        }
+        Ok(())
     }
 
     /// Limits may be infinite.
@@ -275,6 +286,10 @@ fn broken(file: &str, error: &roxmltree::Error) -> Failure {
     // The parser's message ends with the position that stands in front here.
     let (message, place) = (error.to_string(), error.pos());
     let message = message.strip_suffix(&format!(" at {place}")).unwrap_or(&message);
-    Failure::input(format!("{file}:{}:{}: XML: {message}", place.row, place.col))
-        .help("a URDF is an XML file: correct it first")
+    let help = if file.ends_with(".toml") {
+        format!("a URDF is an XML file; a model in TOML is not imported: redysim check {file}")
+    } else {
+        "a URDF is an XML file: correct it first".into()
+    };
+    Failure::input(format!("{file}:{}:{}: XML: {message}", place.row, place.col)).help(help)
 }

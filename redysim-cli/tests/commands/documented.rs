@@ -181,6 +181,11 @@ fn the_commands_of_the_chapter_on_microcontrollers_run() {
 }
 
 #[test]
+fn the_commands_of_the_chapter_on_robots_that_float_and_walk_run() {
+    run_all("documented-floating", "docs/floating_and_walking.md", 7);
+}
+
+#[test]
 #[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_scenarios_of_the_chapter_on_controllers_end_where_its_table_has_them() {
     let (folder, text) = run_all("documented-controllers", "docs/controllers.md", 15);

@@ -9,6 +9,7 @@ use kinematics::{Numbers, positions, tree, urdf};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use redysim_model::joint::JointPhysics;
 use redysim_model::{GenericMechanism, JointRange, Model};
+use redysim_runtime::Real;
 use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy, Mechanism};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -115,7 +116,7 @@ fn fusing_changes_nothing_that_moves() {
         let n = kept.tree().nv();
         let [q, v, a] = [0; 3].map(|_| (0..n).map(|_| numbers.within(3.0)).collect::<Vec<f64>>());
         let forces = (kept.inverse_dynamics(&q, &v, &a), fused.inverse_dynamics(&q, &v, &a));
-        let largest = forces.0.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let largest = forces.0.iter().fold(0.0_f64, |most, x| Real::maximum(most, x.abs()));
         for (a, b) in forces.0.iter().zip(&forces.1) {
             assert!((a - b).abs() < 1e-12 * largest, "{:?}", forces);
         }
@@ -420,6 +421,16 @@ fn a_planar_joint_of_a_urdf_moves_its_link_across_the_axis_and_turns_it_about_th
         let expected = Rotation3::from_axis_angle(&Unit::new_normalize(normal_here), 0.9) * turned([0.0; 3]);
         assert!((turned([0.3, -0.4, 0.9]) - expected).amax() < 1e-15, "{axis}: {expected}");
     }
+}
+
+#[test]
+fn a_planar_joint_whose_normal_is_zero_is_one_error_at_its_axis() {
+    let urdf = pendulum("<axis xyz=\"0 0.0 -0\"/>", BODY).replace("continuous", "planar");
+    let folder = scratch("import-planar-zero");
+    fs::write(folder.join("robot.urdf"), urdf).unwrap();
+    let shown = fail(&folder, &["import", "robot.urdf"], 1);
+    assert!(shown.contains("the normal of the plane in which it moves, is zero") && !shown.contains("NaN"), "{shown}");
+    assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
 }
 
 #[test]

@@ -291,3 +291,12 @@ fn another_study_and_what_is_no_study_are_kept() {
     let error = fail(&folder, &["sweep", "study.toml", "--output", "."], 3);
     assert!(error.contains("is not the folder of a study"), "{error}");
 }
+
+#[test]
+fn a_scenario_in_place_of_a_study_is_one_error_that_names_both() {
+    let folder = scratch("sweep-scenario");
+    scenario(&folder, "two_link.toml", FALL);
+    let shown = fail(&folder, &["sweep", "trial.toml"], 1);
+    assert!(shown.contains("trial.toml is a scenario, not a study") && shown.contains("[over]"), "{shown}");
+    assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
+}

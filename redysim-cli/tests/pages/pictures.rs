@@ -1,5 +1,6 @@
 //! What the pictures of `redysim plot` look like: texts, axes and curves in their places.
 
+use redysim_runtime::Real;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -172,7 +173,7 @@ fn every_torque_of_the_kr5_is_seen_beside_those_that_are_larger() {
     let panel = height(panels(&svg)[0]);
     for colour in PALETTE {
         // Samples in the legend have no height.
-        let tallest = lines(&svg, colour).into_iter().map(height).fold(0.0, f64::max);
+        let tallest = lines(&svg, colour).into_iter().map(height).fold(0.0, Real::maximum);
         assert!(tallest > 0.1 * panel, "{colour}: {tallest} of {panel}");
     }
 }

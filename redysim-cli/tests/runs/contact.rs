@@ -1,5 +1,6 @@
 //! Runs on the ground: motion against a separate integration, tables, the balance of energy, and refusals.
 
+use redysim_runtime::Real;
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 use std::path::Path;
@@ -68,7 +69,7 @@ fn a_parcel_falls_on_four_corners_as_in_a_separate_integration() {
         let state = Table::csv(&folder.join("run/statevar.csv"));
         assert_eq!(state.rows.len(), reference.len());
         let errors = state.rows.iter().zip(&reference).map(|(row, height)| (row[3] - 0.1 - height).abs());
-        let worst = errors.fold(0.0, f64::max);
+        let worst = errors.fold(0.0, Real::maximum);
         assert!(worst < tolerance, "{name}: {worst}");
         assert!(reference.iter().filter(|height| **height < 0.0).count() > 5, "it touches down");
     }
@@ -228,7 +229,7 @@ fn a_coupler_of_a_four_bar_that_touches_the_ground_keeps_the_balance_of_energy()
     let output = succeed(&folder, &["forward", "trial.toml", "-o", "run"]);
     assert!(output.contains("1 contact, 1 touch-down"), "{output}");
     let energy = Table::csv(&folder.join("run/energy.csv"));
-    let exchanged = energy.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    let exchanged = energy.rows.iter().map(|row| row[1]).fold(0.0, Real::maximum);
     for row in &energy.rows {
         let [kinetic, potential, total, work, drift, ground, loss] = row[1..].try_into().unwrap();
         assert!((kinetic + potential + ground - total).abs() < 1e-12 && work == 0.0, "{row:?}");
@@ -342,7 +343,7 @@ fn the_hexapod_stands_and_its_feet_carry_its_weight() {
     assert!(output.contains("6 contacts, 0 touch-downs"), "{output}");
     let state = Table::csv(&folder.join("run/statevar.csv"));
     let moved = state.rows.iter().flat_map(|row| [row[1], row[2] - 0.513, row[3], row[4], row[5], row[6]]);
-    assert!(moved.map(f64::abs).fold(0.0, f64::max) < 5e-3, "it stands");
+    assert!(moved.map(f64::abs).fold(0.0, Real::maximum) < 5e-3, "it stands");
     let contacts = Table::csv(&folder.join("run/contacts.csv"));
     let normals = |row: &Vec<f64>| (0..6).map(|foot| row[4 + 6 * foot]).sum::<f64>();
     let carried = normals(contacts.rows.last().unwrap());
@@ -415,7 +416,7 @@ fn the_biped_walks_a_metre_upright_on_stiff_ground() {
     succeed(&folder, &["forward", "walks.toml", "-o", "run", "--quiet"]);
     let state = Table::csv(&folder.join("run/statevar.csv"));
     let tilts = state.rows.iter().map(|row| 2.0 * f64::atan2(row[6], row[7]) + FRAC_PI_2);
-    let most = tilts.fold(0.0, |most: f64, tilt| most.max(tilt.abs())).to_degrees();
+    let most = tilts.fold(0.0, |most: f64, tilt| Real::maximum(most, tilt.abs())).to_degrees();
     assert!(most < 0.1, "{most}");
     let way = state.rows.last().unwrap()[1] - state.rows[0][1];
     assert!((way - 1.0).abs() < 0.003, "{way}");

@@ -7,6 +7,7 @@ mod kane;
 #[path = "../../../tests/common/kane_loops.rs"]
 mod kane_loops;
 
+use redysim_runtime::Real;
 use std::fs;
 use std::path::Path;
 
@@ -160,8 +161,8 @@ impl Written {
                 of_loops.fold(DVector::zeros(dof), |sum, force| sum - force),
                 of_ground.fold(DVector::zeros(dof), |sum, force| sum - force),
             ];
-            largest = terms.iter().fold(largest, |most, term| most.max(term.amax()));
-            worst = worst.max(terms.into_iter().sum::<DVector<f64>>().amax());
+            largest = terms.iter().fold(largest, |most, term| Real::maximum(most, term.amax()));
+            worst = Real::maximum(worst, terms.into_iter().sum::<DVector<f64>>().amax());
         }
         worst / largest
     }

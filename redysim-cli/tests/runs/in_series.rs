@@ -1,5 +1,6 @@
 //! Runs of joints that are several of one freedom in series: names and units, how a scenario gives them, and their motion.
 
+use redysim_runtime::Real;
 use std::fs;
 
 use crate::common::{Table, call, fail, scenario, scratch, succeed};
@@ -38,8 +39,8 @@ fn joints_in_series_keep_the_balance_of_energy_under_a_law() {
     let path = scenario(&folder, MODEL, rest);
     succeed(&folder, &["forward", &path, "-o", "run", "--quiet"]);
     let energy = Table::csv(&folder.join("run/energy.csv"));
-    let exchanged = energy.rows.iter().map(|row| row[4].abs()).fold(0.0, f64::max);
-    let drift = energy.rows.iter().map(|row| row[5].abs()).fold(0.0, f64::max);
+    let exchanged = energy.rows.iter().map(|row| row[4].abs()).fold(0.0, Real::maximum);
+    let drift = energy.rows.iter().map(|row| row[5].abs()).fold(0.0, Real::maximum);
     assert!(exchanged > 1.0, "the law works: {exchanged} J");
     assert!(drift < 1e-9 * exchanged, "{drift:e} of {exchanged} J");
     // The probe and the wrist have no actuator for all their velocities, so that the law leaves them alone.

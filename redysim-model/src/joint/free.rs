@@ -29,12 +29,6 @@ pub fn coordinate_rates<S: Scalar>(q: &[S], v: &[S], rates: &mut [S]) {
     set(rates, quaternion::rotation(orientation) * three(v), quaternion::rates(orientation, three(&v[3..])));
 }
 
-pub fn velocities<S: Scalar>(q: &[S], rates: &[S], v: &mut [S]) {
-    let ((_, orientation), (velocity, rates)) = (parts(q), parts(rates));
-    let linear = quaternion::rotation(orientation).transpose() * velocity;
-    set(v, linear, quaternion::angular_velocity(orientation, rates).0);
-}
-
 /// The exponential of SE(3).
 pub fn integrate<S: Scalar>(q: &[S], dv: &[S], moved: &mut [S]) {
     let ((position, orientation), u, w) = (parts(q), three(dv), three(&dv[3..]));

@@ -12,11 +12,6 @@ pub fn coordinate_rates<S: Scalar>(v: &[S], rates: &mut [S]) {
     rates.copy_from_slice(v);
 }
 
-/// The inverse of N(q) v = v.
-pub fn velocities<S: Scalar>(rates: &[S], v: &mut [S]) {
-    v.copy_from_slice(rates);
-}
-
 /// q + dv.
 pub fn integrate<S: Scalar>(q: &[S], dv: &[S], moved: &mut [S]) {
     for (moved, (&q, &dv)) in moved.iter_mut().zip(q.iter().zip(dv)) {

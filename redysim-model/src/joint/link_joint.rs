@@ -110,15 +110,6 @@ impl LinkJoint {
         }
     }
 
-    /// The velocities at which its coordinates have these rates: the inverse of
-    /// [`coordinate_rates`](LinkJoint::coordinate_rates).
-    pub fn velocities<S: Scalar>(self, q: &[S], rates: &[S], v: &mut [S]) {
-        match self {
-            LinkJoint::Single(joint) => joint.velocities(q, rates, v),
-            LinkJoint::Series(_) => linear::velocities(rates, v),
-        }
-    }
-
     /// q ⊞ dv: where the joint is after a unit of time at the velocity `dv`.
     pub fn integrate<S: Scalar>(self, q: &[S], dv: &[S], moved: &mut [S]) {
         match self {

@@ -157,16 +157,6 @@ impl Joint {
         }
     }
 
-    /// The velocities at which its coordinates have these rates: the inverse of
-    /// [`coordinate_rates`](Joint::coordinate_rates).
-    pub fn velocities<S: Scalar>(self, q: &[S], rates: &[S], v: &mut [S]) {
-        match self {
-            Joint::Revolute | Joint::Prismatic | Joint::Helical { .. } => linear::velocities(rates, v),
-            Joint::Spherical => spherical::velocities(q, rates, v),
-            Joint::Free => free::velocities(q, rates, v),
-        }
-    }
-
     /// q ⊞ dv: where the joint is after a unit of time at the velocity `dv`.
     pub fn integrate<S: Scalar>(self, q: &[S], dv: &[S], moved: &mut [S]) {
         match self {

@@ -92,12 +92,6 @@ pub fn rates<S: Scalar>(q: Quaternion<S>, angular: Vec3<S>) -> Quaternion<S> {
     whole(half.scale(w) + v.fused_cross(half), -v.fused_dot(half))
 }
 
-/// ω = 2 q⁻¹ q̇, the angular velocity in the turned axes.
-pub fn angular_velocity<S: Scalar>(q: Quaternion<S>, rates: Quaternion<S>) -> Vec3<S> {
-    let (vector, _) = parts(product(conjugate(q), rates));
-    vector.scale(S::from_f64(2.0) / square(q))
-}
-
 /// The exponential of SO(3), and what a rigid motion needs of it.
 pub struct Exponential<S> {
     /// The unit quaternion of the rotation by |w| about w.

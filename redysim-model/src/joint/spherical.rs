@@ -26,10 +26,6 @@ pub fn coordinate_rates<S: Scalar>(q: &[S], v: &[S], rates: &mut [S]) {
     rates.copy_from_slice(&quaternion::rates(four(q), three(v)));
 }
 
-pub fn velocities<S: Scalar>(q: &[S], rates: &[S], v: &mut [S]) {
-    v.copy_from_slice(&quaternion::angular_velocity(four(q), four(rates)).0);
-}
-
 pub fn integrate<S: Scalar>(q: &[S], dv: &[S], moved: &mut [S]) {
     moved.copy_from_slice(&quaternion::turned(four(q), quaternion::exponential(three(dv)).quaternion));
 }

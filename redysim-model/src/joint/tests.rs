@@ -185,16 +185,6 @@ fn the_rates_of_coordinates_are_the_derivative_of_their_motion() {
 }
 
 #[test]
-fn velocities_are_found_from_the_rates_of_coordinates() {
-    for motion in motions() {
-        let Motion { joint, q, v } = &motion;
-        let mut found = vec![f64::NAN; joint.nv()];
-        joint.velocities(q, &rates(*joint, q, v), &mut found);
-        motion.assert_near(&found, v, 1e-15);
-    }
-}
-
-#[test]
 fn the_difference_of_two_positions_leads_from_one_to_the_other() {
     for motion in motions() {
         let mut back = vec![f64::NAN; motion.joint.nv()];

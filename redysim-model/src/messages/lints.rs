@@ -144,6 +144,11 @@ pub(crate) fn large_radius(item: &str, radius: f64, size: f64) -> Message {
     radius_of_gyration(item, radius, format!("in a mechanism of {} m", rounded(size)), "too large for its mass")
 }
 
+pub(crate) fn large_radius_of_link(item: &str, radius: f64, size: f64) -> Message {
+    let why = format!("but its joints, frames and centre of mass are within {} m of its frame", rounded(size));
+    radius_of_gyration(item, radius, why, "too large for its mass")
+}
+
 pub(crate) fn small_radius(item: &str, radius: f64, size: f64) -> Message {
     radius_of_gyration(item, radius, format!("in a mechanism of {} m", rounded(size)), "too small for its mass")
 }

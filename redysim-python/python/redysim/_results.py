@@ -228,13 +228,22 @@ class Motion(Recording):
             self.tables["lambda"] = Table(t, rows, found["multipliers"])
 
     def page(self) -> str:
-        with tempfile.TemporaryDirectory(prefix="redysim-") as folder:
-            (Path(folder) / "model.toml").write_text(self.mechanism.to_toml(), encoding="utf-8")
-            for name, table in self.tables.items():
-                rows = np.column_stack([table.t, table.values])
-                header = ",".join(["t [s]", *table.headers])
-                np.savetxt(Path(folder) / f"{name}.csv", rows, "%.17g", ",", header=header, comments="")
-            return _core.page(folder)
+        try:
+            with tempfile.TemporaryDirectory(prefix="redysim-") as folder:
+                self._write(Path(folder))
+                return _core.page(folder)
+        except OSError as error:
+            message = f"error: cannot write temporary files in {tempfile.gettempdir()}: {error}"
+            help = "make room there, or name another folder by the environment variable TMPDIR"
+            raise _core.RedysimError(f"{message}\n  = help: {help}") from error
+
+    def _write(self, folder: Path) -> None:
+        """The tables of the motion, as a run leaves them."""
+        (folder / "model.toml").write_text(self.mechanism.to_toml(), encoding="utf-8")
+        for name, table in self.tables.items():
+            rows = np.column_stack([table.t, table.values])
+            header = ",".join(["t [s]", *table.headers])
+            np.savetxt(folder / f"{name}.csv", rows, "%.17g", ",", header=header, comments="")
 
     def __repr__(self) -> str:
         return f"<redysim.Motion of {len(self.t)} instants until {self.t[-1]} s, {len(self.events)} events>"
@@ -310,13 +319,16 @@ class Scenario:
         return f"<redysim.Scenario {str(self.path)!r}: {', '.join(self.runs)}>"
 
 
-def in_temporary_folder(make, name):
-    """What `make` finds in a temporary folder of this name, which is kept as long as that is."""
+def in_temporary_folder(make, name, worth_keeping=lambda folder: False):
+    """What `make` finds in a temporary folder of this name, which is kept as long as that is; and where `make` fails, if
+    what is in it is `worth_keeping`."""
     temporary = tempfile.mkdtemp(prefix="redysim-")
+    folder = Path(temporary) / name
     try:
-        found = make(Path(temporary) / name)
+        found = make(folder)
     except BaseException:
-        shutil.rmtree(temporary, ignore_errors=True)
+        if not worth_keeping(folder):
+            shutil.rmtree(temporary, ignore_errors=True)
         raise
     weakref.finalize(found, shutil.rmtree, temporary, ignore_errors=True)
     return found

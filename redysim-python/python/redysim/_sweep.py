@@ -98,7 +98,8 @@ def sweep(
     jobs : int, optional
         How many processes; by default one for each core.
     folder : str or os.PathLike, optional
-        The folder of the study; by default a temporary one, which is kept as long as the result.
+        The folder of the study; by default a temporary one, which is kept as long as the result, and if the call
+        is interrupted or fails after some samples: a warning then names it.
     format : {"csv", "parquet"}
         With "parquet", the folder `rows` in it has the rows in parts of Parquet, too. Needs pyarrow.
     force : bool
@@ -113,6 +114,10 @@ def sweep(
     """
     if format not in ("csv", "parquet"):
         raise ValueError(f'format must be "csv" or "parquet", not {format!r}')
+    if jobs is not None and jobs < 1:
+        raise ValueError(f"jobs must be 1 or more, not {jobs}")
+    if jobs is not None and executor is not None:
+        raise ValueError("jobs is the number of processes here: leave it out where there is an executor")
     path = Path(scenario.path if isinstance(scenario, Scenario) else scenario)
     if over is None and samples is None:
         study = _core.Study.load(path)
@@ -125,7 +130,18 @@ def sweep(
     def computed(folder: Path) -> Sweep:
         return in_folder(folder, study, executor, jobs, format, force, progress)
 
-    return in_temporary_folder(computed, "sweep") if folder is None else computed(Path(folder))
+    return in_temporary_folder(computed, "sweep", has_rows) if folder is None else computed(Path(folder))
+
+
+def has_rows(folder: Path) -> bool:
+    """Whether samples of a study are in a folder, which the user then is told of."""
+    try:
+        count = (folder / "rows.csv").read_bytes().count(b"\n") - 1
+    except OSError:
+        return False
+    if count > 0:
+        warnings.warn(f"{count} samples are kept: give folder={str(folder)!r} to go on with them", stacklevel=4)
+    return count > 0
 
 
 def in_folder(folder, study, executor, jobs, format, force, progress) -> Sweep:

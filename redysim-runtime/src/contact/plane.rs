@@ -2,7 +2,7 @@
 
 use super::ContactError;
 use crate::Real;
-use crate::linear_algebra::{add_scaled, dot, norm};
+use crate::linear_algebra::{add_scaled, cross, dot, norm};
 
 /// The ground: the half space below a plane.
 ///
@@ -117,10 +117,6 @@ impl<S: Real> GroundPlane<S> {
 fn direction<S: Real>(vector: [S; 3]) -> [S; 3] {
     let length = norm(&vector);
     vector.map(|component| component / length)
-}
-
-fn cross<S: Real>([ax, ay, az]: [S; 3], [bx, by, bz]: [S; 3]) -> [S; 3] {
-    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
 #[cfg(test)]

@@ -68,7 +68,7 @@ where
         (q, v): (&M::Coordinates, &M::Velocities),
         (dq, dv): (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
-        let de = error_slope(self.mechanism, q, &self.trajectory.at(t).q, dq);
+        let de = error_slope(self.mechanism, q, &self.trajectory.at(t).q, dq)?;
         let a = self.acceleration(t, q, v);
         let da = spring_and_damper(&self.kp, &self.kd, &de, dv);
         self.mechanism.inverse_dynamics_tangent((q, v, &a), (dq, dv, &da))

@@ -19,10 +19,11 @@
 //! written `[50.0; Kr5::NV]`, or for any mechanism [`uniform`]. A simulation checks the lengths of gains and targets
 //! before it starts ([`TorqueLaw::check_lengths`]).
 //!
-//! For a constant set point q_d and equal gains along the axes of a rotation, the springs have the potential ½ Kp |e|²,
-//! and an isolated body comes to rest at its target from almost everywhere. At half a turn, |e| = π, the shorter way
-//! changes and the moment with it: the attitudes at which a continuous law cannot decide (S. P. Bhat and D. S. Bernstein,
-//! *A topological obstruction to continuous global stabilization of rotational motion*, Syst. Control Lett. 39, 2000).
+//! For a constant set point of a spherical joint and equal gains, the springs have the potential ½ Kp |e|², and with dampers
+//! an isolated body comes to rest at its target from almost every state. At half a turn, |e| = π, the moment is
+//! discontinuous; no continuous law stabilises an orientation globally (S. P. Bhat and D. S. Bernstein, *A topological
+//! obstruction to continuous global stabilization of rotational motion*, Syst. Control Lett. 39, 2000). Of a free joint e is
+//! the logarithm of SE(3), whose linear part is coupled to the rotation; its springs have no potential in general.
 
 mod computed_torque;
 mod hybrid_computed_torque;

@@ -34,7 +34,7 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Proportional<M::Coor
         (q, _): (&M::Coordinates, &M::Velocities),
         (dq, _): (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
-        Some(spring(&self.kp, &error_slope(mechanism, q, &self.target, dq)))
+        Some(spring(&self.kp, &error_slope(mechanism, q, &self.target, dq)?))
     }
 }
 
@@ -68,7 +68,7 @@ impl<S: Real, M: ConfigurationSpace<S>> TorqueLaw<S, M> for Pd<M::Coordinates, M
         (q, _): (&M::Coordinates, &M::Velocities),
         (dq, dv): (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
-        Some(spring_and_damper(&self.kp, &self.kd, &error_slope(mechanism, q, &self.target, dq), dv))
+        Some(spring_and_damper(&self.kp, &self.kd, &error_slope(mechanism, q, &self.target, dq)?, dv))
     }
 }
 
@@ -117,7 +117,7 @@ where
         (dq, dv): (&M::Coordinates, &M::Velocities),
     ) -> Option<M::Velocities> {
         let target = self.trajectory.at(t).q;
-        Some(spring_and_damper(&self.kp, &self.kd, &error_slope(mechanism, q, &target, dq), dv))
+        Some(spring_and_damper(&self.kp, &self.kd, &error_slope(mechanism, q, &target, dq)?, dv))
     }
 }
 

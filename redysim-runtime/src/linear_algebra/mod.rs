@@ -34,6 +34,11 @@ pub fn dot<S: Scalar>(a: &[S], b: &[S]) -> S {
     a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
 }
 
+/// a × b.
+pub fn cross<S: Scalar>([a, b, c]: [S; 3], [x, y, z]: [S; 3]) -> [S; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
 /// The Euclidean length.
 pub fn norm<S: Scalar>(x: &[S]) -> S {
     dot(x, x).sqrt()

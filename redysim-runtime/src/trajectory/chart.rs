@@ -1,17 +1,14 @@
-//! Coordinates about a point, as many as velocities, in which a motion is a motion of numbers.
-//!
-//! They are the coordinates of joints of one coordinate, the position of a free joint, and of an orientation the rotation
-//! vector that leads there from that at the point, in the axes of the point.
+//! A local chart at a position, with one coordinate for each velocity: the model's coordinate for joints of one coordinate and
+//! for positions, and for an orientation the rotation vector from that of the position, in its axes.
 
 use super::Motion;
-use crate::exponential::{cross, inverse_right_jacobian, mapped, orientations, right_jacobian, set, turned};
-use crate::linear_algebra::zeros;
+use crate::exponential::{inverse_right_jacobian, mapped, orientations, right_jacobian, set, turned};
+use crate::linear_algebra::{cross, zeros};
 use crate::tangent::velocities;
 use crate::vector::entry;
 use crate::{ConfigurationSpace, Mechanism, Real, Vector, VelocityCoordinates};
 
-/// The coordinate that is itself one of the coordinates about a point, in the place of velocity `index`; `None` of
-/// displacements.
+/// The coordinate of the model that the chart uses for velocity `index`; `None` for a component of a rotation vector.
 pub(super) fn own_coordinate(mechanism: &impl Mechanism, index: usize) -> Option<usize> {
     let kind = mechanism.coordinates_of_velocity(index);
     match kind {
@@ -26,7 +23,7 @@ pub(super) fn own_coordinate(mechanism: &impl Mechanism, index: usize) -> Option
     }
 }
 
-/// The coordinates of `q` about `point`.
+/// The coordinates of `q` in the chart at `point`.
 pub(super) fn coordinates<S: Real, M: ConfigurationSpace<S>>(
     mechanism: &M,
     point: &M::Coordinates,
@@ -36,20 +33,20 @@ pub(super) fn coordinates<S: Real, M: ConfigurationSpace<S>>(
     M::Velocities::from_fn(mechanism.nv(), |i| own_coordinate(mechanism, i).map_or(entry(&way, i), |own| entry(q, own)))
 }
 
-/// The displacements among coordinates about a point, those of orientations; zero for the others.
+/// The rotation vectors among coordinates of a chart; zero for the others.
 fn displacements<S: Real, V: Vector<S>>(mechanism: &impl Mechanism, x: &V) -> V {
     V::from_fn(mechanism.nv(), |i| if own_coordinate(mechanism, i).is_some() { S::zero() } else { entry(x, i) })
 }
 
-/// `x`, which belongs to coordinates about a point, with its vectors in the axes before the rotations `along`.
-pub(super) fn turned_back<S: Real, V: Vector<S>>(mechanism: &impl Mechanism, along: &V, x: &V) -> V {
+/// `x`, one number for each coordinate of a chart, with its vectors in the axes before the rotations `along`.
+pub(super) fn in_axes_before<S: Real, V: Vector<S>>(mechanism: &impl Mechanism, along: &V, x: &V) -> V {
     let (along, moved) = (displacements(mechanism, along), displacements(mechanism, x));
-    let still = zeros(mechanism.nv());
-    let (moved, _) = mapped(mechanism, turned, (&along, &still), (&moved, &still));
+    let zero = zeros(mechanism.nv());
+    let (moved, _) = mapped(mechanism, turned, (&along, &zero), (&moved, &zero));
     V::from_fn(mechanism.nv(), |i| if own_coordinate(mechanism, i).is_some() { entry(x, i) } else { entry(&moved, i) })
 }
 
-/// The motion whose coordinates about `point` move as `x`.
+/// The motion whose coordinates in the chart at `point` move as `x`.
 pub(super) fn motion<S: Real, M: ConfigurationSpace<S>>(
     mechanism: &M,
     point: &M::Coordinates,
@@ -78,7 +75,7 @@ pub(super) fn motion<S: Real, M: ConfigurationSpace<S>>(
     Motion { q, v, a }
 }
 
-/// How the coordinates about `point` move in the motion `motion`: the inverse of [`motion`].
+/// How the coordinates in the chart at `point` move: the inverse of [`motion`].
 pub(super) fn motion_about<S: Real, M: ConfigurationSpace<S>>(
     mechanism: &M,
     point: &M::Coordinates,
@@ -86,8 +83,8 @@ pub(super) fn motion_about<S: Real, M: ConfigurationSpace<S>>(
 ) -> Motion<M::Velocities, M::Velocities> {
     let x = coordinates(mechanism, point, q);
     let [way, of_v, of_a] = [&x, v, a].map(|part| displacements(mechanism, part));
-    let still = zeros(mechanism.nv());
-    let (mut rates, _) = mapped(mechanism, inverse_right_jacobian, (&way, &still), (&of_v, &still));
+    let zero = zeros(mechanism.nv());
+    let (mut rates, _) = mapped(mechanism, inverse_right_jacobian, (&way, &zero), (&of_v, &zero));
     let (_, mut second) = mapped(mechanism, inverse_right_jacobian, (&way, &rates), (&of_v, &of_a));
     // Of a free joint, ẋ = R v.
     let of_turning = turning(mechanism, v);

@@ -22,16 +22,16 @@ use crate::{ConfigurationSpace, LengthMismatch, Real, Vector, VelocityCoordinate
 /// stands there. q(t) is twice continuously differentiable.
 ///
 /// [`through`](Self::through) takes velocities and accelerations as they are. [`minimum_jerk`](Self::minimum_jerk) and
-/// [`cubic`](Self::cubic) find those of [`ViaPoints`] for the points unrolled: the rotation vectors φₖ from each orientation
-/// to the next, laid end to end in one tangent space, to which parallel transport along these rotations takes them (by
-/// half their angles); it takes the velocities and accelerations back. So of rotations about one axis each is the scalar
-/// spline of their angle, all turn with the base, and none depends on the first axes. Jerk and snap of other rotations
-/// jump at the points by products of small rotations. P. E. Jupp and J. T. Kent, *Fitting smooth paths to spherical data*,
+/// [`cubic`](Self::cubic) find them by unrolling: the rotation vectors φₖ between successive orientations are transported in
+/// parallel to the tangent space of the first point and added, the spline of [`ViaPoints`] through these sums is computed, and
+/// its velocities and accelerations are transported back. Parallel transport along φ rotates by −φ/2 in the axes of the link.
+/// For rotations about one axis the result is the scalar spline of the angle. It does not depend on the base frame. For other
+/// rotations, jerk and snap are discontinuous at the points. P. E. Jupp and J. T. Kent, *Fitting smooth paths to spherical data*,
 /// Appl. Statist. 36 (1987); K. Hüper and F. Silva Leite, *On the geometry of rolling and interpolation curves on Sⁿ, SOₙ,
 /// and Grassmann manifolds*, J. Dyn. Control Syst. 13 (2007).
 ///
-/// Quaternions have length 1. A quaternion and its negative are the same orientation: each point takes that nearer to the
-/// point before it.
+/// Quaternions are scaled to length 1. A quaternion and its negative are the same orientation: each point takes that nearer
+/// to the point before it.
 ///
 /// ```
 /// # #[allow(dead_code)]
@@ -75,7 +75,7 @@ where
         check_times(&times, points.as_ref().len())?;
         let mut spline = Self { mechanism, times, points, scalar: PhantomData };
         spline.check_points()?;
-        spline.follow_quaternions();
+        spline.choose_quaternions();
         Ok(spline)
     }
 
@@ -125,7 +125,7 @@ where
         let flat = spline(self.times.clone(), flat)?;
         for ((point, flat), Unrolled { axes, .. }) in self.points.as_mut().iter_mut().zip(flat.points()).zip(unrolled) {
             let back = M::Velocities::from_fn(mechanism.nv(), |i| -entry(axes, i));
-            let [v, a] = [&flat.v, &flat.a].map(|part| chart::turned_back(mechanism, &back, part));
+            let [v, a] = [&flat.v, &flat.a].map(|part| chart::in_axes_before(mechanism, &back, part));
             let about = Motion { q: chart::coordinates(mechanism, &point.q, &point.q), v, a };
             Motion { v: point.v, a: point.a, .. } = chart::motion(mechanism, &point.q, &about);
         }
@@ -150,18 +150,23 @@ where
         Ok(())
     }
 
-    /// Takes of each quaternion and its negative the one that is nearer to that of the point before.
-    fn follow_quaternions(&mut self) {
+    /// Scales quaternions to length 1, and takes of each and its negative the one that is nearer to that of the point before.
+    fn choose_quaternions(&mut self) {
         let mut before: Option<M::Coordinates> = None;
         for Motion { q, .. } in self.points.as_mut() {
             for (_, angular) in orientations(&*self.mechanism) {
                 let kind = self.mechanism.coordinates_of_velocity(angular);
-                let (VelocityCoordinates::Quaternion(first), Some(before)) = (kind, &before) else { continue };
-                let quaternion = first..first + 4;
-                let cosine = quaternion.clone().fold(S::zero(), |sum, i| sum + entry(before, i) * entry(q, i));
-                if cosine < S::zero() {
-                    quaternion.for_each(|i| set(q, i, -entry(q, i)));
-                }
+                let VelocityCoordinates::Quaternion(first) = kind else { continue };
+                let product = |a: &M::Coordinates, b: &M::Coordinates| {
+                    (first..first + 4).fold(S::zero(), |sum, i| sum + entry(a, i) * entry(b, i))
+                };
+                let square = product(q, q);
+                // A quaternion of length 1 but for rounding stays as it is.
+                let is_unit = (square - S::one()).abs() <= S::from_f64(16.0) * S::EPSILON;
+                let length = if is_unit { S::one() } else { square.sqrt() };
+                let is_opposite = before.as_ref().is_some_and(|before| product(before, q) < S::zero());
+                let factor = if is_opposite { -length } else { length };
+                (first..first + 4).for_each(|i| set(q, i, entry(q, i) / factor));
             }
             before = Some(q.clone());
         }
@@ -194,7 +199,7 @@ fn unrolled<S: Real, M: ConfigurationSpace<S>, T: Vector<S>>(
         let Some(Motion { q, .. }) = each.next() else { return here.clone() };
         let way = chart::coordinates(mechanism, before.unwrap_or(q), q);
         before = Some(q);
-        let carried = chart::turned_back(mechanism, &here.axes, &way);
+        let carried = chart::in_axes_before(mechanism, &here.axes, &way);
         let half = M::Velocities::from_fn(nv, |i| if own(i) { S::zero() } else { S::from_f64(0.5) * entry(&way, i) });
         axes = mechanism.integrate(&axes, &half);
         let coordinates = M::Velocities::from_fn(nv, |i| {

@@ -124,7 +124,7 @@ impl<S: fmt::Debug> fmt::Display for TrajectoryError<S> {
             Self::NoWay { point } => write!(
                 f,
                 "no way leads to point {point} (counted from 0) of a motion: its coordinates must be finite, and its \
-                 quaternions of length 1"
+                 quaternions not zero"
             ),
         }
     }

@@ -69,7 +69,7 @@ impl<P, Q, V, L> TangentTrajectory<P, Q, ConstantDirection<V, L>> {
     ///
     /// # Errors
     /// [`TrajectoryError`], if a position has another length than the mechanism needs, or no way leads from one to the
-    /// other, as from a quaternion of length zero.
+    /// other, as from a quaternion of length zero: `from` is point 0, `to` point 1.
     pub fn along_screw<S, M>(mechanism: P, from: Q, to: &Q, law: L) -> Result<Self, TrajectoryError<S>>
     where
         S: Real,
@@ -82,10 +82,12 @@ impl<P, Q, V, L> TangentTrajectory<P, Q, ConstantDirection<V, L>> {
         for (name, q) in [("from", &from), ("to", to)] {
             LengthMismatch::check(name, q.as_ref(), mechanism.nq()).map_err(TrajectoryError::WrongLength)?;
         }
-        let way = mechanism.difference(&from, to);
-        if !way.as_ref().iter().all(|component| component.is_finite()) {
-            return Err(TrajectoryError::NoWay { point: 1 });
+        let ways = [mechanism.difference(&from, &from), mechanism.difference(&from, to)];
+        let is_way = |way: &V| way.as_ref().iter().all(|component| component.is_finite());
+        if let Some(point) = ways.iter().position(|way| !is_way(way)) {
+            return Err(TrajectoryError::NoWay { point });
         }
+        let [_, way] = ways;
         Ok(TangentTrajectory { mechanism, from, way: ConstantDirection { way, law } })
     }
 }

@@ -160,7 +160,7 @@ fn energy_is_balanced_at_every_step_of_bounces_with_friction() {
         let (before, mut worst, mut stored) = (total(&start), 0.0_f64, 0.0_f64);
         let mut see = EveryStep(|step: &Step<'_, f64, [f64; 7]>| {
             let y = step.end().1;
-            worst = worst.max((total(y) - before).abs());
+            worst = Real::maximum(worst, (total(y) - before).abs());
             stored = stored.max(grounded.ground_energy(&[y[0], y[1], y[2]], &[y[3], y[4], y[5]]));
             ControlFlow::Continue(())
         });
@@ -252,11 +252,11 @@ fn forces_energies_and_powers_in_single_precision_are_those_in_double_precision_
                     let found = grounded_ball(single, normal, q, v);
                     let expected = grounded_ball(double, normal, q, v);
                     let hits = grounded_ball(double, normal, q, [v[0], v[1], -speed.abs()]);
-                    let force = hits[0].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                    let force = hits[0].iter().fold(0.0_f64, |most, x| Real::maximum(most, x.abs()));
                     let scales = [force, force * f64::from(speed.abs().max(1.0)), hits[2][0], force / BALL.mass];
                     for ((found, expected), scale) in found.iter().zip(&expected).zip(scales) {
                         for (found, expected) in found.iter().zip(expected) {
-                            worst = worst.max((found - expected).abs() / scale);
+                            worst = Real::maximum(worst, (found - expected).abs() / scale);
                         }
                     }
                     pushed += usize::from(force > 0.0 && expected[0][2] > 0.0);

@@ -1,6 +1,7 @@
 //! Measured orders and accuracy, on problems with known solutions.
 
 use crate::problems::{error_at, exact, nonlinear, order};
+use redysim_runtime::Real;
 use redysim_runtime::{Integrator, Ode4, Ode5, Ode45, Step};
 
 fn end_error_of_ode5(h: f64) -> f64 {
@@ -14,7 +15,7 @@ fn dense_error_of_ode5(h: f64) -> f64 {
     let look = |step: &Step<'_, f64, [f64; 2]>| {
         for theta in [0.2, 0.4, 0.6, 0.8] {
             let t = step.start().0 + theta * h;
-            largest = largest.max(error_at(t, &step.at(t)));
+            largest = Real::maximum(largest, error_at(t, &step.at(t)));
         }
     };
     Ode5::new(h).each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();
@@ -82,7 +83,7 @@ fn the_error_per_step_of_ode45_is_within_the_tolerance() {
         let ((t0, y0), (t1, y1)) = (step.start(), step.end());
         let true_end = Ode5::new(1e-3).integrate(&mut nonlinear, (t0, t1), *y0).unwrap().y;
         for i in 0..2 {
-            worst = worst.max((y1[i] - true_end[i]).abs() / f64::max(rtol * y1[i].abs(), atol));
+            worst = Real::maximum(worst, (y1[i] - true_end[i]).abs() / f64::max(rtol * y1[i].abs(), atol));
         }
     };
     Ode45::new().rtol(rtol).atol(atol).each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();

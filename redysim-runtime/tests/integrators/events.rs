@@ -1,5 +1,6 @@
 //! Events: every crossing once, in order, and when it happens.
 
+use redysim_runtime::Real;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::ControlFlow::{self, Break, Continue};
 
@@ -75,7 +76,7 @@ fn worst(method: &impl Integrator<f64>) -> f64 {
     let expected = passages(10.0);
     assert_eq!(found.len(), expected.len(), "{found:?} instead of {expected:?}");
     assert!(found.iter().zip(&expected).all(|(f, e)| f.1 == e.1));
-    found.iter().zip(&expected).map(|(f, e)| (f.0 - e.0).abs()).fold(0.0, f64::max)
+    found.iter().zip(&expected).map(|(f, e)| (f.0 - e.0).abs()).fold(0.0, Real::maximum)
 }
 
 #[test]

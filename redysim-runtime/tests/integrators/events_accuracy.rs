@@ -1,5 +1,6 @@
 //! Events that the methods of Gauss and Radau find are as accurate as the ends of their steps.
 
+use redysim_runtime::Real;
 use std::ops::ControlFlow::Continue;
 
 use crate::problems::{errors_of_steps, exact, nonlinear, prothero_robinson};
@@ -24,7 +25,7 @@ fn errors<const N: usize, M: Integrator<f64>>(
         found += 1;
         let (wanted, expected) = (exact(times[event]), exact(t));
         let of_state = y.iter().zip(&expected).map(|(y, expected)| (y - expected).abs());
-        worst = of_state.fold(worst.max((expected[0] - wanted[0]).abs()), f64::max);
+        worst = of_state.fold(Real::maximum(worst, (expected[0] - wanted[0]).abs()), Real::maximum);
         Continue(())
     };
     method().solve_with_events(ode, (0.0, 3.0), exact(0.0), &mut events, |_| Continue(()), note).unwrap();

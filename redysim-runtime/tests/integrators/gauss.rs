@@ -3,6 +3,7 @@
 use crate::mechanisms::{Arm, Pendulum, distance};
 use crate::order_conditions::{defect, dot, values};
 use crate::problems::{error_at, errors_of_steps, exact, nonlinear};
+use redysim_runtime::Real;
 use redysim_runtime::integrate::collocation::{GAUSS_LEGENDRE_2, GAUSS_LEGENDRE_3, GaussTableau};
 use redysim_runtime::{
     ForwardSimulation, Gauss4, Gauss6, IntegrationError, Integrator, MechanicalEnergy, Ode4, Step, ZeroTorque,
@@ -132,7 +133,7 @@ fn quadratic_invariants_are_kept_to_roundoff() {
         let start = [0.3, 1.0, -0.6];
         let end = method.integrate(&mut euler, (0.0, 1000.0), start).unwrap().y;
         let [before, after] = [start, end].map(|l| invariants(&l));
-        before.iter().zip(after).map(|(before, after)| (after / before - 1.0).abs()).fold(0.0, f64::max)
+        before.iter().zip(after).map(|(before, after)| (after / before - 1.0).abs()).fold(0.0, Real::maximum)
     }
     let (four, six, explicit) = (defects(Gauss4::new(0.1)), defects(Gauss6::new(0.1)), defects(Ode4::new(0.1)));
     println!("relative defects after 10⁴ steps: {four:e}, {six:e}; of Ode4: {explicit:e}");
@@ -156,7 +157,7 @@ fn energy_slope(method: impl Integrator<f64>, step: f64, until: f64) -> (f64, f6
         .solve(&mut arm, (0.0, until), start, times, |t, y| {
             let e = (energy(y) - first) / first.abs();
             (n, t_sum, e_sum, te, tt) = (n + 1.0, t_sum + t, e_sum + e, te + t * e, tt + t * t);
-            largest = largest.max(e.abs());
+            largest = Real::maximum(largest, e.abs());
         })
         .unwrap();
     ((te - t_sum * e_sum / n) / (tt - t_sum * t_sum / n), largest)

@@ -2,6 +2,7 @@
 
 use crate::mechanisms::{Arm, distance};
 use crate::problems::{error_at, exact, nonlinear, prothero_robinson};
+use redysim_runtime::Real;
 use redysim_runtime::integrate::step_control::EstimatesErrors;
 use redysim_runtime::integrate::{Adaptive, Bdf, Ndf};
 use redysim_runtime::{ForwardSimulation, Integrator, Ode, Ode15s, Ode45, Pd, Statistics, Step, ZeroTorque};
@@ -98,7 +99,7 @@ fn robertsons_reactions_end_where_they_are_known_to() {
         for tolerance in [1e-4, 1e-6, 1e-8] {
             let method = Ode15s::new().rtol(tolerance).atol(1e-10 * tolerance);
             let end = method.integrate(&mut robertson, (0.0, to), [1.0, 0.0, 0.0]).unwrap();
-            let error = end.y.iter().zip(known).map(|(y, known)| (y / known - 1.0).abs()).fold(0.0, f64::max);
+            let error = end.y.iter().zip(known).map(|(y, known)| (y / known - 1.0).abs()).fold(0.0, Real::maximum);
             println!("t = {to:e}, tolerance {tolerance:e}: {error:.1e}, {:?}", end.statistics);
             assert!(error < 50.0 * tolerance, "{:?} at {to:e} with tolerance {tolerance:e}", end.y);
             assert!(end.statistics.evaluations < 3500);
@@ -128,7 +129,7 @@ fn van_der_pols_oscillator_is_where_it_is_known_to_be() {
         let end =
             Ode15s::new().rtol(tolerance).atol(1e-3 * tolerance).integrate(&mut van_der_pol, (0.0, 2e3), [2.0, 0.0]);
         let end = end.unwrap();
-        let error = end.y.iter().zip(known).map(|(y, known)| (y / known - 1.0).abs()).fold(0.0, f64::max);
+        let error = end.y.iter().zip(known).map(|(y, known)| (y / known - 1.0).abs()).fold(0.0, Real::maximum);
         println!("tolerance {tolerance:e}: {error:.1e}, {:?}", end.statistics);
         // Time between the jumps is stretched by nearly as much as the jump is wrong.
         assert!(error < 100.0 * tolerance, "{:?} with tolerance {tolerance:e}", end.y);
@@ -202,7 +203,7 @@ fn the_solution_within_steps_is_accurate_and_continuous() {
             }
             for theta in [0.1, 0.3, 0.5, 0.7, 0.9] {
                 let t = from + theta * (to - from);
-                largest = largest.max(error_at(t, &step.at(t)));
+                largest = Real::maximum(largest, error_at(t, &step.at(t)));
             }
         };
         method(tolerance).each_step(&mut nonlinear, (0.0, 3.0), exact(0.0), look).unwrap();

@@ -2,6 +2,7 @@
 
 use crate::mechanisms::Arm;
 use crate::problems::{error_at, exact, nonlinear};
+use redysim_runtime::Real;
 use redysim_runtime::{
     Dop8, Dop853, ForwardSimulation, Integrator, MechanicalEnergy, Ode45, Statistics, Step, ZeroTorque,
 };
@@ -37,7 +38,7 @@ fn the_extension_of_order_eight_is_of_order_seven() {
             let mut at = 0.0;
             let look = |step: &Step<'_, f64, [f64; 2]>| at = error_at(t0 + 0.3 * h, &step.at(t0 + 0.3 * h));
             Dop8::new(h).each_step(&mut nonlinear, (t0, t0 + h), exact(t0), look).unwrap();
-            worst.max(at)
+            Real::maximum(worst, at)
         })
     };
     let p = (local(0.2) / local(0.1)).log2();

@@ -51,7 +51,9 @@ fn error_of_rows<const N: usize>(
 ) -> f64 {
     let mut largest = 0.0_f64;
     let times = (1..=70).map(|row| 3.0 / 70.0 * f64::from(row)).map(|t| t.min(3.0));
-    method.solve(ode, (0.0, 3.0), exact(0.0), times, |t, y| largest = largest.max(distance(y, &exact(t)))).unwrap();
+    method
+        .solve(ode, (0.0, 3.0), exact(0.0), times, |t, y| largest = Real::maximum(largest, distance(y, &exact(t))))
+        .unwrap();
     largest
 }
 

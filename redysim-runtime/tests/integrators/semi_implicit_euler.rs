@@ -1,6 +1,7 @@
 //! The semi-implicit method of Euler: its rule, its order, and what it does with energy.
 
 use crate::mechanisms::{Arm, Pendulum};
+use redysim_runtime::Real;
 use redysim_runtime::{
     ForwardDynamics, ForwardSimulation, IntegrationError, Integrator, MechanicalEnergy, Ode, Ode45, SemiImplicitEuler,
     Step, ZeroTorque,
@@ -90,7 +91,7 @@ fn the_energy_of_an_oscillator_swings_but_does_not_grow() {
     let (mut worst, mut drift): (f64, f64) = (0.0, 0.0);
     let look = |step: &Step<'_, f64, [f64; 2]>| {
         let &[q, v] = step.end().1;
-        worst = worst.max((q * q + v * v - 1.0).abs());
+        worst = Real::maximum(worst, (q * q + v * v - 1.0).abs());
         drift = drift.max((q * q + v * v - h * q * v - 1.0).abs());
     };
     SemiImplicitEuler::new(h).each_step(&mut Oscillator, (0.0, 1000.0), [1.0, 0.0], look).unwrap();
@@ -107,7 +108,8 @@ fn the_energy_of_a_falling_arm_does_not_drift() {
     let start = simulation.state(&[0.5, 0.2], &[0.0, 0.0]);
     let energy = |y: &[f64; 5]| Arm.energy(&[y[0], y[1]], &[y[2], y[3]]).total();
     let mut worst: f64 = 0.0;
-    let look = |step: &Step<'_, f64, [f64; 5]>| worst = worst.max((energy(step.end().1) - energy(&start)).abs());
+    let look =
+        |step: &Step<'_, f64, [f64; 5]>| worst = Real::maximum(worst, (energy(step.end().1) - energy(&start)).abs());
     SemiImplicitEuler::new(1e-3).each_step(&mut simulation, (0.0, 100.0), start, look).unwrap();
     println!("energy within {worst} J");
     assert!(worst < 0.1, "{worst}");

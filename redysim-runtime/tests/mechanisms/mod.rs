@@ -210,7 +210,7 @@ impl<S: Scalar> MechanicalEnergy<S> for Arm {
 
 /// The largest distance between components.
 pub fn distance<S: Real, V: Vector<S>>(a: &V, b: &V) -> f64 {
-    a.as_ref().iter().zip(b.as_ref()).map(|(&a, &b)| (a - b).to_f64().abs()).fold(0.0, f64::max)
+    a.as_ref().iter().zip(b.as_ref()).map(|(&a, &b)| (a - b).to_f64().abs()).fold(0.0, Real::maximum)
 }
 
 /// A point mass that moves along x, y and z, which points up; its frames 0 and 1 are where it is, so that both may meet

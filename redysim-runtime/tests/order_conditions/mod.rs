@@ -1,5 +1,6 @@
 // Rooted trees and the order conditions of Runge-Kutta methods (Butcher's theory), for the tests of coefficients.
 
+use redysim_runtime::Real;
 use std::collections::BTreeSet;
 
 /// A rooted tree: its branches, sorted, so that equal trees are equal.
@@ -53,7 +54,10 @@ pub fn trees(order: usize) -> BTreeSet<Tree> {
 /// a, which may end where only zeros follow.
 pub fn defect<const STAGES: usize>(rows: [&[f64]; STAGES], order: usize, b: &[f64], theta: f64) -> f64 {
     let exact = |tree: &Tree| theta.powi(order as i32) / tree.density();
-    trees(order).iter().map(|tree| (dot(b, &tree.elementary_weights(rows)) - exact(tree)).abs()).fold(0.0, f64::max)
+    trees(order)
+        .iter()
+        .map(|tree| (dot(b, &tree.elementary_weights(rows)) - exact(tree)).abs())
+        .fold(0.0, Real::maximum)
 }
 
 /// The values of polynomials without constant terms.

@@ -16,7 +16,7 @@ pub fn exact(t: f64) -> [f64; 2] {
 
 /// How far `y` is from the solution of [`nonlinear`] at `t`.
 pub fn error_at<S: Real>(t: S, y: &[S; 2]) -> f64 {
-    exact(t.to_f64()).into_iter().zip(y).map(|(exact, y)| (y.to_f64() - exact).abs()).fold(0.0, f64::max)
+    exact(t.to_f64()).into_iter().zip(y).map(|(exact, y)| (y.to_f64() - exact).abs()).fold(0.0, Real::maximum)
 }
 
 /// The equation of A. Prothero and A. Robinson, ẏ = λ (y − cos t) − sin t: from y(0) = 1 the solution is cos t, from
@@ -32,7 +32,8 @@ pub fn errors_of_steps<const N: usize>(
     exact: impl Fn(f64) -> [f64; N],
 ) -> (f64, f64) {
     let (mut at_ends, mut within) = (0.0_f64, 0.0_f64);
-    let error = |t: f64, y: &[f64; N]| exact(t).iter().zip(y).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+    let error =
+        |t: f64, y: &[f64; N]| exact(t).iter().zip(y).fold(0.0_f64, |most, (a, b)| Real::maximum(most, (a - b).abs()));
     let look = |step: &Step<'_, f64, [f64; N]>| {
         let ((from, _), (to, y)) = (step.start(), step.end());
         at_ends = at_ends.max(error(to, y));

@@ -1,13 +1,13 @@
 //! `redysim generate --fmu`: a functional mock-up unit, the archive of its description, its sources and compiled code.
 
 use std::env::{self, consts};
-use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Cursor, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use super::{Arguments, Fmi, check_folder, failure, folder, load, report};
+use crate::c_compiler::c_compiler;
 use crate::failure::Failure;
 use crate::output::{check_beside, to_stderr, write_together};
 use redysim_codegen::{FmiVersion, FmuFiles, fmu_files};
@@ -75,9 +75,13 @@ fn compiled(files: &FmuFiles, version: FmiVersion) -> Result<(String, Vec<u8>), 
         fs::write(folder.path().join(name), text).map_err(|error| outside(&error, folder.path()))?;
     }
     let library = format!("{}{}", files.prefix, consts::DLL_SUFFIX);
-    let compiler: OsString = env::var_os("CC").filter(|name| !name.is_empty()).unwrap_or_else(|| "cc".into());
+    let (compiler, flags) = c_compiler();
     let mut command = Command::new(&compiler);
-    command.args(FLAGS).args(["-o", &library]).args([format!("{}.c", files.prefix), format!("{}_fmu.c", files.prefix)]);
+    command
+        .args(flags)
+        .args(FLAGS)
+        .args(["-o", &library])
+        .args([format!("{}.c", files.prefix), format!("{}_fmu.c", files.prefix)]);
     let output = command.arg("-lm").current_dir(folder.path()).stdin(Stdio::null()).output().map_err(|error| {
         let message = format!("the C compiler `{}` cannot be run: {error}", compiler.display());
         Failure::outside(message).help(format!("install one, name another one by CC, or {without}"))

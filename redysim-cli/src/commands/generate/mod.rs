@@ -56,10 +56,10 @@ pub struct Arguments {
     #[arg(long, conflicts_with_all = ["language", "mex", "functions"])]
     fmu: bool,
     /// The version of the Functional Mock-up Interface.
-    #[arg(long, value_enum, default_value_t, requires = "fmu")]
+    #[arg(long, value_enum, default_value_t, requires = "fmu", conflicts_with_all = ["language", "mex"])]
     fmi: Fmi,
     /// An FMU without compiled code, for tools that compile its sources.
-    #[arg(long, requires = "fmu")]
+    #[arg(long, requires = "fmu", conflicts_with_all = ["language", "mex"])]
     source_only: bool,
     /// The floating-point type of C and C++; functions in Rust take any, those of --mex and --fmu double.
     #[arg(long, value_enum, conflicts_with_all = ["mex", "fmu"])]

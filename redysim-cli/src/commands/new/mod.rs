@@ -45,6 +45,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::outside(message).help("choose another name: nothing is overwritten"));
     }
     let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !parent.exists() {
+        let message = format!("{} cannot be made: the folder {} does not exist", folder.display(), parent.display());
+        return Err(Failure::outside(message).help("make that folder first, or choose another name"));
+    }
     let parent = fs::canonicalize(parent).map_err(|error| Failure::file("read the folder", parent, &error))?;
     let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
     let redysim = checkout::dependency(arguments.redysim.as_deref(), built_from, quiet)?;

@@ -7,12 +7,12 @@ use crate::backend::head::VERSION;
 use crate::mechanism::FunctionProgram;
 use redysim_runtime::function::{Argument, Dimension, Form, Length, Shape};
 
-/// Words of C++ (to C++20) that are a prefix in C, but not a namespace.
+/// Words of C++ (to C++20) that are a prefix in C, but not a namespace; `std` inside another one would hide the library.
 const KEYWORDS: &str = "alignas alignof and and_eq asm auto bitand bitor bool break case catch char class compl concept const \
     const_cast consteval constexpr constinit continue co_await co_return co_yield decltype default delete do double \
     dynamic_cast else enum explicit export extern false float for friend goto if inline int long mutable namespace new \
     noexcept not not_eq nullptr operator or or_eq private protected public register reinterpret_cast requires return short \
-    signed sizeof static static_assert static_cast struct switch template this thread_local throw true try typedef typeid \
+    signed sizeof static static_assert static_cast std struct switch template this thread_local throw true try typedef typeid \
     typename union unsigned using virtual void volatile wchar_t while xor xor_eq";
 
 /// Whether no namespace of C++ can have the name.

@@ -53,7 +53,7 @@ fn of_parameter(parameter: RunTimeParameter, model: &Model) -> Vec<String> {
             let measures = joint.map(LinkJoint::coordinate_measures).unwrap_or_default();
             measures.into_iter().map(|measure| measure.unit().into()).collect()
         }
-        // A quantity without a unit here would be one without in the C code and the FMU.
+        // The unit of a quantity that is not listed is 1 in C and in the FMU.
         _ => vec!["1".into(); parameter.values(model).len()],
     }
 }

@@ -205,8 +205,8 @@ impl<S: fmt::Debug> fmt::Display for LoopError<S> {
             }
             Self::PartOfJoint { velocity, missing } => write!(
                 f,
-                "velocity {velocity} is prescribed without velocity {missing} of the same joint, whose orientation takes \
-                 all of them; prescribe all velocities of the joint, or none"
+                "velocity {velocity} is prescribed without velocity {missing} of the same joint; prescribe the three \
+                 angular velocities of an orientation together, and the linear velocities of a free joint only with them"
             ),
             Self::NoCoordinate { velocity } => write!(
                 f,

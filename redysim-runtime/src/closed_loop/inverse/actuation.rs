@@ -100,7 +100,7 @@ impl<M, C> Actuation<'_, M, C> {
         q
     }
 
-    /// Of velocities, or what is as many, the independent ones.
+    /// The independent components of a vector with one element for each velocity.
     pub fn independent_of<S: Real, V: Vector<S>, I: Vector<S>>(&self, velocities: &V) -> I {
         I::from_fn(self.independent.len(), |i| match self.independent.get(i) {
             Some(&velocity) => entry(velocities, velocity),

@@ -13,7 +13,7 @@ use actuation::Actuation;
 
 pub use computed_torque::ClosedLoopComputedTorque;
 
-/// An independent coordinate moves by no more than this from one closed position to the next, rad or m, so that the
+/// No component of the independent displacement from one closed position to the next exceeds this, rad or m, so that the
 /// branch is kept between instants far apart. Where that takes more than `MOST_MOVES`, the moves are longer.
 const LARGEST_MOVE: f64 = 0.1;
 const MOST_MOVES: usize = 10_000;
