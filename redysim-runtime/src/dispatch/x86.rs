@@ -18,6 +18,7 @@
 
 use crate::scalar::Scalar;
 use crate::trigonometry::angle::{Angle, Number};
+use crate::trigonometry::in_turn::in_turn;
 use crate::trigonometry::reduction::Reduced;
 use crate::trigonometry::several::several;
 use crate::trigonometry::{double, single, turns};
@@ -302,6 +303,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $kernel::sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+                in_turn(angles)
             }
 
             #[inline(always)]

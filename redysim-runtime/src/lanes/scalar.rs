@@ -3,6 +3,7 @@
 use super::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 use crate::registers::Register;
 use crate::scalar::{FUSED, Scalar};
+use crate::trigonometry::in_turn::in_turn;
 use crate::trigonometry::{double, single, turns};
 
 macro_rules! scalar {
@@ -16,6 +17,11 @@ macro_rules! scalar {
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn sin_cos_all<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+                in_turn(angles)
             }
 
             #[inline(always)]

@@ -8,6 +8,8 @@
 pub(crate) mod angle;
 pub mod double;
 #[cfg(feature = "lanes")]
+pub mod in_turn;
+#[cfg(feature = "lanes")]
 pub mod lists;
 pub(crate) mod reduction;
 #[cfg(feature = "lanes")]

@@ -17,8 +17,11 @@ const GROUP: &str = "group";
 /// The constants of the group.
 const ROW: &str = "constants";
 
+/// The matrix that a function gives, where it is not written as a literal.
+pub const MATRIX: &str = "matrix";
+
 /// Names that variables must not have, beside those of arguments.
-pub const RESERVED: [&str; 9] = [GIVEN, FROM_F64, SIN, COS, GROUP, ROW, "read", "each", "write"];
+pub const RESERVED: [&str; 10] = [GIVEN, FROM_F64, SIN, COS, GROUP, ROW, MATRIX, "read", "each", "write"];
 
 /// The name of an argument or a local value.
 pub fn local(name: &str) -> Ident {
@@ -33,6 +36,12 @@ pub fn constant(value: f64) -> TokenStream {
     }
     let digits: Literal = format!("{:?}", value.abs()).parse().expect("a finite number is a literal");
     if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
+}
+
+/// The value zero as the printer writes it.
+pub fn zero() -> TokenStream {
+    let (k, zero) = (local(FROM_F64), constant(0.0));
+    quote!(#k(#zero))
 }
 
 /// The body of a function of the given arguments: statements, then the result that `result` makes of the outputs.

@@ -1,7 +1,8 @@
 //! What a generated function returns: its type, and its value from the outputs of a graph.
 
+use super::body::{MATRIX, local, zero};
 use super::length;
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use redysim_model::PublicInterface;
 use redysim_runtime::function::{Dimension, Shape};
@@ -36,7 +37,7 @@ pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream],
             array(outputs)
         }
         Shape::MassMatrix | Shape::CoriolisMatrix | Shape::LoopJacobian => {
-            array(&rows(outputs, interface.size(Dimension::Velocities)))
+            matrix(outputs, interface.size(Dimension::Velocities))
         }
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
@@ -112,6 +113,30 @@ fn frame_state(vectors: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     })
 }
 
+/// A matrix that is large and mostly zero is begun with zeros. As a literal, LLVM would compose its rows elsewhere and copy
+/// them, which in lanes takes more time than to compute them; other matrices it composes in place.
+const LARGE_MATRIX: usize = 512;
+
+/// A matrix by rows of `length` elements.
+fn matrix(elements: &[TokenStream], length: usize) -> TokenStream {
+    let (zero, matrix) = (zero().to_string(), local(MATRIX));
+    let is_zero = |element: &TokenStream| element.to_string() == zero;
+    let zeros = elements.iter().filter(|element| is_zero(element)).count();
+    if elements.len() < LARGE_MATRIX || 2 * zeros < elements.len() {
+        return array(&rows(elements, length));
+    }
+    let [height, width] = [elements.len() / length, length].map(Literal::usize_unsuffixed);
+    let set = elements.iter().enumerate().filter(|(_, element)| !is_zero(element)).map(|(index, element)| {
+        let [row, column] = [index / length, index % length].map(Literal::usize_unsuffixed);
+        quote!(#matrix[#row][#column] = #element;)
+    });
+    quote!({
+        let mut #matrix = [[S::zero(); #width]; #height];
+        #(#set)*
+        #matrix
+    })
+}
+
 fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
     elements.chunks(length).map(array).collect()
 }
@@ -119,4 +144,31 @@ fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
 /// An array of values.
 fn array(elements: &[TokenStream]) -> TokenStream {
     quote!([#(#elements),*])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The matrix of `size` rows with ones where `is_set`.
+    fn written(size: usize, is_set: impl Fn(usize, usize) -> bool) -> String {
+        let elements: Vec<TokenStream> = (0..size * size)
+            .map(|index| if is_set(index / size, index % size) { quote!(one) } else { zero() })
+            .collect();
+        matrix(&elements, size).to_string()
+    }
+
+    #[test]
+    fn a_large_matrix_that_is_mostly_zero_is_begun_with_zeros_and_no_other() {
+        let diagonal = |row, column| row == column;
+        let text = written(30, diagonal);
+        assert!(text.contains("let mut matrix = [[S :: zero () ; 30] ; 30] ;"), "{text}");
+        for row in 0..30 {
+            assert!(text.contains(&format!("matrix [{row}] [{row}] = one ;")), "row {row}: {text}");
+        }
+        assert_eq!(text.matches(" = one").count(), 30);
+        for text in [written(6, diagonal), written(30, |row, column| row + column < 32)] {
+            assert!(text.starts_with("[[") && !text.contains("matrix"), "{text}");
+        }
+    }
 }
