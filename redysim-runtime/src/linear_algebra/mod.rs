@@ -1,8 +1,9 @@
 //! Small vectors and matrices by slices, and the solves of any rank that closed loops and operational space stand on;
 //! nothing here can panic.
 //!
-//! A program without panics cannot take these solves from nalgebra: of its decompositions, in version 0.35, `Cholesky` and
-//! `QR` link into one, but none that reveals a rank does (`ColPivQR`, `FullPivLU`, `SVD`, `SymmetricEigen`).
+//! A program without panics cannot take these solves from nalgebra, as `studies/nalgebra` shows for version 0.35: of what
+//! reveals a rank, neither basis, order nor solution of `ColPivQR` links into one, nor do `FullPivLU`, `SVD` and
+//! `SymmetricEigen`. `Cholesky` does; its sizes are types, which code over arrays and `Vec` alike does not have.
 
 mod mass_metric;
 mod orthogonal_decomposition;
