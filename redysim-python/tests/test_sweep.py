@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -197,6 +197,18 @@ def test_the_broken_executor_of_a_caller_is_one_error_and_keeps_rows(fall, tmp_p
         with pytest.raises(redysim.RedysimError, match=r"the executor is broken: .* of 200 samples are kept in .*rows.csv"):
             redysim.sweep(fall, executor=pool, progress=progress, **call)
     assert len(redysim.sweep(fall, **call)) == 200
+
+
+def test_an_executor_that_cancels_its_calls_is_one_error_with_a_reason(fall, tmp_path):
+    class Cancelling:
+        def submit(self, *call):
+            future = Future()
+            future.cancel()
+            future.set_running_or_notify_cancel()
+            return future
+
+    with pytest.raises(redysim.RedysimError, match="the executor is broken: its calls are cancelled, .* 0 of 5 samples"):
+        redysim.sweep(fall, samples=drawn(5), executor=Cancelling(), folder=tmp_path / "rows")
 
 
 @pytest.mark.parametrize("format", ["csv", "parquet"])

@@ -6,7 +6,7 @@ import multiprocessing
 import os
 import time
 from collections import Counter, deque
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, ProcessPoolExecutor, wait
 from functools import lru_cache
 
 from . import _core
@@ -173,10 +173,12 @@ def compute(study: _core.Study, rows, executor, jobs: int | None, progress) -> N
         try:
             Computation(study, rows, pool, progress).run(missing)
             at_once = False
-        except BrokenExecutor as error:
+        except (BrokenExecutor, CancelledError) as error:
+            # A cluster whose scheduler ends cancels what it was given, without a reason.
+            reason = str(error) or "its calls are cancelled, as where the scheduler of a cluster has ended"
             kept = f"{len(rows)} of {len(study)} samples are kept in {rows.path}"
             help = "give another executor: the same call then goes on with the rest"
-            raise _core.RedysimError(f"error: the executor is broken: {error}; {kept}\n  = help: {help}") from error
+            raise _core.RedysimError(f"error: the executor is broken: {reason}; {kept}\n  = help: {help}") from error
         finally:
             pool.end(at_once)
     rows.finish()
