@@ -145,7 +145,10 @@ pub(crate) fn large_radius(item: &str, radius: f64, size: f64) -> Message {
 }
 
 pub(crate) fn large_radius_of_link(item: &str, radius: f64, size: f64) -> Message {
-    let why = format!("but its joints, frames and centre of mass are within {} m of its frame", rounded(size));
+    let why = format!(
+        "but its centre of mass, its frames and the joints next to it are within {} m of its frame",
+        rounded(size)
+    );
     radius_of_gyration(item, radius, why, "too large for its mass")
 }
 

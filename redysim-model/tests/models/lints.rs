@@ -241,10 +241,11 @@ fn cases() -> Vec<(Lint, String)> {
         (Lint::RadiusOfGyration, arm(&[("mass = 5.0", "mass = 5000.0")])),
         (Lint::RadiusOfGyration, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 1e4, yy = 1e5, zz = 1e5 }")])),
         (Lint::RadiusOfGyration, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 1e-8, yy = 1e-7, zz = 1e-7 }")])),
-        // As of a wrist of which a data sheet has 0.219 kg m² for 2190 kg cm².
+        // In kg dm²: no larger than the arm, but than the wrist that it carries 0.3 m away, and than the way to the last link.
+        (Lint::RadiusOfGyration, arm(&[("{ xx = 0.002, yy = 0.02, zz = 0.02 }", "{ xx = 0.5, yy = 5.0, zz = 5.0 }")])),
         (
             Lint::RadiusOfGyration,
-            arm(&[("{ xx = 0.001, yy = 0.001, zz = 0.0005 }", "{ xx = 0.1, yy = 0.1, zz = 0.05 }")]),
+            arm(&[("{ xx = 0.001, yy = 0.001, zz = 0.0005 }", "{ xx = 0.9, yy = 0.9, zz = 0.5 }")]),
         ),
         (Lint::InertiaTriangle, arm(&[("{ xx = 0.01, yy = 0.1, zz = 0.1 }", "{ xx = 0.01, yy = 0.1, zz = 0.2 }")])),
         (Lint::NegativeMoment, with_antenna("wrist", -1e-7)),
@@ -297,6 +298,13 @@ fn each_lint_is_reported_once_of_a_model_that_has_it_and_ends_with_allow() {
     for lint in Lint::ALL {
         assert!(cases.iter().any(|(case, _)| *case == lint), "{lint} has no case");
     }
+}
+
+#[test]
+fn a_wheel_with_its_centre_of_mass_next_to_its_joint_is_larger_than_what_its_joint_shows() {
+    let wheel = "\n[[link]]\nname = 'wheel'\nparent = 'turret'\njoint = 'revolute'\naxis = [0, 1, 0]\n\
+                 origin = { xyz = [0, 0.2, 0] }\nmass = 4\ncom = [0.001, 0.02, 0]\ninertia = { xx = 0.15, yy = 0.3, zz = 0.15 }\n";
+    assert_eq!(lints(&load(&format!("{ARM}{wheel}"))), [""; 0]);
 }
 
 /// The arm with a link that is fixed to another, and that has a principal moment of `smallest`.

@@ -52,15 +52,19 @@ fn odd_radii(document: &Document, model: &Model, found: &mut Found) {
     }
 }
 
-/// How far a link's centre of mass, frames, joints, cuts and springs are from its own frame; 0 if nothing shows its size.
+/// How far a link's centre of mass, frames, joints, cuts and springs are from its own frame. Where its centre of mass alone
+/// shows a size, which of a wheel is hardly any, it is as large as the way from its parent; 0 if nothing shows its size.
 fn link_size(model: &Model, index: usize) -> f64 {
+    let link = &model.links[index];
     let carried = model.links.iter().filter(|link| link.parent == Some(index)).map(own_length);
     let frames =
         model.frames.iter().filter(|frame| frame.link == Some(index)).map(|frame| length(frame.placement.position));
     let cuts = model.loops.iter().flat_map(|cut| [&cut.a, &cut.b]).map(|side| (side.link, side.point));
     let springs = model.springs.iter().flat_map(|spring| [spring.a, spring.b]).map(|end| (end.link, end.point));
     let points = cuts.chain(springs).filter(|(link, _)| *link == Some(index)).map(|(_, point)| length(point));
-    carried.chain(frames).chain(points).fold(length(model.links[index].com), f64::max)
+    let attached = carried.chain(frames).chain(points).fold(0.0, f64::max);
+    let shown = if attached > 0.0 { attached } else { own_length(link) };
+    shown.max(length(link.com))
 }
 
 /// Links on joints that move; a link that is fixed to another may well be a payload of which the mass is known.
