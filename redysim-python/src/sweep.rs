@@ -4,6 +4,7 @@ use crate::load::error;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use redysim_cli::SweepRows;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -93,9 +94,14 @@ pub struct Rows(Mutex<Option<SweepRows>>);
 
 #[pymethods]
 impl Rows {
+    /// With the number of rows of a part in Parquet, where these are wanted.
     #[new]
-    fn open(folder: PathBuf, study: &Study, force: bool) -> PyResult<Rows> {
-        SweepRows::open(folder, &study.0, force).map(|rows| Rows(Mutex::new(Some(rows)))).map_err(error)
+    fn open(folder: PathBuf, study: &Study, force: bool, part: Option<NonZeroUsize>) -> PyResult<Rows> {
+        let mut rows = SweepRows::open(folder, &study.0, force).map_err(error)?;
+        if let Some(part) = part {
+            rows = rows.with_parts(&study.0, part).map_err(error)?;
+        }
+        Ok(Rows(Mutex::new(Some(rows))))
     }
 
     #[getter]

@@ -94,7 +94,7 @@ def test_the_spread_of_a_pendulum_s_torque_is_that_of_its_closed_form(tmp_path, 
 def test_what_is_interrupted_goes_on_to_the_same_rows(fall, tmp_path, threads, format, monkeypatch):
     from redysim import _sweep
 
-    monkeypatch.setattr(_sweep.Parts, "SIZE", 5)
+    monkeypatch.setattr(_sweep, "PART", 5)
     samples = drawn(24)
     whole = redysim.sweep(fall, samples=samples, executor=threads, folder=tmp_path / "whole")
 

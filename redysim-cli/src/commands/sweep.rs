@@ -25,6 +25,9 @@ pub struct Arguments {
     /// The folder of the study [default: results/<study's name>/sweep].
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// The files of the rows. They are always in `rows.csv`.
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT", conflicts_with = "sample")]
+    format: Format,
     /// How many samples are computed at once [default: the number of cores].
     #[arg(long, short, value_name = "COUNT")]
     jobs: Option<NonZeroUsize>,
@@ -35,6 +38,18 @@ pub struct Arguments {
     #[arg(long, value_name = "INDEX", conflicts_with = "jobs")]
     sample: Option<usize>,
 }
+
+#[derive(Clone, Copy, Default, PartialEq, clap::ValueEnum)]
+enum Format {
+    /// `rows.csv` alone
+    #[default]
+    Csv,
+    /// Also the folder `rows` with a part for every thousand rows, which `pandas.read_parquet` reads as one table
+    Parquet,
+}
+
+/// The rows of a part in Parquet.
+const PART: NonZeroUsize = NonZeroUsize::new(1000).unwrap();
 
 /// Computes the samples whose rows are missing, and writes them.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
@@ -48,6 +63,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         return write_sample(&study, index, &folder, (arguments.force, quiet));
     }
     let mut rows = Rows::open(&folder, &study, arguments.force)?;
+    if arguments.format == Format::Parquet {
+        rows = rows.with_parts(&study, PART)?;
+    }
     let there = rows.count();
     if there > 0 && !quiet {
         to_stderr(&format!("{} of {} are there already", counted(there, "sample"), rows.total()));

@@ -4,6 +4,7 @@ mod columns;
 mod draw;
 mod keys;
 mod outcomes;
+mod parts;
 mod place;
 mod read;
 mod rows;

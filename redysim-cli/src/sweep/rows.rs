@@ -2,8 +2,10 @@
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+use super::parts::{self, Parts};
 use super::{COMPLETE, Study, sampler};
 use crate::failure::Failure;
 use crate::output::{exists, make_folder, write_file};
@@ -24,6 +26,7 @@ pub struct Rows {
     /// Whether the rows are in the order of the samples.
     in_order: bool,
     last: Option<usize>,
+    parts: Option<Parts>,
 }
 
 impl Rows {
@@ -44,9 +47,10 @@ impl Rows {
             let message = format!("{} is being written by another process", path.display());
             return Err(Failure::outside(message).help("wait until it ends, or write elsewhere with --output"));
         }
-        let mut rows =
-            Rows { file, length: 0, done: vec![false; study.samples.len()], in_order: true, last: None, path };
+        let done = vec![false; study.samples.len()];
+        let mut rows = Rows { file, length: 0, done, in_order: true, last: None, parts: None, path };
         if begun.is_none() {
+            parts::remove(folder)?;
             rows.cut(0)?;
         }
         if begun.is_none_or(|samples| samples < study.samples.len()) {
@@ -54,6 +58,18 @@ impl Rows {
         }
         rows.read(study)?;
         Ok(rows)
+    }
+
+    /// Writes parts in Parquet, too, each of `size` rows when these are there, to the folder `rows` beside the table. Rows
+    /// that are in no part yet come first.
+    ///
+    /// # Errors
+    /// If a part cannot be read or written.
+    pub fn with_parts(mut self, study: &Study, size: NonZeroUsize) -> Result<Rows, Failure> {
+        let table = self.text()?;
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        self.parts = Some(Parts::open(folder, study, size, &table)?);
+        Ok(self)
     }
 
     /// The file of the rows.
@@ -83,7 +99,8 @@ impl Rows {
     pub fn add(&mut self, index: usize, row: &str) -> Result<(), Failure> {
         self.write(row)?;
         self.note(index);
-        Ok(())
+        let written = self.parts.as_mut().map_or(Ok(()), |parts| parts.add(row));
+        written.map_err(|failure| self.kept(failure))
     }
 
     /// Has all rows on the disk, in the order of the samples.
@@ -91,6 +108,8 @@ impl Rows {
     /// # Errors
     /// If they cannot be written. They are kept in the order in which they came.
     pub fn finish(&mut self) -> Result<(), Failure> {
+        let written = self.parts.as_mut().map_or(Ok(()), Parts::finish);
+        written.map_err(|failure| self.kept(failure))?;
         if !self.in_order {
             let text = self.text()?;
             let mut lines = text.lines();
@@ -134,7 +153,7 @@ impl Rows {
 
     fn kept(&self, failure: Failure) -> Failure {
         let (count, total) = (self.count(), self.total());
-        let kept = format!("; {count} of {total} samples are kept there");
+        let kept = format!("; {count} of {total} samples are kept in {}", self.path.display());
         failure.and(&kept).help("make room on the disk: the same command then goes on with the rest")
     }
 

@@ -1,7 +1,12 @@
 //! `redysim sweep`: rows of many samples, the same as of single runs, whatever interrupts them.
 
 use std::fs;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use redysim_cli::{Study, SweepRows};
 
 #[cfg(target_os = "linux")]
 use crate::common::running::shown;
@@ -203,7 +208,9 @@ fn a_full_disk_is_one_error_and_loses_no_row() {
     let folder = sweep("sweep-full", drawn);
     let error = on_a_full_disk(&folder, 6, &["sweep", "study.toml", "--output", "full", "--quiet"]);
     assert_eq!(error.matches("error:").count(), 1, "{error}");
-    for part in ["cannot write full/rows.csv", "of 60 samples are kept there", "the same command then goes on"] {
+    for part in
+        ["cannot write full/rows.csv", "of 60 samples are kept in full/rows.csv", "the same command then goes on"]
+    {
         assert!(error.contains(part), "{error}");
     }
     // Without room for the study itself.
@@ -299,4 +306,76 @@ fn a_scenario_in_place_of_a_study_is_one_error_that_names_both() {
     let shown = fail(&folder, &["sweep", "trial.toml"], 1);
     assert!(shown.contains("trial.toml is a scenario, not a study") && shown.contains("[over]"), "{shown}");
     assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
+}
+
+/// The rows of all parts in Parquet, as text, by samples.
+fn parts(folder: &Path) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    for part in fs::read_dir(folder.join("rows/rows")).unwrap() {
+        let reader = SerializedFileReader::new(fs::File::open(part.unwrap().path()).unwrap()).unwrap();
+        for row in reader.get_row_iter(None).unwrap() {
+            let row = row.unwrap();
+            let cells = row.get_column_iter().map(|(_, field)| match field {
+                Field::Long(sample) => sample.to_string(),
+                Field::Double(number) => format!("{number:?}"),
+                Field::Str(text) => text.clone(),
+                other => other.to_string().replace("null", ""),
+            });
+            rows.push(cells.collect::<Vec<_>>());
+        }
+    }
+    rows.sort_by_key(|row| row[0].parse::<usize>().unwrap());
+    rows
+}
+
+/// The rows of the table, with numbers as those of [`parts`].
+fn table(folder: &Path) -> Vec<Vec<String>> {
+    let text = text(folder);
+    let of = |(index, cell): (usize, &str)| match cell.parse::<f64>() {
+        Ok(number) if index > 0 => format!("{number:?}"),
+        _ => cell.to_owned(),
+    };
+    let records = csv::Reader::from_reader(text.as_bytes()).into_records();
+    records.map(|record| record.unwrap().iter().enumerate().map(of).collect()).collect()
+}
+
+#[test]
+fn parts_of_parquet_have_each_row_of_the_table_once_whatever_has_interrupted_them() {
+    let folder = sweep("sweep-parquet", "[samples]\nmodel.link.link2.mass = [1, -1, 2, 0.5, 1.5, 3]\n");
+    let whole = text(&folder);
+    let study = Study::load(folder.join("study.toml")).unwrap();
+    fs::remove_dir_all(folder.join("rows")).unwrap();
+    let mut rows = SweepRows::open(folder.join("rows"), &study, false).unwrap();
+    rows = rows.with_parts(&study, NonZeroUsize::new(2).unwrap()).unwrap();
+    for index in [4, 0, 1] {
+        rows.add(index, &study.sampler().row(&study.sample(index)).unwrap()).unwrap();
+    }
+    drop(rows);
+    // The row of sample 4 is in a part and no longer in the table, that of sample 1 is in the table alone.
+    assert_eq!(parts(&folder).len(), 2);
+    let kept: Vec<String> = text(&folder).lines().filter(|line| !line.starts_with("4,")).map(str::to_owned).collect();
+    fs::write(folder.join("rows/rows.csv"), kept.join("\n") + "\n").unwrap();
+    let command = ["sweep", "study.toml", "--output", "rows", "--quiet", "--format", "parquet"];
+    succeed(&folder, &command);
+    assert_eq!(text(&folder), whole);
+    assert_eq!(parts(&folder), table(&folder));
+    assert_eq!(parts(&folder)[1].iter().filter(|cell| cell.is_empty()).count(), study.headers().len() - 4);
+
+    let part = names(&folder.join("rows/rows"))[0].clone();
+    fs::write(folder.join("rows/rows").join(&part), "PAR1").unwrap();
+    let error = fail(&folder, &command, 3);
+    assert!(error.contains(&format!("cannot read rows/rows/{part}: ")) && error.contains("delete it"), "{error}");
+}
+
+#[test]
+fn a_study_that_is_replaced_leaves_no_parts_of_parquet() {
+    let folder = scratch("sweep-parquet-replaced");
+    study(&folder, GRID);
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--quiet", "--format", "parquet"]);
+    assert_eq!((parts(&folder), parts(&folder).len()), (table(&folder), 6));
+    study(&folder, &GRID.replace("20.0", "30.0"));
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--quiet", "--force"]);
+    assert_eq!(parts(&folder).len(), 0);
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--quiet", "--format", "parquet"]);
+    assert_eq!((parts(&folder), parts(&folder).len()), (table(&folder), 6));
 }

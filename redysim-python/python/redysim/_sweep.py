@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     import pandas
 
 
+PART = 1000
+"""The rows of a part in Parquet."""
+
+
 class Sweep:
     """The rows of a study: `sweep["peak tau crank [N m]"]` is the array of a column, in the order of the
     samples; numbers that a failed sample does not have are nan."""
@@ -101,7 +105,8 @@ def sweep(
         The folder of the study; by default a temporary one, which is kept as long as the result, and if the call
         is interrupted or fails after some samples: a warning then names it.
     format : {"csv", "parquet"}
-        With "parquet", the folder `rows` in it has the rows in parts of Parquet, too. Needs pyarrow.
+        With "parquet", the folder `rows` in it has the rows in parts of Parquet, too, which
+        `pandas.read_parquet` reads as one table.
     force : bool
         Replace another study that is there.
     progress : callable, optional
@@ -146,7 +151,7 @@ def has_rows(folder: Path) -> bool:
 
 def in_folder(folder, study, executor, jobs, format, force, progress) -> Sweep:
     """Computes the rows that are missing in a folder."""
-    rows = Parts(folder, study, force) if format == "parquet" else _core.Rows(folder, study, force)
+    rows = _core.Rows(folder, study, force, PART if format == "parquet" else None)
     try:
         compute(study, rows, executor, jobs, progress)
     finally:
@@ -199,72 +204,3 @@ def arrays(rows: list[list[str]], numeric: list[bool]) -> Iterator[np.ndarray]:
             yield np.array([float(cell) if cell else np.nan for cell in cells])
         else:
             yield np.array(cells, dtype=object)
-
-
-class Parts:
-    """Rows in CSV, as they come, and after so many of them a part in Parquet."""
-
-    SIZE = 1000
-
-    def __init__(self, folder: Path, study: _core.Study, force: bool):
-        import pyarrow.parquet
-
-        self.arrow, self.study = pyarrow, study
-        self.rows = _core.Rows(folder, study, force)
-        self.folder = folder / "rows"
-        self.folder.mkdir(exist_ok=True)
-        kept = self._kept()
-        of_study = kept <= set(range(len(study)))
-        if len(self.rows) == 0 or not of_study:
-            # Of a study that was replaced.
-            for part in self.folder.glob("part-*.parquet"):
-                part.unlink()
-            kept = set()
-        with open(folder / "rows.csv", newline="", encoding="utf-8") as file:
-            self.waiting = [row for row in list(csv.reader(file))[1:] if int(row[0]) not in kept]
-        self._write(self.SIZE)
-
-    def _kept(self) -> set[int]:
-        """The samples whose rows are in a part."""
-        parts = sorted(self.folder.glob("part-*.parquet"))
-        samples = (self.arrow.parquet.read_table(part, columns=["sample"])["sample"].to_pylist() for part in parts)
-        return {sample for of_part in samples for sample in of_part}
-
-    @property
-    def path(self) -> Path:
-        return self.rows.path
-
-    def missing(self) -> list[int]:
-        return self.rows.missing()
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    def add(self, index: int, row: str) -> None:
-        self.rows.add(index, row)
-        self.waiting += csv.reader([row])
-        self._write(self.SIZE)
-
-    def finish(self) -> None:
-        self._write(1)
-        self.rows.finish()
-
-    def close(self) -> None:
-        self.rows.close()
-
-    def _write(self, least: int) -> None:
-        """Writes parts as long as so many rows wait."""
-        while len(self.waiting) >= least:
-            part, self.waiting = self.waiting[: self.SIZE], self.waiting[self.SIZE :]
-            columns = zip(self.study.headers, arrays(part, self.study.numeric))
-            table = self.arrow.table({name: self.arrow.array(values, from_pandas=True) for name, values in columns})
-            target = self.folder / f"part-{part[0][0].zfill(8)}.parquet"
-            draft = target.with_suffix(".draft")
-            try:
-                self.arrow.parquet.write_table(table, draft)
-                draft.replace(target)
-            except OSError as error:
-                draft.unlink(missing_ok=True)
-                kept = f"{len(self.rows)} of {len(self.study)} samples are kept in {self.rows.path}"
-                help = "make room on the disk: the same call then goes on with the rest"
-                raise _core.RedysimError(f"error: cannot write {target}: {error}; {kept}\n  = help: {help}") from error
