@@ -45,7 +45,9 @@ def load(
     "joint2.damping"; by default those of the file."""
 
 def restored(
-    source: tuple[bytes, str | PathLike[str], bool, Sequence[str] | None], values: ArrayLike | None, compiled: bool
+    source: tuple[bytes, str | PathLike[str], bool, Sequence[str] | None],
+    values: ArrayLike | None,
+    compiled: Sequence[str] | None,
 ) -> Mechanism: ...
 def table_of_functions() -> list[tuple[str, list[str], str | None]]: ...
 def runs_of_scenario(path: str | PathLike[str]) -> list[str]: ...
@@ -177,11 +179,14 @@ class Mechanism:
         """Whether each velocity has an actuator."""
     @property
     def is_compiled(self) -> bool:
-        """Whether the functions are compiled."""
+        """Whether functions are compiled."""
+    @property
+    def compiled_functions(self) -> list[str]:
+        """The names of the functions that are compiled."""
     @property
     def library(self) -> Path | None:
         """The library of compiled functions, if they are compiled."""
-    def compile(self, *, compiler: str | None = None) -> Mechanism:
+    def compile(self, *, functions: Sequence[str] | None = None, compiler: str | None = None) -> Mechanism:
         # The documentation of compile.
     def check_unchanged(self) -> None:
         """Fails if the file has changed since it was loaded."""

@@ -5,7 +5,7 @@ use crate::load::fault;
 use libloading::Library;
 use pyo3::PyErr;
 use redysim_codegen::{CLibrary, c_library};
-use redysim_model::{CodegenOptions, Function, Model, RunTimeParameter};
+use redysim_model::{CodegenOptions, Function, Functions, Model, RunTimeParameter};
 use std::env;
 use std::error::Error;
 use std::ffi::OsString;
@@ -25,6 +25,8 @@ pub struct Compiled {
     /// Makes the given numbers of one robot, of which there are so many, of its parameters.
     init: Option<(unsafe extern "C" fn(*const f64, *mut f64), usize)>,
     entries: [Option<Entry>; Function::ALL.len()],
+    /// Those that were to be compiled.
+    pub functions: Functions,
     /// Where it is.
     pub path: PathBuf,
     /// Keeps the functions in memory.
@@ -37,11 +39,16 @@ impl Compiled {
     ///
     /// # Errors
     /// If the compiler is missing or fails, or the library cannot be written.
-    pub fn new(model: &Model, parameters: &[RunTimeParameter], compiler: Option<OsString>) -> Result<Compiled, PyErr> {
+    pub fn new(
+        model: &Model,
+        (functions, parameters): (Functions, &[RunTimeParameter]),
+        compiler: Option<OsString>,
+    ) -> Result<Compiled, PyErr> {
         let compiler = Compiler::new(compiler)?;
-        let options = CodegenOptions { parameters: parameters.to_vec(), ..CodegenOptions::default() };
+        let options = CodegenOptions { functions, parameters: parameters.to_vec(), ..CodegenOptions::default() };
         let made = c_library(model, PREFIX, &options);
-        let CLibrary { files, functions, given } = made.map_err(|error| fault(&error.to_string(), ""))?;
+        let CLibrary { files, functions: made_functions, given } =
+            made.map_err(|error| fault(&error.to_string(), ""))?;
         let (header, source) = (files.header, files.source);
         let key = [source.as_bytes(), header.as_bytes(), &compiler.key(), &processor()].concat();
         let folder = folder()?;
@@ -50,10 +57,10 @@ impl Compiled {
             fs::create_dir_all(&folder).map_err(|error| unwritten(&folder, &error))?;
             compile(&compiler, &folder, &path, (&header, &source))?;
         }
-        Compiled::open(path, &functions, given)
+        Compiled::open(path, functions, (&made_functions, given))
     }
 
-    fn open(path: PathBuf, functions: &[Function], given: usize) -> Result<Compiled, PyErr> {
+    fn open(path: PathBuf, functions: Functions, (made, given): (&[Function], usize)) -> Result<Compiled, PyErr> {
         let unusable = |error: libloading::Error| {
             let mut reasons = vec![error.to_string()];
             let mut cause: Option<&dyn Error> = error.source();
@@ -74,7 +81,7 @@ impl Compiled {
         // SAFETY: the library is the one that `compile` makes of generated code, without code that runs when it is loaded.
         let library = unsafe { Library::new(&path) }.map_err(unusable)?;
         let mut entries = [None; Function::ALL.len()];
-        for function in functions {
+        for function in made {
             // SAFETY: the symbol is a function of this type.
             let entry = unsafe { library.get::<Entry>(CLibrary::symbol(*function).as_str()) }.map_err(unusable)?;
             entries[*function as usize] = Some(*entry);
@@ -86,7 +93,7 @@ impl Compiled {
         } else {
             None
         };
-        Ok(Compiled { init, entries, path, _library: library })
+        Ok(Compiled { init, entries, functions, path, _library: library })
     }
 
     /// What `count` robots with these parameters are given.

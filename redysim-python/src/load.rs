@@ -19,8 +19,23 @@ create_exception!(redysim, ModelWarning, PyUserWarning, "What a model may have, 
 
 /// The report of a failure as an exception.
 pub fn error(failure: Failure) -> PyErr {
-    RedysimError::new_err(failure.to_string())
+    let text = failure.to_string();
+    let advice = failure.advice();
+    let advised =
+        ARGUMENTS.iter().fold(advice.to_owned(), |advice, (option, argument)| advice.replace(option, argument));
+    // The advice stands last.
+    let what = text.strip_suffix(advice).unwrap_or(&text);
+    RedysimError::new_err(format!("{what}{advised}"))
 }
+
+/// Options of the command that its advice names, and the arguments that stand for them here.
+const ARGUMENTS: [(&str, &str); 5] = [
+    ("`--base free`", "base=\"free\""),
+    ("--output results/trial", "folder=\"results/trial\""),
+    ("--output", "folder="),
+    ("--force", "force=True"),
+    ("the same command", "the same call"),
+];
 
 /// The same of a message, and of what to do, if that is known.
 pub fn fault(message: &str, help: &str) -> PyErr {
@@ -89,12 +104,12 @@ pub fn restored(
     py: Python<'_>,
     source: (Vec<u8>, PathBuf, bool, Option<Vec<String>>),
     values: Option<Bound<'_, PyAny>>,
-    compiled: bool,
+    compiled: Option<Vec<String>>,
 ) -> PyResult<Mechanism> {
     let (bytes, path, floating, names) = source;
     let mechanism = py.detach(|| Mechanism::new(SourceFile::new(path, bytes, floating, names)))?;
-    if compiled {
-        py.detach(|| mechanism.make_compiled(None))?;
+    if let Some(functions) = compiled {
+        py.detach(|| mechanism.make_compiled(Some(&functions), None))?;
     }
     match values {
         Some(values) => mechanism.with_parameters(&values),

@@ -5,7 +5,7 @@ mod names;
 use crate::arrays::{self, Input, Inputs, Layout};
 use crate::compiled::{Compiled, Entry};
 use crate::evaluator::{Evaluator, OfRobots};
-use crate::load::error;
+use crate::load::{error, fault};
 use crate::robots::Robots;
 use crate::source_file::SourceFile;
 use numpy::PyArrayDescr;
@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 use redysim_cli::ModelFile;
-use redysim_model::{CodegenOptions, Function, Model, PublicInterface, Tree};
+use redysim_model::{CodegenOptions, Function, Functions, Model, PublicInterface, Tree};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::ptr;
@@ -106,17 +106,31 @@ impl Mechanism {
         }
     }
 
-    /// Compiles the functions, unless they are.
+    /// Compiles the functions of these names, by default those of the file, unless they are.
     ///
     /// # Errors
     /// As `compile`.
-    pub fn make_compiled(&self, compiler: Option<OsString>) -> PyResult<()> {
-        let shared = &self.shared;
-        if shared.compiled.get().is_none() {
-            let compiled = Compiled::new(&shared.model, &self.file.options.parameters, compiler)?;
-            // Another thread may have been faster, with the same code.
-            let _ = shared.compiled.set(compiled);
+    pub fn make_compiled(&self, names: Option<&[String]>, compiler: Option<OsString>) -> PyResult<()> {
+        let (shared, options) = (&self.shared, &self.file.options);
+        let named = |name: &String| {
+            name.parse::<Function>().map_err(|error| PyValueError::new_err(format!("functions: {name:?} is {error}")))
+        };
+        let functions = match names {
+            Some(names) => Functions::of(names.iter().map(named).collect::<PyResult<Vec<_>>>()?),
+            None => options.functions,
+        };
+        if let Some(compiled) = shared.compiled.get() {
+            return match functions.iter().find(|function| !compiled.functions.contains(*function)) {
+                Some(function) => Err(fault(
+                    &format!("{:?} is compiled already, without {function}", self.interface().name),
+                    "load it again, and name all functions by compile(functions=[...])",
+                )),
+                None => Ok(()),
+            };
         }
+        let compiled = Compiled::new(&shared.model, (functions, &options.parameters), compiler)?;
+        // Another thread may have been faster.
+        let _ = shared.compiled.set(compiled);
         Ok(())
     }
 
@@ -256,7 +270,9 @@ impl Mechanism {
         let source = (PyBytes::new(py, bytes), path.clone(), *floating, parameters.clone());
         let values = (self.np() > 0).then(|| self.parameters(py)).transpose()?;
         let restored = py.import("redysim._core")?.getattr("restored")?;
-        Ok((restored, (source, values, self.is_compiled()).into_pyobject(py)?))
+        let names = |compiled: &Compiled| compiled.functions.iter().map(Function::name).collect::<Vec<_>>();
+        let compiled = self.shared.compiled.get().map(names);
+        Ok((restored, (source, values, compiled).into_pyobject(py)?))
     }
 
     /// Mass of all links, kg.
@@ -271,13 +287,16 @@ impl Mechanism {
         Ok(self.one()?.model.gravity.0.into())
     }
 
-    /// Writes the functions as C, compiles them by the system's compiler, and has every later call run the compiled code.
+    /// Writes functions as C, compiles them by the system's compiler, and has every later call run the compiled code.
     ///
     /// The library is kept in a folder, under a name that depends on the model, the compiler and the processor: the next time
     /// it is loaded.
     ///
     /// Parameters
     /// ----------
+    /// functions : sequence of str, optional
+    ///     The names of the functions; by default those of the key `functions` of the model file, or all. The run-time path
+    ///     computes the others.
     /// compiler : str, optional
     ///     The compiler; by default the environment variable CC, or cc.
     ///
@@ -289,19 +308,32 @@ impl Mechanism {
     /// Raises
     /// ------
     /// RedysimError
-    ///     If the compiler is missing or fails, or if the file has changed since it was loaded.
-    #[pyo3(signature = (*, compiler=None))]
-    fn compile<'py>(slf: Bound<'py, Self>, compiler: Option<OsString>) -> PyResult<Bound<'py, Self>> {
+    ///     If the compiler is missing or fails, if the file has changed since it was loaded, or if other functions of the
+    ///     mechanism are compiled already.
+    #[pyo3(signature = (*, functions=None, compiler=None))]
+    fn compile<'py>(
+        slf: Bound<'py, Self>,
+        functions: Option<Vec<String>>,
+        compiler: Option<OsString>,
+    ) -> PyResult<Bound<'py, Self>> {
         let mechanism = slf.get();
         mechanism.shared.source.check_unchanged()?;
-        slf.py().detach(|| mechanism.make_compiled(compiler))?;
+        slf.py().detach(|| mechanism.make_compiled(functions.as_deref(), compiler))?;
         Ok(slf)
     }
 
-    /// Whether the functions are compiled.
+    /// Whether functions are compiled.
     #[getter]
     fn is_compiled(&self) -> bool {
         self.shared.compiled.get().is_some()
+    }
+
+    /// The names of the functions that are compiled.
+    #[getter]
+    fn compiled_functions(&self) -> Vec<&'static str> {
+        let compiled = self.shared.compiled.get();
+        let is_compiled = |function: &Function| compiled.is_some_and(|compiled| compiled.entry(*function).is_some());
+        Function::ALL.iter().copied().filter(is_compiled).map(Function::name).collect()
     }
 
     /// The library of compiled functions, if they are compiled.

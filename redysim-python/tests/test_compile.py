@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import pickle
 import resource
 import shutil
 import subprocess
@@ -76,6 +77,27 @@ def test_states_in_lanes_have_the_bits_of_each_alone(cache, rng, model, compiler
         if len(xs) > 1:
             shared = function(xs[0], *(x[0] for x in xs[1:]))
             assert bits(shared[9]) == bits(function(xs[0][9], *(x[0] for x in xs[1:])))
+
+
+def test_functions_that_are_not_named_are_computed_by_the_run_time_path(cache, tmp_path):
+    whole = redysim.load(MODELS / "kr5.toml")
+    robot = redysim.load(MODELS / "kr5.toml").compile(functions=["mass_matrix"])
+    assert "mass_matrix" in robot.compiled_functions and "energy" not in robot.compiled_functions
+    q = np.linspace(0.1, 0.6, 6)
+    np.testing.assert_allclose(robot.mass_matrix(q), whole.mass_matrix(q), atol=1e-13)
+    assert robot.energy(q, q) == whole.energy(q, q), "the same bits"
+    assert robot.compile(functions=["mass_matrix"]) is robot
+    for again in (robot, pickle.loads(pickle.dumps(robot))):
+        assert again.compiled_functions == robot.compiled_functions
+        with pytest.raises(redysim.RedysimError, match="compiled already, without inverse_dynamics"):
+            again.compile()
+    with pytest.raises(ValueError, match=r'functions: "mass" is not a function of a mechanism; .*mass_matrix'):
+        redysim.load(MODELS / "kr5.toml").compile(functions=["mass"])
+    # Those of a model file are compiled by default.
+    model = tmp_path / "kr5.toml"
+    model.write_text('functions = ["energy"]\n' + (MODELS / "kr5.toml").read_text())
+    compiled = redysim.load(model).compile().compiled_functions
+    assert "energy" in compiled and "mass_matrix" not in compiled
 
 
 def test_the_compiled_library_is_kept(cache):

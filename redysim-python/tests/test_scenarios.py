@@ -84,7 +84,9 @@ def test_a_fault_of_a_scenario_is_shown_as_by_the_command(tmp_path):
 def test_results_that_are_there_are_kept(tmp_path):
     scenario = redysim.scenario(SCENARIOS / "rp.toml")
     scenario.run("forward", folder=tmp_path / "rp")
-    with pytest.raises(redysim.RedysimError, match="is there already"):
+    # The advice names arguments, not the options of the command.
+    advice = "is there already\n  = help: write elsewhere with folder=, or overwrite it with force=True"
+    with pytest.raises(redysim.RedysimError, match=advice):
         scenario.run("forward", folder=tmp_path / "rp")
     scenario.run("forward", folder=tmp_path / "rp", force=True)
 

@@ -45,7 +45,9 @@ def load(
     "joint2.damping"; by default those of the file."""
 
 def restored(
-    source: tuple[bytes, str | PathLike[str], bool, Sequence[str] | None], values: ArrayLike | None, compiled: bool
+    source: tuple[bytes, str | PathLike[str], bool, Sequence[str] | None],
+    values: ArrayLike | None,
+    compiled: Sequence[str] | None,
 ) -> Mechanism: ...
 def table_of_functions() -> list[tuple[str, list[str], str | None]]: ...
 def runs_of_scenario(path: str | PathLike[str]) -> list[str]: ...
@@ -239,18 +241,24 @@ class Mechanism:
         """Whether each velocity has an actuator."""
     @property
     def is_compiled(self) -> bool:
-        """Whether the functions are compiled."""
+        """Whether functions are compiled."""
+    @property
+    def compiled_functions(self) -> list[str]:
+        """The names of the functions that are compiled."""
     @property
     def library(self) -> Path | None:
         """The library of compiled functions, if they are compiled."""
-    def compile(self, *, compiler: str | None = None) -> Mechanism:
-        """Writes the functions as C, compiles them by the system's compiler, and has every later call run the compiled code.
+    def compile(self, *, functions: Sequence[str] | None = None, compiler: str | None = None) -> Mechanism:
+        """Writes functions as C, compiles them by the system's compiler, and has every later call run the compiled code.
 
         The library is kept in a folder, under a name that depends on the model, the compiler and the processor: the next time
         it is loaded.
 
         Parameters
         ----------
+        functions : sequence of str, optional
+            The names of the functions; by default those of the key `functions` of the model file, or all. The run-time path
+            computes the others.
         compiler : str, optional
             The compiler; by default the environment variable CC, or cc.
 
@@ -262,7 +270,8 @@ class Mechanism:
         Raises
         ------
         RedysimError
-            If the compiler is missing or fails, or if the file has changed since it was loaded.
+            If the compiler is missing or fails, if the file has changed since it was loaded, or if other functions of the
+            mechanism are compiled already.
         """
     def check_unchanged(self) -> None:
         """Fails if the file has changed since it was loaded."""
