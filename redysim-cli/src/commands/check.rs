@@ -4,10 +4,11 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::model::{not_a_model, show};
+use crate::model::{is_urdf, not_a_model, show};
 use crate::number::counted;
 use crate::output::{print, to_stderr, visible};
 use crate::summary::Summary;
+use crate::urdf;
 use redysim_model::{Diagnostic, Faults, Loaded, Model, Severity};
 use serde::Serialize;
 
@@ -16,7 +17,8 @@ use serde::Serialize;
 #[command(after_help = "\
 Examples:
   redysim check models/kr5.toml
-  redysim import robot.urdf | redysim check -
+  redysim check panda.urdf
+  redysim import satellite.urdf --base free | redysim check -
   redysim check models/fourbar.toml --json | jq .summary.mobility
 
 With --quiet only faults are shown; the exit code is 0 for a model without faults.
@@ -37,7 +39,7 @@ they are:
     operations  [{ function, flops, additions, multiplications, divisions,
                    sine_cosine_pairs }]")]
 pub struct Arguments {
-    /// The model file, or - for the standard input.
+    /// The model file, a URDF on the ground, or - for the standard input.
     model: PathBuf,
     /// Print everything as JSON.
     #[arg(long)]
@@ -60,8 +62,15 @@ impl Arguments {
     /// The model, or its faults.
     ///
     /// # Errors
-    /// If the standard input cannot be read.
-    fn load(&self) -> Result<Result<Loaded, Faults>, Failure> {
+    /// If the standard input cannot be read; the first fault of a URDF.
+    fn load(&self, quiet: bool) -> Result<Result<Loaded, Faults>, Failure> {
+        if is_urdf(&self.model) {
+            let imported = urdf::import(&urdf::read(&self.model)?, &self.model, urdf::Options::default())?;
+            if !quiet {
+                imported.changes.iter().for_each(|change| to_stderr(&format!("warning: {change}")));
+            }
+            return Ok(Model::from_toml(imported.text, format!("redysim import {}", self.name())));
+        }
         if !self.is_standard_input() {
             return Ok(Model::load(&self.model));
         }
@@ -115,7 +124,7 @@ impl<'a> Finding<'a> {
 
 /// Checks the model.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
-    match arguments.load()? {
+    match arguments.load(quiet)? {
         Ok(loaded) => show_model(arguments, &loaded, quiet),
         Err(faults) => Err(show_faults(arguments, &faults, quiet)?),
     }

@@ -321,3 +321,30 @@ fn another_toml_file_is_one_error() {
     assert!(output.contains("Cargo.toml is not a model: ") && output.contains("workspace"), "{output}");
     assert_eq!(output.matches("error").count(), 1, "{output}");
 }
+
+#[test]
+fn a_urdf_is_checked_as_the_model_file_that_it_becomes() {
+    let folder = scratch("check-urdf");
+    let arm = |ixx: &str| {
+        format!(
+            "<robot name='arm'><link name='foot'/><link name='arm'><inertial><origin xyz='0 0 0.3'/><mass value='2'/>\
+             <inertia ixx='{ixx}' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial></link>\
+             <joint name='shoulder' type='revolute'><parent link='foot'/><child link='arm'/><axis xyz='0 1 0'/>\
+             <origin xyz='0 0 0.5'/><limit lower='-1' upper='1' effort='9' velocity='2'/></joint></robot>"
+        )
+    };
+    std::fs::write(folder.join("arm.urdf"), arm("0.1")).unwrap();
+    succeed(&folder, &["import", "arm.urdf", "--output", "arm.toml", "--quiet"]);
+    let [urdf, model] = ["arm.urdf", "arm.toml"].map(|file| succeed(&folder, &["check", file]));
+    assert_eq!(urdf, model);
+    // Findings stand in what `redysim import` prints, at its lines.
+    std::fs::write(folder.join("flat.urdf"), arm("0.5")).unwrap();
+    succeed(&folder, &["import", "flat.urdf", "--output", "flat.toml", "--quiet"]);
+    let [urdf, model] = ["flat.urdf", "flat.toml"].map(|file| call(&folder, &["check", file]).stderr);
+    assert!(model.contains("warning[inertia-triangle]: link `arm`"), "{model}");
+    assert_eq!(urdf.replace("redysim import flat.urdf", "flat.toml"), model);
+    // A fault of the URDF is one error.
+    std::fs::write(folder.join("flat.urdf"), arm("much")).unwrap();
+    let run = call(&folder, &["check", "flat.urdf"]);
+    assert_eq!((run.code, run.stderr.matches("error: ").count()), (1, 1), "{}", run.stderr);
+}
