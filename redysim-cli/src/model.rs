@@ -133,9 +133,29 @@ fn import(text: &str, path: &Path, base: Base) -> Result<ModelFile, Failure> {
     Ok(ModelFile { model, text, urdf, warnings, options: CodegenOptions::default() })
 }
 
+/// Reads a model with `options` beside it, in TOML: a model file, or a URDF on the ground as the model file that it becomes,
+/// whose faults and warnings stand in what `redysim import` prints.
+///
+/// # Errors
+/// The first fault of a URDF.
+pub fn with_options(path: &Path, options: &str, quiet: bool) -> Result<Result<Loaded, Faults>, Failure> {
+    let name = path.display().to_string();
+    if !is_urdf(path) {
+        return Ok(Model::load_with(path, name, options));
+    }
+    let imported = urdf::import(&urdf::read(path)?, path, urdf::Options::default())?;
+    if !quiet {
+        imported.changes.iter().for_each(|change| to_stderr(&format!("warning: {change}")));
+    }
+    Ok(Model::from_toml_with(imported.text, format!("redysim import {name}"), options))
+}
+
 /// Reads a model, prints its warnings unless `quiet`, and reports every fault at once.
-pub fn load(path: &Path, quiet: bool) -> Result<Loaded, Failure> {
-    loaded(path, Model::load(path), quiet)
+///
+/// # Errors
+/// The faults.
+pub fn load(path: &Path, options: &str, quiet: bool) -> Result<Loaded, Failure> {
+    loaded(path, with_options(path, options, quiet)?, quiet)
 }
 
 /// The same of a model that is read already.

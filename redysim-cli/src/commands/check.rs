@@ -4,11 +4,10 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use crate::failure::Failure;
-use crate::model::{is_urdf, not_a_model, show};
+use crate::model::{self, not_a_model, show};
 use crate::number::counted;
 use crate::output::{print, to_stderr, visible};
 use crate::summary::Summary;
-use crate::urdf;
 use redysim_model::{Diagnostic, Faults, Loaded, Model, Severity};
 use serde::Serialize;
 
@@ -64,15 +63,8 @@ impl Arguments {
     /// # Errors
     /// If the standard input cannot be read; the first fault of a URDF.
     fn load(&self, quiet: bool) -> Result<Result<Loaded, Faults>, Failure> {
-        if is_urdf(&self.model) {
-            let imported = urdf::import(&urdf::read(&self.model)?, &self.model, urdf::Options::default())?;
-            if !quiet {
-                imported.changes.iter().for_each(|change| to_stderr(&format!("warning: {change}")));
-            }
-            return Ok(Model::from_toml(imported.text, format!("redysim import {}", self.name())));
-        }
         if !self.is_standard_input() {
-            return Ok(Model::load(&self.model));
+            return model::with_options(&self.model, "", quiet);
         }
         let mut bytes = Vec::new();
         let read = std::io::stdin().lock().read_to_end(&mut bytes);

@@ -92,6 +92,6 @@ impl Recorded {
                 .help("a run writes a copy of its model beside its tables; put it back there"));
         }
         // The run has shown the warnings.
-        model::load(&path, true).map(|loaded| loaded.model)
+        model::load(&path, "", true).map(|loaded| loaded.model)
     }
 }

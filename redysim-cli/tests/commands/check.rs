@@ -323,7 +323,7 @@ fn another_toml_file_is_one_error() {
 }
 
 #[test]
-fn a_urdf_is_checked_as_the_model_file_that_it_becomes() {
+fn a_urdf_is_checked_and_generated_as_the_model_file_that_it_becomes() {
     let folder = scratch("check-urdf");
     let arm = |ixx: &str| {
         format!(
@@ -336,6 +336,8 @@ fn a_urdf_is_checked_as_the_model_file_that_it_becomes() {
     std::fs::write(folder.join("arm.urdf"), arm("0.1")).unwrap();
     succeed(&folder, &["import", "arm.urdf", "--output", "arm.toml", "--quiet"]);
     let [urdf, model] = ["arm.urdf", "arm.toml"].map(|file| succeed(&folder, &["check", file]));
+    assert_eq!(urdf, model);
+    let [urdf, model] = ["arm.urdf", "arm.toml"].map(|file| succeed(&folder, &["generate", file]));
     assert_eq!(urdf, model);
     // Findings stand in what `redysim import` prints, at its lines.
     std::fs::write(folder.join("flat.urdf"), arm("0.5")).unwrap();

@@ -14,7 +14,7 @@ use crate::output::{check_beside, print, to_stderr, write_beside, write_together
 use redysim_codegen::{
     CFiles, COptions, CScalar, CppFiles, MexFiles, SourceError, c_files, cpp_files, mex_files, source_file_with,
 };
-use redysim_model::{Function, Loaded, Model};
+use redysim_model::{Function, Loaded};
 
 /// Write the source that `redysim!` would make of a model, in Rust, C99 or C++, or for other simulation tools.
 ///
@@ -34,13 +34,14 @@ Examples:
   redysim generate --language c models/kr5.toml -o controller
   redysim generate --language c --scalar f32 models/gripper.toml -o firmware
   redysim generate --language cpp models/kr5.toml -o kr5
+  redysim generate --language cpp panda.urdf -o panda
   redysim generate --mex models/kr5.toml -o matlab
   redysim generate --fmu models/kr5.toml -o fmus
   redysim generate --fmu --fmi 2.0 models/kr5.toml -o fmus_2
 
 In your Cargo.toml: redysim-runtime = { path = \"..\", default-features = false }")]
 pub struct Arguments {
-    /// The model file.
+    /// The model file, or a URDF on the ground.
     model: PathBuf,
     /// Write to this file instead of printing; with --language c or cpp or with --mex or --fmu, to this folder, which
     /// is made if it is not there.
@@ -239,13 +240,9 @@ fn failure(error: SourceError) -> Failure {
 
 /// The model with the functions that are asked for here, checked as those of a declaration are.
 fn load(arguments: &Arguments, quiet: bool) -> Result<Loaded, Failure> {
-    if arguments.functions.is_empty() {
-        return model::load(&arguments.model, quiet);
-    }
     let names: Vec<String> = arguments.functions.iter().map(|name| format!("\"{name}\"")).collect();
-    let options = format!("functions = [{}]", names.join(", "));
-    let path = &arguments.model;
-    model::loaded(path, Model::load_with(path, path.display().to_string(), options), quiet)
+    let options = if names.is_empty() { String::new() } else { format!("functions = [{}]", names.join(", ")) };
+    model::load(&arguments.model, &options, quiet)
 }
 
 /// `kr5` is `Kr5`, `n-fourbar 2` is `NFourbar2`; a name that still is not one of a type, such as `3rrr`, is

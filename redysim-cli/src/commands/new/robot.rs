@@ -58,7 +58,7 @@ impl Robot {
             let read = model::read(robot, quiet)?;
             return Ok(Robot { stem, text: read.text, model: read.model, options: CodegenOptions::default() });
         }
-        let loaded = model::load(robot, quiet)?;
+        let loaded = model::load(robot, "", quiet)?;
         if loaded.options.tolerance.is_some() {
             let message = format!(
                 "{} has a `tolerance`, with which forward dynamics gives back other accelerations",
