@@ -269,8 +269,20 @@ fn plain(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>, quantit
         Quantity::TrackingRate => {
             not_negative(reader, path, value, "a negative rate adds to the windup: give zero or more")
         }
+        Quantity::Gain => gain(reader, path, value),
         _ => reader.parse_number(path, value),
     }
+}
+
+/// A gain, with a warning if it is negative.
+fn gain(reader: &mut Reader<'_, '_>, path: &KeyPath, value: &Value<'_>) -> Option<f64> {
+    let gain = reader.parse_number(path, value)?;
+    if gain < 0.0 {
+        let title = format!("{}: `{path}` is {gain:?}, and a negative gain drives away", reader.item());
+        let help = "it multiplies the target less the position, or the desired less the actual velocity";
+        reader.warning_at(value.span(), Message { title, label: "negative".into(), help: help.into() });
+    }
+    Some(gain)
 }
 
 /// A number that is zero or above. `help` is what to do about a negative one.

@@ -231,6 +231,23 @@ fn a_law_that_drives_away_is_named_and_not_the_tolerance() {
     assert!(steps.contains("take a `step` of the integrator below 0.05 s"), "{steps}");
 }
 
+#[test]
+fn a_negative_gain_is_warned_of_before_it_does_harm() {
+    let folder = scratch("laws-negative-gain");
+    let shown = |gains: &str| {
+        let law = format!("{{ law = 'pd', target = {{}}, {gains} }}");
+        let path = scenario(&folder, "kr5.toml", &format!("[forward]\nend = 0.01\nstep = 0.01\ntorque = {law}\n"));
+        crate::common::call(&folder, &["forward", &path, "-o", "run", "--force"]).stderr
+    };
+    let warned = shown("kp = 4, kd = { joint2 = -0.5 }");
+    assert!(
+        warned.contains("warning: the scenario: `forward.torque.kd.joint2` is -0.5, and a negative gain"),
+        "{warned}"
+    );
+    assert!(warned.contains("trial.toml:5:"), "{warned}");
+    assert_eq!(shown("kp = 0, kd = -0.0"), "");
+}
+
 /// A negative gain makes steps as small as a stiff equation does, for which an implicit method is no remedy.
 #[test]
 fn a_law_that_drives_away_is_not_called_stiff() {
@@ -241,7 +258,8 @@ fn a_law_that_drives_away_is_not_called_stiff() {
         let path = scenario(&folder, model, &rest);
         let shown = crate::common::call(&folder, &["forward", &path, "-o", "run", "--force"]).stderr;
         assert!(shown.contains("`kp` has the sign that drives away") && !shown.contains("Ode15s"), "{shown}");
-        assert_eq!(shown.matches("= help: ").count(), 1, "{shown}");
+        // One for the warning of the gain, and one for the motion.
+        assert_eq!(shown.matches("= help: ").count(), 2, "{shown}");
     }
 }
 
@@ -260,7 +278,8 @@ fn a_motion_without_bound_whose_end_would_never_come_is_ended() {
     ] {
         assert!(run.stderr.contains(part), "{part}: {}", run.stderr);
     }
-    assert_eq!(run.stderr.matches("= help: ").count(), 1, "one error has both: {}", run.stderr);
+    let (_, error) = run.stderr.split_once("error: ").unwrap();
+    assert_eq!(error.matches("= help: ").count(), 1, "one error has both: {}", run.stderr);
 }
 
 /// The crank rests where it was sent, and the loops stay closed.
