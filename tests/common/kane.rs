@@ -373,7 +373,8 @@ fn springs_in_joint(link: &Link, q: &[f64], stiffness: &[f64]) -> (Vec<f64>, Vec
             * UnitQuaternion::new_normalize(Quaternion::new(q[nq - 1], q[nq - 4], q[nq - 3], q[nq - 2]));
     let vector = quaternion.scaled_axis();
     let (angle, cross) = (vector.norm(), vector.cross_matrix());
-    let second = 1.0 / angle.powi(2) - 0.5 / (angle * (0.5 * angle).tan());
+    // 1/12 at θ = 0, and 1/12 + θ²/720 near it.
+    let second = if angle < 1e-4 { 1.0 / 12.0 } else { 1.0 / angle.powi(2) - 0.5 / (angle * (0.5 * angle).tan()) };
     let rates = Matrix3::identity() + cross * 0.5 + cross * cross * second;
     let times = |k: &[f64], e: &Vector3<f64>| e.component_mul(&Vector3::from_column_slice(k));
     let moment = rates.transpose() * times(&stiffness[nv - 3..], &vector);
