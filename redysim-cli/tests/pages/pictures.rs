@@ -231,6 +231,7 @@ fn branches_stand_apart(run: &Path, branch: impl Fn(&str) -> String) -> BTreeSet
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn each_branch_of_a_humanoid_has_panels_of_its_own_and_a_joint_one_colour_in_all_pictures() {
     let run = swing(&scratch("pictures-humanoid"), "peers/humanoid30.toml", 30, 1.0, 40);
     let ends = [6, 12, 14, 21, 28, 30];
@@ -243,6 +244,7 @@ fn each_branch_of_a_humanoid_has_panels_of_its_own_and_a_joint_one_colour_in_all
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn each_leg_of_a_quadruped_has_panels_of_its_own_and_a_base_that_nothing_drives_has_none_of_forces() {
     let legs = ["rear_right", "rear_left", "front_right", "front_left"];
     let joints: Vec<String> =

@@ -14,6 +14,8 @@ mod compilers;
 mod cpp;
 mod parameters;
 mod program;
+#[cfg(any(target_feature = "fma", not(target_arch = "x86_64")))]
+mod side_by_side;
 
 use crate::NATIVE;
 use crate::common::call;
