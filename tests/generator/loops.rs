@@ -41,12 +41,14 @@ fn with_loops(model: &Model, passes: &Passes) -> Vec<String> {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_long_functions_of_a_chain_have_loops() {
     let expected = ["inverse_dynamics", "forward_dynamics", "bias_forces"];
     assert_eq!(with_loops(&shipped("peers/chain40"), &Passes::all()), expected);
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn without_the_pass_nothing_is_a_loop() {
     let passes = Passes { loops: false, ..Passes::all() };
     assert!(with_loops(&shipped("peers/chain40"), &passes).is_empty());

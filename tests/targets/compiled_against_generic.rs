@@ -26,7 +26,7 @@ redysim! { struct Springs("models/test/springs.toml"); }
 redysim! { struct Mimics("models/parallel_gripper.toml"); }
 
 const SAMPLE: usize = 1000;
-const STATES: usize = if NATIVE { SAMPLE } else { 300 };
+const STATES: usize = if NATIVE { SAMPLE } else { 100 };
 
 fn states(mechanism: &impl Mechanism) -> impl Iterator<Item = State> {
     let mut random = Random::new(1);
