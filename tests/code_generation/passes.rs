@@ -126,6 +126,7 @@ fn calibrated(error: f64) -> Model {
 /// cost the digits of all else. What is left is that elements of rotations below 64 roundings count as roundoff, also
 /// where they are products of two tilts.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn small_tilts_and_offsets_cost_at_most_2e_13() {
     for exponent in 2..=12 {
         let error = 10.0_f64.powi(-exponent);

@@ -81,6 +81,7 @@ fn no_pass_costs_forces_or_the_mass_matrix_a_factor_of_four() {
 /// Of accelerations the largest error has a wide spread itself: it belongs to the one state whose mass matrix has the
 /// worst condition. So the typical tree keeps the factor of four, and none loses a digit more than that.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn passes_cost_accelerations_by_the_recursion_a_factor_of_four_in_nine_of_ten_trees_and_of_20_at_most() {
     for style in Style::ALL {
         let mut factors: Vec<f64> = random_trees(style)
@@ -129,6 +130,7 @@ fn compiled_forward_dynamics_keeps_what_the_recursion_keeps() {
 
 /// Either takes fewer operations by the explicit mass matrix, which loses digits that the recursion keeps.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_heavy_tip_and_a_palm_with_fingers_keep_the_digits_of_the_recursion() {
     let tip = |index| if index == 5 { 1e6 } else { 1.0 };
     let heavy_tip = chains::chain(6, |index| Rod { axis: chains::oblique(index), mass: tip(index), length: 0.5 });

@@ -214,6 +214,7 @@ const ON_THE_GROUND: [(&str, f64); 4] = [("hexapod", 0.1), ("parcel", 0.7), ("qu
 /// As they are shipped, from beginning to end, steps, touch-downs and lift-offs included: whatever led to a state, the
 /// accelerations there are those of the forces that are written.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn whoever_stands_walks_or_falls_on_the_ground_obeys_kanes_equations_with_the_written_forces() {
     let mut with_contact = shipped("forward");
     with_contact.retain(|name| read(name).contains_key("contact"));
@@ -245,6 +246,7 @@ fn whoever_stands_walks_or_falls_on_the_ground_obeys_kanes_equations_with_the_wr
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_forces_of_every_shipped_motion_obey_kanes_equations() {
     for name in shipped("inverse") {
         let folder = scratch(&format!("equations-of-forces-{name}"));

@@ -157,6 +157,7 @@ fn a_spherical_pendulum_keeps_its_energy_and_its_moment_of_momentum_about_the_ve
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_centre_of_mass_of_a_free_robot_falls_like_a_stone_under_every_law_on_its_arm() {
     let folder = scratch("in-space-fall");
     let masses = [50.0, 16.038, 7.988, 12.973, 2.051, 0.811, 0.008];
