@@ -236,9 +236,9 @@ fn a_floating_arm_compiled_is_the_same_generic() {
 }
 
 /// Four legs side by side, in `f64` in lanes and in double-double one after the other. Their code takes long to compile:
-/// for the processor at hand only.
+/// `.ci/run` alone has them, for any processor with the feature `deterministic`.
 #[test]
-#[cfg(any(target_feature = "fma", not(target_arch = "x86_64")))]
+#[cfg(any(feature = "deterministic", target_feature = "fma", not(target_arch = "x86_64")))]
 fn a_quadruped_compiled_is_the_same_generic() {
     redysim! { struct Quadruped("models/quadruped.toml"); }
     assert_same_functions(&Quadruped, &generic("quadruped"), CONSTANTS_WITH_PLATFORM, ACCELERATIONS);

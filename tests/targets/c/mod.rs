@@ -14,7 +14,7 @@ mod compilers;
 mod cpp;
 mod parameters;
 mod program;
-#[cfg(any(target_feature = "fma", not(target_arch = "x86_64")))]
+#[cfg(any(feature = "deterministic", target_feature = "fma", not(target_arch = "x86_64")))]
 mod side_by_side;
 
 use crate::NATIVE;

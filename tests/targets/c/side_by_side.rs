@@ -1,5 +1,5 @@
 //! What robots with several limbs compute side by side, in the lanes of vectors, is the same bits in C. Their code takes
-//! long to compile: `.ci/run` runs these tests, for the processor at hand.
+//! long to compile: `.ci/run` alone has these tests, for any processor with the feature `deterministic`.
 
 use super::compilers::compilers;
 use super::program::InC;
