@@ -152,8 +152,13 @@ macro_rules! numbers {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn all_within(self, limit: Self) -> bool {
-                self.0.all_within(limit.0)
+            fn all_at_most(self, limit: Self) -> bool {
+                self.0.all_at_most(limit.0)
+            }
+
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                Self(self.0.lesser(other.0))
             }
 
             #[inline(always)]
@@ -193,10 +198,10 @@ numbers! {
 /// The instructions of one kind of vector. Bits are those of integers as wide as the numbers.
 macro_rules! lanes {
     ($(#[$documentation:meta])* $name:ident($register:ident): $width:literal of $float:ident ($number:ident) by $features:literal,
-     $kernel:ident, $splat:ident, $load:ident, $store:ident, $sqrt:ident, $fused:ident,
+     $kernel:ident, $splat:ident, $load:ident, $store:ident, $sqrt:ident, $min:ident, $fused:ident,
      [$($operator:ident $operation:ident $instruction:ident),*],
-     bits: $to_bits:ident, $from_bits:ident, $splat_bits:ident($bits:ident), $and:ident, $xor:ident, $plus:ident, $minus:ident,
-     $shift:ident::<$second_bit_to_sign:literal>, within: |$number_bits:ident, $limit_bits:ident| $within:expr) => {
+     bits: $to_bits:ident, $from_bits:ident, $splat_bits:ident, $and:ident, $xor:ident, $plus:ident, $minus:ident,
+     $shift:ident::<$second_bit_to_sign:literal>, at_most: |$left:ident, $right:ident| $at_most:expr) => {
         $(#[$documentation])*
         #[derive(Clone, Copy)]
         #[repr(transparent)]
@@ -337,14 +342,16 @@ macro_rules! lanes {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn all_within(self, limit: Self) -> bool {
+            fn all_at_most(self, limit: Self) -> bool {
+                let ($left, $right) = (self.0, limit.0);
                 // SAFETY: see the head of the file.
-                unsafe {
-                    let magnitude = $splat_bits($bits::MAX);
-                    let $number_bits = $from_bits($and($to_bits(self.0), magnitude));
-                    let $limit_bits = $from_bits($and($to_bits(limit.0), magnitude));
-                    $within
-                }
+                unsafe { $at_most }
+            }
+
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $min(self.0, other.0) })
             }
 
             #[inline(always)]
@@ -374,41 +381,41 @@ macro_rules! lanes {
 lanes! {
     /// Four `f64`.
     Avx2F64x4(__m256d): 4 of f64 (Avx2F64) by "avx2,fma,bmi1,bmi2", double,
-    _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd, _mm256_fmadd_pd,
+    _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_sqrt_pd, _mm256_min_pd, _mm256_fmadd_pd,
     [Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd],
-    bits: _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_set1_epi64x(i64),
+    bits: _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_set1_epi64x,
     _mm256_and_si256, _mm256_xor_si256, _mm256_add_epi64, _mm256_sub_epi64, _mm256_slli_epi64::<62>,
-    within: |number, limit| _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(number, limit)) == 0xf
+    at_most: |number, limit| _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(number, limit)) == 0xf
 }
 
 lanes! {
     /// Eight `f32`.
     Avx2F32x8(__m256): 8 of f32 (Avx2F32) by "avx2,fma,bmi1,bmi2", single,
-    _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_sqrt_ps, _mm256_fmadd_ps,
+    _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps, _mm256_sqrt_ps, _mm256_min_ps, _mm256_fmadd_ps,
     [Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps],
-    bits: _mm256_castps_si256, _mm256_castsi256_ps, _mm256_set1_epi32(i32),
+    bits: _mm256_castps_si256, _mm256_castsi256_ps, _mm256_set1_epi32,
     _mm256_and_si256, _mm256_xor_si256, _mm256_add_epi32, _mm256_sub_epi32, _mm256_slli_epi32::<30>,
-    within: |number, limit| _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(number, limit)) == 0xff
+    at_most: |number, limit| _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(number, limit)) == 0xff
 }
 
 lanes! {
     /// Eight `f64`.
     Avx512F64x8(__m512d): 8 of f64 (Avx2F64) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
     double,
-    _mm512_set1_pd, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd, _mm512_fmadd_pd,
+    _mm512_set1_pd, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_sqrt_pd, _mm512_min_pd, _mm512_fmadd_pd,
     [Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd],
-    bits: _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_set1_epi64(i64),
+    bits: _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_set1_epi64,
     _mm512_and_si512, _mm512_xor_si512, _mm512_add_epi64, _mm512_sub_epi64, _mm512_slli_epi64::<62>,
-    within: |number, limit| _mm512_cmp_pd_mask::<_CMP_LE_OQ>(number, limit) == 0xff
+    at_most: |number, limit| _mm512_cmp_pd_mask::<_CMP_LE_OQ>(number, limit) == 0xff
 }
 
 lanes! {
     /// Sixteen `f32`.
     Avx512F32x16(__m512): 16 of f32 (Avx2F32) by "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi1,bmi2",
     single,
-    _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps, _mm512_sqrt_ps, _mm512_fmadd_ps,
+    _mm512_set1_ps, _mm512_loadu_ps, _mm512_storeu_ps, _mm512_sqrt_ps, _mm512_min_ps, _mm512_fmadd_ps,
     [Add add _mm512_add_ps, Sub sub _mm512_sub_ps, Mul mul _mm512_mul_ps, Div div _mm512_div_ps],
-    bits: _mm512_castps_si512, _mm512_castsi512_ps, _mm512_set1_epi32(i32),
+    bits: _mm512_castps_si512, _mm512_castsi512_ps, _mm512_set1_epi32,
     _mm512_and_si512, _mm512_xor_si512, _mm512_add_epi32, _mm512_sub_epi32, _mm512_slli_epi32::<30>,
-    within: |number, limit| _mm512_cmp_ps_mask::<_CMP_LE_OQ>(number, limit) == 0xffff
+    at_most: |number, limit| _mm512_cmp_ps_mask::<_CMP_LE_OQ>(number, limit) == 0xffff
 }

@@ -14,8 +14,18 @@ macro_rules! angles {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn all_within(self, limit: Self) -> bool {
-                self.0.abs().simd_le(limit.0.abs()).all()
+            fn all_at_most(self, limit: Self) -> bool {
+                // Not by the comparison of `wide`, whose result LLVM takes for numbers of which it needs the signs.
+                let mut all = true;
+                for (number, limit) in self.to_array().into_iter().zip(limit.to_array()) {
+                    all &= number <= limit;
+                }
+                all
+            }
+
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                Self(self.0.fast_min(other.0))
             }
 
             #[inline(always)]

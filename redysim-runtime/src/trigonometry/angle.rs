@@ -11,8 +11,11 @@ pub trait Angle: Scalar {
     /// Whether `mul_add` rounds once.
     const FUSED: bool;
 
-    /// Whether in every lane the magnitude is at most that of `limit`, and neither is NaN.
-    fn all_within(self, limit: Self) -> bool;
+    /// Whether every lane is at most that of `limit`; NaN is not.
+    fn all_at_most(self, limit: Self) -> bool;
+
+    /// The lesser of the numbers in every lane, `other` where one of them is NaN.
+    fn lesser(self, other: Self) -> Self;
 
     /// Sine and cosine, given those of the rest, after the quarter turns in the last two bits of `rounded`: every one
     /// turns (sin, cos) to (cos, −sin).
@@ -47,8 +50,13 @@ macro_rules! one_angle {
             const FUSED: bool = FUSED;
 
             #[inline(always)]
-            fn all_within(self, limit: Self) -> bool {
-                $float::abs(self) <= $float::abs(limit)
+            fn all_at_most(self, limit: Self) -> bool {
+                self <= limit
+            }
+
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                if self < other { self } else { other }
             }
 
             #[inline(always)]

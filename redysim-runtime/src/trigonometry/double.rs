@@ -8,10 +8,10 @@
 use super::angle::{Angle, Number};
 use super::reduction::{ROUNDER, Reduced};
 
-/// 2¹⁷ quarter turns.
-const MANY_TURNS: f64 = 205_887.0;
 /// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³.
 const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
+/// Of 2¹⁷ quarter turns, the square of that rest.
+const MANY_TURNS: f64 = 1.0 / (1_u64 << 32) as f64;
 /// π/2 in a part of 36 bits, of which multiples up to 2¹⁷ are exact, and one of 53.
 const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
 
@@ -43,7 +43,9 @@ fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
     let first = minus_n.mul_add(k(HALF_PI[0]), x);
     let rest = minus_n.mul_add(k(HALF_PI[1]), first);
     let tail = minus_n.mul_add(k(HALF_PI[1]), first - rest);
-    let good = x.all_within(k(MANY_TURNS)) & (minus_n * k(TOO_SMALL)).all_within(rest);
+    // By squares, of which the kernel needs that of the rest anyway: one comparison for both, and no signs.
+    let too_small = minus_n * k(TOO_SMALL);
+    let good = (too_small * too_small).all_at_most((rest * rest).lesser(k(MANY_TURNS)));
     (Reduced { rounded, rest, tail }, good)
 }
 
@@ -71,10 +73,11 @@ const COSINE: [f64; 6] = [
 #[inline(always)]
 fn kernel<A: Angle>(r: A, tail: A) -> (A, A) {
     let (one, z) = (A::one(), r * r);
-    let half = A::from_f64(0.5) * z;
-    let near_one = one - half;
+    // Halves are exact, fused or not.
+    let minus_half = A::from_f64(-0.5);
+    let near_one = z.mul_add(minus_half, one);
     let sin = r + (r * z).mul_add(polynomial(&SINE, z), tail * near_one);
-    let correction = (-r).mul_add(tail, (one - near_one) - half);
+    let correction = (-r).mul_add(tail, z.mul_add(minus_half, one - near_one));
     let cos = near_one + (z * z).mul_add(polynomial(&COSINE, z), correction);
     (sin, cos)
 }

@@ -8,8 +8,6 @@
 
 use super::angle::{Angle, Number};
 use super::reduction::Reduced;
-#[cfg(feature = "lanes")]
-use crate::scalar::FUSED;
 
 /// The number of radians up to which the parts of π/2 are good enough: 2¹⁷ quarter turns, or 2⁸ if multiply and add
 /// round twice.
@@ -34,7 +32,7 @@ const ROUNDER: f32 = 12_582_912.0;
 pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     let mut found = ([0.0; N], [0.0; N]);
     let mut put = |index: usize, (sin, cos)| (found.0[index], found.1[index]) = (sin, cos);
-    if angles.iter().all(|x| x.all_within(many_turns(FUSED))) {
+    if angles.iter().all(|&x| has_few_turns(x)) {
         for start in (0..N).step_by(8) {
             let mut one = |index: usize| {
                 if index < N {
@@ -56,6 +54,13 @@ pub fn one_after_the_other<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32;
         }
     }
     found
+}
+
+/// Whether the parts of π/2 are good enough for the angle in every lane.
+#[inline(always)]
+fn has_few_turns<A: Angle>(x: A) -> bool {
+    let many = many_turns(A::FUSED);
+    (x * x).all_at_most(k(many * many))
 }
 
 /// Sine and cosine of `x` radians, in every lane.
@@ -102,7 +107,7 @@ fn reduced<A: Angle>(x: A) -> (Reduced<A>, bool) {
     } else {
         minus_n.mul_add(c, roundoff)
     };
-    (Reduced { rounded, rest, tail }, x.all_within(k(many_turns(A::FUSED))))
+    (Reduced { rounded, rest, tail }, has_few_turns(x))
 }
 
 /// (sin r − r) / r³ as a polynomial in r².

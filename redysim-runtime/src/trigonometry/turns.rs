@@ -12,14 +12,13 @@ const LARGEST: f64 = 7.0;
 /// The same angles, the large ones without whole turns.
 #[inline(always)]
 pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
-    let limit = A::from_f64(LARGEST);
     // A branch for every four angles, which nearly always are small: with one for all of them the comparisons of eight
     // angles would be joined into vectors of 512 bits. Loops and not `fold`, which the compiler may leave as a function of
     // its own: that is not compiled for the instructions of lanes chosen at run time.
     for angles in angles.chunks_mut(4) {
         let mut small = true;
         for angle in &*angles {
-            small &= angle.all_within(limit);
+            small &= is_small(*angle);
         }
         if !small {
             for angle in angles {
@@ -30,9 +29,15 @@ pub fn without_turns<A: Angle, const N: usize>(mut angles: [A; N]) -> [A; N] {
     angles
 }
 
+/// Whether the angle in every lane has no whole turns to take away.
+#[inline(always)]
+fn is_small<A: Angle>(angle: A) -> bool {
+    (angle * angle).all_at_most(A::from_f64(LARGEST * LARGEST))
+}
+
 /// One angle, and nothing of interest.
 fn without_turns_of_one<A: Number>(angle: A) -> (A, A) {
-    if angle.all_within(A::from_f64(LARGEST)) {
+    if is_small(angle) {
         return (angle, angle);
     }
     let Reduced { rounded, rest, tail } = angle.reduced();

@@ -78,8 +78,12 @@ impl Angle for Unfused {
     type Number = Self;
     const FUSED: bool = false;
 
-    fn all_within(self, limit: Self) -> bool {
-        self.0.all_within(limit.0)
+    fn all_at_most(self, limit: Self) -> bool {
+        self.0.all_at_most(limit.0)
+    }
+
+    fn lesser(self, other: Self) -> Self {
+        Unfused(self.0.lesser(other.0))
     }
 
     fn turned(rounded: Self, sin: Self, cos: Self) -> (Self, Self) {
