@@ -14,7 +14,7 @@ pub trait Angle: Scalar {
     /// Whether every lane is at most that of `limit`; NaN is not.
     fn all_at_most(self, limit: Self) -> bool;
 
-    /// The lesser of the numbers in every lane, `other` where one of them is NaN.
+    /// The lesser of the two numbers in every lane; either of them where one is NaN.
     fn lesser(self, other: Self) -> Self;
 
     /// Sine and cosine, given those of the rest, after the quarter turns in the last two bits of `rounded`: every one
