@@ -54,14 +54,9 @@ pub fn parts(needed: Needed, scalar: CScalar) -> String {
     let group = format!("{}\n{}", vector("group", "REDYSIM_GROUP", 256, scalar), in_vectors(&kernel, scalar, "group"));
     let [kind, suffix] = suffix_on_x86(scalar);
     let x86 = [128, 256].map(|width| format!("__m{width}{kind}"));
-    let any = ["", "256"].map(|wide| format!("_mm{wide}_movemask_{suffix}"));
-    let names = [
-        ("group_type", &group),
-        ("x86_128", &x86[0]),
-        ("x86_256", &x86[1]),
-        ("any_128", &any[0]),
-        ("any_256", &any[1]),
-    ];
+    let (any, none) = (format!("_mm_movemask_{suffix}"), format!("_mm256_testz_{suffix}"));
+    let names =
+        [("group_type", &group), ("x86_128", &x86[0]), ("x86_256", &x86[1]), ("any_128", &any), ("none_256", &none)];
     let angles = of_scalar(&filled(SIN_COS, &names.map(|(name, value)| (name, value.as_str()))), scalar);
     let own = [head, &of_scalar(NUMBERS, scalar), &kernel, hard, &angles].join("\n");
     text += &format!("\n#if defined(REDYSIM_LIBM) || defined(REDYSIM_SINCOS)\n{}", of_scalar(LIBRARY_SIN_COS, scalar));

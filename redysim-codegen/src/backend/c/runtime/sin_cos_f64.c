@@ -18,5 +18,3 @@
 /* Added to a number below 2^51 and taken away again, it leaves the nearest integer, and shows its bits in between. */
 #define REDYSIM_ROUNDER 6755399441055744.0
 #define REDYSIM_2_PI 0.6366197723675814
-/* The bits of 205887.0, a little more than 2^17 quarter turns. */
-#define REDYSIM_MOST_BITS 0x410921f800000000U

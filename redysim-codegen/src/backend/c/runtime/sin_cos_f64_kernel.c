@@ -3,8 +3,8 @@ REDYSIM_INLINE void redysim_evaluate(double rounded, double rest, double tail, d
 {
     const double z = rest * rest;
     const double zz = z * z;
-    const double half = 0.5 * z;
-    const double near_one = 1.0 - half;
+    /* Halves are exact, fused or not. */
+    const double near_one = MULTIPLY_ADD(z, -0.5, 1.0);
     const double s0 = MULTIPLY_ADD(z, 0.008333333333322418, -0.16666666666666632);
     const double s1 = MULTIPLY_ADD(z, 2.755731369357263e-6, -0.0001984126982981238);
     const double s2 = MULTIPLY_ADD(z, 1.5896811798732654e-10, -2.5050758384371987e-8);
@@ -14,7 +14,7 @@ REDYSIM_INLINE void redysim_evaluate(double rounded, double rest, double tail, d
     const double c2 = MULTIPLY_ADD(z, -1.1359658844005114e-11, 2.087572347902117e-9);
     const double c = MULTIPLY_ADD(zz, MULTIPLY_ADD(zz, c2, c1), c0);
     const double sin_rest = rest + MULTIPLY_ADD(rest * z, s, tail * near_one);
-    const double correction = MULTIPLY_ADD(-rest, tail, (1.0 - near_one) - half);
+    const double correction = MULTIPLY_ADD(-rest, tail, MULTIPLY_ADD(z, -0.5, 1.0 - near_one));
     const double cos_rest = near_one + MULTIPLY_ADD(zz, c, correction);
     const uint64_t turns = redysim_bits_of(rounded);
     const uint64_t sin_bits = redysim_bits_of(sin_rest);
@@ -36,13 +36,14 @@ REDYSIM_INLINE uint64_t redysim_reduce_quickly(double x, double *rounded, double
     /* The first difference is exact; the second leaves its roundoff in the tail. */
     const double first = MULTIPLY_ADD(minus_n, 1.5707963267923333, x);
     const double second = MULTIPLY_ADD(minus_n, 2.563344151594519e-12, first);
+    /*
+     * 2^17 quarter turns are too many, and a rest below 2^-33 for each quarter turn has lost too many digits to
+     * cancellation: by squares, of which redysim_evaluate needs that of the rest anyway, and by the signs of differences.
+     */
+    const double few_turns = MULTIPLY_ADD(-minus_n, minus_n, 17179869184.0);
+    const double large_rest = MULTIPLY_ADD(minus_n * -1.3552527156068805e-20, minus_n, second * second);
     *rounded = n;
     *rest = second;
     *tail = MULTIPLY_ADD(minus_n, 2.563344151594519e-12, first - second);
-    /*
-     * 2^17 quarter turns are too many, and a rest below 2^-33 for each quarter turn has lost too many digits to
-     * cancellation.
-     */
-    return (REDYSIM_MOST_BITS - redysim_magnitude_bits(x))
-        | (redysim_magnitude_bits(second) - redysim_magnitude_bits(minus_n * 1.1641532182693481e-10));
+    return redysim_bits_of(few_turns) | redysim_bits_of(large_rest);
 }

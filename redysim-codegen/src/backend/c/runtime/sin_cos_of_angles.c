@@ -45,7 +45,7 @@ REDYSIM_INLINE redysim_group redysim_group_of(int first, int count, const @numbe
 REDYSIM_INLINE int redysim_group_any(redysim_group_bits bits)
 {
 #if defined(__AVX__)
-    return @any_256@((@x86_256@)bits);
+    return !@none_256@((@x86_256@)bits, (@x86_256@)bits);
 #elif defined(__SSE2__)
     return @any_128@((@x86_128@)bits);
 #else
