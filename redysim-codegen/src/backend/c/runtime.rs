@@ -140,7 +140,7 @@ fn in_vectors(code: &str, scalar: CScalar, name: &str) -> String {
     }
     text = text.replace("MULTIPLY_ADD", &format!("REDYSIM_{}_MULTIPLY_ADD", name.to_uppercase()));
     text = text.replace("redysim_bits number", &format!("{vector}_union number"));
-    for function in ["bits_of", "number_of", "magnitude_bits", "evaluate", "reduce_quickly"] {
+    for function in ["bits_of", "number_of", "evaluate", "reduce_quickly"] {
         text = text.replace(&format!("redysim_{function}("), &format!("{vector}_{function}("));
     }
     text
@@ -161,16 +161,10 @@ fn of_scalar(part: &str, scalar: CScalar) -> String {
         CScalar::F64 => ("4", f64::EPSILON),
         CScalar::F32 => ("8", f64::from(f32::EPSILON)),
     };
-    let (seven_bits, magnitude) = match scalar {
-        CScalar::F64 => (format!("{:#018x}U", 7_f64.to_bits()), format!("{:#018x}U", u64::MAX >> 1)),
-        CScalar::F32 => (format!("{:#010x}U", 7_f32.to_bits()), format!("{:#010x}U", u32::MAX >> 1)),
-    };
     let names = [
         ("number", scalar.type_name()),
         ("bits", &scalar.bits().to_string()),
         ("group", group),
-        ("seven_bits", &seven_bits),
-        ("magnitude", &magnitude),
         ("fma", &scalar.of_math_h("fma")),
         ("sin", &scalar.of_math_h("sin")),
         ("cos", &scalar.of_math_h("cos")),

@@ -11,9 +11,3 @@ static inline @number@ redysim_number_of(uint@bits@_t bits)
     number.bits = bits;
     return number.number;
 }
-
-/* Magnitudes are in the order of their bits; NaN is beyond all numbers. */
-static inline uint@bits@_t redysim_magnitude_bits(@number@ x)
-{
-    return redysim_bits_of(x) & @magnitude@;
-}

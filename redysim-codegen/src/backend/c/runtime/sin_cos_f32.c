@@ -16,18 +16,18 @@
 /* Added to a number below 2^22 and taken away again, it leaves the nearest integer, and shows its bits in between. */
 #define REDYSIM_ROUNDER 12582912.0f
 /*
- * pi/2 in three parts, and the bits of the number of radians up to which they are good enough. If multiply and add round
- * once, a multiple of the first is subtracted exactly though it has all 24 bits: up to 2^17 quarter turns, 205887.0f. If
- * they round twice, the first and the second have 16 bits, of which multiples up to 2^8 are exact: 402.0f.
+ * pi/2 in three parts, and the number of radians up to which they are good enough. If multiply and add round
+ * once, a multiple of the first is subtracted exactly though it has all 24 bits: up to 2^17 quarter turns. If
+ * they round twice, the first and the second have 16 bits, of which multiples up to 2^8 are exact.
  */
 #ifdef REDYSIM_FMA
 #define REDYSIM_HALF_PI_1 1.5707964f
 #define REDYSIM_HALF_PI_2 (-4.371139e-8f)
 #define REDYSIM_HALF_PI_3 (-1.7151245e-15f)
-#define REDYSIM_MOST_BITS 0x48490fc0U
+#define REDYSIM_MOST 205887.0f
 #else
 #define REDYSIM_HALF_PI_1 1.5707703f
 #define REDYSIM_HALF_PI_2 2.6063062e-5f
 #define REDYSIM_HALF_PI_3 6.0771006e-11f
-#define REDYSIM_MOST_BITS 0x43c90000U
+#define REDYSIM_MOST 402.0f
 #endif

@@ -37,5 +37,5 @@ REDYSIM_INLINE uint32_t redysim_reduce_quickly(float x, float *rounded, float *r
 #endif
     *rounded = n;
     *rest = second;
-    return REDYSIM_MOST_BITS - redysim_magnitude_bits(x);
+    return redysim_bits_of(REDYSIM_MOST * REDYSIM_MOST - x * x);
 }

@@ -19,7 +19,7 @@ static inline void redysim_without_turns(int count, @number@ *angles)
 {
     uint@bits@_t large = 0U;
     for (int i = 0; i < count; i++) {
-        large |= @seven_bits@ - redysim_magnitude_bits(angles[i]);
+        large |= redysim_bits_of(@seven@ * @seven@ - angles[i] * angles[i]);
     }
     if (large >> (@bits@ - 1)) {
         redysim_without_turns_of_large(count, angles);
