@@ -3,9 +3,9 @@
 use super::Instructions;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2F32, Avx2F64};
+#[cfg(target_arch = "x86_64")]
 use crate::Vector;
 use crate::mechanism::Arguments;
-#[cfg(target_arch = "x86_64")]
 use crate::wrapper::{coordinates_of, names_and_sizes_of};
 use crate::{
     BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, Frames, GravityForces,
