@@ -174,10 +174,12 @@ fn excess_precision_of_narrower_types_is_accepted_and_of_the_own_type_reported()
         [(CScalar::F64, "double", &[0, 1, 16, 32][..], &[2, -1][..]), (CScalar::F32, "float", &[0, 16], &[1, 2, -1])]
     {
         let in_c = InC::new("pppr", "", scalar);
+        let source = in_c.source();
         for compiler in compilers() {
             let compile = |method| {
-                let flags = ["-U__FLT_EVAL_METHOD__".into(), format!("-D__FLT_EVAL_METHOD__={method}")];
-                in_c.compile_source(compiler, &flags.each_ref().map(String::as_str))
+                let define = format!("#undef FLT_EVAL_METHOD\n#define FLT_EVAL_METHOD ({method})\n");
+                in_c.set_source(&format!("#include <float.h>\n{define}{source}"));
+                in_c.compile_source(compiler, &[])
             };
             for method in accepted {
                 let output = compile(method);

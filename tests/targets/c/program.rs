@@ -140,7 +140,8 @@ impl InC {
             .expect("the compiler runs")
     }
 
-    /// The symbols of the compiled source with their kinds, as `nm` shows them.
+    /// The symbols of the compiled source with their kinds, as `nm` shows them, but those that mark code and data for
+    /// disassemblers of ARM (`$x`, `$d.5`), which an `nm` for another processor shows too.
     #[cfg(target_os = "linux")]
     pub fn symbols(&self, compiler: &str, flags: &[&str]) -> Vec<(String, String)> {
         let object = self.folder.join("object.o");
@@ -155,7 +156,8 @@ impl InC {
             let mut words = line.split_whitespace().map(str::to_string);
             words.next().zip(words.next()).expect("a name and a kind")
         };
-        String::from_utf8(output.stdout).expect("text").lines().map(symbol).collect()
+        let text = String::from_utf8(output.stdout).expect("text");
+        text.lines().filter(|line| !line.starts_with('$')).map(symbol).collect()
     }
 
     /// What every function, and joint trigonometry if the robot has angles, gives in each of the states, one after the other.
