@@ -23,6 +23,8 @@ mod factorisation;
 mod forward;
 mod frame;
 mod hybrid;
+#[cfg(debug_assertions)]
+mod instances;
 mod inverse;
 mod kinematics;
 mod loops;
