@@ -179,7 +179,7 @@ fn excess_precision_of_narrower_types_is_accepted_and_of_the_own_type_reported()
             let compile = |method| {
                 let define = format!("#undef FLT_EVAL_METHOD\n#define FLT_EVAL_METHOD ({method})\n");
                 in_c.set_source(&format!("#include <float.h>\n{define}{source}"));
-                in_c.compile_source(compiler, &[])
+                in_c.compile_source(compiler)
             };
             for method in accepted {
                 let output = compile(method);

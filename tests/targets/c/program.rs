@@ -125,19 +125,11 @@ impl InC {
     }
 
     /// What a compiler reports of the source, without linking it.
-    pub fn compile_source(&self, compiler: &str, flags: &[&str]) -> Output {
+    pub fn compile_source(&self, compiler: &str) -> Output {
         let object = self.folder.join("source.o");
         let source = self.folder.join(format!("{}.c", self.prefix));
         let mut command = compilers::command(compiler);
-        command
-            .args(WARNINGS)
-            .args(flags)
-            .arg("-c")
-            .arg(source)
-            .arg("-o")
-            .arg(object)
-            .output()
-            .expect("the compiler runs")
+        command.args(WARNINGS).arg("-c").arg(source).arg("-o").arg(object).output().expect("the compiler runs")
     }
 
     /// The symbols of the compiled source with their kinds, as `nm` shows them, but those that mark code and data for
