@@ -28,6 +28,7 @@ impl<S: Scalar> Sym3<S> {
     }
 
     /// The matrix with `element(i, j)` for i ≤ j.
+    #[inline(always)]
     pub fn from_upper(mut element: impl FnMut(usize, usize) -> S) -> Self {
         Sym3 {
             xx: element(0, 0),

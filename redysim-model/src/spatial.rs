@@ -36,8 +36,10 @@ impl<S: Scalar> Vec3<S> {
     }
 
     /// The vector whose component `i` is `component(i)`.
-    pub fn from_fn(component: impl FnMut(usize) -> S) -> Self {
-        Vec3(std::array::from_fn(component))
+    #[inline(always)]
+    pub fn from_fn(mut component: impl FnMut(usize) -> S) -> Self {
+        // `std::array::from_fn` compiles to many times as much, for every closure and scalar.
+        Vec3([component(0), component(1), component(2)])
     }
 
     /// Constants of the model as scalars.
@@ -46,9 +48,10 @@ impl<S: Scalar> Vec3<S> {
     }
 
     /// Applies `f` to each component.
-    #[inline]
+    #[inline(always)]
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Vec3<T> {
-        Vec3(self.0.map(f))
+        let Vec3([x, y, z]) = self;
+        Vec3([f(x), f(y), f(z)])
     }
 
     /// aᵀ b.
@@ -99,8 +102,17 @@ impl<S: Scalar> Mat3<S> {
     }
 
     /// The matrix whose element in row `i` and column `j` is `element(i, j)`.
+    #[inline(always)]
     pub fn from_fn(mut element: impl FnMut(usize, usize) -> S) -> Self {
-        Mat3(std::array::from_fn(|i| std::array::from_fn(|j| element(i, j))))
+        let mut row = |i| [element(i, 0), element(i, 1), element(i, 2)];
+        Mat3([row(0), row(1), row(2)])
+    }
+
+    /// The matrix of the rows that `f` makes of this one's.
+    #[inline(always)]
+    pub fn map_rows(self, f: impl Fn(Vec3<S>) -> Vec3<S>) -> Self {
+        let Mat3([x, y, z]) = self;
+        Mat3([f(Vec3(x)).0, f(Vec3(y)).0, f(Vec3(z)).0])
     }
 
     /// Constants of the model as scalars.
@@ -116,7 +128,7 @@ impl<S: Scalar> Mat3<S> {
     /// A b in multiply-adds.
     #[inline(always)]
     pub fn fused_product(self, b: Vec3<S>) -> Vec3<S> {
-        Vec3(self.0.map(|row| Vec3(row).fused_dot(b)))
+        Vec3::from_fn(|i| Vec3(self.0[i]).fused_dot(b))
     }
 
     /// Column `j`.

@@ -87,7 +87,7 @@ pub fn forward_dynamics_in<S: Scalar>(
     tau: &[S],
     result: &mut [S],
 ) {
-    articulated_bodies(work, tree, trace, (q, v, tau), |_| false, (result, &mut []));
+    articulated_bodies(work, tree, trace, (q, v, tau), &|_| false, (result, &mut []));
 }
 
 /// What makes the bodies of a recursion over articulated bodies move.
@@ -108,7 +108,7 @@ pub(super) fn articulated_bodies_of_all<'t, S: Scalar, P: ParameterIn<S>>(
     trace: &impl Trace<S>,
     loads: Loads,
     (q, v, given): (&[S], &[S], &[S]),
-    drives: impl Fn(usize) -> bool,
+    drives: &dyn Fn(usize) -> bool,
     (result, forces): (&mut [S], &mut [S]),
 ) {
     let Workspace { positions, frames, biases, inertias, wrenches, pivots, accelerations, springs, .. } = work;
@@ -227,7 +227,7 @@ pub(super) fn articulated_bodies_of_all<'t, S: Scalar, P: ParameterIn<S>>(
         if body.v.clone().any(|velocity| !drives(velocity)) {
             trace.name_twist(acceleration, ["dw", "acc"], index);
         }
-        if body.v.clone().any(&drives) {
+        if body.v.clone().any(drives) {
             let wrench = inertias[index].apply(acceleration) + wrenches[index];
             let [q, v, given] = [&q[body.q.clone()], &v[body.v.clone()], &given[body.v.clone()]];
             let in_joint = body.physics.as_ref().map(|physics| match loads {

@@ -98,8 +98,8 @@ pub(super) fn joint_frames_in<S: Scalar, T: Trace<S>>(
         let (rotation_about_z, body_rotation) =
             if body.merged_parallel { (None, joint_rotation) } else { (joint_rotation, None) };
         let columns = T::WHOLE_ROTATIONS.then(|| {
-            let own = Mat3(fixed.0.map(|row| rotated_back(rotation_about_z, Vec3(row)).0)).transpose();
-            parent_rotation.map_or(own, |_| Mat3(own.0.map(|column| rotated(parent_rotation, Vec3(column)).0)))
+            let own = fixed.map_rows(|row| rotated_back(rotation_about_z, row)).transpose();
+            parent_rotation.map_or(own, |_| own.map_rows(|column| rotated(parent_rotation, column)))
         });
         frames.push(JointFrame {
             parent_rotation,
@@ -240,14 +240,14 @@ impl<S: Scalar> JointFrame<S> {
     /// The axes fixed to the body as columns, where its own axes are the columns of `axes`.
     #[inline(always)]
     pub fn fixed_axes(&self, axes: Mat3<S>) -> Mat3<S> {
-        Mat3(axes.0.map(|row| rotated_back(self.body_rotation, Vec3(row)).0))
+        axes.map_rows(|row| rotated_back(self.body_rotation, row))
     }
 
     /// A pose fixed to the body, in its axes.
     #[inline(always)]
     pub fn fixed_pose(&self, pose: Pose<S>) -> Pose<S> {
-        let columns = pose.rotation.transpose().0.map(|column| self.fixed_vector(Vec3(column)).0);
-        Pose { rotation: Mat3(columns).transpose(), position: self.fixed_vector(pose.position) }
+        let columns = pose.rotation.transpose().map_rows(|column| self.fixed_vector(column));
+        Pose { rotation: columns.transpose(), position: self.fixed_vector(pose.position) }
     }
 
     /// The moments of the body's own mass, in its axes.
@@ -299,8 +299,8 @@ impl<S: Scalar> JointFrame<S> {
             let rotation = columns.transpose();
             return rotation * (matrix * rotation.transpose());
         }
-        let rows = Mat3(matrix.0.map(|row| self.to_parent(Vec3(row)).0)).transpose();
-        Mat3(rows.0.map(|column| self.to_parent(Vec3(column)).0)).transpose()
+        let rows = matrix.map_rows(|row| self.to_parent(row)).transpose();
+        rows.map_rows(|column| self.to_parent(column)).transpose()
     }
 
     /// Moments of mass about the body's origin, in the parent's axes and about the parent's origin.

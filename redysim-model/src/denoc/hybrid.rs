@@ -76,6 +76,6 @@ pub fn hybrid_dynamics_by_recursion<S: Scalar>(
 ) -> HybridMotion<Vec<S>> {
     let [mut a, mut tau] = [(); 2].map(|()| u.to_vec());
     let (work, actuated) = (&mut Workspace::default(), tree.actuated());
-    articulated_bodies(work, tree, trace, (q, v, u), |velocity| actuated[velocity], (&mut a, &mut tau));
+    articulated_bodies(work, tree, trace, (q, v, u), &|velocity| actuated[velocity], (&mut a, &mut tau));
     HybridMotion { a, tau }
 }

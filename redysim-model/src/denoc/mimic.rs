@@ -148,7 +148,7 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     tree: &Tree<P>,
     trace: &impl Trace<S>,
     (q, v, given): (&[S], &[S], &[S]),
-    drives: impl Fn(usize) -> bool,
+    drives: &dyn Fn(usize) -> bool,
     (result, forces): (&mut [S], &mut [S]),
 ) {
     if tree.mimics.is_empty() {
@@ -174,7 +174,7 @@ pub(super) fn articulated_bodies<S: Scalar, P: ParameterIn<S>>(
     let (motion, responses) = motions.split_at_mut(width);
     let mut run = |loads: Loads, v: &[S], given: &[S], motion: &mut [S]| {
         let found = motion.split_at_mut(of_all);
-        articulated_bodies_of_all(work, tree, trace, loads, (q, v, given), drives_of_all, found);
+        articulated_bodies_of_all(work, tree, trace, loads, (q, v, given), &drives_of_all, found);
     };
     run(Loads::All, v, a, motion);
     v.fill(S::zero());
