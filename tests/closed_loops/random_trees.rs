@@ -292,12 +292,14 @@ fn loops_agree_with_homogeneous_transforms() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn loops_through_joints_of_several_freedoms_agree_with_homogeneous_transforms() {
     let kinds = [&OF_ONE_FREEDOM[..], &[JointKind::Spherical, JointKind::Free]].concat();
     loops_agree(2000..2000 + MODELS, &kinds, &WITHOUT_STROKE, 1e-13);
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn loops_cut_in_every_way_through_joints_of_every_kind_agree_with_homogeneous_transforms() {
     let several = [JointKind::Spherical, JointKind::Universal, JointKind::Cylindrical, JointKind::Planar];
     let kinds = [&OF_ONE_FREEDOM[..], &several].concat();

@@ -55,6 +55,7 @@ fn without_the_pass_nothing_is_a_loop() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn short_functions_and_robots_without_uniform_links_are_unrolled() {
     for name in ["kr5", "gripper", "peers/humanoid30"] {
         assert!(with_loops(&shipped(name), &Passes::all()).is_empty(), "{name}");

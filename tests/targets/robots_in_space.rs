@@ -9,6 +9,11 @@ redysim! {
 }
 
 redysim! {
+    /// A body that floats.
+    pub struct Parcel("models/parcel.toml");
+}
+
+redysim! {
     /// A body that turns about a point.
     pub struct Pendulum("models/spherical_pendulum.toml");
 }

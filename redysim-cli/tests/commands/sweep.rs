@@ -163,6 +163,7 @@ fn long_sweep(name: &str) -> PathBuf {
 
 #[cfg(unix)]
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_killed_sweep_goes_on_to_the_rows_of_one_that_was_not() {
     let folder = long_sweep("sweep-killed");
     let whole = text(&folder);
@@ -181,6 +182,7 @@ fn a_killed_sweep_goes_on_to_the_rows_of_one_that_was_not() {
 
 #[cfg(unix)]
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn ctrl_c_keeps_whole_rows_and_the_same_command_goes_on_to_those_of_a_sweep_without_it() {
     let folder = long_sweep("sweep-interrupted");
     let command = ["sweep", "study.toml", "--output", "part"];
@@ -206,6 +208,7 @@ fn ctrl_c_keeps_whole_rows_and_the_same_command_goes_on_to_those_of_a_sweep_with
 
 #[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_terminal_shows_how_far_a_long_sweep_is_and_how_long_it_will_take() {
     let folder = scratch("sweep-progress");
     study(&folder, "[samples]\ncount = 20000\nforward.end = { uniform = [1.0, 2.0] }\n");

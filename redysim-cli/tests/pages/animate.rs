@@ -62,6 +62,7 @@ fn rotor(name: &str, speed: f64, seconds: f64, step: f64) -> (Value, String, usi
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_rotor_goes_on_turning_the_way_it_does_however_long_it_runs() {
     let (data, output, _) = rotor("turning", 20.0, 600.0, 0.02);
     let [t, q] = ["t", "q"].map(|key| data["motion"][key].clone());

@@ -49,6 +49,7 @@ fn the_draft_of_a_run_that_was_killed_is_mentioned_by_the_next_run_of_the_same_o
 
 #[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_terminal_shows_how_far_a_long_run_is_and_how_long_it_will_take() {
     let bar = shown("progress", "");
     assert!(bar.contains("0 %") && bar.contains(" left"), "{bar}");
@@ -85,6 +86,7 @@ fn ctrl_c_keeps_what_was_computed() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn ctrl_c_keeps_what_was_computed_of_closed_loops() {
     let folder = scratch("interrupt-loops");
     let rest = LONG.replace("q = [0, 1]", "q = [0, 0.9844, 4.3144]");
@@ -92,6 +94,7 @@ fn ctrl_c_keeps_what_was_computed_of_closed_loops() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn ctrl_c_keeps_what_was_computed_of_inverse_dynamics() {
     let folder = scratch("interrupt-inverse");
     let rest = "[trajectory]\nfrom = [0, 0]\nto = [1, 1]\nduration = 1e3\n[inverse]\nend = 1e3\nstep = 0.001\n";
@@ -116,6 +119,7 @@ fn a_part_of_a_run_replaces_no_result() {
 /// The second may come while the tables are being finished: then there is a whole result, or nothing. It may even come
 /// between the result and the line that reports it.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn two_ctrl_cs_in_a_row_leave_no_half_result() {
     let folder = scratch("interrupt-pair");
     let path = scenario(&folder, "two_link.toml", LONG);

@@ -205,6 +205,7 @@ fn laws_that_carry_the_weight_of_a_tree_are_refused_for_closed_loops() {
 
 /// A rod of which a wrong gain makes a motion that grows until it is ended.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_law_that_drives_away_is_named_and_not_the_tolerance() {
     let folder = scratch("laws-unstable");
     let output = |law: &str, integrator: &str| {
@@ -265,6 +266,7 @@ fn a_law_that_drives_away_is_not_called_stiff() {
 
 /// An arm whose light wrist is driven away: the steps become so small that the end would never come.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_motion_without_bound_whose_end_would_never_come_is_ended() {
     let folder = scratch("laws-endless");
     let rest = "initial = { q = [0, 0, 0, 0, 0, 0] }\n[forward]\nend = 3.0\nstep = 0.01\nintegrator = { method = 'Ode45' }\n\

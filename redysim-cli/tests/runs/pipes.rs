@@ -27,6 +27,7 @@ const ROBOT: &str = "<robot name=\"r\"><material name=\"red\"/><link name=\"a\"/
     <joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/></joint></robot>";
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_reader_that_closes_the_pipe_is_not_a_failure() {
     for stream in ["stdout", "stderr"] {
         let calls = [

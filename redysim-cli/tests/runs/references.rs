@@ -87,6 +87,7 @@ fn moves(scenario: &str) -> impl Fn(&str) -> Table {
 /// The tolerances of the integrator are 1e-10 for a step. The dampers take the errors of the fast motions away; those of
 /// the angle of the shaft, which nothing holds, add up over a thousand steps.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_flyball_governor_moves_as_in_quadruple_precision() {
     let read = moves("flyball");
     let (found, reference) = (read("statevar.csv"), Table::reference("quad_flyball.csv"));

@@ -114,6 +114,7 @@ fn closed_loops_compute_the_same_bits_in_c() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
 fn loops_through_quaternions_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("ball_fourbar", "", scalar);
@@ -126,6 +127,7 @@ fn loops_through_quaternions_compute_the_same_bits_in_c() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
 fn cuts_of_every_kind_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("test/cuts", "functions = [\"loop_residual\", \"loop_jacobian\", \"loop_bias\"]", scalar);
@@ -138,6 +140,7 @@ fn cuts_of_every_kind_compute_the_same_bits_in_c() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
 fn frames_and_wrenches_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("test/frames", "", scalar);
@@ -148,6 +151,7 @@ fn frames_and_wrenches_compute_the_same_bits_in_c() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
 fn the_loops_of_a_long_chain_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("peers/chain40", "functions = [\"inverse_dynamics\", \"forward_dynamics\"]", scalar);

@@ -169,6 +169,7 @@ fn products_and_sums_that_the_compiler_fuses_stay_within_the_stated_roundings() 
 
 /// As on processors with arithmetic of 16 bits (`-march=sapphirerapids`), and on the x87.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
 fn excess_precision_of_narrower_types_is_accepted_and_of_the_own_type_reported() {
     for (scalar, own, accepted, refused) in
         [(CScalar::F64, "double", &[0, 1, 16, 32][..], &[2, -1][..]), (CScalar::F32, "float", &[0, 16], &[1, 2, -1])]
