@@ -110,7 +110,7 @@ impl<S: Scalar> Mat3<S> {
 
     /// The matrix of the rows that `f` makes of this one's.
     #[inline(always)]
-    pub fn map_rows(self, f: impl Fn(Vec3<S>) -> Vec3<S>) -> Self {
+    pub(crate) fn map_rows(self, f: impl Fn(Vec3<S>) -> Vec3<S>) -> Self {
         let Mat3([x, y, z]) = self;
         Mat3([f(Vec3(x)).0, f(Vec3(y)).0, f(Vec3(z)).0])
     }
