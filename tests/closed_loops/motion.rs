@@ -201,7 +201,6 @@ fn the_windows_pass_through_their_singular_positions_with_steps_of_every_size() 
 /// Steps of slightly different sizes meet the singular positions at different distances. Without the projection of the
 /// stages near them, one of these sizes is wrong by 3e-3 m.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn no_size_of_step_meets_the_singular_positions_badly() {
     let sizes = if cfg!(debug_assertions) { 0..2 } else { 0..10 };
     for k in sizes {

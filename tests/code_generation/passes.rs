@@ -94,7 +94,6 @@ fn difference(before: &[TracedFunction], after: &[TracedFunction], dof: usize) -
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn every_pass_keeps_the_values() {
     let models =
         [model("peers/kr5"), model("peers/gripper"), model("test/gantry"), mixed_tree(), model("peers/humanoid30")];

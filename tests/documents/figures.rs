@@ -173,7 +173,6 @@ fn the_four_bar_falls_as_closely_as_the_readme_states() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_four_bar_drifts_as_little_as_the_readme_states() {
     // 10 s in optimised builds; 1 s in debug builds, which are slower: the energy changes less in it.
     let end = if cfg!(debug_assertions) { 1.0 } else { 10.0 };

@@ -116,7 +116,6 @@ fn assert_kept(what: &str, losses: [f64; 3], of_recursion: [f64; 3]) {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn compiled_forward_dynamics_keeps_what_the_recursion_keeps() {
     for style in Style::ALL {
         for (index, tree) in random_trees(style).enumerate() {

@@ -79,7 +79,6 @@ fn partly_actuated_with_mimics(random: &mut Random) -> Model {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn both_methods_and_the_traced_expressions_find_a_motion_on_random_trees() {
     for seed in 0..3 * TREES {
         let mut random = Random::new(seed);

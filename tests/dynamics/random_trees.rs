@@ -352,7 +352,6 @@ fn traced_expressions_agree_with_kanes_equations_where_joints_have_several_freed
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn traced_expressions_agree_with_kanes_equations_where_joints_are_several_in_series() {
     traced_expressions_agree(sample(IN_SERIES));
 }

@@ -104,7 +104,6 @@ const ROBOTS: [(&str, &[&str]); 8] = [
 ];
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn a_robot_with_parameters_is_the_robot_with_these_numbers() {
     for (name, parameters) in ROBOTS {
         let loaded = load(name, parameters);

@@ -84,7 +84,6 @@ fn worst(
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn joint_forces_of_other_robots_stay_within_the_tolerance() {
     let range = JointRange { position: [-1.0, 2.0], velocity: 2.0, acceleration: Some(5.0), force: None };
     // A debug build takes the first.

@@ -147,7 +147,6 @@ fn the_first_steps_can_be_taken() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_chapter_on_closed_loops_run_and_print_what_it_shows() {
     let (folder, text) = run_all("documented-closed-loops", "docs/closed_loops.md", 8);
     let shown = text.split("```text\n").nth(1).unwrap().split("```").next().unwrap();
@@ -157,7 +156,6 @@ fn the_commands_of_the_chapter_on_closed_loops_run_and_print_what_it_shows() {
 
 /// A C compiler is there: Rust links with it.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_chapter_on_c_run() {
     let (folder, _) = run_all("documented-c", "docs/c.md", 7);
     assert!(["gripper.o", "hold", "check"].iter().all(|made| folder.join("controller").join(made).is_file()));
@@ -183,7 +181,6 @@ fn the_commands_of_the_chapter_on_microcontrollers_run() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_chapter_on_robots_that_float_and_walk_run() {
     run_all("documented-floating", "docs/floating_and_walking.md", 7);
 }
@@ -272,7 +269,6 @@ fn every_link_of_the_documentation_leads_to_a_file_and_its_heading() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_scenarios_run() {
     run_all("documented-scenarios", "docs/scenarios.md", 3);
 }
@@ -287,7 +283,6 @@ fn the_commands_of_the_chapter_on_sweeps_run() {
 
 /// The examples that the help gives, but those that pipe into other programs.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_examples_of_the_help_run() {
     let folder = folder_with_examples("documented-help");
     // What `plot` and `animate` are shown with.

@@ -182,7 +182,6 @@ fn a_killed_sweep_goes_on_to_the_rows_of_one_that_was_not() {
 
 #[cfg(unix)]
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn ctrl_c_keeps_whole_rows_and_the_same_command_goes_on_to_those_of_a_sweep_without_it() {
     let folder = long_sweep("sweep-interrupted");
     let command = ["sweep", "study.toml", "--output", "part"];

@@ -40,7 +40,6 @@ fn twice(name: &str, command: &str, path: &str) -> PathBuf {
 /// The drift of a motion at the shipped tolerances, which are ReDySim's, is not to be seen: a line in a picture is a
 /// two-hundredth of its height. That of inverse dynamics is what Gauss's rule leaves of the work: the forces are exact.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn every_shipped_scenario_runs_again_from_its_folder_alone_and_keeps_its_energy() {
     let mut runs = Vec::new();
     for name in names(&root().join("scenarios")).iter().filter_map(|name| name.strip_suffix(".toml")) {

@@ -170,7 +170,6 @@ impl Written {
 
 /// Accelerations are those that are written, and differences of the velocities.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn every_shipped_motion_obeys_kanes_equations() {
     let mut names = shipped("forward");
     if cfg!(debug_assertions) {

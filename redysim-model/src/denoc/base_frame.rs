@@ -143,7 +143,7 @@ fn bodies<S: Scalar>(
         let (body, joint) = (&tree.bodies[index], &joints[index]);
         let parent = body.parent.map_or(Placed::ground(), |parent| bodies[parent]);
         let mut placed = parent.carry(Pose { rotation: Mat3::identity(), position: joint.position }, order);
-        placed.pose.rotation = Mat3(parent.pose.rotation.0.map(|row| joint.to_body(Vec3(row)).0));
+        placed.pose.rotation = parent.pose.rotation.map_rows(|row| joint.to_body(row));
         if order >= Order::Velocities {
             if !body.joint.is_on_axis() {
                 runs.push(ParallelRun { base: Some(index), rate: S::zero() });

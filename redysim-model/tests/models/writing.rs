@@ -73,7 +73,6 @@ fn pose() -> impl Strategy<Value = [f64; 6]> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(if cfg!(debug_assertions) { 32 } else { 256 }))]
     #[test]
-    #[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
     fn joints_placed_in_any_way_are_written_with_the_bits_that_they_were_read_with(
         dh in pose(), standard in pose(), origin in pose(), axis in proptest::array::uniform3(-1.0..1.0), point in pose()
     ) {
