@@ -14,15 +14,27 @@ use redysim::{
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-redysim! { struct Tree07("tests/reference/peer_trees/07.toml"); }
-redysim! { struct Tree10("tests/reference/peer_trees/10.toml"); }
-redysim! { struct Tree18("tests/reference/peer_trees/18.toml"); }
-redysim! {
-    // Its gravity points up.
-    #[allow(deprecated)]
-    struct Tree21("tests/reference/peer_trees/21.toml");
+macro_rules! tree {
+    ($tree:ident, $file:literal) => {
+        redysim! {
+            // The gravity of some points up.
+            #[allow(deprecated)]
+            struct $tree(
+                $file,
+                functions = [
+                    inverse_dynamics, forward_dynamics, mass_matrix, passive_forces, energy, frame_kinematics,
+                    frame_jacobians, frame_bias, frame_forces,
+                ]
+            );
+        }
+    };
 }
-redysim! { struct Tree24("tests/reference/peer_trees/24.toml"); }
+
+tree!(Tree07, "tests/reference/peer_trees/07.toml");
+tree!(Tree10, "tests/reference/peer_trees/10.toml");
+tree!(Tree18, "tests/reference/peer_trees/18.toml");
+tree!(Tree21, "tests/reference/peer_trees/21.toml");
+tree!(Tree24, "tests/reference/peer_trees/24.toml");
 
 /// The trees whose joints have one freedom, and those with spherical, planar and free joints as well.
 const ON_AXES: std::ops::RangeInclusive<usize> = 1..=20;

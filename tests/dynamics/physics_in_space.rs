@@ -12,13 +12,17 @@ use redysim::{
 
 redysim! {
     /// A hull in a bushing, a ball joint and a universal joint.
-    struct Bushing("models/test/bushing.toml");
+    struct Bushing(
+        "models/test/bushing.toml",
+        functions = [inverse_dynamics, forward_dynamics, bias_forces, passive_forces, energy]
+    );
 }
 
 redysim! {
     /// The same with what acts in its joints given at run time.
     struct Worn(
         "models/test/bushing.toml",
+        functions = [forward_dynamics, passive_forces],
         parameters = ["hull.damping", "ball.stiffness", "ball.rest", "cross.armature", "cross.rest", "hull.friction"]
     );
 }

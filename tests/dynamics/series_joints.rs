@@ -14,13 +14,14 @@ use redysim_model::joint::EulerSequence;
 
 redysim! {
     /// A universal, a cylindrical and a planar joint, and a spherical and a free one with Euler angles.
-    struct Series("models/test/joints_in_series.toml");
+    struct Series("models/test/joints_in_series.toml", functions = [inverse_dynamics]);
 }
 
 redysim! {
     /// The same with joints held.
     struct Held(
         "models/test/joints_in_series.toml",
+        functions = [inverse_dynamics],
         locked = { swivel = ["30 deg", -0.4], wrist = [0.3, "90 deg", 0.7], sleeve = [0.2, 1.1] }
     );
 }

@@ -11,7 +11,7 @@ use redysim::{
     ZeroTorque, redysim,
 };
 
-redysim! { struct Springs("models/test/springs.toml"); }
+redysim! { struct Springs("models/test/springs.toml", functions = [forward_dynamics, energy]); }
 
 fn shipped(name: &str) -> String {
     let path = format!("{}/models/{name}.toml", env!("CARGO_MANIFEST_DIR"));
