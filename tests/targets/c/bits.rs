@@ -8,9 +8,7 @@ use crate::common::random::Random;
 use crate::robots::{Gripper, Kr5};
 use crate::robots_in_space::Floating;
 use redysim::function::Argument;
-use redysim::{
-    ConfigurationSpace, ForwardDynamics, Function, HybridDynamics, InverseDynamics, LoopClosure, Real, Wrench, redysim,
-};
+use redysim::{ConfigurationSpace, Function, HybridDynamics, LoopClosure, Real, Wrench, redysim};
 use redysim_codegen::CScalar;
 use std::f64::consts::FRAC_PI_2;
 
@@ -19,7 +17,6 @@ redysim! { pub struct BallFourbar("models/ball_fourbar.toml"); }
 redysim! { pub struct Cuts("models/test/cuts.toml", functions = [loop_residual, loop_jacobian, loop_bias]); }
 redysim! { pub struct Machine("models/test/frames.toml"); }
 redysim! { struct Pendulum("models/simple_pendulum.toml", functions = [gravity_forces]); }
-redysim! { struct Chain("models/peers/chain40.toml", functions = [inverse_dynamics, forward_dynamics]); }
 
 /// What Rust computes of an arm on a floating base.
 pub fn by_floating<T: Real>(function: Function, state: &State<T>) -> Option<Vec<T>> {
@@ -78,19 +75,8 @@ fn fingers_with_parallel_axes_compute_the_same_bits_in_c() {
     compare::<f32>(CScalar::F32);
 }
 
-#[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
-fn a_floating_arm_with_quaternion_and_hybrid_dynamics_computes_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("kr5_floating", "", scalar);
-        same_bits::<T>(&in_c, &Floating, trig!(Floating), &by_floating);
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
-}
-
 /// The functions of closed loops.
-fn of_loops<T: Real, M>(m: &M, function: Function, state: &State<T>) -> Option<Vec<T>>
+pub fn of_loops<T: Real, M>(m: &M, function: Function, state: &State<T>) -> Option<Vec<T>>
 where
     M: ConfigurationSpace<T> + LoopClosure<T, M>,
 {
@@ -108,63 +94,6 @@ fn closed_loops_compute_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("fourbar", "", scalar);
         same_bits::<T>(&in_c, &Fourbar, trig!(Fourbar), &by_fourbar);
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
-}
-
-#[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
-fn loops_through_quaternions_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("ball_fourbar", "", scalar);
-        same_bits::<T>(&in_c, &BallFourbar, trig!(BallFourbar), &|function, state| {
-            of_loops(&BallFourbar, function, state).or_else(|| tree(&BallFourbar, function, state))
-        });
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
-}
-
-#[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
-fn cuts_of_every_kind_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("test/cuts", "functions = [\"loop_residual\", \"loop_jacobian\", \"loop_bias\"]", scalar);
-        same_bits::<T>(&in_c, &Cuts, trig!(Cuts), &|function, state| {
-            of_loops(&Cuts, function, state).or_else(|| configuration(&Cuts, function, state))
-        });
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
-}
-
-#[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
-fn frames_and_wrenches_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("test/frames", "", scalar);
-        same_bits::<T>(&in_c, &Machine, trig!(Machine), &by_machine);
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
-}
-
-#[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
-fn the_loops_of_a_long_chain_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("peers/chain40", "functions = [\"inverse_dynamics\", \"forward_dynamics\"]", scalar);
-        same_bits::<T>(&in_c, &Chain, trig!(Chain), &|function, state| {
-            let [q, v, a, tau] =
-                [Argument::Coordinates, Argument::Velocities, Argument::Accelerations, Argument::Forces]
-                    .map(|name| vector(state, name));
-            match function {
-                Function::InverseDynamics => Some(InverseDynamics::inverse_dynamics(&Chain, &q, &v, &a).to_vec()),
-                Function::ForwardDynamics => Some(ForwardDynamics::forward_dynamics(&Chain, &q, &v, &tau).to_vec()),
-                _ => configuration(&Chain, function, state),
-            }
-        });
     }
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);

@@ -12,6 +12,8 @@ pub mod bits;
 mod checks;
 mod compilers;
 mod cpp;
+#[cfg(any(feature = "deterministic", target_feature = "fma", not(target_arch = "x86_64")))]
+mod kinds;
 mod parameters;
 mod program;
 #[cfg(any(feature = "deterministic", target_feature = "fma", not(target_arch = "x86_64")))]

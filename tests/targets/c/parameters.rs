@@ -7,14 +7,13 @@ use redysim::{Dual, Lift, Real, redysim};
 use redysim_codegen::CScalar;
 
 redysim! { pub struct Given("models/gripper.toml", parameters = ["gravity", "link3.mass", "link3.com", "link3.inertia", "joint2.damping"]); }
-redysim! { struct Worn("models/test/bushing.toml", parameters = ["hull.damping", "ball.stiffness", "ball.rest"]); }
 
 /// The options of [`Given`].
 pub const OF_GIVEN: &str =
     "parameters = [\"gravity\", \"link3.mass\", \"link3.com\", \"link3.inertia\", \"joint2.damping\"]";
 
 /// Compares what `try_init` returns for each list with `expected`.
-fn assert_statuses<const N: usize>(in_c: &InC, lists: &[[f64; N]], expected: &[usize]) {
+pub fn assert_statuses<const N: usize>(in_c: &InC, lists: &[[f64; N]], expected: &[usize]) {
     let lists: Vec<Vec<f64>> = lists.iter().map(|list| list.to_vec()).collect();
     compilers().iter().for_each(|compiler| assert_eq!(in_c.statuses(compiler, &lists), expected, "{compiler}"));
 }
@@ -56,34 +55,6 @@ fn run_time_parameters_are_checked_in_c_as_in_rust() {
         let expected: Vec<usize> = lists.iter().map(status).collect();
         assert!(expected.contains(&0) && expected.iter().filter(|&&status| status > 0).count() > Given::NP);
         assert_eq!(expected.last() == Some(&0), scalar == CScalar::F32);
-        assert_statuses(&in_c, &lists, &expected);
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
-}
-
-#[test]
-#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
-fn what_acts_in_joints_of_several_freedoms_is_the_same_bits_in_c_and_checked_as_in_rust() {
-    fn compare<T: Real + Lift<T> + Lift<Dual<T>>>(scalar: CScalar) {
-        let options = "parameters = [\"hull.damping\", \"ball.stiffness\", \"ball.rest\"]";
-        let in_c = InC::new("test/bushing", options, scalar);
-        let robot = Worn::<T>::default();
-        let trig = |q: &[T]| {
-            let trig = robot.joint_trig(&core::array::from_fn(|i| q[i]));
-            [trig.sin.to_vec(), trig.cos.to_vec()].concat()
-        };
-        same_bits::<T>(&in_c, &robot, trig, &|function, state| tree(&robot, function, state));
-        // The last four are a quaternion, of which the second and the last are not zero in the model.
-        let mut lists = [Worn::PARAMETERS; 5];
-        lists[1][2] = -1.0;
-        lists[2][Worn::NP - 1] = 0.0;
-        lists[3][Worn::NP - 4..].fill(0.0);
-        lists[4][Worn::NP - 2] = f64::INFINITY;
-        let status =
-            |list: [f64; Worn::NP]| Worn::try_new(&list.map(T::from_f64)).map_or_else(|error| error.index + 1, |_| 0);
-        let expected = lists.map(status);
-        assert_eq!(expected, [0, 3, 0, Worn::NP - 3, Worn::NP - 1]);
         assert_statuses(&in_c, &lists, &expected);
     }
     compare::<f64>(CScalar::F64);
