@@ -15,10 +15,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 macro_rules! tree {
-    ($tree:ident, $file:literal) => {
+    ($(#[$attribute:meta])* $tree:ident, $file:literal) => {
         redysim! {
-            // The gravity of some points up.
-            #[allow(deprecated)]
+            $(#[$attribute])*
             struct $tree(
                 $file,
                 functions = [
@@ -33,7 +32,12 @@ macro_rules! tree {
 tree!(Tree07, "tests/reference/peer_trees/07.toml");
 tree!(Tree10, "tests/reference/peer_trees/10.toml");
 tree!(Tree18, "tests/reference/peer_trees/18.toml");
-tree!(Tree21, "tests/reference/peer_trees/21.toml");
+tree!(
+    // Its gravity points up.
+    #[allow(deprecated)]
+    Tree21,
+    "tests/reference/peer_trees/21.toml"
+);
 tree!(Tree24, "tests/reference/peer_trees/24.toml");
 
 /// The trees whose joints have one freedom, and those with spherical, planar and free joints as well.
