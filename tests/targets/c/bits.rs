@@ -2,7 +2,7 @@
 
 use super::compilers::compilers;
 use super::program::{InC, State, numbers};
-use super::{builds, configuration, same_bits, same_bits_by, states, tree, trig, vector};
+use super::{assert_same_bits, builds, configuration, same_bits_by, states, tree, trig, vector};
 use crate::common::call;
 use crate::common::random::Random;
 use crate::robots::{Gripper, Kr5};
@@ -57,7 +57,7 @@ fn an_arm_computes_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("kr5", "", scalar);
         let states = states::<T>(&Kr5);
-        same_bits_by::<T>(compilers(), &[&[]], &in_c, &Kr5, &states, trig!(Kr5), &|function, state| {
+        same_bits_by::<T>(compilers(), &[&[]], &in_c, &Kr5, &states, trig!(Kr5::joint_trig), &|function, state| {
             tree(&Kr5, function, state)
         });
     }
@@ -67,12 +67,7 @@ fn an_arm_computes_the_same_bits_in_c() {
 
 #[test]
 fn fingers_with_parallel_axes_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("gripper", "", scalar);
-        same_bits::<T>(&in_c, &Gripper, trig!(Gripper), &|function, state| tree(&Gripper, function, state));
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
+    assert_same_bits!(Gripper, "gripper", "", |function, state| tree(&Gripper, function, state));
 }
 
 /// The functions of closed loops.
@@ -91,12 +86,7 @@ where
 
 #[test]
 fn closed_loops_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("fourbar", "", scalar);
-        same_bits::<T>(&in_c, &Fourbar, trig!(Fourbar), &by_fourbar);
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
+    assert_same_bits!(Fourbar, "fourbar", "", by_fourbar);
 }
 
 /// Angles of every size, many of them beside multiples of quarter turns, where the reduction takes most digits.
@@ -118,14 +108,13 @@ fn sines_of_angles_of_all_sizes_are_the_same_bits_in_c() {
     fn compare<T: Real>(scalar: CScalar) {
         let in_c = InC::new("simple_pendulum", "functions = [\"gravity_forces\"]", scalar);
         let states = pendulums::<T>();
-        same_bits_by(compilers(), builds(), &in_c, &Pendulum, &states, trig!(Pendulum), &|function, state| {
-            match function {
-                Function::GravityForces => {
-                    Some(Pendulum::gravity_forces(&vector::<T, [T; 1]>(state, Argument::Coordinates)).to_vec())
-                }
-                _ => configuration(&Pendulum, function, state),
+        let called = |function, state: &State<T>| match function {
+            Function::GravityForces => {
+                Some(Pendulum::gravity_forces(&vector::<T, [T; 1]>(state, Argument::Coordinates)).to_vec())
             }
-        });
+            _ => configuration(&Pendulum, function, state),
+        };
+        same_bits_by(compilers(), builds(), &in_c, &Pendulum, &states, trig!(Pendulum::joint_trig), &called);
     }
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);

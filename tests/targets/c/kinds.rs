@@ -3,9 +3,9 @@
 //! hand and with the feature `deterministic`.
 
 use super::bits::{BallFourbar, Cuts, Machine, by_floating, by_machine, of_loops};
-use super::parameters::assert_statuses;
+use super::parameters::{OF_WORN, assert_statuses};
 use super::program::InC;
-use super::{configuration, same_bits, tree, trig, vector};
+use super::{assert_same_bits, configuration, same_bits, tree, trig, vector};
 use crate::robots_in_space::Floating;
 use redysim::function::Argument;
 use redysim::{Dual, ForwardDynamics, Function, InverseDynamics, Lift, Real, redysim};
@@ -16,53 +16,38 @@ redysim! { struct Worn("models/test/bushing.toml", parameters = ["hull.damping",
 
 #[test]
 fn a_floating_arm_with_quaternion_and_hybrid_dynamics_computes_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("kr5_floating", "", scalar);
-        same_bits::<T>(&in_c, &Floating, trig!(Floating), &by_floating);
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
+    assert_same_bits!(Floating, "kr5_floating", "", by_floating);
 }
 
 #[test]
 fn loops_through_quaternions_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("ball_fourbar", "", scalar);
-        same_bits::<T>(&in_c, &BallFourbar, trig!(BallFourbar), &|function, state| {
-            of_loops(&BallFourbar, function, state).or_else(|| tree(&BallFourbar, function, state))
-        });
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
+    assert_same_bits!(BallFourbar, "ball_fourbar", "", |function, state| {
+        of_loops(&BallFourbar, function, state).or_else(|| tree(&BallFourbar, function, state))
+    });
 }
 
 #[test]
 fn cuts_of_every_kind_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("test/cuts", "functions = [\"loop_residual\", \"loop_jacobian\", \"loop_bias\"]", scalar);
-        same_bits::<T>(&in_c, &Cuts, trig!(Cuts), &|function, state| {
-            of_loops(&Cuts, function, state).or_else(|| configuration(&Cuts, function, state))
-        });
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
+    assert_same_bits!(
+        Cuts,
+        "test/cuts",
+        "functions = [\"loop_residual\", \"loop_jacobian\", \"loop_bias\"]",
+        |function, state| { of_loops(&Cuts, function, state).or_else(|| configuration(&Cuts, function, state)) }
+    );
 }
 
 #[test]
 fn frames_and_wrenches_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("test/frames", "", scalar);
-        same_bits::<T>(&in_c, &Machine, trig!(Machine), &by_machine);
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
+    assert_same_bits!(Machine, "test/frames", "", by_machine);
 }
 
 #[test]
 fn the_loops_of_a_long_chain_compute_the_same_bits_in_c() {
-    fn compare<T: Real>(scalar: CScalar) {
-        let in_c = InC::new("peers/chain40", "functions = [\"inverse_dynamics\", \"forward_dynamics\"]", scalar);
-        same_bits::<T>(&in_c, &Chain, trig!(Chain), &|function, state| {
+    assert_same_bits!(
+        Chain,
+        "peers/chain40",
+        "functions = [\"inverse_dynamics\", \"forward_dynamics\"]",
+        |function, state| {
             let [q, v, a, tau] =
                 [Argument::Coordinates, Argument::Velocities, Argument::Accelerations, Argument::Forces]
                     .map(|name| vector(state, name));
@@ -71,23 +56,16 @@ fn the_loops_of_a_long_chain_compute_the_same_bits_in_c() {
                 Function::ForwardDynamics => Some(ForwardDynamics::forward_dynamics(&Chain, &q, &v, &tau).to_vec()),
                 _ => configuration(&Chain, function, state),
             }
-        });
-    }
-    compare::<f64>(CScalar::F64);
-    compare::<f32>(CScalar::F32);
+        }
+    );
 }
 
 #[test]
 fn what_acts_in_joints_of_several_freedoms_is_the_same_bits_in_c_and_checked_as_in_rust() {
     fn compare<T: Real + Lift<T> + Lift<Dual<T>>>(scalar: CScalar) {
-        let options = "parameters = [\"hull.damping\", \"ball.stiffness\", \"ball.rest\"]";
-        let in_c = InC::new("test/bushing", options, scalar);
+        let in_c = InC::new("test/bushing", OF_WORN, scalar);
         let robot = Worn::<T>::default();
-        let trig = |q: &[T]| {
-            let trig = robot.joint_trig(&core::array::from_fn(|i| q[i]));
-            [trig.sin.to_vec(), trig.cos.to_vec()].concat()
-        };
-        same_bits::<T>(&in_c, &robot, trig, &|function, state| tree(&robot, function, state));
+        same_bits::<T>(&in_c, &robot, trig!(robot.joint_trig), &|function, state| tree(&robot, function, state));
         // The last four are a quaternion, of which the second and the last are not zero in the model.
         let mut lists = [Worn::PARAMETERS; 5];
         lists[1][2] = -1.0;

@@ -178,14 +178,26 @@ fn same_bits_by<T: Real>(
     }
 }
 
-/// Sines, then cosines, of a type's angles.
+/// Sines, then cosines, of the angles of `Kr5::joint_trig`, or of `robot.joint_trig` with run-time parameters.
 macro_rules! trig {
-    ($robot:ident) => {
+    ($($joint_trig:tt)+) => {
         |q| {
-            let trig = $robot::joint_trig(&core::array::from_fn(|i| q[i]));
+            let trig = $($joint_trig)+(&core::array::from_fn(|i| q[i]));
             [trig.sin.to_vec(), trig.cos.to_vec()].concat()
         }
     };
 }
 
-use trig;
+/// Compares all functions of a type in C and in Rust, bit by bit, in both precisions.
+macro_rules! assert_same_bits {
+    ($robot:ident, $model:literal, $options:literal, $called:expr) => {{
+        fn compare<T: redysim::Real>(scalar: redysim_codegen::CScalar) {
+            let in_c = $crate::c::program::InC::new($model, $options, scalar);
+            $crate::c::same_bits::<T>(&in_c, &$robot, $crate::c::trig!($robot::joint_trig), &$called);
+        }
+        compare::<f64>(redysim_codegen::CScalar::F64);
+        compare::<f32>(redysim_codegen::CScalar::F32);
+    }};
+}
+
+use {assert_same_bits, trig};

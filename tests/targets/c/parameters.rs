@@ -2,7 +2,7 @@
 
 use super::compilers::compilers;
 use super::program::InC;
-use super::{same_bits, tree};
+use super::{same_bits, tree, trig};
 use redysim::{Dual, Lift, Real, redysim};
 use redysim_codegen::CScalar;
 
@@ -11,6 +11,9 @@ redysim! { pub struct Given("models/gripper.toml", parameters = ["gravity", "lin
 /// The options of [`Given`].
 pub const OF_GIVEN: &str =
     "parameters = [\"gravity\", \"link3.mass\", \"link3.com\", \"link3.inertia\", \"joint2.damping\"]";
+
+/// Of what acts in the joints of `models/test/bushing.toml`.
+pub const OF_WORN: &str = "parameters = [\"hull.damping\", \"ball.stiffness\", \"ball.rest\"]";
 
 /// Compares what `try_init` returns for each list with `expected`.
 pub fn assert_statuses<const N: usize>(in_c: &InC, lists: &[[f64; N]], expected: &[usize]) {
@@ -23,11 +26,7 @@ fn run_time_parameters_give_the_same_bits_in_c() {
     fn compare<T: Real + Lift<T> + Lift<Dual<T>>>(scalar: CScalar) {
         let in_c = InC::new("gripper", OF_GIVEN, scalar);
         let robot = Given::<T>::default();
-        let trig = |q: &[T]| {
-            let trig = robot.joint_trig(&core::array::from_fn(|i| q[i]));
-            [trig.sin.to_vec(), trig.cos.to_vec()].concat()
-        };
-        same_bits::<T>(&in_c, &robot, trig, &|function, state| tree(&robot, function, state));
+        same_bits::<T>(&in_c, &robot, trig!(robot.joint_trig), &|function, state| tree(&robot, function, state));
     }
     compare::<f64>(CScalar::F64);
     compare::<f32>(CScalar::F32);
@@ -75,6 +74,5 @@ fn run_time_parameters_have_units_in_c() {
     assert_eq!(units("gripper", OF_GIVEN), of_gripper);
     let of_hull = [["N s/m"; 3], ["N m s/rad"; 3]].concat();
     let of_ball = [&["N m/rad"; 3][..], &["1"; 4]].concat();
-    let options = "parameters = [\"hull.damping\", \"ball.stiffness\", \"ball.rest\"]";
-    assert_eq!(units("test/bushing", options), [of_hull, of_ball].concat());
+    assert_eq!(units("test/bushing", OF_WORN), [of_hull, of_ball].concat());
 }
