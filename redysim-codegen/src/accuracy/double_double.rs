@@ -52,15 +52,23 @@ impl DoubleDouble {
         let mut term = Self::one();
         for power in (0..32).step_by(4) {
             cos += term;
-            term = term * self / Self::from_f64(f64::from(power + 1));
+            term = (term * self).divided_by(f64::from(power + 1));
             sin += term;
-            term = term * self / Self::from_f64(f64::from(power + 2));
+            term = (term * self).divided_by(f64::from(power + 2));
             cos -= term;
-            term = term * self / Self::from_f64(f64::from(power + 3));
+            term = (term * self).divided_by(f64::from(power + 3));
             sin -= term;
-            term = term * self / Self::from_f64(f64::from(power + 4));
+            term = (term * self).divided_by(f64::from(power + 4));
         }
         (sin, cos)
+    }
+
+    /// The quotient by a number without error, in a third of the operations of a division by any other.
+    fn divided_by(self, divisor: f64) -> Self {
+        let quotient = self.value / divisor;
+        // Exact, as the remainder of every division is.
+        let remainder = quotient.mul_add(-divisor, self.value);
+        exact_sum(quotient, (remainder + self.error) / divisor)
     }
 }
 
@@ -117,5 +125,30 @@ impl Neg for DoubleDouble {
     type Output = Self;
     fn neg(self) -> Self {
         DoubleDouble::new(-self.value, -self.error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sine and cosine of angles, each as the nearest `f64` and the nearest `f64` of what is left, from power series in
+    /// rational numbers.
+    const KNOWN: [(f64, [f64; 2], [f64; 2]); 3] = [
+        (0.7, [0.644217687237691, 2.8740567927338755e-18], [0.7648421872844885, -4.013780434022238e-17]),
+        (1.0, [0.8414709848078965, 1.776845092935536e-18], [0.5403023058681398, -4.760954612604417e-17]),
+        (100.0, [-0.5063656411097588, -3.050947053792115e-18], [0.8623188722876839, 4.334809858136501e-17]),
+    ];
+
+    #[test]
+    fn sines_and_cosines_have_thirty_digits() {
+        for (angle, sine, cosine) in KNOWN {
+            let (found_sine, found_cosine) = DoubleDouble::from_f64(angle).sin_cos();
+            for (found, [value, rest]) in [(found_sine, sine), (found_cosine, cosine)] {
+                assert_eq!(found.value, value, "at {angle}");
+                // The reduction of the angle, and sixteen terms.
+                assert!((found.error - rest).abs() <= 1e-30, "at {angle}: {:e} instead of {rest:e}", found.error);
+            }
+        }
     }
 }
