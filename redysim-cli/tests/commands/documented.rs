@@ -4,9 +4,8 @@
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
-use crate::common::{Table, WALKING, bash, cargo, root, scratch, skip, succeed};
+use crate::common::{Table, WALKING, all_tools, bash, cargo, root, scratch, skip, succeed};
 
 /// What takes five to ten seconds in a debug build: robots that walk, and hundreds of four-bars.
 const SLOW: [&str; 4] = [WALKING[0], WALKING[1], WALKING[2], "fourbar_tolerances"];
@@ -89,11 +88,6 @@ fn is_by_cmake(command: &str) -> bool {
     ["cmake ", "./build/"].iter().any(|start| command.starts_with(start))
 }
 
-/// Whether the machine has a program.
-pub fn has(program: &str) -> bool {
-    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
-}
-
 /// Takes all steps of a document, each of which uses what those before it have written. Returns the folder and the
 /// text.
 pub fn run_all(name: &str, document: &str, least: usize) -> (PathBuf, String) {
@@ -117,10 +111,7 @@ pub fn run_all(name: &str, document: &str, least: usize) -> (PathBuf, String) {
                 let run = cargo(&folder, &command);
                 assert_eq!(run.code, 0, "{document}: cargo {command}: {}", run.output());
             }
-            // Not every machine has it; `.ci/run` installs it.
-            Step::Compiled(command) if is_by_cmake(&command) && !has("cmake") => {
-                skip("there is no CMake here");
-            }
+            Step::Compiled(command) if is_by_cmake(&command) && !all_tools() => skip("CMake is not used"),
             Step::Compiled(command) => {
                 let run = bash(&folder, &command, &[]);
                 assert_eq!(run.code, 0, "{document}: {command}: {}", run.output());

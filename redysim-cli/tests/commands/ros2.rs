@@ -1,9 +1,8 @@
 //! The plugin of docs/ros2.md compiles against the interface that it implements, and its parts agree.
 
-use crate::common::{bash, skip};
-use crate::documented::{has, run_all};
+use crate::common::{all_tools, bash, skip};
+use crate::documented::run_all;
 use std::fs;
-use std::path::Path;
 
 /// The declarations of the interface, version 2.0, that a plugin sees.
 const INTERFACE: &str = r"
@@ -58,8 +57,8 @@ int main() {
 #[test]
 fn the_plugin_for_ros_2_compiles_and_its_torques_are_the_sum_of_its_parts() {
     let (folder, _) = run_all("documented-ros2", "docs/ros2.md", 2);
-    if !(has("c++") && Path::new("/usr/include/eigen3").is_dir()) {
-        skip("there is no C++ compiler or no Eigen here");
+    if !all_tools() {
+        skip("Eigen is not used");
         return;
     }
     let package = folder.join("kr5_inverse_dynamics_solver");

@@ -21,7 +21,7 @@ pub use refusals::{refuses, refuses_in};
 pub use robot::{BALLS, robot};
 pub use scenarios::{AGAINST_CLOSED_FORMS, LIFT, LONG, SWING, WALKING, results, scenario, slide, swing, turn};
 pub use table::{Table, deviation};
-pub use tools::skip;
+pub use tools::{all_tools, skip};
 
 /// The repository.
 pub fn root() -> PathBuf {

@@ -3,7 +3,7 @@
 //! Where the tests run under an emulator, `REDYSIM_RUNNER` is the command that runs a program, as `qemu-aarch64 -L
 //! /usr/aarch64-linux-gnu`, and `CC` and `CXX` name compilers for the target, as in `studies/aarch64/run`.
 
-use crate::common::tools::skip;
+use crate::common::tools::{all_tools, skip};
 use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
@@ -22,7 +22,8 @@ static COMPILERS: LazyLock<Vec<String>> = LazyLock::new(|| {
             }
             runs
         };
-        return [own.unwrap_or("cc".into()), "clang".into()].into_iter().filter(there_are).collect();
+        let clang = all_tools().then(|| "clang".into());
+        return [own.unwrap_or("cc".into())].into_iter().chain(clang).filter(there_are).collect();
     }
     let own =
         own.filter(|own| runs(own)).expect("with REDYSIM_RUNNER, CC names a compiler for the target of the tests");
@@ -36,8 +37,8 @@ static COMPILERS: LazyLock<Vec<String>> = LazyLock::new(|| {
     }
 });
 
-/// The compilers of C for the target of the tests: the machine's own, `CC` if that is set, and Clang. As in `CC`, flags may
-/// follow the name.
+/// The compilers of C for the target of the tests: the machine's own, `CC` if that is set, and Clang, on the machine at hand
+/// where [`all_tools`] are used. As in `CC`, flags may follow the name.
 pub fn compilers() -> &'static [String] {
     if COMPILERS.is_empty() {
         skip("there is no C compiler here; install one, or name it in the variable CC");

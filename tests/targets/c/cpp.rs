@@ -6,7 +6,7 @@ use super::compilers::{self, compilers, cpp_compiler};
 use super::parameters::{Given, OF_GIVEN};
 use super::program::State;
 use crate::NATIVE;
-use crate::common::tools::skip;
+use crate::common::tools::{all_tools, skip};
 use crate::robots::{Gripper, Kr5};
 use redysim::function::{Argument, Dimension};
 use redysim::{FUSED, Function, LinkState};
@@ -193,8 +193,8 @@ fn rust() -> Vec<f64> {
 #[test]
 fn a_program_in_cpp_that_cmake_builds_computes_the_same_bits() {
     let expected: Vec<u64> = rust().into_iter().map(f64::to_bits).collect();
-    if !Command::new("cmake").arg("--version").output().is_ok_and(|output| output.status.success()) {
-        skip("there is no CMake here");
+    if !all_tools() {
+        skip("CMake is not used");
         return;
     }
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cpp");
