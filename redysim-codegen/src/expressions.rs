@@ -124,13 +124,13 @@ impl Expressions {
         count.additions + count.multiplications + PRICE_PER_DIVISION * count.divisions + PRICE_PER_PAIR * count.trig
     }
 
-    /// The outputs for the given arguments, computed with any scalar; parameters have the values of the model.
-    pub fn evaluate<S: Scalar>(&self, arguments: &[&[S]]) -> Vec<S> {
-        self.evaluate_with(arguments, |_, nominal| S::from_f64(nominal))
+    /// The outputs for the given arguments; parameters have the values of the model.
+    pub fn evaluate(&self, arguments: &[&[f64]]) -> Vec<f64> {
+        self.evaluate_with(arguments, |_, nominal| nominal)
     }
 
-    /// The outputs for the given arguments, and for parameters with the values that `parameter` gives for their index
-    /// and their value in the model.
+    /// The outputs for the given arguments, computed with any scalar; parameters have the values that `parameter` gives for
+    /// their index and their value in the model.
     pub fn evaluate_with<S: Scalar>(&self, arguments: &[&[S]], parameter: impl Fn(u32, f64) -> S) -> Vec<S> {
         let mut values: Vec<S> = Vec::with_capacity(self.graph.len());
         for index in 0..self.graph.len() {

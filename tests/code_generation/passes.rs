@@ -3,7 +3,8 @@
 use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::random::{Random, State};
 use crate::common::traced::{traced, traced_with};
-use redysim::Real;
+use redysim::{Real, Scalar};
+use redysim_codegen::expressions::Expressions;
 use redysim_codegen::functions::{TracedFunction, trace_with};
 use redysim_codegen::passes::Passes;
 use redysim_model::spatial::{Mat3, Vec3};
@@ -77,7 +78,10 @@ fn difference(before: &[TracedFunction], after: &[TracedFunction], dof: usize) -
             let State { q, v, a } = random.state(dof);
             let arguments = [exact(&q), exact(&v), exact(&a)];
             let arguments: Vec<&[DoubleDouble]> = arguments.iter().map(Vec::as_slice).collect();
-            let [old, new] = [before, after].map(|function| rounded(function.expressions.evaluate(&arguments)));
+            let exactly = |expressions: &Expressions| {
+                rounded(expressions.evaluate_with(&arguments, |_, nominal| DoubleDouble::from_f64(nominal)))
+            };
+            let [old, new] = [before, after].map(|function| exactly(&function.expressions));
             let scale = old.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
             // What an ill-conditioned mass matrix makes of the constants' roundoff is no fault of a pass, nor what is
             // left where the differences of inertias in the Coriolis matrix are small.

@@ -64,10 +64,10 @@ fn worst(
         let q = denoc::integrate(tree, &neutral, &q);
         let (v, mut given) = (vector(velocity, state % 2 == 0), vector(acceleration, state % 2 == 0));
         if whole.function == Function::ForwardDynamics {
-            given = inverse.expressions.evaluate::<f64>(&[&q, &v, &given]);
+            given = inverse.expressions.evaluate(&[&q, &v, &given]);
         }
         let arguments = &[&q[..], &v, &given][..whole.function.signature().arguments.len()];
-        let [whole, pruned] = [whole, pruned].map(|function| function.expressions.evaluate::<f64>(arguments));
+        let [whole, pruned] = [whole, pruned].map(|function| function.expressions.evaluate(arguments));
         sizes.resize(whole.len(), 0.0_f64);
         errors.resize(whole.len(), 0.0_f64);
         for (index, (whole, pruned)) in whole.iter().zip(&pruned).enumerate() {
@@ -179,7 +179,7 @@ fn a_stated_force_is_what_the_tolerance_is_a_share_of() {
         };
         let arguments = [0, 1, 2].map(vector);
         let arguments = arguments.each_ref().map(Vec::as_slice);
-        let [whole, pruned] = [&whole, &pruned].map(|function| function.expressions.evaluate::<f64>(&arguments));
+        let [whole, pruned] = [&whole, &pruned].map(|function| function.expressions.evaluate(&arguments));
         for ((whole, pruned), force) in whole.iter().zip(&pruned).zip(motors) {
             assert!((whole - pruned).abs() <= 0.01 * force, "{pruned} instead of {whole}");
         }

@@ -16,8 +16,8 @@ use crate::generate::TracedMechanism;
 use crate::random::Random;
 use redysim_model::denoc::{self, Untraced};
 use redysim_model::{CodegenOptions, Function, Model, Tree};
-use redysim_runtime::ParameterRule;
 use redysim_runtime::function::Argument;
+use redysim_runtime::{ParameterRule, Scalar};
 
 /// The states at which functions are called. The last has angles of many turns.
 pub const STATES: usize = 3;
@@ -127,7 +127,7 @@ fn expected(
     let exactly: Vec<&[DoubleDouble]> = exactly.iter().map(Vec::as_slice).collect();
     // A pruned function differs from the run-time path by more than roundings: what is checked is how it was compiled.
     let values = if pruning.as_ref().is_some_and(|pruning| pruning.holds) {
-        rounded(expressions.evaluate(&exactly))
+        rounded(expressions.evaluate_with(&exactly, |_, nominal| DoubleDouble::from_f64(nominal)))
     } else {
         rounded(denoc::evaluate(*function, tree, &Untraced, &exactly))
     };
