@@ -77,6 +77,8 @@ class Builder:
             for function in FUNCTIONS:
                 self._cppadcodegen(name, function)
                 self._casadi(name, function)
+            if name in LANED:
+                self._written(name)
 
     def skipped(self, names: list[str]) -> list[str]:
         """What takes the compiler too long."""
@@ -204,6 +206,13 @@ class Builder:
         self._make(code, [robot, _stamp(generator)], command)
         words = [f'-DSOURCE="{code}"', f"-DSYMBOL={function}", f"-DCODE=casadi_{function}"]
         self._generated(folder / "casadi.so", code, "casadi_generated.c", words, f"{name} {function}")
+
+    def _written(self, name: str) -> None:
+        source = SOURCES / "written.c"
+        target = self.built / "generated" / name / "mass/written_x8.so"
+        values = robot_files.read(robot_files.path(name, "txt", self.built)).nv ** 2
+        words = ["-DSYMBOL=mass", "-DLANES=8", f"-DVALUES={values}"]
+        self._make(target, [source], ["gcc", *FAST, "-fPIC", "-shared", *words, source, "-o", target])
 
     def _generated(self, target: Path, code: Path, wrapper: str, words: list, what: str) -> None:
         source = SOURCES / wrapper

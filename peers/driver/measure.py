@@ -149,7 +149,7 @@ class Bench:
                 expected = self.result(REFERENCE, robot, function)
                 largest = numpy.abs(expected).max(axis=1, keepdims=True)
                 for program in programs:
-                    if not program.takes(robot) or not program.library_of(self.built, robot, function).exists():
+                    if not program.computes or not self._has(program, robot, function):
                         continue
                     try:
                         found = self.result(program, robot, function)
@@ -163,16 +163,25 @@ class Bench:
                     allowed = tolerance(program, robot, function)
                     results.deviations.append(Deviation(program.key, robot, function, float(deviation.max()), allowed))
 
+    def _has(self, program: Program, robot: str, function: str) -> bool:
+        return program.takes(robot) and program.library_of(self.built, robot, function).exists()
+
     def time(self, programs: list[Program], names: list[str], results: Results) -> None:
         """All programs at one robot's function after another, in an order that turns with each repetition."""
         agreed = {(d.program, d.robot, d.function) for d in results.deviations if d.largest <= d.allowed}
+
+        def is_ready(program: Program, robot: str, function: str) -> bool:
+            if program.computes:
+                return (program.key, robot, function) in agreed
+            return self._has(program, robot, function)
+
         results.pinned = self.pinned
         for repetition in range(REPETITIONS):
             for robot in names:
                 states = self.write_states(robot, self.states(robot))
                 print(f"repetition {repetition + 1} of {REPETITIONS}: {robot}", flush=True)
                 for function in FUNCTIONS:
-                    ready = [p for p in programs if (p.key, robot, function) in agreed]
+                    ready = [p for p in programs if is_ready(p, robot, function)]
                     turn = repetition * len(ready) // REPETITIONS
                     for program in ready[turn:] + ready[:turn]:
                         command = self.command("time", program, robot, function, states)

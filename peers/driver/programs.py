@@ -33,6 +33,8 @@ class Program:
     ours: bool = False
     # Whether it runs on processors with AVX2 and FMA alone.
     v3: bool = False
+    # Whether it computes the result, or only writes as many numbers.
+    computes: bool = True
 
     def takes(self, robot: str) -> bool:
         return self.robots is None or robot in self.robots
@@ -80,6 +82,17 @@ PROGRAMS = [
         "txt",
         lanes=8,
         robots=tuple(LANED),
+    ),
+    # Of the mass matrix alone, the one result that is large.
+    Program(
+        "written_x8",
+        "as many numbers written, 8 states",
+        GENERATED + "/written_x8.so",
+        "{function}",
+        "txt",
+        lanes=8,
+        robots=tuple(LANED),
+        computes=False,
     ),
     _ours("f64x8", "redysim, f64 × 8", NATIVE, "{robot}_{function}_f64x8", lanes=8, robots=tuple(LANED)),
     _ours(
