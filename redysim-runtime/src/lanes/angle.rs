@@ -64,6 +64,22 @@ macro_rules! angles {
     };
 }
 
+impl F64x2 {
+    /// The sine and the cosine in these lanes after the quarter turns in the last two bits of `rounded`.
+    #[inline(always)]
+    pub(crate) fn turned_as_sine_and_cosine(self, rounded: f64) -> (f64, f64) {
+        let turns: u64x2 = cast([rounded, rounded]);
+        let odd = u64x2::splat(0) - (turns & u64x2::splat(1));
+        let [sin, cos] = self.to_array();
+        let [found, exchanged]: [u64x2; 2] = [cast(self.0), cast([cos, sin])];
+        let differing = (found ^ exchanged) & odd;
+        // The cosine is the sine a quarter turn later.
+        let signs = ((turns + u64x2::new([0, 1])) & u64x2::splat(2)) << 62_u64;
+        let [sin, cos] = cast(found ^ differing ^ signs);
+        (sin, cos)
+    }
+}
+
 angles!(F64x2 of f64, u64x2 << 62_u64);
 angles!(F64x4 of f64, u64x4 << 62_u64);
 angles!(F64x8 of f64, u64x8 << 62_u64);

@@ -7,6 +7,10 @@
 
 use super::angle::{Angle, Number};
 use super::reduction::{ROUNDER, Reduced};
+#[cfg(feature = "lanes")]
+use crate::lanes::F64x2;
+#[cfg(feature = "lanes")]
+use crate::scalar::Scalar;
 
 /// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³.
 const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
@@ -18,16 +22,48 @@ const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]
 pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
-    let (Reduced { rounded, rest, tail }, good) = reduced(x);
-    if !good {
-        // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
-        return x.one_by_one(|x| {
-            let (quick, good) = reduced(x);
-            let angle = if good { quick } else { x.reduced() };
-            let (sin, cos) = kernel(angle.rest, angle.tail);
-            Angle::turned(angle.rounded, sin, cos)
-        });
+    let (angle, good) = reduced(x);
+    // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
+    if good { evaluated(angle) } else { x.one_by_one(hard) }
+}
+
+/// [`sin_cos`] of one angle.
+#[inline(always)]
+pub fn of_one(x: f64) -> (f64, f64) {
+    #[cfg(feature = "lanes")]
+    if cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128")) {
+        return side_by_side(x);
     }
+    sin_cos(x)
+}
+
+/// Sine and cosine of one angle, side by side in two lanes: the bits of [`sin_cos`] in fewer operations.
+#[inline(always)]
+#[cfg(feature = "lanes")]
+fn side_by_side(x: f64) -> (f64, f64) {
+    let (Reduced { rounded, rest: r, tail }, good) = reduced(x);
+    if !good {
+        return x.one_by_one(hard);
+    }
+    let z = r * r;
+    let near_one = near_one(z);
+    let [squares, powers] = [F64x2::from([z, z]), F64x2::from([r, z])];
+    let polynomials = polynomial(|term| F64x2::from([SINE[term], COSINE[term]]), squares);
+    let corrections = F64x2::from([tail * near_one, correction(r, tail, z, near_one)]);
+    let found = F64x2::from([r, near_one]) + (powers * squares).mul_add(polynomials, corrections);
+    found.turned_as_sine_and_cosine(rounded)
+}
+
+/// Sine and cosine of one angle, of which the quick reduction may not be good enough.
+#[inline(always)]
+fn hard<T: Number>(x: T) -> (T, T) {
+    let (quick, good) = reduced(x);
+    evaluated(if good { quick } else { x.reduced() })
+}
+
+/// Sine and cosine of an angle that is reduced.
+#[inline(always)]
+fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
     let (sin, cos) = kernel(rest, tail);
     A::turned(rounded, sin, cos)
 }
@@ -72,20 +108,31 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of r + tail, |r| ≤ π/4.
 #[inline(always)]
 fn kernel<A: Angle>(r: A, tail: A) -> (A, A) {
-    let (one, z) = (A::one(), r * r);
-    // Halves are exact, fused or not.
-    let minus_half = A::from_f64(-0.5);
-    let near_one = z.mul_add(minus_half, one);
-    let sin = r + (r * z).mul_add(polynomial(&SINE, z), tail * near_one);
-    let correction = (-r).mul_add(tail, z.mul_add(minus_half, one - near_one));
-    let cos = near_one + (z * z).mul_add(polynomial(&COSINE, z), correction);
+    let z = r * r;
+    let near_one = near_one(z);
+    let sin = r + (r * z).mul_add(polynomial(|term| A::from_f64(SINE[term]), z), tail * near_one);
+    let terms = polynomial(|term| A::from_f64(COSINE[term]), z);
+    let cos = near_one + (z * z).mul_add(terms, correction(r, tail, z, near_one));
     (sin, cos)
 }
 
-/// Neighbouring terms are paired, so that fewer operations wait for each other.
+/// 1 − z / 2, rounded. Halves are exact, fused or not.
 #[inline(always)]
-fn polynomial<A: Angle>([a, b, c, d, e, f]: &[f64; 6], z: A) -> A {
-    let pair = |low: &f64, high: &f64| z.mul_add(A::from_f64(*high), A::from_f64(*low));
+fn near_one<A: Angle>(z: A) -> A {
+    z.mul_add(A::from_f64(-0.5), A::one())
+}
+
+/// What is left of 1 − z / 2, and what the tail changes in the cosine.
+#[inline(always)]
+fn correction<A: Angle>(r: A, tail: A, z: A, near_one: A) -> A {
+    (-r).mul_add(tail, z.mul_add(A::from_f64(-0.5), A::one() - near_one))
+}
+
+/// The polynomial of six terms with these coefficients. Neighbouring terms are paired, so that fewer operations wait for
+/// each other.
+#[inline(always)]
+fn polynomial<A: Angle>(coefficient: impl Fn(usize) -> A, z: A) -> A {
+    let pair = |low: usize| z.mul_add(coefficient(low + 1), coefficient(low));
     let squared = z * z;
-    squared.mul_add(squared.mul_add(pair(e, f), pair(c, d)), pair(a, b))
+    squared.mul_add(squared.mul_add(pair(4), pair(2)), pair(0))
 }
