@@ -46,10 +46,11 @@ fn side_by_side(x: f64) -> (f64, f64) {
         return x.one_by_one(hard);
     }
     let z = r * r;
-    let near_one = near_one(z);
+    let near_one = Scalar::mul_add(z, -0.5, 1.0);
+    let correction = Scalar::mul_add(-r, tail, Scalar::mul_add(z, -0.5, 1.0 - near_one));
     let [squares, powers] = [F64x2::from([z, z]), F64x2::from([r, z])];
     let polynomials = polynomial(|term| F64x2::from([SINE[term], COSINE[term]]), squares);
-    let corrections = F64x2::from([tail * near_one, correction(r, tail, z, near_one)]);
+    let corrections = F64x2::from([tail * near_one, correction]);
     let found = F64x2::from([r, near_one]) + (powers * squares).mul_add(polynomials, corrections);
     found.turned_as_sine_and_cosine(rounded)
 }
@@ -108,31 +109,20 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of r + tail, |r| ≤ π/4.
 #[inline(always)]
 fn kernel<A: Angle>(r: A, tail: A) -> (A, A) {
-    let z = r * r;
-    let near_one = near_one(z);
+    let (one, z) = (A::one(), r * r);
+    // Halves are exact, fused or not.
+    let minus_half = A::from_f64(-0.5);
+    let near_one = z.mul_add(minus_half, one);
     let sin = r + (r * z).mul_add(polynomial(|term| A::from_f64(SINE[term]), z), tail * near_one);
-    let terms = polynomial(|term| A::from_f64(COSINE[term]), z);
-    let cos = near_one + (z * z).mul_add(terms, correction(r, tail, z, near_one));
+    let correction = (-r).mul_add(tail, z.mul_add(minus_half, one - near_one));
+    let cos = near_one + (z * z).mul_add(polynomial(|term| A::from_f64(COSINE[term]), z), correction);
     (sin, cos)
 }
 
-/// 1 − z / 2, rounded. Halves are exact, fused or not.
+/// The polynomial with these coefficients. Neighbouring terms are paired, so that fewer operations wait for each other.
 #[inline(always)]
-fn near_one<A: Angle>(z: A) -> A {
-    z.mul_add(A::from_f64(-0.5), A::one())
-}
-
-/// What is left of 1 − z / 2, and what the tail changes in the cosine.
-#[inline(always)]
-fn correction<A: Angle>(r: A, tail: A, z: A, near_one: A) -> A {
-    (-r).mul_add(tail, z.mul_add(A::from_f64(-0.5), A::one() - near_one))
-}
-
-/// The polynomial of six terms with these coefficients. Neighbouring terms are paired, so that fewer operations wait for
-/// each other.
-#[inline(always)]
-fn polynomial<A: Angle>(coefficient: impl Fn(usize) -> A, z: A) -> A {
-    let pair = |low: usize| z.mul_add(coefficient(low + 1), coefficient(low));
+fn polynomial<A: Angle>(coefficients: impl Fn(usize) -> A, z: A) -> A {
+    let pair = |low: usize, high: usize| z.mul_add(coefficients(high), coefficients(low));
     let squared = z * z;
-    squared.mul_add(squared.mul_add(pair(4), pair(2)), pair(0))
+    squared.mul_add(squared.mul_add(pair(4, 5), pair(2, 3)), pair(0, 1))
 }
