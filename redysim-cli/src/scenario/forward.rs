@@ -58,6 +58,20 @@ impl Forward {
         })
     }
 
+    /// The times at which what drives the mechanism changes suddenly, s, in ascending order: those of the motion that is
+    /// followed and of a table of forces.
+    pub fn changes(&self) -> Vec<f64> {
+        let followed = self.followed().map_or(&[][..], |trajectory| &trajectory.times);
+        let forces = match self.torque.unlimited() {
+            Torque::Table { forces, .. } => &forces.table.t[..],
+            _ => &[],
+        };
+        let mut times = [followed, forces].concat();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
     /// The motion that joints or the torque law follow, if one of them does: that of the scenario.
     pub fn followed(&self) -> Option<&Prescribed> {
         self.torque.followed().or(self.prescribed.as_ref().map(|prescribed| &prescribed.trajectory))

@@ -86,6 +86,8 @@ impl Absolute {
     }
 }
 
+/// The least that the integrators accept: a hundred roundoff units.
+const SMALLEST_RTOL: f64 = 100.0 * f64::EPSILON;
 /// MATLAB's defaults; the largest step is a part of the run.
 const USUAL_RTOL: f64 = 1e-3;
 const USUAL_ATOL: f64 = 1e-6;
@@ -160,7 +162,9 @@ impl Integrator {
                 Some(Integrator::Fixed(method, size))
             }
             IntegrationMethod::Adaptive(method) => {
-                let rtol = reader.positive(&keys::RTOL).value_or(USUAL_RTOL);
+                let relative = reader.positive(&keys::RTOL);
+                check_rtol(&mut reader, &relative)?;
+                let rtol = relative.value_or(USUAL_RTOL);
                 let largest = reader.positive(&keys::MAX_STEP);
                 let max_step = largest.value_or(USUAL_MAX_STEP * length);
                 check_count(&mut reader, &keys::MAX_STEP, &largest, (length, MOST_ADAPTIVE))?;
@@ -199,8 +203,8 @@ impl Integrator {
         stable.ok()?.warning(step, mechanism)
     }
 
-    /// Integrates `ode`, the motion of the mechanism of `ground`, over `interval`. Each touch-down and lift-off is shown
-    /// to `on_event`.
+    /// Integrates `ode`, the motion of the mechanism of `ground`, over `interval`. Steps that are chosen from tolerances end at
+    /// each of the times `stops`. Each touch-down and lift-off is shown to `on_event`.
     ///
     /// # Errors
     /// As [`Grounded::run`](redysim_runtime::Grounded::run).
@@ -208,7 +212,7 @@ impl Integrator {
         &self,
         ground: &Ground<'_>,
         ode: &mut dyn Ode<f64, Vec<f64>>,
-        interval: (f64, f64),
+        (interval, stops): ((f64, f64), &[f64]),
         start: Vec<f64>,
         observer: &mut impl Observer<f64, Vec<f64>>,
         on_event: impl FnMut(ContactEvent<f64>),
@@ -228,10 +232,10 @@ impl Integrator {
                 Fixed::Gauss6 => task.by(&Gauss6::new(step)),
             },
             Integrator::Adaptive(method, tolerances) => match method {
-                Adaptive::Ode45 => task.by(&tolerances.on(Ode45::new(), &atol)),
-                Adaptive::Dop853 => task.by(&tolerances.on(Dop853::new(), &atol)),
-                Adaptive::Ode15s => task.by(&tolerances.on(Ode15s::new(), &atol)),
-                Adaptive::Radau5 => task.by(&tolerances.on(Radau5::new(), &atol)),
+                Adaptive::Ode45 => task.by(&tolerances.on(Ode45::new().stops(stops), &atol)),
+                Adaptive::Dop853 => task.by(&tolerances.on(Dop853::new().stops(stops), &atol)),
+                Adaptive::Ode15s => task.by(&tolerances.on(Ode15s::new().stops(stops), &atol)),
+                Adaptive::Radau5 => task.by(&tolerances.on(Radau5::new().stops(stops), &atol)),
             },
         }
     }
@@ -278,6 +282,20 @@ fn check_count(reader: &mut Reader<'_, '_>, key: &Key, step: &Field<f64>, (lengt
     );
     let help = format!("give a `{key}`, s, that is larger, or end earlier");
     reader.error_at(spanned.span(), Message { title, label: "too small for this run".into(), help })
+}
+
+/// Fails where a relative tolerance is below the roundoff of the steps, or allows errors as large as the values.
+fn check_rtol(reader: &mut Reader<'_, '_>, rtol: &Field<f64>) -> Option<()> {
+    let Some(spanned) = rtol.spanned() else { return Some(()) };
+    let (value, item) = (*spanned.get_ref(), reader.item());
+    let (fault, label) = match value {
+        _ if value < SMALLEST_RTOL => ("no step in double precision keeps it", "too small"),
+        _ if value >= 1.0 => ("it allows errors as large as the motion", "too large"),
+        _ => return Some(()),
+    };
+    let title = format!("{item}: the integrator's `rtol` is {value:?}, and {fault}");
+    let help = format!("give a `rtol` between {SMALLEST_RTOL:.1e} and 0.1, such as {USUAL_RTOL:?}");
+    reader.error_at(spanned.span(), Message { title, label: label.into(), help })
 }
 
 fn too_long(item: &str, step: f64, length: f64) -> Message {

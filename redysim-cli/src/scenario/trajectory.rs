@@ -30,6 +30,8 @@ pub struct Prescribed {
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
     pub table: Option<InputTable>,
+    /// When it begins, passes each of its points, and ends; empty if it goes on for ever.
+    pub times: Vec<f64>,
     motion: Path,
 }
 
@@ -90,13 +92,14 @@ impl Prescribed {
                     let read = |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, layout, &of_q);
                     reader.required(key, read).value().cloned()
                 };
-                let mut table = None;
+                let (mut table, mut passed) = (None, Vec::new());
                 let motion = match tag {
                     Tag::Cycloid => {
                         let (from, to) = (coordinates(&mut reader, &keys::FROM), coordinates(&mut reader, &keys::TO));
                         let duration = reader.required(&keys::DURATION, Reader::positive);
                         let spanned = duration.spanned()?;
                         let (from, to, duration) = (from?, to?, *spanned.get_ref());
+                        passed = vec![0.0, duration];
                         if space.nq() == space.nv() {
                             Path::Cycloid(accepted(&mut reader, spanned, Cycloid::new(from, to, duration))?)
                         } else {
@@ -118,6 +121,7 @@ impl Prescribed {
                         let points = |reader: &mut _, key: &_| points(reader, key, layout, &of_q);
                         let points = reader.required(&keys::POINTS, points);
                         let spanned = times.spanned()?;
+                        passed.clone_from(spanned.get_ref());
                         let through = smooth.through(space, spanned.get_ref().clone(), points.value()?.clone());
                         Path::ViaPoints(accepted(&mut reader, spanned, through)?)
                     }
@@ -129,12 +133,14 @@ impl Prescribed {
                             Ok((table, through))
                         });
                         let (read, through) = read.filter(|_| smooth.is_some())?;
+                        passed.clone_from(&read.t);
                         table = Some(read);
                         Path::ViaPoints(through)
                     }
                 };
                 let (joints, coordinates, velocities) = (chosen, of_q, of_v);
-                let prescribed = Prescribed { joints, coordinates, velocities, place: 0..0, table, motion };
+                let prescribed =
+                    Prescribed { joints, coordinates, velocities, place: 0..0, table, times: passed, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
                     // A law that follows a trajectory checks it by itself.

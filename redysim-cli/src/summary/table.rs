@@ -88,7 +88,9 @@ impl Summary {
             cells.chain([title.chars().count()]).max().unwrap_or(0) + 2
         });
         let mut line = |cells: [String; 6]| {
-            let padded = cells.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect::<String>();
+            // A width for formatting has 16 bits, and a name may be longer.
+            let padded = |(cell, width): (&String, usize)| cell.clone() + &" ".repeat(width - cell.chars().count());
+            let padded = cells.iter().zip(widths).map(padded).collect::<String>();
             writeln!(f, "  {}", padded.trim_end())
         };
         line(columns.map(|(title, _)| title.to_string()))?;

@@ -350,3 +350,17 @@ fn a_urdf_is_checked_and_generated_as_the_model_file_that_it_becomes() {
     let run = call(&folder, &["check", "flat.urdf"]);
     assert_eq!((run.code, run.stderr.matches("error: ").count()), (1, 1), "{}", run.stderr);
 }
+
+#[test]
+fn names_may_be_longer_than_any_line() {
+    let folder = scratch("check-long-name");
+    let name = "x".repeat(70_000);
+    let link = format!(
+        "name = '{name}'\nparent = 'base'\njoint = 'revolute'\norigin = {{}}\naxis = [0, 0, 1]\nmass = 1.0\ncom = [1, 0, 0]\n"
+    );
+    std::fs::write(folder.join("long.toml"), format!("name = 'arm'\ngravity = [0, 0, -9.81]\n[[link]]\n{link}"))
+        .unwrap();
+    let run = call(&folder, &["check", "long.toml"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains(&format!("\n  {name}  base")), "{}", run.stdout);
+}

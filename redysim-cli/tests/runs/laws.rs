@@ -297,3 +297,20 @@ fn pid_drives_closed_loops() {
     let q = Table::csv(&folder.join("run/statevar.csv")).column("q crank [rad]");
     assert!((q.last().unwrap() - 0.5).abs() < 1e-4, "{q:?}");
 }
+
+#[test]
+fn a_push_of_a_table_gives_its_impulse_however_short_it_is_beside_the_run() {
+    let folder = scratch("laws-push");
+    for width in [1.0, 1e-2, 1e-4] {
+        // A triangle of 4 N s.
+        let (middle, end, top) = (1.0 + width / 2.0, 1.0 + width, 8.0 / width);
+        let rows = format!("0,0\n1,0\n{middle},{top}\n{end},0\n20,0\n");
+        fs::write(folder.join("push.csv"), format!("t [s],tau slider [N]\n{rows}")).unwrap();
+        let law = "torque = { law = 'csv', file = 'push.csv' }\n";
+        let run = run_of(&folder, SLIDER, &format!("[forward]\nend = 20.0\nstep = 1.0\n{law}"));
+        let found = Table::csv(&run.join("statevar.csv"));
+        let (q, v) = (found.column("q slider [m]")[20], found.column("v slider [m/s]")[20]);
+        let expected = 2.0 * (20.0 - middle);
+        assert!((v - 2.0).abs() < 2e-3 && (q - expected).abs() < 1e-3 * expected, "{width} s: {q} m, {v} m/s");
+    }
+}

@@ -140,3 +140,16 @@ fn more_steps_of_integration_than_the_limit_are_refused() {
         refuses_at_once(name, "forward", &rest, &["step` of 1e-", most, "give a", "trial.toml:6:"]);
     }
 }
+
+#[test]
+fn a_relative_tolerance_that_no_step_keeps_or_that_bounds_nothing_is_refused_where_it_stands() {
+    let of = |rtol: &str| with(&format!("integrator = {{ method = \"Ode45\", rtol = {rtol} }}"));
+    let place = "trial.toml:6:41";
+    refuses_at_once(
+        "rtol-small",
+        "forward",
+        &of("1e-30"),
+        &["`rtol` is 1e-30", "no step", "between 2.2e-14 and", place],
+    );
+    refuses_at_once("rtol-large", "forward", &of("100"), &["`rtol` is 100.0", "as large as the motion", place]);
+}

@@ -174,3 +174,24 @@ fn a_prescribed_joint_takes_the_force_of_the_ground() {
     let drift = table("energy.csv").column("drift [J]");
     assert!(drift.iter().all(|drift| drift.abs() < 1e-7), "{drift:?}");
 }
+
+/// The motion of a body in space without forces depends on where its joints go, not on how fast.
+#[test]
+fn a_prescribed_motion_that_is_short_beside_the_run_moves_the_base_as_a_slow_one_does() {
+    let folder = scratch("prescribed-short");
+    let text = fs::read_to_string(root().join("scenarios/floating_three_link_prescribed.toml")).unwrap();
+    let text = text.replace("../models", root().join("models").to_str().unwrap());
+    let base_at_the_end = |duration: &str| {
+        assert!(text.contains("duration = 20.0"));
+        fs::write(folder.join("trial.toml"), text.replace("duration = 20.0", duration)).unwrap();
+        succeed(&folder, &["forward", "trial.toml", "-o", "run", "--force", "--quiet"]);
+        Table::csv(&folder.join("run/statevar.csv")).rows.last().unwrap()[1..8].to_vec()
+    };
+    let slow = base_at_the_end("duration = 20.0");
+    assert!(slow[0].abs() > 0.05 && slow[5].abs() > 0.4, "{slow:?}");
+    for duration in ["duration = 0.5", "duration = 0.05"] {
+        let found = base_at_the_end(duration);
+        let apart = slow.iter().zip(&found).map(|(slow, found)| (slow - found).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-3, "{duration}: {found:?} instead of {slow:?}");
+    }
+}

@@ -48,6 +48,8 @@ pub struct Adaptive<'a, S, A> {
     max_step: Option<S>,
     max_steps: u64,
     stiffness_limit: Option<u64>,
+    #[cfg_attr(feature = "serde", serde(skip, default = "no_stops"))]
+    stops: &'a [S],
     #[cfg_attr(feature = "serde", serde(skip))]
     method: PhantomData<A>,
 }
@@ -61,6 +63,7 @@ impl<'a, S: Real, A> Adaptive<'a, S, A> {
             max_step: None,
             max_steps: 100_000_000,
             stiffness_limit: Some(100_000),
+            stops: &[],
             method: PhantomData,
         }
     }
@@ -97,6 +100,29 @@ impl<'a, S: Real, A> Adaptive<'a, S, A> {
         self
     }
 
+    /// Sets the times at which a step ends, in ascending order (`tstops` elsewhere): where the equation changes suddenly, as a
+    /// motion that it follows begins or ends, or a force sets in. Those outside the interval are ignored. A step is chosen by
+    /// what the equation is at a few times within it, so that a change that is over between these goes unseen.
+    ///
+    /// ```
+    /// use redysim_runtime::{Integrator, Ode45};
+    ///
+    /// // A push of 1 m/s² on a body at rest, for 10 ms.
+    /// let mut pushed = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
+    ///     *dydt = [y[1], if (5.0..5.01).contains(&t) { 1.0 } else { 0.0 }];
+    /// };
+    /// let unseen = Ode45::new().integrate(&mut pushed, (0.0, 10.0), [0.0; 2])?;
+    /// assert_eq!(unseen.y, [0.0, 0.0]);
+    ///
+    /// let seen = Ode45::new().stops(&[5.0, 5.01]).integrate(&mut pushed, (0.0, 10.0), [0.0; 2])?;
+    /// assert!((seen.y[1] - 0.01).abs() < 1e-4);
+    /// # Ok::<(), redysim_runtime::IntegrationError<f64>>(())
+    /// ```
+    pub fn stops(mut self, times: &'a [S]) -> Self {
+        self.stops = times;
+        self
+    }
+
     /// Gives up after `max_steps` steps, accepted or rejected. The default is 10⁸. Where a derivative jumps to and fro,
     /// as with friction by the sign of a velocity, steps stay as small as the tolerances, so that runs may be that
     /// long: a smaller limit ends them soon.
@@ -113,6 +139,19 @@ impl<'a, S: Real, A> Adaptive<'a, S, A> {
         self
     }
 
+    /// Where the first step from `t` ends at the latest: the next of the times that were set, or the end of the interval.
+    fn next_stop(&self, interval: &Interval<S>, t: S) -> S {
+        let passed = self.stops.partition_point(|&stop| stop <= t);
+        let next = if interval.to > interval.from {
+            self.stops.get(passed)
+        } else {
+            self.stops.get(..passed).and_then(|passed| passed.iter().rev().find(|&&stop| stop < t))
+        };
+        next.copied()
+            .filter(|&stop| stop != t && interval.reaches(stop, t) && interval.reaches(interval.to, stop))
+            .unwrap_or(interval.to)
+    }
+
     fn check(&self, len: usize) -> Result<(), IntegrationError<S>> {
         self.tolerances.check(len)?;
         check_step("initial step", self.initial_step)?;
@@ -124,6 +163,12 @@ impl<S: Real, A> Default for Adaptive<'_, S, A> {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// What a method without [stops](Adaptive::stops) has.
+#[cfg(feature = "serde")]
+fn no_stops<'a, S>() -> &'a [S] {
+    &[]
 }
 
 /// Checks a step size, if it is given.
@@ -154,13 +199,15 @@ impl<S: Real, A: EstimatesErrors> Integrator<S> for Adaptive<'_, S, A> {
         let mut size = match self.initial_step {
             Some(size) => size,
             None => {
-                let reach = interval.advance(S::zero(), largest.minimum(interval.length()));
+                let first = (self.next_stop(&interval, interval.from) - interval.from).abs();
+                let reach = interval.advance(S::zero(), largest.minimum(first));
                 control.first_size(&mut driver.formula, &mut driver.integration, reach)?
             }
         };
         let mut stiffness = StiffnessTest::new(self.stiffness_limit);
         loop {
             let from = driver.progress().t;
+            let stop = self.next_stop(&interval, from);
             let smallest = interval.smallest_step(from);
             size = size.minimum(largest).maximum(smallest);
             let trial = loop {
@@ -168,10 +215,10 @@ impl<S: Real, A: EstimatesErrors> Integrator<S> for Adaptive<'_, S, A> {
                 if statistics.steps + statistics.rejected >= self.max_steps {
                     return Err(IntegrationError::TooManySteps { t: from, limit: self.max_steps });
                 }
-                let rest = (interval.to - from).abs();
-                let last = S::from_f64(STRETCH) * size >= rest;
-                let t = if last { interval.to } else { interval.advance(from, size) };
-                if last {
+                let rest = (stop - from).abs();
+                let stops = S::from_f64(STRETCH) * size >= rest;
+                let t = if stops { stop } else { interval.advance(from, size) };
+                if stops {
                     size = rest;
                 }
                 if t == from {

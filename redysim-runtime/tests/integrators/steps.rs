@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use redysim_runtime::integrate::tableau::{DORMAND_PRINCE, ErrorEstimate};
-use redysim_runtime::{Integrator, Ode5, Ode45, Statistics, Step};
+use redysim_runtime::{Dop853, Integrator, Ode5, Ode15s, Ode45, Radau5, Statistics, Step};
 
 fn decay(_t: f64, y: &[f64; 1], dydt: &mut [f64; 1]) {
     dydt[0] = -y[0];
@@ -14,7 +14,7 @@ fn oscillators(_t: f64, y: &[f64; 4], dydt: &mut [f64; 4]) {
     *dydt = [y[1], -400.0 * y[0], y[3], -y[2]];
 }
 
-fn step_ends(method: impl Integrator<f64>, interval: (f64, f64)) -> Vec<f64> {
+fn step_ends(method: &impl Integrator<f64>, interval: (f64, f64)) -> Vec<f64> {
     let mut ends = vec![];
     method.each_step(&mut decay, interval, [1.0], |step| ends.push(step.end().0)).unwrap();
     ends
@@ -32,7 +32,7 @@ fn fixed_steps_end_at_exact_multiples_and_the_last_one_at_the_end() {
         ((1.0, 0.0), 0.3, 4),
         ((-0.5, 2.0), 7.0, 1),
     ] {
-        let ends = step_ends(Ode5::new(h), interval);
+        let ends = step_ends(&Ode5::new(h), interval);
         assert_eq!(ends.len(), count, "{interval:?} by {h}");
         let direction = f64::signum(interval.1 - interval.0);
         for (k, &end) in (1..count).zip(&ends) {
@@ -189,13 +189,13 @@ fn ode45_takes_the_steps_of_matlab() {
 
 #[test]
 fn no_step_exceeds_the_largest_by_more_than_the_last_stretch() {
-    let ends = step_ends(Ode45::new().max_step(0.3).initial_step(0.3), (0.0, 2.0));
+    let ends = step_ends(&Ode45::new().max_step(0.3).initial_step(0.3), (0.0, 2.0));
     let sizes: Vec<f64> = std::iter::once(&0.0).chain(&ends).zip(&ends).map(|(start, end)| end - start).collect();
     let (last, others) = sizes.split_last().unwrap();
     assert!(others.iter().all(|&size| size <= 0.3 + 1e-15), "{sizes:?}");
     assert!(*last <= 0.33, "{sizes:?}");
     // 1.05 is 10.5 largest steps: the last is stretched by a twentieth.
-    assert_eq!(step_ends(Ode45::new().max_step(0.1), (0.0, 1.005)).len(), 10);
+    assert_eq!(step_ends(&Ode45::new().max_step(0.1), (0.0, 1.005)).len(), 10);
 }
 
 #[test]
@@ -269,4 +269,38 @@ fn a_short_interval_far_from_zero_is_crossed() {
     let end = Ode45::new().integrate(&mut decay, (from, to), [1.0]).unwrap();
     assert_eq!(end.t, to);
     assert!(end.statistics.steps <= 4);
+}
+
+#[test]
+fn a_step_ends_at_each_time_that_is_set_within_the_interval_in_either_direction() {
+    fn with_stops(method: impl Integrator<f64>, plain: impl Integrator<f64>, stops: &[f64]) {
+        for (interval, reversed) in [((0.0, 3.0), false), ((3.0, 0.0), true)] {
+            let (ends, without) = (step_ends(&method, interval), step_ends(&plain, interval));
+            let within = |stop: &f64| 0.0 < *stop && *stop < 3.0;
+            for stop in stops.iter().filter(|stop| within(stop)) {
+                assert!(ends.contains(stop), "{stop}, reversed: {reversed}: {ends:?}");
+                assert!(!without.contains(stop), "{stop} is no end of a step by itself");
+            }
+            assert!(ends.windows(2).all(|pair| (pair[0] < pair[1]) != reversed), "{ends:?}");
+            assert_eq!(*ends.last().unwrap(), interval.1);
+        }
+    }
+    let stops = [-1.0, 0.0, 0.123, 0.125, 1.7, 3.0, 5.0];
+    with_stops(Ode45::new().stops(&stops), Ode45::new(), &stops);
+    with_stops(Dop853::new().stops(&stops), Dop853::new(), &stops);
+    with_stops(Ode15s::new().stops(&stops), Ode15s::new(), &stops);
+    with_stops(Radau5::new().stops(&stops), Radau5::new(), &stops);
+}
+
+/// A force that rises and falls within 2 ms, of 7 N s on 1 kg, in the middle of 10 s of rest.
+#[test]
+fn a_short_push_between_times_that_are_set_gives_its_whole_impulse() {
+    let mut pushed = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
+        *dydt = [y[1], 7.0e3 * (1.0 - (t - 5.0).abs() / 1e-3).max(0.0)];
+    };
+    let stops = [4.999, 5.0, 5.001];
+    let mut end = |method: Ode45<'_, f64>| method.integrate(&mut pushed, (0.0, 10.0), [0.0; 2]).unwrap().y;
+    assert_eq!(end(Ode45::new()), [0.0, 0.0], "no step sees it");
+    let [x, v] = end(Ode45::new().stops(&stops));
+    assert!((v - 7.0).abs() < 1e-3 * 7.0 && (x - 35.0).abs() < 1e-3 * 35.0, "{x} m, {v} m/s");
 }

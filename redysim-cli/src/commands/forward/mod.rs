@@ -80,10 +80,10 @@ fn move_on<'a>(
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
     let mut observer = RunObserver::new(scenario, (forward, ground), record, &start)?;
-    let (integrator, interval) = (&forward.integrator, forward.span.interval());
+    let (integrator, interval, stops) = (&forward.integrator, forward.span.interval(), forward.changes());
     let mut touch_downs = 0;
     let count = |event: ContactEvent<f64>| touch_downs += u64::from(event.touching);
-    let solution = integrator.run(ground, system.ode(), interval, start, &mut observer, count);
+    let solution = integrator.run(ground, system.ode(), (interval, &stops), start, &mut observer, count);
     let RunObserver { steps, position_residual, growth, failed, .. } = observer;
     let ended = match (&solution, failed) {
         (Err(error), _) => {
