@@ -22,9 +22,13 @@ const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]
 pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
-    let (angle, good) = reduced(x);
-    // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
-    if good { evaluated(angle) } else { x.one_by_one(hard) }
+    let (Reduced { rounded, rest, tail }, good) = reduced(x);
+    if !good {
+        // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
+        return x.one_by_one(hard);
+    }
+    let (sin, cos) = kernel(rest, tail);
+    A::turned(rounded, sin, cos)
 }
 
 /// [`sin_cos`] of one angle.
@@ -49,7 +53,7 @@ fn side_by_side(x: f64) -> (f64, f64) {
     let near_one = Scalar::mul_add(z, -0.5, 1.0);
     let correction = Scalar::mul_add(-r, tail, Scalar::mul_add(z, -0.5, 1.0 - near_one));
     let [squares, powers] = [F64x2::from([z, z]), F64x2::from([r, z])];
-    let polynomials = polynomial(|term| F64x2::from([SINE[term], COSINE[term]]), squares);
+    let polynomials = polynomial(&[0, 1, 2, 3, 4, 5], |term| F64x2::from([SINE[term], COSINE[term]]), squares);
     let corrections = F64x2::from([tail * near_one, correction]);
     let found = F64x2::from([r, near_one]) + (powers * squares).mul_add(polynomials, corrections);
     found.turned_as_sine_and_cosine(rounded)
@@ -59,14 +63,9 @@ fn side_by_side(x: f64) -> (f64, f64) {
 #[inline(always)]
 fn hard<T: Number>(x: T) -> (T, T) {
     let (quick, good) = reduced(x);
-    evaluated(if good { quick } else { x.reduced() })
-}
-
-/// Sine and cosine of an angle that is reduced.
-#[inline(always)]
-fn evaluated<A: Angle>(Reduced { rounded, rest, tail }: Reduced<A>) -> (A, A) {
-    let (sin, cos) = kernel(rest, tail);
-    A::turned(rounded, sin, cos)
+    let angle = if good { quick } else { x.reduced() };
+    let (sin, cos) = kernel(angle.rest, angle.tail);
+    T::turned(angle.rounded, sin, cos)
 }
 
 /// The reduction that is good for nearly all angles, and whether it is good for all of these.
@@ -113,16 +112,17 @@ fn kernel<A: Angle>(r: A, tail: A) -> (A, A) {
     // Halves are exact, fused or not.
     let minus_half = A::from_f64(-0.5);
     let near_one = z.mul_add(minus_half, one);
-    let sin = r + (r * z).mul_add(polynomial(|term| A::from_f64(SINE[term]), z), tail * near_one);
+    let sin = r + (r * z).mul_add(polynomial(&SINE, A::from_f64, z), tail * near_one);
     let correction = (-r).mul_add(tail, z.mul_add(minus_half, one - near_one));
-    let cos = near_one + (z * z).mul_add(polynomial(|term| A::from_f64(COSINE[term]), z), correction);
+    let cos = near_one + (z * z).mul_add(polynomial(&COSINE, A::from_f64, z), correction);
     (sin, cos)
 }
 
-/// The polynomial with these coefficients. Neighbouring terms are paired, so that fewer operations wait for each other.
+/// The polynomial whose coefficients `k` makes of `terms`. Neighbouring ones are paired, so that fewer operations wait for each
+/// other.
 #[inline(always)]
-fn polynomial<A: Angle>(coefficients: impl Fn(usize) -> A, z: A) -> A {
-    let pair = |low: usize, high: usize| z.mul_add(coefficients(high), coefficients(low));
+fn polynomial<A: Angle, T: Copy>([a, b, c, d, e, f]: &[T; 6], k: impl Fn(T) -> A, z: A) -> A {
+    let pair = |low: &T, high: &T| z.mul_add(k(*high), k(*low));
     let squared = z * z;
-    squared.mul_add(squared.mul_add(pair(4, 5), pair(2, 3)), pair(0, 1))
+    squared.mul_add(squared.mul_add(pair(e, f), pair(c, d)), pair(a, b))
 }
