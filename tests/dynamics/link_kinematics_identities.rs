@@ -9,10 +9,12 @@ use crate::common::double_double::{DoubleDouble, exact, rounded};
 use crate::common::dual::{Dual, moving};
 use crate::common::models::generic;
 use crate::common::random::{Random, State};
+use crate::common::traced::traced;
 use crate::robots::{Gantry, Gripper, Kr5};
 use redysim::generic::{GenericMechanism, Model};
 use redysim::{CenterOfMass, LinkState, Momentum, Scalar, TreeDynamics};
 use redysim_model::inertia::Sym3;
+use redysim_model::{Function, Tree};
 
 const STATES: usize = 300;
 
@@ -202,4 +204,34 @@ fn potential_energy_is_that_of_the_centres_of_mass() {
         }
         potentials.assert_within(1e-12);
     });
+}
+
+/// Two flywheels: without mass, angular momentum is the same about every point, and Σ m c is zero.
+#[test]
+fn a_mechanism_without_mass_has_the_momentum_of_its_inertias_and_its_centre_of_mass_at_the_origin() {
+    let link = |name: &str, parent: &str| {
+        format!(
+            "[[link]]\nname = '{name}'\nparent = '{parent}'\njoint = 'revolute'\norigin = {{ xyz = [0.3, 0, 0.1] }}\n\
+             axis = [0, 0, 1]\nmass = 0.0\ninertia = {{ xx = 0.02, yy = 0.03, zz = 0.04 }}\n"
+        )
+    };
+    let links = link("inner", "base") + &link("outer", "inner");
+    let text = format!("name = 'wheels'\ngravity = [0, 0, -9.81]\n{links}");
+    let model = Model::from_toml(text, "wheels.toml").unwrap_or_else(|faults| panic!("{faults}")).model;
+    let (q, v) = (vec![0.4, -1.1], vec![2.0, 3.0]);
+    let spin = 0.04 * 2.0 + 0.04 * (2.0 + 3.0);
+
+    let wheels = GenericMechanism::new(model.clone());
+    let at_the_origin = CenterOfMass { position: [0.0; 3], velocity: [0.0; 3] };
+    assert_eq!(redysim::MassCenter::center_of_mass(&wheels, &q, &v), at_the_origin);
+    let Momentum { linear, angular } = redysim::TotalMomentum::momentum(&wheels, &q, &v);
+    let found = [linear, angular].concat();
+
+    let functions = traced(&Tree::new(&model), &[Function::CenterOfMass, Function::Momentum]);
+    let [center, momentum] = [0, 1].map(|index| functions[index].expressions.evaluate(&[&q, &v]));
+    assert_eq!(center, [0.0; 6]);
+    for found in [found, momentum] {
+        let apart = found.iter().zip([0.0, 0.0, 0.0, 0.0, 0.0, spin]).map(|(found, expected)| (found - expected).abs());
+        assert!(apart.fold(0.0, f64::max) < 1e-15, "{found:?}");
+    }
 }

@@ -7,7 +7,7 @@ use redysim_runtime::Statistics;
 use super::Balance;
 use super::momentum::MomentumDrift;
 use crate::failure::Failure;
-use crate::number::size;
+use crate::number::{counted, size};
 use crate::scenario::Dynamics;
 
 /// How a computation went, of which the [`Record`](super::Record) knows but the rows.
@@ -59,16 +59,15 @@ impl fmt::Display for Summary {
         write!(f, "{}: {} dynamics", self.name, self.dynamics)?;
         integrator.as_ref().map_or(Ok(()), |name| write!(f, " by {name}"))?;
         write!(f, ", {count} instants from {from} s to {to} s")?;
+        let counted = |count: u64, noun: &str| counted(count as usize, noun);
         if let Some(steps) = steps {
-            write!(f, "\n  {steps} steps")?;
+            write!(f, "\n  {}", counted(*steps, "step"))?;
         }
         if let Some(Statistics { rejected, evaluations, .. }) = statistics {
-            write!(f, ", {rejected} rejected, {evaluations} evaluations")?;
+            write!(f, ", {rejected} rejected, {}", counted(*evaluations, "evaluation"))?;
         }
         if let Some((contacts, touch_downs)) = contacts {
-            let plural = |count: u64| if count == 1 { "" } else { "s" };
-            let [s, downs] = [*contacts as u64, *touch_downs].map(plural);
-            write!(f, "\n  {contacts} contact{s}, {touch_downs} touch-down{downs}")?;
+            write!(f, "\n  {}, {}", counted(*contacts as u64, "contact"), counted(*touch_downs, "touch-down"))?;
         }
         write!(f, "\n  {:.3} s of computing and writing", self.seconds)?;
         let Balance { drift, exchanged, .. } = self.balance;

@@ -148,6 +148,13 @@ fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, 
     )
 }
 
+/// Reports a component that is given by itself and with its joint. Always `None`.
+fn again<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, name: &str) -> Option<T> {
+    let title = format!("{}: `{path}` gives `{name}` twice, once by itself and once with its joint", reader.item());
+    let help = "leave one of them out".into();
+    reader.error_at(place, Message { title, label: "given before".into(), help })
+}
+
 fn list(
     reader: &mut Reader<'_, '_>,
     path: &KeyPath,
@@ -197,6 +204,7 @@ fn unchecked(
             let several: Vec<&Joint> = layout.joints.iter().filter(|joint| joint.q.len() > 1).collect();
             let names = components.iter().map(|component| component.name.as_str());
             let names: Vec<&str> = names.chain(several.iter().map(|joint| joint.name.as_str())).collect();
+            let mut given = vec![false; of.len()];
             let mut read = |(name, value): (&Spanned<Cow<'_, str>>, &Value<'_>)| {
                 let index = index(reader, name.span(), name.get_ref(), names.iter().copied())?;
                 let whole = index.checked_sub(components.len()).map(|joint| several[joint]);
@@ -204,6 +212,11 @@ fn unchecked(
                 let Some(at) = of.iter().position(|&other| other == first) else {
                     return foreign(reader, name.span(), path, name.get_ref());
                 };
+                let own = &mut given[at..at + whole.map_or(1, |joint| quantity.of_joint(joint).len())];
+                if own.contains(&true) {
+                    return again(reader, name.span(), path, name.get_ref());
+                }
+                own.fill(true);
                 let path = path.entry(name.get_ref());
                 match whole {
                     None => values[at] = one(reader, &path, value, quantity, &components[index])?,

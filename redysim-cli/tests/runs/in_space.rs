@@ -113,6 +113,7 @@ fn orientations_that_are_none_are_refused_with_what_to_do() {
         (TOP, "q = { pivot = { angle = 1.0 } }", &["`initial.q.pivot.axis`"]),
         (TOP, "q = { pivot = { axis = [0, 0, 0], angle = 1.0 } }", &["no direction"]),
         (TOP, "q = { pivot = { xyz = [0, 0, 1] } }", &["unknown key `initial.q.pivot.xyz`"]),
+        (TOP, "v = { pivot = [0, 0, 1], 'pivot.wx' = 2 }", &["`initial.v` gives `pivot.wx` twice"]),
         (TOP, "v = { pivot = { rpy = [0, 0, 1] } }", &["`initial.v.pivot` must be an array"]),
         (ROBOT, "q = { joint1 = { rpy = [0, 0, 1] } }", &["`initial.q.joint1` must be"]),
         (ROBOT, "q = { bass = [0, 0, 0, 0, 0, 0, 1] }", &["did you mean `base`?"]),

@@ -3,7 +3,7 @@
 use super::frame::{JointFrame, joint_frames};
 use super::trace::Trace;
 use crate::joint::across;
-use crate::parameter::ParameterIn;
+use crate::parameter::{ParameterIn, per_mass};
 use crate::spatial::Vec3;
 use crate::tree::{Body, Tree};
 use redysim_runtime::{CenterOfMass, Scalar};
@@ -56,6 +56,6 @@ pub fn center_of_mass<S: Scalar, P: ParameterIn<S>>(
             }
         }
     });
-    let share = (P::one() / mass).value();
+    let share = per_mass(mass);
     CenterOfMass { position: moment.scale(share).0, velocity: momentum.scale(share).0 }
 }

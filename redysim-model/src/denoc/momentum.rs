@@ -3,7 +3,7 @@
 use super::energy::{first_moment, for_each_velocity};
 use super::frame::joint_frames;
 use super::trace::Trace;
-use crate::parameter::ParameterIn;
+use crate::parameter::{ParameterIn, per_mass};
 use crate::spatial::Wrench;
 use crate::tree::Tree;
 use redysim_runtime::{Momentum, Scalar};
@@ -30,7 +30,7 @@ pub fn momentum<S: Scalar, P: ParameterIn<S>>(tree: &Tree<P>, trace: &impl Trace
         }
     });
     let (moment, mass) = first_moment(tree, trace, &frames);
-    let center = moment.scale((P::one() / mass).value());
+    let center = moment.scale(per_mass(mass));
     let Wrench { moment: angular, force: linear } = total.moved_by(-center);
     Momentum { linear: linear.0, angular: angular.0 }
 }
