@@ -34,7 +34,7 @@ macro_rules! real {
                 // The vector's square root becomes the scalar instruction, which that of `libm` hides in assembly that
                 // the compiler cannot see through; without the instruction, `libm` is the better one.
                 #[cfg(feature = "lanes")]
-                if cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128")) {
+                if registers::VECTORS {
                     let [root, ..] = $vector::splat(self).sqrt().to_array();
                     return root;
                 }

@@ -11,6 +11,13 @@
 #[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
 use core::arch::{asm, x86_64};
 
+/// Whether the target has vectors of 128 bits for `f64` and `f32`.
+pub const VECTORS: bool = cfg!(any(
+    target_feature = "sse2",
+    all(target_arch = "aarch64", target_feature = "neon"),
+    target_feature = "simd128"
+));
+
 /// Whether the target has vectors of 512 bits, into which LLVM joins those of 256 bits and single numbers.
 pub const JOINED: bool = cfg!(all(target_arch = "x86_64", target_feature = "avx512f"));
 

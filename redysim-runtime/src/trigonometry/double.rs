@@ -8,9 +8,7 @@
 use super::angle::{Angle, Number};
 use super::reduction::{ROUNDER, Reduced};
 #[cfg(feature = "lanes")]
-use crate::lanes::F64x2;
-#[cfg(feature = "lanes")]
-use crate::scalar::Scalar;
+use crate::{lanes::F64x2, registers, scalar::Scalar};
 
 /// A rest smaller than this for each quarter turn has lost too many digits to cancellation, 2⁻³³.
 const TOO_SMALL: f64 = 1.0 / (1_u64 << 33) as f64;
@@ -22,26 +20,22 @@ const HALF_PI: [f64; 2] = [1.5707963267923333, 2.563344151594519e-12];
 /// Sine and cosine of `x` radians, in every lane.
 #[inline(always)]
 pub fn sin_cos<A: Angle>(x: A) -> (A, A) {
-    let (Reduced { rounded, rest, tail }, good) = reduced(x);
-    if !good {
-        // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
-        return x.one_by_one(hard);
-    }
-    let (sin, cos) = kernel(rest, tail);
-    A::turned(rounded, sin, cos)
+    let (angle, good) = reduced(x);
+    // The other lanes of a hard angle are reduced as they are when they are alone, to give the same bits.
+    if good { evaluated(angle) } else { x.one_by_one(hard) }
 }
 
 /// [`sin_cos`] of one angle.
 #[inline(always)]
 pub fn of_one(x: f64) -> (f64, f64) {
     #[cfg(feature = "lanes")]
-    if cfg!(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128")) {
+    if registers::VECTORS {
         return side_by_side(x);
     }
     sin_cos(x)
 }
 
-/// Sine and cosine of one angle, side by side in two lanes: the bits of [`sin_cos`] in fewer operations.
+/// Sine and cosine of one angle, side by side in two lanes: the bits of [`sin_cos`] in fewer instructions.
 #[inline(always)]
 #[cfg(feature = "lanes")]
 fn side_by_side(x: f64) -> (f64, f64) {
@@ -50,10 +44,9 @@ fn side_by_side(x: f64) -> (f64, f64) {
         return x.one_by_one(hard);
     }
     let z = r * r;
-    let near_one = Scalar::mul_add(z, -0.5, 1.0);
-    let correction = Scalar::mul_add(-r, tail, Scalar::mul_add(z, -0.5, 1.0 - near_one));
+    let (near_one, correction) = second_order_cosine(z, r, tail);
     let [squares, powers] = [F64x2::from([z, z]), F64x2::from([r, z])];
-    let polynomials = polynomial(&[0, 1, 2, 3, 4, 5], |term| F64x2::from([SINE[term], COSINE[term]]), squares);
+    let polynomials = polynomial(|term| F64x2::from([SINE[term], COSINE[term]]), squares);
     let corrections = F64x2::from([tail * near_one, correction]);
     let found = F64x2::from([r, near_one]) + (powers * squares).mul_add(polynomials, corrections);
     found.turned_as_sine_and_cosine(rounded)
@@ -63,9 +56,7 @@ fn side_by_side(x: f64) -> (f64, f64) {
 #[inline(always)]
 fn hard<T: Number>(x: T) -> (T, T) {
     let (quick, good) = reduced(x);
-    let angle = if good { quick } else { x.reduced() };
-    let (sin, cos) = kernel(angle.rest, angle.tail);
-    T::turned(angle.rounded, sin, cos)
+    evaluated(if good { quick } else { x.reduced() })
 }
 
 /// The reduction that is good for nearly all angles, and whether it is good for all of these.
@@ -105,24 +96,30 @@ const COSINE: [f64; 6] = [
     -1.1359658844005114e-11,
 ];
 
-/// Sine and cosine of r + tail, |r| ≤ π/4.
+/// Sine and cosine of an angle that is reduced.
 #[inline(always)]
-fn kernel<A: Angle>(r: A, tail: A) -> (A, A) {
-    let (one, z) = (A::one(), r * r);
-    // Halves are exact, fused or not.
-    let minus_half = A::from_f64(-0.5);
-    let near_one = z.mul_add(minus_half, one);
-    let sin = r + (r * z).mul_add(polynomial(&SINE, A::from_f64, z), tail * near_one);
-    let correction = (-r).mul_add(tail, z.mul_add(minus_half, one - near_one));
-    let cos = near_one + (z * z).mul_add(polynomial(&COSINE, A::from_f64, z), correction);
-    (sin, cos)
+fn evaluated<A: Angle>(Reduced { rounded, rest: r, tail }: Reduced<A>) -> (A, A) {
+    let z = r * r;
+    let (near_one, correction) = second_order_cosine(z, r, tail);
+    let sin = r + (r * z).mul_add(polynomial(|term| A::from_f64(SINE[term]), z), tail * near_one);
+    let cos = near_one + (z * z).mul_add(polynomial(|term| A::from_f64(COSINE[term]), z), correction);
+    A::turned(rounded, sin, cos)
 }
 
-/// The polynomial whose coefficients `k` makes of `terms`. Neighbouring ones are paired, so that fewer operations wait for each
+/// 1 − z / 2, where z = r², and the correction for its roundoff and for the tail.
+#[inline(always)]
+fn second_order_cosine<A: Angle>(z: A, r: A, tail: A) -> (A, A) {
+    // Halves are exact, fused or not.
+    let (one, minus_half) = (A::one(), A::from_f64(-0.5));
+    let near_one = z.mul_add(minus_half, one);
+    (near_one, (-r).mul_add(tail, z.mul_add(minus_half, one - near_one)))
+}
+
+/// The polynomial of six terms with these coefficients. Neighbouring terms are paired, so that fewer operations wait for each
 /// other.
 #[inline(always)]
-fn polynomial<A: Angle, T: Copy>([a, b, c, d, e, f]: &[T; 6], k: impl Fn(T) -> A, z: A) -> A {
-    let pair = |low: &T, high: &T| z.mul_add(k(*high), k(*low));
+fn polynomial<A: Angle>(coefficient: impl Fn(usize) -> A, z: A) -> A {
+    let pair = |low: usize| z.mul_add(coefficient(low + 1), coefficient(low));
     let squared = z * z;
-    squared.mul_add(squared.mul_add(pair(e, f), pair(c, d)), pair(a, b))
+    squared.mul_add(squared.mul_add(pair(4), pair(2)), pair(0))
 }

@@ -3,6 +3,7 @@
 use super::several::several;
 use super::single;
 use crate::lanes::{F32x4, F32x8, F64x2, F64x4};
+use crate::registers::VECTORS;
 
 /// Sines and cosines of all `angles`.
 #[inline(always)]
@@ -13,11 +14,6 @@ pub fn of_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
 /// Sines and cosines of all `angles`.
 #[inline(always)]
 pub fn of_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
-    const VECTORS: bool = cfg!(any(
-        target_feature = "sse2",
-        all(target_arch = "aarch64", target_feature = "neon"),
-        target_feature = "simd128"
-    ));
     if cfg!(target_feature = "avx") {
         several::<f32, F32x4, F32x8, 4, 8, N>(angles)
     } else if VECTORS {
