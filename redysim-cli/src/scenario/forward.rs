@@ -58,15 +58,13 @@ impl Forward {
         })
     }
 
-    /// The times at which what drives the mechanism changes suddenly, s, in ascending order: those of the motion that is
-    /// followed and of a table of forces.
-    pub fn changes(&self) -> Vec<f64> {
-        let followed = self.followed().map_or(&[][..], |trajectory| &trajectory.times);
-        let forces = match self.torque.unlimited() {
-            Torque::Table { forces, .. } => &forces.table.t[..],
-            _ => &[],
-        };
-        let mut times = [followed, forces].concat();
+    /// The times at which an integration step must end, s, in ascending order: those of the followed motion, and the rows of a
+    /// table of forces.
+    pub fn stops(&self) -> Vec<f64> {
+        let mut times = self.followed().map_or(Vec::new(), Prescribed::times);
+        if let Torque::Table { forces, .. } = self.torque.unlimited() {
+            times.extend(&forces.table.t);
+        }
         times.sort_by(f64::total_cmp);
         times.dedup();
         times

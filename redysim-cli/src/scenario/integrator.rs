@@ -86,8 +86,6 @@ impl Absolute {
     }
 }
 
-/// The least that the integrators accept: a hundred roundoff units.
-const SMALLEST_RTOL: f64 = 100.0 * f64::EPSILON;
 /// MATLAB's defaults; the largest step is a part of the run.
 const USUAL_RTOL: f64 = 1e-3;
 const USUAL_ATOL: f64 = 1e-6;
@@ -203,8 +201,8 @@ impl Integrator {
         stable.ok()?.warning(step, mechanism)
     }
 
-    /// Integrates `ode`, the motion of the mechanism of `ground`, over `interval`. Steps that are chosen from tolerances end at
-    /// each of the times `stops`. Each touch-down and lift-off is shown to `on_event`.
+    /// Integrates `ode`, the motion of the mechanism of `ground`, over `interval`. Adaptive methods end a
+    /// step at each of the times `stops`. Each touch-down and lift-off is shown to `on_event`.
     ///
     /// # Errors
     /// As [`Grounded::run`](redysim_runtime::Grounded::run).
@@ -232,10 +230,10 @@ impl Integrator {
                 Fixed::Gauss6 => task.by(&Gauss6::new(step)),
             },
             Integrator::Adaptive(method, tolerances) => match method {
-                Adaptive::Ode45 => task.by(&tolerances.on(Ode45::new().stops(stops), &atol)),
-                Adaptive::Dop853 => task.by(&tolerances.on(Dop853::new().stops(stops), &atol)),
-                Adaptive::Ode15s => task.by(&tolerances.on(Ode15s::new().stops(stops), &atol)),
-                Adaptive::Radau5 => task.by(&tolerances.on(Radau5::new().stops(stops), &atol)),
+                Adaptive::Ode45 => task.by(&tolerances.on(Ode45::new(), &atol, stops)),
+                Adaptive::Dop853 => task.by(&tolerances.on(Dop853::new(), &atol, stops)),
+                Adaptive::Ode15s => task.by(&tolerances.on(Ode15s::new(), &atol, stops)),
+                Adaptive::Radau5 => task.by(&tolerances.on(Radau5::new(), &atol, stops)),
             },
         }
     }
@@ -262,8 +260,14 @@ impl<O: Observer<f64, Vec<f64>>, G: FnMut(ContactEvent<f64>)> Task<'_, '_, O, G>
 }
 
 impl Tolerances {
-    fn on<'a, M>(self, method: integrate::Adaptive<'a, f64, M>, atol: &'a [f64]) -> integrate::Adaptive<'a, f64, M> {
-        method.rtol(self.rtol).atol_each(atol).max_step(self.max_step)
+    /// The method with these settings, the absolute tolerances of the state's components, and times at which steps end.
+    fn on<'a, M>(
+        self,
+        method: integrate::Adaptive<'a, f64, M>,
+        atol: &'a [f64],
+        stops: &'a [f64],
+    ) -> integrate::Adaptive<'a, f64, M> {
+        method.rtol(self.rtol).atol_each(atol).max_step(self.max_step).stops(stops)
     }
 }
 
@@ -288,13 +292,16 @@ fn check_count(reader: &mut Reader<'_, '_>, key: &Key, step: &Field<f64>, (lengt
 fn check_rtol(reader: &mut Reader<'_, '_>, rtol: &Field<f64>) -> Option<()> {
     let Some(spanned) = rtol.spanned() else { return Some(()) };
     let (value, item) = (*spanned.get_ref(), reader.item());
-    let (fault, label) = match value {
-        _ if value < SMALLEST_RTOL => ("no step in double precision keeps it", "too small"),
-        _ if value >= 1.0 => ("it allows errors as large as the motion", "too large"),
-        _ => return Some(()),
+    let smallest = integrate::Tolerances::<f64>::smallest_relative();
+    let (fault, label) = if value < smallest {
+        ("no step in double precision keeps it", "too small")
+    } else if value >= 1.0 {
+        ("it allows errors as large as the motion", "too large")
+    } else {
+        return Some(());
     };
     let title = format!("{item}: the integrator's `rtol` is {value:?}, and {fault}");
-    let help = format!("give a `rtol` between {SMALLEST_RTOL:.1e} and 0.1, such as {USUAL_RTOL:?}");
+    let help = format!("give a `rtol` between {smallest:.1e} and 0.1, such as {USUAL_RTOL:?}");
     reader.error_at(spanned.span(), Message { title, label: label.into(), help })
 }
 

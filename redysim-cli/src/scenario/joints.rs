@@ -148,7 +148,7 @@ fn foreign<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, 
     )
 }
 
-/// Reports a component that is given by itself and with its joint. Always `None`.
+/// Reports a component that is given both by its own name and by that of its joint. Always `None`.
 fn again<T>(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, name: &str) -> Option<T> {
     let title = format!("{}: `{path}` gives `{name}` twice, once by itself and once with its joint", reader.item());
     let help = "leave one of them out".into();

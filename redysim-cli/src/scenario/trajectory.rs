@@ -30,8 +30,6 @@ pub struct Prescribed {
     pub place: Range<usize>,
     /// The table that it is read from, if it is.
     pub table: Option<InputTable>,
-    /// When it begins, passes each of its points, and ends; empty if it goes on for ever.
-    pub times: Vec<f64>,
     motion: Path,
 }
 
@@ -92,14 +90,13 @@ impl Prescribed {
                     let read = |reader: &mut _, key: &_| values(reader, key, Quantity::Coordinate, layout, &of_q);
                     reader.required(key, read).value().cloned()
                 };
-                let (mut table, mut passed) = (None, Vec::new());
+                let mut table = None;
                 let motion = match tag {
                     Tag::Cycloid => {
                         let (from, to) = (coordinates(&mut reader, &keys::FROM), coordinates(&mut reader, &keys::TO));
                         let duration = reader.required(&keys::DURATION, Reader::positive);
                         let spanned = duration.spanned()?;
                         let (from, to, duration) = (from?, to?, *spanned.get_ref());
-                        passed = vec![0.0, duration];
                         if space.nq() == space.nv() {
                             Path::Cycloid(accepted(&mut reader, spanned, Cycloid::new(from, to, duration))?)
                         } else {
@@ -121,7 +118,6 @@ impl Prescribed {
                         let points = |reader: &mut _, key: &_| points(reader, key, layout, &of_q);
                         let points = reader.required(&keys::POINTS, points);
                         let spanned = times.spanned()?;
-                        passed.clone_from(spanned.get_ref());
                         let through = smooth.through(space, spanned.get_ref().clone(), points.value()?.clone());
                         Path::ViaPoints(accepted(&mut reader, spanned, through)?)
                     }
@@ -133,14 +129,12 @@ impl Prescribed {
                             Ok((table, through))
                         });
                         let (read, through) = read.filter(|_| smooth.is_some())?;
-                        passed.clone_from(&read.t);
                         table = Some(read);
                         Path::ViaPoints(through)
                     }
                 };
                 let (joints, coordinates, velocities) = (chosen, of_q, of_v);
-                let prescribed =
-                    Prescribed { joints, coordinates, velocities, place: 0..0, table, times: passed, motion };
+                let prescribed = Prescribed { joints, coordinates, velocities, place: 0..0, table, motion };
                 let checked = match subject.dynamics {
                     Dynamics::Inverse => prescribed.check_joints(subject),
                     // A law that follows a trajectory checks it by itself.
@@ -187,6 +181,17 @@ impl Prescribed {
             _ => format!("name joints of {} among its `joints`: the others follow from the loops", freedoms(free)),
         };
         Err((what, help))
+    }
+
+    /// The times at which it begins, passes its points and ends, s; none of a constant speed.
+    pub fn times(&self) -> Vec<f64> {
+        let span = |cycloid: (f64, f64)| vec![cycloid.0, cycloid.1];
+        match &self.motion {
+            Path::Cycloid(cycloid) => span(cycloid.span()),
+            Path::Screw(screw) => span(screw.way.law.span()),
+            Path::ConstantSpeed(_) => Vec::new(),
+            Path::ViaPoints(through) => through.times().to_vec(),
+        }
     }
 
     /// The motion with all components of `layout`; those that it does not prescribe stay in the neutral

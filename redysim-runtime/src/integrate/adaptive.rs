@@ -100,9 +100,11 @@ impl<'a, S: Real, A> Adaptive<'a, S, A> {
         self
     }
 
-    /// Sets the times at which a step ends, in ascending order (`tstops` elsewhere): where the equation changes suddenly, as a
-    /// motion that it follows begins or ends, or a force sets in. Those outside the interval are ignored. A step is chosen by
-    /// what the equation is at a few times within it, so that a change that is over between these goes unseen.
+    /// Sets the times at which a step must end (`tstops` in OrdinaryDiffEq.jl), in ascending order. The default is none. Times
+    /// outside the interval are ignored.
+    ///
+    /// A step evaluates the equation at a few times only, so that it can miss a short change between them. Set the times at
+    /// which the equation changes suddenly: where the motion that it follows begins and ends, or a force sets in.
     ///
     /// ```
     /// use redysim_runtime::{Integrator, Ode45};
@@ -139,17 +141,16 @@ impl<'a, S: Real, A> Adaptive<'a, S, A> {
         self
     }
 
-    /// Where the first step from `t` ends at the latest: the next of the times that were set, or the end of the interval.
+    /// The next time after `t` at which a step must end: a stop, or the end of the interval.
     fn next_stop(&self, interval: &Interval<S>, t: S) -> S {
-        let passed = self.stops.partition_point(|&stop| stop <= t);
         let next = if interval.to > interval.from {
-            self.stops.get(passed)
+            self.stops.get(self.stops.partition_point(|&stop| stop <= t))
         } else {
-            self.stops.get(..passed).and_then(|passed| passed.iter().rev().find(|&&stop| stop < t))
+            self.stops.get(..self.stops.partition_point(|&stop| stop < t)).and_then(<[S]>::last)
         };
-        next.copied()
-            .filter(|&stop| stop != t && interval.reaches(stop, t) && interval.reaches(interval.to, stop))
-            .unwrap_or(interval.to)
+        let rest = Interval { from: t, to: interval.to };
+        // Stops that are not in order may lie behind.
+        next.copied().filter(|&stop| stop != t && rest.contains(stop)).unwrap_or(interval.to)
     }
 
     fn check(&self, len: usize) -> Result<(), IntegrationError<S>> {
@@ -165,7 +166,7 @@ impl<S: Real, A> Default for Adaptive<'_, S, A> {
     }
 }
 
-/// What a method without [stops](Adaptive::stops) has.
+/// The default of [`Adaptive::stops`].
 #[cfg(feature = "serde")]
 fn no_stops<'a, S>() -> &'a [S] {
     &[]

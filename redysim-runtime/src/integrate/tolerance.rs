@@ -52,9 +52,14 @@ impl<S: Real> Tolerances<'_, S> {
         self.relative
     }
 
+    /// The smallest relative tolerance that steps can keep: 100 roundoff units.
+    pub fn smallest_relative() -> S {
+        S::from_f64(100.0) * S::EPSILON
+    }
+
     /// Checks the tolerances for a state of `len` components.
     pub fn check(&self, len: usize) -> Result<(), IntegrationError<S>> {
-        let smallest = S::from_f64(100.0) * S::EPSILON;
+        let smallest = Self::smallest_relative();
         if !(self.relative >= smallest && self.relative.is_finite()) {
             return Err(IntegrationError::InvalidRelativeTolerance { value: self.relative, smallest });
         }

@@ -74,6 +74,11 @@ impl<S: Real, V: Vector<S>> Cycloid<S, V> {
         }
         Ok(Self { from, to, duration })
     }
+
+    /// The times at which the motion begins and ends, s: 0 and its duration.
+    pub fn span(&self) -> (S, S) {
+        (S::zero(), self.duration)
+    }
 }
 
 impl<S: Real, V: Vector<S>> Trajectory<S, V, V> for Cycloid<S, V> {

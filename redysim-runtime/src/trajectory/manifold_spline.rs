@@ -97,6 +97,11 @@ where
         Self::resting_at(mechanism, times, &q)?.smoothed(ViaPoints::cubic)
     }
 
+    /// The times of the points, s.
+    pub fn times(&self) -> &[S] {
+        self.times.as_ref()
+    }
+
     /// The first time and the last, s.
     pub fn span(&self) -> (S, S) {
         (entry(&self.times, 0), entry(&self.times, self.times.as_ref().len().saturating_sub(1)))

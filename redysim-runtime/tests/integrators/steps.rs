@@ -272,14 +272,14 @@ fn a_short_interval_far_from_zero_is_crossed() {
 }
 
 #[test]
-fn a_step_ends_at_each_time_that_is_set_within_the_interval_in_either_direction() {
+fn a_step_ends_at_each_stop_within_the_interval_in_either_direction() {
     fn with_stops(method: impl Integrator<f64>, plain: impl Integrator<f64>, stops: &[f64]) {
         for (interval, reversed) in [((0.0, 3.0), false), ((3.0, 0.0), true)] {
             let (ends, without) = (step_ends(&method, interval), step_ends(&plain, interval));
             let within = |stop: &f64| 0.0 < *stop && *stop < 3.0;
             for stop in stops.iter().filter(|stop| within(stop)) {
                 assert!(ends.contains(stop), "{stop}, reversed: {reversed}: {ends:?}");
-                assert!(!without.contains(stop), "{stop} is no end of a step by itself");
+                assert!(!without.contains(stop), "without stops, no step ends at {stop}");
             }
             assert!(ends.windows(2).all(|pair| (pair[0] < pair[1]) != reversed), "{ends:?}");
             assert_eq!(*ends.last().unwrap(), interval.1);
@@ -294,13 +294,13 @@ fn a_step_ends_at_each_time_that_is_set_within_the_interval_in_either_direction(
 
 /// A force that rises and falls within 2 ms, of 7 N s on 1 kg, in the middle of 10 s of rest.
 #[test]
-fn a_short_push_between_times_that_are_set_gives_its_whole_impulse() {
+fn a_short_push_between_stops_gives_its_whole_impulse() {
     let mut pushed = |t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| {
         *dydt = [y[1], 7.0e3 * (1.0 - (t - 5.0).abs() / 1e-3).max(0.0)];
     };
     let stops = [4.999, 5.0, 5.001];
     let mut end = |method: Ode45<'_, f64>| method.integrate(&mut pushed, (0.0, 10.0), [0.0; 2]).unwrap().y;
-    assert_eq!(end(Ode45::new()), [0.0, 0.0], "no step sees it");
+    assert_eq!(end(Ode45::new()), [0.0, 0.0], "without stops, no step evaluates the push");
     let [x, v] = end(Ode45::new().stops(&stops));
     assert!((v - 7.0).abs() < 1e-3 * 7.0 && (x - 35.0).abs() < 1e-3 * 35.0, "{x} m, {v} m/s");
 }

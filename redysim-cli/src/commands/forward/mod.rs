@@ -80,7 +80,7 @@ fn move_on<'a>(
     let start = system.start(scenario, forward, quiet)?;
     warn_of_step(scenario, forward, &mut system, &start, record);
     let mut observer = RunObserver::new(scenario, (forward, ground), record, &start)?;
-    let (integrator, interval, stops) = (&forward.integrator, forward.span.interval(), forward.changes());
+    let (integrator, interval, stops) = (&forward.integrator, forward.span.interval(), forward.stops());
     let mut touch_downs = 0;
     let count = |event: ContactEvent<f64>| touch_downs += u64::from(event.touching);
     let solution = integrator.run(ground, system.ode(), (interval, &stops), start, &mut observer, count);
@@ -187,9 +187,7 @@ fn explained(
     system: &System<'_>,
 ) -> Failure {
     match *error {
-        IntegrationError::InvalidRelativeTolerance { .. } | IntegrationError::InvalidStep { .. } => {
-            Failure::input(error)
-        }
+        IntegrationError::InvalidStep { .. } => Failure::input(error),
         // The remedies in the messages of these are for programs.
         IntegrationError::TooManySteps { t, limit } => {
             let message = format!("the end is not within {limit} steps of t = {t:?} s");
