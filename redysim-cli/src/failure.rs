@@ -78,6 +78,21 @@ impl Failure {
         self.message.trim_end()
     }
 
+    /// Names the file that is at fault, unless the message has places in files of its own.
+    pub(crate) fn in_file(mut self, file: &str) -> Self {
+        if !self.has_severity() {
+            self.message = format!("{file}: {}", self.message);
+        }
+        self
+    }
+
+    /// Whether the message begins with its own severity, as the faults of a text do: a warning where one stands first in the
+    /// file.
+    fn has_severity(&self) -> bool {
+        let mut own = ["error", "warning"].iter().filter_map(|severity| self.message.strip_prefix(severity));
+        own.any(|rest| rest.starts_with([':', '[']))
+    }
+
     /// Appends `more` to the message.
     pub(crate) fn and(mut self, more: &str) -> Self {
         self.message += more;
@@ -118,11 +133,8 @@ fn current_folder() -> String {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A model's faults begin with their own severity, which is a warning where one stands first in the file.
-        let own = ["error", "warning"].iter().filter_map(|severity| self.message.strip_prefix(severity));
-        let own = own.into_iter().any(|rest| rest.starts_with([':', '[']));
         let what = if self.kind == Kind::Interrupted { "interrupted: " } else { "error: " };
-        write!(f, "{}{}", if own { "" } else { what }, self.message.trim_end())?;
+        write!(f, "{}{}", if self.has_severity() { "" } else { what }, self.message.trim_end())?;
         match &self.help {
             Some(help) => write!(f, "\n  = help: {help}"),
             None => Ok(()),

@@ -1,5 +1,7 @@
 //! Numbers as people read them.
 
+use std::fmt::Display;
+
 /// Four digits.
 pub fn rounded(value: f64) -> String {
     with_digits(value, 4)
@@ -17,8 +19,8 @@ fn with_digits(value: f64, digits: usize) -> String {
 }
 
 /// "1 joint", "2 joints".
-pub fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+pub fn counted<N: From<u8> + PartialEq + Display>(count: N, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == N::from(1) { "" } else { "s" })
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use csv::{Position, ReaderBuilder, StringRecord, Trim};
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
+use crate::number::counted;
 use redysim_toml::with_decimal_points;
 
 /// Columns over time.
@@ -225,7 +226,8 @@ fn line(text: &str, position: Option<&Position>) -> usize {
     before + rest.lines().take_while(|line| line.is_empty() || line.starts_with('#')).count()
 }
 
-fn unreadable(path: &Path, text: &str, error: &csv::Error) -> Failure {
+/// Reports a table that is not CSV, with the line.
+pub fn unreadable(path: &Path, text: &str, error: &csv::Error) -> Failure {
     let at = line(text, error.position());
     let mut help = ROWS.to_owned();
     let what = match error.kind() {
@@ -235,7 +237,9 @@ fn unreadable(path: &Path, text: &str, error: &csv::Error) -> Failure {
             if let Some(written) = written.filter(|row| row.split(',').count() as u64 == *expected_len) {
                 help = format!("decimals are written with a point: {written}");
             }
-            format!("the row has {len} values, but the header names {expected_len} columns")
+            let [values, columns] =
+                [(*len, "value"), (*expected_len, "column")].map(|(count, noun)| counted(count, noun));
+            format!("the row has {values}, but the header names {columns}")
         }
         _ => error.to_string(),
     };

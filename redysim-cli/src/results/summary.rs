@@ -59,7 +59,6 @@ impl fmt::Display for Summary {
         write!(f, "{}: {} dynamics", self.name, self.dynamics)?;
         integrator.as_ref().map_or(Ok(()), |name| write!(f, " by {name}"))?;
         write!(f, ", {count} instants from {from} s to {to} s")?;
-        let counted = |count: u64, noun: &str| counted(count as usize, noun);
         if let Some(steps) = steps {
             write!(f, "\n  {}", counted(*steps, "step"))?;
         }
@@ -67,7 +66,7 @@ impl fmt::Display for Summary {
             write!(f, ", {rejected} rejected, {}", counted(*evaluations, "evaluation"))?;
         }
         if let Some((contacts, touch_downs)) = contacts {
-            write!(f, "\n  {}, {}", counted(*contacts as u64, "contact"), counted(*touch_downs, "touch-down"))?;
+            write!(f, "\n  {}, {}", counted(*contacts, "contact"), counted(*touch_downs, "touch-down"))?;
         }
         write!(f, "\n  {:.3} s of computing and writing", self.seconds)?;
         let Balance { drift, exchanged, .. } = self.balance;

@@ -88,7 +88,7 @@ impl Summary {
             cells.chain([title.chars().count()]).max().unwrap_or(0) + 2
         });
         let mut line = |cells: [String; 6]| {
-            // A width for formatting has 16 bits, and a name may be longer.
+            // Not by a format width, which is limited to 16 bits.
             let padded = |(cell, width): (&String, usize)| cell.clone() + &" ".repeat(width - cell.chars().count());
             let padded = cells.iter().zip(widths).map(padded).collect::<String>();
             writeln!(f, "  {}", padded.trim_end())

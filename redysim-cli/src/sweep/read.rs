@@ -48,7 +48,8 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
     }
     let read = redysim_toml::read(text, shown, &keys::STUDY, "the study", |reader| written(reader, usual));
     let (written, _) = read.map_err(Failure::input)?;
-    let (places, samples) = samples(&written, folder)?;
+    let in_study = |failure: Failure| failure.in_file(shown);
+    let (places, samples) = samples(&written, folder).map_err(in_study)?;
     let path = folder.join(&written.scenario);
     let text = named(&path, read_text(&path))?;
     if let Some(failure) = model::not_a_scenario(&path, &text) {
@@ -61,7 +62,7 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
         return Err(read.err().unwrap_or_else(|| Failure::input(format!("{} is not TOML", path.display()))));
     };
     let run = written.run.map_or_else(|| usual_run(&table, &path), Ok)?;
-    check_effect(&places, run)?;
+    check_effect(&places, run).map_err(in_study)?;
     spell_out(&mut table);
     // It may name files that are yet to be written.
     table.remove(&other(run).to_string());
@@ -101,7 +102,7 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
         outcomes: vec![],
         account: vec![],
     };
-    completed(Study { name: written.name, sampler, samples, warnings: vec![] }, &written.outcomes)
+    completed(Study { name: written.name, sampler, samples, warnings: vec![] }, &written.outcomes).map_err(in_study)
 }
 
 /// The study with what is kept of each run, which the first sample tells: that it can be read is known then.

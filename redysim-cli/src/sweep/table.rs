@@ -7,6 +7,7 @@ use toml::Value;
 
 use super::place::Place;
 use crate::failure::Failure;
+use crate::table::unreadable;
 
 /// The paths above the columns of the table at `path`, and the values below each.
 ///
@@ -15,7 +16,7 @@ use crate::failure::Failure;
 pub fn of_text(text: &str, path: &Path) -> Result<Vec<(Place, Vec<Value>)>, Failure> {
     let shown = path.display();
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
-    let unreadable = |error: csv::Error| Failure::input(format!("{shown}: {error}"));
+    let unreadable = |error: csv::Error| unreadable(path, text, &error);
     let headers = reader.headers().map_err(unreadable)?.clone();
     let mut columns = Vec::new();
     for header in &headers {

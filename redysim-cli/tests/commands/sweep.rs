@@ -290,7 +290,11 @@ fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
         let error = fail(&folder, &["sweep", &study(&folder, rest), "--output", "rows"], 1);
         assert!(parts.iter().all(|part| error.contains(part)), "{rest}: {error}");
         assert_eq!(error.matches("error: ").count(), 1, "{rest}: {error}");
+        assert!(error.contains("study.toml") || error.contains("sample 0, "), "which file is it? {error}");
     }
+    fs::write(folder.join("samples.csv"), "initial.q.0,initial.q.1\n1,2\n3\n").unwrap();
+    let error = fail(&folder, &["sweep", &study(&folder, "samples.file = 'samples.csv'")], 1);
+    assert!(error.contains("samples.csv:3: the row has 1 value, but the header names 2 columns"), "{error}");
     fs::write(folder.join("samples.csv"), "initial.q.0\n1\nNaN\n").unwrap();
     let error = fail(&folder, &["sweep", &study(&folder, "samples.file = 'samples.csv'")], 1);
     assert!(error.contains("samples.csv:3: `initial.q.0` must be a finite number, found `NaN`"), "{error}");
