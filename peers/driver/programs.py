@@ -33,7 +33,7 @@ class Program:
     ours: bool = False
     # Whether it runs on processors with AVX2 and FMA alone.
     v3: bool = False
-    # Whether it computes the result, or only writes as many numbers.
+    # Whether it computes the result; otherwise it writes as many zeros.
     computes: bool = True
 
     def takes(self, robot: str) -> bool:
@@ -83,10 +83,10 @@ PROGRAMS = [
         lanes=8,
         robots=tuple(LANED),
     ),
-    # Of the mass matrix alone, the one result that is large.
+    # For the mass matrix only, which is the one large result.
     Program(
         "written_x8",
-        "as many numbers written, 8 states",
+        "writing alone, 8 states",
         GENERATED + "/written_x8.so",
         "{function}",
         "txt",

@@ -22,7 +22,7 @@ class Outcome:
     stretch: float | None = None
     # How far the ratio may be below the least one: as far as the repetitions were apart.
     spread: float | None = None
-    # The most that any program can reach that leaves as many numbers in memory.
+    # An upper bound of the ratio: that of a program that only writes the result.
     bound: float | None = None
 
     @property
@@ -36,7 +36,7 @@ class Outcome:
         if self.spread is not None and self.ratio * (1 + self.spread) >= self.least:
             return "yes, within the spread"
         if self.bound is not None and self.bound < self.least:
-            return f"**no**; to write as many numbers, and no more, gives {self.bound:.2f}"
+            return f"**no**; writing alone gives {self.bound:.2f}"
         return "**no**"
 
 

@@ -1,5 +1,5 @@
-// Writes VALUES numbers of LANES states each, all zero, and computes nothing: what every program takes at least that leaves
-// a result of this size in memory.
+// Writes VALUES numbers of LANES states each, all zero, and computes nothing: a lower bound for every program that writes a
+// result of this size.
 typedef double scalar __attribute__((vector_size(8 * LANES)));
 
 const scalar *SYMBOL(const scalar *state, scalar *result)

@@ -30,8 +30,8 @@ pub(crate) fn acting<S: Scalar, P: ParameterIn<S>>(parameter: P) -> Option<S> {
     (parameter.number() != Some(0.0)).then(|| parameter.value())
 }
 
-/// What a first moment is multiplied by for the centre of mass: 1 / `mass`, or zero for a mechanism without mass, whose first
-/// moments are zero: its centre of mass is the origin of the base frame.
+/// 1 / `mass`, the factor of first moments in the centre of mass; zero for a mechanism without mass, whose first moments are
+/// zero, so that its centre of mass is the origin of the base frame.
 #[inline]
 pub(crate) fn per_mass<S: Scalar, P: ParameterIn<S>>(mass: P) -> S {
     if mass.number() == Some(0.0) { S::zero() } else { (P::one() / mass).value() }

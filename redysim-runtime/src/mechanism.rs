@@ -334,7 +334,7 @@ impl<S: Scalar> Energy<S> {
     }
 }
 
-/// The centre of mass of a mechanism, in the base frame; of a mechanism without mass, the origin, at rest.
+/// The centre of mass of a mechanism, in the base frame. It is the origin, at rest, for a mechanism without mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CenterOfMass<S> {

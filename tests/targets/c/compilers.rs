@@ -38,7 +38,7 @@ static COMPILERS: LazyLock<Vec<String>> = LazyLock::new(|| {
 });
 
 /// The compilers of C for the target of the tests: the machine's own, `CC` if that is set, and Clang, on the machine at hand
-/// where [`all_tools`] are used. As in `CC`, flags may follow the name.
+/// only if [`all_tools`] returns `true`. As in `CC`, flags may follow the name.
 pub fn compilers() -> &'static [String] {
     if COMPILERS.is_empty() {
         skip("there is no C compiler here; install one, or name it in the variable CC");
