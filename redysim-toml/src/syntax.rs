@@ -81,7 +81,11 @@ fn in_key(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Message)
     }
     let is_word = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
     if let Some((key, value)) = rest.split_once(':').filter(|(key, _)| is_word(key.trim())) {
-        return Some((whole, messages::colon(key.trim(), value.trim())));
+        let value = value.trim();
+        let is_value = value.parse::<f64>().is_ok() || value.starts_with(['"', '\'', '[', '{']);
+        let written =
+            if is_value || ["true", "false", ""].contains(&value) { value.into() } else { format!("\"{value}\"") };
+        return Some((whole, messages::colon(key.trim(), &written)));
     }
     if let Some((words, value)) = rest.split_once('=') {
         let written = words.split_whitespace().collect::<Vec<_>>().join("_");
@@ -127,16 +131,37 @@ fn in_value(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Messag
         return Some((array.clone(), messages::separators(&line[array], &written)));
     }
     if reason.starts_with("unexpected key or value") {
+        // The key before the sign of equality is a part of what follows.
+        let is_value = line[at..].starts_with('=');
+        let word = line[..at].trim_end().rfind(char::is_whitespace).map_or(0, |blank| blank + 1);
+        let at = if is_value { word } else { at };
         let found = line[at..].trim_end();
         return match found {
             "," | ";" => Some((at..at + 1, messages::end_of_line(found))),
             _ => Some((at..at + found.len(), messages::something_follows(found))),
         };
     }
+    if let Some(key) = next_key(line, at, &place, reason) {
+        let message = messages::missing_comma(&line[key.clone()]);
+        return Some((key, message));
+    }
     if text.ends_with(';') {
         return Some((place.end - 1..place.end, messages::end_of_line(";")));
     }
     value(text, reason).map(|message| (place, message))
+}
+
+/// The key that follows a value in braces without a comma before it.
+fn next_key(line: &str, at: usize, place: &Range<usize>, reason: &str) -> Option<Range<usize>> {
+    let start = match reason.starts_with("missing comma between key-value pairs") {
+        true => at,
+        false => place.start + line[place.clone()].find(char::is_whitespace)?,
+    };
+    let before = line[start..].split_once('=')?.0.trim_end();
+    let name = before.split_whitespace().last()?;
+    let begin = start + before.len() - name.len();
+    let is_key = begin < place.end.max(at + 1) && name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
+    is_key.then_some(begin..begin + name.len())
 }
 
 /// A value in round brackets that an error is in.

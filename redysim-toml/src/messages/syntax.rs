@@ -124,6 +124,15 @@ pub(crate) fn separators(found: &str, written: &str) -> Message {
     )
 }
 
+/// No comma stands before `key` in a table in braces.
+pub(crate) fn missing_comma(key: &str) -> Message {
+    message(
+        format!("TOML: the comma before {} is missing", quoted(key)),
+        "no comma before it",
+        "keys in braces are separated by commas, as in { a = 1, b = 2 }",
+    )
+}
+
 /// The character `found` stands after a value.
 pub(crate) fn end_of_line(found: &str) -> Message {
     message(
