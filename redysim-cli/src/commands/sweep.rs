@@ -29,7 +29,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT", conflicts_with = "sample")]
     format: Format,
     /// How many samples are computed at once [default: the number of cores].
-    #[arg(long, short, value_name = "COUNT")]
+    #[arg(long, short, value_name = "COUNT", value_parser = jobs)]
     jobs: Option<NonZeroUsize>,
     /// Replace another study that is there.
     #[arg(long)]
@@ -46,6 +46,11 @@ enum Format {
     Csv,
     /// Also the folder `rows` with a part for every thousand rows, which `pandas.read_parquet` reads as one table
     Parquet,
+}
+
+/// The number of jobs that `text` states.
+fn jobs(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "a whole number is needed, 1 or more".to_owned())
 }
 
 /// The rows of a part in Parquet.
@@ -134,7 +139,7 @@ fn compute(study: &Study, rows: &mut Rows, jobs: NonZeroUsize, quiet: bool) -> R
 /// Writes what `redysim forward` and `redysim inverse` take to run one sample alone.
 fn write_sample(study: &Study, index: usize, folder: &Path, (force, quiet): (bool, bool)) -> Result<(), Failure> {
     if index >= study.count() {
-        let failure = Failure::input(format!("the study has no sample {index}"));
+        let failure = Failure::command_line(format!("the study has no sample {index}"));
         return Err(failure.help(format!("it has the samples 0 to {}", study.count() - 1)));
     }
     let files = study.sampler().to_run_alone(&study.sample(index))?;

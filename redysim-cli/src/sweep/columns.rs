@@ -21,6 +21,13 @@ pub struct Column {
     span: std::ops::Range<usize>,
 }
 
+impl Column {
+    /// Where its key begins in the text of the study, in bytes.
+    pub fn start(&self) -> usize {
+        self.span.start
+    }
+}
+
 /// The values of a column.
 pub enum Values {
     Listed(Vec<Value>),

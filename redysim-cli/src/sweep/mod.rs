@@ -1,5 +1,6 @@
 //! Studies: a scenario that is run for many samples of its values.
 
+mod cause;
 mod columns;
 mod draw;
 mod keys;
@@ -101,7 +102,7 @@ impl Study {
         Sample { index, values: self.samples[index].clone() }
     }
 
-    /// The warnings about the scenario of the first sample.
+    /// The warnings about the models, and about the scenario of the first sample.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }

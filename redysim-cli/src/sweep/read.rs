@@ -3,16 +3,17 @@
 use std::collections::btree_map::{BTreeMap, Entry};
 use std::path::Path;
 
-use redysim_toml::{Field, Key, Message, Reader};
+use redysim_toml::{Diagnostic, Field, Key, Message, Reader};
 use toml::{Table, Value};
 
+use super::cause::{explained, origins};
 use super::columns::{self, Column, MOST, Values};
 use super::outcomes::{Outcome, Reduction, account};
 use super::place::Place;
 use super::sampler::{Sampler, visit_files};
 use super::{Study, keys, table};
 use crate::failure::Failure;
-use crate::model;
+use crate::model::{self, ModelFile};
 use crate::scenario::{self, Dynamics, keys as scenario_keys, read_text, shorthand};
 
 /// A study as its file has it.
@@ -33,6 +34,19 @@ struct Drawn {
     file: Option<String>,
 }
 
+impl Written {
+    /// Where the values of each path are given, the study being `(text, shown)`.
+    fn origins(&self, count: usize, study: (&str, &str), folder: &Path) -> Vec<String> {
+        let columns = match (&self.over, &self.samples) {
+            (Some(columns), _) | (None, Some(Drawn { columns, .. })) => columns.as_slice(),
+            (None, None) => &[],
+        };
+        let file = self.samples.as_ref().and_then(|drawn| drawn.file.as_ref());
+        let file = file.map(|file| folder.join(file).display().to_string()).unwrap_or_default();
+        origins(count, columns, study, &file)
+    }
+}
+
 /// Reads the text of a study.
 ///
 /// # Errors
@@ -46,20 +60,24 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
             failure.help(format!("a study names it, and what varies: scenario = \"{shown}\" and a table [over]"))
         );
     }
-    let read = redysim_toml::read(text, shown, &keys::STUDY, "the study", |reader| written(reader, usual));
+    let read = redysim_toml::read(text.clone(), shown, &keys::STUDY, "the study", |reader| written(reader, usual));
     let (written, _) = read.map_err(Failure::input)?;
     let in_study = |failure: Failure| failure.in_file(shown);
     let (places, samples) = samples(&written, folder).map_err(in_study)?;
+    let origins = written.origins(places.len(), (&text, shown), folder);
     let path = folder.join(&written.scenario);
     let text = named(&path, read_text(&path))?;
     if let Some(failure) = model::not_a_scenario(&path, &text) {
         return Err(failure);
     }
+    let alone = |run| {
+        let shown = path.display().to_string();
+        scenario::Scenario::of_text(text.clone(), &path, &shown, run, (None, true)).err()
+    };
     // A text that is not TOML is reported by the reader of scenarios.
     let Ok(mut table) = text.parse::<Table>() else {
-        let run = written.run.unwrap_or(Dynamics::Forward);
-        let read = scenario::Scenario::of_text(text, &path, &path.display().to_string(), run, (None, true));
-        return Err(read.err().unwrap_or_else(|| Failure::input(format!("{} is not TOML", path.display()))));
+        let failure = alone(written.run.unwrap_or(Dynamics::Forward));
+        return Err(failure.unwrap_or_else(|| Failure::input(format!("{} is not TOML", path.display()))));
     };
     let run = written.run.map_or_else(|| usual_run(&table, &path), Ok)?;
     check_effect(&places, run).map_err(in_study)?;
@@ -74,12 +92,13 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
         let columns = places.iter().enumerate().filter(move |(_, place)| place.last() == last);
         columns.flat_map(|(k, _)| samples.iter().filter_map(move |sample| sample[k].as_str().map(str::to_owned)))
     };
-    let mut models = BTreeMap::new();
+    let (mut models, mut warnings) = (BTreeMap::new(), vec![]);
     let named = table.get(scenario_keys::MODEL.name).and_then(Value::as_str).map(str::to_owned);
     for name in named.into_iter().chain(values(scenario_keys::MODEL.name)) {
         if let Entry::Vacant(model) = models.entry(name) {
-            let text = model::read(&from.join(model.key()), true)?.text;
-            model.insert(text.parse::<Table>().map_err(|error| Failure::input(error.message()))?);
+            let read = ModelFile::load(from.join(model.key()))?;
+            warnings.extend(read.warnings.iter().map(|warning| warning.trim_end().to_owned()));
+            model.insert(read.text.parse::<Table>().map_err(|error| Failure::input(error.message()))?);
         }
     }
     let mut tables = BTreeMap::new();
@@ -102,12 +121,18 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
         outcomes: vec![],
         account: vec![],
     };
-    completed(Study { name: written.name, sampler, samples, warnings: vec![] }, &written.outcomes).map_err(in_study)
+    let study = Study { name: written.name, sampler, samples, warnings };
+    let read = study.sampler.scenario(&study.sample(0));
+    let first = read.map_err(|failure| in_study(explained(failure, &study, &origins, alone(run))))?;
+    completed(study, first, &written.outcomes).map_err(in_study)
 }
 
 /// The study with what is kept of each run, which the first sample tells: that it can be read is known then.
-fn completed(mut study: Study, wanted: &[(Reduction, String)]) -> Result<Study, Failure> {
-    let (scenario, warnings) = study.sampler.scenario(&study.sample(0))?;
+fn completed(
+    mut study: Study,
+    (scenario, warnings): (scenario::Scenario, Vec<Diagnostic>),
+    wanted: &[(Reduction, String)],
+) -> Result<Study, Failure> {
     let run = study.sampler.run;
     // Whether there is something to run.
     let name = Path::new("the scenario");
@@ -117,7 +142,7 @@ fn completed(mut study: Study, wanted: &[(Reduction, String)]) -> Result<Study, 
     }
     study.sampler.outcomes = Outcome::of(wanted, &scenario, run)?;
     study.sampler.account = account(&scenario, run).into_iter().map(str::to_owned).collect();
-    study.warnings = warnings.iter().map(ToString::to_string).collect();
+    study.warnings.extend(warnings.iter().map(ToString::to_string));
     Ok(study)
 }
 

@@ -304,6 +304,66 @@ fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
 }
 
 #[test]
+fn a_value_that_does_not_fit_is_reported_with_its_line_of_the_study() {
+    let folder = scratch("sweep-value");
+    fs::write(folder.join("masses.csv"), "model.link.link1.mas\n1.0\n").unwrap();
+    for (rest, parts) in [
+        (
+            "[over]\nforward.end = [0.1]\nforward.integrator.rtoll = [1e-4]",
+            ["unknown key `forward.integrator.rtoll`", "`forward.integrator.rtoll` is given at ", "study.toml:4"],
+        ),
+        (
+            "[over]\nmodel.link.link1.mass = [-1.0]",
+            ["`mass` is -1", "`model.link.link1.mass` is given at ", "study.toml:3"],
+        ),
+        (
+            "[samples]\nfile = 'masses.csv'\nforward.end = [0.1]",
+            ["unknown key `mas`", "`model.link.link1.mas` is given at ", "masses.csv"],
+        ),
+    ] {
+        let error = fail(&folder, &["sweep", &study(&folder, rest), "--output", "rows"], 1);
+        assert!(parts.iter().all(|part| error.contains(part)), "{rest}: {error}");
+    }
+}
+
+#[test]
+fn a_fault_of_the_scenario_of_a_study_is_reported_in_its_own_file() {
+    let folder = scratch("sweep-scenario-fault");
+    study(&folder, "[over]\nforward.end = [0.1, 0.2]");
+    let faulty = fs::read_to_string(folder.join("trial.toml")).unwrap().replace("step = ", "stepp = 1\nstep = ");
+    fs::write(folder.join("trial.toml"), &faulty).unwrap();
+    let line = 1 + faulty.lines().position(|line| line.starts_with("stepp")).unwrap();
+    let error = fail(&folder, &["sweep", "study.toml", "--output", "rows"], 1);
+    assert!(error.contains(&format!("trial.toml:{line}:1")), "{error}");
+    assert!(!error.contains("sample 0") && !error.contains("study.toml"), "{error}");
+}
+
+#[test]
+fn a_sweep_shows_the_warnings_of_its_model_once() {
+    let folder = scratch("sweep-warnings");
+    let odd = fs::read_to_string(model("two_link.toml")).unwrap().replacen("com = [", "com = [900.0 , 0, 0] # [", 1);
+    fs::write(folder.join("odd.toml"), odd).unwrap();
+    fs::write(folder.join("trial.toml"), format!("model = 'odd.toml'\n{FALL}")).unwrap();
+    fs::write(folder.join("study.toml"), "scenario = 'trial.toml'\n[over]\nforward.end = [0.1, 0.2]\n").unwrap();
+    let run = call(&folder, &["sweep", "study.toml", "--output", "rows"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(run.stderr.matches("warning[length-units]: link `link1`").count(), 1, "{}", run.stderr);
+    assert!(run.stderr.contains("odd.toml:"), "{}", run.stderr);
+    let quiet = call(&folder, &["sweep", "study.toml", "--output", "rows", "--force", "--quiet"]);
+    assert_eq!(quiet.stderr, "");
+}
+
+#[test]
+fn what_the_command_line_of_a_sweep_has_wrong_is_reported_with_exit_code_2() {
+    let folder = scratch("sweep-command-line");
+    study(&folder, "[over]\nforward.end = [0.1, 0.2]");
+    let error = fail(&folder, &["sweep", "study.toml", "--jobs", "0"], 2);
+    assert!(error.contains("'0' for '--jobs <COUNT>': a whole number is needed, 1 or more"), "{error}");
+    let error = fail(&folder, &["sweep", "study.toml", "--sample", "2", "--output", "second"], 2);
+    assert!(error.contains("no sample 2") && error.contains("0 to 1"), "{error}");
+}
+
+#[test]
 fn another_study_and_what_is_no_study_are_kept() {
     let folder = sweep("sweep-other", GRID);
     let whole = text(&folder);

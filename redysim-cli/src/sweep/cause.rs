@@ -1,0 +1,35 @@
+//! Which line of a study is at fault where its first sample cannot be read.
+
+use super::columns::Column;
+use super::{Sample, Study};
+use crate::failure::Failure;
+
+/// Where a study gives the values at each path: `file`, the header of its table, for those that no column of the study
+/// itself has, which come first.
+pub fn origins(count: usize, columns: &[Column], (text, shown): (&str, &str), file: &str) -> Vec<String> {
+    let of_file = count - columns.len();
+    let line = |column: &Column| text[..column.start()].matches('\n').count() + 1;
+    let own = columns.iter().map(|column| format!("{shown}:{}", line(column)));
+    (0..of_file).map(|_| file.to_owned()).chain(own).collect()
+}
+
+/// The failure of the first sample as a person looks for it: that of the scenario `alone`, which names its file, if it has the
+/// fault without the study; otherwise with the line of the study whose value brings it about.
+pub fn explained(failure: Failure, study: &Study, origins: &[String], alone: Option<Failure>) -> Failure {
+    let is_same = |other: &Failure| other.title() == failure.title();
+    if let Some(own) = alone.filter(is_same) {
+        return own;
+    }
+    let fails_with = |count: usize| {
+        let mut sampler = study.sampler.clone();
+        sampler.paths.truncate(count);
+        let Sample { index, mut values } = study.sample(0);
+        values.truncate(count);
+        sampler.scenario(&Sample { index, values }).err().is_some_and(|other| is_same(&other))
+    };
+    let paths = &study.sampler.paths;
+    match (0..paths.len()).find(|path| fails_with(path + 1)) {
+        Some(path) => failure.and(&format!("\n  = note: the value of `{}` is given at {}", paths[path], origins[path])),
+        None => failure,
+    }
+}
