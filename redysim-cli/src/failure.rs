@@ -17,8 +17,10 @@ pub struct Failure {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// What was given is at fault.
+    /// A file that was given is at fault.
     Input,
+    /// An argument or option is.
+    CommandLine,
     /// The world outside is.
     Outside,
     /// Ctrl-C.
@@ -32,6 +34,11 @@ impl Failure {
     /// A model, scenario or table is at fault.
     pub(crate) fn input(message: impl fmt::Display) -> Self {
         Self { kind: Kind::Input, message: message.to_string(), help: None }
+    }
+
+    /// An argument or option of the command line is at fault.
+    pub(crate) fn command_line(message: impl fmt::Display) -> Self {
+        Self { kind: Kind::CommandLine, message: message.to_string(), help: None }
     }
 
     /// Something outside the program is at fault.
@@ -52,18 +59,19 @@ impl Failure {
         let folder = path.parent().unwrap_or(path);
         if error.kind() == io::ErrorKind::NotFound && doing == "read" {
             let similar = similar_file(path, &[folder, Path::new("")]);
-            let similar = similar.map(|file| format!("did you mean `{}`? ", file.display())).unwrap_or_default();
-            return failure(&why_missing(folder)).help(format!("{similar}A path is taken from {}", current_folder()));
+            let similar = similar.map(|file| format!("did you mean `{}`?", file.display()));
+            let failure = failure(&why_missing(folder));
+            let asked = similar.unwrap_or_else(|| RIGHT.into());
+            return failure.help(asked + &taken_from(path));
         }
         let failure = failure(why);
         match error.kind() {
-            io::ErrorKind::NotFound => {
-                failure.help(format!("is the path right? It is taken from {}", current_folder()))
-            }
+            io::ErrorKind::NotFound => failure.help(RIGHT.to_owned() + &taken_from(path)),
             io::ErrorKind::PermissionDenied => failure.help("its permissions forbid it"),
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
                 failure.help("make room on the disk, or write elsewhere with --output")
             }
+            io::ErrorKind::IsADirectory => failure.help("it is a folder: name a file"),
             _ => failure,
         }
     }
@@ -105,6 +113,11 @@ impl Failure {
         self
     }
 
+    /// The first line of what is wrong.
+    pub(crate) fn title(&self) -> &str {
+        self.message().lines().next().unwrap_or_default()
+    }
+
     /// What to do about it, if anything is known.
     pub fn advice(&self) -> &str {
         self.help.as_deref().unwrap_or_default()
@@ -115,20 +128,27 @@ impl Failure {
         self.to_string().replacen("error: ", "warning: ", 1)
     }
 
-    /// 1 for input, 3 for what is outside, 130 for Ctrl-C; 2 is the command line's own.
+    /// 1 for input, 2 for the command line, 3 for what is outside, 130 for Ctrl-C.
     pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(match self.kind {
             Kind::Input => 1,
+            Kind::CommandLine => 2,
             Kind::Outside => 3,
             Kind::Interrupted => Self::INTERRUPTED,
         })
     }
 }
 
-/// The folder from which paths are taken.
-fn current_folder() -> String {
+/// What to look at where nothing is known.
+const RIGHT: &str = "is the path right?";
+
+/// The folder from which a path is taken, if it is relative, as a sentence that follows another.
+fn taken_from(path: &Path) -> String {
+    if path.is_absolute() {
+        return String::new();
+    }
     let folder = std::env::current_dir().map_or(String::new(), |folder| format!(", {}", folder.display()));
-    format!("the current folder{folder}")
+    format!(" A path is taken from the current folder{folder}")
 }
 
 impl fmt::Display for Failure {

@@ -101,7 +101,7 @@ impl From<Loaded> for ModelFile {
 }
 
 fn not_floating(path: &Path) -> Failure {
-    let failure = Failure::input(format!("{} is not a URDF, whose root may float", path.display()));
+    let failure = Failure::command_line(format!("{} is not a URDF, whose root may float", path.display()));
     failure.help("in a model file, the root is a link with joint = \"free\"")
 }
 

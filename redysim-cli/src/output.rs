@@ -53,7 +53,7 @@ pub fn write_beside(source: &Path, path: &Path, contents: &[u8], force: bool) ->
 pub fn check_beside(source: &Path, path: &Path, force: bool) -> Result<(), Failure> {
     if fs::canonicalize(path).is_ok_and(|path| fs::canonicalize(source).is_ok_and(|source| source == path)) {
         let message = format!("{} is what it would be made of", path.display());
-        return Err(Failure::input(message).help("write elsewhere with --output"));
+        return Err(Failure::command_line(message).help("write elsewhere with --output"));
     }
     check_place(path, force)
 }

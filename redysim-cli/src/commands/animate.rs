@@ -38,7 +38,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let beside = |folder: &Path| path.parent().is_some_and(|parent| same(parent, folder));
     if name != PAGE && is_written(&name) && beside(recorded.folder()) {
         let message = format!("{} is a file of the results", path.display());
-        return Err(Failure::input(message).help("write elsewhere with --output, as in --output page.html"));
+        return Err(Failure::command_line(message).help("write elsewhere with --output, as in --output page.html"));
     }
     // Before what takes its time.
     output::check_place(&path, arguments.force)?;

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use redysim_model::GenericMechanism;
 use redysim_runtime::{
-    ClosedLoop, ClosedLoopInverse, ConfigurationSpace, InverseDynamics, LoopForces, Motion, Trajectory,
+    ClosedLoop, ClosedLoopInverse, ConfigurationSpace, InverseDynamics, LoopError, LoopForces, Motion, Trajectory,
 };
 
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::number::rounded;
+use crate::number::{rounded, size};
 use crate::output::to_stdout;
 use crate::results::{self, Ended, Files, GroundSample, Outcome, Record, Sample, Sink, Summary};
 use crate::scenario::{Dynamics, Prescribed, Scenario, Span, keys, missing};
@@ -139,7 +139,12 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
             let forces = mechanism.inverse_dynamics(&motion.q, &motion.v, &motion.a);
             return Ok(Required { motion, forces, multipliers: vec![], position_residual: 0.0 });
         }
-        let failed = |reason| Failure::outside(format!("at t = {t:?} s: {}", loops.with_names(reason)));
+        let failed = |reason| match reason {
+            LoopError::Unreachable { velocity, position_residual, .. } => {
+                unreachable(scenario, t, velocity, position_residual)
+            }
+            _ => Failure::outside(format!("at t = {t:?} s: {}", loops.with_names(reason))),
+        };
         let LoopForces { motion, forces, multipliers, .. } = of_loops.at(t, trajectory).map_err(failed)?;
         let position_residual = scenario.position_residual(&motion.q);
         Ok(Required { motion, forces, multipliers, position_residual })
@@ -173,6 +178,20 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
         contacts: None,
     };
     (outcome, most)
+}
+
+/// The failure of loops that stay open by `residual` at time `t`, with the joint of `velocity` on the trajectory.
+fn unreachable(scenario: &Scenario, t: f64, velocity: usize, residual: f64) -> Failure {
+    let (name, open) = (&scenario.layout.velocities[velocity].name, size(residual));
+    let what = format!("with `{name}` on the trajectory, the loops stay open by {open} m (or a sine)");
+    let is_start = scenario.inverse.is_none_or(|span| t <= span.start);
+    if is_start {
+        let failure = Failure::input(format!("the loops cannot be closed at the start, t = {t:?} s: {what}"));
+        return failure
+            .help("give another `initial.q`, nearer to a closed position, or begin within reach of the links");
+    }
+    let failure = Failure::outside(format!("the loops cannot be closed at t = {t:?} s: {what}"));
+    failure.help("keep the trajectory within reach of the links, or take a smaller `step`")
 }
 
 /// Nodes, in halves of the interval from its middle, and weights of Gauss's rule of order 6.

@@ -24,6 +24,6 @@ impl Camera {
             return Ok(());
         }
         let message = format!("the camera cannot follow `{}`: none of its links floats on a `free` joint", model.name);
-        Err(Failure::input(message).help("leave --camera out, or take --camera fixed"))
+        Err(Failure::command_line(message).help("leave --camera out, or take --camera fixed"))
     }
 }

@@ -121,6 +121,14 @@ pub fn some(reader: &mut Reader<'_, '_>, key: &Key, joints: &[Joint]) -> Field<V
             }
             found.push(joint);
         }
+        if found.is_empty() {
+            let message = Message {
+                title: format!("{}: `{path}` names no joint", reader.item()),
+                label: "empty".into(),
+                help: "name at least one, or leave the key out".into(),
+            };
+            return reader.error(value, message);
+        }
         Some(found)
     })
 }

@@ -18,6 +18,7 @@ mod resolution;
 pub mod shorthand;
 mod span;
 mod subject;
+mod swing;
 mod table;
 mod torque;
 mod trajectory;

@@ -100,10 +100,6 @@ fn fault(subject: &Subject<'_>, joints: &[usize], trajectory: Option<&Prescribed
         let help = "name fewer joints; `redysim inverse` computes the forces of a motion of all joints";
         return Some(("every joint is prescribed, so that no motion is left to compute".into(), help.into()));
     }
-    if joints.is_empty() {
-        let help = "name joints of the trajectory, or leave the key out: then all joints move under the torque law";
-        return Some(("`prescribed` names no joint".into(), help.into()));
-    }
     if subject.loops() { fault_of_loops(subject, joints) } else { None }
 }
 

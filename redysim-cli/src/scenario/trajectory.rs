@@ -12,6 +12,7 @@ use redysim_toml::{Key, Kind, Message, Reader, Spanned};
 use super::joints::{Quantity, points, some, values};
 use super::keys;
 use super::subject::{Dynamics, Subject, given, spread};
+use super::swing;
 use super::table::InputTable;
 use crate::failure::Failure;
 use crate::layout::{Component, Layout};
@@ -148,6 +149,12 @@ impl Prescribed {
                     }
                 }
             });
+        if let Some(read) = field.spanned()
+            && let Some((what, help)) = read.get_ref().as_ref().and_then(|motion| swing::of(motion, layout))
+        {
+            let title = format!("{}: {what}", reader.item());
+            reader.warning_at(read.span(), Message { title, label: "swings".into(), help });
+        }
         let place = place.or(field.spanned().map(Spanned::span)).unwrap_or_default();
         Some(given(field)?.map(|prescribed| Prescribed { place, ..prescribed }))
     }

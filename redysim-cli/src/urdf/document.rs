@@ -42,7 +42,7 @@ impl<'a> Document<'a> {
         }
         if let Some(node) = document.xml.descendants().find(is_xacro) {
             let message = format!("<xacro:{}> is a macro that is not expanded", node.tag_name().name());
-            return Err(document.fault(node, message).help("expand it first: xacro robot.urdf.xacro > robot.urdf"));
+            return Err(document.fault(node, message).help(EXPAND));
         }
         children(robot, "link").try_for_each(|link| document.check_link(link))?;
         children(robot, "joint").try_for_each(|joint| document.check_joint(joint))?;
@@ -268,6 +268,9 @@ fn read_in(owner: Node) -> &'static [&'static str] {
     READ.iter().find(|(tag, _)| *tag == owner.tag_name().name()).map_or(&[], |(_, read)| read)
 }
 
+/// What to do with a file of macros.
+const EXPAND: &str = "expand it first: xacro robot.urdf.xacro > robot.urdf";
+
 fn is_xacro(node: &Node) -> bool {
     node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"))
 }
@@ -288,6 +291,8 @@ fn broken(file: &str, error: &roxmltree::Error) -> Failure {
     let message = message.strip_suffix(&format!(" at {place}")).unwrap_or(&message);
     let help = if file.ends_with(".toml") {
         format!("a URDF is an XML file; a model in TOML is not imported: redysim check {file}")
+    } else if message.contains("'xacro'") {
+        EXPAND.into()
     } else {
         "a URDF is an XML file: correct it first".into()
     };

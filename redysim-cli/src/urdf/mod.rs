@@ -112,7 +112,8 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     if options.quarter_turns {
         robot = robot.with_quarter_turns();
     }
-    robot = robot.without_reserved_name().without_massless_motion().with_possible_mimics().with_comments(&document);
+    robot = robot.without_reserved_name().without_massless_motion().with_possible_mimics().with_possible_limits();
+    robot = robot.with_comments(&document);
     let changes: Vec<String> = robot.links.iter().flat_map(|link| &link.remarks).cloned().collect();
     if robot.links.iter().all(|link| link.kind == JointKind::Fixed) {
         return Err(document.fault_at("robot", "", "every joint is fixed here: nothing of the robot moves"));

@@ -192,6 +192,21 @@ impl Robot {
         self
     }
 
+    /// Joints whose lower limit is above their upper one get a remark: they have no range.
+    pub fn with_possible_limits(mut self) -> Self {
+        for link in &mut self.links {
+            let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
+            if let Some(JointLimit { lower, upper, .. }) = link.limit.as_ref().filter(|limit| limit.lower > limit.upper)
+            {
+                link.remarks.push(format!(
+                    "joint `{}` has no range here: its lower limit, {lower} {unit}, is above its upper one, {upper} {unit}",
+                    link.joint_name
+                ));
+            }
+        }
+        self
+    }
+
     /// The link whose joint moves that of a link in the end: itself, unless its joint can mimic another. Joints that mimic
     /// one another in a circle move themselves.
     pub fn followed(&self, link: usize) -> usize {

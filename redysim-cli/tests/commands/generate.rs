@@ -47,7 +47,7 @@ fn an_existing_file_stays_unless_forced() {
 #[test]
 fn a_name_that_is_not_one_of_a_type_is_refused() {
     let run = call(&root(), &["generate", &model("kr5.toml"), "--name", "my robot"]);
-    assert_eq!((run.code, run.stdout.as_str()), (1, ""));
+    assert_eq!((run.code, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("`my robot`") && run.stderr.contains("--name"), "{}", run.stderr);
 }
 
@@ -174,18 +174,18 @@ fn c_needs_a_folder_and_a_name_of_c() {
         (run.code, run.stderr)
     };
     for (arguments, code, expected) in [
-        (&["--language", "c"][..], 1, "name one with --output"),
+        (&["--language", "c"][..], 2, "name one with --output"),
         (&["--language", "c", "-o", "file"], 3, "is not a folder"),
-        (&["--language", "c", "-o", "new", "--name", "6axis"], 1, "`6axis` cannot begin the names of C"),
-        (&["--language", "c", "-o", "new", "--name", "stdio"], 1, "--name"),
-        (&["--language", "cpp"], 1, "--language cpp writes several files"),
-        (&["--language", "cpp", "-o", "new", "--name", "class"], 1, "`class` cannot begin"),
-        (&["--scalar", "f32"], 1, "add --language c"),
-        (&["--mex"], 1, "--mex writes several files"),
-        (&["--mex", "-o", "new", "--name", "6axis"], 1, "`6axis` cannot begin the names of C"),
+        (&["--language", "c", "-o", "new", "--name", "6axis"], 2, "`6axis` cannot begin the names of C"),
+        (&["--language", "c", "-o", "new", "--name", "stdio"], 2, "--name"),
+        (&["--language", "cpp"], 2, "--language cpp writes several files"),
+        (&["--language", "cpp", "-o", "new", "--name", "class"], 2, "`class` cannot begin"),
+        (&["--scalar", "f32"], 2, "add --language c"),
+        (&["--mex"], 2, "--mex writes several files"),
+        (&["--mex", "-o", "new", "--name", "6axis"], 2, "`6axis` cannot begin the names of C"),
         (&["--mex", "--language", "c", "-o", "new"], 2, "'--mex' cannot be used with '--language <LANGUAGE>'"),
         (&["--mex", "--scalar", "f64", "-o", "new"], 2, "'--mex'"),
-        (&["--fmu"], 1, "--fmu writes several files"),
+        (&["--fmu"], 2, "--fmu writes several files"),
         (&["--fmu", "-o", "file"], 3, "is not a folder"),
         (&["--fmu", "--mex", "-o", "new"], 2, "cannot be used with"),
         (&["--fmu", "--functions", "energy", "-o", "new"], 2, "cannot be used with"),

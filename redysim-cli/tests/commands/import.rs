@@ -534,6 +534,9 @@ fn limits_whose_lower_one_is_not_below_the_upper_are_kept_as_they_are() {
     let kept = "# limit: lower = 2 rad, upper = 1 rad, effort = -10 N m, velocity = 3 rad/s; \
                 the lower one is not below the upper";
     assert!(run.stdout.contains(kept), "{}", run.stdout);
+    let lost = "has no range here: its lower limit, 2 rad, is above its upper one, 1 rad";
+    let warned = run.stderr.lines().any(|line| line.starts_with("warning: joint") && line.contains(lost));
+    assert!(warned, "{}", run.stderr);
 }
 
 const RICH: &str = r#"<robot name="rich">

@@ -147,7 +147,7 @@ fn a_new_crate_depends_on_the_checkout_of_the_command_or_on_the_one_that_is_give
     succeed(&folder, &["new", "given", "--redysim", "it's \"another\" one"]);
     assert_eq!(dependency(&folder.join("given")), other.canonicalize().unwrap());
     fs::write(other.join("Cargo.toml"), "[package]\nname = \"other\"\n").unwrap();
-    let refused = fail(&folder, &["new", "third", "--redysim", "it's \"another\" one"], 1);
+    let refused = fail(&folder, &["new", "third", "--redysim", "it's \"another\" one"], 2);
     assert!(refused.contains("is not a checkout of redysim"), "{refused}");
     assert!(!folder.join("third").exists());
 }
@@ -158,12 +158,12 @@ fn names_that_a_crate_cannot_have_are_refused_with_one_that_it_can() {
     let names_and_suggestions =
         [("match", "`match-robot`"), ("my arm", "`my-arm`"), ("3rrr", "`robot-3rrr`"), ("redysim", "`redysim-robot`")];
     for (name, suggested) in names_and_suggestions {
-        let refused = fail(&folder, &["new", name], 1);
+        let refused = fail(&folder, &["new", name], 2);
         assert!(refused.contains(&format!("a crate cannot be named `{name}`")), "{refused}");
         assert!(refused.contains(suggested), "{refused}");
     }
     assert!(fail(&folder, &["new", "nowhere/arm"], 3).contains("nowhere"));
-    assert!(fail(&folder, &["new", ".."], 1).contains("`../robot`"));
+    assert!(fail(&folder, &["new", ".."], 2).contains("`../robot`"));
     assert!(names(&folder).is_empty(), "{:?}", names(&folder));
 }
 
@@ -192,7 +192,7 @@ fn nothing_is_made_of_a_robot_with_faults() {
     write("faulty.urdf", URDF.replace("<mass value=\"2\"/>", ""));
     let before = names(&folder);
     for (robot, code, message) in [
-        ("kr6", 1, "did you mean `kr5`? The robots are: kr5, gripper, fourbar"),
+        ("kr6", 2, "did you mean `kr5`? The robots are: kr5, gripper, fourbar"),
         ("kr6.toml", 3, "cannot read the model file"),
         ("kr6.urdf", 3, "kr6.urdf"),
         ("faulty.toml", 1, "mass"),

@@ -131,7 +131,7 @@ fn what_is_missing_or_wrong_is_reported() {
         (1, &["show", "faulty.toml"], "faulty.toml:9", "help:"),
         (1, &["show", "trial.toml"], "trial.toml is a scenario, not a model", "name its model"),
         (3, &["show", "model.toml", "-o", "mine.html"], "mine.html is there already", "--force"),
-        (1, &["show", "model.toml", "-o", "model.toml"], "model.toml is what it would be made of", "--output"),
+        (2, &["show", "model.toml", "-o", "model.toml"], "model.toml is what it would be made of", "--output"),
         (3, &["show", "model.toml", "-o", "no/page.html"], "cannot write no/page.html", "is the path right?"),
     ] {
         let output = fail(&folder, arguments, code);

@@ -9,7 +9,7 @@ fn a_missing_scenario_is_reported_with_its_path() {
     let folder = scratch("faults-no-scenario");
     refuses_in(&folder, "forward", "nowhere.toml", 3, &["cannot read nowhere.toml", "help"]);
     fs::create_dir(folder.join("folder.toml")).unwrap();
-    refuses_in(&folder, "forward", "folder.toml", 3, &["cannot read folder.toml"]);
+    refuses_in(&folder, "forward", "folder.toml", 3, &["cannot read folder.toml", "it is a folder: name a file"]);
 }
 
 #[test]
@@ -325,6 +325,27 @@ fn loops_that_cannot_close_are_reported_by_name() {
     refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", open), 1, &["open", "crank-coupler"]);
     let held = open.replace("assemble = false", "held = ['crank', 'rocker', 'coupler']");
     refuses_in(&folder, "forward", &scenario(&folder, "fourbar.toml", &held), 1, &["the start", "crank-coupler"]);
+}
+
+#[test]
+fn a_trajectory_of_loops_that_begins_or_goes_out_of_reach_is_reported_with_its_joint() {
+    let folder = scratch("faults-reach");
+    let beyond = "initial = { q = [0, 0.9844, 4.3144] }\n[trajectory]\njoints = ['rocker']\nfrom = [FROM]\nto = [2.9]\n\
+                  duration = 1.0\n[inverse]\nend = 1.0\nstep = 0.01\n";
+    let begins = beyond.replace("FROM", "2.8");
+    let words = ["cannot be closed at the start", "with `rocker` on the trajectory", "stay open by 0.", "`initial.q`"];
+    refuses_in(&folder, "inverse", &scenario(&folder, "fourbar.toml", &begins), 1, &words);
+    let path = scenario(&folder, "fourbar.toml", &beyond.replace("FROM", "0.9844"));
+    let output = fail(&folder, &["inverse", &path, "-o", "run"], 3);
+    let words = ["cannot be closed at t = 0.4", "with `rocker` on", "within reach of the links", "instants, until 0."];
+    assert!(words.iter().all(|word| output.contains(word)), "{output}");
+}
+
+#[test]
+fn a_law_that_drives_no_joint_is_refused() {
+    let none = format!("{SWING}torque = {{ law = 'pd', joints = [], target = [], kp = 1, kd = 1 }}\n");
+    let words = ["`forward.torque.joints` names no joint", "name at least one, or leave the key out", "trial.toml:6:"];
+    refuses("no-joint", "forward", &none, 1, &words);
 }
 
 /// An unbounded force ends the motion; what was computed before is kept, and the reason is reported.

@@ -186,7 +186,7 @@ fn a_page_takes_no_place_of_a_table() {
     succeed(&folder, &["forward", &path, "-o", "run"]);
     let before = fs::read(folder.join("run/statevar.csv")).unwrap();
     for name in ["run/statevar.csv", "run/model.toml", "./run/../run/run.toml"] {
-        let output = fail(&folder, &["animate", "run", "-o", name, "--force"], 1);
+        let output = fail(&folder, &["animate", "run", "-o", name, "--force"], 2);
         assert!(output.contains("is a file of the results"), "{output}");
     }
     assert_eq!(fs::read(folder.join("run/statevar.csv")).unwrap(), before);

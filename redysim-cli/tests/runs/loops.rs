@@ -47,14 +47,15 @@ fn as_many_joints_are_prescribed_as_the_loops_leave_free() {
     let folder = scratch("loops-prescribed");
     let runs = "[inverse]\nend = 1.0\nstep = 0.1\n[forward]\nend = 1.0\nstep = 0.1\n\
                 torque = { law = 'computed-torque', kp = 1, kd = 1 }\n";
-    for (joints, zeros, count) in
-        [("'crank', 'rocker'", "0, 0", "2 degrees of freedom (crank, rocker)"), ("", "", "0 degrees of freedom ()")]
-    {
+    for (joints, zeros, wrong) in [
+        ("'crank', 'rocker'", "0, 0", "prescribes 2 degrees of freedom (crank, rocker), but the loops leave 1 free"),
+        ("", "", "`trajectory.joints` names no joint"),
+    ] {
         let motion = format!("kind = 'constant-speed', joints = [{joints}], from = [{zeros}], speed = [{zeros}]");
         let path = scenario(&folder, "fourbar.toml", &format!("trajectory = {{ {motion} }}\n{runs}"));
         for command in ["inverse", "forward"] {
             let output = fail(&folder, &[command, &path, "-o", "run"], 1);
-            assert!(output.contains(&format!("prescribes {count}, but the loops leave 1 free")), "{output}");
+            assert!(output.contains(wrong), "{output}");
         }
     }
 }

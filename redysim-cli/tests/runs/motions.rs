@@ -105,6 +105,26 @@ fn a_table_of_coordinates_alone_is_passed_from_rest_to_rest() {
     assert_eq!(found.rows, through.rows);
 }
 
+/// Two points 50 µs apart have a speed of 20 rad/s, which carries a smooth motion far beyond all points in the seconds after.
+#[test]
+fn a_motion_that_swings_far_beyond_its_points_is_warned_of() {
+    let folder = scratch("motions-swing");
+    let warned = |times: &str, kind: &str| {
+        let points = "[[0, 0], [1, 1], [1.001, 1], [0, 0]]";
+        let rest = format!(
+            "[trajectory]\nkind = '{kind}'\ntimes = {times}\npoints = {points}\n[inverse]\nend = 1.0\nstep = 0.5\n"
+        );
+        call(&folder, &["inverse", &scenario(&folder, "two_link.toml", &rest), "-o", "run", "--force"]).stderr
+    };
+    for kind in ["minimum-jerk", "cubic"] {
+        let warning = warned("[0, 1, 1.00005, 5]", kind);
+        let wanted =
+            ["between t = 1.00005 s and 5.0 s", "at `joint1`, whose points are all from 0 to 1 rad", "leave some out"];
+        assert!(wanted.iter().all(|part| warning.contains(part)), "{kind}: {warning}");
+        assert_eq!(warned("[0, 1, 2, 5]", kind), "", "{kind}, at times that are even enough");
+    }
+}
+
 /// A slider of 2 kg on a table, no gravity along it: the equation of a mass alone.
 const SLIDER: &str = "name = 'slider'\ngravity = [0, 0, -9.81]\n[[link]]\nname = 'mass'\nparent = 'base'\njoint = 'prismatic'\n\
                       axis = [1, 0, 0]\nmass = 2.0\n";

@@ -76,7 +76,7 @@ fn what_is_made_of_a_file_never_takes_its_place() {
     fs::copy(model("kr5.toml"), folder.join("kr5.toml")).unwrap();
     symlink("kr5.toml", folder.join("alias.toml")).unwrap();
     for target in ["kr5.toml", "./kr5.toml", "alias.toml"] {
-        let output = fail(&folder, &["generate", "kr5.toml", "-o", target, "--force"], 1);
+        let output = fail(&folder, &["generate", "kr5.toml", "-o", target, "--force"], 2);
         assert!(output.contains("is what it would be made of") && output.contains("--output"), "{output}");
     }
     assert_eq!(fs::read(folder.join("kr5.toml")).unwrap(), fs::read(model("kr5.toml")).unwrap());

@@ -81,7 +81,7 @@ fn joints_that_cannot_be_prescribed_are_refused_with_what_to_do() {
         (two, "", "prescribed = ['joint1']", ["does not define one", "add a table `[trajectory]`"]),
         (two, LED, "prescribed = ['joint2']", ["`joint2`, for which the trajectory has no motion", "`joints`"]),
         (two, LED, "prescribed = ['joint3']", ["joint3", "joint2"]),
-        (two, LED, "prescribed = []", ["`prescribed` names no joint", "leave the key out"]),
+        (two, LED, "prescribed = []", ["`forward.prescribed` names no joint", "leave the key out"]),
         (
             two,
             "trajectory = { from = [0, 0], to = [1, 1], duration = 1 }\n",

@@ -131,7 +131,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 
 fn rust(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     if arguments.scalar.is_some() {
-        let failure = Failure::input("--scalar is for --language c and cpp: functions in Rust take any scalar");
+        let failure = Failure::command_line("--scalar is for --language c and cpp: functions in Rust take any scalar");
         return Err(failure.help("leave it out, or add --language c"));
     }
     let loaded = load(arguments, quiet)?;
@@ -182,7 +182,8 @@ fn mex(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 /// The folder for several files.
 fn folder<'a>(arguments: &'a Arguments, option: &str) -> Result<&'a Path, Failure> {
     arguments.output.as_deref().ok_or_else(|| {
-        Failure::input(format!("{option} writes several files and needs a folder")).help("name one with --output")
+        Failure::command_line(format!("{option} writes several files and needs a folder"))
+            .help("name one with --output")
     })
 }
 
@@ -230,7 +231,7 @@ fn report(source: &str) {
 fn failure(error: SourceError) -> Failure {
     match error {
         SourceError::InvalidName(_) | SourceError::InvalidPrefix(_) => {
-            Failure::input(error).help("give another name with --name")
+            Failure::command_line(error).help("give another name with --name")
         }
         SourceError::ClosedLoop(_) => Failure::input(error)
             .help("simulate it by `redysim forward`, or call its functions by --language c or --mex"),

@@ -16,7 +16,8 @@ pub fn dependency(given: Option<&Path>, built_from: Option<&Path>, quiet: bool) 
     match (given, own) {
         (Some(folder), _) if !is_checkout(folder) => {
             let message = format!("{} is not a checkout of redysim", folder.display());
-            Err(Failure::input(message).help("--redysim takes the folder with the Cargo.toml of the crate `redysim`"))
+            Err(Failure::command_line(message)
+                .help("--redysim takes the folder with the Cargo.toml of the crate `redysim`"))
         }
         (Some(folder), _) | (None, Some(folder)) => {
             let folder = fs::canonicalize(folder).map_err(|error| Failure::file("read the folder", folder, &error))?;

@@ -83,7 +83,8 @@ pub fn of(folder: &Path) -> Result<String, Failure> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let Some(why) = why_not(&name) else { return Ok(name.into_owned()) };
     let suggested = folder.with_file_name(suggestion(&name));
-    let failure = Failure::input(format!("a crate cannot be named {}: {why}", quoted(&folder.display().to_string())));
+    let failure =
+        Failure::command_line(format!("a crate cannot be named {}: {why}", quoted(&folder.display().to_string())));
     Err(failure.help(format!("a valid name is {}", quoted(&suggested.display().to_string()))))
 }
 

@@ -48,7 +48,7 @@ impl Robot {
                 did_you_mean(nearest(&name, names)),
                 names.join(", ")
             );
-            return Err(Failure::input(format!("unknown robot {}", quoted(&name))).help(help));
+            return Err(Failure::command_line(format!("unknown robot {}", quoted(&name))).help(help));
         }
         let stem = match plain(&robot.file_stem().unwrap_or_default().to_string_lossy()) {
             stem if stem.is_empty() => "robot".to_string(),

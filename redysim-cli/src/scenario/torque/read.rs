@@ -206,7 +206,7 @@ impl<'s> Source<'s, '_, '_> {
             let message = Message {
                 title: format!("{item}: the torque law drives the joint `{name}`, which {lacking}"),
                 label: "one of these".into(),
-                help: "well if a spring or a damper is there; else leave it out, or give it an actuator".into(),
+                help: "leave it out, or give it an actuator; keep it if the law stands for a spring or a damper".into(),
             };
             self.reader.warning_at(named.span(), message);
         }

@@ -164,6 +164,8 @@ fn deeply_nested_elements_do_no_harm() {
 fn a_file_with_xacro_macros_is_refused_until_they_are_expanded() {
     let urdf = "<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<xacro:arm/></robot>";
     refused(urdf, &["robot.urdf:2:", "<xacro:arm>", "expand it first"]);
+    let without_namespace = "<robot name=\"r\">\n<xacro:arm/></robot>";
+    refused(without_namespace, &["robot.urdf:2:", "'xacro'", "expand it first"]);
 }
 
 #[test]
