@@ -203,6 +203,7 @@ class Mechanism:
         atol: float = 1e-9,
         max_step: float | None = None,
         step: float | None = None,
+        stops: ArrayLike | None = None,
     ) -> Motion:
         # The documentation of simulate.
     def to_toml(self) -> str:

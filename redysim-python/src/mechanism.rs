@@ -377,6 +377,9 @@ impl Mechanism {
     ///     The largest step from tolerances, s; by default a tenth of the motion.
     /// step : float, optional
     ///     The size of steps of one size, s.
+    /// stops : float64, (k,), optional
+    ///     Times at which a step from tolerances ends, s: where joint forces begin, change or end, so that no step passes over what
+    ///     is short compared with the motion.
     ///
     /// Returns
     /// -------
@@ -388,7 +391,7 @@ impl Mechanism {
     /// RedysimError
     ///     If the motion cannot be computed to its end; or what a function of yours raises.
     #[pyo3(signature = (t, q=None, v=None, *, torque=None, events=None, integrator="Ode45", rtol=1e-6, atol=1e-9,
-        max_step=None, step=None))]
+        max_step=None, step=None, stops=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn simulate<'py>(
         slf: Bound<'py, Self>,
@@ -402,6 +405,7 @@ impl Mechanism {
         atol: f64,
         max_step: Option<f64>,
         step: Option<f64>,
+        stops: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let options = PyDict::new(py);
@@ -412,6 +416,7 @@ impl Mechanism {
         options.set_item("atol", atol)?;
         options.set_item("max_step", max_step)?;
         options.set_item("step", step)?;
+        options.set_item("stops", stops.unwrap_or_else(|| PyTuple::empty(py).into_any()))?;
         py.import("redysim._results")?.getattr("simulate")?.call((slf, t, q, v), Some(&options))
     }
 

@@ -26,6 +26,9 @@ pub struct Method {
     max_step: Option<f64>,
     #[pyo3(item)]
     step: Option<f64>,
+    /// Times at which a step ends, in order.
+    #[pyo3(item)]
+    stops: Vec<f64>,
 }
 
 /// What is integrated, by whatever method.
@@ -59,10 +62,14 @@ impl Method {
         let name = self.integrator.as_str();
         let message = match (FIXED.contains(&name), ADAPTIVE.contains(&name), self.step) {
             (true, _, None) => format!("{name} takes steps of one size: give `step`, s"),
+            (true, ..) if !self.stops.is_empty() => {
+                format!("{name} takes steps of one size, which no `stops` change: take Ode45, Dop853, Ode15s or Radau5")
+            }
             (_, true, Some(_)) => format!("{name} chooses its steps: give `max_step` in place of `step`"),
             (false, false, _) => {
                 format!("integrator must be one of {}, not {name:?}", [&FIXED[..], &ADAPTIVE].concat().join(", "))
             }
+            _ if !self.stops.iter().all(|stop| stop.is_finite()) => "`stops` must be finite times, s".to_owned(),
             _ => return Ok(()),
         };
         Err(PyValueError::new_err(message))
@@ -74,20 +81,21 @@ impl Method {
         K: Observer<f64, Vec<f64>>,
         G: FnMut(Occurrence<'_, f64, Vec<f64>>) -> ControlFlow<()>,
     {
-        let Method { rtol, atol, max_step, step, .. } = *self;
+        let Method { integrator, rtol, atol, max_step, step, stops } = self;
+        let (rtol, atol) = (*rtol, *atol);
         let max_step = max_step.unwrap_or(0.1 * (task.interval.1 - task.interval.0).abs());
         let step = step.unwrap_or(f64::NAN);
-        match self.integrator.as_str() {
+        match integrator.as_str() {
             "SemiImplicitEuler" => task.by(&SemiImplicitEuler::new(step)),
             "Ode4" => task.by(&Ode4::new(step)),
             "Ode5" => task.by(&Ode5::new(step)),
             "Dop8" => task.by(&Dop8::new(step)),
             "Gauss4" => task.by(&Gauss4::new(step)),
             "Gauss6" => task.by(&Gauss6::new(step)),
-            "Dop853" => task.by(&Dop853::new().rtol(rtol).atol(atol).max_step(max_step)),
-            "Ode15s" => task.by(&Ode15s::new().rtol(rtol).atol(atol).max_step(max_step)),
-            "Radau5" => task.by(&Radau5::new().rtol(rtol).atol(atol).max_step(max_step)),
-            _ => task.by(&Ode45::new().rtol(rtol).atol(atol).max_step(max_step)),
+            "Dop853" => task.by(&Dop853::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
+            "Ode15s" => task.by(&Ode15s::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
+            "Radau5" => task.by(&Radau5::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
+            _ => task.by(&Ode45::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
         }
     }
 }

@@ -142,6 +142,17 @@ def test_a_control_law_is_a_function():
     assert "<iframe" in motion._repr_html_()
 
 
+def test_no_step_passes_over_a_push_between_stops(pendulum):
+    """It hangs at rest, and 1 N m for a millisecond gives it the speed that impulse and inertia determine."""
+    push = (5.0, 5.001)
+    settings = dict(torque=lambda t, q, v: [float(push[0] <= t <= push[1])], stops=push[::-1])
+    speed = (push[1] - push[0]) / pendulum.mass_matrix([0.0])[0, 0]
+    for integrator in ["Ode45", "Dop853", "Ode15s", "Radau5"]:
+        motion = pendulum.simulate([0, 5, 5.001, 10], [np.pi / 2], integrator=integrator, **settings)
+        np.testing.assert_allclose(motion.v[1], 0, atol=1e-8)
+        np.testing.assert_allclose(motion.v[2], speed, rtol=1e-4, err_msg=integrator)
+
+
 def test_loops_stay_closed():
     robot = redysim.load(MODELS / "fourbar.toml")
     motion = robot.simulate(np.linspace(0, 1, 51), [0.6, 0.0, 0.0], integrator="Dop853", rtol=1e-9)
@@ -240,6 +251,8 @@ FAULTS = {
     "an unknown integrator": (dict(integrator="RK4"), ValueError, "integrator must be one of .*Ode45.*, not \"RK4\""),
     "no step": (dict(integrator="Ode4"), ValueError, "Ode4 takes steps of one size: give `step`"),
     "a step for tolerances": (dict(step=0.1), ValueError, "Ode45 chooses its steps: give `max_step`"),
+    "stops for steps of one size": (dict(integrator="Ode4", step=0.1, stops=[0.5]), ValueError, "which no `stops` change"),
+    "a stop that is no time": (dict(stops=[np.nan]), ValueError, "`stops` must be finite times"),
     "a wrong start": (dict(q=[0.0, 0.0]), ValueError, r"q must have the shape \(1,\)"),
     "a NaN at the start": (dict(q=[np.nan]), redysim.RedysimError, "not a number|NaN|finite"),
     "times that go back": (dict(t=[0, 2, 1]), ValueError, "t must be finite, and no instant before"),

@@ -288,6 +288,7 @@ class Mechanism:
         atol: float = 1e-9,
         max_step: float | None = None,
         step: float | None = None,
+        stops: ArrayLike | None = None,
     ) -> Motion:
         """The motion from q and v at the first instant of t to the last.
 
@@ -314,6 +315,9 @@ class Mechanism:
             The largest step from tolerances, s; by default a tenth of the motion.
         step : float, optional
             The size of steps of one size, s.
+        stops : float64, (k,), optional
+            Times at which a step from tolerances ends, s: where joint forces begin, change or end, so that no step passes over what
+            is short compared with the motion.
 
         Returns
         -------

@@ -251,7 +251,7 @@ class Motion(Recording):
 
 def simulate(
     mechanism, t, q=None, v=None, *, torque=None, events=(), integrator="Ode45", rtol=1e-6, atol=1e-9, max_step=None,
-    step=None,
+    step=None, stops=(),
 ):
     """`Mechanism.simulate`, which has the documentation."""
     if callable(events):
@@ -261,6 +261,7 @@ def simulate(
     v = np.zeros(mechanism.nv) if v is None else v
     times = np.atleast_1d(np.asarray(t, dtype=float))
     method = {"integrator": integrator, "rtol": rtol, "atol": atol, "max_step": max_step, "step": step}
+    method["stops"] = np.unique(np.asarray(stops, dtype=float)).tolist()
     found = _core.simulate(mechanism, times.tolist(), (q, v), torque, events, method)
     return Motion(mechanism, found)
 
