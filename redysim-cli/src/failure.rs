@@ -72,6 +72,9 @@ impl Failure {
                 failure.help("make room on the disk, or write elsewhere with --output")
             }
             io::ErrorKind::IsADirectory => failure.help("it is a folder: name a file"),
+            io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
+                failure.help("a part of the path is a file: name a folder")
+            }
             _ => failure,
         }
     }

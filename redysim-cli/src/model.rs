@@ -203,9 +203,13 @@ pub fn not_a_model(path: &Path) -> Option<Failure> {
     Some(failure.help(format!("name its model: {}", model.display())))
 }
 
-/// The failure of a file that is a model where a scenario is wanted.
+/// The failure of a file that is a model or a study where a scenario is wanted.
 pub fn not_a_scenario(path: &Path, text: &str) -> Option<Failure> {
     let table: toml::Table = text.parse().ok()?;
+    if table.contains_key("scenario") && !table.contains_key("model") {
+        let failure = Failure::input(format!("{} is a study, not a scenario", path.display()));
+        return Some(failure.help(format!("compute it by redysim sweep {}", path.display())));
+    }
     (table.contains_key("link") && !table.contains_key("model")).then(|| {
         let failure = Failure::input(format!("{} is a model, not a scenario", path.display()));
         failure.help(format!("a scenario names it, as in: model = \"{}\"", path.display()))

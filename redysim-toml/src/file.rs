@@ -84,6 +84,10 @@ impl<'s> Parsed<'s> {
         if !self.is_valid() && text[start..].starts_with('<') {
             return findings.error(start..start + 1, messages::xml());
         }
+        let header = text[start..].lines().find(|line| !line.is_empty() && !line.starts_with('#')).unwrap_or_default();
+        if !self.is_valid() && header.contains(',') && !header.contains(['=', '{', '"']) && !header.starts_with('[') {
+            return findings.error(start..start + 1, messages::csv());
+        }
         // What stands in a bracket that is not closed is read as a part of it.
         let unclosed = if self.is_valid() { None } else { unclosed_bracket(text) };
         let mut lines = Vec::new();

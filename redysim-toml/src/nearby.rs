@@ -9,13 +9,19 @@ const DEPTH: usize = 2;
 /// How many entries are looked at, so that a path into a large folder is reported at once.
 const MOST: usize = 2000;
 
-/// The TOML file in or below `folders` whose name is the nearest to that of the missing file `wanted`, or the URDF or CSV
-/// file if `wanted` is one; of the same names the first found, in the order of `folders`. Hidden folders, Cargo's `target`
-/// and links are not searched.
+/// The file that the missing file `wanted` was probably meant to be: one of the same name in one of `folders` or the folder above
+/// it; otherwise the TOML file in or below `folders` whose name is the nearest, or the URDF or CSV file if `wanted` is one; of the
+/// same names the first found, in the order of `folders`. Hidden folders, Cargo's `target` and links are not searched.
 pub fn similar_file(wanted: &Path, folders: &[&Path]) -> Option<PathBuf> {
     let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase());
     let own = wanted.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
     let extension = ["urdf", "csv"].into_iter().find(|known| *known == own).unwrap_or("toml");
+    let beside = |folder: &&Path| [folder.to_path_buf(), folder.join("..")];
+    let same = folders.iter().flat_map(beside).map(|folder| Some(folder.join(wanted.file_name()?)));
+    let is_manifest = |path: &Path| path.file_name().is_some_and(|name| name == "Cargo.toml");
+    if let Some(found) = same.flatten().find(|path| path.is_file() && !is_manifest(path)) {
+        return Some(found);
+    }
     let (mut files, mut left) = (Vec::new(), MOST);
     for folder in folders {
         collect(folder, extension, DEPTH, &mut left, &mut files);
@@ -93,6 +99,10 @@ mod tests {
     #[test]
     fn files_in_other_folders_are_similar_too() {
         let root = repository();
+        assert_eq!(
+            similar_file(Path::new("../kr5.toml"), &[&root, &root.join("models")]),
+            Some(root.join("models/kr5.toml"))
+        );
         assert_eq!(similar_file(Path::new("gripper.toml"), &[&root]), Some(root.join("models/gripper.toml")));
         assert_eq!(similar_file(&root.join("modles/kr5.toml"), &[&root.join("modles")]), None);
         assert_eq!(similar_file(&root.join("Cargo.toml"), &[&root.join("redysim-toml")]), None);

@@ -25,7 +25,28 @@ pub type Array<'a> = DeArray<'a>;
 const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1415.
-pub const NEARLY_QUARTER_TURN: f64 = 1e-4;
+const NEARLY_QUARTER_TURN: f64 = 1e-4;
+
+/// What multiples of 90 deg are rounded by where they are rounded further: to 1.57, 3.14, 1.571.
+const FEW_DECIMALS: [f64; 2] = [100.0, 1000.0];
+
+/// The number of quarter turns that an angle, in radians, is nearly but not exactly: one that was probably rounded by hand, by
+/// less than 10⁻⁴, or to two or three decimals. `None` for a multiple of 90 deg, and for other angles.
+///
+/// ```
+/// use redysim_toml::rounded_quarter_turns;
+///
+/// assert_eq!([1.5708, -1.57, 3.142].map(rounded_quarter_turns), [Some(1.0), Some(-1.0), Some(2.0)]);
+/// assert_eq!([1.0, 1.56, std::f64::consts::FRAC_PI_2].map(rounded_quarter_turns), [None; 3]);
+/// ```
+pub fn rounded_quarter_turns(radians: f64) -> Option<f64> {
+    let quarters = (radians / FRAC_PI_2).round();
+    let exact = quarters * FRAC_PI_2;
+    let off = (radians - exact).abs();
+    let rounded = |decimals: f64| (exact * decimals).round() / decimals;
+    let is_near = off < NEARLY_QUARTER_TURN || FEW_DECIMALS.map(rounded).contains(&radians);
+    (is_near && off > f64::EPSILON * radians.abs()).then_some(quarters)
+}
 
 /// The name of the warning about a plain number that is an angle of more than a turn.
 pub const LARGE_ANGLE: &str = "angle-units";
@@ -91,15 +112,12 @@ impl Named<'_, '_> {
     /// A warning about a plain number that looks like degrees, or like quarter turns rounded by hand.
     fn doubt(self, radians: f64) -> Option<(&'static str, Message)> {
         let Named { item, path, .. } = self;
-        let quarters = (radians / FRAC_PI_2).round();
-        let off = (radians - quarters * FRAC_PI_2).abs();
         if radians.abs() > TAU * (1.0 + NEARLY_QUARTER_TURN) {
-            Some((LARGE_ANGLE, messages::large_angle(item, path, radians)))
-        } else if quarters != 0.0 && off < NEARLY_QUARTER_TURN && off > f64::EPSILON * radians.abs() {
-            Some((ROUNDED_ANGLE, messages::nearly_quarter_turn(item, path, radians, 90.0 * quarters)))
-        } else {
-            None
+            return Some((LARGE_ANGLE, messages::large_angle(item, path, radians)));
         }
+        // A small angle is not zero, rounded.
+        let quarters = rounded_quarter_turns(radians).filter(|quarters| *quarters != 0.0)?;
+        Some((ROUNDED_ANGLE, messages::nearly_quarter_turn(item, path, radians, 90.0 * quarters)))
     }
 
     fn finite(self, number: f64, text: &str) -> Result<f64, Message> {

@@ -116,7 +116,14 @@ impl<'a> Finding<'a> {
 
 /// Checks the model.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
-    match arguments.load(quiet)? {
+    let read = match arguments.load(quiet) {
+        Err(failure) if arguments.json => {
+            print_failure(arguments, &failure)?;
+            return Err(failure);
+        }
+        read => read?,
+    };
+    match read {
         Ok(loaded) => show_model(arguments, &loaded, quiet),
         Err(faults) => Err(show_faults(arguments, &faults, quiet)?),
     }
@@ -167,16 +174,40 @@ fn failure(arguments: &Arguments, faults: &Faults) -> Failure {
     }
 }
 
+/// The faults of a URDF in its failure, each of which begins with `file:line: ` and may have its help below.
+fn urdf_findings<'f>(file: &'f str, failure: &'f Failure) -> Vec<Finding<'f>> {
+    let faults = failure.message().split("\nerror: ");
+    let found = faults.map(|fault| {
+        let (title, rest) = fault.split_once('\n').unwrap_or((fault, ""));
+        let placed = title.strip_prefix(file).and_then(|title| title.strip_prefix(':')?.split_once(": "));
+        let mut place = placed.map_or("", |(place, _)| place).split(':').map(|number| number.parse().ok());
+        let help = rest.trim().strip_prefix("= help: ").unwrap_or(failure.advice());
+        let (line, column) = (place.next().flatten(), place.next().flatten());
+        Finding { lint: None, title: placed.map_or(title, |(_, title)| title), help, file, line, column }
+    });
+    found.collect()
+}
+
+/// Prints why a URDF is not a model.
+fn print_failure(arguments: &Arguments, failure: &Failure) -> Result<(), Failure> {
+    let file = arguments.name();
+    let errors = urdf_findings(&file, failure);
+    print_report(&Report { file: file.clone(), valid: false, errors, warnings: vec![], notes: vec![], summary: None })
+}
+
 fn print_json(arguments: &Arguments, diagnostics: &[Diagnostic], summary: Option<&Summary>) -> Result<(), Failure> {
     let of = |severity| diagnostics.iter().filter(move |found| found.severity() == severity).map(Finding::of).collect();
-    let report = Report {
+    print_report(&Report {
         file: arguments.name(),
         valid: summary.is_some(),
         errors: of(Severity::Error),
         warnings: of(Severity::Warning),
         notes: of(Severity::Note),
         summary,
-    };
-    let text = serde_json::to_string_pretty(&report).map_err(Failure::outside)?;
+    })
+}
+
+fn print_report(report: &Report<'_>) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(report).map_err(Failure::outside)?;
     print(&(text + "\n"))
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::model::is_urdf;
 use crate::output::{print, to_stderr, write_beside};
 use crate::urdf::{Base, Imported, Options, import, read};
 
@@ -37,8 +38,7 @@ pub struct Arguments {
     /// Make fixed links parts of the links that carry them; their frames are lost.
     #[arg(long)]
     fuse_fixed: bool,
-    /// Take angles that are within 1e-5 rad of a multiple of 90 deg, such as 1.5708, for it: compiled code gets
-    /// shorter.
+    /// Take angles that are nearly a multiple of 90 deg, such as 1.5708 and 3.14, for it: compiled code gets shorter.
     #[arg(long)]
     quarter_turns: bool,
     /// Overwrite a file that is there already.
@@ -49,6 +49,10 @@ pub struct Arguments {
 /// Imports the robot.
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let path = &arguments.robot;
+    if let Some(output) = arguments.output.as_deref().filter(|output| is_urdf(output)) {
+        let failure = Failure::command_line(format!("{} would be a model file, and no URDF", output.display()));
+        return Err(failure.help("name a file that ends with .toml"));
+    }
     let &Arguments { fuse_fixed, quarter_turns, base, .. } = arguments;
     let options = Options { fuse_fixed, quarter_turns, base };
     let imported = import(&read(path)?, path, options)?;

@@ -35,6 +35,15 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     if charts.is_empty() {
         return Err(recorded.lacks("nothing to draw"));
     }
+    if !quiet {
+        let curves = || charts.iter().flat_map(|chart| chart.curves.iter().map(move |curve| (chart.title, curve)));
+        for (title, curve) in curves().filter(|(_, curve)| !curve.values.iter().all(|value| value.is_finite())) {
+            let name = &curve.name;
+            output::to_stderr(&format!(
+                "warning: {title}, {name}: its curve has a gap where a value is not a finite number"
+            ));
+        }
+    }
     let mut pictures: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let folder = arguments.output.as_deref().unwrap_or(recorded.folder());
     for (picture, name) in Picture::ALL {

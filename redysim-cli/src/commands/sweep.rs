@@ -10,9 +10,9 @@ use std::time::Instant;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::number::{counted, rounded};
-use crate::output::{make_folder, to_stderr, to_stdout, write_file};
+use crate::output::{to_stderr, to_stdout, write_together};
 use crate::progress::Progress;
-use crate::sweep::{Rows, Study};
+use crate::sweep::{Rows, Study, is_of_rows};
 
 /// Run a scenario for many values of its initial state, its gains, the parameters of its model, on all cores.
 ///
@@ -143,10 +143,12 @@ fn write_sample(study: &Study, index: usize, folder: &Path, (force, quiet): (boo
         return Err(failure.help(format!("it has the samples 0 to {}", study.count() - 1)));
     }
     let files = study.sampler().to_run_alone(&study.sample(index))?;
-    make_folder(folder)?;
-    for (name, text) in &files {
-        write_file(&folder.join(name), text.as_bytes(), force)?;
+    if is_of_rows(folder) {
+        let failure = Failure::command_line(format!("{} is the folder of the rows of a study", folder.display()));
+        return Err(failure.help("name another one with --output"));
     }
+    let files: Vec<_> = files.iter().map(|(name, text)| (folder.join(name), text.as_bytes())).collect();
+    write_together(folder, &files, force)?;
     if !quiet {
         to_stdout(&format!("written to {}; run {} there", folder.display(), study.sampler().run));
     }

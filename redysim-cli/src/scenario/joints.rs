@@ -242,6 +242,9 @@ fn unchecked(
         DeValue::Integer(_) | DeValue::Float(_) if quantity.may_be_uniform() => {
             Some(vec![plain(reader, path, value, quantity)?; of.len()])
         }
+        _ if quantity.may_be_uniform() => {
+            reader.wrong_type(path, value, "a number, an array with one for each joint, or a table by their names")
+        }
         _ => reader.wrong_type(path, value, "an array with a value for each joint, or a table by their names"),
     }
 }

@@ -109,7 +109,8 @@ impl InputTable {
             given if Some(given) == degrees.as_ref() => Ok((column, 1_f64.to_radians())),
             _ => {
                 let message = format!("the column `{}` has a unit that is not understood", column.header());
-                Err(self.fault(&message, &format!("call it `{wanted}`")))
+                let unit = degrees.filter(|_| column.unit.contains(['°', 'd'])).unwrap_or(unit);
+                Err(self.fault(&message, &format!("call it `{symbol} {} [{unit}]`", component.name)))
             }
         }
     }

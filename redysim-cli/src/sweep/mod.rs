@@ -19,7 +19,7 @@ use toml::Value;
 
 use crate::failure::Failure;
 use crate::output::visible;
-pub use rows::Rows;
+pub use rows::{Rows, is_of_rows};
 use sampler::COMPLETE;
 pub use sampler::{Sample, Sampler};
 

@@ -127,7 +127,7 @@ fn position(array: &[Value], part: &str, here: &str) -> Result<usize, Fault> {
     }
     if names.is_empty() {
         let wrong = format!("`{here}` is an array, whose elements have no names such as {}", quoted(part));
-        return Err((wrong, format!("count from 0, as in `{here}.0`, or write `{here}` by name in the file")));
+        return Err((wrong, format!("count its elements from 0, as in `{here}.0`")));
     }
     let guess = did_you_mean(nearest(part, names.iter().copied()));
     Err((

@@ -54,13 +54,19 @@ impl Written {
 pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<Study, Failure> {
     let is_scenario =
         |table: &Table| table.contains_key(scenario_keys::MODEL.name) && !table.contains_key(keys::SCENARIO.name);
+    let is_model = |table: &Table| table.contains_key("link") && !table.contains_key(keys::SCENARIO.name);
+    if text.parse::<Table>().is_ok_and(|table| is_model(&table)) {
+        let failure = Failure::input(format!("{shown} is a model, not a study"));
+        return Err(failure.help("a study names a scenario, which names its model, and what varies"));
+    }
     if text.parse::<Table>().is_ok_and(|table| is_scenario(&table)) {
         let failure = Failure::input(format!("{shown} is a scenario, not a study"));
         return Err(
             failure.help(format!("a study names it, and what varies: scenario = \"{shown}\" and a table [over]"))
         );
     }
-    let read = redysim_toml::read(text.clone(), shown, &keys::STUDY, "the study", |reader| written(reader, usual));
+    let read =
+        redysim_toml::read(text.clone(), shown, &keys::STUDY, "the study", |reader| written(reader, usual, folder));
     let (written, _) = read.map_err(Failure::input)?;
     let in_study = |failure: Failure| failure.in_file(shown);
     let (places, samples) = samples(&written, folder).map_err(in_study)?;
@@ -149,9 +155,17 @@ fn completed(
 /// `samples` with any keys: paths stand among them.
 const SETTINGS: Key = Key::new(keys::SAMPLES.name, "{ count = 1000 }", "");
 
-fn written(mut reader: Reader<'_, '_>, usual: &str) -> Option<Written> {
+fn written(mut reader: Reader<'_, '_>, usual: &str, folder: &Path) -> Option<Written> {
     let name = scenario::name(&mut reader).value_or(usual.to_owned());
     let scenario = reader.required(&keys::SCENARIO, Reader::text);
+    if let Some(named) = scenario.spanned().filter(|named| !folder.join(named.get_ref()).exists()) {
+        let path = folder.join(named.get_ref());
+        let why = redysim_toml::why_missing(path.parent().unwrap_or(folder));
+        let title = format!("{}: cannot read the scenario {}: {why}", reader.item(), path.display());
+        let meant = scenario::meant_from(folder, &path);
+        let help = format!("{meant}the path of the scenario is taken from the folder of the study");
+        return reader.error_at(named.span(), Message { title, label: "named here".into(), help });
+    }
     let run = reader.choice(&keys::RUN, &[("forward", Dynamics::Forward), ("inverse", Dynamics::Inverse)]);
     let over = columns::read(&mut reader, &keys::OVER, &[], (&keys::STEPS, columns::steps));
     let others = keys::SAMPLES_KEYS.keys;

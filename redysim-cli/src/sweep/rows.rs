@@ -15,6 +15,11 @@ const STUDY: &str = "study.json";
 /// The rows.
 const ROWS: &str = "rows.csv";
 
+/// Whether a folder has the rows of a study.
+pub fn is_of_rows(folder: &Path) -> bool {
+    folder.join(STUDY).exists()
+}
+
 /// The rows of a [`Study`] in its folder, which are written as they come. Another process cannot open them meanwhile.
 pub struct Rows {
     path: PathBuf,

@@ -22,7 +22,7 @@ const READ: [(&str, &[&str]); 4] = [
 ];
 
 /// What limits a joint.
-const LIMITS: [&str; 7] = ["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"];
+pub const LIMITS: [&str; 7] = ["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"];
 
 /// The joints of URDF.
 const KINDS: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
@@ -189,7 +189,8 @@ impl<'a> Document<'a> {
             return Ok(());
         }
         let wanted = if count == 1 { "a finite number".into() } else { format!("{count} finite numbers") };
-        Err(self.wrong(item, node, attribute, &wanted, text))
+        let wrong = self.wrong(item, node, attribute, &wanted, text);
+        Err(if text.contains("${") { wrong.help(EXPAND) } else { wrong })
     }
 
     fn wrong(&self, item: &str, node: Node, attribute: &str, wanted: &str, found: &str) -> Failure {
@@ -264,7 +265,8 @@ fn is_partial_limit(node: Node) -> bool {
     node.tag_name().name() == "limit" && node.attribute("velocity").is_none()
 }
 
-fn read_in(owner: Node) -> &'static [&'static str] {
+/// What is read inside of an element.
+pub fn read_in(owner: Node) -> &'static [&'static str] {
     READ.iter().find(|(tag, _)| *tag == owner.tag_name().name()).map_or(&[], |(_, read)| read)
 }
 
@@ -290,11 +292,11 @@ fn broken(file: &str, error: &roxmltree::Error) -> Failure {
     let (message, place) = (error.to_string(), error.pos());
     let message = message.strip_suffix(&format!(" at {place}")).unwrap_or(&message);
     let help = if file.ends_with(".toml") {
-        format!("a URDF is an XML file; a model in TOML is not imported: redysim check {file}")
+        "a URDF is an XML file, and this is TOML: models in TOML are not imported"
     } else if message.contains("'xacro'") {
-        EXPAND.into()
+        EXPAND
     } else {
-        "a URDF is an XML file: correct it first".into()
+        "a URDF is an XML file: correct it first"
     };
     Failure::input(format!("{file}:{}:{}: XML: {message}", place.row, place.col)).help(help)
 }

@@ -7,6 +7,7 @@ mod inertial;
 mod model_file;
 mod notation;
 mod robot;
+mod spelling;
 mod visuals;
 
 use std::fs;
@@ -27,7 +28,7 @@ pub struct Imported {
     pub text: String,
     /// The model.
     pub model: Model,
-    /// The joints that move otherwise than in the URDF.
+    /// The joints that move otherwise than in the URDF, and names that are probably misspelled.
     pub changes: Vec<String>,
     /// What is left out or written otherwise.
     pub notes: Vec<String>,
@@ -114,7 +115,8 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     }
     robot = robot.without_reserved_name().without_massless_motion().with_possible_mimics().with_possible_limits();
     robot = robot.with_comments(&document);
-    let changes: Vec<String> = robot.links.iter().flat_map(|link| &link.remarks).cloned().collect();
+    let remarks = robot.links.iter().flat_map(|link| &link.remarks).cloned();
+    let changes: Vec<String> = document.misspelled().into_iter().chain(remarks).collect();
     if robot.links.iter().all(|link| link.kind == JointKind::Fixed) {
         return Err(document.fault_at("robot", "", "every joint is fixed here: nothing of the robot moves"));
     }

@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 use redysim_model::JointKind;
 use redysim_model::rotation::{align_z, roll_pitch_yaw, sin_cos};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
-use redysim_toml::NEARLY_QUARTER_TURN;
+use redysim_toml::rounded_quarter_turns;
 use urdf_rs::{JointLimit, JointType};
 
 use super::Base;
@@ -160,11 +160,9 @@ impl Robot {
     pub fn with_quarter_turns(mut self) -> Self {
         let (mut count, mut largest) = (0, 0.0_f64);
         for angle in self.links.iter_mut().flat_map(|link| &mut link.origin.rpy) {
-            let exact = (*angle / FRAC_PI_2).round() * FRAC_PI_2;
-            let off = (exact - *angle).abs();
-            if off > 0.0 && off < NEARLY_QUARTER_TURN {
-                (count, largest, *angle) = (count + 1, largest.max(off), exact);
-            }
+            let Some(quarters) = rounded_quarter_turns(*angle) else { continue };
+            let exact = quarters * FRAC_PI_2;
+            (count, largest, *angle) = (count + 1, largest.max((exact - *angle).abs()), exact);
         }
         if count > 0 {
             let angles = counted(count, "angle");
@@ -176,6 +174,7 @@ impl Robot {
     /// Joints mimic others that have one coordinate, as they have themselves; each that cannot gets a remark.
     pub fn with_possible_mimics(mut self) -> Self {
         let possible: Vec<bool> = (0..self.links.len()).map(|link| self.followed(link) != link).collect();
+        let names: Vec<String> = self.links.iter().map(|link| link.joint_name.clone()).collect();
         for link in self.links.iter_mut().zip(possible).filter(|(_, possible)| !possible).map(|(link, _)| link) {
             let Some(Mimic { joint, multiplier, offset }) = link.mimic.take() else { continue };
             let here = match link.kind {
@@ -184,25 +183,34 @@ impl Robot {
                 _ => "free here, with an actuator of its own",
             };
             let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
+            let why = match &joint {
+                own if *own == link.joint_name => ", itself,",
+                other if !names.contains(other) => ", which is not there,",
+                _ => "",
+            };
             link.remarks.push(format!(
-                "joint `{}` mimics `{joint}` in the URDF ({multiplier} times its value, plus {offset} {unit}): it is {here}",
+                "joint `{}` mimics `{joint}`{why} in the URDF ({multiplier} times its value, plus {offset} {unit}): it is {here}",
                 link.joint_name
             ));
         }
         self
     }
 
-    /// Joints whose lower limit is above their upper one get a remark: they have no range.
+    /// Joints whose limits are negative, or whose lower limit is above their upper one, get a remark: they have no range.
     pub fn with_possible_limits(mut self) -> Self {
         for link in &mut self.links {
+            let Some(JointLimit { lower, upper, effort, velocity, .. }) = link.limit.clone() else { continue };
             let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
-            if let Some(JointLimit { lower, upper, .. }) = link.limit.as_ref().filter(|limit| limit.lower > limit.upper)
-            {
-                link.remarks.push(format!(
-                    "joint `{}` has no range here: its lower limit, {lower} {unit}, is above its upper one, {upper} {unit}",
-                    link.joint_name
-                ));
-            }
+            let why = if lower > upper {
+                format!("its lower limit, {lower} {unit}, is above its upper one, {upper} {unit}")
+            } else if effort < 0.0 {
+                format!("its limit of effort is {effort}, which is negative")
+            } else if velocity < 0.0 {
+                format!("its limit of velocity is {velocity}, which is negative")
+            } else {
+                continue;
+            };
+            link.remarks.push(format!("joint `{}` has no range here: {why}", link.joint_name));
         }
         self
     }

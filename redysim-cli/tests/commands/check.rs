@@ -116,6 +116,18 @@ fn every_faulty_model_has_its_faults_in_json_and_the_exit_code_1() {
 }
 
 #[test]
+fn faults_of_a_urdf_are_in_json_with_their_lines() {
+    let folder = scratch("check-json-urdf");
+    std::fs::write(folder.join("two.urdf"), "<robot name=\"r\">\n<link name=\"a\"/>\n<link/></robot>").unwrap();
+    let run = call(&folder, &["check", "--json", "two.urdf"]);
+    let report: Value = serde_json::from_str(&run.stdout).expect("an object");
+    assert_eq!((run.code, &report["valid"], &report["file"]), (1, &Value::from(false), &Value::from("two.urdf")));
+    assert_eq!(report["errors"].as_array().map(Vec::len), Some(1), "{report}");
+    let error = &report["errors"][0];
+    assert_eq!((&error["title"], &error["line"]), (&Value::from("a <link> has no `name`"), &Value::from(3)));
+}
+
+#[test]
 fn faults_are_shown_where_they_stand() {
     let run = call(&root(), &["check", &model("fail/bad_unit.toml")]);
     assert_eq!((run.code, run.stdout.as_str()), (1, ""));

@@ -539,6 +539,30 @@ fn limits_whose_lower_one_is_not_below_the_upper_are_kept_as_they_are() {
     assert!(warned, "{}", run.stderr);
 }
 
+#[test]
+fn what_of_a_urdf_is_probably_misspelled_or_impossible_is_warned_of() {
+    let warned = |urdf: &str, wanted: &[&str]| {
+        let (_, run) = import(urdf, &[]);
+        let warnings: Vec<&str> = run.stderr.lines().filter(|line| line.starts_with("warning: ")).collect();
+        for part in wanted {
+            assert!(warnings.iter().any(|line| line.contains(part)), "no `{part}` in: {}", run.stderr);
+        }
+        assert_eq!(warnings.len(), wanted.len(), "{}", run.stderr);
+    };
+    let limit = |limit: &str| pendulum(limit, BODY).replace("continuous", "revolute");
+    warned(&limit("<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"3\"/>"), &[]);
+    warned(
+        &limit("<limit lowr=\"-1\" upper=\"1\" effort=\"1\" velocity=\"3\"/><axsi xyz=\"0 1 0\"/>"),
+        &["`lowr` of <limit> is not read: is `lower` meant?", "<axsi> is not read: is <axis> meant?"],
+    );
+    warned(
+        &limit("<limit effort=\"-10\" velocity=\"3\"/>"),
+        &["has no range here: its limit of effort is -10, which is negative"],
+    );
+    warned(&limit("<limit effort=\"1\" velocity=\"-3\"/>"), &["its limit of velocity is -3, which is negative"]);
+    warned(&limit("<mimic joint=\"nobody\"/>"), &["mimics `nobody`, which is not there, in the URDF"]);
+}
+
 const RICH: &str = r#"<robot name="rich">
   <link name="plinth"><inertial><origin xyz="0 0 0.5"/><mass value="5"/>
     <inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0.25"/></inertial></link>

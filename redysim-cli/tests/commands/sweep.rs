@@ -273,6 +273,10 @@ fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
             ["`initial.q.1` is a part of `initial.q`", "twice", "once"],
         ),
         ("[over]\ninitial.q = []", ["`over.initial.q` is empty", "at least one", "study.toml:3"]),
+        (
+            "[over]\ninitial.q.0 = { from = 0, to = 1, count = 3, step = 1 }",
+            ["unknown key `over.initial.q.0.step`", "from, to, count", "study.toml:3"],
+        ),
         ("[over]\ninitial.q.0 = { from = 0, to = 1, count = 1.5 }", ["count` is 1.5", "whole number", "study.toml:3"]),
         ("", ["`over` or `samples`", "not both", "write for example"]),
         ("[samples]\ninitial.q.0 = { normal = [0, 1] }", ["how many samples", "count = 1000", "[samples]"]),
@@ -351,6 +355,37 @@ fn a_sweep_shows_the_warnings_of_its_model_once() {
     assert!(run.stderr.contains("odd.toml:"), "{}", run.stderr);
     let quiet = call(&folder, &["sweep", "study.toml", "--output", "rows", "--force", "--quiet"]);
     assert_eq!(quiet.stderr, "");
+}
+
+#[test]
+fn a_file_that_is_something_else_than_a_study_is_recognised_and_the_other_way_round() {
+    let folder = scratch("sweep-kinds");
+    study(&folder, "[over]\nforward.end = [0.1, 0.2]");
+    let error = fail(&folder, &["forward", "study.toml"], 1);
+    assert!(error.contains("study.toml is a study, not a scenario") && error.contains("redysim sweep"), "{error}");
+    let error = fail(&folder, &["sweep", &model("two_link.toml")], 1);
+    assert!(error.contains("two_link.toml is a model, not a study"), "{error}");
+    fs::write(folder.join("table.csv"), "t [s],q joint1 [rad]\n0,1\n1,2\n").unwrap();
+    for command in ["sweep", "check", "forward"] {
+        let error = fail(&folder, &[command, "table.csv"], 1);
+        assert!(error.contains("this is a table (CSV), not TOML"), "{error}");
+        assert_eq!(error.matches("= help: ").count(), 1, "{error}");
+    }
+    fs::remove_file(folder.join("trial.toml")).unwrap();
+    let error = fail(&folder, &["sweep", "study.toml"], 1);
+    assert!(error.contains("cannot read the scenario") && error.contains("study.toml:1:12"), "{error}");
+}
+
+#[test]
+fn a_sample_that_is_refused_leaves_nothing_behind() {
+    let folder = sweep("sweep-sample-refused", "[over]\nforward.end = [0.1, 0.2]");
+    let error = fail(&folder, &["sweep", "study.toml", "--sample", "0", "--output", "rows"], 2);
+    assert!(error.contains("rows is the folder of the rows of a study") && error.contains("--output"), "{error}");
+    fs::create_dir(folder.join("alone")).unwrap();
+    fs::write(folder.join("alone/model.toml"), "mine").unwrap();
+    let error = fail(&folder, &["sweep", "study.toml", "--sample", "0", "--output", "alone"], 3);
+    assert!(error.contains("model.toml is there already"), "{error}");
+    assert_eq!(names(&folder.join("alone")), ["model.toml"]);
 }
 
 #[test]

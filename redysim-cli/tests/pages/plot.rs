@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{fail, results, scratch, slide, succeed, swing, turn};
+use crate::common::{call, fail, results, scratch, slide, succeed, swing, turn};
 
 #[test]
 fn a_run_with_loops_gives_four_pictures_in_both_forms() {
@@ -108,7 +108,9 @@ fn values_that_are_not_numbers_leave_a_gap() {
     let folder = scratch("plot-gaps");
     let rows = "0,1\n1,2\n2,NaN\n3,inf\n4,-inf\n5,2\n6,3\n";
     fs::write(folder.join("tor.csv"), format!("t [s],tau j [N m]\n{rows}")).unwrap();
-    succeed(&folder, &["plot", "."]);
+    let run = call(&folder, &["plot", "."]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.starts_with("warning: ") && run.stderr.contains(", j: its curve has a gap"), "{}", run.stderr);
     let svg = fs::read_to_string(folder.join("torques.svg")).unwrap();
     let curves = svg.lines().filter(|line| line.starts_with("<polyline") && line.contains("#0072B2"));
     // And one sample in the legend.

@@ -342,6 +342,13 @@ fn a_trajectory_of_loops_that_begins_or_goes_out_of_reach_is_reported_with_its_j
 }
 
 #[test]
+fn a_gain_in_quotes_is_refused_with_all_that_may_stand_there() {
+    let quoted = format!("{SWING}torque = {{ law = 'pd', target = [0, 0], kp = '100', kd = 1 }}\n");
+    let words = ["must be a number, an array with one for each joint, or a table", "found the string \"100\""];
+    refuses("quoted-gain", "forward", &quoted, 1, &words);
+}
+
+#[test]
 fn a_law_that_drives_no_joint_is_refused() {
     let none = format!("{SWING}torque = {{ law = 'pd', joints = [], target = [], kp = 1, kd = 1 }}\n");
     let words = ["`forward.torque.joints` names no joint", "name at least one, or leave the key out", "trial.toml:6:"];

@@ -36,6 +36,14 @@ pub(crate) fn xml() -> Message {
     )
 }
 
+pub(crate) fn csv() -> Message {
+    message(
+        "this is a table (CSV), not TOML".into(),
+        "TOML does not begin like this",
+        "a scenario names a table, as in file = \"motion.csv\"; name the file in TOML here",
+    )
+}
+
 /// A table with the keys `keys` has another one; `meant` is the one that was probably meant, and `help` is what else is
 /// known about the name, or empty.
 pub(crate) fn unknown_key(item: &str, path: &str, meant: Option<&str>, help: &str, keys: &Keys) -> Message {

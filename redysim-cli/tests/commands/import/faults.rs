@@ -166,6 +166,8 @@ fn a_file_with_xacro_macros_is_refused_until_they_are_expanded() {
     refused(urdf, &["robot.urdf:2:", "<xacro:arm>", "expand it first"]);
     let without_namespace = "<robot name=\"r\">\n<xacro:arm/></robot>";
     refused(without_namespace, &["robot.urdf:2:", "'xacro'", "expand it first"]);
+    let variable = robot(&[["j", "a", "b"], ["k", "b", "c"]]).replacen("<mass value=\"1\"", "<mass value=\"${m}\"", 1);
+    refused(&variable, &["must be a finite number, found \"${m}\"", "expand it first"]);
 }
 
 #[test]

@@ -1,0 +1,54 @@
+//! Names in a URDF that are nearly those of what is read, but not read themselves.
+
+use redysim_toml::words::nearest;
+use roxmltree::Node;
+
+use super::document::{Document, LIMITS, read_in};
+
+/// The attributes of each element of which something is read.
+const ATTRIBUTES: [(&str, &[&str]); 12] = [
+    ("link", &["name"]),
+    ("joint", &["name", "type"]),
+    ("origin", &["xyz", "rpy"]),
+    ("parent", &["link"]),
+    ("child", &["link"]),
+    ("axis", &["xyz"]),
+    ("limit", &LIMITS),
+    ("mimic", &["joint", "multiplier", "offset"]),
+    ("dynamics", &["damping", "friction"]),
+    ("mass", &["value"]),
+    ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
+    ("inertial", &[]),
+];
+
+impl Document<'_> {
+    /// Each attribute and element that is not read for its name, which is nearly one that is, with its line.
+    pub fn misspelled(&self) -> Vec<String> {
+        let (mut found, mut open) = (Vec::new(), vec![self.robot()]);
+        while let Some(owner) = open.pop() {
+            let read = read_in(owner);
+            for node in owner.children().filter(Node::is_element) {
+                let tag = node.tag_name().name();
+                if read.contains(&tag) {
+                    found.extend(self.misspelled_attributes(node));
+                    open.push(node);
+                } else if let Some(meant) = nearest(tag, read.iter().copied()) {
+                    found.push((self.line(node), format!("<{tag}> is not read: is <{meant}> meant?")));
+                }
+            }
+        }
+        found.sort();
+        found.into_iter().map(|(line, what)| format!("line {line}: {what}")).collect()
+    }
+
+    fn misspelled_attributes(&self, node: Node) -> Vec<(u32, String)> {
+        let tag = node.tag_name().name();
+        let known = ATTRIBUTES.iter().find(|(other, _)| *other == tag).map_or(&[][..], |(_, known)| known);
+        let unread = node.attributes().map(|attribute| attribute.name().to_owned());
+        let meant = unread.filter(|name| !known.contains(&name.as_str())).filter_map(|name| {
+            let meant = nearest(&name, known.iter().copied())?;
+            Some((self.line(node), format!("`{name}` of <{tag}> is not read: is `{meant}` meant?")))
+        });
+        meant.collect()
+    }
+}
