@@ -61,12 +61,12 @@ impl Failure {
             let similar = similar_file(path, &[folder, Path::new("")]);
             let similar = similar.map(|file| format!("did you mean `{}`?", file.display()));
             let failure = failure(&why_missing(folder));
-            let asked = similar.unwrap_or_else(|| RIGHT.into());
+            let asked = similar.unwrap_or_else(|| IS_IT_RIGHT.into());
             return failure.help(asked + &taken_from(path));
         }
         let failure = failure(why);
         match error.kind() {
-            io::ErrorKind::NotFound => failure.help(RIGHT.to_owned() + &taken_from(path)),
+            io::ErrorKind::NotFound => failure.help(IS_IT_RIGHT.to_owned() + &taken_from(path)),
             io::ErrorKind::PermissionDenied => failure.help("its permissions forbid it"),
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
                 failure.help("make room on the disk, or write elsewhere with --output")
@@ -89,7 +89,7 @@ impl Failure {
         self.message.trim_end()
     }
 
-    /// Names the file that is at fault, unless the message has places in files of its own.
+    /// Prefixes the file that is at fault, unless the message begins with its own severity: that one has places.
     pub(crate) fn in_file(mut self, file: &str) -> Self {
         if !self.has_severity() {
             self.message = format!("{file}: {}", self.message);
@@ -142,8 +142,8 @@ impl Failure {
     }
 }
 
-/// What to look at where nothing is known.
-const RIGHT: &str = "is the path right?";
+/// The help for a missing path without a similar file.
+const IS_IT_RIGHT: &str = "is the path right?";
 
 /// The folder from which a path is taken, if it is relative, as a sentence that follows another.
 fn taken_from(path: &Path) -> String {

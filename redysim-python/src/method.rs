@@ -2,7 +2,7 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use redysim_runtime::integrate::Observer;
+use redysim_runtime::integrate::{Adaptive, Observer};
 use redysim_runtime::{
     Dop8, Dop853, Event, Gauss4, Gauss6, IntegrationError, Integrator, Occurrence, Ode, Ode4, Ode5, Ode15s, Ode45,
     Radau5, SemiImplicitEuler, Solution,
@@ -75,27 +75,30 @@ impl Method {
         Err(PyValueError::new_err(message))
     }
 
+    /// The method with these tolerances, largest step and stops.
+    fn on<'a, M>(&'a self, method: Adaptive<'a, f64, M>, max_step: f64) -> Adaptive<'a, f64, M> {
+        method.rtol(self.rtol).atol(self.atol).max_step(max_step).stops(&self.stops)
+    }
+
     /// Integrates by the method, which is one of those that [`check`](Self::check) knows.
     pub fn run<K, G>(&self, task: Task<'_, '_, K, G>) -> Solved
     where
         K: Observer<f64, Vec<f64>>,
         G: FnMut(Occurrence<'_, f64, Vec<f64>>) -> ControlFlow<()>,
     {
-        let Method { integrator, rtol, atol, max_step, step, stops } = self;
-        let (rtol, atol) = (*rtol, *atol);
-        let max_step = max_step.unwrap_or(0.1 * (task.interval.1 - task.interval.0).abs());
-        let step = step.unwrap_or(f64::NAN);
-        match integrator.as_str() {
+        let max_step = self.max_step.unwrap_or(0.1 * (task.interval.1 - task.interval.0).abs());
+        let step = self.step.unwrap_or(f64::NAN);
+        match self.integrator.as_str() {
             "SemiImplicitEuler" => task.by(&SemiImplicitEuler::new(step)),
             "Ode4" => task.by(&Ode4::new(step)),
             "Ode5" => task.by(&Ode5::new(step)),
             "Dop8" => task.by(&Dop8::new(step)),
             "Gauss4" => task.by(&Gauss4::new(step)),
             "Gauss6" => task.by(&Gauss6::new(step)),
-            "Dop853" => task.by(&Dop853::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
-            "Ode15s" => task.by(&Ode15s::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
-            "Radau5" => task.by(&Radau5::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
-            _ => task.by(&Ode45::new().rtol(rtol).atol(atol).max_step(max_step).stops(stops)),
+            "Dop853" => task.by(&self.on(Dop853::new(), max_step)),
+            "Ode15s" => task.by(&self.on(Ode15s::new(), max_step)),
+            "Radau5" => task.by(&self.on(Radau5::new(), max_step)),
+            _ => task.by(&self.on(Ode45::new(), max_step)),
         }
     }
 }

@@ -84,9 +84,8 @@ impl<'s> Parsed<'s> {
         if !self.is_valid() && text[start..].starts_with('<') {
             return findings.error(start..start + 1, messages::xml());
         }
-        let header = text[start..].lines().find(|line| !line.is_empty() && !line.starts_with('#')).unwrap_or_default();
-        if !self.is_valid() && header.contains(',') && !header.contains(['=', '{', '"']) && !header.starts_with('[') {
-            return findings.error(start..start + 1, messages::csv());
+        if let Some(header) = table_header(&text[start..]).filter(|_| !self.is_valid()) {
+            return findings.error(start + header.start..start + header.end, messages::csv());
         }
         // What stands in a bracket that is not closed is read as a part of it.
         let unclosed = if self.is_valid() { None } else { unclosed_bracket(text) };
@@ -130,4 +129,17 @@ impl<'s> Parsed<'s> {
             findings.error(open..open + 1, messages::syntax::unclosed_bracket(close));
         }
     }
+}
+
+/// The first line that is neither empty nor a comment, if it is that of a table (CSV): names between commas.
+fn table_header(text: &str) -> Option<Range<usize>> {
+    let header = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    // Commas in brackets are those of an array.
+    let is_closed = |name: &str| name.matches('[').count() == name.matches(']').count();
+    let is_table = header.contains(',')
+        && !header.contains(['=', ':', '{', '"'])
+        && !header.starts_with('[')
+        && header.split(',').all(is_closed);
+    let start = text.find(header)?;
+    is_table.then_some(start..start + header.len())
 }

@@ -16,7 +16,11 @@ pub fn similar_file(wanted: &Path, folders: &[&Path]) -> Option<PathBuf> {
     let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase());
     let own = wanted.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default();
     let extension = ["urdf", "csv"].into_iter().find(|known| *known == own).unwrap_or("toml");
-    let beside = |folder: &&Path| [folder.to_path_buf(), folder.join("..")];
+    let above = |folder: &Path| match folder.file_name() {
+        Some(_) => folder.parent().unwrap_or(folder).to_path_buf(),
+        None => folder.join(".."),
+    };
+    let beside = |folder: &&Path| [folder.to_path_buf(), above(folder)];
     let same = folders.iter().flat_map(beside).map(|folder| Some(folder.join(wanted.file_name()?)));
     let is_manifest = |path: &Path| path.file_name().is_some_and(|name| name == "Cargo.toml");
     if let Some(found) = same.flatten().find(|path| path.is_file() && !is_manifest(path)) {

@@ -80,11 +80,11 @@ fn in_key(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Message)
         return None;
     }
     let is_word = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
+    let is_value = |text: &str| text.parse::<f64>().is_ok() || text.starts_with(['"', '\'', '[', '{']);
     if let Some((key, value)) = rest.split_once(':').filter(|(key, _)| is_word(key.trim())) {
-        let value = value.trim();
-        let is_value = value.parse::<f64>().is_ok() || value.starts_with(['"', '\'', '[', '{']);
-        let written =
-            if is_value || ["true", "false", ""].contains(&value) { value.into() } else { format!("\"{value}\"") };
+        let value = value.trim().trim_end_matches(',').trim_end();
+        let is_bare = !is_value(value) && !["true", "false", ""].contains(&value);
+        let written = if is_bare { format!("{value:?}") } else { value.into() };
         return Some((whole, messages::colon(key.trim(), &written)));
     }
     if let Some((words, value)) = rest.split_once('=') {
@@ -94,8 +94,7 @@ fn in_key(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Message)
         });
     }
     let (key, value) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    let is_value = value.trim().parse::<f64>().is_ok() || value.trim().starts_with(['"', '\'', '[', '{']);
-    match is_word(key) && (value.is_empty() || is_value) {
+    match is_word(key) && (value.is_empty() || is_value(value.trim())) {
         true => Some((at..at.max(code.len()), messages::no_equals(key, value.trim()))),
         false => None,
     }
@@ -131,10 +130,9 @@ fn in_value(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Messag
         return Some((array.clone(), messages::separators(&line[array], &written)));
     }
     if reason.starts_with("unexpected key or value") {
-        // The key before the sign of equality is a part of what follows.
-        let is_value = line[at..].starts_with('=');
-        let word = line[..at].trim_end().rfind(char::is_whitespace).map_or(0, |blank| blank + 1);
-        let at = if is_value { word } else { at };
+        // An equals sign belongs to a second key, which begins before it.
+        let second_key = || line[..at].trim_end().split(char::is_whitespace).next_back().unwrap_or_default().len();
+        let at = if line[at..].starts_with('=') { line[..at].trim_end().len() - second_key() } else { at };
         let found = line[at..].trim_end();
         return match found {
             "," | ";" => Some((at..at + 1, messages::end_of_line(found))),

@@ -27,24 +27,25 @@ const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
 /// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1415.
 const NEARLY_QUARTER_TURN: f64 = 1e-4;
 
-/// What multiples of 90 deg are rounded by where they are rounded further: to 1.57, 3.14, 1.571.
+/// The scales of two and three decimals, to which multiples of 90 deg are often rounded: 1.57, 3.142.
 const FEW_DECIMALS: [f64; 2] = [100.0, 1000.0];
 
 /// The number of quarter turns that an angle, in radians, is nearly but not exactly: one that was probably rounded by hand, by
-/// less than 10⁻⁴, or to two or three decimals. `None` for a multiple of 90 deg, and for other angles.
+/// less than 10⁻⁴, or to two or three decimals; zero for a small angle. `None` for a multiple of 90 deg, and for other angles.
 ///
 /// ```
 /// use redysim_toml::rounded_quarter_turns;
 ///
 /// assert_eq!([1.5708, -1.57, 3.142].map(rounded_quarter_turns), [Some(1.0), Some(-1.0), Some(2.0)]);
-/// assert_eq!([1.0, 1.56, std::f64::consts::FRAC_PI_2].map(rounded_quarter_turns), [None; 3]);
+/// assert_eq!([1.0, 1.56, 11.0, std::f64::consts::FRAC_PI_2].map(rounded_quarter_turns), [None; 4]);
 /// ```
 pub fn rounded_quarter_turns(radians: f64) -> Option<f64> {
     let quarters = (radians / FRAC_PI_2).round();
     let exact = quarters * FRAC_PI_2;
     let off = (radians - exact).abs();
     let rounded = |decimals: f64| (exact * decimals).round() / decimals;
-    let is_near = off < NEARLY_QUARTER_TURN || FEW_DECIMALS.map(rounded).contains(&radians);
+    // Of many turns, to few decimals, other angles are the nearest as well.
+    let is_near = off < NEARLY_QUARTER_TURN || quarters.abs() <= 4.0 && FEW_DECIMALS.map(rounded).contains(&radians);
     (is_near && off > f64::EPSILON * radians.abs()).then_some(quarters)
 }
 

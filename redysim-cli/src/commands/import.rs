@@ -38,7 +38,7 @@ pub struct Arguments {
     /// Make fixed links parts of the links that carry them; their frames are lost.
     #[arg(long)]
     fuse_fixed: bool,
-    /// Take angles that are nearly a multiple of 90 deg, such as 1.5708 and 3.14, for it: compiled code gets shorter.
+    /// Make angles that are nearly multiples of 90 deg, such as 1.5708 and 3.14, exact: compiled code gets shorter.
     #[arg(long)]
     quarter_turns: bool,
     /// Overwrite a file that is there already.
@@ -50,7 +50,8 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let path = &arguments.robot;
     if let Some(output) = arguments.output.as_deref().filter(|output| is_urdf(output)) {
-        let failure = Failure::command_line(format!("{} would be a model file, and no URDF", output.display()));
+        let failure =
+            Failure::command_line(format!("the output is a model file, but {} ends with .urdf", output.display()));
         return Err(failure.help("name a file that ends with .toml"));
     }
     let &Arguments { fuse_fixed, quarter_turns, base, .. } = arguments;

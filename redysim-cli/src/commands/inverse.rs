@@ -183,12 +183,12 @@ fn along(scenario: &Scenario, trajectory: &Prescribed, record: &mut Record<'_>) 
 /// The failure of loops that stay open by `residual` at time `t`, with the joint of `velocity` on the trajectory.
 fn unreachable(scenario: &Scenario, t: f64, velocity: usize, residual: f64) -> Failure {
     let (name, open) = (&scenario.layout.velocities[velocity].name, size(residual));
-    let what = format!("with `{name}` on the trajectory, the loops stay open by {open} m (or a sine)");
+    let what = format!("where the trajectory places `{name}`, they stay open by {open} m (or the sine of an angle)");
     let is_start = scenario.inverse.is_none_or(|span| t <= span.start);
     if is_start {
         let failure = Failure::input(format!("the loops cannot be closed at the start, t = {t:?} s: {what}"));
         return failure
-            .help("give another `initial.q`, nearer to a closed position, or begin within reach of the links");
+            .help("give another `initial.q`, nearer to a closed position, or a trajectory that begins within reach of the links");
     }
     let failure = Failure::outside(format!("the loops cannot be closed at t = {t:?} s: {what}"));
     failure.help("keep the trajectory within reach of the links, or take a smaller `step`")

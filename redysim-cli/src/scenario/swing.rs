@@ -11,8 +11,11 @@ const LONGER: f64 = 4.0;
 /// Instants of an interval that are looked at.
 const INSTANTS: usize = 8;
 
-/// The interval, s, and the coordinate of the widest swing, with what it reaches: by more than the range of all points outside
-/// that range.
+/// A smaller range of points, rad or m, counts as this one, so that noise is no swing.
+const SMALLEST_RANGE: f64 = 1e-3;
+
+/// The interval, s, and the coordinate of the widest swing, the value that it reaches, and the range of all points, from which it
+/// departs by more than the length of that range.
 struct Swing {
     interval: [f64; 2],
     coordinate: usize,
@@ -22,7 +25,7 @@ struct Swing {
 
 /// What to report of a motion that swings, and what to do.
 pub fn of(motion: &Prescribed, layout: &Layout) -> Option<(String, String)> {
-    let Swing { interval: [from, to], coordinate, reached, range: [least, largest] } = widest(motion)?;
+    let Swing { interval: [from, to], coordinate, reached, range: [least, largest] } = widest(motion, layout)?;
     let component = &layout.coordinates[motion.coordinates[coordinate]];
     let (name, unit) = (&component.name, component.unit());
     let what = format!(
@@ -36,7 +39,7 @@ pub fn of(motion: &Prescribed, layout: &Layout) -> Option<(String, String)> {
     Some((what, help.into()))
 }
 
-fn widest(motion: &Prescribed) -> Option<Swing> {
+fn widest(motion: &Prescribed, layout: &Layout) -> Option<Swing> {
     let times = motion.times();
     let length = |k: usize| times[k + 1] - times[k];
     let intervals = times.len().checked_sub(1)?;
@@ -61,8 +64,10 @@ fn widest(motion: &Prescribed) -> Option<Swing> {
             let t = times[k] + length(k) * instant as f64 / (INSTANTS + 1) as f64;
             for (coordinate, (&reached, &range)) in motion.at(t).q.iter().zip(&ranges).enumerate() {
                 let [least, largest] = range;
-                let outside = (least - reached).max(reached - largest) / (largest - least);
-                if outside > widest.as_ref().map_or(1.0, |(most, _)| *most) {
+                let outside = (least - reached).max(reached - largest) / (largest - least).max(SMALLEST_RANGE);
+                // The components of a quaternion do not move from point to point as those of other coordinates.
+                let is_length_or_angle = layout.coordinates[motion.coordinates[coordinate]].unit() != "1";
+                if is_length_or_angle && outside > widest.as_ref().map_or(1.0, |(most, _)| *most) {
                     let interval = [times[k], times[k + 1]];
                     widest = Some((outside, Swing { interval, coordinate, reached, range }));
                 }

@@ -109,7 +109,8 @@ impl InputTable {
             given if Some(given) == degrees.as_ref() => Ok((column, 1_f64.to_radians())),
             _ => {
                 let message = format!("the column `{}` has a unit that is not understood", column.header());
-                let unit = degrees.filter(|_| column.unit.contains(['°', 'd'])).unwrap_or(unit);
+                let given = column.unit.to_lowercase();
+                let unit = degrees.filter(|_| given.starts_with("deg") || given.contains('°')).unwrap_or(unit);
                 Err(self.fault(&message, &format!("call it `{symbol} {} [{unit}]`", component.name)))
             }
         }

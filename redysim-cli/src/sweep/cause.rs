@@ -16,8 +16,8 @@ pub fn origins(count: usize, columns: &[Column], (text, shown): (&str, &str), fi
 /// The failure of the first sample as a person looks for it: that of the scenario `alone`, which names its file, if it has the
 /// fault without the study; otherwise with the line of the study whose value brings it about.
 pub fn explained(failure: Failure, study: &Study, origins: &[String], alone: Option<Failure>) -> Failure {
-    let is_same = |other: &Failure| other.title() == failure.title();
-    if let Some(own) = alone.filter(is_same) {
+    let has_it = |other: &Failure| other.message().lines().any(|line| line == failure.title());
+    if let Some(own) = alone.filter(has_it) {
         return own;
     }
     let fails_with = |count: usize| {
@@ -25,11 +25,14 @@ pub fn explained(failure: Failure, study: &Study, origins: &[String], alone: Opt
         sampler.paths.truncate(count);
         let Sample { index, mut values } = study.sample(0);
         values.truncate(count);
-        sampler.scenario(&Sample { index, values }).err().is_some_and(|other| is_same(&other))
+        sampler.scenario(&Sample { index, values }).err().is_some_and(|other| has_it(&other))
     };
     let paths = &study.sampler.paths;
-    match (0..paths.len()).find(|path| fails_with(path + 1)) {
-        Some(path) => failure.and(&format!("\n  = note: the value of `{}` is given at {}", paths[path], origins[path])),
-        None => failure,
+    match (0..=paths.len()).find(|&count| fails_with(count)) {
+        Some(count @ 1..) => {
+            let (path, origin) = (&paths[count - 1], &origins[count - 1]);
+            failure.and(&format!("\n  = note: the value of `{path}` is given at {origin}"))
+        }
+        _ => failure,
     }
 }

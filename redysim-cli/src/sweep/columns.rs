@@ -99,13 +99,14 @@ fn within(
     let values = match value.get_ref() {
         DeValue::Table(table) => {
             let is_key = |name: &str| leaf.0.names().any(|key| key == name);
-            let is_value =
-                |(name, value): (&str, &Toml<'_>)| is_key(name) && !matches!(value.get_ref(), DeValue::Table(_));
-            // Values at paths are arrays, and tables of them.
-            let is_scalar = |value: &Toml<'_>| !matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
-            let is_leaf = table.iter().all(|(name, value)| is_value((name.get_ref(), value)))
-                || table.iter().any(|(name, value)| is_key(name.get_ref()) && is_scalar(value));
-            if table.is_empty() || !is_leaf {
+            // Values at paths are arrays, and tables of them; those of a distribution are arrays, too.
+            let is_of_leaf = |name: &str, value: &Toml<'_>| match value.get_ref() {
+                DeValue::Table(_) => false,
+                DeValue::Array(_) => [keys::NORMAL.name, keys::UNIFORM.name].contains(&name),
+                _ => true,
+            };
+            let is_leaf = table.iter().any(|(name, value)| is_key(name.get_ref()) && is_of_leaf(name.get_ref(), value));
+            if !is_leaf {
                 for (name, value) in table.iter() {
                     within(reader, &path, (name.get_ref(), name.span(), value), (Some(&place), leaf), columns);
                 }

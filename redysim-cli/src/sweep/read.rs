@@ -35,6 +35,13 @@ struct Drawn {
 }
 
 impl Written {
+    /// The columns of its table of samples, if it names one.
+    fn table(&self, folder: &Path) -> Result<Vec<(Place, Vec<Value>)>, Failure> {
+        let Some(file) = self.samples.as_ref().and_then(|drawn| drawn.file.as_ref()) else { return Ok(vec![]) };
+        let path = folder.join(file);
+        table::of_text(&named(&path, crate::table::read_text(&path))?, &path)
+    }
+
     /// Where the values of each path are given, the study being `(text, shown)`.
     fn origins(&self, count: usize, study: (&str, &str), folder: &Path) -> Vec<String> {
         let columns = match (&self.over, &self.samples) {
@@ -69,7 +76,8 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
         redysim_toml::read(text.clone(), shown, &keys::STUDY, "the study", |reader| written(reader, usual, folder));
     let (written, _) = read.map_err(Failure::input)?;
     let in_study = |failure: Failure| failure.in_file(shown);
-    let (places, samples) = samples(&written, folder).map_err(in_study)?;
+    let of_file = written.table(folder)?;
+    let (places, samples) = samples(&written, of_file).map_err(in_study)?;
     let origins = written.origins(places.len(), (&text, shown), folder);
     let path = folder.join(&written.scenario);
     let text = named(&path, read_text(&path))?;
@@ -231,10 +239,10 @@ fn optional<T>(field: Field<T>) -> Option<Option<T>> {
 }
 
 /// Paths, and the values of each sample there.
-fn samples(written: &Written, folder: &Path) -> Result<(Vec<Place>, Vec<Vec<Value>>), Failure> {
+fn samples(written: &Written, of_file: Vec<(Place, Vec<Value>)>) -> Result<(Vec<Place>, Vec<Vec<Value>>), Failure> {
     let (places, samples) = match (&written.over, &written.samples) {
         (Some(over), _) => grid(over)?,
-        (None, Some(drawn)) => sampled(drawn, folder)?,
+        (None, Some(drawn)) => sampled(drawn, of_file)?,
         (None, None) => (vec![], vec![]),
     };
     if places.is_empty() || samples.is_empty() {
@@ -273,14 +281,7 @@ fn grid(over: &[Column]) -> Result<(Vec<Place>, Vec<Vec<Value>>), Failure> {
     Ok((over.iter().map(|column| column.place.clone()).collect(), samples))
 }
 
-fn sampled(drawn: &Drawn, folder: &Path) -> Result<(Vec<Place>, Vec<Vec<Value>>), Failure> {
-    let of_file = match &drawn.file {
-        Some(file) => {
-            let path = folder.join(file);
-            table::of_text(&named(&path, crate::table::read_text(&path))?, &path)?
-        }
-        None => vec![],
-    };
+fn sampled(drawn: &Drawn, of_file: Vec<(Place, Vec<Value>)>) -> Result<(Vec<Place>, Vec<Vec<Value>>), Failure> {
     let mut lists: Vec<(String, usize)> = drawn
         .columns
         .iter()

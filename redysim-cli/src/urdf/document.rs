@@ -59,6 +59,11 @@ impl<'a> Document<'a> {
         Failure::input(format!("{}:{}: {message}", self.file, self.line_of(tag, name)))
     }
 
+    /// What messages call the file.
+    pub fn file(&self) -> &str {
+        self.file
+    }
+
     /// The robot, of which everything else is a part.
     pub fn robot(&self) -> Node<'_, 'a> {
         self.xml.root_element()

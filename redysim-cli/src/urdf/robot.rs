@@ -166,7 +166,7 @@ impl Robot {
         }
         if count > 0 {
             let angles = counted(count, "angle");
-            self.notes.push(format!("{angles} made multiples of 90°, the furthest from {largest:.1e} rad beside it"));
+            self.notes.push(format!("{angles} made a multiple of 90°, changed by {largest:.1e} rad at most"));
         }
         self
     }
@@ -196,7 +196,7 @@ impl Robot {
         self
     }
 
-    /// Joints whose limits are negative, or whose lower limit is above their upper one, get a remark: they have no range.
+    /// Joints with a negative limit of effort or velocity, or a lower limit above the upper one, get a remark: they have no range.
     pub fn with_possible_limits(mut self) -> Self {
         for link in &mut self.links {
             let Some(JointLimit { lower, upper, effort, velocity, .. }) = link.limit.clone() else { continue };

@@ -33,12 +33,12 @@ impl Document<'_> {
                     found.extend(self.misspelled_attributes(node));
                     open.push(node);
                 } else if let Some(meant) = nearest(tag, read.iter().copied()) {
-                    found.push((self.line(node), format!("<{tag}> is not read: is <{meant}> meant?")));
+                    found.push((self.line(node), format!("<{tag}> is unknown: did you mean <{meant}>?")));
                 }
             }
         }
         found.sort();
-        found.into_iter().map(|(line, what)| format!("line {line}: {what}")).collect()
+        found.into_iter().map(|(line, what)| format!("{}:{line}: {what}", self.file())).collect()
     }
 
     fn misspelled_attributes(&self, node: Node) -> Vec<(u32, String)> {
@@ -47,7 +47,7 @@ impl Document<'_> {
         let unread = node.attributes().map(|attribute| attribute.name().to_owned());
         let meant = unread.filter(|name| !known.contains(&name.as_str())).filter_map(|name| {
             let meant = nearest(&name, known.iter().copied())?;
-            Some((self.line(node), format!("`{name}` of <{tag}> is not read: is `{meant}` meant?")))
+            Some((self.line(node), format!("<{tag}> has the unknown attribute `{name}`: did you mean `{meant}`?")))
         });
         meant.collect()
     }

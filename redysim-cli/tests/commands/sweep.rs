@@ -298,6 +298,8 @@ fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
     }
     fs::write(folder.join("samples.csv"), "initial.q.0,initial.q.1\n1,2\n3\n").unwrap();
     let error = fail(&folder, &["sweep", &study(&folder, "samples.file = 'samples.csv'")], 1);
+    let begins = |error: &str| error.starts_with("error: ") && error.find("samples.csv:3: ") < error.find(": the row");
+    assert!(begins(&error) && !error.contains("study.toml"), "{error}");
     assert!(error.contains("samples.csv:3: the row has 1 value, but the header names 2 columns"), "{error}");
     fs::write(folder.join("samples.csv"), "initial.q.0\n1\nNaN\n").unwrap();
     let error = fail(&folder, &["sweep", &study(&folder, "samples.file = 'samples.csv'")], 1);
@@ -305,6 +307,18 @@ fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
     let error = fail(&folder, &["sweep", &study(&folder, "samples.file = 'none.csv'")], 3);
     assert!(error.contains("none.csv") && error.contains("from the folder of the study"), "{error}");
     assert_eq!(names(&folder), ["samples.csv", "study.toml", "trial.toml"]);
+}
+
+/// Tables of arrays are parts of paths, whatever their keys are called.
+#[test]
+fn keys_of_a_grid_are_paths_where_their_values_are_arrays() {
+    let folder = scratch("sweep-paths");
+    let motion = "trajectory = { from = [0, 0], to = [1, 1], duration = 1.0 }\n[inverse]\nend = 1.0\nstep = 0.5\n";
+    scenario(&folder, "two_link.toml", motion);
+    let over = "[over]\ntrajectory.from = [[0, 0], [0.5, 0]]\ntrajectory.to = [[1, 1]]\n";
+    fs::write(folder.join("study.toml"), format!("scenario = 'trial.toml'\n{over}")).unwrap();
+    succeed(&folder, &["sweep", "study.toml", "--output", "rows", "--quiet"]);
+    assert_eq!(cells(&folder, "trajectory.from.0"), ["0.0", "0.5"]);
 }
 
 #[test]
@@ -340,6 +354,10 @@ fn a_fault_of_the_scenario_of_a_study_is_reported_in_its_own_file() {
     let error = fail(&folder, &["sweep", "study.toml", "--output", "rows"], 1);
     assert!(error.contains(&format!("trial.toml:{line}:1")), "{error}");
     assert!(!error.contains("sample 0") && !error.contains("study.toml"), "{error}");
+    // Also where the study mends the first of its faults.
+    fs::write(folder.join("trial.toml"), faulty.replace("end = 0.1", "end = -1.0")).unwrap();
+    let error = fail(&folder, &["sweep", "study.toml", "--output", "rows"], 1);
+    assert!(error.contains("unknown key `forward.stepp`") && !error.contains("is given at"), "{error}");
 }
 
 #[test]

@@ -287,6 +287,20 @@ fn inverse_dynamics_asks_nothing_of_the_forward_run() {
     succeed(&folder, &["forward", &path, "-o", "again"]);
 }
 
+/// Another unit in its place would turn 90 degrees into 90 rad.
+#[test]
+fn degrees_under_another_name_are_called_by_theirs() {
+    let folder = scratch("faults-degrees");
+    let rest = "trajectory = { kind = 'csv', file = 'motion.csv' }\n[inverse]\nend = 1.0\nstep = 0.1\n";
+    let path = scenario(&folder, "two_link.toml", rest);
+    for (unit, called) in [("°", "deg"), ("Degrees", "deg"), ("radian", "rad")] {
+        let table = format!("t [s],q joint1 [{unit}],q joint2 [rad]\n0,0,0\n1,90,0\n");
+        fs::write(folder.join("motion.csv"), table).unwrap();
+        let words = ["a unit that is not understood", &format!("call it `q joint1 [{called}]`")];
+        refuses_in(&folder, "inverse", &path, 1, &words);
+    }
+}
+
 #[test]
 fn a_table_of_velocities_without_accelerations_is_refused() {
     let folder = scratch("faults-velocities");
@@ -333,11 +347,12 @@ fn a_trajectory_of_loops_that_begins_or_goes_out_of_reach_is_reported_with_its_j
     let beyond = "initial = { q = [0, 0.9844, 4.3144] }\n[trajectory]\njoints = ['rocker']\nfrom = [FROM]\nto = [2.9]\n\
                   duration = 1.0\n[inverse]\nend = 1.0\nstep = 0.01\n";
     let begins = beyond.replace("FROM", "2.8");
-    let words = ["cannot be closed at the start", "with `rocker` on the trajectory", "stay open by 0.", "`initial.q`"];
+    let words =
+        ["cannot be closed at the start", "where the trajectory places `rocker`", "stay open by 0.", "`initial.q`"];
     refuses_in(&folder, "inverse", &scenario(&folder, "fourbar.toml", &begins), 1, &words);
     let path = scenario(&folder, "fourbar.toml", &beyond.replace("FROM", "0.9844"));
     let output = fail(&folder, &["inverse", &path, "-o", "run"], 3);
-    let words = ["cannot be closed at t = 0.4", "with `rocker` on", "within reach of the links", "instants, until 0."];
+    let words = ["cannot be closed at t = 0.4", "places `rocker`", "within reach of the links", "instants, until 0."];
     assert!(words.iter().all(|word| output.contains(word)), "{output}");
 }
 

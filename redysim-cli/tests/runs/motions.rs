@@ -123,6 +123,11 @@ fn a_motion_that_swings_far_beyond_its_points_is_warned_of() {
         assert!(wanted.iter().all(|part| warning.contains(part)), "{kind}: {warning}");
         assert_eq!(warned("[0, 1, 2, 5]", kind), "", "{kind}, at times that are even enough");
     }
+    // A joint that stands still, but for noise.
+    let noise = "[trajectory]\nkind = 'minimum-jerk'\ntimes = [0, 1, 1.00005, 5]\n\
+                 points = [[0, 0.3], [0, 0.30000001], [0, 0.3], [0, 0.3]]\n[inverse]\nend = 1.0\nstep = 0.5\n";
+    let run = call(&folder, &["inverse", &scenario(&folder, "two_link.toml", noise), "-o", "run", "--force"]);
+    assert_eq!(run.stderr, "");
 }
 
 /// A slider of 2 kg on a table, no gravity along it: the equation of a mass alone.
