@@ -40,6 +40,7 @@ mod commands;
 mod data;
 mod failure;
 mod interrupt;
+mod kind;
 mod layout;
 mod model;
 mod number;

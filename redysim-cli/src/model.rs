@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
+use crate::kind::Kind;
 use crate::output::to_stderr;
 use crate::urdf::{self, Base, Imported};
 use redysim_model::{CodegenOptions, Diagnostic, Diagnostics, Faults, Loaded, Model};
@@ -185,33 +186,21 @@ fn shown(found: &[Diagnostic]) -> Option<String> {
     (!found.is_empty()).then(|| format!("{}\n", Diagnostics(found.to_vec())))
 }
 
-/// The failure of a file that is a scenario, or something else, where a model is wanted.
+/// The failure of a file that is of another kind, or something else, where a model is wanted.
 pub fn not_a_model(path: &Path) -> Option<Failure> {
-    let table: toml::Table = std::fs::read_to_string(path).ok()?.parse().ok()?;
-    let has = |key: &str| table.contains_key(key);
-    if !table.is_empty() && !["name", "gravity", "link", "loop", "frame", "spring", "model"].into_iter().any(has) {
-        let failure = Failure::input(format!("{} is not a model: it has none of a model's keys", path.display()));
-        let found: Vec<_> = table.keys().map(String::as_str).collect();
-        return Some(failure.help(format!(
-            "a model file has `name`, `gravity` and a [[link]] for each link; this file has {}",
-            shortened(&found)
-        )));
+    let text = std::fs::read_to_string(path).ok()?;
+    if let Some(failure) = Kind::Model.mistaken(path, &text) {
+        return Some(failure);
     }
-    let model = table.get("model").filter(|_| !table.contains_key("link"))?.as_str()?;
-    let model = path.with_file_name("").join(model);
-    let failure = Failure::input(format!("{} is a scenario, not a model", path.display()));
-    Some(failure.help(format!("name its model: {}", model.display())))
-}
-
-/// The failure of a file that is a model or a study where a scenario is wanted.
-pub fn not_a_scenario(path: &Path, text: &str) -> Option<Failure> {
     let table: toml::Table = text.parse().ok()?;
-    if table.contains_key("scenario") && !table.contains_key("model") {
-        let failure = Failure::input(format!("{} is a study, not a scenario", path.display()));
-        return Some(failure.help(format!("compute it by redysim sweep {}", path.display())));
+    let has = |key: &str| table.contains_key(key);
+    if table.is_empty() || ["name", "gravity", "link", "loop", "frame", "spring", "model"].into_iter().any(has) {
+        return None;
     }
-    (table.contains_key("link") && !table.contains_key("model")).then(|| {
-        let failure = Failure::input(format!("{} is a model, not a scenario", path.display()));
-        failure.help(format!("a scenario names it, as in: model = \"{}\"", path.display()))
-    })
+    let failure = Failure::input(format!("{} is not a model: it has none of a model's keys", path.display()));
+    let found: Vec<_> = table.keys().map(String::as_str).collect();
+    Some(failure.help(format!(
+        "a model file has `name`, `gravity` and a [[link]] for each link; this file has {}",
+        shortened(&found)
+    )))
 }

@@ -33,6 +33,7 @@ use redysim_toml::{DeValue, Field, Key, Message, Reader, not_utf8_because, path_
 use toml_edit::DocumentMut;
 
 use crate::failure::Failure;
+use crate::kind::Kind;
 use crate::layout::Layout;
 use crate::model::{self, ModelFile};
 use contact::Contacts;
@@ -121,7 +122,7 @@ impl Scenario {
         dynamics: Dynamics,
         (held, quiet): (Option<Held<'_>>, bool),
     ) -> Result<(Scenario, Vec<Diagnostic>), Failure> {
-        if let Some(failure) = model::not_a_scenario(path, &text) {
+        if let Some(failure) = Kind::Scenario.mistaken(path, &text) {
             return Err(failure);
         }
         let mut failure = None;

@@ -1,17 +1,7 @@
 //! Which line of a study is at fault where its first sample cannot be read.
 
-use super::columns::Column;
 use super::{Sample, Study};
 use crate::failure::Failure;
-
-/// Where a study gives the values at each path: `file`, the header of its table, for those that no column of the study
-/// itself has, which come first.
-pub fn origins(count: usize, columns: &[Column], (text, shown): (&str, &str), file: &str) -> Vec<String> {
-    let of_file = count - columns.len();
-    let line = |column: &Column| text[..column.start()].matches('\n').count() + 1;
-    let own = columns.iter().map(|column| format!("{shown}:{}", line(column)));
-    (0..of_file).map(|_| file.to_owned()).chain(own).collect()
-}
 
 /// The failure of the first sample as a person looks for it: that of the scenario `alone`, which names its file, if it has the
 /// fault without the study; otherwise with the line of the study whose value brings it about.

@@ -18,14 +18,7 @@ pub struct Column {
     pub place: Place,
     pub values: Values,
     /// Where it stands in the file.
-    span: std::ops::Range<usize>,
-}
-
-impl Column {
-    /// Where its key begins in the text of the study, in bytes.
-    pub fn start(&self) -> usize {
-        self.span.start
-    }
+    pub span: std::ops::Range<usize>,
 }
 
 /// The values of a column.

@@ -3,17 +3,18 @@
 use std::collections::btree_map::{BTreeMap, Entry};
 use std::path::Path;
 
-use redysim_toml::{Diagnostic, Field, Key, Message, Reader};
+use redysim_toml::{Diagnostic, Field, Key, Message, Reader, Spanned, why_missing};
 use toml::{Table, Value};
 
-use super::cause::{explained, origins};
+use super::cause::explained;
 use super::columns::{self, Column, MOST, Values};
 use super::outcomes::{Outcome, Reduction, account};
 use super::place::Place;
 use super::sampler::{Sampler, visit_files};
 use super::{Study, keys, table};
 use crate::failure::Failure;
-use crate::model::{self, ModelFile};
+use crate::kind::Kind;
+use crate::model::ModelFile;
 use crate::scenario::{self, Dynamics, keys as scenario_keys, read_text, shorthand};
 
 /// A study as its file has it.
@@ -42,15 +43,18 @@ impl Written {
         table::of_text(&named(&path, crate::table::read_text(&path))?, &path)
     }
 
-    /// Where the values of each path are given, the study being `(text, shown)`.
-    fn origins(&self, count: usize, study: (&str, &str), folder: &Path) -> Vec<String> {
-        let columns = match (&self.over, &self.samples) {
-            (Some(columns), _) | (None, Some(Drawn { columns, .. })) => columns.as_slice(),
-            (None, None) => &[],
+    /// Where the values of each of the `count` paths are given: in the table of samples, whose paths come first, or on a line of
+    /// the study in `folder`, which has the `text` and is called `shown`.
+    fn origins(&self, count: usize, (text, shown): (&str, &str), folder: &Path) -> Vec<String> {
+        let (columns, file) = match (&self.over, &self.samples) {
+            (Some(columns), _) => (&columns[..], None),
+            (None, Some(Drawn { columns, file, .. })) => (&columns[..], file.as_deref()),
+            (None, None) => (&[][..], None),
         };
-        let file = self.samples.as_ref().and_then(|drawn| drawn.file.as_ref());
+        let line = |column: &Column| text[..column.span.start].matches('\n').count() + 1;
+        let own = columns.iter().map(|column| format!("{shown}:{}", line(column)));
         let file = file.map(|file| folder.join(file).display().to_string()).unwrap_or_default();
-        origins(count, columns, study, &file)
+        vec![file; count - columns.len()].into_iter().chain(own).collect()
     }
 }
 
@@ -59,18 +63,8 @@ impl Written {
 /// # Errors
 /// Every fault of the text at once, or the first of what it names.
 pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<Study, Failure> {
-    let is_scenario =
-        |table: &Table| table.contains_key(scenario_keys::MODEL.name) && !table.contains_key(keys::SCENARIO.name);
-    let is_model = |table: &Table| table.contains_key("link") && !table.contains_key(keys::SCENARIO.name);
-    if text.parse::<Table>().is_ok_and(|table| is_model(&table)) {
-        let failure = Failure::input(format!("{shown} is a model, not a study"));
-        return Err(failure.help("a study names a scenario, which names its model, and what varies"));
-    }
-    if text.parse::<Table>().is_ok_and(|table| is_scenario(&table)) {
-        let failure = Failure::input(format!("{shown} is a scenario, not a study"));
-        return Err(
-            failure.help(format!("a study names it, and what varies: scenario = \"{shown}\" and a table [over]"))
-        );
+    if let Some(failure) = Kind::Study.mistaken(Path::new(shown), &text) {
+        return Err(failure);
     }
     let read =
         redysim_toml::read(text.clone(), shown, &keys::STUDY, "the study", |reader| written(reader, usual, folder));
@@ -81,7 +75,7 @@ pub fn study(text: String, shown: &str, folder: &Path, usual: &str) -> Result<St
     let origins = written.origins(places.len(), (&text, shown), folder);
     let path = folder.join(&written.scenario);
     let text = named(&path, read_text(&path))?;
-    if let Some(failure) = model::not_a_scenario(&path, &text) {
+    if let Some(failure) = Kind::Scenario.mistaken(&path, &text) {
         return Err(failure);
     }
     let alone = |run| {
@@ -166,14 +160,7 @@ const SETTINGS: Key = Key::new(keys::SAMPLES.name, "{ count = 1000 }", "");
 fn written(mut reader: Reader<'_, '_>, usual: &str, folder: &Path) -> Option<Written> {
     let name = scenario::name(&mut reader).value_or(usual.to_owned());
     let scenario = reader.required(&keys::SCENARIO, Reader::text);
-    if let Some(named) = scenario.spanned().filter(|named| !folder.join(named.get_ref()).exists()) {
-        let path = folder.join(named.get_ref());
-        let why = redysim_toml::why_missing(path.parent().unwrap_or(folder));
-        let title = format!("{}: cannot read the scenario {}: {why}", reader.item(), path.display());
-        let meant = scenario::meant_from(folder, &path);
-        let help = format!("{meant}the path of the scenario is taken from the folder of the study");
-        return reader.error_at(named.span(), Message { title, label: "named here".into(), help });
-    }
+    let is_there = scenario.spanned().map(|named| find(&mut reader, named, folder));
     let run = reader.choice(&keys::RUN, &[("forward", Dynamics::Forward), ("inverse", Dynamics::Inverse)]);
     let over = columns::read(&mut reader, &keys::OVER, &[], (&keys::STEPS, columns::steps));
     let others = keys::SAMPLES_KEYS.keys;
@@ -203,12 +190,25 @@ fn written(mut reader: Reader<'_, '_>, usual: &str, folder: &Path) -> Option<Wri
     }
     Some(Written {
         name: name?,
-        scenario: scenario.value()?.clone(),
+        scenario: is_there?.and(scenario.value())?.clone(),
         run: optional(run)?,
         over,
         samples,
         outcomes: outcomes?,
     })
+}
+
+/// Reports a scenario that does not exist, at the place that names it.
+fn find(reader: &mut Reader<'_, '_>, named: &Spanned<String>, folder: &Path) -> Option<()> {
+    let path = folder.join(named.get_ref());
+    if path.exists() {
+        return Some(());
+    }
+    let why = why_missing(path.parent().unwrap_or(folder));
+    let title = format!("{}: cannot read the scenario {}: {why}", reader.item(), path.display());
+    let meant = scenario::meant_from(folder, &path);
+    let help = format!("{meant}the path of the scenario is taken from the folder of the study");
+    reader.error_at(named.span(), Message { title, label: "named here".into(), help })
 }
 
 fn outcomes(reader: &mut Reader<'_, '_>) -> Option<Vec<(Reduction, String)>> {
