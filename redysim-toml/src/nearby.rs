@@ -20,10 +20,9 @@ pub fn similar_file(wanted: &Path, folders: &[&Path]) -> Option<PathBuf> {
         Some(_) => folder.parent().unwrap_or(folder).to_path_buf(),
         None => folder.join(".."),
     };
-    let beside = |folder: &&Path| [folder.to_path_buf(), above(folder)];
-    let same = folders.iter().flat_map(beside).map(|folder| Some(folder.join(wanted.file_name()?)));
-    let is_manifest = |path: &Path| path.file_name().is_some_and(|name| name == "Cargo.toml");
-    if let Some(found) = same.flatten().find(|path| path.is_file() && !is_manifest(path)) {
+    let name = wanted.file_name()?;
+    let beside = |folder: &&Path| [folder.join(name), above(folder).join(name)];
+    if let Some(found) = folders.iter().flat_map(beside).find(|path| path.is_file() && !is_manifest(path)) {
         return Some(found);
     }
     let (mut files, mut left) = (Vec::new(), MOST);
@@ -75,11 +74,16 @@ fn collect(folder: &Path, extension: &str, depth: usize, left: &mut usize, files
         let is_wanted = path.extension().is_some_and(|found| found.eq_ignore_ascii_case(extension));
         if kind.is_dir() && depth > 0 && name != "target" && !name.to_string_lossy().starts_with('.') {
             folders.push(path);
-        } else if kind.is_file() && is_wanted && name != "Cargo.toml" {
+        } else if kind.is_file() && is_wanted && !is_manifest(&path) {
             files.push(path);
         }
     }
     folders.iter().for_each(|folder| collect(folder, extension, depth - 1, left, files));
+}
+
+/// Whether a file is Cargo's, which is never meant.
+fn is_manifest(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name == "Cargo.toml")
 }
 
 #[cfg(test)]

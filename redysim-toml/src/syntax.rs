@@ -67,6 +67,11 @@ fn foreign_comment(line: &str) -> Option<Range<usize>> {
     is_after_value.then(|| start..code.trim_end().len())
 }
 
+/// Whether a text is a key as TOML has it without quotes, or several between dots.
+fn is_bare_key(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c))
+}
+
 /// An error before any `=` of its line.
 fn in_key(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Message)> {
     let code = before_comment(line).trim_end();
@@ -79,9 +84,8 @@ fn in_key(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Message)
     if !reason.starts_with("key with no value") {
         return None;
     }
-    let is_word = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
     let is_value = |text: &str| text.parse::<f64>().is_ok() || text.starts_with(['"', '\'', '[', '{']);
-    if let Some((key, value)) = rest.split_once(':').filter(|(key, _)| is_word(key.trim())) {
+    if let Some((key, value)) = rest.split_once(':').filter(|(key, _)| is_bare_key(key.trim())) {
         let value = value.trim().trim_end_matches(',').trim_end();
         let is_bare = !is_value(value) && !["true", "false", ""].contains(&value);
         let written = if is_bare { format!("{value:?}") } else { value.into() };
@@ -89,12 +93,12 @@ fn in_key(line: &str, at: usize, reason: &str) -> Option<(Range<usize>, Message)
     }
     if let Some((words, value)) = rest.split_once('=') {
         let written = words.split_whitespace().collect::<Vec<_>>().join("_");
-        return is_word(&written).then(|| {
+        return is_bare_key(&written).then(|| {
             (begin..begin + words.trim_end().len(), messages::key_of_words(words.trim(), &written, value.trim()))
         });
     }
     let (key, value) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    match is_word(key) && (value.is_empty() || is_value(value.trim())) {
+    match is_bare_key(key) && (value.is_empty() || is_value(value.trim())) {
         true => Some((at..at.max(code.len()), messages::no_equals(key, value.trim()))),
         false => None,
     }
@@ -158,8 +162,7 @@ fn next_key(line: &str, at: usize, place: &Range<usize>, reason: &str) -> Option
     let before = line[start..].split_once('=')?.0.trim_end();
     let name = before.split_whitespace().last()?;
     let begin = start + before.len() - name.len();
-    let is_key = begin < place.end.max(at + 1) && name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c));
-    is_key.then_some(begin..begin + name.len())
+    (begin < place.end.max(at + 1) && is_bare_key(name)).then_some(begin..begin + name.len())
 }
 
 /// A value in round brackets that an error is in.

@@ -7,7 +7,7 @@ use redysim_figures::{plot, png};
 
 use crate::failure::Failure;
 use crate::output;
-use crate::recorded::{Chart, Recorded};
+use crate::recorded::{Chart, Curve, Recorded};
 use crate::results::names::Picture;
 
 /// Draw what a run has written: motion, torques, energy and λ, as SVG and PNG.
@@ -36,13 +36,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         return Err(recorded.lacks("nothing to draw"));
     }
     if !quiet {
-        let curves = || charts.iter().flat_map(|chart| chart.curves.iter().map(move |curve| (chart.title, curve)));
-        for (title, curve) in curves().filter(|(_, curve)| !curve.values.iter().all(|value| value.is_finite())) {
-            let name = &curve.name;
-            output::to_stderr(&format!(
-                "warning: {title}, {name}: its curve has a gap where a value is not a finite number"
-            ));
-        }
+        charts.iter().for_each(warn_of_gaps);
     }
     let mut pictures: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     let folder = arguments.output.as_deref().unwrap_or(recorded.folder());
@@ -62,6 +56,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         pictures.iter().for_each(|(path, _)| output::to_stdout(&path.display().to_string()));
     }
     Ok(())
+}
+
+/// Warns of the curves that have gaps.
+fn warn_of_gaps(chart: &Chart) {
+    for Curve { name, .. } in chart.curves.iter().filter(|curve| !curve.values.iter().all(|value| value.is_finite())) {
+        let title = chart.title;
+        output::to_stderr(&format!(
+            "warning: {title}, {name}: its curve has a gap where a value is not a finite number"
+        ));
+    }
 }
 
 /// The charts below each other: energies together, as parts of one sum; other curves by groups and sizes.

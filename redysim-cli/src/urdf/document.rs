@@ -21,8 +21,20 @@ const READ: [(&str, &[&str]); 4] = [
     ("joint", &["origin", "parent", "child", "axis", "limit", "mimic", "dynamics"]),
 ];
 
-/// What limits a joint.
-pub const LIMITS: [&str; 7] = ["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"];
+/// The attributes that are read of these elements.
+const ATTRIBUTES: [(&str, &[&str]); 11] = [
+    ("link", &["name"]),
+    ("joint", &["name", "type"]),
+    ("origin", &["xyz", "rpy"]),
+    ("parent", &["link"]),
+    ("child", &["link"]),
+    ("axis", &["xyz"]),
+    ("limit", &["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"]),
+    ("mimic", &["joint", "multiplier", "offset"]),
+    ("dynamics", &["damping", "friction"]),
+    ("mass", &["value"]),
+    ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
+];
 
 /// The joints of URDF.
 const KINDS: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
@@ -89,8 +101,7 @@ impl<'a> Document<'a> {
         let mass = self.required(&item, inertial, "mass")?;
         self.numbers(&item, mass, "value", 1, true)?;
         let inertia = self.required(&item, inertial, "inertia")?;
-        let elements = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
-        elements.iter().try_for_each(|element| self.numbers(&item, inertia, element, 1, true))
+        attributes_of("inertia").iter().try_for_each(|element| self.numbers(&item, inertia, element, 1, true))
     }
 
     fn check_joint(&self, joint: Node) -> Result<(), Failure> {
@@ -131,7 +142,7 @@ impl<'a> Document<'a> {
     /// Limits may be infinite.
     fn check_limit(&self, item: &str, limit: Node) -> Result<(), Failure> {
         let number = |text: &str| text.trim().parse::<f64>().is_ok_and(|value| !value.is_nan());
-        let read = |name: &str| LIMITS.contains(&name);
+        let read = |name: &str| attributes_of("limit").contains(&name);
         match limit.attributes().find(|limit| read(limit.name()) && !number(limit.value())) {
             None => Ok(()),
             Some(wrong) => Err(self.wrong(item, limit, wrong.name(), "a number", wrong.value())),
@@ -139,7 +150,7 @@ impl<'a> Document<'a> {
     }
 
     fn check_dynamics(&self, item: &str, dynamics: Node) -> Result<(), Failure> {
-        ["damping", "friction"].iter().try_for_each(|name| self.numbers(item, dynamics, name, 1, false))
+        attributes_of("dynamics").iter().try_for_each(|name| self.numbers(item, dynamics, name, 1, false))
     }
 
     fn check_mimic(&self, item: &str, mimic: Node) -> Result<(), Failure> {
@@ -273,6 +284,11 @@ fn is_partial_limit(node: Node) -> bool {
 /// What is read inside of an element.
 pub fn read_in(owner: Node) -> &'static [&'static str] {
     READ.iter().find(|(tag, _)| *tag == owner.tag_name().name()).map_or(&[], |(_, read)| read)
+}
+
+/// What is read of an element by its attributes.
+pub fn attributes_of(tag: &str) -> &'static [&'static str] {
+    ATTRIBUTES.iter().find(|(other, _)| *other == tag).map_or(&[], |(_, attributes)| attributes)
 }
 
 /// What to do with a file of macros.

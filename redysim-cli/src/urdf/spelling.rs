@@ -3,23 +3,7 @@
 use redysim_toml::words::nearest;
 use roxmltree::Node;
 
-use super::document::{Document, LIMITS, read_in};
-
-/// The attributes of each element of which something is read.
-const ATTRIBUTES: [(&str, &[&str]); 12] = [
-    ("link", &["name"]),
-    ("joint", &["name", "type"]),
-    ("origin", &["xyz", "rpy"]),
-    ("parent", &["link"]),
-    ("child", &["link"]),
-    ("axis", &["xyz"]),
-    ("limit", &LIMITS),
-    ("mimic", &["joint", "multiplier", "offset"]),
-    ("dynamics", &["damping", "friction"]),
-    ("mass", &["value"]),
-    ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
-    ("inertial", &[]),
-];
+use super::document::{Document, attributes_of, read_in};
 
 impl Document<'_> {
     /// Each attribute and element that is not read for its name, which is nearly one that is, with its line.
@@ -43,7 +27,7 @@ impl Document<'_> {
 
     fn misspelled_attributes(&self, node: Node) -> Vec<(u32, String)> {
         let tag = node.tag_name().name();
-        let known = ATTRIBUTES.iter().find(|(other, _)| *other == tag).map_or(&[][..], |(_, known)| known);
+        let known = attributes_of(tag);
         let unread = node.attributes().map(|attribute| attribute.name().to_owned());
         let meant = unread.filter(|name| !known.contains(&name.as_str())).filter_map(|name| {
             let meant = nearest(&name, known.iter().copied())?;
