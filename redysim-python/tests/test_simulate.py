@@ -252,7 +252,7 @@ FAULTS = {
     "no step": (dict(integrator="Ode4"), ValueError, "Ode4 takes steps of one size: give `step`"),
     "a step for tolerances": (dict(step=0.1), ValueError, "Ode45 chooses its steps: give `max_step`"),
     "stops for steps of one size": (dict(integrator="Ode4", step=0.1, stops=[0.5]), ValueError, "which no `stops` change"),
-    "a stop that is no time": (dict(stops=[np.nan]), ValueError, "`stops` must be finite times"),
+    "a stop that is not a time": (dict(stops=[np.nan]), ValueError, "`stops` must be finite times"),
     "a wrong start": (dict(q=[0.0, 0.0]), ValueError, r"q must have the shape \(1,\)"),
     "a NaN at the start": (dict(q=[np.nan]), redysim.RedysimError, "not a number|NaN|finite"),
     "times that go back": (dict(t=[0, 2, 1]), ValueError, "t must be finite, and no instant before"),

@@ -11,7 +11,7 @@ const LONGER: f64 = 4.0;
 /// Instants of an interval that are looked at.
 const INSTANTS: usize = 8;
 
-/// A smaller range of points, rad or m, counts as this one, so that noise is no swing.
+/// The smallest range that swings are measured by, rad or m, so that noise does not count as a swing.
 const SMALLEST_RANGE: f64 = 1e-3;
 
 /// The interval, s, and the coordinate of the widest swing, the value that it reaches, and the range of all points, from which it

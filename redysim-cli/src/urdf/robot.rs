@@ -185,7 +185,7 @@ impl Robot {
             let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
             let why = match &joint {
                 own if *own == link.joint_name => ", itself,",
-                other if !names.contains(other) => ", which is not there,",
+                other if !names.contains(other) => ", which does not exist,",
                 _ => "",
             };
             link.remarks.push(format!(
@@ -199,7 +199,7 @@ impl Robot {
     /// Joints with a negative limit of effort or velocity, or a lower limit above the upper one, get a remark: they have no range.
     pub fn with_possible_limits(mut self) -> Self {
         for link in &mut self.links {
-            let Some(JointLimit { lower, upper, effort, velocity, .. }) = link.limit.clone() else { continue };
+            let Some(&JointLimit { lower, upper, effort, velocity, .. }) = link.limit.as_ref() else { continue };
             let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
             let why = if lower > upper {
                 format!("its lower limit, {lower} {unit}, is above its upper one, {upper} {unit}")

@@ -556,7 +556,7 @@ fn what_of_a_urdf_is_probably_misspelled_or_impossible_is_warned_of() {
         &["has no range here: its limit of effort is -10, which is negative"],
     );
     warned(&limit("<limit effort=\"1\" velocity=\"-3\"/>"), &["its limit of velocity is -3, which is negative"]);
-    warned(&limit("<mimic joint=\"nobody\"/>"), &["mimics `nobody`, which is not there, in the URDF"]);
+    warned(&limit("<mimic joint=\"nobody\"/>"), &["mimics `nobody`, which does not exist, in the URDF"]);
 }
 
 const RICH: &str = r#"<robot name="rich">

@@ -100,8 +100,8 @@ impl<'a, S: Real, A> Adaptive<'a, S, A> {
         self
     }
 
-    /// Sets the times at which a step must end (`tstops` in OrdinaryDiffEq.jl), in ascending order. The default is none. Times
-    /// outside the interval are ignored.
+    /// Sets the times at which a step must end (`tstops` in OrdinaryDiffEq.jl), in ascending order.
+    /// The default is an empty list. Times outside the interval are ignored.
     ///
     /// A step evaluates the equation at a few times only, so that it can miss a short change between them. Set the times at
     /// which the equation changes suddenly: where the motion that it follows begins and ends, or a force sets in.
