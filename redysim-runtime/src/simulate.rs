@@ -24,7 +24,7 @@ use crate::{ConfigurationSpace, ForwardDynamics, LengthMismatch, Ode, Real, Torq
 ///
 /// ```
 /// # #[allow(dead_code)]
-/// # mod mechanisms { include!("../tests/mechanisms/mod.rs"); }
+/// # mod mechanisms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/mod.rs")); }
 /// # use mechanisms::Pendulum;
 /// use redysim_runtime::{ForwardSimulation, ZeroTorque, Integrator, Ode45};
 ///

@@ -41,7 +41,7 @@ impl<'m, S: Real, M: Frames<S>, L: ContactLaw<S>> Grounded<'m, S, M, L> {
     ///
     /// ```
     /// # #[allow(dead_code)]
-    /// # mod mechanisms { include!("../../tests/mechanisms/mod.rs"); }
+    /// # mod mechanisms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/mod.rs")); }
     /// # use mechanisms::Ball;
     /// use redysim_runtime::{
     ///     Contact, ForwardSimulation, GroundPlane, Grounded, HuntCrossleyContact, Ode45, ZeroTorque, integrate::Ends,

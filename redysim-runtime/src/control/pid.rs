@@ -30,7 +30,7 @@ use crate::{ConfigurationSpace, LengthMismatch, Real, TorqueLaw, Trajectory, Vec
 ///
 /// ```
 /// # #[allow(dead_code)]
-/// # mod mechanisms { include!("../../tests/mechanisms/mod.rs"); }
+/// # mod mechanisms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/mod.rs")); }
 /// # use mechanisms::Pendulum;
 /// use redysim_runtime::{ForwardSimulation, Integrator, Limited, Ode45, Pid, SetPoint, tracking_rates};
 ///

@@ -35,7 +35,7 @@ use crate::{ConfigurationSpace, LengthMismatch, Real, Vector, VelocityCoordinate
 ///
 /// ```
 /// # #[allow(dead_code)]
-/// # mod mechanisms { include!("../../tests/mechanisms/mod.rs"); }
+/// # mod mechanisms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/mod.rs")); }
 /// # use mechanisms::Top;
 /// use redysim_runtime::{ConfigurationSpace, ManifoldSpline, Trajectory};
 ///

@@ -53,7 +53,7 @@ impl<'m, M, L> ForwardSimulation<'m, M, L> {
     ///
     /// ```
     /// # #[allow(dead_code)]
-    /// # mod mechanisms { include!("../../../tests/mechanisms/mod.rs"); }
+    /// # mod mechanisms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/mechanisms/mod.rs")); }
     /// # use mechanisms::Arm;
     /// use redysim_runtime::{ForwardSimulation, Ode5, Pd};
     ///
