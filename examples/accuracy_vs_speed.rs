@@ -1,7 +1,7 @@
 //! Accuracy against speed: every integrator on seven problems, every way to compute KR5's dynamics, and every way to
 //! keep a loop closed. Writes pictures and tables; `docs/accuracy.md` explains them.
 //!
-//! `cargo run --release --example accuracy_vs_speed`
+//! `cargo run --release --bin accuracy_vs_speed`
 //!
 //! It takes some minutes, and builds itself twice again: for this machine's instructions, and with the feature
 //! `deterministic`. The names of parts (`kr5`, `gripper`, `fourbar`, `stiff`,

@@ -237,7 +237,7 @@ fn of_build(build: &str) -> Result<Vec<Measured>, Failure> {
     let root = workspace();
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
     let mut command = Command::new(cargo);
-    command.current_dir(root).args(["run", "--release", "--quiet", "--example", "accuracy_vs_speed"]);
+    command.current_dir(root).args(["run", "--release", "--quiet", "--bin", "accuracy_vs_speed"]);
     command.env("CARGO_TARGET_DIR", target.join(build));
     match build {
         NATIVE => command.env("RUSTFLAGS", "-C target-cpu=native"),
@@ -246,7 +246,7 @@ fn of_build(build: &str) -> Result<Vec<Measured>, Failure> {
     let output = command.args(["--", "--evaluate", build]).output().context(|| "cannot start cargo".to_owned())?;
     if !output.status.success() {
         let reason = String::from_utf8_lossy(&output.stderr);
-        return Err(Failure(format!("the {build} build of this example failed:\n{reason}")));
+        return Err(Failure(format!("the {build} build of this program failed:\n{reason}")));
     }
     Ok(String::from_utf8_lossy(&output.stdout).lines().filter_map(parsed).collect())
 }
@@ -256,7 +256,7 @@ pub fn report(outputs: &mut Outputs) -> Result<(), Failure> {
     headline("KR5: error against time per state");
     let mut all = measure("")?;
     for build in [DETERMINISTIC, NATIVE] {
-        eprintln!("building this example again: {build}");
+        eprintln!("building this program again: {build}");
         all.extend(of_build(build)?);
     }
     let mut table = Table::new(&["", "inverse\nns", "error\n", "forward\nns", "error\n"]);

@@ -147,6 +147,7 @@ fn the_commands_of_the_chapter_on_closed_loops_run_and_print_what_it_shows() {
 
 /// A C compiler is there: Rust links with it.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_chapter_on_c_run() {
     let (folder, _) = run_all("documented-c", "docs/c.md", 7);
     assert!(["gripper.o", "hold", "check"].iter().all(|made| folder.join("controller").join(made).is_file()));
@@ -172,6 +173,7 @@ fn the_commands_of_the_chapter_on_microcontrollers_run() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_chapter_on_robots_that_float_and_walk_run() {
     run_all("documented-floating", "docs/floating_and_walking.md", 7);
 }
@@ -260,6 +262,7 @@ fn every_link_of_the_documentation_leads_to_a_file_and_its_heading() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_scenarios_run() {
     run_all("documented-scenarios", "docs/scenarios.md", 3);
 }

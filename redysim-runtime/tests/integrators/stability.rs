@@ -36,13 +36,14 @@ fn compare<M: LinearStability>(method: impl Fn(f64) -> FixedStep<f64, M>, kp: [f
 
 #[test]
 fn the_predicted_limit_of_a_held_arm_is_the_observed_one() {
-    for (kp, kd) in [
+    let gains = [
         ([100.0, 100.0], [20.0, 20.0]),
         ([1e4, 50.0], [3.0, 60.0]),
         ([400.0, 100.0], [0.5, 0.1]),
         ([1e3, 1e3], [400.0, 10.0]),
         ([100.0, 25.0], [30.0, 3.0]),
-    ] {
+    ];
+    for (kp, kd) in gains.into_iter().take(if cfg!(debug_assertions) { 2 } else { gains.len() }) {
         compare(Ode4::new, kp, kd);
         compare(Ode5::new, kp, kd);
         compare(Dop8::new, kp, kd);

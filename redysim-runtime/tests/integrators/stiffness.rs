@@ -81,7 +81,8 @@ fn an_arm_with_heavy_damping_is_stiff() {
 #[test]
 fn fast_swings_long_runs_and_tight_tolerances_are_not_stiff() {
     let mut fast = |_t: f64, y: &[f64; 2], dydt: &mut [f64; 2]| *dydt = [y[1], -1e4 * y[0]];
-    for rtol in [1e-2, 1e-3, 1e-6, 1e-12] {
+    let tolerances = [1e-2, 1e-3, 1e-6, 1e-12];
+    for rtol in tolerances.into_iter().take(if cfg!(debug_assertions) { 3 } else { tolerances.len() }) {
         let end =
             Ode45::new().rtol(rtol).stiffness_limit(Some(0)).integrate(&mut fast, (0.0, 20.0), [1.0, 0.0]).unwrap();
         println!("{:?}", end.statistics);

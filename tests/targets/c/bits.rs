@@ -66,6 +66,7 @@ fn an_arm_computes_the_same_bits_in_c() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
 fn fingers_with_parallel_axes_compute_the_same_bits_in_c() {
     assert_same_bits!(Gripper, "gripper", "", |function, state| tree(&Gripper, function, state));
 }

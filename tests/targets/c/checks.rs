@@ -158,6 +158,7 @@ fn sines_of_the_c_library_stay_within_the_stated_roundings() {
 
 /// As compilers do by default where their language is GNU's C.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run natively, by .ci/run")]
 fn products_and_sums_that_the_compiler_fuses_stay_within_the_stated_roundings() {
     let for_here: &[&str] = if is_native() { &[FOR_HERE] } else { &[] };
     let flags = [&["-O1", "-std=gnu99", "-ffp-contract=fast"], for_here].concat();
