@@ -9,6 +9,7 @@ use super::comment::statement;
 use super::function::Writer;
 use super::results::InC;
 use super::scalar::CScalar;
+use crate::accuracy::both::Both;
 use crate::accuracy::double_double::{DoubleDouble, exact, rounded};
 use crate::accuracy::rounding::Rounded;
 use crate::functions::TracedFunction;
@@ -121,15 +122,17 @@ fn expected(
         .as_ref()
         .map_or(Vec::new(), |lumped| lumped.evaluate_with(&[], |index, _| Rounded::given(parameters[index as usize])));
     let found = expressions.evaluate_with(&given, |index, _| lumped[index as usize]);
-    // What constants of the run-time path have been rounded to counts there alone: the compiled one may cancel them.
-    let by_tree = denoc::evaluate(*function, tree, &Untraced, &given);
-    let exactly: Vec<Vec<DoubleDouble>> = arguments.iter().map(|numbers| exact(numbers)).collect();
-    let exactly: Vec<&[DoubleDouble]> = exactly.iter().map(Vec::as_slice).collect();
+    let both: Vec<Vec<Both>> =
+        arguments.iter().map(|numbers| numbers.iter().map(|&number| Both::given(number)).collect()).collect();
+    let both: Vec<&[Both]> = both.iter().map(Vec::as_slice).collect();
+    let by_tree = denoc::evaluate(*function, tree, &Untraced, &both);
     // A pruned function differs from the run-time path by more than roundings: what is checked is how it was compiled.
     let values = if pruning.as_ref().is_some_and(|pruning| pruning.holds) {
-        rounded(expressions.evaluate_with(&exactly, |_, nominal| DoubleDouble::from_f64(nominal)))
+        let arguments: Vec<Vec<DoubleDouble>> = arguments.iter().map(|numbers| exact(numbers)).collect();
+        let arguments: Vec<&[DoubleDouble]> = arguments.iter().map(Vec::as_slice).collect();
+        rounded(expressions.evaluate_with(&arguments, |_, nominal| DoubleDouble::from_f64(nominal)))
     } else {
-        rounded(denoc::evaluate(*function, tree, &Untraced, &exactly))
+        by_tree.iter().map(|value| value.exact.to_f64()).collect()
     };
     // To first order, bounds of rounding errors are as large as the errors of one operation.
     let unit = match scalar {
@@ -138,8 +141,9 @@ fn expected(
     };
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let of_constants = OF_CONSTANTS * largest * unit * f64::EPSILON + VANISHING;
-    let bound = |found: &Rounded, by_tree: &Rounded| {
-        SLACK * unit * found.error_bound().max(by_tree.error_bound()) + of_constants
+    // What constants of the run-time path have been rounded to counts there alone: the compiled one may cancel them.
+    let bound = |found: &Rounded, by_tree: &Both| {
+        SLACK * unit * found.error_bound().max(by_tree.rounded.error_bound()) + of_constants
     };
     let bounds = found.iter().zip(&by_tree).map(|(found, by_tree)| bound(found, by_tree));
     values.into_iter().zip(bounds).map(|(value, bound)| Expected { value, bound }).collect()
