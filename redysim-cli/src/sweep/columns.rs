@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use redysim_toml::words::quoted;
+use redysim_toml::words::{nearest, quoted};
 use redysim_toml::{DeValue, Field, Key, KeyPath, Message, Reader};
 use toml::Value;
 
@@ -95,10 +95,10 @@ fn within(
             // Values at paths are arrays, and tables of them; those of a distribution are arrays, too.
             let is_of_leaf = |name: &str, value: &Toml<'_>| match value.get_ref() {
                 DeValue::Table(_) => false,
-                DeValue::Array(_) => [keys::NORMAL.name, keys::UNIFORM.name].contains(&name),
-                _ => true,
+                DeValue::Array(_) => is_distribution(name, leaf.0),
+                _ => is_key(name),
             };
-            let is_leaf = table.iter().any(|(name, value)| is_key(name.get_ref()) && is_of_leaf(name.get_ref(), value));
+            let is_leaf = table.iter().any(|(name, value)| is_of_leaf(name.get_ref(), value));
             if !is_leaf {
                 for (name, value) in table.iter() {
                     within(reader, &path, (name.get_ref(), name.span(), value), (Some(&place), leaf), columns);
@@ -140,6 +140,14 @@ fn within(
         _ => reader.wrong_type(&path, value, "an array of values, or a table that stands for them"),
     };
     columns.extend(values.map(|values| Column { place, values, span }));
+}
+
+/// Whether a key is meant as a distribution: one of `leaf`, or by its name one that there is not.
+fn is_distribution(name: &str, leaf: &redysim_toml::Keys) -> bool {
+    const OTHERS: [&str; 8] =
+        ["beta", "exponential", "gauss", "gaussian", "lognormal", "mean", "triangular", "truncated_normal"];
+    let mut known = leaf.names().filter(|name| [keys::NORMAL.name, keys::UNIFORM.name].contains(name)).peekable();
+    known.peek().is_some() && (OTHERS.contains(&name) || nearest(name, known).is_some())
 }
 
 /// The value as it replaces another one; its numbers are finite.
@@ -193,6 +201,8 @@ pub fn drawn(reader: &mut Reader<'_, '_>) -> Option<Values> {
     });
     let drawn = match (normal, uniform) {
         (Field::Invalid, _) | (_, Field::Invalid) => return None,
+        // Its keys are unknown, and reported as such.
+        (Field::Missing, Field::Missing) => return None,
         (Field::Value(normal), Field::Missing) => {
             let [mean, deviation] = *normal.get_ref();
             Distribution::Normal(mean, deviation)
@@ -201,10 +211,10 @@ pub fn drawn(reader: &mut Reader<'_, '_>) -> Option<Values> {
             let [least, largest] = *uniform.get_ref();
             Distribution::Uniform(least, largest)
         }
-        _ => {
+        (Field::Value(_), Field::Value(_)) => {
             let message = Message {
-                title: format!("{}: a distribution is `normal` or `uniform`", reader.item()),
-                label: "not one of them".into(),
+                title: format!("{}: a distribution is `normal` or `uniform`, not both", reader.item()),
+                label: "two distributions".into(),
                 help: format!("write {} or {}", keys::NORMAL.example(), keys::UNIFORM.example()),
             };
             return reader.error_of_table(message);

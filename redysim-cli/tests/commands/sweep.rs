@@ -286,6 +286,18 @@ fn a_fault_of_a_study_is_one_error_before_anything_is_computed() {
             ["standard deviation", "not negative", "normal` is [0.0, -1.0]"],
         ),
         (
+            "[samples]\ncount = 3\ninitial.q.0 = { gauss = [0, 1] }",
+            ["unknown key `samples.initial.q.0.gauss`", "normal, uniform", "study.toml:4"],
+        ),
+        (
+            "[samples]\ncount = 3\ninitial.q.0 = { unifrom = [0, 1] }",
+            ["unknown key `samples.initial.q.0.unifrom`", "did you mean `uniform`", "study.toml:4"],
+        ),
+        (
+            "[samples]\ncount = 3\ninitial.q.0 = { normal = [0, 1], uniform = [0, 1] }",
+            ["`normal` or `uniform`, not both", "two distributions", "study.toml:4"],
+        ),
+        (
             "outcomes.peak = ['tua']\n[over]\ninitial.q.0 = [1]",
             ["no column `tua`", "did you mean `tau`", "it has q, v"],
         ),
