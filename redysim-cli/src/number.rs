@@ -12,10 +12,14 @@ pub fn size(value: f64) -> String {
     with_digits(value, 2)
 }
 
-/// So many digits, with an exponent only for very large and very small numbers.
+/// So many digits.
 fn with_digits(value: f64, digits: usize) -> String {
-    let short: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
-    if short != 0.0 && !(1e-4..1e6).contains(&short.abs()) { format!("{short:e}") } else { format!("{short}") }
+    all_digits(format!("{value:.*e}", digits - 1).parse().unwrap_or(value))
+}
+
+/// The number itself, with an exponent only where it is very large or very small.
+pub fn all_digits(value: f64) -> String {
+    if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) { format!("{value:e}") } else { format!("{value}") }
 }
 
 /// "1 joint", "2 joints".
@@ -36,5 +40,8 @@ mod tests {
             assert_eq!(size(value), text);
         }
         assert_eq!(rounded(2.0 / 3.0), "0.6667");
+        for (value, text) in [(1e-60, "1e-60"), (0.1 + 0.2, "0.30000000000000004"), (3.0, "3"), (-2.5e7, "-2.5e7")] {
+            assert_eq!(all_digits(value), text);
+        }
     }
 }

@@ -7,7 +7,7 @@ use redysim_runtime::Statistics;
 use super::Balance;
 use super::momentum::MomentumDrift;
 use crate::failure::Failure;
-use crate::number::{counted, size};
+use crate::number::{all_digits, counted, size};
 use crate::scenario::Dynamics;
 
 /// How a computation went, of which the [`Record`](super::Record) knows but the rows.
@@ -58,7 +58,7 @@ impl fmt::Display for Summary {
         let (from, to, count) = self.instants;
         write!(f, "{}: {} dynamics", self.name, self.dynamics)?;
         integrator.as_ref().map_or(Ok(()), |name| write!(f, " by {name}"))?;
-        write!(f, ", {count} instants from {from} s to {to} s")?;
+        write!(f, ", {count} instants from {} s to {} s", all_digits(from), all_digits(to))?;
         if let Some(steps) = steps {
             write!(f, "\n  {}", counted(*steps, "step"))?;
         }
