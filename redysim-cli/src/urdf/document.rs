@@ -131,9 +131,13 @@ impl<'a> Document<'a> {
     fn check_axis(&self, item: &str, joint: Node, axis: Node) -> Result<(), Failure> {
         self.numbers(item, axis, "xyz", 3, true)?;
         let is_zero = |text: &str| text.split_whitespace().all(|word| word.parse::<f64>().is_ok_and(|x| x == 0.0));
-        // That of other joints is an axis of the model, which is checked there.
-        if joint.attribute("type") == Some("planar") && axis.attribute("xyz").is_some_and(is_zero) {
-            let message = format!("{item}: its `axis`, the normal of the plane in which it moves, is zero");
+        let what = match joint.attribute("type") {
+            Some("revolute" | "continuous" | "prismatic") => "its `axis`",
+            Some("planar") => "its `axis`, the normal of the plane in which it moves,",
+            _ => return Ok(()),
+        };
+        if axis.attribute("xyz").is_some_and(is_zero) {
+            let message = format!("{item}: {what} is zero");
             return Err(self.fault(axis, message).help("give a direction, as in xyz=\"0 0 1\""));
         }
         Ok(())

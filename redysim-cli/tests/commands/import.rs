@@ -424,13 +424,18 @@ fn a_planar_joint_of_a_urdf_moves_its_link_across_the_axis_and_turns_it_about_th
 }
 
 #[test]
-fn a_planar_joint_whose_normal_is_zero_is_one_error_at_its_axis() {
-    let urdf = pendulum("<axis xyz=\"0 0.0 -0\"/>", BODY).replace("continuous", "planar");
-    let folder = scratch("import-planar-zero");
-    fs::write(folder.join("robot.urdf"), urdf).unwrap();
-    let shown = fail(&folder, &["import", "robot.urdf"], 1);
-    assert!(shown.contains("the normal of the plane in which it moves, is zero") && !shown.contains("NaN"), "{shown}");
-    assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
+fn a_joint_whose_axis_is_zero_is_one_error_at_its_axis() {
+    for (kind, what) in [
+        ("planar", "its `axis`, the normal of the plane in which it moves, is zero"),
+        ("prismatic", "its `axis` is zero"),
+    ] {
+        let urdf = pendulum("<axis xyz=\"0 0.0 -0\"/>", BODY).replace("continuous", kind);
+        let folder = scratch(&format!("import-zero-axis-{kind}"));
+        fs::write(folder.join("robot.urdf"), urdf).unwrap();
+        let shown = fail(&folder, &["import", "robot.urdf"], 1);
+        assert!(shown.contains(what) && shown.contains("as in xyz=\"0 0 1\""), "{shown}");
+        assert!(shown.matches("error: ").count() == 1 && !shown.contains("NaN"), "{shown}");
+    }
 }
 
 #[test]

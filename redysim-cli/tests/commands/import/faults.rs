@@ -143,7 +143,7 @@ fn impossible_values_are_shown_with_their_line() {
     let heavy =
         good.replace("<link name=\"c\"><inertial><mass value=\"1\"", "<link name=\"c\"><inertial><mass value=\"-1\"");
     refused(&heavy, &["robot.urdf:4:", "link `c`: `mass` is -1.0 kg, which is negative"]);
-    refused(&good.replacen("</joint>", "<axis xyz=\"0 0 0\"/></joint>", 1), &["robot.urdf:5:", "link `b`", "`axis`"]);
+    refused(&good.replacen("</joint>", "<axis xyz=\"0 0 0\"/></joint>", 1), &["robot.urdf:5:", "joint `j`", "`axis`"]);
     refused(&good.replace("continuous", "fixed"), &["every joint is fixed"]);
     refused(&format!("<robot name=\"r\"><link name=\"a\">{BODY}</link></robot>"), &["no joints"]);
     refused("<robot name=\"r\"/>", &["no links"]);
