@@ -13,6 +13,18 @@ pub struct Failure {
     kind: Kind,
     message: String,
     help: Option<String>,
+    /// Those of the file that is at fault, where it has been read.
+    faults: Vec<Fault>,
+}
+
+/// A fault of a file, and where it stands, counted from 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Fault {
+    pub line: u32,
+    pub column: Option<u32>,
+    pub title: String,
+    /// Empty where nothing is known.
+    pub help: String,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,24 +43,50 @@ impl Failure {
     /// The exit code of what Ctrl-C has ended.
     pub(crate) const INTERRUPTED: u8 = 130;
 
+    fn new(kind: Kind, message: impl fmt::Display) -> Self {
+        Self { kind, message: message.to_string(), help: None, faults: Vec::new() }
+    }
+
+    /// The faults of `file`, and lines about those that are too many to be shown.
+    pub(crate) fn faults_of(file: &str, mut faults: Vec<Fault>, more: &[String]) -> Self {
+        // That of a single one is the help of the failure, which may be given later.
+        let help = match &mut faults[..] {
+            [only] if more.is_empty() => Some(std::mem::take(&mut only.help)).filter(|help| !help.is_empty()),
+            _ => None,
+        };
+        let shown = faults.iter().map(|Fault { line, column, title, help }| {
+            let column = column.map_or(String::new(), |column| format!(":{column}"));
+            let help = if help.is_empty() { String::new() } else { format!("\n  = help: {help}") };
+            format!("{file}:{line}{column}: {title}{help}")
+        });
+        let shown = shown.collect::<Vec<_>>().join("\nerror: ");
+        let message = [std::slice::from_ref(&shown), more].concat().join("\n");
+        Self { help, faults, ..Self::input(message) }
+    }
+
+    /// Each fault of the file that is at fault, with its help; none if it has not been read.
+    pub(crate) fn faults(&self) -> impl Iterator<Item = (&Fault, &str)> {
+        self.faults.iter().map(|fault| (fault, if fault.help.is_empty() { self.advice() } else { &fault.help }))
+    }
+
     /// A model, scenario or table is at fault.
     pub(crate) fn input(message: impl fmt::Display) -> Self {
-        Self { kind: Kind::Input, message: message.to_string(), help: None }
+        Self::new(Kind::Input, message)
     }
 
     /// An argument or option of the command line is at fault.
     pub(crate) fn command_line(message: impl fmt::Display) -> Self {
-        Self { kind: Kind::CommandLine, message: message.to_string(), help: None }
+        Self::new(Kind::CommandLine, message)
     }
 
     /// Something outside the program is at fault.
     pub(crate) fn outside(message: impl fmt::Display) -> Self {
-        Self { kind: Kind::Outside, message: message.to_string(), help: None }
+        Self::new(Kind::Outside, message)
     }
 
     /// Somebody pressed Ctrl-C.
     pub(crate) fn interrupted(message: impl fmt::Display) -> Self {
-        Self { kind: Kind::Interrupted, message: message.to_string(), help: None }
+        Self::new(Kind::Interrupted, message)
     }
 
     /// A file or folder could not be read or written (`doing`: "read", "write", "make the folder").

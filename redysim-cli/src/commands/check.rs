@@ -174,18 +174,16 @@ fn failure(arguments: &Arguments, faults: &Faults) -> Failure {
     }
 }
 
-/// The faults of a URDF in its failure, each of which begins with `file:line: ` and may have its help below.
+/// The faults of a URDF, or why it has not been read.
 fn urdf_findings<'f>(file: &'f str, failure: &'f Failure) -> Vec<Finding<'f>> {
-    let faults = failure.message().split("\nerror: ");
-    let found = faults.map(|fault| {
-        let (title, rest) = fault.split_once('\n').unwrap_or((fault, ""));
-        let placed = title.strip_prefix(file).and_then(|title| title.strip_prefix(':')?.split_once(": "));
-        let mut place = placed.map_or("", |(place, _)| place).split(':').map(|number| number.parse().ok());
-        let help = rest.trim().strip_prefix("= help: ").unwrap_or(failure.advice());
-        let (line, column) = (place.next().flatten(), place.next().flatten());
-        Finding { lint: None, title: placed.map_or(title, |(_, title)| title), help, file, line, column }
-    });
-    found.collect()
+    let finding = |title, help, place: Option<(u32, Option<u32>)>| {
+        let (line, column) = place.unzip();
+        let number = |number: u32| number as usize;
+        Finding { lint: None, title, help, file, line: line.map(number), column: column.flatten().map(number) }
+    };
+    let faults = failure.faults().map(|(fault, help)| finding(&fault.title, help, Some((fault.line, fault.column))));
+    let faults: Vec<_> = faults.collect();
+    if faults.is_empty() { vec![finding(failure.message(), failure.advice(), None)] } else { faults }
 }
 
 /// Prints why a URDF is not a model.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document as Xml, Node};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Fault};
 
 /// A URDF file whose form is right: well-formed, with the elements and numbers that a robot needs.
 pub struct Document<'a> {
@@ -63,12 +63,17 @@ impl<'a> Document<'a> {
 
     /// A fault at an element, with its line.
     fn fault(&self, node: Node, message: impl std::fmt::Display) -> Failure {
-        Failure::input(format!("{}:{}: {message}", self.file, self.line(node)))
+        self.fault_in(self.line(node), message)
     }
 
     /// A fault at the link or joint of this name.
     pub fn fault_at(&self, tag: &str, name: &str, message: impl std::fmt::Display) -> Failure {
-        Failure::input(format!("{}:{}: {message}", self.file, self.line_of(tag, name)))
+        self.fault_in(self.line_of(tag, name), message)
+    }
+
+    fn fault_in(&self, line: u32, message: impl std::fmt::Display) -> Failure {
+        let fault = Fault { line, column: None, title: message.to_string(), help: String::new() };
+        Failure::faults_of(self.file, vec![fault], &[])
     }
 
     /// What messages call the file.
@@ -323,5 +328,6 @@ fn broken(file: &str, error: &roxmltree::Error) -> Failure {
     } else {
         "a URDF is an XML file: correct it first"
     };
-    Failure::input(format!("{file}:{}:{}: XML: {message}", place.row, place.col)).help(help)
+    let title = format!("XML: {message}");
+    Failure::faults_of(file, vec![Fault { line: place.row, column: Some(place.col), title, help: help.into() }], &[])
 }

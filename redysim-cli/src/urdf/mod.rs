@@ -19,7 +19,7 @@ use redysim_model::{Diagnostic, Diagnostics, JointKind, Lint, Model};
 use robot::Robot;
 pub use visuals::Visual;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Fault};
 use crate::number::{counted, rounded};
 
 /// A model file, and what a person should know about it.
@@ -138,12 +138,13 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     let written = model_file::write(&robot, &head(&robot, &changes, path));
     let loaded = Model::from_toml(written.text.clone(), file.clone()).map_err(|faults| {
         let (shown, more) = Diagnostics::shown(faults.errors());
-        let shown = shown.into_iter().map(|error| {
-            let line = error.position().map_or(1, |(line, _)| urdf_line(line, &written, &robot, &document));
-            format!("{file}:{line}: {}\n  = help: {}", error.title(), error.help())
+        let shown = shown.into_iter().map(|error| Fault {
+            line: error.position().map_or(1, |(line, _)| urdf_line(line, &written, &robot, &document)),
+            column: None,
+            title: error.title().into(),
+            help: error.help().into(),
         });
-        let more = more.into_iter().map(|more| format!("\n{more}"));
-        Failure::input(shown.collect::<Vec<_>>().join("\nerror: ") + &more.collect::<String>())
+        Failure::faults_of(&file, shown.collect(), &more)
     })?;
     Ok(Imported { text: written.text, model: loaded.model, changes, notes, warnings: loaded.warnings })
 }
