@@ -1,16 +1,18 @@
 //! `redysim import`: the model describes the mechanism of the URDF, and everything left out is reported.
 
+mod bases;
 mod faults;
+mod findings;
+mod fusing;
+mod joints;
 mod kinematics;
 
 use crate::common::{Run, call, fail, scratch, succeed};
 use faults::BODY;
 use kinematics::{Numbers, positions, tree, urdf};
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use redysim_model::joint::JointPhysics;
-use redysim_model::{GenericMechanism, JointRange, Model};
-use redysim_runtime::Real;
-use redysim_runtime::{InverseDynamics, LinkKinematics, MassMatrix, MechanicalEnergy, Mechanism};
+use redysim_model::{GenericMechanism, Model};
+use redysim_runtime::{LinkKinematics, MassMatrix, MechanicalEnergy, Mechanism};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -105,76 +107,6 @@ fn every_link_is_where_the_urdf_has_it() {
     }
 }
 
-/// Fused, the same forces; moving links stay where they are, and the mass that moves is there.
-#[test]
-fn fusing_changes_nothing_that_moves() {
-    let mut numbers = Numbers::new(2);
-    for round in 0..20 {
-        let joints = tree(&mut numbers, 4 + round);
-        let (kept, _) = import(&urdf(&joints), &[]);
-        let (fused, run) = import(&urdf(&joints), &["--fuse-fixed"]);
-        let n = kept.tree().nv();
-        let [q, v, a] = [0; 3].map(|_| (0..n).map(|_| numbers.within(3.0)).collect::<Vec<f64>>());
-        let forces = (kept.inverse_dynamics(&q, &v, &a), fused.inverse_dynamics(&q, &v, &a));
-        let largest = forces.0.iter().fold(0.0_f64, |most, x| Real::maximum(most, x.abs()));
-        for (a, b) in forces.0.iter().zip(&forces.1) {
-            assert!((a - b).abs() < 1e-12 * largest, "{:?}", forces);
-        }
-        let (all, moving) = (kept.link_kinematics(&q, &v), fused.link_kinematics(&q, &v));
-        let names: Vec<&str> = kept.model().links.iter().map(|link| link.name.as_str()).collect();
-        for (link, state) in fused.model().links.iter().zip(&moving) {
-            let before = &all[names.iter().position(|name| *name == link.name).unwrap()];
-            assert!((0..3).all(|axis| close(before.origin[axis], state.origin[axis])), "{}", link.name);
-        }
-        assert_eq!(fused.model().links.len(), n);
-        for joint in joints.iter().filter(|joint| joint.kind == "fixed") {
-            assert!(run.stdout.contains(&format!("link `{}` is a part of", joint.link)), "{}", run.stdout);
-        }
-        let carried = |index: usize| {
-            std::iter::successors(Some(index), |&at| joints[at].parent).any(|at| joints[at].kind != "fixed")
-        };
-        let mass = |chosen: &dyn Fn(usize) -> bool| -> f64 {
-            (0..joints.len()).filter(|&index| chosen(index)).map(|index| joints[index].mass).sum()
-        };
-        assert!(close(fused.model().links.iter().map(|link| link.mass).sum(), mass(&carried)));
-        assert!(close(kept.model().links.iter().map(|link| link.mass).sum(), mass(&|_| true)));
-    }
-}
-
-/// Two equal rods end to end are one of twice the mass and length, with (2m)(2l)²/12.
-#[test]
-fn two_rods_fused_are_a_longer_rod() {
-    let (mass, length) = (3.0, 0.8);
-    let moment = mass * length * length / 12.0;
-    let rod = |name: &str| {
-        format!(
-            "<link name=\"{name}\"><inertial><origin xyz=\"{} 0 0\"/><mass value=\"{mass}\"/><inertia ixx=\"0\" \
-             iyy=\"{moment}\" izz=\"{moment}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>",
-            length / 2.0
-        )
-    };
-    let joint = |name: &str, kind: &str, parent: &str, child: &str, inside: &str| {
-        format!(
-            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{inside}</joint>"
-        )
-    };
-    let urdf = [
-        "<robot name=\"rods\"><link name=\"world\"/>".to_string(),
-        rod("inner"),
-        rod("outer"),
-        joint("hinge", "continuous", "world", "inner", "<axis xyz=\"0 0 1\"/>"),
-        joint("weld", "fixed", "inner", "outer", &format!("<origin xyz=\"{length} 0 0\" rpy=\"1.2 0 0\"/>")),
-        "</robot>".into(),
-    ]
-    .concat();
-    let (mechanism, _) = import(&urdf, &["--fuse-fixed"]);
-    let link = &mechanism.model().links[0];
-    assert_eq!((link.name.as_str(), link.mass), ("inner", 2.0 * mass));
-    assert!(close(link.com[0], length) && link.com[1] == 0.0);
-    assert!(close(link.inertia.zz, 2.0 * mass * (2.0 * length).powi(2) / 12.0), "{:?}", link.inertia);
-    assert!(link.inertia.xx.abs() < 1e-15);
-}
-
 const LOSSY: &str = r#"<?xml version="1.0"?>
 <robot name="lossy">
   <material name="red"/>
@@ -267,70 +199,6 @@ fn numbers_that_nothing_can_use_are_kept_as_comments() {
     assert!(run.stdout.contains(&format!("# - {lost}")) && run.stderr.contains(lost), "{}", run.stdout);
 }
 
-/// A joint that stands on the ground, and its link.
-fn grounded(name: &str, kind: &str, mimic: &str, body: &str) -> String {
-    let inside = if mimic.is_empty() { String::new() } else { format!("<mimic joint=\"{mimic}\" multiplier=\"-2\"/>") };
-    format!(
-        "<link name=\"{name}_link\">{body}</link><joint name=\"{name}\" type=\"{kind}\"><parent link=\"world\"/>\
-         <child link=\"{name}_link\"/><axis xyz=\"0 1 0\"/>{inside}</joint>"
-    )
-}
-
-/// The robot of such joints, what its joints are, and how it was imported.
-fn import_grounded(joints: &[String]) -> (GenericMechanism, Vec<&'static str>, Run) {
-    let urdf = format!("<robot name=\"lids\"><link name=\"world\"/>{}</robot>", joints.concat());
-    let (mechanism, run) = import(&urdf, &[]);
-    let kinds = mechanism.model().links.iter().map(|link| link.joint.name()).collect();
-    (mechanism, kinds, run)
-}
-
-/// A motor without mass, and a pointer that follows it: they move with the lid, which has some. The flag does not, nor what
-/// mimics it.
-#[test]
-fn joints_that_move_no_mass_keep_their_motion_where_they_move_with_one_that_does() {
-    let joints = [
-        grounded("motor", "continuous", "", ""),
-        grounded("lid", "continuous", "motor", BODY),
-        grounded("pointer", "prismatic", "lid", ""),
-        grounded("flag", "continuous", "", ""),
-        grounded("pole", "continuous", "flag", ""),
-    ];
-    let (mechanism, kinds, run) = import_grounded(&joints);
-    assert_eq!(kinds, ["revolute", "revolute", "prismatic", "fixed", "fixed"], "{}", run.stderr);
-    assert_eq!(mechanism.nv(), 1);
-    for fixed in ["flag", "pole"] {
-        assert!(run.stderr.contains(&format!("joint `{fixed}` moves no mass")), "{}", run.stderr);
-    }
-    let [[inertia]] = [mechanism.mass_matrix(&vec![0.3])].map(|rows: Vec<Vec<f64>>| [rows[0][0]]);
-    let a: Vec<f64> =
-        redysim_runtime::ForwardDynamics::forward_dynamics(&mechanism, &vec![0.3], &vec![0.0], &vec![1.0]);
-    let weight: Vec<f64> = redysim_runtime::GravityForces::gravity_forces(&mechanism, &vec![0.3]);
-    assert!(inertia > 0.0 && (a[0] - (1.0 - weight[0]) / inertia).abs() < 1e-12 * a[0].abs());
-}
-
-/// What cannot mimic a joint has a coordinate of its own, which others may mimic: it moves their mass, and they its own.
-#[test]
-fn joints_mimic_one_that_cannot_mimic_itself() {
-    for (kind, body) in [("fixed", BODY), ("floating", BODY), ("planar", BODY), ("fixed", "")] {
-        let joints = [
-            grounded("stop", kind, "", body),
-            grounded("motor", "continuous", "stop", ""),
-            grounded("lid", "continuous", "motor", BODY),
-            grounded("hinge", "continuous", "stop", BODY),
-            grounded("pointer", "prismatic", "hinge", ""),
-        ];
-        let (mechanism, kinds, run) = import_grounded(&joints);
-        assert_eq!(kinds[1..], ["revolute", "revolute", "revolute", "prismatic"], "{kind}: {}", run.stderr);
-        let mimicked = |link: usize| mechanism.model().links[link].mimic.map(|mimic| mimic.link);
-        assert_eq!([1, 2, 3, 4].map(mimicked), [None, Some(1), None, Some(3)], "{kind}");
-        for joint in ["motor", "hinge"] {
-            let own =
-                format!("joint `{joint}` mimics `stop` in the URDF (-2 times its value, plus 0 rad): it is free here");
-            assert!(run.stderr.contains(&own), "{}", run.stderr);
-        }
-    }
-}
-
 /// Each sentence of the help, and what shows that it holds.
 #[test]
 fn the_help_of_import_states_what_import_does() {
@@ -400,168 +268,6 @@ fn the_help_of_import_states_what_import_does() {
     assert!(help.contains("Visuals and collisions are left out."));
     let head = run.stdout.split("[[link]]").next().unwrap();
     assert!(head.contains("<visual>") && run.stderr.contains("<visual>"), "{head}");
-}
-
-/// Whatever its normal, the link moves in the plane through the joint's origin, and turns about the normal.
-#[test]
-fn a_planar_joint_of_a_urdf_moves_its_link_across_the_axis_and_turns_it_about_that() {
-    for axis in ["1 0 0", "0 0 1", "0 0 -2", "0.48 -0.6 0.64"] {
-        let normal = Vector3::from_iterator(axis.split(' ').map(|x| x.parse::<f64>().unwrap())).normalize();
-        let inside = format!("<origin xyz=\"0.1 0.2 0.3\" rpy=\"0.3 -0.2 0.9\"/><axis xyz=\"{axis}\"/>");
-        let urdf = pendulum(&inside, BODY).replace("continuous", "planar");
-        let mechanism = import(&urdf, &[]).0;
-        assert_eq!(mechanism.model().links[0].joint.name(), "planar", "{axis}");
-        let at = |q: [f64; 3]| mechanism.link_kinematics(&q.to_vec(), &vec![0.0; 3])[0];
-        let turned = |q| Matrix3::from_fn(|i, j| at(q).rotation[i][j]);
-        let (zero, moved) = (at([0.0; 3]), at([0.3, -0.4, 0.9]));
-        // The axis is that of the joint's frame, which the URDF places on the parent.
-        let normal_here = turned([0.0; 3]) * normal;
-        let way = Vector3::from(moved.origin) - Vector3::from(zero.origin);
-        assert!(way.dot(&normal_here).abs() < 1e-15 && (way.norm() - 0.5).abs() < 1e-15, "{axis}: {way}");
-        let expected = Rotation3::from_axis_angle(&Unit::new_normalize(normal_here), 0.9) * turned([0.0; 3]);
-        assert!((turned([0.3, -0.4, 0.9]) - expected).amax() < 1e-15, "{axis}: {expected}");
-    }
-}
-
-#[test]
-fn a_joint_whose_axis_is_zero_is_one_error_at_its_axis() {
-    for (kind, what) in [
-        ("planar", "its `axis`, the normal of the plane in which it moves, is zero"),
-        ("prismatic", "its `axis` is zero"),
-    ] {
-        let urdf = pendulum("<axis xyz=\"0 0.0 -0\"/>", BODY).replace("continuous", kind);
-        let folder = scratch(&format!("import-zero-axis-{kind}"));
-        fs::write(folder.join("robot.urdf"), urdf).unwrap();
-        let shown = fail(&folder, &["import", "robot.urdf"], 1);
-        assert!(shown.contains(what) && shown.contains("as in xyz=\"0 0 1\""), "{shown}");
-        assert!(shown.matches("error: ").count() == 1 && !shown.contains("NaN"), "{shown}");
-    }
-}
-
-#[test]
-fn rounded_quarter_turns_are_exact_where_asked_for() {
-    let (mechanism, run) = import(LOSSY, &["--quarter-turns"]);
-    assert_eq!(mechanism.model().links[0].placement.rotation.0[2], [-1.0, 0.0, 0.0]);
-    assert!(run.stderr.contains("1 angle made a multiple of 90°, changed by 3.7e-6 rad at most"), "{}", run.stderr);
-    assert!(!run.stderr.contains("1.5708 rad"), "{}", run.stderr);
-}
-
-#[test]
-fn warnings_of_rounded_quarter_turns_name_the_option_that_makes_them_exact() {
-    let (_, run) = import(LOSSY, &[]);
-    assert!(run.stderr.contains("1.5708 rad") && run.stderr.contains("help: --quarter-turns makes"), "{}", run.stderr);
-    let (_, run) = import(LOSSY, &["--quarter-turns"]);
-    assert!(!run.stderr.contains("--quarter-turns makes"), "{}", run.stderr);
-    let shown = call(&folder_with(LOSSY), &["show", "robot.urdf", "-o", "page.html"]);
-    assert!(shown.stderr.contains("`redysim import --quarter-turns` makes"), "{}", shown.stderr);
-}
-
-/// Imports the pendulum with a chain of `count` links, each with `body`, at its end.
-fn import_chain(count: usize, body: &str) -> Run {
-    let link = |k: usize| {
-        let parent = if k == 0 { "rod".into() } else { format!("part{}", k - 1) };
-        format!(
-            "<link name=\"part{k}\">{body}</link><joint name=\"joint{k}\" type=\"continuous\">\
-             <parent link=\"{parent}\"/><child link=\"part{k}\"/></joint>\n"
-        )
-    };
-    let links: String = (0..count).map(link).collect();
-    import_from(&folder_with(pendulum("", BODY).replace("</robot>", &(links + "</robot>"))), &[])
-}
-
-#[test]
-fn of_very_many_errors_of_a_urdf_the_first_20_are_shown() {
-    let faulty = BODY.replace("<mass value=\"", "<mass value=\"-");
-    assert_ne!(faulty, BODY);
-    let run = import_chain(50, &faulty);
-    assert_eq!((run.code, run.stderr.matches("error: ").count()), (1, 20), "{}", run.stderr);
-    assert!(run.stderr.ends_with("\nand 30 more errors\n"), "{}", run.stderr);
-}
-
-#[test]
-fn of_very_many_warnings_of_a_urdf_the_first_20_are_shown() {
-    let odd = "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" ixy=\"0\" ixz=\"0\" iyy=\"0.1\" iyz=\"0\" izz=\"0.3\"/></inertial>";
-    let run = import_chain(21, odd);
-    assert_eq!((run.code, run.stderr.matches("warning: link `part").count()), (0, 20), "{}", run.stderr);
-    assert!(run.stderr.contains("\nand 1 more warning\n"), "{}", run.stderr);
-}
-
-/// The antennas of Tiago, as its makers publish them: their products of inertia exceed what their moments permit.
-#[test]
-fn a_negative_moment_of_a_small_part_is_a_warning() {
-    let antenna = "<inertial><mass value=\"0.000001\"/><inertia ixx=\"2.371e-8\" ixy=\"6.119e-8\" ixz=\"1.179e-8\" \
-                   iyy=\"2.833e-8\" iyz=\"0.774e-8\" izz=\"3.849e-8\"/></inertial>";
-    for carrier in ["world", "rod"] {
-        let fixed = format!(
-            "<link name=\"antenna\">{antenna}</link><joint name=\"mount\" type=\"fixed\">\
-             <parent link=\"{carrier}\"/><child link=\"antenna\"/></joint></robot>"
-        );
-        let urdf = pendulum("", BODY).replace("</robot>", &fixed);
-        let (mechanism, run) = import(&urdf, &[]);
-        assert_eq!(mechanism.model().links.len(), 2);
-        assert!(run.stderr.contains("link `antenna`: `inertia` has a negative principal moment"), "{}", run.stderr);
-        assert!(mechanism.mass_matrix(&vec![0.3])[0][0] > 0.0);
-    }
-}
-
-/// As a program writes zero: no body has products of inertia without moments, but this one is meant to have none.
-#[test]
-fn an_inertia_of_roundoff_is_left_out() {
-    let inertial = "<inertial><origin xyz=\"0 0.2 0\"/><mass value=\"1.5\"/><inertia ixx=\"0\" iyy=\"0\" izz=\"0\" ixy=\"0\" \
-                    ixz=\"1.4e-20\" iyz=\"0\"/></inertial>";
-    let (mechanism, run) = import(&pendulum("", inertial), &[]);
-    assert_eq!(mechanism.model().links[0].inertia, Default::default());
-    assert!(run.stderr.contains("the inertia of link `rod` is roundoff"), "{}", run.stderr);
-    assert!(close(mechanism.mass_matrix(&vec![1.0])[0][0], 1.5 * 0.2 * 0.2));
-}
-
-#[test]
-fn limits_are_a_range_with_the_acceleration_that_the_urdf_has() {
-    let urdf = pendulum("<limit lower=\"-1\" upper=\"2\" effort=\"40\" velocity=\"3\" acceleration=\"7\"/>", BODY);
-    let urdf = urdf.replace("<robot", "<robot version=\"1.2\"").replace("continuous", "revolute");
-    let (mechanism, _) = import(&urdf, &[]);
-    let range = mechanism.model().links[0].range[0];
-    assert_eq!((range.position, range.velocity, range.acceleration), ([-1.0, 2.0], 3.0, Some(7.0)));
-    assert_eq!(range.force, Some(40.0));
-    let (mechanism, _) = import(&urdf.replace(" acceleration=\"7\"", ""), &[]);
-    assert_eq!(mechanism.model().links[0].range[0], JointRange { acceleration: None, ..range });
-}
-
-/// What makes no sense is not dropped either.
-#[test]
-fn limits_whose_lower_one_is_not_below_the_upper_are_kept_as_they_are() {
-    let urdf = pendulum("<limit lower=\"2\" upper=\"1\" effort=\"-10\" velocity=\"3\"/>", BODY);
-    let (_, run) = import(&urdf.replace("continuous", "revolute"), &[]);
-    let kept = "# limit: lower = 2 rad, upper = 1 rad, effort = -10 N m, velocity = 3 rad/s; \
-                the lower one is not below the upper";
-    assert!(run.stdout.contains(kept), "{}", run.stdout);
-    let lost = "has no range here: its lower limit, 2 rad, is above its upper one, 1 rad";
-    let warned = run.stderr.lines().any(|line| line.starts_with("warning: joint") && line.contains(lost));
-    assert!(warned, "{}", run.stderr);
-}
-
-#[test]
-fn what_of_a_urdf_is_probably_misspelled_or_impossible_is_warned_of() {
-    let warned = |urdf: &str, wanted: &[&str]| {
-        let (_, run) = import(urdf, &[]);
-        let warnings: Vec<&str> = run.stderr.lines().filter(|line| line.starts_with("warning: ")).collect();
-        for part in wanted {
-            assert!(warnings.iter().any(|line| line.contains(part)), "no `{part}` in: {}", run.stderr);
-        }
-        assert_eq!(warnings.len(), wanted.len(), "{}", run.stderr);
-    };
-    let limit = |limit: &str| pendulum(limit, BODY).replace("continuous", "revolute");
-    warned(&limit("<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"3\"/>"), &[]);
-    warned(
-        &limit("<limit lowr=\"-1\" upper=\"1\" effort=\"1\" velocity=\"3\"/><axsi xyz=\"0 1 0\"/>"),
-        &["<limit> has the unknown attribute `lowr`: did you mean `lower`?", "<axsi> is unknown: did you mean <axis>?"],
-    );
-    warned(
-        &limit("<limit effort=\"-10\" velocity=\"3\"/>"),
-        &["has no range here: its limit of effort is -10, which is negative"],
-    );
-    warned(&limit("<limit effort=\"1\" velocity=\"-3\"/>"), &["its limit of velocity is -3, which is negative"]);
-    warned(&limit("<mimic joint=\"nobody\"/>"), &["mimics `nobody`, which does not exist, in the URDF"]);
 }
 
 const RICH: &str = r#"<robot name="rich">
@@ -655,73 +361,4 @@ fn an_existing_model_stays_unless_forced() {
     succeed(&folder, &["import", "robot.urdf", "-o", "robot.toml", "--force"]);
     assert!(Model::load(&model).is_ok());
     succeed(&folder, &["check", "--quiet", "robot.toml"]);
-}
-
-/// A satellite of 5 kg with an arm of 1 kg on an axis through (0.3, 0, 0).
-const SATELLITE: &str = r#"<robot name="satellite">
-  <link name="bus"><inertial><origin xyz="0.1 0 0"/><mass value="5"/><inertia ixx="0.1" iyy="0.2" izz="0.3" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <link name="boom"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <link name="panel"><inertial><mass value="2"/><inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>
-  <joint name="hinge" type="revolute"><parent link="bus"/><child link="boom"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/></joint>
-  <link name="tip"/>
-  <joint name="end" type="fixed"><parent link="boom"/><child link="tip"/></joint>
-  <joint name="weld" type="fixed"><parent link="bus"/><child link="panel"/><origin xyz="-1 0 0"/></joint>
-</robot>
-"#;
-
-#[test]
-fn the_root_of_a_robot_with_a_free_base_floats_on_a_joint_without_an_actuator() {
-    for options in [&["--base", "free"][..], &["--base", "free", "--fuse-fixed"]] {
-        let (mechanism, run) = import(SATELLITE, options);
-        let [bus, boom, ..] = &mechanism.model().links[..] else { panic!("{}", run.stdout) };
-        assert_eq!((bus.name.as_str(), bus.joint_name.as_str(), bus.joint.name()), ("bus", "base", "free"));
-        assert_eq!(
-            (bus.parent, boom.parent, bus.actuated_velocities(), boom.actuated_velocities()),
-            (None, Some(0), vec![false; 6], vec![true])
-        );
-        assert_eq!((mechanism.nq(), mechanism.nv(), mechanism.model().mass()), (8, 7, 8.0));
-        let tip = mechanism.model().links.iter().find(|link| link.name == "tip");
-        assert!(tip.is_none_or(|tip| tip.parent == Some(1)), "{}", run.stdout);
-        assert!(run.stderr.contains("the root link `bus` floats on a free joint"), "{}", run.stderr);
-        assert!(!run.stderr.contains("warning"), "{}", run.stderr);
-        // All of it moves along x like one body, whatever is fused.
-        let matrix = mechanism.mass_matrix(&vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
-        assert!(close(matrix[0][0], 8.0) && close(matrix[5][1], 5.0 * 0.1 + 0.3 - 2.0), "{matrix:?}");
-    }
-    let (fixed, _) = import(SATELLITE, &["--base", "fixed"]);
-    assert_eq!(fixed.model().dof(), 1);
-}
-
-#[test]
-fn the_free_joint_of_a_base_has_a_name_that_no_other_joint_has() {
-    let (mechanism, _) = import(&SATELLITE.replace("hinge", "base"), &["--base", "free"]);
-    assert_eq!(mechanism.model().links[0].joint_name, "base1");
-}
-
-#[test]
-fn a_fault_of_the_root_link_of_a_floating_robot_is_reported_on_its_line() {
-    let folder = folder_with(SATELLITE.replacen("ixx=\"0.1\"", "ixx=\"-1\"", 1));
-    let run = import_from(&folder, &["--base", "free"]);
-    assert!(run.code == 1 && run.stderr.contains("robot.urdf:2: link `bus`"), "{}", run.output());
-}
-
-/// A body of 2 kg whose centre of mass is 0.1 m above its origin.
-#[test]
-fn a_robot_of_one_link_without_joints_floats_on_a_free_base_and_is_refused_on_a_fixed_one() {
-    let urdf = "<robot name=\"drone\">\n<link name=\"hull\"><inertial><origin xyz=\"0 0 0.1\"/><mass value=\"2\"/>\
-                <inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link></robot>";
-    for options in [&["--base", "free"][..], &["--base", "free", "--fuse-fixed"]] {
-        let (mechanism, run) = import(urdf, options);
-        let [hull] = &mechanism.model().links[..] else { panic!("{}", run.stdout) };
-        assert_eq!((hull.name.as_str(), hull.joint_name.as_str(), hull.joint.name()), ("hull", "base", "free"));
-        assert_eq!(hull.actuated_velocities(), [false; 6]);
-        assert!(!run.stderr.contains("warning"), "{}", run.stderr);
-        let matrix = mechanism.mass_matrix(&vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-        assert!(close(matrix[0][0], 2.0) && close(matrix[3][3], 0.1 + 0.02) && close(matrix[5][5], 0.3), "{matrix:?}");
-    }
-    let run = import_from(&folder_with(urdf), &[]);
-    assert_eq!(run.code, 1, "{}", run.stderr);
-    for words in ["robot.urdf:1: the robot has no joints: nothing of it moves", "`--base free`"] {
-        assert!(run.stderr.contains(words), "`{words}` in:\n{}", run.stderr);
-    }
 }
