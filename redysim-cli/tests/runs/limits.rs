@@ -112,6 +112,9 @@ fn a_start_too_fast_for_the_run_is_refused() {
 fn angles_of_too_many_turns_are_refused_wherever_they_stand() {
     let start = SWING.replace("[0, 1]", "[0, '1e12 deg']");
     refuses_at_once("angle", "forward", &start, &["`initial.q[1]`", "at most 1e9 rad", "trial.toml:2:21"]);
+    // The warning of a number that looks like degrees advises nothing else.
+    let start = SWING.replace("[0, 1]", "[0, 1e12]");
+    refuses_at_once("number", "forward", &start, &["more than a whole turn", "= help: leave whole turns out\n"]);
     let law = with("torque = { law = 'p', target = { joint1 = '2e9 rad' }, kp = 1 }");
     refuses_at_once("target", "forward", &law, &["`forward.torque.target.joint1`", "trial.toml:6:"]);
     let folder = scratch("limits-table");

@@ -170,11 +170,14 @@ pub(crate) fn unknown_name(item: &str, what: &str, found: &str, names: &[&str]) 
 }
 
 pub(crate) fn large_angle(item: &str, path: &KeyPath, radians: f64) -> Message {
-    message(
-        format!("{item}: `{path}` is {radians:?} rad, more than a whole turn"),
-        "more than a whole turn",
-        format!("if degrees are meant, write \"{radians:?} deg\"; otherwise \"{radians:?} rad\" ends this warning"),
-    )
+    // Beyond, neither an angle in radians nor one in degrees makes sense.
+    let help = match radians.abs() < 1e9 {
+        true => {
+            format!("if degrees are meant, write \"{radians:?} deg\"; otherwise \"{radians:?} rad\" ends this warning")
+        }
+        false => "leave whole turns out".into(),
+    };
+    message(format!("{item}: `{path}` is {radians:?} rad, more than a whole turn"), "more than a whole turn", help)
 }
 
 pub(crate) fn nearly_quarter_turn(item: &str, path: &KeyPath, radians: f64, degrees: f64) -> Message {
