@@ -13,17 +13,17 @@ pub struct Failure {
     kind: Kind,
     message: String,
     help: Option<String>,
-    /// Those of the file that is at fault, where it has been read.
+    /// The parts of the message that have a place.
     faults: Vec<Fault>,
 }
 
-/// A fault of a file, and where it stands, counted from 1.
+/// A fault at a place in a file; lines and columns count from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub line: u32,
     pub column: Option<u32>,
     pub title: String,
-    /// Empty where nothing is known.
+    /// What to do; may be empty.
     pub help: String,
 }
 
@@ -47,24 +47,19 @@ impl Failure {
         Self { kind, message: message.to_string(), help: None, faults: Vec::new() }
     }
 
-    /// The faults of `file`, and lines about those that are too many to be shown.
-    pub(crate) fn faults_of(file: &str, mut faults: Vec<Fault>, more: &[String]) -> Self {
-        // That of a single one is the help of the failure, which may be given later.
-        let help = match &mut faults[..] {
-            [only] if more.is_empty() => Some(std::mem::take(&mut only.help)).filter(|help| !help.is_empty()),
-            _ => None,
-        };
+    /// The faults of `file`, and the lines `more` about those that are not shown.
+    pub(crate) fn faults_of(file: &str, faults: Vec<Fault>, more: &[String]) -> Self {
         let shown = faults.iter().map(|Fault { line, column, title, help }| {
             let column = column.map_or(String::new(), |column| format!(":{column}"));
             let help = if help.is_empty() { String::new() } else { format!("\n  = help: {help}") };
             format!("{file}:{line}{column}: {title}{help}")
         });
-        let shown = shown.collect::<Vec<_>>().join("\nerror: ");
-        let message = [std::slice::from_ref(&shown), more].concat().join("\n");
-        Self { help, faults, ..Self::input(message) }
+        let mut message = shown.collect::<Vec<_>>().join("\nerror: ");
+        more.iter().for_each(|line| message += &format!("\n{line}"));
+        Self { faults, ..Self::input(message) }
     }
 
-    /// Each fault of the file that is at fault, with its help; none if it has not been read.
+    /// The faults of a file, each with its own help or else with that of the failure; empty if no place is known.
     pub(crate) fn faults(&self) -> impl Iterator<Item = (&Fault, &str)> {
         self.faults.iter().map(|fault| (fault, if fault.help.is_empty() { self.advice() } else { &fault.help }))
     }

@@ -71,7 +71,7 @@ pub use nearby::{path_from, similar_file, why_missing};
 pub use reader::{Reader, TableAt, name_of};
 pub use source::{Source, not_utf8_because};
 pub use units::radians;
-pub use value::{Array, LARGE_ANGLE, ROUNDED_ANGLE, Table, Value, rounded_quarter_turns};
+pub use value::{Array, LARGE_ANGLE, MOST_ANGLE, ROUNDED_ANGLE, Table, Value, rounded_quarter_turns};
 
 pub use toml::Spanned;
 pub use toml::de::DeValue;

@@ -24,6 +24,10 @@ pub type Array<'a> = DeArray<'a>;
 /// The range of a number other than zero: products of a mass and two lengths, and their reciprocals, are finite.
 const MAGNITUDES: RangeInclusive<f64> = 1e-100..=1e100;
 
+/// The largest angle that numbers of 64 bits resolve, rad. Neighbouring numbers are 1.2e-7 rad apart there, a tenth of the
+/// default absolute tolerance of a motion, and farther apart beyond.
+pub const MOST_ANGLE: f64 = 1e9;
+
 /// A radian value this close to a multiple of 90 deg, but not on it, was probably rounded by hand: 1.5708, 3.1415.
 const NEARLY_QUARTER_TURN: f64 = 1e-4;
 

@@ -174,16 +174,19 @@ fn failure(arguments: &Arguments, faults: &Faults) -> Failure {
     }
 }
 
-/// The faults of a URDF, or why it has not been read.
+/// The faults of a URDF, or the one reason why it could not be read.
 fn urdf_findings<'f>(file: &'f str, failure: &'f Failure) -> Vec<Finding<'f>> {
-    let finding = |title, help, place: Option<(u32, Option<u32>)>| {
-        let (line, column) = place.unzip();
-        let number = |number: u32| number as usize;
-        Finding { lint: None, title, help, file, line: line.map(number), column: column.flatten().map(number) }
-    };
-    let faults = failure.faults().map(|(fault, help)| finding(&fault.title, help, Some((fault.line, fault.column))));
-    let faults: Vec<_> = faults.collect();
-    if faults.is_empty() { vec![finding(failure.message(), failure.advice(), None)] } else { faults }
+    let unplaced =
+        Finding { lint: None, title: failure.message(), help: failure.advice(), file, line: None, column: None };
+    let placed = failure.faults().map(|(fault, help)| Finding {
+        title: &fault.title,
+        help,
+        line: Some(fault.line as usize),
+        column: fault.column.map(|column| column as usize),
+        ..unplaced
+    });
+    let placed: Vec<_> = placed.collect();
+    if placed.is_empty() { vec![unplaced] } else { placed }
 }
 
 /// Prints why a URDF is not a model.

@@ -110,15 +110,14 @@ fn stabilisation(reader: &mut Reader<'_, '_>, subject: &Subject<'_>) -> Option<S
     ];
     let field =
         reader.table_of_kind(&keys::STABILISATION, &keys::STABILISATION_KIND, &kinds, &kinds[0], |mut reader, kind| {
-            // Of a model without loops nothing is required of what has no effect.
-            kind.or_else(|| match subject.loops() {
-                false => Some(Stabilisation::Projection),
-                true => {
-                    Some(Stabilisation::Baumgarte { alpha: *reader.required(&keys::ALPHA, Reader::positive).value()? })
-                }
+            // Without loops no kind has an effect, and none requires its keys.
+            if !subject.loops() {
+                return Some(Stabilisation::Projection);
+            }
+            kind.or_else(|| {
+                Some(Stabilisation::Baumgarte { alpha: *reader.required(&keys::ALPHA, Reader::positive).value()? })
             })
         });
     subject.expect_loops(reader, "forward.stabilisation", &field);
-    let stabilisation = field.value_or(Some(Stabilisation::Projection))??;
-    Some(if subject.loops() { stabilisation } else { Stabilisation::Projection })
+    field.value_or(Some(Stabilisation::Projection))?
 }

@@ -1,10 +1,10 @@
 //! How far joints may move in a run: what numbers of 64 bits resolve, and what loops can be followed over.
 
 use redysim_runtime::{Motion, Trajectory};
-use redysim_toml::{Message, Reader};
+use redysim_toml::{MOST_ANGLE, Message, Reader};
 
 use super::initial::Initial;
-use super::resolution::{MOST_ANGLE, unresolved};
+use super::resolution::unresolved;
 use super::span::Span;
 use super::subject::{Dynamics, Subject};
 use super::trajectory::Prescribed;

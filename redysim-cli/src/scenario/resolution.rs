@@ -2,11 +2,7 @@
 
 use std::ops::Range;
 
-use redysim_toml::{KeyPath, Message, Reader};
-
-/// The largest angle, rad. Neighbouring numbers are 1.2e-7 rad apart there, a tenth of the default absolute tolerance,
-/// and farther apart beyond.
-pub const MOST_ANGLE: f64 = 1e9;
+use redysim_toml::{KeyPath, MOST_ANGLE, Message, Reader};
 
 /// An angle at `place`, or an error where it is too large to be resolved.
 pub fn resolved(reader: &mut Reader<'_, '_>, place: Range<usize>, path: &KeyPath, angle: f64) -> Option<f64> {

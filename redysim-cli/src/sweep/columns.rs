@@ -95,7 +95,7 @@ fn within(
             // Values at paths are arrays, and tables of them; those of a distribution are arrays, too.
             let is_of_leaf = |name: &str, value: &Toml<'_>| match value.get_ref() {
                 DeValue::Table(_) => false,
-                DeValue::Array(_) => is_distribution(name, leaf.0),
+                DeValue::Array(_) => is_key(keys::NORMAL.name) && is_distribution(name),
                 _ => is_key(name),
             };
             let is_leaf = table.iter().any(|(name, value)| is_of_leaf(name.get_ref(), value));
@@ -142,12 +142,11 @@ fn within(
     columns.extend(values.map(|values| Column { place, values, span }));
 }
 
-/// Whether a key is meant as a distribution: one of `leaf`, or by its name one that there is not.
-fn is_distribution(name: &str, leaf: &redysim_toml::Keys) -> bool {
-    const OTHERS: [&str; 8] =
+/// Whether a key is that of a distribution, one of these misspelled, or the name of a distribution that is not supported.
+fn is_distribution(name: &str) -> bool {
+    const UNSUPPORTED: [&str; 8] =
         ["beta", "exponential", "gauss", "gaussian", "lognormal", "mean", "triangular", "truncated_normal"];
-    let mut known = leaf.names().filter(|name| [keys::NORMAL.name, keys::UNIFORM.name].contains(name)).peekable();
-    known.peek().is_some() && (OTHERS.contains(&name) || nearest(name, known).is_some())
+    UNSUPPORTED.contains(&name) || nearest(name, keys::DRAWN.names()).is_some()
 }
 
 /// The value as it replaces another one; its numbers are finite.
@@ -201,7 +200,7 @@ pub fn drawn(reader: &mut Reader<'_, '_>) -> Option<Values> {
     });
     let drawn = match (normal, uniform) {
         (Field::Invalid, _) | (_, Field::Invalid) => return None,
-        // Its keys are unknown, and reported as such.
+        // All keys of the table are unknown, which the reader reports.
         (Field::Missing, Field::Missing) => return None,
         (Field::Value(normal), Field::Missing) => {
             let [mean, deviation] = *normal.get_ref();

@@ -63,17 +63,12 @@ impl<'a> Document<'a> {
 
     /// A fault at an element, with its line.
     fn fault(&self, node: Node, message: impl std::fmt::Display) -> Failure {
-        self.fault_in(self.line(node), message)
+        fault_in(self.file, (self.line(node), None), message)
     }
 
     /// A fault at the link or joint of this name.
     pub fn fault_at(&self, tag: &str, name: &str, message: impl std::fmt::Display) -> Failure {
-        self.fault_in(self.line_of(tag, name), message)
-    }
-
-    fn fault_in(&self, line: u32, message: impl std::fmt::Display) -> Failure {
-        let fault = Fault { line, column: None, title: message.to_string(), help: String::new() };
-        Failure::faults_of(self.file, vec![fault], &[])
+        fault_in(self.file, (self.line_of(tag, name), None), message)
     }
 
     /// What messages call the file.
@@ -328,6 +323,9 @@ fn broken(file: &str, error: &roxmltree::Error) -> Failure {
     } else {
         "a URDF is an XML file: correct it first"
     };
-    let title = format!("XML: {message}");
-    Failure::faults_of(file, vec![Fault { line: place.row, column: Some(place.col), title, help: help.into() }], &[])
+    fault_in(file, (place.row, Some(place.col)), format!("XML: {message}")).help(help)
+}
+
+fn fault_in(file: &str, (line, column): (u32, Option<u32>), message: impl std::fmt::Display) -> Failure {
+    Failure::faults_of(file, vec![Fault { line, column, title: message.to_string(), help: String::new() }], &[])
 }

@@ -184,12 +184,12 @@ impl Robot {
             };
             let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
             let why = match &joint {
-                own if *own == link.joint_name => ", itself,",
-                other if !names.contains(other) => ", which does not exist,",
+                own if *own == link.joint_name => ", but a joint cannot mimic itself",
+                other if !names.contains(other) => ", but no joint has this name",
                 _ => "",
             };
             link.remarks.push(format!(
-                "joint `{}` mimics `{joint}`{why} in the URDF ({multiplier} times its value, plus {offset} {unit}): it is {here}",
+                "joint `{}` mimics `{joint}` in the URDF ({multiplier} times its value, plus {offset} {unit}){why}: it is {here}",
                 link.joint_name
             ));
         }

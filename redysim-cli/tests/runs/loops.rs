@@ -98,7 +98,7 @@ fn computed_torque_of_loops_with_redundant_constraints_needs_them_closed() {
 
 #[test]
 fn settings_of_loops_have_no_effect_on_a_tree_and_are_warned_of() {
-    // Nor is anything required of them.
+    // `alpha` is not required either.
     let rest = "initial = { assemble = false, held = ['joint1'] }\n[forward]\nend = 0.2\nstep = 0.1\n\
                 stabilisation = { kind = 'baumgarte' }\n";
     let output = warned("loops-none", "two_link.toml", rest);

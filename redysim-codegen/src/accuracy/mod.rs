@@ -13,11 +13,10 @@ pub mod with_error;
 
 use crate::random::Random;
 use double_double::{DoubleDouble, exact, rounded};
-use redysim_model::denoc::{self, Method, Trace, Untraced};
+use redysim_model::denoc::{self, Trace, Untraced};
 use redysim_model::inertia::Sym3;
 use redysim_model::pseudo::PseudoInertia;
 use redysim_model::{Function, Tree};
-use redysim_runtime::Scalar;
 use redysim_runtime::function::{Argument, Shape};
 use std::cell::OnceCell;
 use std::f64::consts::PI;
@@ -86,19 +85,6 @@ struct AsGenerated;
 
 impl Trace<f64> for AsGenerated {}
 
-/// A [`MEASURED`] function by its recursion; nothing for others, whose recursions this crate would take seconds to
-/// compile for each kind of number.
-fn evaluated<S: Scalar>(function: Function, tree: &Tree, trace: &impl Trace<S>, x: &[&[S]]) -> Vec<S> {
-    match function {
-        Function::InverseDynamics => denoc::inverse_dynamics(tree, trace, x[0], x[1], x[2]),
-        Function::BiasForces => denoc::bias_forces(tree, trace, x[0], x[1]),
-        Function::GravityForces => denoc::gravity_forces(tree, trace, x[0]),
-        Function::MassMatrix => denoc::mass_matrix(tree, trace, x[0]).concat(),
-        Function::ForwardDynamics => denoc::forward_dynamics(Method::Recursion, tree, trace, x[0], x[1], x[2]),
-        _ => Vec::new(),
-    }
-}
-
 impl<'a> Reference<'a> {
     /// The robot `tree`, at positions within ±π rad or ±1 m of the zero position.
     pub fn new(tree: &'a Tree) -> Self {
@@ -121,7 +107,7 @@ impl<'a> Reference<'a> {
 
     /// The loss of the recursion for `function` in `f64` on `tree`, another description of the robot.
     pub fn loss_on(&self, tree: &Tree, function: Function) -> f64 {
-        self.loss_by(function, |x| evaluated(function, tree, &AsGenerated, x))
+        self.loss_by(function, |x| denoc::evaluate_dynamics(function, tree, &AsGenerated, x))
     }
 
     /// The loss of `function` in any description: that of the recursion on the model's own, with its numbers as they
@@ -210,7 +196,7 @@ impl State {
         let exactly = |function: Function, state: &State| {
             let arguments: Vec<Vec<DoubleDouble>> = state.arguments(function).into_iter().map(exact).collect();
             let arguments: Vec<&[DoubleDouble]> = arguments.iter().map(Vec::as_slice).collect();
-            rounded(evaluated(function, tree, &Untraced, &arguments))
+            rounded(denoc::evaluate_dynamics(function, tree, &Untraced, &arguments))
         };
         let mut state = State { motion, q, v, a, tau: vec![0.0; nv], weights, exact: Vec::new() };
         if motion != Motion::Rest {

@@ -23,12 +23,12 @@ pub fn evaluate<S: Scalar>(
     x: &[&[S]],
 ) -> Vec<S> {
     match function {
-        Function::InverseDynamics => inverse_dynamics(tree, trace, x[0], x[1], x[2]),
-        Function::ForwardDynamics => forward_dynamics(Method::Recursion, tree, trace, x[0], x[1], x[2]),
-        Function::MassMatrix => mass_matrix(tree, trace, x[0]).concat(),
-        Function::BiasForces => bias_forces(tree, trace, x[0], x[1]),
+        Function::InverseDynamics
+        | Function::ForwardDynamics
+        | Function::MassMatrix
+        | Function::BiasForces
+        | Function::GravityForces => evaluate_dynamics(function, tree, trace, x),
         Function::CoriolisMatrix => coriolis_matrix(tree, trace, x[0], x[1]).concat(),
-        Function::GravityForces => gravity_forces(tree, trace, x[0]),
         Function::PassiveForces => passive_forces(tree, trace, x[0], x[1]),
         Function::Energy => {
             let Energy { kinetic, potential } = energy(tree, trace, x[0], x[1]);
@@ -84,5 +84,25 @@ pub fn evaluate<S: Scalar>(
         Function::Difference => difference(tree, x[0], x[1]),
         Function::Neutral => neutral(tree),
         Function::DissipatedPower => vec![dissipated_power(tree, trace, x[0], x[1])],
+    }
+}
+
+/// The same of the five functions of the equations of motion, and an empty array of any other: a crate that needs no other
+/// compiles a fraction of [`evaluate`] for each scalar.
+///
+/// They are inverse dynamics, forward dynamics by the recursion, the mass matrix, bias forces and gravity forces.
+pub fn evaluate_dynamics<S: Scalar>(
+    function: Function,
+    tree: &Tree<impl ParameterIn<S>>,
+    trace: &impl Trace<S>,
+    x: &[&[S]],
+) -> Vec<S> {
+    match function {
+        Function::InverseDynamics => inverse_dynamics(tree, trace, x[0], x[1], x[2]),
+        Function::ForwardDynamics => forward_dynamics(Method::Recursion, tree, trace, x[0], x[1], x[2]),
+        Function::MassMatrix => mass_matrix(tree, trace, x[0]).concat(),
+        Function::BiasForces => bias_forces(tree, trace, x[0], x[1]),
+        Function::GravityForces => gravity_forces(tree, trace, x[0]),
+        _ => Vec::new(),
     }
 }

@@ -41,7 +41,7 @@ pub use center_of_mass::center_of_mass;
 pub use configuration::{coordinate_rates, difference, integrate, neutral};
 pub use coriolis::coriolis_matrix;
 pub use energy::energy;
-pub use evaluate::evaluate;
+pub use evaluate::{evaluate, evaluate_dynamics};
 pub use factorisation::{EliminationOrder, Factorisation};
 pub use forward::{
     Method, forward_dynamics, forward_dynamics_by_factorisation, forward_dynamics_by_recursion, forward_dynamics_in,

@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 
 use crate::diagnostic::Message;
 use crate::key::{KeyPath, Keys};
+use crate::value::MOST_ANGLE;
 use crate::words::{did_you_mean, nearest, quoted};
 
 fn message(title: String, label: impl Into<String>, help: impl Into<String>) -> Message {
@@ -170,12 +171,11 @@ pub(crate) fn unknown_name(item: &str, what: &str, found: &str, names: &[&str]) 
 }
 
 pub(crate) fn large_angle(item: &str, path: &KeyPath, radians: f64) -> Message {
-    // Beyond, neither an angle in radians nor one in degrees makes sense.
-    let help = match radians.abs() < 1e9 {
-        true => {
-            format!("if degrees are meant, write \"{radians:?} deg\"; otherwise \"{radians:?} rad\" ends this warning")
-        }
-        false => "leave whole turns out".into(),
+    // A larger angle is invalid in a scenario, whether in radians or in degrees.
+    let help = if radians.abs() <= MOST_ANGLE {
+        format!("if degrees are meant, write \"{radians:?} deg\"; otherwise \"{radians:?} rad\" ends this warning")
+    } else {
+        "leave whole turns out".into()
     };
     message(format!("{item}: `{path}` is {radians:?} rad, more than a whole turn"), "more than a whole turn", help)
 }

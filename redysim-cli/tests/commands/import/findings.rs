@@ -129,5 +129,10 @@ fn what_of_a_urdf_is_probably_misspelled_or_impossible_is_warned_of() {
         &["has no range here: its limit of effort is -10, which is negative"],
     );
     warned(&limit("<limit effort=\"1\" velocity=\"-3\"/>"), &["its limit of velocity is -3, which is negative"]);
-    warned(&limit("<mimic joint=\"nobody\"/>"), &["mimics `nobody`, which does not exist, in the URDF"]);
+    for (joint, why) in [("nobody", "no joint has this name"), ("hinge", "a joint cannot mimic itself")] {
+        let found = format!(
+            "joint `hinge` mimics `{joint}` in the URDF (1 times its value, plus 0 rad), but {why}: it is free"
+        );
+        warned(&limit(&format!("<mimic joint=\"{joint}\"/>")), &[&found]);
+    }
 }

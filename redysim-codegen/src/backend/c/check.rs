@@ -10,15 +10,13 @@ use super::function::Writer;
 use super::results::InC;
 use super::scalar::CScalar;
 use crate::accuracy::both::Both;
-use crate::accuracy::double_double::{DoubleDouble, exact, rounded};
-use crate::accuracy::rounding::Rounded;
 use crate::functions::TracedFunction;
 use crate::generate::TracedMechanism;
 use crate::random::Random;
 use redysim_model::denoc::{self, Untraced};
 use redysim_model::{CodegenOptions, Function, Model, Tree};
+use redysim_runtime::ParameterRule;
 use redysim_runtime::function::Argument;
-use redysim_runtime::{ParameterRule, Scalar};
 
 /// The states at which functions are called. The last has angles of many turns.
 pub const STATES: usize = 3;
@@ -114,26 +112,19 @@ fn expected(
     let TracedFunction { function, expressions, pruning, .. } = traced;
     let arguments: Vec<&Vec<f64>> =
         function.signature().arguments.iter().map(|argument| numbers(state, *argument)).collect();
-    let given: Vec<Vec<Rounded>> =
-        arguments.iter().map(|numbers| numbers.iter().map(|&number| Rounded::given(number)).collect()).collect();
-    let given: Vec<&[Rounded]> = given.iter().map(Vec::as_slice).collect();
+    let given: Vec<Vec<Both>> =
+        arguments.iter().map(|numbers| numbers.iter().map(|&number| Both::given(number)).collect()).collect();
+    let given: Vec<&[Both]> = given.iter().map(Vec::as_slice).collect();
     let lumped = mechanism
         .lumped
         .as_ref()
-        .map_or(Vec::new(), |lumped| lumped.evaluate_with(&[], |index, _| Rounded::given(parameters[index as usize])));
+        .map_or(Vec::new(), |lumped| lumped.evaluate_with(&[], |index, _| Both::given(parameters[index as usize])));
     let found = expressions.evaluate_with(&given, |index, _| lumped[index as usize]);
-    let both: Vec<Vec<Both>> =
-        arguments.iter().map(|numbers| numbers.iter().map(|&number| Both::given(number)).collect()).collect();
-    let both: Vec<&[Both]> = both.iter().map(Vec::as_slice).collect();
-    let by_tree = denoc::evaluate(*function, tree, &Untraced, &both);
+    let by_tree = denoc::evaluate(*function, tree, &Untraced, &given);
     // A pruned function differs from the run-time path by more than roundings: what is checked is how it was compiled.
-    let values = if pruning.as_ref().is_some_and(|pruning| pruning.holds) {
-        let arguments: Vec<Vec<DoubleDouble>> = arguments.iter().map(|numbers| exact(numbers)).collect();
-        let arguments: Vec<&[DoubleDouble]> = arguments.iter().map(Vec::as_slice).collect();
-        rounded(expressions.evaluate_with(&arguments, |_, nominal| DoubleDouble::from_f64(nominal)))
-    } else {
-        by_tree.iter().map(|value| value.exact.to_f64()).collect()
-    };
+    let is_pruned = pruning.as_ref().is_some_and(|pruning| pruning.holds);
+    let values = if is_pruned { &found } else { &by_tree }.iter().map(|value| value.exact.to_f64());
+    let values: Vec<f64> = values.collect();
     // To first order, bounds of rounding errors are as large as the errors of one operation.
     let unit = match scalar {
         CScalar::F64 => 1.0,
@@ -142,8 +133,8 @@ fn expected(
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let of_constants = OF_CONSTANTS * largest * unit * f64::EPSILON + VANISHING;
     // What constants of the run-time path have been rounded to counts there alone: the compiled one may cancel them.
-    let bound = |found: &Rounded, by_tree: &Both| {
-        SLACK * unit * found.error_bound().max(by_tree.rounded.error_bound()) + of_constants
+    let bound = |found: &Both, by_tree: &Both| {
+        SLACK * unit * found.rounded.error_bound().max(by_tree.rounded.error_bound()) + of_constants
     };
     let bounds = found.iter().zip(&by_tree).map(|(found, by_tree)| bound(found, by_tree));
     values.into_iter().zip(bounds).map(|(value, bound)| Expected { value, bound }).collect()
