@@ -1,4 +1,6 @@
 //! The symbolic scalar: run through the recursions, it builds their expression graph.
+//!
+//! Operations are not inlined: the recursions have thousands of them, and would take longer to compile than they save.
 
 use crate::graph::{Edge, Graph, Name, Step};
 use redysim_model::Tree;
@@ -158,6 +160,7 @@ impl Scalar for Symbol<'_> {
         Symbol::Constant(value)
     }
 
+    #[inline(never)]
     fn sin_cos(self) -> (Self, Self) {
         (
             self.unary(|x| redysim_model::rotation::sin_cos(x).0, Graph::sin),
@@ -165,6 +168,7 @@ impl Scalar for Symbol<'_> {
         )
     }
 
+    #[inline(never)]
     fn sqrt(self) -> Self {
         self.unary(f64::sqrt, Graph::sqrt)
     }
@@ -187,6 +191,7 @@ impl<'g> Lift<Symbol<'g>> for Symbol<'g> {
 
 impl Add for Symbol<'_> {
     type Output = Self;
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         self.binary(other, |a, b| a + b, Graph::add)
     }
@@ -194,6 +199,7 @@ impl Add for Symbol<'_> {
 
 impl Sub for Symbol<'_> {
     type Output = Self;
+    #[inline(never)]
     fn sub(self, other: Self) -> Self {
         self.binary(other, |a, b| a - b, |graph, a, b| graph.add(a, -b))
     }
@@ -201,6 +207,7 @@ impl Sub for Symbol<'_> {
 
 impl Mul for Symbol<'_> {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         self.binary(other, |a, b| a * b, Graph::multiply)
     }
@@ -208,6 +215,7 @@ impl Mul for Symbol<'_> {
 
 impl Div for Symbol<'_> {
     type Output = Self;
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         self.binary(other, |a, b| a / b, Graph::divide)
     }
@@ -215,18 +223,21 @@ impl Div for Symbol<'_> {
 
 impl Neg for Symbol<'_> {
     type Output = Self;
+    #[inline(never)]
     fn neg(self) -> Self {
         self.unary(|a| -a, |_, a| -a)
     }
 }
 
 impl AddAssign for Symbol<'_> {
+    #[inline(never)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl SubAssign for Symbol<'_> {
+    #[inline(never)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }

@@ -44,6 +44,11 @@ robots! {
     To2, 1e-2;
     To3, 1e-3;
     To4, 1e-4;
+}
+
+// To prune one takes seconds in the compiler.
+#[cfg(not(debug_assertions))]
+robots! {
     To5, 1e-5;
     To6, 1e-6;
 }
@@ -120,14 +125,20 @@ fn errors_stay_within_the_tolerance() {
     holds::<To2>();
     holds::<To3>();
     holds::<To4>();
-    holds::<To5>();
-    holds::<To6>();
+    #[cfg(not(debug_assertions))]
+    {
+        holds::<To5>();
+        holds::<To6>();
+    }
 }
 
 #[test]
 fn a_larger_tolerance_never_costs_more() {
-    let table =
-        [Kr5::OPS, To6::OPS, To5::OPS, To4::OPS, To3::OPS, To2::OPS, To1::OPS].map(|operations| flops(&operations));
+    let mut operations = vec![Kr5::OPS];
+    #[cfg(not(debug_assertions))]
+    operations.extend([To6::OPS, To5::OPS]);
+    operations.extend([To4::OPS, To3::OPS, To2::OPS, To1::OPS]);
+    let table: Vec<_> = operations.iter().map(flops).collect();
     for (finer, coarser) in table.iter().zip(&table[1..]) {
         for (name, (finer, coarser)) in NAMES.iter().zip(finer.iter().zip(coarser)) {
             assert!(coarser <= finer, "{name}: {coarser} after {finer}");

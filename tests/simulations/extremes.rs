@@ -96,15 +96,23 @@ fn a_motion_at_a_million_radians_per_second_keeps_its_energy() {
     assert!((end.y[0] - 1e6 - 1e4).abs() < 1e-6, "{}", end.y[0]);
 }
 
+type Law<'l> = Box<dyn FnMut(f64, &[f64; 1], &[f64; 1]) -> [f64; 1] + 'l>;
+
+/// The pendulum under a law. One type for all laws, so that each method is compiled once.
+fn pendulum<'l>(
+    law: impl FnMut(f64, &[f64; 1], &[f64; 1]) -> [f64; 1] + 'l,
+) -> ForwardSimulation<'static, SimplePendulum, Law<'l>> {
+    ForwardSimulation::new(&SimplePendulum, Box::new(law))
+}
+
 /// Starts, intervals and forces that are infinite or NaN.
 struct BadInput;
 
 impl WithMethod for BadInput {
     fn with(&mut self, name: &str, method: &impl Integrator<f64>) {
-        let state = |q: f64, v: f64| ForwardSimulation::new(&SimplePendulum, ZeroTorque).state(&[q], &[v]);
-        let run = |interval, start| {
-            method.integrate(&mut ForwardSimulation::new(&SimplePendulum, ZeroTorque), interval, start)
-        };
+        let free = || pendulum(|_, _, _| [0.0]);
+        let state = |q: f64, v: f64| free().state(&[q], &[v]);
+        let run = |interval, start| method.integrate(&mut free(), interval, start);
         for (start, component) in [(state(f64::NAN, 0.0), 0), (state(0.1, f64::INFINITY), 1)] {
             let outcome = run((0.0, 1.0), start);
             let expected = Err(IntegrationError::NonFiniteState { t: 0.0, component });
@@ -123,8 +131,7 @@ impl WithMethod for BadInput {
             assert!(calls < 1_000_000, "{name} does not end");
             [if t > 0.5 { f64::NAN } else { 0.0 }]
         };
-        let mut failing = ForwardSimulation::new(&SimplePendulum, law);
-        let outcome = method.integrate(&mut failing, (0.0, 1.0), state(0.1, 0.0));
+        let outcome = method.integrate(&mut pendulum(law), (0.0, 1.0), state(0.1, 0.0));
         let Err(IntegrationError::NonFiniteDerivative { t, .. } | IntegrationError::NonFiniteState { t, .. }) = outcome
         else {
             panic!("{name}: {outcome:?}")
@@ -149,9 +156,10 @@ impl WithMethod for Refused {
             calls += 1;
             [0.0]
         };
-        let mut simulation = ForwardSimulation::new(&SimplePendulum, law);
+        let mut simulation = pendulum(law);
         let start = simulation.state(&[0.1], &[0.0]);
         let outcome = method.integrate(&mut simulation, (0.0, 1.0), start);
+        drop(simulation);
         assert!(
             matches!(
                 outcome,

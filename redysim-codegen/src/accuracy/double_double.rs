@@ -2,6 +2,8 @@
 //!
 //! A number is an unevaluated sum of two `f64`. Sums and products follow Dekker, "A floating-point technique for
 //! extending the available precision", Numerische Mathematik 18, 1971, with Knuth's branch-free exact sum.
+//!
+//! Operations are not inlined, as those of [symbols](crate::symbol).
 
 use super::with_error::WithError;
 use redysim_runtime::Scalar;
@@ -76,6 +78,7 @@ impl Scalar for DoubleDouble {
     fn from_f64(value: f64) -> Self {
         DoubleDouble::new(value, 0.0)
     }
+    #[inline(never)]
     fn sin_cos(self) -> (Self, Self) {
         let turns = (self.value / QUARTER_TURN[0]).round();
         let reduced = QUARTER_TURN.iter().fold(self, |rest, &part| rest - exact_product(turns, part));
@@ -87,6 +90,7 @@ impl Scalar for DoubleDouble {
             _ => (-cos, sin),
         }
     }
+    #[inline(never)]
     fn sqrt(self) -> Self {
         let root = Self::from_f64(self.value.sqrt());
         root + (self - root * root) / (root + root)
@@ -95,6 +99,7 @@ impl Scalar for DoubleDouble {
 
 impl Add for DoubleDouble {
     type Output = Self;
+    #[inline(never)]
     fn add(self, b: Self) -> Self {
         let (values, errors) = (exact_sum(self.value, b.value), exact_sum(self.error, b.error));
         let sum = exact_sum(values.value, values.error + errors.value);
@@ -104,6 +109,7 @@ impl Add for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, b: Self) -> Self {
         let product = exact_product(self.value, b.value);
         exact_sum(product.value, product.error + (self.value * b.error + self.error * b.value))
@@ -112,6 +118,7 @@ impl Mul for DoubleDouble {
 
 impl Div for DoubleDouble {
     type Output = Self;
+    #[inline(never)]
     fn div(self, b: Self) -> Self {
         let quotient = |rest: Self| Self::from_f64(rest.value / b.value);
         let first = quotient(self);
@@ -123,6 +130,7 @@ impl Div for DoubleDouble {
 
 impl Neg for DoubleDouble {
     type Output = Self;
+    #[inline(never)]
     fn neg(self) -> Self {
         DoubleDouble::new(-self.value, -self.error)
     }

@@ -3,6 +3,8 @@
 //! Running error analysis (Wilkinson; Higham, "Accuracy and Stability of Numerical Algorithms", section 3.3): each
 //! operation adds half a unit in the last place of its result to the propagated errors of its operands. Constants of a
 //! model have been computed with a few roundings each, which a pass over expressions may do in another order.
+//!
+//! Operations are not inlined, as those of [symbols](crate::symbol).
 
 use super::with_error::WithError;
 use redysim_runtime::Scalar;
@@ -59,12 +61,14 @@ impl Scalar for Rounded {
     fn from_f64(value: f64) -> Self {
         Rounded::result(value, 0.0, if value == 0.0 || value == 1.0 { 0.0 } else { OF_CONSTANT })
     }
+    #[inline(never)]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = redysim_model::rotation::sin_cos(self.value);
         // No sine changes by more than its angle, and none by more than 2.
         let change = self.error.min(2.0);
         (Rounded::result(sin, change, OF_SINE), Rounded::result(cos, change, OF_SINE))
     }
+    #[inline(never)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         let least = (self.value - self.error).max(0.0).sqrt();
@@ -74,6 +78,7 @@ impl Scalar for Rounded {
 
 impl Add for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn add(self, b: Self) -> Self {
         Rounded::result(self.value + b.value, self.error + b.error, 1.0)
     }
@@ -81,6 +86,7 @@ impl Add for Rounded {
 
 impl Mul for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, b: Self) -> Self {
         let errors = self.value.abs() * b.error + self.error * b.value.abs() + self.error * b.error;
         // An infinite bound of one factor leaves the product unbounded, even where the other factor is zero.
@@ -92,6 +98,7 @@ impl Mul for Rounded {
 
 impl Div for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn div(self, b: Self) -> Self {
         let quotient = self.value / b.value;
         let least = b.value.abs() - b.error;
@@ -102,6 +109,7 @@ impl Div for Rounded {
 
 impl Neg for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn neg(self) -> Self {
         Rounded::new(-self.value, self.error)
     }

@@ -11,13 +11,14 @@ use redysim_runtime::{Event, Gauss4, Integrator, Ode, Ode45, Solution};
 /// A method that evaluates the derivative this often counts as one that does not end.
 const ENDLESS: u32 = 100_000;
 
-/// ẏ = f(t, y), of which the first component is a coordinate, as `SemiImplicitEuler` requires.
-struct Equation<F> {
-    f: F,
+/// ẏ = f(t, y), of which the first component is a coordinate, as `SemiImplicitEuler` requires. One type for all tests, so
+/// that each method is compiled once.
+struct Equation<'f> {
+    f: Box<dyn FnMut(f64, &[f64; 2]) -> [f64; 2] + 'f>,
     calls: u32,
 }
 
-impl<F: FnMut(f64, &[f64; 2]) -> [f64; 2]> Ode<f64, [f64; 2]> for Equation<F> {
+impl Ode<f64, [f64; 2]> for Equation<'_> {
     fn derivative(&mut self, t: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
         self.calls += 1;
         assert!(self.calls < ENDLESS, "no end of evaluations at t = {t}");
@@ -30,8 +31,8 @@ impl<F: FnMut(f64, &[f64; 2]) -> [f64; 2]> Ode<f64, [f64; 2]> for Equation<F> {
     }
 }
 
-fn equation<F: FnMut(f64, &[f64; 2]) -> [f64; 2]>(f: F) -> Equation<F> {
-    Equation { f, calls: 0 }
+fn equation<'f>(f: impl FnMut(f64, &[f64; 2]) -> [f64; 2] + 'f) -> Equation<'f> {
+    Equation { f: Box::new(f), calls: 0 }
 }
 
 type Outcome = Result<Solution<f64, [f64; 2]>, IntegrationError<f64>>;
@@ -276,9 +277,9 @@ fn an_end_that_overflows_is_not_a_solution() {
 }
 
 /// ẏ = 1, with a function that corrects the ends of steps.
-struct Corrected<F>(F);
+struct Corrected(fn(f64, &mut [f64; 2]) -> Accepted);
 
-impl<F: FnMut(f64, &mut [f64; 2]) -> Accepted> Ode<f64, [f64; 2]> for Corrected<F> {
+impl Ode<f64, [f64; 2]> for Corrected {
     fn derivative(&mut self, _t: f64, _y: &[f64; 2], dydt: &mut [f64; 2]) {
         *dydt = [1.0, 1.0];
     }
