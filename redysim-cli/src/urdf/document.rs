@@ -6,10 +6,17 @@ use roxmltree::{Document as Xml, Node};
 
 use crate::failure::{Failure, Fault};
 
-/// A URDF file whose form is right: well-formed, with the elements and numbers that a robot needs.
+/// A version of URDF: major, minor.
+pub type Version = (u32, u32);
+
+/// From this version on an origin may have a quaternion.
+pub const WITH_QUATERNIONS: Version = (1, 1);
+/// From this version on a limit that is not given is infinite, not zero, and there are limits of acceleration.
+pub const WITHOUT_LIMITS: Version = (1, 2);
+
+/// A URDF file that is well-formed.
 pub struct Document<'a> {
     file: &'a str,
-    text: &'a str,
     xml: Xml<'a>,
 }
 
@@ -25,7 +32,7 @@ const READ: [(&str, &[&str]); 4] = [
 const ATTRIBUTES: [(&str, &[&str]); 11] = [
     ("link", &["name"]),
     ("joint", &["name", "type"]),
-    ("origin", &["xyz", "rpy"]),
+    ("origin", &["xyz", "rpy", "quat_xyzw"]),
     ("parent", &["link"]),
     ("child", &["link"]),
     ("axis", &["xyz"]),
@@ -36,17 +43,14 @@ const ATTRIBUTES: [(&str, &[&str]); 11] = [
     ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
 ];
 
-/// The joints of URDF.
-const KINDS: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
-
 impl<'a> Document<'a> {
     /// Parses the text of the file.
     ///
     /// # Errors
-    /// The first fault of form, with its line.
+    /// If it is not well-formed, or not a URDF.
     pub fn parse(text: &'a str, file: &'a str) -> Result<Self, Failure> {
         let xml = Xml::parse(text).map_err(|error| broken(file, &error))?;
-        let document = Document { file, text, xml };
+        let document = Document { file, xml };
         let robot = document.xml.root_element();
         if robot.tag_name().name() != "robot" {
             let message = format!("the file has a <{}>, not a <robot>", robot.tag_name().name());
@@ -56,13 +60,11 @@ impl<'a> Document<'a> {
             let message = format!("<xacro:{}> is a macro that is not expanded", node.tag_name().name());
             return Err(document.fault(node, message).help(EXPAND));
         }
-        children(robot, "link").try_for_each(|link| document.check_link(link))?;
-        children(robot, "joint").try_for_each(|joint| document.check_joint(joint))?;
         Ok(document)
     }
 
     /// A fault at an element, with its line.
-    fn fault(&self, node: Node, message: impl std::fmt::Display) -> Failure {
+    pub fn fault(&self, node: Node, message: impl std::fmt::Display) -> Failure {
         fault_in(self.file, (self.line(node), None), message)
     }
 
@@ -81,6 +83,13 @@ impl<'a> Document<'a> {
         self.xml.root_element()
     }
 
+    /// The version of URDF of the file, 1.0 by default.
+    pub fn version(&self) -> Version {
+        let version = self.robot().attribute("version").and_then(|version| version.trim().split_once('.'));
+        let numbers = version.and_then(|(major, minor)| Some((major.parse().ok()?, minor.parse().ok()?)));
+        numbers.unwrap_or((1, 0))
+    }
+
     /// The line on which an element begins.
     pub fn line(&self, node: Node) -> u32 {
         self.xml.text_pos_at(node.range().start).row
@@ -90,132 +99,6 @@ impl<'a> Document<'a> {
     pub fn line_of(&self, tag: &str, name: &str) -> u32 {
         let named = children(self.xml.root_element(), tag).filter(|node| node.attribute("name") == Some(name));
         named.last().map_or(1, |node| self.line(node))
-    }
-
-    fn check_link(&self, link: Node) -> Result<(), Failure> {
-        let item = self.item(link)?;
-        self.check_single(&item, link)?;
-        let Some(inertial) = child(link, "inertial") else { return Ok(()) };
-        self.check_single(&item, inertial)?;
-        self.check_origin(&item, inertial)?;
-        let mass = self.required(&item, inertial, "mass")?;
-        self.numbers(&item, mass, "value", 1, true)?;
-        let inertia = self.required(&item, inertial, "inertia")?;
-        attributes_of("inertia").iter().try_for_each(|element| self.numbers(&item, inertia, element, 1, true))
-    }
-
-    fn check_joint(&self, joint: Node) -> Result<(), Failure> {
-        let item = self.item(joint)?;
-        self.check_single(&item, joint)?;
-        match joint.attribute("type") {
-            None => return Err(self.fault(joint, format!("{item}: it has no `type`"))),
-            Some(kind) if !KINDS.contains(&kind) => {
-                let message = format!("{item}: its `type` cannot be `{}`", kind.escape_debug());
-                return Err(self.fault(joint, message).help(format!("the types are: {}", KINDS.join(", "))));
-            }
-            Some(_) => {}
-        }
-        for end in ["parent", "child"] {
-            let node = self.required(&item, joint, end)?;
-            if node.attribute("link").is_none() {
-                return Err(self.fault(node, format!("{item}: its <{end}> has no `link`")));
-            }
-        }
-        self.check_origin(&item, joint)?;
-        child(joint, "axis").map_or(Ok(()), |axis| self.check_axis(&item, joint, axis))?;
-        child(joint, "limit").map_or(Ok(()), |limit| self.check_limit(&item, limit))?;
-        child(joint, "dynamics").map_or(Ok(()), |dynamics| self.check_dynamics(&item, dynamics))?;
-        child(joint, "mimic").map_or(Ok(()), |mimic| self.check_mimic(&item, mimic))
-    }
-
-    fn check_axis(&self, item: &str, joint: Node, axis: Node) -> Result<(), Failure> {
-        self.numbers(item, axis, "xyz", 3, true)?;
-        let is_zero = |text: &str| text.split_whitespace().all(|word| word.parse::<f64>().is_ok_and(|x| x == 0.0));
-        let what = match joint.attribute("type") {
-            Some("revolute" | "continuous" | "prismatic") => "its `axis`",
-            Some("planar") => "its `axis`, the normal of the plane in which it moves,",
-            _ => return Ok(()),
-        };
-        if axis.attribute("xyz").is_some_and(is_zero) {
-            let message = format!("{item}: {what} is zero");
-            return Err(self.fault(axis, message).help("give a direction, as in xyz=\"0 0 1\""));
-        }
-        Ok(())
-    }
-
-    /// Limits may be infinite.
-    fn check_limit(&self, item: &str, limit: Node) -> Result<(), Failure> {
-        let number = |text: &str| text.trim().parse::<f64>().is_ok_and(|value| !value.is_nan());
-        let read = |name: &str| attributes_of("limit").contains(&name);
-        match limit.attributes().find(|limit| read(limit.name()) && !number(limit.value())) {
-            None => Ok(()),
-            Some(wrong) => Err(self.wrong(item, limit, wrong.name(), "a number", wrong.value())),
-        }
-    }
-
-    fn check_dynamics(&self, item: &str, dynamics: Node) -> Result<(), Failure> {
-        attributes_of("dynamics").iter().try_for_each(|name| self.numbers(item, dynamics, name, 1, false))
-    }
-
-    fn check_mimic(&self, item: &str, mimic: Node) -> Result<(), Failure> {
-        if mimic.attribute("joint").is_none() {
-            return Err(self.fault(mimic, format!("{item}: its <mimic> has no `joint`")));
-        }
-        ["multiplier", "offset"].iter().try_for_each(|name| self.numbers(item, mimic, name, 1, false))
-    }
-
-    /// What is read inside of an element stands there once.
-    fn check_single(&self, item: &str, owner: Node) -> Result<(), Failure> {
-        let tag = owner.tag_name().name();
-        match read_in(owner).iter().find_map(|read| children(owner, read).nth(1)) {
-            None => Ok(()),
-            Some(again) => {
-                let message = format!("{item}: its <{tag}> has a second <{}>", again.tag_name().name());
-                Err(self.fault(again, message).help("keep one of them"))
-            }
-        }
-    }
-
-    /// "link `arm`".
-    fn item(&self, node: Node) -> Result<String, Failure> {
-        let tag = node.tag_name().name();
-        match node.attribute("name") {
-            Some(name) => Ok(format!("{tag} `{}`", name.escape_debug())),
-            None => Err(self.fault(node, format!("a <{tag}> has no `name`"))),
-        }
-    }
-
-    fn check_origin(&self, item: &str, owner: Node) -> Result<(), Failure> {
-        let Some(origin) = child(owner, "origin") else { return Ok(()) };
-        self.numbers(item, origin, "xyz", 3, false)?;
-        self.numbers(item, origin, "rpy", 3, false)
-    }
-
-    fn required<'n>(&self, item: &str, owner: Node<'n, 'a>, tag: &str) -> Result<Node<'n, 'a>, Failure> {
-        let owner_tag = owner.tag_name().name();
-        child(owner, tag).ok_or_else(|| self.fault(owner, format!("{item}: its <{owner_tag}> has no <{tag}>")))
-    }
-
-    /// An attribute that is `count` finite numbers.
-    fn numbers(&self, item: &str, node: Node, attribute: &str, count: usize, needed: bool) -> Result<(), Failure> {
-        let tag = node.tag_name().name();
-        let Some(text) = node.attribute(attribute) else {
-            let missing = || self.fault(node, format!("{item}: its <{tag}> has no `{attribute}`"));
-            return if needed { Err(missing()) } else { Ok(()) };
-        };
-        let words: Vec<&str> = text.split_whitespace().collect();
-        let finite = |word: &&str| word.parse::<f64>().is_ok_and(f64::is_finite);
-        if words.len() == count && words.iter().all(finite) {
-            return Ok(());
-        }
-        let wanted = if count == 1 { "a finite number".into() } else { format!("{count} finite numbers") };
-        let wrong = self.wrong(item, node, attribute, &wanted, text);
-        Err(if text.contains("${") { wrong.help(EXPAND) } else { wrong })
-    }
-
-    fn wrong(&self, item: &str, node: Node, attribute: &str, wanted: &str, found: &str) -> Failure {
-        let (tag, found) = (node.tag_name().name(), found.escape_debug());
-        self.fault(node, format!("{item}: `{attribute}` of its <{tag}> must be {wanted}, found \"{found}\""))
     }
 
     /// The joints, in the order of the file.
@@ -260,16 +143,6 @@ impl<'a> Document<'a> {
         };
         found.into_iter().map(text).collect()
     }
-
-    /// The text with spaces for what is left out, so that no fault in it stands in the way.
-    pub fn text_to_read(&self) -> String {
-        let mut bytes = self.text.as_bytes().to_vec();
-        for node in self.unread() {
-            bytes[node.range()].iter_mut().filter(|byte| **byte != b'\n').for_each(|byte| *byte = b' ');
-        }
-        // Elements begin and end with ASCII, so that whole characters are replaced.
-        String::from_utf8(bytes).unwrap_or_default()
-    }
 }
 
 fn described(node: Node) -> String {
@@ -296,7 +169,7 @@ pub fn attributes_of(tag: &str) -> &'static [&'static str] {
 }
 
 /// What to do with a file of macros.
-const EXPAND: &str = "expand it first: xacro robot.urdf.xacro > robot.urdf";
+pub const EXPAND: &str = "expand it first: xacro robot.urdf.xacro > robot.urdf";
 
 fn is_xacro(node: &Node) -> bool {
     node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro"))

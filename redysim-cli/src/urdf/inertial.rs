@@ -4,6 +4,8 @@ use redysim_model::inertia::Sym3;
 use redysim_model::rotation::roll_pitch_yaw;
 use redysim_model::spatial::{Pose, Vec3};
 
+use super::robot::Origin;
+
 /// An inertia of so many kg m² for a kg (a radius of gyration of 10 nm) is roundoff.
 const NOISE: f64 = 1e-16;
 
@@ -24,17 +26,11 @@ impl Inertial {
         Inertial { mass: 0.0, com: Vec3::zero(), inertia: Sym3::zero() }
     }
 
-    /// The inertial of a URDF's link: its inertia is in the axes of the inertial frame, whose origin is the centre of
-    /// mass.
-    pub fn of(inertial: &urdf_rs::Inertial) -> Self {
-        let urdf_rs::Inertia { ixx, ixy, ixz, iyy, iyz, izz } = inertial.inertia;
-        let inertia = Sym3 { xx: ixx, yy: iyy, zz: izz, xy: ixy, yz: iyz, xz: ixz };
-        let turned = inertial.origin.rpy.0 != [0.0; 3];
-        Inertial {
-            mass: inertial.mass.value,
-            com: Vec3(inertial.origin.xyz.0),
-            inertia: if turned { inertia.rotated(roll_pitch_yaw(inertial.origin.rpy.0)) } else { inertia },
-        }
+    /// A body whose centre of mass is at `origin`, with an inertia in the axes of that frame, as URDF has it.
+    pub fn at(origin: Origin, mass: f64, inertia: Sym3<f64>) -> Self {
+        let turned = origin.rpy != [0.0; 3];
+        let inertia = if turned { inertia.rotated(roll_pitch_yaw(origin.rpy)) } else { inertia };
+        Inertial { mass, com: Vec3(origin.xyz), inertia }
     }
 
     /// Without an inertia that is nothing but the roundoff of the program that wrote it, and whether there was one.

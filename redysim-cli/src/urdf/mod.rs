@@ -2,6 +2,7 @@
 
 mod comments;
 mod document;
+mod elements;
 mod fixed;
 mod inertial;
 mod model_file;

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use redysim_model::inertia::Sym3;
 use redysim_model::{JointKind, rotation};
-use urdf_rs::JointLimit;
 
+use super::elements::Limit;
 use super::notation::{inertia, vector};
 use super::robot::{Link, Mimic, Origin, Robot};
 
@@ -97,8 +97,8 @@ fn angle(radians: f64) -> String {
 pub struct Unfit(pub &'static str);
 
 /// Limits as a range, which needs positions and a velocity.
-pub fn range(limit: &JointLimit) -> Result<String, Unfit> {
-    let JointLimit { lower, upper, effort, velocity, acceleration, .. } = *limit;
+pub fn range(limit: &Limit) -> Result<String, Unfit> {
+    let Limit { lower, upper, effort, velocity, acceleration } = *limit;
     let positive = |x: f64| x.is_finite() && x > 0.0;
     if lower.is_finite() && upper.is_finite() && lower >= upper && (lower, upper) != (0.0, 0.0) {
         return Err(Unfit("the lower one is not below the upper"));

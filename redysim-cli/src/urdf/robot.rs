@@ -3,14 +3,15 @@
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
+use nalgebra::UnitQuaternion;
 use redysim_model::JointKind;
 use redysim_model::rotation::{align_z, roll_pitch_yaw, sin_cos};
 use redysim_model::spatial::{Mat3, Pose, Vec3};
 use redysim_toml::rounded_quarter_turns;
-use urdf_rs::{JointLimit, JointType};
 
 use super::Base;
 use super::document::Document;
+use super::elements::{Elements, JointElement, Limit};
 use super::inertial::Inertial;
 use super::notation::inertial;
 use crate::failure::Failure;
@@ -42,7 +43,7 @@ pub struct Link {
     pub axis: [f64; 3],
     pub inertial: Inertial,
     /// Of a joint that moves and has limits.
-    pub limit: Option<JointLimit>,
+    pub limit: Option<Limit>,
     /// Viscous damping, N m s/rad or N s/m, and friction, N m or N, of a joint that moves.
     pub resistance: [f64; 2],
     /// The joint that this one mimics, and how.
@@ -70,6 +71,12 @@ pub struct Origin {
 }
 
 impl Origin {
+    /// Turned by a quaternion (x, y, z, w) of any length but zero.
+    pub fn turned(xyz: [f64; 3], quaternion: [f64; 4]) -> Self {
+        let rotation = UnitQuaternion::from_quaternion(quaternion.into()).to_rotation_matrix();
+        Origin::of(Pose { rotation: Mat3::from_fn(|i, j| rotation[(i, j)]), position: Vec3(xyz) })
+    }
+
     pub fn pose(self) -> Pose<f64> {
         Pose { rotation: roll_pitch_yaw(self.rpy), position: Vec3(self.xyz) }
     }
@@ -91,19 +98,18 @@ impl Robot {
     /// The robot of a document.
     ///
     /// # Errors
-    /// If the links and joints are not a tree.
+    /// If an element lacks what it needs or has something else than numbers where they are due, or the links and joints are
+    /// not a tree.
     pub fn read(document: &Document, base: Base) -> Result<Robot, Failure> {
-        let urdf = urdf_rs::read_from_string(&document.text_to_read())
-            .map_err(|error| document.fault_at("robot", "", format!("URDF: {error}")))?;
-        unique(document, "link", urdf.links.iter().map(|link| link.name.as_str()))?;
-        unique(document, "joint", urdf.joints.iter().map(|joint| joint.name.as_str()))?;
+        let urdf = document.elements()?;
+        unique(document, "link", urdf.links.iter().map(|link| link.name))?;
+        unique(document, "joint", urdf.joints.iter().map(|joint| joint.name))?;
         let root = root(document, &urdf, base)?;
         let inertial_of = |name: &str| {
-            let link = urdf.links.iter().find(|link| link.name == name);
-            link.map_or(Inertial::none(), |link| Inertial::of(&link.inertial))
+            urdf.links.iter().find(|link| link.name == name).map_or(Inertial::none(), |link| link.inertial)
         };
         let carried_by: HashMap<&str, usize> =
-            urdf.joints.iter().enumerate().map(|(index, joint)| (joint.child.link.as_str(), index)).collect();
+            urdf.joints.iter().enumerate().map(|(index, joint)| (joint.child, index)).collect();
         let mut notes = Vec::new();
         let fixed = inertial_of(root);
         let floats = base == Base::Free;
@@ -119,29 +125,29 @@ impl Robot {
                 inertial(fixed)
             )
         });
-        let link = |joint: &urdf_rs::Joint| Link {
-            name: joint.child.link.clone(),
-            joint_name: joint.name.clone(),
-            parent: match carried_by.get(joint.parent.link.as_str()) {
+        let link = |joint: &JointElement| Link {
+            name: joint.child.to_owned(),
+            joint_name: joint.name.to_owned(),
+            parent: match carried_by.get(joint.parent) {
                 Some(carrier) => Some(carrier + usize::from(floats)),
                 None => floats.then_some(0),
             },
-            kind: kind(joint),
+            kind: joint.kind,
             is_root: false,
             origin: placed(joint).0,
             far_end: placed(joint).1,
-            axis: joint.axis.xyz.0,
-            inertial: inertial_of(&joint.child.link),
-            limit: limit(joint),
+            axis: joint.axis,
+            inertial: inertial_of(joint.child),
+            limit: joint.limit,
             resistance: resistance(joint),
-            mimic: mimic(joint),
+            mimic: joint.mimic.clone(),
             remarks: Vec::new(),
             comments: Vec::new(),
         };
         let taken = |name: &str| urdf.joints.iter().any(|joint| joint.name == name);
         let root = floats.then(|| Link::floating(root, free_name("base", taken), inertial_of(root)));
         let links: Vec<Link> = root.into_iter().chain(urdf.joints.iter().map(link)).collect();
-        Ok(Robot { name: urdf.name.clone(), links, notes }.without_noise())
+        Ok(Robot { name: urdf.name.to_owned(), links, notes }.without_noise())
     }
 
     /// No inertia is mere roundoff.
@@ -199,7 +205,7 @@ impl Robot {
     /// Joints with a negative limit of effort or velocity, or a lower limit above the upper one, get a remark: they have no range.
     pub fn with_possible_limits(mut self) -> Self {
         for link in &mut self.links {
-            let Some(&JointLimit { lower, upper, effort, velocity, .. }) = link.limit.as_ref() else { continue };
+            let Some(&Limit { lower, upper, effort, velocity, .. }) = link.limit.as_ref() else { continue };
             let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
             let why = if lower > upper {
                 format!("its lower limit, {lower} {unit}, is above its upper one, {upper} {unit}")
@@ -269,22 +275,10 @@ fn free_name(name: &str, taken: impl Fn(&str) -> bool) -> String {
     names.into_iter().find(|name| !taken(name)).unwrap_or_default()
 }
 
-fn kind(joint: &urdf_rs::Joint) -> JointKind {
-    match joint.joint_type {
-        JointType::Revolute | JointType::Continuous => JointKind::Revolute,
-        JointType::Prismatic => JointKind::Prismatic,
-        JointType::Floating => JointKind::Free,
-        JointType::Planar => JointKind::Planar,
-        JointType::Spherical => JointKind::Spherical,
-        JointType::Fixed => JointKind::Fixed,
-    }
-}
-
 /// Where the joint stands, and where the link's frame does on it, if elsewhere: a planar joint has its normal along z here.
-fn placed(joint: &urdf_rs::Joint) -> (Origin, Option<Origin>) {
-    let origin = Origin { xyz: joint.origin.xyz.0, rpy: joint.origin.rpy.0 };
-    let [x, y, z] = joint.axis.xyz.0;
-    if joint.joint_type != JointType::Planar || (x == 0.0 && y == 0.0 && z > 0.0) {
+fn placed(joint: &JointElement) -> (Origin, Option<Origin>) {
+    let (origin, [x, y, z]) = (joint.origin, joint.axis);
+    if joint.kind != JointKind::Planar || (x == 0.0 && y == 0.0 && z > 0.0) {
         return (origin, None);
     }
     let length = Vec3([x, y, z]).dot(Vec3([x, y, z])).sqrt();
@@ -293,33 +287,14 @@ fn placed(joint: &urdf_rs::Joint) -> (Origin, Option<Origin>) {
     (Origin::of(origin.pose() * turned), Some(Origin::of(back)))
 }
 
-fn mimic(joint: &urdf_rs::Joint) -> Option<Mimic> {
-    let mimic = joint.mimic.as_ref()?;
-    let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
-    Some(Mimic { joint: mimic.joint.clone(), multiplier, offset })
-}
-
 /// Whether one number is the damping of a joint of this kind: all its velocities have one unit.
 pub fn has_one_damping(kind: JointKind) -> bool {
     kind.has_axis() || kind == JointKind::Spherical
 }
 
 /// Damping and friction.
-fn resistance(joint: &urdf_rs::Joint) -> [f64; 2] {
-    let given = joint.dynamics.as_ref().filter(|_| has_one_damping(kind(joint)));
-    given.map_or([0.0; 2], |dynamics| [dynamics.damping, dynamics.friction])
-}
-
-/// The limits, of which a continuous joint has no positions.
-fn limit(joint: &urdf_rs::Joint) -> Option<JointLimit> {
-    if !kind(joint).has_axis() || joint.limit == JointLimit::default() {
-        return None;
-    }
-    let mut limit = joint.limit.clone();
-    if joint.joint_type == JointType::Continuous {
-        (limit.lower, limit.upper) = (f64::NEG_INFINITY, f64::INFINITY);
-    }
-    Some(limit)
+fn resistance(joint: &JointElement) -> [f64; 2] {
+    if has_one_damping(joint.kind) { [joint.damping, joint.friction] } else { [0.0; 2] }
 }
 
 fn unique<'n>(document: &Document, tag: &str, names: impl Iterator<Item = &'n str>) -> Result<(), Failure> {
@@ -334,23 +309,22 @@ fn unique<'n>(document: &Document, tag: &str, names: impl Iterator<Item = &'n st
 }
 
 /// The link that no joint carries, if the links and joints are a tree on it that moves.
-fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot, base: Base) -> Result<&'u str, Failure> {
+fn root<'u>(document: &Document, urdf: &Elements<'u>, base: Base) -> Result<&'u str, Failure> {
     let mut carried: HashMap<&str, &str> = HashMap::new();
     for joint in &urdf.joints {
-        for end in [&joint.parent.link, &joint.child.link] {
-            if !urdf.links.iter().any(|link| &link.name == end) {
+        for end in [joint.parent, joint.child] {
+            if !urdf.links.iter().any(|link| link.name == end) {
                 let message = format!("joint `{}`: unknown link `{end}`", joint.name);
-                return Err(document.fault_at("joint", &joint.name, message));
+                return Err(document.fault_at("joint", joint.name, message));
             }
         }
-        if let Some(other) = carried.insert(&joint.child.link, &joint.name) {
-            let message = format!("link `{}` hangs on two joints, `{other}` and `{}`", joint.child.link, joint.name);
+        if let Some(other) = carried.insert(joint.child, joint.name) {
+            let message = format!("link `{}` hangs on two joints, `{other}` and `{}`", joint.child, joint.name);
             let help = "a URDF is a tree: leave one of the joints out, and add it to the imported model as a [[loop]]";
-            return Err(document.fault_at("joint", &joint.name, message).help(help));
+            return Err(document.fault_at("joint", joint.name, message).help(help));
         }
     }
-    let roots: Vec<&str> =
-        urdf.links.iter().map(|link| link.name.as_str()).filter(|name| !carried.contains_key(name)).collect();
+    let roots: Vec<&str> = urdf.links.iter().map(|link| link.name).filter(|name| !carried.contains_key(name)).collect();
     if base == Base::Fixed && urdf.joints.is_empty() && !urdf.links.is_empty() {
         return Err(document
             .fault_at("robot", "", "the robot has no joints: nothing of it moves")
@@ -370,20 +344,18 @@ fn root<'u>(document: &Document, urdf: &'u urdf_rs::Robot, base: Base) -> Result
 }
 
 /// Every link hangs on the root in the end.
-fn on_root(document: &Document, urdf: &urdf_rs::Robot, root: &str) -> Result<(), Failure> {
+fn on_root(document: &Document, urdf: &Elements, root: &str) -> Result<(), Failure> {
     let mut reached = vec![root];
     let mut next = 0;
     while let Some(&link) = reached.get(next) {
-        reached.extend(
-            urdf.joints.iter().filter(|joint| joint.parent.link == link).map(|joint| joint.child.link.as_str()),
-        );
+        reached.extend(urdf.joints.iter().filter(|joint| joint.parent == link).map(|joint| joint.child));
         next += 1;
     }
-    match urdf.links.iter().find(|link| !reached.contains(&link.name.as_str())) {
+    match urdf.links.iter().find(|link| !reached.contains(&link.name)) {
         None => Ok(()),
         Some(link) => {
             let message = format!("link `{}` hangs on itself, in a circle, and not on the root `{root}`", link.name);
-            Err(document.fault_at("link", &link.name, message))
+            Err(document.fault_at("link", link.name, message))
         }
     }
 }

@@ -3,7 +3,7 @@
 use redysim_model::spatial::Pose;
 use roxmltree::Node;
 
-use super::document::{Document, child, children};
+use super::document::{Document, WITH_QUATERNIONS, child, children};
 use super::robot::Origin;
 
 /// A mesh of a link.
@@ -37,11 +37,16 @@ impl Document<'_> {
                 let mesh = child(child(visual, "geometry")?, "mesh")?;
                 let origin = child(visual, "origin");
                 let of_origin = |key| origin.and_then(|origin| numbers(origin, key)).unwrap_or([0.0; 3]);
+                let quaternion = origin.and_then(|origin| numbers(origin, "quat_xyzw"));
+                let quaternion = quaternion.filter(|_| self.version() >= WITH_QUATERNIONS);
                 Some(Visual {
                     link: number,
                     name: name.to_owned(),
                     line: self.line(mesh),
-                    pose: Origin { xyz: of_origin("xyz"), rpy: of_origin("rpy") }.pose(),
+                    pose: match quaternion {
+                        Some(quaternion) => Origin::turned(of_origin("xyz"), quaternion).pose(),
+                        None => Origin { xyz: of_origin("xyz"), rpy: of_origin("rpy") }.pose(),
+                    },
                     scale: numbers(mesh, "scale").unwrap_or([1.0; 3]),
                     file: mesh.attribute("filename")?.to_owned(),
                     colour: child(visual, "material").and_then(|material| colour(robot, material)),

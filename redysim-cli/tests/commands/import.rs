@@ -6,6 +6,7 @@ mod findings;
 mod fusing;
 mod joints;
 mod kinematics;
+mod versions;
 
 use crate::common::{Run, call, fail, scratch, succeed};
 use faults::BODY;

@@ -19,7 +19,7 @@ fn robot(joints: &[[&str; 3]]) -> String {
     format!("<robot name=\"r\">\n{links}{joints}</robot>\n")
 }
 
-fn refused(urdf: &str, wanted: &[&str]) {
+pub fn refused(urdf: &str, wanted: &[&str]) {
     let folder = folder_with(urdf);
     let run = import_from(&folder, &["-o", "robot.toml"]);
     assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{}", run.stderr);
