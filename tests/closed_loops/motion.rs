@@ -131,7 +131,7 @@ fn drift(stabilisation: Stabilisation<f64>, steps: u32) -> (f64, f64, [f64; 7]) 
 #[test]
 fn the_projection_keeps_the_loop_closed_and_the_energy() {
     // 10 s in optimised builds.
-    let steps = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
+    let steps = if cfg!(debug_assertions) { 5_000 } else { 100_000 };
     let (residual, change, _) = drift(Stabilisation::Projection, steps);
     println!("{residual:e} m, {change:e} J");
     assert!(residual <= 1e-12, "{residual:e} m");
@@ -175,7 +175,7 @@ const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
 #[test]
 fn the_windows_pass_through_their_singular_positions_with_steps_of_every_size() {
     let sizes: &[(f64, f64)] = if cfg!(debug_assertions) {
-        &[(1e-2, 5e-6), (3e-3, 1e-6)]
+        &[(1e-2, 5e-6)]
     } else {
         &[(1e-2, 5e-6), (3e-3, 1e-6), (1e-3, 1e-6), (3e-4, 1e-6), (1e-4, 1e-6)]
     };
@@ -202,7 +202,7 @@ fn the_windows_pass_through_their_singular_positions_with_steps_of_every_size() 
 /// stages near them, one of these sizes is wrong by 3e-3 m.
 #[test]
 fn no_size_of_step_meets_the_singular_positions_badly() {
-    let sizes = if cfg!(debug_assertions) { 0..2 } else { 0..10 };
+    let sizes = if cfg!(debug_assertions) { 1..2 } else { 0..10 };
     for k in sizes {
         let size = 3e-3 * (1.0 + 0.001_37 * f64::from(k));
         let mut turn = ClosedLoopSimulation::new(ClosedLoop::new(&Windows), ZeroTorque);

@@ -14,7 +14,7 @@ use redysim_model::{Function, Tree};
 
 redysim! { pub struct Floating("models/kr5_floating.toml", functions = [hybrid_dynamics, inverse_dynamics, mass_matrix]); }
 
-const TREES: u64 = if cfg!(debug_assertions) { 2 } else { 60 };
+const TREES: u64 = if cfg!(debug_assertions) { 1 } else { 60 };
 
 /// Forces from accelerations that were found with M⁻¹: some roundings times the condition of the passive joints' part
 /// of M, which on ordinary trees of ten joints is below 1e4.

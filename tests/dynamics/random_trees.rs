@@ -40,10 +40,10 @@ const WITH_MIMICS: Range<u64> = 3000..3060;
 const WITH_EMPTY_MIMICS: Range<u64> = 3030..3060;
 const STATES: usize = 3;
 
-/// These seeds, or the first twentieth of them where code is not optimised.
+/// These seeds, or the first thirtieth of them where code is not optimised.
 fn sample(seeds: Range<u64>) -> impl Iterator<Item = u64> {
     let count = (seeds.end - seeds.start) as usize;
-    seeds.take(if cfg!(debug_assertions) { count / 20 } else { count })
+    seeds.take(if cfg!(debug_assertions) { count / 30 } else { count })
 }
 
 /// A sample of all trees in which joints mimic others.

@@ -138,6 +138,7 @@ fn the_first_steps_can_be_taken() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_commands_of_the_chapter_on_closed_loops_run_and_print_what_it_shows() {
     let (folder, text) = run_all("documented-closed-loops", "docs/closed_loops.md", 8);
     let shown = text.split("```text\n").nth(1).unwrap().split("```").next().unwrap();
@@ -277,6 +278,7 @@ fn the_commands_of_the_chapter_on_sweeps_run() {
 
 /// The examples that the help gives, but those that pipe into other programs.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn the_examples_of_the_help_run() {
     let folder = folder_with_examples("documented-help");
     // What `plot` and `animate` are shown with.

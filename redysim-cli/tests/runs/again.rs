@@ -51,7 +51,7 @@ fn every_shipped_scenario_runs_again_from_its_folder_alone_and_keeps_its_energy(
     assert!(runs.len() >= 20, "{} runs", runs.len());
     if cfg!(debug_assertions) {
         runs.retain(|(name, _)| !WALKING.contains(&name.as_str()));
-        runs = runs.into_iter().step_by(5).collect();
+        runs = runs.into_iter().step_by(8).collect();
     }
     runs.par_iter().for_each(|(name, (command, most))| {
         let [drift, exchanged] = balance(&twice(&format!("again-{name}-{command}"), command, &shipped(name)));
