@@ -42,13 +42,13 @@ macro_rules! robots {
 robots! {
     To1, 1e-1;
     To2, 1e-2;
-    To3, 1e-3;
-    To4, 1e-4;
 }
 
 // To prune one takes seconds in the compiler.
 #[cfg(not(debug_assertions))]
 robots! {
+    To3, 1e-3;
+    To4, 1e-4;
     To5, 1e-5;
     To6, 1e-6;
 }
@@ -123,10 +123,10 @@ fn holds<R: Robot>() {
 fn errors_stay_within_the_tolerance() {
     holds::<To1>();
     holds::<To2>();
-    holds::<To3>();
-    holds::<To4>();
     #[cfg(not(debug_assertions))]
     {
+        holds::<To3>();
+        holds::<To4>();
         holds::<To5>();
         holds::<To6>();
     }
@@ -136,8 +136,8 @@ fn errors_stay_within_the_tolerance() {
 fn a_larger_tolerance_never_costs_more() {
     let mut operations = vec![Kr5::OPS];
     #[cfg(not(debug_assertions))]
-    operations.extend([To6::OPS, To5::OPS]);
-    operations.extend([To4::OPS, To3::OPS, To2::OPS, To1::OPS]);
+    operations.extend([To6::OPS, To5::OPS, To4::OPS, To3::OPS]);
+    operations.extend([To2::OPS, To1::OPS]);
     let table: Vec<_> = operations.iter().map(flops).collect();
     for (finer, coarser) in table.iter().zip(&table[1..]) {
         for (name, (finer, coarser)) in NAMES.iter().zip(finer.iter().zip(coarser)) {
@@ -159,9 +159,21 @@ fn stated_row(name: &str) -> Vec<u32> {
 
 #[test]
 fn the_readme_states_the_operations_at_each_tolerance() {
-    let columns = [Kr5::OPS, To4::OPS, To3::OPS, To2::OPS, To1::OPS].map(|operations| flops(&operations));
+    // A debug build has two of the columns.
+    #[cfg(not(debug_assertions))]
+    let between = [To4::OPS, To3::OPS].map(Some);
+    #[cfg(debug_assertions)]
+    let between = [None, None];
+    let [at_4, at_3] = between;
+    let columns = [Some(Kr5::OPS), at_4, at_3, Some(To2::OPS), Some(To1::OPS)];
     for (row, name) in NAMES[..3].iter().enumerate() {
-        assert_eq!(stated_row(&name.replace('_', " ")), columns.map(|column| column[row]), "{name}");
+        let stated = stated_row(&name.replace('_', " "));
+        assert_eq!(stated.len(), columns.len());
+        for (stated, operations) in stated.into_iter().zip(&columns) {
+            if let Some(operations) = operations {
+                assert_eq!(stated, flops(operations)[row], "{name}");
+            }
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 mod no_std;
 mod rebuild;
 
+#[cfg(feature = "cases")]
 #[test]
 #[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn faults_are_compile_errors_that_show_the_line_of_the_model() {
