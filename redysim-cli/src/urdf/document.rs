@@ -12,7 +12,7 @@ pub type Version = (u32, u32);
 /// From this version on an origin may have a quaternion.
 pub const WITH_QUATERNIONS: Version = (1, 1);
 /// From this version on a limit that is not given is infinite, not zero, and there are limits of acceleration.
-pub const WITHOUT_LIMITS: Version = (1, 2);
+pub const INFINITE_BY_DEFAULT: Version = (1, 2);
 
 /// A URDF file that is well-formed.
 pub struct Document<'a> {

@@ -4,7 +4,9 @@ use redysim_model::JointKind;
 use redysim_model::inertia::Sym3;
 use roxmltree::Node;
 
-use super::document::{Document, EXPAND, WITH_QUATERNIONS, WITHOUT_LIMITS, attributes_of, child, children, read_in};
+use super::document::{
+    Document, EXPAND, INFINITE_BY_DEFAULT, WITH_QUATERNIONS, attributes_of, child, children, read_in,
+};
 use super::inertial::Inertial;
 use super::robot::{Mimic, Origin};
 use crate::failure::Failure;
@@ -182,7 +184,7 @@ impl<'d, 'a> Item<'d, 'a> {
                 return Err(self.wrong(limit, attribute.name(), "a number", attribute.value()));
             }
         }
-        let is_infinite = self.document.version() >= WITHOUT_LIMITS;
+        let is_infinite = self.document.version() >= INFINITE_BY_DEFAULT;
         let default = if is_infinite { f64::INFINITY } else { 0.0 };
         let given = |name, default| limit.attribute(name).and_then(limit_of).unwrap_or(default);
         let read = Limit {

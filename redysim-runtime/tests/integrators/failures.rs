@@ -11,10 +11,12 @@ use redysim_runtime::{Event, Gauss4, Integrator, Ode, Ode45, Solution};
 /// A method that evaluates the derivative this often counts as one that does not end.
 const ENDLESS: u32 = 100_000;
 
+type Function<'f> = dyn FnMut(f64, &[f64; 2]) -> [f64; 2] + 'f;
+
 /// ẏ = f(t, y), of which the first component is a coordinate, as `SemiImplicitEuler` requires. One type for all tests, so
 /// that each method is compiled once.
 struct Equation<'f> {
-    f: Box<dyn FnMut(f64, &[f64; 2]) -> [f64; 2] + 'f>,
+    f: Box<Function<'f>>,
     calls: u32,
 }
 
