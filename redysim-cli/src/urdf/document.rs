@@ -9,6 +9,8 @@ use crate::failure::{Failure, Fault};
 /// A version of URDF: major, minor.
 pub type Version = (u32, u32);
 
+/// The versions that there are.
+const VERSIONS: [Version; 3] = [(1, 0), WITH_QUATERNIONS, INFINITE_BY_DEFAULT];
 /// From this version on an origin may have a quaternion.
 pub const WITH_QUATERNIONS: Version = (1, 1);
 /// From this version on a limit that is not given is infinite, not zero, and there are limits of acceleration.
@@ -20,7 +22,7 @@ pub struct Document<'a> {
     xml: Xml<'a>,
 }
 
-/// What is read inside of each element, and of others nothing. Limits are read where they have a velocity.
+/// What is read inside of each element, and of others nothing.
 const READ: [(&str, &[&str]); 4] = [
     ("robot", &["link", "joint"]),
     ("link", &["inertial"]),
@@ -28,11 +30,12 @@ const READ: [(&str, &[&str]); 4] = [
     ("joint", &["origin", "parent", "child", "axis", "limit", "mimic", "dynamics"]),
 ];
 
-/// The attributes that are read of these elements.
+/// The attributes that are read of these elements, but for `quat_xyzw` of an origin: of a misspelled one, the order of the
+/// components is not known.
 const ATTRIBUTES: [(&str, &[&str]); 11] = [
     ("link", &["name"]),
     ("joint", &["name", "type"]),
-    ("origin", &["xyz", "rpy", "quat_xyzw"]),
+    ("origin", &["xyz", "rpy"]),
     ("parent", &["link"]),
     ("child", &["link"]),
     ("axis", &["xyz"]),
@@ -85,9 +88,20 @@ impl<'a> Document<'a> {
 
     /// The version of URDF of the file, 1.0 by default.
     pub fn version(&self) -> Version {
-        let version = self.robot().attribute("version").and_then(|version| version.trim().split_once('.'));
-        let numbers = version.and_then(|(major, minor)| Some((major.parse().ok()?, minor.parse().ok()?)));
-        numbers.unwrap_or((1, 0))
+        let numbers = |version: &str| {
+            let mut numbers = version.trim().split('.').map(|number| number.parse().ok());
+            Some((numbers.next()??, numbers.next()??))
+        };
+        self.robot().attribute("version").and_then(numbers).unwrap_or((1, 0))
+    }
+
+    /// What is to be known of a version that URDF does not have.
+    pub fn unknown_version(&self) -> Option<String> {
+        let given = self.robot().attribute("version")?;
+        let (major, minor) = VERSIONS.into_iter().rfind(|known| *known <= self.version()).unwrap_or((1, 0));
+        let is_known = given.trim() == format!("{major}.{minor}");
+        let (place, given) = (format!("{}:{}", self.file, self.line(self.robot())), given.escape_debug());
+        (!is_known).then(|| format!("{place}: `{given}` is no version of URDF: the file is read as {major}.{minor}"))
     }
 
     /// The line on which an element begins.
@@ -111,13 +125,18 @@ impl<'a> Document<'a> {
         self.joints().find(|joint| joint.attribute("name") == Some(name))
     }
 
+    /// Whether an element can be read: before version 1.2 a limit must have a velocity.
+    pub fn has_what_it_needs(&self, node: Node) -> bool {
+        node.tag_name().name() != "limit" || node.has_attribute("velocity") || self.version() >= INFINITE_BY_DEFAULT
+    }
+
     /// The elements that nothing is read of; what is inside them counts as one with them.
     pub fn unread(&self) -> Vec<Node<'_, 'a>> {
         let (mut unread, mut open) = (Vec::new(), vec![self.xml.root_element()]);
         while let Some(owner) = open.pop() {
             let read = read_in(owner);
             for node in owner.children().filter(Node::is_element) {
-                let is_read = read.contains(&node.tag_name().name()) && !is_partial_limit(node);
+                let is_read = read.contains(&node.tag_name().name()) && self.has_what_it_needs(node);
                 if is_read { open.push(node) } else { unread.push(node) }
             }
         }
@@ -153,11 +172,6 @@ fn described(node: Node) -> String {
     }
 }
 
-/// A limit that cannot be read, for want of what a limit must have.
-fn is_partial_limit(node: Node) -> bool {
-    node.tag_name().name() == "limit" && node.attribute("velocity").is_none()
-}
-
 /// What is read inside of an element.
 pub fn read_in(owner: Node) -> &'static [&'static str] {
     READ.iter().find(|(tag, _)| *tag == owner.tag_name().name()).map_or(&[], |(_, read)| read)
@@ -183,6 +197,12 @@ pub fn children<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> impl Iterator<Item = N
 /// The first element of a name inside another.
 pub fn child<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> Option<Node<'n, 'a>> {
     children(node, tag).next()
+}
+
+/// As many finite numbers as asked for, if a text is nothing else.
+pub fn finite_numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let number = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
+    text.split_whitespace().map(number).collect::<Option<Vec<f64>>>()?.try_into().ok()
 }
 
 fn broken(file: &str, error: &roxmltree::Error) -> Failure {

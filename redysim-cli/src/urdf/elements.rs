@@ -2,13 +2,14 @@
 
 use redysim_model::JointKind;
 use redysim_model::inertia::Sym3;
+use redysim_model::spatial::{Pose, Vec3};
 use roxmltree::Node;
 
 use super::document::{
-    Document, EXPAND, INFINITE_BY_DEFAULT, WITH_QUATERNIONS, attributes_of, child, children, read_in,
+    Document, EXPAND, INFINITE_BY_DEFAULT, WITH_QUATERNIONS, child, children, finite_numbers, read_in,
 };
 use super::inertial::Inertial;
-use super::robot::{Mimic, Origin};
+use super::origin::{Origin, rotation};
 use crate::failure::Failure;
 
 /// The elements of a URDF that a model is made of, in the order of the file.
@@ -42,24 +43,31 @@ pub struct JointElement<'d> {
     pub friction: f64,
 }
 
-/// The limits of a joint, in rad or m, N m or N, and s.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The limits of a joint.
+#[derive(Clone, Copy, Debug)]
 pub struct Limit {
+    /// rad or m.
     pub lower: f64,
+    /// rad or m.
     pub upper: f64,
+    /// N m or N.
     pub effort: f64,
+    /// rad/s or m/s.
     pub velocity: f64,
+    /// rad/s² or m/s².
     pub acceleration: f64,
 }
 
-impl Default for Limit {
-    /// What URDF has for limits that are not given, before version 1.2.
-    fn default() -> Self {
-        Limit { lower: 0.0, upper: 0.0, effort: 0.0, velocity: 0.0, acceleration: f64::INFINITY }
-    }
+/// A coordinate that is `multiplier` times that of another joint, plus `offset`.
+#[derive(Clone, Debug)]
+pub struct Mimic {
+    pub joint: String,
+    pub multiplier: f64,
+    /// rad or m.
+    pub offset: f64,
 }
 
-/// What URDF calls joints, and a model.
+/// The types of joints in a URDF, and their kinds in a model.
 const KINDS: [(&str, JointKind); 7] = [
     ("revolute", JointKind::Revolute),
     ("continuous", JointKind::Revolute),
@@ -74,7 +82,7 @@ impl<'d, 'a> Document<'a> {
     /// Reads the links and joints.
     ///
     /// # Errors
-    /// The first element that lacks what it needs, or has something else than numbers where they are due.
+    /// The first element that is incomplete, or of which an attribute is not a number.
     pub fn elements(&'d self) -> Result<Elements<'d>, Failure> {
         let robot = self.robot();
         Ok(Elements {
@@ -177,24 +185,29 @@ impl<'d, 'a> Item<'d, 'a> {
         Ok(direction)
     }
 
-    /// The limits, which may be infinite, if they have a velocity and limit anything.
+    /// The limits, which may be infinite.
     fn limit(&self, limit: Node<'d, 'a>) -> Result<Option<Limit>, Failure> {
-        for attribute in limit.attributes().filter(|given| attributes_of("limit").contains(&given.name())) {
-            if limit_of(attribute.value()).is_none() {
-                return Err(self.wrong(limit, attribute.name(), "a number", attribute.value()));
-            }
-        }
         let is_infinite = self.document.version() >= INFINITE_BY_DEFAULT;
         let default = if is_infinite { f64::INFINITY } else { 0.0 };
-        let given = |name, default| limit.attribute(name).and_then(limit_of).unwrap_or(default);
-        let read = Limit {
-            lower: given("lower", -default),
-            upper: given("upper", default),
-            effort: given("effort", default),
-            velocity: given("velocity", default),
-            acceleration: if is_infinite { given("acceleration", f64::INFINITY) } else { f64::INFINITY },
+        let given = |name: &str, default: f64| match limit.attribute(name) {
+            None => Ok(default),
+            Some(text) => {
+                let number = text.trim().parse().ok().filter(|number: &f64| !number.is_nan());
+                number.ok_or_else(|| self.wrong(limit, name, "a number", text))
+            }
         };
-        Ok((limit.has_attribute("velocity") && read != Limit::default()).then_some(read))
+        let read = Limit {
+            lower: given("lower", -default)?,
+            upper: given("upper", default)?,
+            effort: given("effort", default)?,
+            velocity: given("velocity", default)?,
+            acceleration: given("acceleration", f64::INFINITY)?,
+        };
+        // Comments of the model have these.
+        given("deceleration", f64::INFINITY)?;
+        given("jerk", f64::INFINITY)?;
+        let acceleration = if is_infinite { read.acceleration } else { f64::INFINITY };
+        Ok(self.document.has_what_it_needs(limit).then_some(Limit { acceleration, ..read }))
     }
 
     fn mimic(&self, mimic: Node<'d, 'a>) -> Result<Mimic, Failure> {
@@ -205,27 +218,28 @@ impl<'d, 'a> Item<'d, 'a> {
     }
 
     fn origin(&self, owner: Node<'d, 'a>) -> Result<Origin, Failure> {
-        let Some(origin) = child(owner, "origin") else { return Ok(Origin { xyz: [0.0; 3], rpy: [0.0; 3] }) };
+        let Some(origin) = child(owner, "origin") else { return Ok(Origin::identity()) };
         let xyz = self.numbers(origin, "xyz")?.unwrap_or([0.0; 3]);
         let rpy = self.numbers(origin, "rpy")?;
-        let Some(quaternion) = self.numbers(origin, "quat_xyzw")? else {
+        if !origin.has_attribute("quat_xyzw") {
             return Ok(Origin { xyz, rpy: rpy.unwrap_or([0.0; 3]) });
-        };
+        }
         let fault = |message: &str| self.fault(origin, format!("`quat_xyzw` of its <origin> {message}"));
+        if rpy.is_some() {
+            return Err(fault("stands beside `rpy`").help("keep one of them"));
+        }
         if self.document.version() < WITH_QUATERNIONS {
             let fault = fault("is of URDF 1.1, and the file is of an earlier version");
             return Err(fault.help("give `rpy` instead, or the <robot> version=\"1.1\""));
         }
-        if rpy.is_some() {
-            return Err(fault("stands beside `rpy`").help("keep one of them"));
-        }
-        if quaternion == [0.0; 4] {
+        let quaternion = self.required_numbers(origin, "quat_xyzw")?;
+        let Some(rotation) = rotation(quaternion) else {
             return Err(fault("is zero, which is no rotation").help("no rotation is quat_xyzw=\"0 0 0 1\""));
-        }
-        Ok(Origin::turned(xyz, quaternion))
+        };
+        Ok(Origin::of(Pose { rotation, position: Vec3(xyz) }))
     }
 
-    /// What is read inside of an element stands there once.
+    /// Fails if an element that is read occurs twice in another.
     fn check_single(&self, owner: Node) -> Result<(), Failure> {
         match read_in(owner).iter().find_map(|read| children(owner, read).nth(1)) {
             None => Ok(()),
@@ -249,9 +263,7 @@ impl<'d, 'a> Item<'d, 'a> {
     /// The finite numbers of an attribute, if it is there.
     fn numbers<const N: usize>(&self, node: Node, attribute: &str) -> Result<Option<[f64; N]>, Failure> {
         let Some(text) = node.attribute(attribute) else { return Ok(None) };
-        let number = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
-        let numbers: Option<Vec<f64>> = text.split_whitespace().map(number).collect();
-        if let Some(numbers) = numbers.and_then(|numbers| numbers.try_into().ok()) {
+        if let Some(numbers) = finite_numbers(text) {
             return Ok(Some(numbers));
         }
         let wanted = if N == 1 { "a finite number".into() } else { format!("{N} finite numbers") };
@@ -269,9 +281,4 @@ impl<'d, 'a> Item<'d, 'a> {
         let tag = self.node.tag_name().name();
         self.document.fault(node, format!("{tag} `{}`: {message}", self.name.escape_debug()))
     }
-}
-
-/// A number that may be infinite.
-fn limit_of(text: &str) -> Option<f64> {
-    text.trim().parse().ok().filter(|limit: &f64| !limit.is_nan())
 }

@@ -9,7 +9,8 @@ use redysim_model::spatial::Pose;
 use super::inertial::Inertial;
 use super::model_file::origin;
 use super::notation::inertial;
-use super::robot::{Link, Origin, Robot};
+use super::origin::Origin;
+use super::robot::{Link, Robot};
 
 impl Robot {
     /// Joints that move no mass are fixed: they would make the mass matrix singular. Joints that mimic one another move what

@@ -4,7 +4,7 @@ use redysim_model::inertia::Sym3;
 use redysim_model::rotation::roll_pitch_yaw;
 use redysim_model::spatial::{Pose, Vec3};
 
-use super::robot::Origin;
+use super::origin::Origin;
 
 /// An inertia of so many kg m² for a kg (a radius of gyration of 10 nm) is roundoff.
 const NOISE: f64 = 1e-16;

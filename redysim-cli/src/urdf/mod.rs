@@ -7,6 +7,7 @@ mod fixed;
 mod inertial;
 mod model_file;
 mod notation;
+mod origin;
 mod robot;
 mod spelling;
 mod visuals;
@@ -117,9 +118,10 @@ pub fn import(text: &str, path: &Path, options: Options) -> Result<Imported, Fai
     robot = robot.without_reserved_name().without_massless_motion().with_possible_mimics().with_possible_limits();
     robot = robot.with_comments(&document);
     let remarks = robot.links.iter().flat_map(|link| &link.remarks).cloned();
-    let changes: Vec<String> = document.misspelled().into_iter().chain(remarks).collect();
+    let changes: Vec<String> =
+        document.unknown_version().into_iter().chain(document.misspelled()).chain(remarks).collect();
     if robot.links.iter().all(|link| link.kind == JointKind::Fixed) {
-        return Err(document.fault_at("robot", "", "every joint is fixed here: nothing of the robot moves"));
+        return Err(document.fault(document.robot(), "every joint is fixed here: nothing of the robot moves"));
     }
     if options.fuse_fixed {
         robot = robot.fused();

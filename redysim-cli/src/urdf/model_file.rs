@@ -5,9 +5,10 @@ use std::fmt::Write;
 use redysim_model::inertia::Sym3;
 use redysim_model::{JointKind, rotation};
 
-use super::elements::Limit;
+use super::elements::{Limit, Mimic};
 use super::notation::{inertia, vector};
-use super::robot::{Link, Mimic, Origin, Robot};
+use super::origin::Origin;
+use super::robot::{Link, Robot};
 
 /// The text, and the line on which each link begins.
 pub struct ModelFile {
@@ -103,7 +104,7 @@ pub fn range(limit: &Limit) -> Result<String, Unfit> {
     if lower.is_finite() && upper.is_finite() && lower >= upper && (lower, upper) != (0.0, 0.0) {
         return Err(Unfit("the lower one is not below the upper"));
     }
-    if effort < 0.0 || velocity < 0.0 {
+    if effort < 0.0 || velocity < 0.0 || acceleration < 0.0 {
         return Err(Unfit("they are negative"));
     }
     if !(lower.is_finite() && upper.is_finite() && lower < upper && positive(velocity)) {

@@ -3,17 +3,17 @@
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::UnitQuaternion;
 use redysim_model::JointKind;
-use redysim_model::rotation::{align_z, roll_pitch_yaw, sin_cos};
-use redysim_model::spatial::{Mat3, Pose, Vec3};
+use redysim_model::rotation::align_z;
+use redysim_model::spatial::{Pose, Vec3};
 use redysim_toml::rounded_quarter_turns;
 
 use super::Base;
 use super::document::Document;
-use super::elements::{Elements, JointElement, Limit};
+use super::elements::{Elements, JointElement, Limit, Mimic};
 use super::inertial::Inertial;
 use super::notation::inertial;
+use super::origin::Origin;
 use crate::failure::Failure;
 use crate::number::counted;
 
@@ -54,52 +54,11 @@ pub struct Link {
     pub comments: Vec<String>,
 }
 
-/// A coordinate that is `multiplier` times that of another joint, plus `offset`.
-#[derive(Clone, Debug)]
-pub struct Mimic {
-    pub joint: String,
-    pub multiplier: f64,
-    /// rad or m.
-    pub offset: f64,
-}
-
-/// Where a joint stands, as files write it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Origin {
-    pub xyz: [f64; 3],
-    pub rpy: [f64; 3],
-}
-
-impl Origin {
-    /// Turned by a quaternion (x, y, z, w) of any length but zero.
-    pub fn turned(xyz: [f64; 3], quaternion: [f64; 4]) -> Self {
-        let rotation = UnitQuaternion::from_quaternion(quaternion.into()).to_rotation_matrix();
-        Origin::of(Pose { rotation: Mat3::from_fn(|i, j| rotation[(i, j)]), position: Vec3(xyz) })
-    }
-
-    pub fn pose(self) -> Pose<f64> {
-        Pose { rotation: roll_pitch_yaw(self.rpy), position: Vec3(self.xyz) }
-    }
-
-    /// The origin of a pose. Yaw comes first, and roll from what it leaves, so that they fit each other even where only
-    /// their sum is determined, at a pitch of 90°.
-    pub fn of(pose: Pose<f64>) -> Self {
-        let nearest = |x: f64| if (x - x.round()).abs() < 4.0 * f64::EPSILON { x.round() + 0.0 } else { x };
-        let Mat3(r) = Mat3::from_fn(|i, j| nearest(pose.rotation.0[i][j]));
-        let yaw = r[1][0].atan2(r[0][0]);
-        let pitch = (-r[2][0]).atan2(r[0][0].hypot(r[1][0]));
-        let (sin, cos) = sin_cos(yaw);
-        let roll = (sin * r[0][2] - cos * r[1][2]).atan2(cos * r[1][1] - sin * r[0][1]);
-        Origin { xyz: pose.position.0, rpy: [roll, pitch, yaw] }
-    }
-}
-
 impl Robot {
     /// The robot of a document.
     ///
     /// # Errors
-    /// If an element lacks what it needs or has something else than numbers where they are due, or the links and joints are
-    /// not a tree.
+    /// If an element is incomplete, an attribute is not a number, or the links and joints are not a tree.
     pub fn read(document: &Document, base: Base) -> Result<Robot, Failure> {
         let urdf = document.elements()?;
         unique(document, "link", urdf.links.iter().map(|link| link.name))?;
@@ -202,10 +161,10 @@ impl Robot {
         self
     }
 
-    /// Joints with a negative limit of effort or velocity, or a lower limit above the upper one, get a remark: they have no range.
+    /// Joints with a negative limit of effort, velocity or acceleration, or a lower limit above the upper one, get a remark: they have no range.
     pub fn with_possible_limits(mut self) -> Self {
         for link in &mut self.links {
-            let Some(&Limit { lower, upper, effort, velocity, .. }) = link.limit.as_ref() else { continue };
+            let Some(&Limit { lower, upper, effort, velocity, acceleration }) = link.limit.as_ref() else { continue };
             let unit = if link.kind == JointKind::Prismatic { "m" } else { "rad" };
             let why = if lower > upper {
                 format!("its lower limit, {lower} {unit}, is above its upper one, {upper} {unit}")
@@ -213,6 +172,8 @@ impl Robot {
                 format!("its limit of effort is {effort}, which is negative")
             } else if velocity < 0.0 {
                 format!("its limit of velocity is {velocity}, which is negative")
+            } else if acceleration < 0.0 {
+                format!("its limit of acceleration is {acceleration}, which is negative")
             } else {
                 continue;
             };
@@ -256,7 +217,7 @@ impl Link {
             parent: None,
             kind: JointKind::Free,
             is_root: true,
-            origin: Origin { xyz: [0.0; 3], rpy: [0.0; 3] },
+            origin: Origin::identity(),
             far_end: None,
             axis: [0.0, 0.0, 1.0],
             inertial,
@@ -327,14 +288,14 @@ fn root<'u>(document: &Document, urdf: &Elements<'u>, base: Base) -> Result<&'u 
     let roots: Vec<&str> = urdf.links.iter().map(|link| link.name).filter(|name| !carried.contains_key(name)).collect();
     if base == Base::Fixed && urdf.joints.is_empty() && !urdf.links.is_empty() {
         return Err(document
-            .fault_at("robot", "", "the robot has no joints: nothing of it moves")
+            .fault(document.robot(), "the robot has no joints: nothing of it moves")
             .help("with `--base free` its link floats"));
     }
     match roots.as_slice() {
         [root] => on_root(document, urdf, root).map(|()| *root),
-        [] if urdf.links.is_empty() => Err(document.fault_at("robot", "", "the robot has no links")),
+        [] if urdf.links.is_empty() => Err(document.fault(document.robot(), "the robot has no links")),
         [] => Err(document
-            .fault_at("robot", "", "no link is the root: each hangs on another, in a circle")
+            .fault(document.robot(), "no link is the root: each hangs on another, in a circle")
             .help("the link that stands on the ground must be no joint's child")),
         [first, others @ ..] => {
             let message = format!("the robot has {} roots: `{first}`, `{}`", roots.len(), others.join("`, `"));

@@ -3,8 +3,8 @@
 use redysim_model::spatial::Pose;
 use roxmltree::Node;
 
-use super::document::{Document, WITH_QUATERNIONS, child, children};
-use super::robot::Origin;
+use super::document::{Document, WITH_QUATERNIONS, child, children, finite_numbers};
+use super::origin::{Origin, rotation};
 
 /// A mesh of a link.
 pub struct Visual {
@@ -38,15 +38,13 @@ impl Document<'_> {
                 let origin = child(visual, "origin");
                 let of_origin = |key| origin.and_then(|origin| numbers(origin, key)).unwrap_or([0.0; 3]);
                 let quaternion = origin.and_then(|origin| numbers(origin, "quat_xyzw"));
-                let quaternion = quaternion.filter(|_| self.version() >= WITH_QUATERNIONS);
+                let turned = quaternion.filter(|_| self.version() >= WITH_QUATERNIONS).and_then(rotation);
+                let unturned = Origin { xyz: of_origin("xyz"), rpy: of_origin("rpy") }.pose();
                 Some(Visual {
                     link: number,
                     name: name.to_owned(),
                     line: self.line(mesh),
-                    pose: match quaternion {
-                        Some(quaternion) => Origin::turned(of_origin("xyz"), quaternion).pose(),
-                        None => Origin { xyz: of_origin("xyz"), rpy: of_origin("rpy") }.pose(),
-                    },
+                    pose: Pose { rotation: turned.unwrap_or(unturned.rotation), ..unturned },
                     scale: numbers(mesh, "scale").unwrap_or([1.0; 3]),
                     file: mesh.attribute("filename")?.to_owned(),
                     colour: child(visual, "material").and_then(|material| colour(robot, material)),
@@ -66,8 +64,5 @@ fn colour(robot: Node, material: Node) -> Option<[f64; 4]> {
 }
 
 fn numbers<const N: usize>(node: Node, attribute: &str) -> Option<[f64; N]> {
-    let words = node.attribute(attribute)?.split_whitespace();
-    let numbers: Vec<f64> =
-        words.map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect::<Option<_>>()?;
-    numbers.try_into().ok()
+    finite_numbers(node.attribute(attribute)?)
 }

@@ -47,6 +47,25 @@ fn every_mesh_is_in_the_page_with_its_place_and_colour() {
     assert!(!output.contains("warning") && data["notes"] == json!([]), "{output}");
 }
 
+/// From version 1.1 of URDF on, and not by one that is zero.
+#[test]
+fn a_mesh_is_turned_by_its_quaternion() {
+    let half = 0.5_f64.sqrt();
+    for (version, quaternion, expected) in [
+        ("1.1", "0 0 2 2", [0.0, 0.0, half, half]),
+        ("1.1", "0 0 0 0", [0.0, 0.0, 0.0, 1.0]),
+        ("1.0", "0 0 2 2", [0.0, 0.0, 0.0, 1.0]),
+    ] {
+        let (folder, urdf) = with("turned", ["rpy=\"0 0 1.5707963267948966\"", &format!("quat_xyzw=\"{quaternion}\"")]);
+        let text = fs::read_to_string(&urdf).unwrap();
+        fs::write(&urdf, text.replace("<robot", &format!("<robot version=\"{version}\""))).unwrap();
+        let (data, _) = shown(&folder, &urdf);
+        assert_eq!(data["meshes"][2]["position"], json!([0.05, 0.0, 0.0]));
+        let turn: Vec<f64> = serde_json::from_value(data["meshes"][2]["rotation"].clone()).unwrap();
+        assert!(turn.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{version} {quaternion}: {turn:?}");
+    }
+}
+
 #[test]
 fn a_file_that_two_links_show_is_in_the_page_once() {
     let (folder, urdf) = with("twice", ["package://arm_description/meshes/arm.dae", "../meshes/base.stl"]);

@@ -147,6 +147,7 @@ fn impossible_values_are_shown_with_their_line() {
     refused(&good.replace("continuous", "fixed"), &["every joint is fixed"]);
     refused(&format!("<robot name=\"r\"><link name=\"a\">{BODY}</link></robot>"), &["no joints"]);
     refused("<robot name=\"r\"/>", &["no links"]);
+    refused("<?xml version=\"1.0\"?>\n<robot name=\"r\"/>", &["robot.urdf:2:", "no links"]);
 }
 
 /// Deep nesting must not exhaust the stack, wherever it stands.

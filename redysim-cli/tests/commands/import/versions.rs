@@ -9,7 +9,7 @@ fn of_version(version: &str, urdf: &str) -> String {
     urdf.replace("<robot", &format!("<robot version=\"{version}\""))
 }
 
-/// Half the angle, of a length that is not 1.
+/// A rotation about x, as a quaternion of length 3.
 fn about_x(angle: f64) -> String {
     let (sin, cos) = (angle / 2.0).sin_cos();
     format!("quat_xyzw=\"{} 0 0 {}\"", 3.0 * sin, 3.0 * cos)
@@ -37,13 +37,41 @@ fn an_origin_is_turned_by_its_quaternion() {
     assert_eq!(placement.position.0, [1.0, 2.0, 3.0]);
 }
 
+/// v + 2 w (u × v) + 2 u × (u × v), for the unit quaternion (u, w). Near a pitch of 90°, roll and yaw are nearly about one
+/// axis.
 #[test]
-fn a_quaternion_that_is_zero_beside_angles_or_of_an_early_version_is_refused() {
+fn every_quaternion_but_zero_gives_its_rotation_to_roundoff() {
+    let (sin, cos) = 44.95_f64.to_radians().sin_cos();
+    for quaternion in [[0.1, -0.7, 0.3, 0.5], [0.0, 1.0, 0.0, 1.0], [0.0, sin, 0.0, cos], [0.3, -sin, 0.2, -cos]] {
+        let length = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let [x, y, z, w] = quaternion.map(|x| x / length);
+        for size in [1.0, 1e-170, 1e170] {
+            let numbers = quaternion.map(|x| format!("{:e}", size * x)).join(" ");
+            let inside = format!("<origin quat_xyzw=\"{numbers}\"/>");
+            let (mechanism, _) = import(&of_version("1.1", &pendulum(&inside, BODY)), &[]);
+            let found = mechanism.model().links[0].placement.rotation.0;
+            for column in 0..3 {
+                let v = [0, 1, 2].map(|row| f64::from(u8::from(row == column)));
+                let cross = |a: [f64; 3], b: [f64; 3]| [(1, 2), (2, 0), (0, 1)].map(|(i, j)| a[i] * b[j] - a[j] * b[i]);
+                let (once, twice) = (cross([x, y, z], v), cross([x, y, z], cross([x, y, z], v)));
+                for row in 0..3 {
+                    let expected = v[row] + 2.0 * w * once[row] + 2.0 * twice[row];
+                    assert!((found[row][column] - expected).abs() < 1e-14, "{quaternion:?}, {size:e}: {found:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_quaternion_is_refused_if_it_is_zero_stands_beside_angles_or_comes_before_version_1_1() {
     let with = |version: &str, origin: &str| {
         of_version(version, &pendulum(&format!("\n<origin {origin}/>"), BODY).replace("</joint>", "\n</joint>"))
     };
     let fault = "robot.urdf:2: joint `hinge`: `quat_xyzw` of its <origin>";
     refused(&with("1.0", &about_x(1.0)), &[fault, "is of URDF 1.1", "version=\"1.1\""]);
+    refused(&with("1.0", "quat_xyzw=\"0 0 1\""), &[fault, "is of URDF 1.1"]);
+    refused(&with("1.0", &format!("rpy=\"0 0 0\" {}", about_x(1.0))), &[fault, "stands beside `rpy`"]);
     refused(&with("1.1", "quat_xyzw=\"0 0 0 0\""), &[fault, "is zero", "\"0 0 0 1\""]);
     refused(&with("1.1", &format!("rpy=\"0 0 0\" {}", about_x(1.0))), &[fault, "stands beside `rpy`"]);
     refused(&with("1.1", "quat_xyzw=\"0 0 1\""), &[fault, "must be 4 finite numbers, found \"0 0 1\""]);
@@ -62,4 +90,30 @@ fn a_limit_that_is_not_given_is_infinite_from_version_1_2_on() {
     let (mechanism, run) = import(&of_version("1.2", &urdf), &[]);
     assert!(mechanism.model().links[0].range.is_empty());
     assert!(run.stdout.contains("acceleration = 7 rad/s²; a `range` needs positions and a velocity"), "{}", run.stdout);
+}
+
+/// A limit needs no velocity from version 1.2 on, and what makes no sense is warned of.
+#[test]
+fn limits_of_version_1_2_are_read_without_a_velocity_and_negative_ones_are_warned_of() {
+    let warned = |limit: &str, wanted: &str| {
+        let urdf = pendulum(&format!("<limit {limit}/>"), BODY).replace("continuous", "revolute");
+        let (_, run) = import(&of_version("1.2", &urdf), &[]);
+        assert!(run.stderr.contains(wanted), "no `{wanted}` in: {}", run.stderr);
+    };
+    warned("lower=\"2\" upper=\"1\"", "its lower limit, 2 rad, is above its upper one, 1 rad");
+    warned("velocity=\"3\" acceleration=\"-7\"", "its limit of acceleration is -7, which is negative");
+}
+
+#[test]
+fn a_version_that_urdf_does_not_have_is_warned_of_with_the_one_that_is_taken() {
+    for (version, read_as) in [("v1.2", "1.0"), ("1.1.0", "1.1"), ("2.0", "1.2"), ("1", "1.0"), ("", "1.0")] {
+        let (_, run) = import(&of_version(version, &pendulum("", BODY)), &[]);
+        let warning =
+            format!("warning: robot.urdf:1: `{version}` is no version of URDF: the file is read as {read_as}");
+        assert!(run.stderr.contains(&warning), "{version}: {}", run.stderr);
+    }
+    for version in ["1.0", "1.1", " 1.2 "] {
+        let (_, run) = import(&of_version(version, &pendulum("", BODY)), &[]);
+        assert!(!run.stderr.contains("version"), "{version}: {}", run.stderr);
+    }
 }
