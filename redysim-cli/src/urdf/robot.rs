@@ -242,8 +242,10 @@ fn placed(joint: &JointElement) -> (Origin, Option<Origin>) {
     if joint.kind != JointKind::Planar || (x == 0.0 && y == 0.0 && z > 0.0) {
         return (origin, None);
     }
-    let length = Vec3([x, y, z]).dot(Vec3([x, y, z])).sqrt();
-    let turned = Pose { rotation: align_z(Vec3([x, y, z].map(|x| x / length))), position: Vec3::zero() };
+    // Squares of the components neither overflow nor vanish.
+    let largest = joint.axis.into_iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
+    let normal = Vec3(joint.axis.map(|component| component / largest));
+    let turned = Pose { rotation: align_z(normal.scale(1.0 / normal.dot(normal).sqrt())), position: Vec3::zero() };
     let back = Pose { rotation: turned.rotation.transpose(), position: Vec3::zero() };
     (Origin::of(origin.pose() * turned), Some(Origin::of(back)))
 }
