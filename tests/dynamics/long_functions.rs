@@ -39,9 +39,13 @@ macro_rules! compared {
     )*};
 }
 
-// Thirty links in a row, and a chain of alike links, of which most become loops, with an arm in the middle.
+// Thirty links in a row.
 compared! {
     Chain30, "models/test/chain30.toml";
+}
+// A chain of alike links, of which most become loops, with an arm in the middle. Compiling it takes seconds.
+#[cfg(not(debug_assertions))]
+compared! {
     Snake, "models/test/snake.toml";
 }
 impl Compared for GenericMechanism {}
@@ -81,6 +85,7 @@ fn thirty_joints_compile_in_the_dev_profile_and_are_right() {
     assert_eq!(Chain30.nv(), 30);
 }
 
+#[cfg(not(debug_assertions))]
 #[test]
 fn loops_over_alike_links_are_right_beside_what_is_not_alike() {
     assert_right(&Snake, &generic("test/snake"));

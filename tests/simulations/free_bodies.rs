@@ -213,7 +213,8 @@ fn a_heavy_top_keeps_energy_vertical_angular_momentum_and_spin() {
         tilts = [tilts[0].min(tilt), tilts[1].max(tilt)];
     };
     let method = Dop853::new().rtol(1e-13).atol(1e-15);
-    method.each_step(&mut simulation, (0.0, 30.0), state, on_step).expect("it spins for 30 s");
+    let end = if cfg!(debug_assertions) { 10.0 } else { 30.0 };
+    method.each_step(&mut simulation, (0.0, end), state, on_step).expect("it spins all the time");
     println!("energy, momentum, spin {worst:?}; tilts {tilts:?}");
     assert!(tilts[1] - tilts[0] > 0.1, "it nods: {tilts:?}");
     assert!(worst.iter().all(|error| *error <= 1e-12), "{worst:?}");

@@ -104,6 +104,7 @@ fn the_pendulum_moves_as_elliptic_functions() {
 
 /// What the library asks for: 2,000 s from the horizontal on the other side, to 1 mm.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "slow: run in release, by .ci/run")]
 fn two_thousand_seconds_keep_the_precision_asked_for_with_high_demands() {
     let mut simulation = ForwardSimulation::new(&SimplePendulum, ZeroTorque);
     let start = simulation.state(&[-START], &[0.0]);
