@@ -41,9 +41,9 @@ fn what_a_debug_build_leaves_out_runs_in_release_or_natively() {
     };
     let release: Vec<&str> = command("cargo test --release --workspace ", "").collect();
     assert!(!release.contains(&"--"), "all tests of a program: {release:?}");
-    // The cases of `compile_fail` need one of them.
+    // The cases of `compile_fail` require a feature.
     assert!(release.contains(&"--all-features"), "all features: {release:?}");
-    // Those of `test = false`.
+    // Unit tests of the crates with `test = false`.
     let unit_tests = "step cargo test --workspace --all-features --lib";
     assert!(script.lines().any(|line| line == unit_tests), "`{unit_tests}`");
     let words: Vec<&str> =

@@ -9,17 +9,20 @@ use crate::failure::{Failure, Fault};
 /// A version of URDF: major, minor.
 pub type Version = (u32, u32);
 
-/// The versions that there are.
-const VERSIONS: [Version; 3] = [(1, 0), WITH_QUATERNIONS, INFINITE_BY_DEFAULT];
-/// From this version on an origin may have a quaternion.
+/// The version of a file that does not state one.
+const FIRST: Version = (1, 0);
+/// The first version in which an origin may have a quaternion.
 pub const WITH_QUATERNIONS: Version = (1, 1);
-/// From this version on a limit that is not given is infinite, not zero, and there are limits of acceleration.
+/// The first version in which limits are infinite by default, and not zero, and in which accelerations have limits.
 pub const INFINITE_BY_DEFAULT: Version = (1, 2);
+/// The versions of URDF, in order.
+const VERSIONS: [Version; 3] = [FIRST, WITH_QUATERNIONS, INFINITE_BY_DEFAULT];
 
 /// A URDF file that is well-formed.
 pub struct Document<'a> {
     file: &'a str,
     xml: Xml<'a>,
+    version: Version,
 }
 
 /// What is read inside of each element, and of others nothing.
@@ -53,8 +56,9 @@ impl<'a> Document<'a> {
     /// If it is not well-formed, or not a URDF.
     pub fn parse(text: &'a str, file: &'a str) -> Result<Self, Failure> {
         let xml = Xml::parse(text).map_err(|error| broken(file, &error))?;
-        let document = Document { file, xml };
-        let robot = document.xml.root_element();
+        let version = version(xml.root_element().attribute("version"));
+        let document = Document { file, xml, version };
+        let robot = document.robot();
         if robot.tag_name().name() != "robot" {
             let message = format!("the file has a <{}>, not a <robot>", robot.tag_name().name());
             return Err(document.fault(robot, message).help("give a URDF; other formats are not read"));
@@ -86,22 +90,19 @@ impl<'a> Document<'a> {
         self.xml.root_element()
     }
 
-    /// The version of URDF of the file, 1.0 by default.
+    /// The version of URDF by which the file is read.
     pub fn version(&self) -> Version {
-        let numbers = |version: &str| {
-            let mut numbers = version.trim().split('.').map(|number| number.parse().ok());
-            Some((numbers.next()??, numbers.next()??))
-        };
-        self.robot().attribute("version").and_then(numbers).unwrap_or((1, 0))
+        self.version
     }
 
-    /// What is to be known of a version that URDF does not have.
+    /// The warning that the file states a version that is not one of URDF.
     pub fn unknown_version(&self) -> Option<String> {
-        let given = self.robot().attribute("version")?;
-        let (major, minor) = VERSIONS.into_iter().rfind(|known| *known <= self.version()).unwrap_or((1, 0));
-        let is_known = given.trim() == format!("{major}.{minor}");
-        let (place, given) = (format!("{}:{}", self.file, self.line(self.robot())), given.escape_debug());
-        (!is_known).then(|| format!("{place}: `{given}` is no version of URDF: the file is read as {major}.{minor}"))
+        let stated = self.robot().attribute("version")?;
+        let (major, minor) = self.version;
+        let (file, line, shown) = (self.file, self.line(self.robot()), stated.escape_debug());
+        (stated.trim() != format!("{major}.{minor}")).then(|| {
+            format!("{file}:{line}: unknown URDF version `{shown}`: the file is read as version {major}.{minor}")
+        })
     }
 
     /// The line on which an element begins.
@@ -125,9 +126,9 @@ impl<'a> Document<'a> {
         self.joints().find(|joint| joint.attribute("name") == Some(name))
     }
 
-    /// Whether an element can be read: before version 1.2 a limit must have a velocity.
-    pub fn has_what_it_needs(&self, node: Node) -> bool {
-        node.tag_name().name() != "limit" || node.has_attribute("velocity") || self.version() >= INFINITE_BY_DEFAULT
+    /// Whether an element has its required attributes: before version 1.2 a limit requires a velocity.
+    pub fn is_complete(&self, node: Node) -> bool {
+        node.tag_name().name() != "limit" || node.has_attribute("velocity") || self.version >= INFINITE_BY_DEFAULT
     }
 
     /// The elements that nothing is read of; what is inside them counts as one with them.
@@ -136,7 +137,7 @@ impl<'a> Document<'a> {
         while let Some(owner) = open.pop() {
             let read = read_in(owner);
             for node in owner.children().filter(Node::is_element) {
-                let is_read = read.contains(&node.tag_name().name()) && self.has_what_it_needs(node);
+                let is_read = read.contains(&node.tag_name().name()) && self.is_complete(node);
                 if is_read { open.push(node) } else { unread.push(node) }
             }
         }
@@ -162,6 +163,16 @@ impl<'a> Document<'a> {
         };
         found.into_iter().map(text).collect()
     }
+}
+
+/// The last version that is not later than the one that is stated.
+fn version(stated: Option<&str>) -> Version {
+    let numbers = |text: &str| {
+        let mut numbers = text.trim().split('.').map(|number| number.parse().ok());
+        Some((numbers.next()??, numbers.next()??))
+    };
+    let stated = stated.and_then(numbers).unwrap_or(FIRST);
+    VERSIONS.into_iter().rfind(|version| *version <= stated).unwrap_or(FIRST)
 }
 
 fn described(node: Node) -> String {
@@ -199,7 +210,7 @@ pub fn child<'n, 'a>(node: Node<'n, 'a>, tag: &str) -> Option<Node<'n, 'a>> {
     children(node, tag).next()
 }
 
-/// As many finite numbers as asked for, if a text is nothing else.
+/// The `N` finite numbers of a text; `None` if it has anything else.
 pub fn finite_numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let number = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
     text.split_whitespace().map(number).collect::<Option<Vec<f64>>>()?.try_into().ok()

@@ -122,7 +122,8 @@ impl<'d, 'a> Item<'d, 'a> {
         let element = |name| self.required_numbers(inertia, name).map(|[element]| element);
         let [xx, xy, xz, yy, yz, zz] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(element);
         let inertia = Sym3 { xx: xx?, xy: xy?, xz: xz?, yy: yy?, yz: yz?, zz: zz? };
-        Ok(Inertial::at(origin, mass, inertia))
+        // The inertial frame has the centre of mass as its origin, and its axes are those of the inertia.
+        Ok(Inertial { mass, com: Vec3::zero(), inertia }.seen_from(origin.pose()))
     }
 
     fn joint(&self) -> Result<JointElement<'d>, Failure> {
@@ -196,18 +197,18 @@ impl<'d, 'a> Item<'d, 'a> {
                 number.ok_or_else(|| self.wrong(limit, name, "a number", text))
             }
         };
+        let acceleration = given("acceleration", f64::INFINITY)?;
         let read = Limit {
             lower: given("lower", -default)?,
             upper: given("upper", default)?,
             effort: given("effort", default)?,
             velocity: given("velocity", default)?,
-            acceleration: given("acceleration", f64::INFINITY)?,
+            acceleration: if is_infinite { acceleration } else { f64::INFINITY },
         };
-        // Comments of the model have these.
+        // These appear in comments of the model alone.
         given("deceleration", f64::INFINITY)?;
         given("jerk", f64::INFINITY)?;
-        let acceleration = if is_infinite { read.acceleration } else { f64::INFINITY };
-        Ok(self.document.has_what_it_needs(limit).then_some(Limit { acceleration, ..read }))
+        Ok(self.document.is_complete(limit).then_some(read))
     }
 
     fn mimic(&self, mimic: Node<'d, 'a>) -> Result<Mimic, Failure> {
@@ -226,20 +227,20 @@ impl<'d, 'a> Item<'d, 'a> {
         }
         let fault = |message: &str| self.fault(origin, format!("`quat_xyzw` of its <origin> {message}"));
         if rpy.is_some() {
-            return Err(fault("stands beside `rpy`").help("keep one of them"));
+            return Err(fault("conflicts with `rpy`").help("keep one of them"));
         }
         if self.document.version() < WITH_QUATERNIONS {
-            let fault = fault("is of URDF 1.1, and the file is of an earlier version");
-            return Err(fault.help("give `rpy` instead, or the <robot> version=\"1.1\""));
+            let fault = fault("requires URDF 1.1, but the file has an earlier version");
+            return Err(fault.help("give `rpy` instead, or set version=\"1.1\" in the <robot>"));
         }
         let quaternion = self.required_numbers(origin, "quat_xyzw")?;
         let Some(rotation) = rotation(quaternion) else {
-            return Err(fault("is zero, which is no rotation").help("no rotation is quat_xyzw=\"0 0 0 1\""));
+            return Err(fault("is zero, which is not a rotation").help("the identity is quat_xyzw=\"0 0 0 1\""));
         };
         Ok(Origin::of(Pose { rotation, position: Vec3(xyz) }))
     }
 
-    /// Fails if an element that is read occurs twice in another.
+    /// Fails if `owner` has two elements of a name that is read.
     fn check_single(&self, owner: Node) -> Result<(), Failure> {
         match read_in(owner).iter().find_map(|read| children(owner, read).nth(1)) {
             None => Ok(()),

@@ -1,10 +1,7 @@
 //! Mass, centre of mass and inertia of a link, in its own frame.
 
 use redysim_model::inertia::Sym3;
-use redysim_model::rotation::roll_pitch_yaw;
 use redysim_model::spatial::{Pose, Vec3};
-
-use super::origin::Origin;
 
 /// An inertia of so many kg m² for a kg (a radius of gyration of 10 nm) is roundoff.
 const NOISE: f64 = 1e-16;
@@ -24,13 +21,6 @@ impl Inertial {
     /// No mass.
     pub fn none() -> Self {
         Inertial { mass: 0.0, com: Vec3::zero(), inertia: Sym3::zero() }
-    }
-
-    /// A body whose centre of mass is at `origin`, with an inertia in the axes of that frame, as URDF has it.
-    pub fn at(origin: Origin, mass: f64, inertia: Sym3<f64>) -> Self {
-        let turned = origin.rpy != [0.0; 3];
-        let inertia = if turned { inertia.rotated(roll_pitch_yaw(origin.rpy)) } else { inertia };
-        Inertial { mass, com: Vec3(origin.xyz), inertia }
     }
 
     /// Without an inertia that is nothing but the roundoff of the program that wrote it, and whether there was one.

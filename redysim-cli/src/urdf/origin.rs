@@ -36,9 +36,13 @@ impl Origin {
 
 /// The rotation of a quaternion (x, y, z, w) of any length; `None` for zero.
 pub fn rotation(quaternion: [f64; 4]) -> Option<Mat3<f64>> {
-    // Squares of the components neither overflow nor vanish.
-    let largest = quaternion.into_iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
-    let scaled = quaternion.map(|component| component / largest);
-    let rotation = UnitQuaternion::from_quaternion(scaled.into()).to_rotation_matrix();
-    (largest > 0.0).then(|| Mat3::from_fn(|i, j| rotation[(i, j)]))
+    let rotation = UnitQuaternion::from_quaternion(scaled(quaternion)?.into()).to_rotation_matrix();
+    Some(Mat3::from_fn(|i, j| rotation[(i, j)]))
+}
+
+/// The vector divided by its largest component, so that no square of a component overflows and their sum does not vanish;
+/// `None` for zero.
+pub fn scaled<const N: usize>(vector: [f64; N]) -> Option<[f64; N]> {
+    let largest = vector.into_iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
+    (largest > 0.0).then(|| vector.map(|component| component / largest))
 }

@@ -13,7 +13,7 @@ use super::document::Document;
 use super::elements::{Elements, JointElement, Limit, Mimic};
 use super::inertial::Inertial;
 use super::notation::inertial;
-use super::origin::Origin;
+use super::origin::{Origin, scaled};
 use crate::failure::Failure;
 use crate::number::counted;
 
@@ -84,24 +84,27 @@ impl Robot {
                 inertial(fixed)
             )
         });
-        let link = |joint: &JointElement| Link {
-            name: joint.child.to_owned(),
-            joint_name: joint.name.to_owned(),
-            parent: match carried_by.get(joint.parent) {
-                Some(carrier) => Some(carrier + usize::from(floats)),
-                None => floats.then_some(0),
-            },
-            kind: joint.kind,
-            is_root: false,
-            origin: placed(joint).0,
-            far_end: placed(joint).1,
-            axis: joint.axis,
-            inertial: inertial_of(joint.child),
-            limit: joint.limit,
-            resistance: resistance(joint),
-            mimic: joint.mimic.clone(),
-            remarks: Vec::new(),
-            comments: Vec::new(),
+        let link = |joint: &JointElement| {
+            let (origin, far_end) = placed(joint);
+            Link {
+                name: joint.child.to_owned(),
+                joint_name: joint.name.to_owned(),
+                parent: match carried_by.get(joint.parent) {
+                    Some(carrier) => Some(carrier + usize::from(floats)),
+                    None => floats.then_some(0),
+                },
+                kind: joint.kind,
+                is_root: false,
+                origin,
+                far_end,
+                axis: joint.axis,
+                inertial: inertial_of(joint.child),
+                limit: joint.limit,
+                resistance: resistance(joint),
+                mimic: joint.mimic.clone(),
+                remarks: Vec::new(),
+                comments: Vec::new(),
+            }
         };
         let taken = |name: &str| urdf.joints.iter().any(|joint| joint.name == name);
         let root = floats.then(|| Link::floating(root, free_name("base", taken), inertial_of(root)));
@@ -242,9 +245,7 @@ fn placed(joint: &JointElement) -> (Origin, Option<Origin>) {
     if joint.kind != JointKind::Planar || (x == 0.0 && y == 0.0 && z > 0.0) {
         return (origin, None);
     }
-    // Squares of the components neither overflow nor vanish.
-    let largest = joint.axis.into_iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
-    let normal = Vec3(joint.axis.map(|component| component / largest));
+    let normal = Vec3(scaled(joint.axis).unwrap_or(joint.axis));
     let turned = Pose { rotation: align_z(normal.scale(1.0 / normal.dot(normal).sqrt())), position: Vec3::zero() };
     let back = Pose { rotation: turned.rotation.transpose(), position: Vec3::zero() };
     (Origin::of(origin.pose() * turned), Some(Origin::of(back)))

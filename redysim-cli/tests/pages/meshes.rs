@@ -47,7 +47,7 @@ fn every_mesh_is_in_the_page_with_its_place_and_colour() {
     assert!(!output.contains("warning") && data["notes"] == json!([]), "{output}");
 }
 
-/// From version 1.1 of URDF on, and not by one that is zero.
+/// A zero quaternion, or any quaternion before version 1.1, does not turn it.
 #[test]
 fn a_mesh_is_turned_by_its_quaternion() {
     let half = 0.5_f64.sqrt();

@@ -1,4 +1,4 @@
-//! What came with later versions of URDF: quaternions with 1.1, limits that are infinite unless given with 1.2.
+//! The versions of URDF: 1.1 adds quaternions, and in 1.2 limits are infinite by default.
 
 use super::faults::{BODY, refused};
 use super::{close, import, pendulum};
@@ -64,22 +64,28 @@ fn every_quaternion_but_zero_gives_its_rotation_to_roundoff() {
 }
 
 #[test]
-fn a_quaternion_is_refused_if_it_is_zero_stands_beside_angles_or_comes_before_version_1_1() {
+fn a_quaternion_is_invalid_if_it_is_zero_conflicts_with_angles_or_comes_before_version_1_1() {
     let with = |version: &str, origin: &str| {
         of_version(version, &pendulum(&format!("\n<origin {origin}/>"), BODY).replace("</joint>", "\n</joint>"))
     };
     let fault = "robot.urdf:2: joint `hinge`: `quat_xyzw` of its <origin>";
-    refused(&with("1.0", &about_x(1.0)), &[fault, "is of URDF 1.1", "version=\"1.1\""]);
-    refused(&with("1.0", "quat_xyzw=\"0 0 1\""), &[fault, "is of URDF 1.1"]);
-    refused(&with("1.0", &format!("rpy=\"0 0 0\" {}", about_x(1.0))), &[fault, "stands beside `rpy`"]);
-    refused(&with("1.1", "quat_xyzw=\"0 0 0 0\""), &[fault, "is zero", "\"0 0 0 1\""]);
-    refused(&with("1.1", &format!("rpy=\"0 0 0\" {}", about_x(1.0))), &[fault, "stands beside `rpy`"]);
+    refused(
+        &with("1.0", &about_x(1.0)),
+        &[fault, "requires URDF 1.1, but the file has an earlier version", "version=\"1.1\""],
+    );
+    refused(&with("1.0", "quat_xyzw=\"0 0 1\""), &[fault, "requires URDF 1.1"]);
+    refused(&with("1.0", &format!("rpy=\"0 0 0\" {}", about_x(1.0))), &[fault, "conflicts with `rpy`"]);
+    refused(
+        &with("1.1", "quat_xyzw=\"0 0 0 0\""),
+        &[fault, "is zero, which is not a rotation", "the identity is", "\"0 0 0 1\""],
+    );
+    refused(&with("1.1", &format!("rpy=\"0 0 0\" {}", about_x(1.0))), &[fault, "conflicts with `rpy`"]);
     refused(&with("1.1", "quat_xyzw=\"0 0 1\""), &[fault, "must be 4 finite numbers, found \"0 0 1\""]);
 }
 
-/// Before 1.2 a position that is not given is zero.
+/// Before 1.2, positions are zero by default.
 #[test]
-fn a_limit_that_is_not_given_is_infinite_from_version_1_2_on() {
+fn limits_are_infinite_by_default_in_version_1_2() {
     let urdf =
         pendulum("<limit upper=\"2\" velocity=\"3\" acceleration=\"7\"/>", BODY).replace("continuous", "revolute");
     let (mechanism, run) = import(&urdf, &[]);
@@ -92,24 +98,23 @@ fn a_limit_that_is_not_given_is_infinite_from_version_1_2_on() {
     assert!(run.stdout.contains("acceleration = 7 rad/s²; a `range` needs positions and a velocity"), "{}", run.stdout);
 }
 
-/// A limit needs no velocity from version 1.2 on, and what makes no sense is warned of.
 #[test]
-fn limits_of_version_1_2_are_read_without_a_velocity_and_negative_ones_are_warned_of() {
-    let warned = |limit: &str, wanted: &str| {
+fn limits_of_version_1_2_require_no_velocity_and_negative_ones_are_reported() {
+    let reported = |limit: &str, wanted: &str| {
         let urdf = pendulum(&format!("<limit {limit}/>"), BODY).replace("continuous", "revolute");
         let (_, run) = import(&of_version("1.2", &urdf), &[]);
         assert!(run.stderr.contains(wanted), "no `{wanted}` in: {}", run.stderr);
     };
-    warned("lower=\"2\" upper=\"1\"", "its lower limit, 2 rad, is above its upper one, 1 rad");
-    warned("velocity=\"3\" acceleration=\"-7\"", "its limit of acceleration is -7, which is negative");
+    reported("lower=\"2\" upper=\"1\"", "its lower limit, 2 rad, is above its upper one, 1 rad");
+    reported("velocity=\"3\" acceleration=\"-7\"", "its limit of acceleration is -7, which is negative");
 }
 
 #[test]
-fn a_version_that_urdf_does_not_have_is_warned_of_with_the_one_that_is_taken() {
+fn an_unknown_version_is_reported_with_the_version_by_which_the_file_is_read() {
     for (version, read_as) in [("v1.2", "1.0"), ("1.1.0", "1.1"), ("2.0", "1.2"), ("1", "1.0"), ("", "1.0")] {
         let (_, run) = import(&of_version(version, &pendulum("", BODY)), &[]);
         let warning =
-            format!("warning: robot.urdf:1: `{version}` is no version of URDF: the file is read as {read_as}");
+            format!("warning: robot.urdf:1: unknown URDF version `{version}`: the file is read as version {read_as}");
         assert!(run.stderr.contains(&warning), "{version}: {}", run.stderr);
     }
     for version in ["1.0", "1.1", " 1.2 "] {
