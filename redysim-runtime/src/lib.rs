@@ -82,6 +82,7 @@ mod joint_trig;
 #[cfg(feature = "lanes")]
 pub mod lanes;
 mod linear_algebra;
+mod matrix;
 mod mechanism;
 mod operational_space;
 mod operations;
@@ -133,6 +134,8 @@ pub use hybrid_simulation::HybridSimulation;
 pub use integrate::root::*;
 pub use joint_trig::JointTrig;
 pub use linear_algebra::RowSet;
+#[doc(hidden)]
+pub use matrix::{Elements, Unwritten, Written, write_matrix};
 pub use mechanism::{
     Arguments, BiasForces, CenterOfMass, ConfigurationSpace, CoriolisMatrix, Energy, ForwardDynamics, GravityForces,
     HybridDynamics, HybridMotion, InverseDynamics, LinkKinematics, LinkState, LoopClosure, LoopRows, MassCenter,

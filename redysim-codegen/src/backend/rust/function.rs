@@ -1,7 +1,7 @@
 //! One function of a mechanism: of coordinates, and of precomputed joint trigonometry.
 
 use super::angles::{angle, without_turns};
-use super::body::{COS, SIN, body, local};
+use super::body::{COS, MATRIX, SIN, body, local};
 use super::parametric::Form;
 use super::{length, results};
 use crate::mechanism::{FunctionProgram, TrigProgram};
@@ -86,19 +86,32 @@ impl Writer<'_> {
         let others: Vec<Ident> = others(function).collect();
         let (computed, sin, cos) = trig_statement(trig);
         let caller = Form::of(interface, runtime).caller;
-        let of_coordinates = with_target_features(&quote! {
-            #computed
-            #caller #inlined(#q, #sin, #cos #(, #others)*)
-        });
-        let of_joint_trig = with_target_features(
-            &quote!(#caller #inlined(&#argument.#q, &#argument.sin, &#argument.cos #(, #others)*)),
-        );
+        let written = results::is_written(function.signature().result, interface).then(|| local(MATRIX));
+        let whole = |computed: &TokenStream, arguments: &TokenStream| match &written {
+            None => with_target_features(&quote!(#computed #caller #inlined(#arguments))),
+            Some(matrix) => {
+                let body = with_target_features(&quote! {
+                    #computed
+                    let mut #matrix = #matrix.elements();
+                    #caller #inlined(#arguments, &mut #matrix);
+                    #matrix.finish()
+                });
+                quote!(#runtime::write_matrix(#[inline(always)] |#matrix| #body))
+            }
+        };
+        let of_coordinates = whole(&computed.into_token_stream(), &quote!(#q, #sin, #cos #(, #others)*));
+        let of_joint_trig =
+            whole(&TokenStream::new(), &quote!(&#argument.#q, &#argument.sin, &#argument.cos #(, #others)*));
+        // Inlined, the call that writes the elements would not know that it may write them into the caller's matrix.
+        let not_inlined = written.as_ref().map(|_| quote!(#[inline(never)]));
         quote! {
             #(#[doc = #docs])*
+            #not_inlined
             pub #head {
                 #of_coordinates
             }
             #[doc = #docs_with_trig]
+            #not_inlined
             pub #head_with_trig {
                 #of_joint_trig
             }
@@ -206,10 +219,16 @@ fn head_inlined(
     let [sin, cos] = [SIN, COS].map(local);
     let (q, others) =
         (parameters(function, interface, runtime).take(1), parameters(function, interface, runtime).skip(1));
-    let output = results::output_type(function.signature().result, interface, runtime);
+    let shape = function.signature().result;
+    let (matrix, output) = if results::is_written(shape, interface) {
+        let matrix = local(MATRIX);
+        (Some(quote!(, #matrix: &mut #runtime::Elements<'_, S>)), quote!(()))
+    } else {
+        (None, results::output_type(shape, interface, runtime))
+    };
     let Form { function, receiver, .. } = Form::of(interface, runtime);
     quote!(fn #name #function(
-        #receiver #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)*
+        #receiver #(#q,)* #sin: &[S; #angles], #cos: &[S; #angles] #(, #others)* #matrix
     ) -> #output)
 }
 

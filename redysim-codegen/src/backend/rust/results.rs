@@ -113,28 +113,42 @@ fn frame_state(vectors: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     })
 }
 
-/// A matrix that is large and mostly zero is begun with zeros. As a literal, LLVM would compose its rows elsewhere and copy
-/// them, which in lanes takes more time than to compute them; other matrices it composes in place.
-const LARGE_MATRIX: usize = 512;
-
 /// A matrix by rows of `length` elements.
 fn matrix(elements: &[TokenStream], length: usize) -> TokenStream {
+    if is_large(elements.len()) { written_elements(elements) } else { array(&rows(elements, length)) }
+}
+
+/// From this number of elements on, a matrix is written element by element where the function returns it. LLVM composes an
+/// array literal of that size elsewhere and copies it, which in lanes takes more time than to compute it.
+const LARGE_MATRIX: usize = 256;
+
+/// Whether a function's result is written element by element.
+pub fn is_written(shape: Shape, interface: &PublicInterface) -> bool {
+    let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| interface.size(dimension));
+    match shape {
+        Shape::MassMatrix | Shape::CoriolisMatrix => is_large(nv * nv),
+        Shape::LoopJacobian => is_large(nc * nv),
+        _ => false,
+    }
+}
+
+fn is_large(elements: usize) -> bool {
+    elements >= LARGE_MATRIX
+}
+
+/// Writes a matrix in the order of its rows.
+fn written_elements(elements: &[TokenStream]) -> TokenStream {
     let (zero, matrix) = (zero().to_string(), local(MATRIX));
     let is_zero = |element: &TokenStream| element.to_string() == zero;
-    let zeros = elements.iter().filter(|element| is_zero(element)).count();
-    if elements.len() < LARGE_MATRIX || 2 * zeros < elements.len() {
-        return array(&rows(elements, length));
-    }
-    let [height, width] = [elements.len() / length, length].map(Literal::usize_unsuffixed);
-    let set = elements.iter().enumerate().filter(|(_, element)| !is_zero(element)).map(|(index, element)| {
-        let [row, column] = [index / length, index % length].map(Literal::usize_unsuffixed);
-        quote!(#matrix[#row][#column] = #element;)
+    let runs = elements.chunk_by(|a, b| is_zero(a) && is_zero(b)).map(|run| {
+        if is_zero(&run[0]) {
+            let count = Literal::usize_unsuffixed(run.len());
+            quote!(#matrix.zeros(#count);)
+        } else {
+            quote!(#(#matrix.push(#run);)*)
+        }
     });
-    quote!({
-        let mut #matrix = [[S::zero(); #width]; #height];
-        #(#set)*
-        #matrix
-    })
+    quote!(#(#runs)*)
 }
 
 fn rows(elements: &[TokenStream], length: usize) -> Vec<TokenStream> {
@@ -159,16 +173,12 @@ mod tests {
     }
 
     #[test]
-    fn a_large_matrix_that_is_mostly_zero_is_begun_with_zeros_and_no_other() {
-        let diagonal = |row, column| row == column;
-        let text = written(30, diagonal);
-        assert!(text.contains("let mut matrix = [[S :: zero () ; 30] ; 30] ;"), "{text}");
-        for row in 0..30 {
-            assert!(text.contains(&format!("matrix [{row}] [{row}] = one ;")), "row {row}: {text}");
-        }
-        assert_eq!(text.matches(" = one").count(), 30);
-        for text in [written(6, diagonal), written(30, |row, column| row + column < 32)] {
-            assert!(text.starts_with("[[") && !text.contains("matrix"), "{text}");
-        }
+    fn a_large_matrix_is_written_in_the_order_of_its_rows_and_no_other() {
+        let text = written(16, |row, column| row == column);
+        assert!(text.starts_with("matrix . push (one) ; matrix . zeros (16) ; matrix . push (one) ;"), "{text}");
+        assert_eq!(text.matches("matrix . push (one) ;").count(), 16);
+        assert_eq!(text.matches("matrix . zeros (16) ;").count(), 15);
+        let text = written(15, |row, column| row == column);
+        assert!(text.starts_with("[[") && !text.contains("matrix"), "{text}");
     }
 }
