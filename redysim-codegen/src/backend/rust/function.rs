@@ -53,7 +53,11 @@ impl Writer<'_> {
         let arguments: Vec<&str> = signature.arguments.iter().map(|argument| argument.name()).collect();
         let as_numbers = signature.arguments.iter().filter_map(|argument| as_numbers(*argument, self.interface));
         let body = body(program, &arguments, self.runtime, |outputs| {
-            results::value(signature.result, self.interface, outputs, self.runtime)
+            if results::is_written(signature.result, &program.outputs) {
+                results::written(outputs)
+            } else {
+                results::value(signature.result, self.interface, outputs, self.runtime)
+            }
         });
         quote!(#(#as_numbers)* #body)
     }
@@ -77,7 +81,6 @@ impl Writer<'_> {
         let (Writer { interface, runtime, .. }, angles) = (*self, self.angles());
         let (head, head_with_trig) =
             (head(function, interface, runtime), head_with_trig(function, interface, &angles, runtime));
-        let head_inlined = head_inlined(function, interface, &angles, runtime);
         let lines = documentation.iter().flat_map(|paragraph| std::iter::once("").chain(paragraph.lines())).skip(1);
         let docs = lines.map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
         let docs_with_trig =
@@ -86,7 +89,9 @@ impl Writer<'_> {
         let others: Vec<Ident> = others(function).collect();
         let (computed, sin, cos) = trig_statement(trig);
         let caller = Form::of(interface, runtime).caller;
-        let written = results::is_written(function.signature().result, interface).then(|| local(MATRIX));
+        let is_written = results::is_written(function.signature().result, &program.program.outputs);
+        let written = is_written.then(|| local(MATRIX));
+        let head_inlined = head_inlined(function, interface, &angles, runtime, written.as_ref());
         let whole = |computed: &TokenStream, arguments: &TokenStream| match &written {
             None => with_target_features(&quote!(#computed #caller #inlined(#arguments))),
             Some(matrix) => {
@@ -208,23 +213,22 @@ fn inlined(function: Function) -> Ident {
     format_ident!("{}_inlined", function.name())
 }
 
-/// Name, arguments and result of the function that is given the sines and cosines of `angles` angles.
+/// Name, arguments and result of the function that is given the sines and cosines of `angles` angles, and the matrix that is
+/// `written` where its result is one.
 fn head_inlined(
     function: Function,
     interface: &PublicInterface,
     angles: &TokenStream,
     runtime: &TokenStream,
+    written: Option<&Ident>,
 ) -> TokenStream {
     let name = inlined(function);
     let [sin, cos] = [SIN, COS].map(local);
     let (q, others) =
         (parameters(function, interface, runtime).take(1), parameters(function, interface, runtime).skip(1));
-    let shape = function.signature().result;
-    let (matrix, output) = if results::is_written(shape, interface) {
-        let matrix = local(MATRIX);
-        (Some(quote!(, #matrix: &mut #runtime::Elements<'_, S>)), quote!(()))
-    } else {
-        (None, results::output_type(shape, interface, runtime))
+    let (matrix, output) = match written {
+        Some(matrix) => (Some(quote!(, #matrix: &mut #runtime::Elements<'_, S>)), quote!(())),
+        None => (None, results::output_type(function.signature().result, interface, runtime)),
     };
     let Form { function, receiver, .. } = Form::of(interface, runtime);
     quote!(fn #name #function(

@@ -2,6 +2,7 @@
 
 use super::body::{MATRIX, local, zero};
 use super::length;
+use crate::program::Value;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use redysim_model::PublicInterface;
@@ -37,7 +38,7 @@ pub fn value(shape: Shape, interface: &PublicInterface, outputs: &[TokenStream],
             array(outputs)
         }
         Shape::MassMatrix | Shape::CoriolisMatrix | Shape::LoopJacobian => {
-            matrix(outputs, interface.size(Dimension::Velocities))
+            array(&rows(outputs, interface.size(Dimension::Velocities)))
         }
         Shape::Energy => {
             let [kinetic, potential] = [&outputs[0], &outputs[1]];
@@ -113,31 +114,20 @@ fn frame_state(vectors: &[TokenStream], runtime: &TokenStream) -> TokenStream {
     })
 }
 
-/// A matrix by rows of `length` elements.
-fn matrix(elements: &[TokenStream], length: usize) -> TokenStream {
-    if is_large(elements.len()) { written_elements(elements) } else { array(&rows(elements, length)) }
-}
-
-/// From this number of elements on, a matrix is written element by element where the function returns it. LLVM composes an
-/// array literal of that size elsewhere and copies it, which in lanes takes more time than to compute it.
+/// From this number of elements on, a matrix of which at least a third are zero is written element by element where the function
+/// returns it. LLVM composes an array literal of that size elsewhere and copies it, which in lanes takes more time than to
+/// compute it; of a matrix without zeros it takes less.
 const LARGE_MATRIX: usize = 256;
 
-/// Whether a function's result is written element by element.
-pub fn is_written(shape: Shape, interface: &PublicInterface) -> bool {
-    let [nv, nc] = [Dimension::Velocities, Dimension::LoopRows].map(|dimension| interface.size(dimension));
-    match shape {
-        Shape::MassMatrix | Shape::CoriolisMatrix => is_large(nv * nv),
-        Shape::LoopJacobian => is_large(nc * nv),
-        _ => false,
-    }
-}
-
-fn is_large(elements: usize) -> bool {
-    elements >= LARGE_MATRIX
+/// Whether a function's result is [written](written) element by element.
+pub fn is_written(shape: Shape, outputs: &[Value]) -> bool {
+    let zeros = outputs.iter().filter(|output| **output == Value::Constant(0.0)).count();
+    let is_matrix = matches!(shape, Shape::MassMatrix | Shape::CoriolisMatrix | Shape::LoopJacobian);
+    is_matrix && outputs.len() >= LARGE_MATRIX && 3 * zeros >= outputs.len()
 }
 
 /// Writes a matrix in the order of its rows.
-fn written_elements(elements: &[TokenStream]) -> TokenStream {
+pub fn written(elements: &[TokenStream]) -> TokenStream {
     let (zero, matrix) = (zero().to_string(), local(MATRIX));
     let is_zero = |element: &TokenStream| element.to_string() == zero;
     let runs = elements.chunk_by(|a, b| is_zero(a) && is_zero(b)).map(|run| {
@@ -164,21 +154,25 @@ fn array(elements: &[TokenStream]) -> TokenStream {
 mod tests {
     use super::*;
 
-    /// The matrix of `size` rows with ones where `is_set`.
-    fn written(size: usize, is_set: impl Fn(usize, usize) -> bool) -> String {
-        let elements: Vec<TokenStream> = (0..size * size)
-            .map(|index| if is_set(index / size, index % size) { quote!(one) } else { zero() })
-            .collect();
-        matrix(&elements, size).to_string()
+    /// The elements of a matrix of `size` rows, with ones where `is_set`.
+    fn elements(size: usize, is_set: impl Fn(usize, usize) -> bool) -> Vec<Value> {
+        let value = |index| if is_set(index / size, index % size) { 1.0 } else { 0.0 };
+        (0..size * size).map(|index| Value::Constant(value(index))).collect()
     }
 
     #[test]
-    fn a_large_matrix_is_written_in_the_order_of_its_rows_and_no_other() {
-        let text = written(16, |row, column| row == column);
-        assert!(text.starts_with("matrix . push (one) ; matrix . zeros (16) ; matrix . push (one) ;"), "{text}");
-        assert_eq!(text.matches("matrix . push (one) ;").count(), 16);
-        assert_eq!(text.matches("matrix . zeros (16) ;").count(), 15);
-        let text = written(15, |row, column| row == column);
-        assert!(text.starts_with("[[") && !text.contains("matrix"), "{text}");
+    fn a_large_matrix_with_zeros_is_written_and_no_other() {
+        let diagonal = |row, column| row == column;
+        assert!(is_written(Shape::MassMatrix, &elements(16, diagonal)));
+        assert!(!is_written(Shape::MassMatrix, &elements(15, diagonal)));
+        assert!(!is_written(Shape::MassMatrix, &elements(16, |row, _| row < 12)));
+        assert!(!is_written(Shape::Forces, &elements(16, diagonal)));
+    }
+
+    #[test]
+    fn elements_are_written_in_order_and_zeros_in_runs() {
+        let text = written(&[quote!(one), zero(), zero(), quote!(two), quote!(three), zero()]).to_string();
+        let expected = "matrix . push (one) ; matrix . zeros (2) ; matrix . push (two) ; matrix . push (three) ; matrix . zeros (1) ;";
+        assert_eq!(text, expected);
     }
 }
