@@ -47,8 +47,8 @@ fn fill<S, const ROWS: usize, const COLUMNS: usize>(
 /// Makes a lifetime invariant, so that it stands for one matrix.
 type Invariant<'m> = PhantomData<fn(&'m ()) -> &'m ()>;
 
-/// A matrix of which no element is written. Its type has the number of elements, so that the compiler knows it wherever the
-/// matrix is written.
+/// A matrix without elements yet. Its type has the number of elements, so that the compiler knows it wherever the matrix is
+/// written.
 #[doc(hidden)]
 pub struct Unwritten<'m, S, const ROWS: usize, const COLUMNS: usize> {
     elements: &'m mut [[MaybeUninit<S>; COLUMNS]; ROWS],
@@ -71,7 +71,7 @@ pub struct Elements<'m, S> {
 }
 
 impl<'m, S: Scalar> Elements<'m, S> {
-    /// Writes the next element. Nothing happens if there is none.
+    /// Writes the next element. Has no effect if every element is already written.
     #[inline(always)]
     pub fn push(&mut self, element: S) {
         self.write_all(1, element);
@@ -90,8 +90,8 @@ impl<'m, S: Scalar> Elements<'m, S> {
         Written { _matrix: self.matrix }
     }
 
-    /// Writes the same into the next `count` elements. What is left is known before the first is written, so that the
-    /// compiler need not follow a loop to know where the next element is.
+    /// Writes `element` into the next `count` elements. The loop does not change what is left, so that the compiler knows
+    /// the place of every element.
     #[inline(always)]
     fn write_all(&mut self, count: usize, element: S) {
         let rest = core::mem::take(&mut self.rest);

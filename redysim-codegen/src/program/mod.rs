@@ -222,6 +222,11 @@ impl Value {
         is(self) || self.operands().into_iter().flatten().any(|operand| operand.has(is))
     }
 
+    /// Whether it is the number 0.
+    pub fn is_zero(&self) -> bool {
+        *self == Value::Constant(0.0)
+    }
+
     /// −a, without two signs.
     fn negated(self) -> Value {
         match self {

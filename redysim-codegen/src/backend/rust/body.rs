@@ -38,12 +38,6 @@ pub fn constant(value: f64) -> TokenStream {
     if value < 0.0 { quote!(-#digits) } else { quote!(#digits) }
 }
 
-/// The value zero as the printer writes it.
-pub fn zero() -> TokenStream {
-    let (k, zero) = (local(FROM_F64), constant(0.0));
-    quote!(#k(#zero))
-}
-
 /// The body of a function of the given arguments: statements, then the result that `result` makes of the outputs.
 pub fn body(
     program: &Program,
@@ -232,7 +226,7 @@ impl Printer<'_> {
 
     /// The value of a carried variable before the first group.
     fn start(&self, value: &Value) -> TokenStream {
-        if *value == Value::Constant(0.0) { quote!(S::zero()) } else { self.value(value, Binding::Lowest) }
+        if value.is_zero() { quote!(S::zero()) } else { self.value(value, Binding::Lowest) }
     }
 
     fn value(&self, value: &Value, binding: Binding) -> TokenStream {

@@ -54,7 +54,7 @@ impl Writer<'_> {
         let as_numbers = signature.arguments.iter().filter_map(|argument| as_numbers(*argument, self.interface));
         let body = body(program, &arguments, self.runtime, |outputs| {
             if results::is_written(signature.result, &program.outputs) {
-                results::written(outputs)
+                results::written(&program.outputs, outputs)
             } else {
                 results::value(signature.result, self.interface, outputs, self.runtime)
             }

@@ -1,6 +1,6 @@
 //! What a generated function returns: its type, and its value from the outputs of a graph.
 
-use super::body::{MATRIX, local, zero};
+use super::body::{MATRIX, local};
 use super::length;
 use crate::program::Value;
 use proc_macro2::{Literal, TokenStream};
@@ -121,21 +121,22 @@ const LARGE_MATRIX: usize = 256;
 
 /// Whether a function's result is [written](written) element by element.
 pub fn is_written(shape: Shape, outputs: &[Value]) -> bool {
-    let zeros = outputs.iter().filter(|output| **output == Value::Constant(0.0)).count();
+    let zeros = outputs.iter().filter(|output| output.is_zero()).count();
     let is_matrix = matches!(shape, Shape::MassMatrix | Shape::CoriolisMatrix | Shape::LoopJacobian);
     is_matrix && outputs.len() >= LARGE_MATRIX && 3 * zeros >= outputs.len()
 }
 
-/// Writes a matrix in the order of its rows.
-pub fn written(elements: &[TokenStream]) -> TokenStream {
-    let (zero, matrix) = (zero().to_string(), local(MATRIX));
-    let is_zero = |element: &TokenStream| element.to_string() == zero;
-    let runs = elements.chunk_by(|a, b| is_zero(a) && is_zero(b)).map(|run| {
-        if is_zero(&run[0]) {
+/// Writes the `elements` of a matrix, which are the code of `outputs`, in the order of its rows.
+pub fn written(outputs: &[Value], elements: &[TokenStream]) -> TokenStream {
+    let matrix = local(MATRIX);
+    let of_outputs: Vec<_> = outputs.iter().zip(elements).collect();
+    let runs = of_outputs.chunk_by(|(a, _), (b, _)| a.is_zero() == b.is_zero()).map(|run| {
+        if run[0].0.is_zero() {
             let count = Literal::usize_unsuffixed(run.len());
             quote!(#matrix.zeros(#count);)
         } else {
-            quote!(#(#matrix.push(#run);)*)
+            let elements = run.iter().map(|(_, element)| element);
+            quote!(#(#matrix.push(#elements);)*)
         }
     });
     quote!(#(#runs)*)
@@ -171,7 +172,9 @@ mod tests {
 
     #[test]
     fn elements_are_written_in_order_and_zeros_in_runs() {
-        let text = written(&[quote!(one), zero(), zero(), quote!(two), quote!(three), zero()]).to_string();
+        let outputs = [1.0, 0.0, 0.0, 2.0, 3.0, 0.0].map(Value::Constant);
+        let elements = [quote!(one), quote!(none), quote!(none), quote!(two), quote!(three), quote!(none)];
+        let text = written(&outputs, &elements).to_string();
         let expected = "matrix . push (one) ; matrix . zeros (2) ; matrix . push (two) ; matrix . push (three) ; matrix . zeros (1) ;";
         assert_eq!(text, expected);
     }
