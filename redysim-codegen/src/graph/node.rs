@@ -85,6 +85,16 @@ impl Node {
         a.into_iter().chain(b)
     }
 
+    /// How long the operation takes, in units of an addition: a division takes several times as long, and the sines and
+    /// cosines of angles come before all else.
+    pub fn latency(self) -> u32 {
+        match self {
+            Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => 0,
+            Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
+            Node::Divide(..) | Node::Sqrt(_) => 4,
+        }
+    }
+
     /// The value of the node, computed with any scalar from the values of its operands; `leaf` gives those of inputs,
     /// constants and parameters.
     pub fn evaluate<S: Scalar>(self, at: impl Fn(Edge) -> S, leaf: impl FnOnce(Leaf) -> S) -> S {

@@ -10,7 +10,7 @@
 
 use super::terms::{inner_sums_and_offsets, with_sums};
 use crate::expressions::Expressions;
-use crate::graph::{Edge, Graph, Node, Step, sum_without_noise};
+use crate::graph::{Edge, Graph, Step, sum_without_noise};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
@@ -94,12 +94,7 @@ const LATE: u32 = 1000;
 impl Depths {
     fn of(&mut self, graph: &Graph, edge: Edge) -> u32 {
         for index in self.depths.len()..graph.len() {
-            // In units of an addition: a division takes several times as long, and sines come before all else.
-            let own = match graph.node(index) {
-                Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => 0,
-                Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
-                Node::Divide(..) | Node::Sqrt(_) => 4,
-            };
+            let own = graph.node(index).latency();
             let step = graph.step(index);
             let operands = || graph.node(index).operands().map(Edge::node);
             let depth = operands().map(|operand| self.seen_from(graph, step, operand)).max().unwrap_or(0);

@@ -2,12 +2,13 @@
 //! bodies.
 
 use super::blocks::in_blocks;
+use super::fusion::{self, Operation};
 use super::names::Identifiers;
 use super::side_by_side::PackNames;
 use super::{Program, Scope, Statement, Trig, Value};
 use crate::angles::Angles;
 use crate::expressions::Expressions;
-use crate::graph::{Graph, Node};
+use crate::graph::{Edge, Graph, Node};
 use crate::reroll::{Rerolled, is_operation};
 use crate::siblings::SideBySide;
 use std::collections::{HashMap, HashSet};
@@ -218,20 +219,17 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Products whose only use is a sum, with which they are one operation. Of two such products in one sum, the later.
+/// Products whose only use is a sum, with which they are one operation.
 fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
-    let mut fused = vec![false; graph.len()];
-    for index in (0..graph.len()).filter(|&index| uses[index] > 0) {
-        if let Node::Add(a, b) | Node::Subtract(a, b) = graph.node(index) {
-            let products = [a.node(), b.node()]
-                .into_iter()
-                .filter(|&operand| uses[operand] == 1 && matches!(graph.node(operand), Node::Multiply(..)));
-            if let Some(latest) = products.max() {
-                fused[latest] = true;
-            }
-        }
-    }
-    fused
+    let operation = |index: usize| {
+        let node = graph.node(index);
+        let operands: Vec<usize> = node.operands().map(Edge::node).collect();
+        let is_sum = uses[index] > 0 && matches!(node, Node::Add(..) | Node::Subtract(..));
+        let is_product = |&operand: &usize| uses[operand] == 1 && matches!(graph.node(operand), Node::Multiply(..));
+        let products = operands.iter().copied().filter(|operand| is_sum && is_product(operand)).collect();
+        Operation { operands, latency: node.latency(), products }
+    };
+    fusion::fused_products(&(0..graph.len()).map(operation).collect::<Vec<_>>())
 }
 
 /// The subtractions a − b of which b − a is used: those whose name is that of the negative, and those mostly used with

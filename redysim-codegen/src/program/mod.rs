@@ -6,6 +6,7 @@
 
 mod blocks;
 mod build;
+mod fusion;
 mod loops;
 mod names;
 mod side_by_side;
