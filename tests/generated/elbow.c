@@ -290,8 +290,7 @@ REDYSIM_INLINE void elbow_inverse_dynamics_inlined(const double q[ELBOW_NQ], con
     const double sin_fore = sines[1];
     const double cos_upper = cosines[0];
     const double cos_fore = cosines[1];
-    const double acc_upper_x = 24.525000000000002 * sin_upper;
-    const double acc_fore_x = MULTIPLY_ADD(-v[0], v[0], acc_upper_x);
+    const double acc_fore_x = MULTIPLY_ADD(24.525000000000002, sin_upper, -(v[0] * v[0]));
     const double acc_fore_y = MULTIPLY_ADD(24.525000000000002, cos_upper, a[0]);
     const double dw_fore_z = a[0] + a[1];
     const double w_fore_z = v[0] + v[1];

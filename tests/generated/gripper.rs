@@ -278,7 +278,7 @@ impl Gripper {
         let acc_link3_x = S::mul_add(
             sin_link2,
             t3,
-            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
+            S::mul_add(cos_link2, t2, -(w_link2_z * w_link2_z)),
         );
         let acc_link3_y = S::mul_add(
             cos_link2,
@@ -293,12 +293,12 @@ impl Gripper {
         let force_link3_x = S::mul_add(
             -dw_link3_z,
             t6,
-            S::mul_add(-t4, t5, k(0.0007500000000000002) * acc_link3_x),
+            S::mul_add(k(0.0007500000000000002), acc_link3_x, -(t4 * t5)),
         );
         let force_link3_y = S::mul_add(
             -t4,
             t6,
-            S::mul_add(dw_link3_z, t5, k(0.0007500000000000002) * acc_link3_y),
+            S::mul_add(k(0.0007500000000000002), acc_link3_y, dw_link3_z * t5),
         );
         let moment_link3_z = S::mul_add(
             -acc_link3_x,
@@ -387,22 +387,26 @@ impl Gripper {
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
         let t2 = S::mul_add(k(-2.0), t1, acc_link1_x);
-        let acc_link2_y = S::mul_add(cos_link2, acc_link1_y, -(sin_link2 * t2));
+        let acc_link2_y = S::mul_add(-sin_link2, t2, cos_link2 * acc_link1_y);
         let w_link2_z = v[0] + v[1];
         let acc_link3_x = S::mul_add(
             sin_link2,
             acc_link1_y,
-            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
+            S::mul_add(cos_link2, t2, -(w_link2_z * w_link2_z)),
         );
         let w_link3_z = v[2] + w_link2_z;
         let t3 = w_link3_z * w_link3_z;
         let t4 = k(0.00025000000000000006) * cos_link3;
         let t5 = k(0.00025000000000000006) * sin_link3;
-        let force_link3_x = S::mul_add(-t3, t4, k(0.0007500000000000002) * acc_link3_x);
+        let force_link3_x = S::mul_add(
+            k(0.0007500000000000002),
+            acc_link3_x,
+            -(t3 * t4),
+        );
         let minus_force_link3_y = S::mul_add(
-            t3,
-            t5,
-            k(0.0007500000000000002) * -acc_link2_y,
+            k(0.0007500000000000002),
+            -acc_link2_y,
+            t3 * t5,
         );
         let minus_moment_link3_z = S::mul_add(acc_link3_x, t5, -acc_link2_y * t4);
         let acc_link4_x = acc_link1_x - t1;
@@ -435,12 +439,11 @@ impl Gripper {
             S::mul_add(
                 t10,
                 t16,
-                -(J_link2_zz
-                    + S::mul_add(
-                        k(0.0005000000000000001),
-                        cos_link4,
-                        k(0.006000000000000001),
-                    )),
+                -S::mul_add(
+                    k(0.0005000000000000001),
+                    cos_link4,
+                    t11 + k(0.0068333333333333345),
+                ),
             ),
         );
         let minus_D_link1 = S::mul_add(t18, t20, S::mul_add(t14, t19, t21));
@@ -458,7 +461,7 @@ impl Gripper {
         );
         let t24 = S::mul_add(
             k(2.0),
-            S::mul_add(-cos_link2, minus_force_link3_y, sin_link2 * force_link3_x),
+            S::mul_add(sin_link2, force_link3_x, -(cos_link2 * minus_force_link3_y)),
             S::mul_add(t8, t19, t23 - minus_moment_link2_z),
         );
         let t25 = minus_inv_D_link1 * S::mul_add(t20, t22, t24);
@@ -532,12 +535,11 @@ impl Gripper {
         let J_link1_zz = S::mul_add(
             k(-2.0),
             t6,
-            J_link2_zz
-                + S::mul_add(
-                    k(0.0005000000000000001),
-                    cos_link4,
-                    k(0.006000000000000001),
-                ),
+            S::mul_add(
+                k(0.0005000000000000001),
+                cos_link4,
+                t2 + k(0.0068333333333333345),
+            ),
         );
         let t7 = J_link2_zz - t6;
         [
@@ -588,22 +590,26 @@ impl Gripper {
         let acc_link1_y = k(196.20000000000002) * cos_link1;
         let t1 = v[0] * v[0];
         let t2 = S::mul_add(k(-2.0), t1, acc_link1_x);
-        let acc_link2_y = S::mul_add(cos_link2, acc_link1_y, -(sin_link2 * t2));
+        let acc_link2_y = S::mul_add(-sin_link2, t2, cos_link2 * acc_link1_y);
         let w_link2_z = v[0] + v[1];
         let acc_link3_x = S::mul_add(
             sin_link2,
             acc_link1_y,
-            S::mul_add(-w_link2_z, w_link2_z, cos_link2 * t2),
+            S::mul_add(cos_link2, t2, -(w_link2_z * w_link2_z)),
         );
         let w_link3_z = v[2] + w_link2_z;
         let t3 = w_link3_z * w_link3_z;
         let t4 = k(0.00025000000000000006) * cos_link3;
         let t5 = k(0.00025000000000000006) * sin_link3;
-        let force_link3_x = S::mul_add(-t3, t4, k(0.0007500000000000002) * acc_link3_x);
+        let force_link3_x = S::mul_add(
+            k(0.0007500000000000002),
+            acc_link3_x,
+            -(t3 * t4),
+        );
         let minus_force_link3_y = S::mul_add(
-            t3,
-            t5,
-            k(0.0007500000000000002) * -acc_link2_y,
+            k(0.0007500000000000002),
+            -acc_link2_y,
+            t3 * t5,
         );
         let minus_moment_link3_z = S::mul_add(acc_link3_x, t5, -acc_link2_y * t4);
         let acc_link4_x = acc_link1_x - t1;
@@ -617,7 +623,7 @@ impl Gripper {
         let minus_moment_link2_z = minus_force_link3_y + minus_moment_link3_z;
         let moment_link1_z = S::mul_add(
             k(2.0),
-            S::mul_add(-cos_link2, minus_force_link3_y, sin_link2 * force_link3_x),
+            S::mul_add(sin_link2, force_link3_x, -(cos_link2 * minus_force_link3_y)),
             moment_link4_z
                 + S::mul_add(-(w_link4_z * w_link4_z), t6, k(0.3924) * cos_link1)
                 - minus_moment_link2_z,
@@ -1073,6 +1079,7 @@ impl Gripper {
         let w_link2_z = v[0] + v[1];
         let w_link3_z = v[2] + w_link2_z;
         let t2 = k(0.005000000000000001) * w_link3_z;
+        let vel_link4_y = cos_link4 * (k(0.05) * v[0]);
         let w_link4_z = v[0] + v[3];
         let t3 = k(0.005000000000000001) * w_link4_z;
         let minus_p_link4_x = sin_link4 * t3;
@@ -1106,11 +1113,6 @@ impl Gripper {
             S::mul_add(cos_link2, t7, k(0.005000000000000001) * sin_link4),
         );
         let t11 = S::mul_add(
-            cos_link3,
-            S::mul_add(k(0.05), w_link2_z, vel_link2_y),
-            S::mul_add(cos_link4, k(0.05) * v[0], -(sin_link3 * vel_link2_x)),
-        );
-        let t12 = S::mul_add(
             k(0.0001666666666666667),
             w_link3_z + w_link4_z,
             S::mul_add(
@@ -1123,23 +1125,31 @@ impl Gripper {
                 ),
             ),
         );
-        let t13 = S::mul_add(
-            k(0.1),
-            -p_link2_y,
-            -S::mul_add(
-                k(0.005000000000000001),
-                t11,
-                S::mul_add(k(0.05), p_link4_y + p_link3_y, t12),
+        let t12 = S::mul_add(
+            k(0.005000000000000001),
+            S::mul_add(
+                cos_link3,
+                S::mul_add(k(0.05), w_link2_z, vel_link2_y),
+                S::mul_add(-sin_link3, vel_link2_x, vel_link4_y),
             ),
+            S::mul_add(k(0.05), p_link4_y + p_link3_y, t11),
         );
-        let t14 = S::mul_add(
-            minus_p_link1_y,
-            S::mul_add(-sin_link1, t10, cos_link1 * t9),
-            -S::mul_add(-p_link1_x, S::mul_add(cos_link1, t10, sin_link1 * t9), t13),
+        let t13 = S::mul_add(
+            -p_link1_x,
+            S::mul_add(cos_link1, t10, sin_link1 * t9),
+            S::mul_add(k(0.1), -p_link2_y, -t12),
         );
         ::redysim_runtime::Momentum {
             linear: [p_link1_x, -minus_p_link1_y, k(0.0)],
-            angular: [k(0.0), k(0.0), t14],
+            angular: [
+                k(0.0),
+                k(0.0),
+                S::mul_add(
+                    minus_p_link1_y,
+                    S::mul_add(-sin_link1, t10, cos_link1 * t9),
+                    -t13,
+                ),
+            ],
         }
     }
     /// Rotation, origin, centre of mass, velocity of the origin (m/s) and angular velocity (rad/s) of every link, in the base frame.

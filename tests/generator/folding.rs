@@ -37,6 +37,18 @@ fn constants_are_lumped_into_one_factor() {
 }
 
 #[test]
+fn constants_are_lumped_into_one_term_also_of_a_sum_that_is_used_twice() {
+    assert_eq!(counts(|x| vec![k(2.0) - (k(3.0) - (x[0] + k(1.0)))]), [0; 4]);
+    assert_eq!(counts(|x| vec![(x[0] + k(0.1)) + k(0.2) - k(0.3)]), [0; 4]);
+    fn offsets<'g>(x: &[Symbol<'g>]) -> [Symbol<'g>; 2] {
+        let shared = k(3.0) - x[0] * x[1];
+        [shared + k(1.0), k(2.0) - shared]
+    }
+    assert_eq!(counts(|x| offsets(x).into_iter().map(|offset| x[2] * offset).collect()), [2, 3, 0, 0]);
+    assert_eq!(traced(|x| offsets(x).to_vec()).evaluate(&[&[2.0, 5.0, 0.0, 0.0]]), [-6.0, 9.0]);
+}
+
+#[test]
 fn like_terms_of_a_long_sum_become_one() {
     assert_eq!(counts(|x| vec![k(2.0) * x[0] + x[1] + (x[2] - k(5.0) * x[0]) + k(3.0) * x[0]]), [1, 0, 0, 0]);
     assert_eq!(counts(|x| vec![(x[0] + x[1]) + (x[2] - x[0])]), [1, 0, 0, 0]);

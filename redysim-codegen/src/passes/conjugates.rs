@@ -3,14 +3,14 @@
 //!
 //! Such are the elements ω_i ω_j ± ω̇_k of the matrix by which a body's second moments of mass are multiplied.
 
-use super::terms::{inner_sums, with_sums};
+use super::terms::{Parts, with_sums};
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 
 /// The expressions with such terms of sums replaced.
 pub fn replaced(expressions: &Expressions) -> Expressions {
     let (old, uses) = (&expressions.graph, expressions.uses());
-    with_sums(expressions, &inner_sums(expressions), |graph, terms, mapped| {
+    with_sums(expressions, &Parts::used_once(expressions), |graph, terms, mapped| {
         let mut open: Vec<Edge> = terms.to_vec();
         let mut sum = Vec::new();
         while let Some(([first, second], [x, y])) = pair(old, &uses, &open) {

@@ -3,7 +3,7 @@
 //! Only products that nothing else uses are taken apart, so that none is computed twice. Of each sum the factor that
 //! most products share is taken first.
 
-use super::terms::{inner_sums, with_sums};
+use super::terms::{Parts, with_sums};
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Node};
 use std::collections::HashMap;
@@ -11,12 +11,12 @@ use std::collections::HashMap;
 /// The expressions with common factors taken out of sums.
 pub fn shared(expressions: &Expressions) -> Expressions {
     // As chains first, so that terms are met in an order that does not depend on how a sum is balanced.
-    let expressions = &with_sums(expressions, &inner_sums(expressions), |graph, terms, mapped| {
+    let expressions = &with_sums(expressions, &Parts::used_once(expressions), |graph, terms, mapped| {
         chain(graph, terms.iter().map(|&term| mapped(term)))
     });
     let old = &expressions.graph;
     let uses = expressions.uses();
-    with_sums(expressions, &inner_sums(expressions), |graph, terms, mapped| {
+    with_sums(expressions, &Parts::used_once(expressions), |graph, terms, mapped| {
         let mut sum = Vec::with_capacity(terms.len());
         let mut open: Vec<Edge> = terms.to_vec();
         while let Some(factor) = most_shared(old, &uses, &open) {

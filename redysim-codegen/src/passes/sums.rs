@@ -1,14 +1,14 @@
 //! Like terms of a sum become one: x·c + y + x·d is x·(c + d) + y.
 //!
 //! A constructor of the graph sees two terms at a time; this pass sees a whole sum, through all additions whose only
-//! use is the sum. What is given at run time is one term with the constants, also where a sum with such a
-//! term is used by several that have one of their own. Constants are added, and a coefficient that is only roundoff vanishes.
+//! use is the sum. Constants and what is given at run time become one term, also with that of a smaller sum which has other
+//! uses: x + 1, and x + 1 + 2, is x + 1, and x + 3. A coefficient that is only roundoff vanishes.
 //!
 //! In a long function each body is treated by itself, so that uniform bodies stay uniform and their code can be a loop:
 //! a sum does not extend into the steps of other bodies. What other sweeps have computed counts as ready, what the same
 //! sweep has computed at another body as late.
 
-use super::terms::{inner_sums_and_offsets, with_sums};
+use super::terms::{Parts, with_sums};
 use crate::expressions::Expressions;
 use crate::graph::{Edge, Graph, Step, sum_without_noise};
 use std::cmp::Reverse;
@@ -17,7 +17,7 @@ use std::collections::{BinaryHeap, HashMap};
 /// The expressions with like terms collected.
 pub fn collected(expressions: &Expressions) -> Expressions {
     let mut depths = Depths { by_body: expressions.is_long(), depths: Vec::new(), in_step: Vec::new() };
-    with_sums(expressions, &inner_sums_and_offsets(expressions), |graph, terms, mapped| {
+    with_sums(expressions, &Parts::with_offsets(expressions), |graph, terms, mapped| {
         let (constant, coefficients) = collect(graph, terms, mapped);
         let mut terms = vec![constant];
         for (base, factor) in coefficients {
