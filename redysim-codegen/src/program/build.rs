@@ -2,13 +2,13 @@
 //! bodies.
 
 use super::blocks::in_blocks;
-use super::fusion::{self, Operation};
+use super::fusion::fused_products;
 use super::names::Identifiers;
 use super::side_by_side::PackNames;
 use super::{Program, Scope, Statement, Trig, Value};
 use crate::angles::Angles;
 use crate::expressions::Expressions;
-use crate::graph::{Edge, Graph, Node};
+use crate::graph::{Graph, Node};
 use crate::reroll::{Rerolled, is_operation};
 use crate::siblings::SideBySide;
 use std::collections::{HashMap, HashSet};
@@ -217,19 +217,6 @@ impl<'a> Builder<'a> {
         let read = arrays.filter(|(_, names)| names.iter().any(Option::is_some));
         read.map(|(array, names)| Statement::Destructure { array, names }).collect()
     }
-}
-
-/// Products whose only use is a sum, with which they are one operation.
-fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
-    let operation = |index: usize| {
-        let node = graph.node(index);
-        let operands: Vec<usize> = node.operands().map(Edge::node).collect();
-        let is_sum = uses[index] > 0 && matches!(node, Node::Add(..) | Node::Subtract(..));
-        let is_product = |&operand: &usize| uses[operand] == 1 && matches!(graph.node(operand), Node::Multiply(..));
-        let products = operands.iter().copied().filter(|operand| is_sum && is_product(operand)).collect();
-        Operation { operands, latency: node.latency(), products }
-    };
-    fusion::fused_products(&(0..graph.len()).map(operation).collect::<Vec<_>>())
 }
 
 /// The subtractions a − b of which b − a is used: those whose name is that of the negative, and those mostly used with

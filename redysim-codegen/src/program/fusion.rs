@@ -1,38 +1,32 @@
 //! Products that are one operation with a sum.
 
+use crate::graph::{Edge, Graph, Node};
 use std::ops::Range;
 
-/// What is computed at one place of a program, from what is computed before it.
-#[derive(Clone, Debug, Default)]
-pub struct Operation {
-    /// The places of its operands.
-    pub operands: Vec<usize>,
-    /// How long it takes once its operands are ready, in units of an addition.
-    pub latency: u32,
-    /// Of a sum, those operands that are products which nothing else reads.
-    pub products: Vec<usize>,
-}
-
-/// Which of `operations` are products that are fused with the sum that reads them.
+/// Which nodes are products that are fused with a sum, the only one that uses them.
 ///
 /// Of two such products in one sum, the one that is ready later is fused. The other one is computed in the meantime, so
 /// that the sum is ready one operation after the factors of the later one; the other way round it would be two. Of products
 /// that are ready at the same time, the one that stands later.
-pub fn fused_products(operations: &[Operation]) -> Vec<bool> {
-    let mut fused = vec![false; operations.len()];
-    // When each operation may begin, and when it is ready.
-    let mut times: Vec<Range<u32>> = Vec::with_capacity(operations.len());
-    for Operation { operands, latency, products } in operations {
-        let latest = products.iter().copied().max_by_key(|&product| (times[product].end, product));
-        let available = |&operand: &usize| {
-            let is_fused = Some(operand) == latest;
-            if is_fused { times[operand].start } else { times[operand].end }
-        };
-        let start = operands.iter().map(available).max().unwrap_or(0);
+pub fn fused_products(graph: &Graph, uses: &[usize]) -> Vec<bool> {
+    let mut fused = vec![false; graph.len()];
+    // When each operation may begin, and when it is ready, in units of an addition.
+    let mut times: Vec<Range<u32>> = Vec::with_capacity(graph.len());
+    for (index, &uses_of_sum) in uses.iter().enumerate() {
+        let node = graph.node(index);
+        let is_sum = uses_of_sum > 0 && matches!(node, Node::Add(..) | Node::Subtract(..));
+        let is_product = |&operand: &usize| uses[operand] == 1 && matches!(graph.node(operand), Node::Multiply(..));
+        let products = node.operands().map(Edge::node).filter(|operand| is_sum && is_product(operand));
+        let latest = products.max_by_key(|&product| (times[product].end, product));
         if let Some(product) = latest {
             fused[product] = true;
         }
-        times.push(start..start + latency);
+        let available = |operand: usize| {
+            let is_fused = Some(operand) == latest;
+            if is_fused { times[operand].start } else { times[operand].end }
+        };
+        let start = node.operands().map(|operand| available(operand.node())).max().unwrap_or(0);
+        times.push(start..start + node.latency());
     }
     fused
 }
@@ -40,43 +34,54 @@ pub fn fused_products(operations: &[Operation]) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::expressions::Expressions;
 
-    fn operation(operands: &[usize]) -> Operation {
-        Operation { operands: operands.to_vec(), latency: 1, products: Vec::new() }
+    /// Which of `products` are fused in the code of `output`.
+    fn fused<const N: usize>(graph: Graph, output: Edge, products: [Edge; N]) -> [bool; N] {
+        let expressions = Expressions { graph, outputs: vec![output] };
+        let fused = fused_products(&expressions.graph, &expressions.uses_in_code());
+        products.map(|product| fused[product.node()])
     }
 
-    /// a, b, a b, (a b) b, and the sum of a product of (a b) b, at 4, and one of a and b, at 5.
-    fn late_and_early_product() -> Vec<Operation> {
-        let leaf = Operation::default();
-        let sum = Operation { products: vec![4, 5], ..operation(&[4, 5]) };
-        vec![leaf.clone(), leaf, operation(&[0, 1]), operation(&[2, 1]), operation(&[3, 0]), operation(&[0, 1]), sum]
+    /// The product of `count` + 1 factors, one after the other.
+    fn chain(graph: &mut Graph, first: u32, count: u32) -> Edge {
+        (first + 1..=first + count).fold(graph.input(0, first), |product, index| {
+            let factor = graph.input(0, index);
+            graph.multiply(product, factor)
+        })
     }
 
     #[test]
     fn of_two_products_in_a_sum_the_one_that_is_ready_later_is_fused() {
-        let fused = fused_products(&late_and_early_product());
-        assert_eq!(fused, [false, false, false, false, true, false, false]);
+        let mut graph = Graph::default();
+        let [late, early] = [chain(&mut graph, 0, 2), chain(&mut graph, 10, 1)];
+        let sum = graph.add(late, early);
+        assert_eq!(fused(graph, sum, [late, early]), [true, false]);
     }
 
-    /// A product of the sum above is ready four operations after the leaves, as the sum does not wait for its fused
-    /// product but for the factors: sooner than one of five operations, later than one of three.
+    /// a b c + d e is ready after two operations, as its fused product is none of its own, and its product with another
+    /// factor after three. Beside a product of three operations that stands later, it is not the later one.
     #[test]
     fn a_sum_is_ready_one_operation_after_the_factors_of_its_fused_product() {
-        let chain = |length: usize| {
-            let mut operations = late_and_early_product();
-            let product_of_sum = operations.len();
-            operations.push(operation(&[6, 0]));
-            for _ in 0..length {
-                let last = operations.len() - 1;
-                let operand = if last == product_of_sum { 0 } else { last };
-                operations.push(operation(&[operand, 0]));
-            }
-            let other = operations.len() - 1;
-            operations.push(Operation { products: vec![product_of_sum, other], ..operation(&[product_of_sum, other]) });
-            let fused = fused_products(&operations);
-            [fused[product_of_sum], fused[other]]
+        let beside = |length: u32| {
+            let mut graph = Graph::default();
+            let [late, early] = [chain(&mut graph, 0, 2), chain(&mut graph, 10, 1)];
+            let (sum, factor) = (graph.add(late, early), graph.input(0, 20));
+            let product = graph.multiply(sum, factor);
+            let other = chain(&mut graph, 30, length);
+            let output = graph.add(product, other);
+            fused(graph, output, [product, other])
         };
-        assert_eq!(chain(3), [true, false]);
-        assert_eq!(chain(5), [false, true]);
+        assert_eq!(beside(2), [true, false]);
+        assert_eq!(beside(3), [false, true]);
+    }
+
+    #[test]
+    fn a_product_with_other_uses_is_not_fused() {
+        let mut graph = Graph::default();
+        let (product, x) = (chain(&mut graph, 0, 1), graph.input(0, 5));
+        let sum = graph.add(product, x);
+        let output = graph.multiply(sum, product);
+        assert_eq!(fused(graph, output, [product]), [false]);
     }
 }

@@ -1,7 +1,6 @@
 //! A part of the packs of siblings as a statement.
 
 use super::build::Builder;
-use super::fusion;
 use super::names::Identifiers;
 use super::{Input, Scope, SideBySide, Statement, Value};
 use crate::graph::Graph;
@@ -50,24 +49,25 @@ impl PackNames {
     }
 }
 
-/// Products whose only use is a sum of the same part.
+/// Products whose only use is a sum of the same part. Of two such products in one sum, the one that stands later: to fuse
+/// the one that is ready later gains 3 % at most for a quadruped, and small forces of another one lose digits.
 fn fused_products(graph: &Graph, packs: &Packs, results: &HashSet<usize>) -> Vec<bool> {
-    let operation = |(index, pack): (usize, &Pack)| {
-        let Pack::Operation(operation) = pack else { return fusion::Operation::default() };
-        let is_product = |operand: usize| match &packs.packs[operand] {
-            Pack::Operation(operation) => operation.kind(graph) == Kind::Product,
-            _ => false,
-        };
-        let is_part_of_sum = |operand: usize| {
-            let is_only_use = packs.uses[operand] == 1 && !results.contains(&operand);
-            is_only_use && is_product(operand) && packs.is_computed_with(operand, index)
-        };
-        let is_sum = packs.uses[index] > 0 && operation.kind(graph) == Kind::Sum;
-        let products = operation.packs().filter(|&operand| is_sum && is_part_of_sum(operand)).collect();
-        let latency = graph.node(operation.nodes[0]).latency();
-        fusion::Operation { operands: operation.packs().collect(), latency, products }
-    };
-    fusion::fused_products(&packs.packs.iter().enumerate().map(operation).collect::<Vec<_>>())
+    let mut fused = vec![false; packs.packs.len()];
+    for (index, operation) in packs.operations().filter(|(index, _)| packs.uses[*index] > 0) {
+        if operation.kind(graph) == Kind::Sum {
+            let is_product = |&operand: &usize| match &packs.packs[operand] {
+                Pack::Operation(operation) => operation.kind(graph) == Kind::Product,
+                _ => false,
+            };
+            let products = operation.packs().filter(is_product).filter(|&operand| {
+                packs.uses[operand] == 1 && !results.contains(&operand) && packs.is_computed_with(operand, index)
+            });
+            if let Some(latest) = products.max() {
+                fused[latest] = true;
+            }
+        }
+    }
+    fused
 }
 
 impl Builder<'_> {
