@@ -87,7 +87,7 @@ impl Node {
 
     /// How long the operation takes, in units of an addition: a division takes several times as long, and the sines and
     /// cosines of angles come before all else.
-    pub fn latency(self) -> u32 {
+    pub(crate) fn latency(self) -> u32 {
         match self {
             Node::Input { .. } | Node::Constant(_) | Node::Parameter { .. } => 0,
             Node::Sin(_) | Node::Cos(_) | Node::Add(..) | Node::Subtract(..) | Node::Multiply(..) => 1,
